@@ -17,6 +17,7 @@ mod compliance;
 mod elastic_contact;
 mod error;
 mod flank;
+mod flank_projection;
 mod friction;
 mod line;
 mod local;
@@ -42,6 +43,7 @@ pub use flank::{
     Candidates, ContactPoint, Cylinder, FacePair, FacePoint, FlankPatch, Foot, GapSource, Surface, contact_points,
     flank_grids,
 };
+pub use flank_projection::FlankProjection;
 pub use friction::{Friction, friction_work, sliding_distance};
 pub use line::{
     LineStation, NeighbourPairs, contact_intervals, covered, hertz, line_pressure, line_station, loaded_intervals,

@@ -11,8 +11,15 @@ const HALVINGS: usize = 24;
 /// Step over the displacements that ends the search. It is taken, and the forces follow it by the tangent, which is good
 /// to some thousandths: what is left is some 1e-12.
 const FINE: f64 = 1e-9;
+/// Residual over the load beyond which a fine step is not the last one.
+const LEFT: f64 = 1e-6;
 /// The same where round-off of the contact does not let the residual fall any more.
 const ROUND_OFF: f64 = 1e-7;
+
+/// Newton's step over that of K_0 beyond which the tangent holds nothing.
+const FAR: f64 = 1e6;
+/// Doublings of a step on which nothing touches, and halvings of the one on which something does.
+const DOUBLINGS: usize = 64;
 
 /// What meshes and loads leave over at some displacements: residual r = K z - f - f_mesh, and dr/dz.
 pub(crate) struct Left {
@@ -72,12 +79,12 @@ impl Norms {
         z.dot(&(&self.stiffness * z)).max(0.0).sqrt()
     }
 
-    /// Newton's step; that of K_0 where the tangent is singular, as it is where nothing touches.
-    fn step(&self, left: &Left) -> DVector<f64> {
+    /// Newton's step; none where the tangent is singular, as it is where nothing touches.
+    fn step(&self, left: &Left) -> Option<DVector<f64>> {
         let right = -left.residual.component_mul(&self.scale);
-        let solved = scaled(&left.tangent, &self.scale).lu().solve(&right);
-        let step = solved.map(|s| s.component_mul(&self.scale)).filter(|s| s.iter().all(|x| x.is_finite()));
-        step.unwrap_or_else(|| -self.displacements(&left.residual))
+        let solved = scaled(&left.tangent, &self.scale).lu().solve(&right)?.component_mul(&self.scale);
+        let most = FAR * self.of_forces(&left.residual);
+        Some(solved).filter(|s| s.iter().all(|x| x.is_finite()) && self.of_displacements(s) <= most)
     }
 }
 
@@ -90,7 +97,8 @@ fn scaled(matrix: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
 /// ```text
 /// (K - df_mesh/dz) dz = -r,   z := z + s dz,   s = 1, 1/2, ... until sqrt(r' K_0^-1 r) falls
 /// ```
-/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough.
+/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough. Where teeth that ought
+/// to carry do not touch, the tangent is singular, and the step of K_0 is followed to the least energy along it.
 pub(crate) fn equilibrium(
     norms: &Norms,
     load: &DVector<f64>,
@@ -111,9 +119,14 @@ pub(crate) fn equilibrium(
             let nothing = DVector::zeros(z.len());
             return Ok(found(z, nothing));
         }
-        let step = norms.step(&left);
+        let Some(step) = norms.step(&left) else {
+            (z, left) = approached(&z, -norms.displacements(&left.residual), &mut left_at)?;
+            merit = norms.of_forces(&left.residual);
+            continue;
+        };
         share = norms.of_displacements(&step) / norms.of_displacements(&z).max(f64::MIN_POSITIVE);
-        if share <= FINE {
+        // A light load is a small part of what closes its gaps: there the residual says when it is found.
+        if share <= FINE && (merit <= LEFT * whole || share <= 4.0 * f64::EPSILON) {
             return Ok(found(z, step));
         }
         let mut part = 1.0;
@@ -144,4 +157,45 @@ pub(crate) fn equilibrium(
         }
     }
     Err(GearboxError::NoEquilibrium { iterations: STEPS, step: share })
+}
+
+/// From `z` along `step`, on which energy falls, to where it is least: r . step = 0 between twice and once as far.
+fn approached(
+    z: &DVector<f64>,
+    step: DVector<f64>,
+    left_at: &mut impl FnMut(&DVector<f64>) -> Result<Left, GearboxError>,
+) -> Result<(DVector<f64>, Left), GearboxError> {
+    let (mut near, mut far) = (0.0, 1.0);
+    let mut try_at = |part: f64| {
+        let next = z + part * &step;
+        left_at(&next).map(|left| (left.residual.dot(&step) >= 0.0, next, left))
+    };
+    // Poses beyond reason have no contact that can be solved: they lie too far as well. The nearest place where teeth press
+    // is what Newton's steps can go on from.
+    let mut found = None;
+    for _ in 0..DOUBLINGS {
+        match try_at(far) {
+            Ok((false, next, left)) => {
+                found = Some((next, left));
+                (near, far) = (far, 2.0 * far);
+            }
+            Ok((true, next, left)) => {
+                found = Some((next, left));
+                break;
+            }
+            Err(_) => break,
+        }
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (near + far);
+        match try_at(middle) {
+            Ok((true, next, left)) => {
+                found = Some((next, left));
+                far = middle;
+            }
+            Ok((false, ..)) => near = middle,
+            Err(_) => far = middle,
+        }
+    }
+    found.ok_or(GearboxError::NoEquilibrium { iterations: 0, step: f64::INFINITY })
 }

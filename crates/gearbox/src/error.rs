@@ -1,6 +1,7 @@
 //! What a gearbox refuses, and what can go wrong on the way.
 
 use fem::FemError;
+use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
 
@@ -18,6 +19,14 @@ pub enum GearboxError {
         shaft: String,
         /// What is wrong.
         source: FemError,
+    },
+    /// A shaft that its bearings do not hold.
+    #[error("nothing holds shaft {shaft} {motion}")]
+    Loose {
+        /// Name of the shaft.
+        shaft: String,
+        /// How it can move.
+        motion: &'static str,
     },
     /// A part names a shaft that is not there.
     #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
@@ -148,6 +157,34 @@ pub enum GearboxError {
         /// Last step over the displacements, in the norm of the stiffness.
         step: f64,
     },
+    /// A bearing that holds a shaft which has to turn.
+    #[error("{bearing} has stiffness or damping for the turn about its axis: its shaft could not run")]
+    HeldTurn {
+        /// Name of the bearing.
+        bearing: String,
+    },
+    /// A motion could not go on.
+    #[error("the motion: {0}")]
+    Motion(Box<MotionError<GearboxError>>),
+    /// A map of the contact.
+    #[error(transparent)]
+    Map(Box<contact_map::MapError<GearboxError>>),
+    /// A mesh that no map holds.
+    #[error("a map does not hold {what}")]
+    Unmapped {
+        /// What.
+        what: &'static str,
+    },
+    /// Flanks that a mesh does not have would touch.
+    #[error(
+        "the driving flanks are {gap_mm:.4} mm apart, and the backlash is {backlash_mm:.4} mm: the others would touch"
+    )]
+    BeyondBacklash {
+        /// Gap along the normal, mm.
+        gap_mm: f64,
+        /// Backlash along it, mm.
+        backlash_mm: f64,
+    },
     /// The contact of a mesh.
     #[error("mesh {mesh}: {source}")]
     AtMesh {
@@ -173,7 +210,13 @@ impl GearboxError {
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::NoEquilibrium { .. } => true,
+            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } => true,
+            // What the contact is asked for a map is of the map's own choice.
+            Self::Map(_) => true,
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => source.is_without_result(),
+                _ => true,
+            },
             Self::AtMesh { source, .. } => source.is_without_result(),
             Self::Contact(source) => {
                 matches!(source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
@@ -189,6 +232,10 @@ impl GearboxError {
                 let starved = matches!(&**source, Self::Contact(own) if own.is_starved());
                 starved.then_some(mesh)
             }
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => source.starved_mesh(),
+                _ => None,
+            },
             _ => None,
         }
     }
@@ -198,6 +245,9 @@ impl GearboxError {
         let text = match self {
             Self::NoShafts => "give one shaft at least",
             Self::Shaft { source, .. } => return source.hint(),
+            Self::Loose { .. } => {
+                "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`)"
+            }
             Self::NoShaft { .. } | Self::NoDisc { .. } => {
                 "shafts and discs are numbered in the order in which they are given"
             }
@@ -222,8 +272,18 @@ impl GearboxError {
             Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
             Self::Drives { .. } => "turn its sign, or make this shaft the input",
             Self::NoEquilibrium { .. } => {
-                "is every shaft held in x, y, z and against tilting, are torques in N mm, and can the teeth carry them?"
+                "is every shaft held in x, y, z and against tilting, and can the teeth carry the torques (files have N m)?"
             }
+            Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
+            Self::Unmapped { .. } => "take the mesh as \"exact\"",
+            Self::BeyondBacklash { .. } => {
+                "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
+            }
+            Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => return source.hint(),
+                other => other.hint(),
+            },
             Self::AtMesh { source, .. } => return source.hint(),
             Self::Contact(source) => return source.hint(),
             Self::Matrix(FemError::NotPositiveDefinite { .. }) => {
@@ -233,5 +293,11 @@ impl GearboxError {
             Self::Mesh { source, .. } => return source.hint(),
         };
         Some(text.to_owned())
+    }
+}
+
+impl From<MotionError<GearboxError>> for GearboxError {
+    fn from(source: MotionError<GearboxError>) -> Self {
+        Self::Motion(Box::new(source))
     }
 }

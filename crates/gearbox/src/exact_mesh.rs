@@ -80,6 +80,43 @@ impl ExactMesh {
         Ok(found)
     }
 
+    fn place(&mut self, d: &Vector12) {
+        let set = self.contact.contact_set();
+        let window = self.window.window();
+        let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
+        self.poses = displaced(nominal, &(*d).into());
+    }
+
+    /// Deepest overlap of the undeformed flanks at displacements, mm; negative where they are apart. The last evaluation
+    /// is lost.
+    pub(crate) fn overlap(&mut self, d: &Vector12) -> f64 {
+        self.place(d);
+        self.within = None;
+        self.contact.overlap(&self.poses)
+    }
+
+    /// Forgets forces and places of the last solution: what comes then depends on the place alone.
+    pub(crate) fn forget(&mut self) {
+        self.contact.forget_places();
+        self.within = None;
+    }
+
+    /// Deepest overlap of the flanks where they were evaluated last, mm; 0 or below without contact.
+    pub(crate) fn deepest_overlap(&self) -> f64 {
+        self.contact.deepest_overlap()
+    }
+
+    /// Elastic energy of the last evaluation, N mm.
+    pub(crate) fn strain_energy(&self) -> f64 {
+        self.contact.strain_energy()
+    }
+
+    /// Place (mm), normal force (N) and length (mm) of the slices that carried load in the last evaluation.
+    pub(crate) fn pressed(&self) -> impl Iterator<Item = (nalgebra::Vector3<f64>, f64, f64)> {
+        let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
+        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| (row.position, f, slice.length))
+    }
+
     fn failed(&self, source: contact::ContactError) -> GearboxError {
         StaticError::Contact { cycle: self.station.cycle, phase: self.station.phase, source }.into()
     }
@@ -108,10 +145,7 @@ impl MeshElement for ExactMesh {
     }
 
     fn evaluate(&mut self, d: &Vector12) -> Result<MeshReply, GearboxError> {
-        let set = self.contact.contact_set();
-        let window = self.window.window();
-        let nominal = frames(&self.pair, set, window, &self.options.contact, self.station, [d[5], d[11]]);
-        self.poses = displaced(nominal, &(*d).into());
+        self.place(d);
         let found = match self.find() {
             Ok(found) => found,
             Err(source) => return Err(self.failed(source)),

@@ -9,7 +9,8 @@
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
 //! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
 //! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
-//! 8. [`Vibration`]: how it swings about that, driven by its meshes.
+//! 8. [`Vibration`]: how it swings about that, driven by its meshes;
+//! 9. [`motion`]: how all of it moves in time.
 //!
 //! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
 //! threads.
@@ -20,8 +21,10 @@ mod campbell;
 mod equilibrium;
 mod error;
 mod exact_mesh;
+mod loose;
 mod mesh_element;
 mod modal_energy;
+pub mod motion;
 mod position;
 mod seats;
 mod static_gearbox;

@@ -7,6 +7,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
     equilibrium::{Left, Norms, equilibrium},
+    loose::check_held,
     position::{Solved, position},
     seats::Seats,
 };
@@ -72,6 +73,7 @@ impl StaticGearbox {
         check(&structure, &train, &operation)?;
         let mut held = vec![false; structure.shafts.len()];
         operation.held.iter().for_each(|&shaft| held[shaft] = true);
+        check_held(&structure, &held)?;
         let assembly = Assembly::new(structure)?;
         let mut discs: Vec<usize> = meshes.iter().flat_map(|m| m.discs).collect();
         discs.extend(operation.torques.iter().map(|t| t.disc).chain([operation.input]));
@@ -212,12 +214,12 @@ fn continued(last: &[(f64, DVector<f64>)], angle: f64) -> Option<DVector<f64>> {
     Some(if part.abs() <= 1.0 + 1e-9 { z + part * (z - y) } else { z.clone() })
 }
 
-fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
+pub(crate) fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
     GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
 }
 
 /// That loads and held shafts are there, and loads do not drive.
-fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
+pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
     let count = structure.shafts.len();
     if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
         return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
@@ -266,6 +268,6 @@ pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vec
 }
 
 /// Stiffness along the normal that the search begins with, N/mm.
-fn guessed_stiffness(pair: &GearPair) -> f64 {
+pub(crate) fn guessed_stiffness(pair: &GearPair) -> f64 {
     ltca::GUESSED_LINE_STIFFNESS * pair.face_width() / pair.base_helix_angle().cos().powi(2)
 }

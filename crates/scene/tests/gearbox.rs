@@ -2,7 +2,10 @@
 
 use std::path::{Path, PathBuf};
 
-use scene::{Rotation, SceneError, gearbox::Gearbox};
+use scene::{
+    Rotation, SceneError,
+    gearbox::{Gearbox, GearboxDrive, MeshModel},
+};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gearbox")
@@ -37,6 +40,12 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert_eq!(file.input.rotation, Rotation::Cw);
     assert_eq!(file.torques[0].torque, 740e3);
     assert_eq!((file.positions_per_cycle, file.cycles), (8, 1));
+    let motion = file.motion.unwrap();
+    assert_eq!((motion.speed_rpm, motion.drive, motion.mesh), (1500.0, GearboxDrive::Torque, MeshModel::Spring));
+    assert_eq!((motion.cycles, motion.steps_per_cycle, motion.steps_per_row), (20, 40, 2));
+    assert_eq!((motion.input_torque, motion.highest_frequency_hz), (None, Some(2000.0)));
+    // 7850 kg/m^3 in t/mm^3.
+    assert!((file.shafts[0].density - 7.85e-9).abs() < 1e-20, "{}", file.shafts[0].density);
 }
 
 /// A mistake is told with its line, what is allowed, and what to do.
@@ -55,12 +64,26 @@ fn mistakes_are_told_with_their_place() {
         ("set = [\"contact.slices=16\"]", "set = [\"contact.slice=16\"]", "slice", "slices"),
         ("torque_nm = 740.0", "torque_nm = -740.0", "torque_nm", ""),
         ("rotation = \"cw\"", "rotation = \"left\"", "\"left\"", "ccw"),
+        ("torque_nm = 740.0", "torque_nm = 0.0", "the mesh \"first\" carries no load", "above 0"),
+        (
+            "shaft = \"slow\"\nposition_mm = 220.0",
+            "shaft = \"middle\"\nposition_mm = 100.0",
+            "the mesh \"second\" carries no load",
+            "leave the mesh out",
+        ),
+        ("pinion = \"3\"\nwheel = \"4\"", "pinion = \"1\"\nwheel = \"2\"", "have the same gears", "leave one out"),
         ("from_rpm = 400.0", "from_rpm = 7000.0", "speeds from 7000 to 6000", "higher one"),
         ("to_rpm = 6000.0\n", "", "[vibration] has no `to_rpm`", "a number"),
         ("damping_ratio = 0.03", "damping_ratio = 0", "damping_ratio", ""),
         ("input = \"free\"", "input = \"loose\"", "\"loose\"", "held"),
         ("orders = 3", "order = 3", "`order`", "did you mean `orders`?"),
         ("inertia_kg_m2 = 0.02", "inertia_kg_m2 = -0.02", "inertia_kg_m2", ""),
+        ("speed_rpm = 1500.0", "speed = 1500.0", "`speed`", "did you mean `speed_rpm`?"),
+        ("speed_rpm = 1500.0\n", "", "[motion] has no `speed_rpm`", ""),
+        ("mesh = \"spring\"", "mesh = \"sprung\"", "\"sprung\"", "spring"),
+        ("drive = \"torque\"", "drive = \"speed\"\ninput_torque_nm = 3.0", "a torque of its own", "a result"),
+        ("method = \"energy\"", "spectral_radius = 0.5", "belongs to generalised-alpha", "leave it out"),
+        ("cycles = 20\n", "cycles = 1000000\n", "20000000 rows", "raise `steps_per_row`"),
         ("[analysis]", "[housing]\nmatrix_n_mm_rad = [[1.0]]\n[analysis]", "a matrix of 1 rows", "give 36"),
         (
             "matrix_n_mm_rad = [\n",

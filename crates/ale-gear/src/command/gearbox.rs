@@ -1,8 +1,8 @@
-//! `ale-gear gearbox`: shafts, bearings and several meshes at rest.
+//! `ale-gear gearbox`: shafts, bearings and several meshes at rest, and in motion where the file asks for it.
 
 use std::path::PathBuf;
 
-use analysis::gearbox_at_rest::solve_gearbox;
+use analysis::gearbox_at_rest::{GearboxMotionResult, solve_gearbox};
 use report::gearbox_files::{gearbox_page, gearbox_summary, gearbox_table, write_gearbox_rows};
 use scene::gearbox::Gearbox;
 
@@ -23,6 +23,10 @@ pub(super) struct GearboxArgs {
 
 /// Share of loads that may be left over, and of forces on a body.
 const BALANCE: f64 = 1e-6;
+/// Energy that may come from nowhere, over the work of all.
+const ENERGY: f64 = 1e-3;
+/// Error of the natural frequencies of reduced shafts.
+const FREQUENCIES: f64 = 0.03;
 
 impl GearboxArgs {
     /// Solves the gearbox; the text is the closing table.
@@ -51,7 +55,28 @@ impl GearboxArgs {
             let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid".to_owned();
             CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint))
         });
+        let failure = failure.or_else(|| result.motion.as_ref().and_then(motion_failure));
         let text = if quiet { String::new() } else { format!("{table}\nresults: {}\n", self.out.display()) };
         Ok(Answer { text, failure })
     }
+}
+
+/// Why the rows of a motion do not hold.
+fn motion_failure(motion: &GearboxMotionResult) -> Option<CommandError> {
+    let (left, beyond) = (motion.energy.relative_residual.abs(), motion.reach.iter().copied().fold(0.0, f64::max));
+    let off = motion.reduction.error;
+    let failed = |what: String, hint: &str| Some(CommandError::failed(what, Some(hint.to_owned())));
+    if left.is_nan() || left > ENERGY {
+        let what = format!("the motion does not hold: {left:.1e} of the energy comes from nowhere");
+        return failed(what, "take more `steps_per_cycle`, or `method = \"energy\"`");
+    }
+    if beyond > 1.0 {
+        let what = format!("the motion goes {beyond:.2} times as far as the maps of the contact hold");
+        return failed(what, "take `mesh = \"exact\"`, or let it run with more damping");
+    }
+    if off > FREQUENCIES {
+        let what = format!("natural frequencies of the reduced shafts are off by {off:.1e}");
+        return failed(what, "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept");
+    }
+    None
 }

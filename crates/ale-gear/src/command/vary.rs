@@ -141,12 +141,19 @@ pub(super) fn run_plan(
         talk::note(format!("{before} of {count} cases were done before"));
     }
     solve_range(plan, 0..count, &mut phases, cache, &done).map_err(complain)?;
-    let written = reports.write((plan, &KnownCases::of(plan, &done)), &mut phases, &results, cache)?;
+    let known = KnownCases::of(plan, &done);
+    let written = reports.write((plan, &known), &mut phases, &results, cache)?;
     let words = PageWords { again, reports: &written };
     let text = write_cases((plan, &done), words, &phases.cost(), &results)?;
     results.finish(talk::note)?;
     done.remove().map_err(complain)?;
-    Ok(format!("{text}\nresults: {}\n", out.display()))
+    match known.reasons.first() {
+        Some(why) if known.failed == known.count() => {
+            let hint = format!("`cases.csv` in {} says of each case why", out.display());
+            Err(CommandError::failed(format_args!("no case has a result; the first: {why}"), Some(hint)))
+        }
+        _ => Ok(format!("{text}\nresults: {}\n", out.display())),
+    }
 }
 
 /// Solves the cases of a range that are not done yet.

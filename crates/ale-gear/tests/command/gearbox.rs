@@ -35,13 +35,25 @@ fn a_gearbox_is_solved_into_its_folder() {
     let mean = ste.iter().sum::<f64>() / 8.0;
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
-    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv positions.csv \
+    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv motion.csv positions.csv \
                  report.html report.json.gz response.csv rms.csv shafts.csv";
     assert_eq!(summary["files"], serde_json::json!(files.split(' ').collect::<Vec<_>>()));
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
     let of_vibration = ["modes.csv", "campbell.csv", "response.csv", "bearing_forces.csv", "bearing_forces.uff"]
         .map(|name| (name, scratch.read(&format!("o/{name}"))));
     swings(&scratch, &summary);
+    let motion = scratch.read("o/motion.csv");
+    let rows = column(&motion, "mesh_1_dte_um").len();
+    assert_eq!((rows, summary["motion"]["rows"].as_u64()), (20 * 40 / 2 + 1, Some(rows as u64)));
+    let told = &summary["motion"];
+    let left = told["energy"]["relative_residual"].as_f64().unwrap();
+    assert!(left.abs() < 1e-9, "{left}");
+    assert!(told["reduction"]["frequency_error"].as_f64().unwrap() < 0.01, "{told}");
+    // The driver's and the load's torque, by the teeth: 17/53 and 19/47.
+    let torque = column(&motion, "input_torque_nm")[0];
+    assert!((torque / (-740.0 * 17.0 * 19.0 / 53.0 / 47.0) - 1.0).abs() < 1e-9, "{torque} N m");
+    let hertz = |mesh: usize| told["meshes"][mesh]["mesh_hz"].as_f64().unwrap();
+    assert!((hertz(0) - 17.0 * 25.0).abs() < 1e-6 && (hertz(1) - 17.0 * 25.0 * 19.0 / 53.0).abs() < 1e-6);
     // Again into the same folder, quietly, on one thread.
     let again = scratch.ale_gear(["gearbox", "two_stages.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
     assert_eq!((again.code, again.stdout.as_str()), (Some(0), ""), "{}", again.stderr);
@@ -49,6 +61,7 @@ fn a_gearbox_is_solved_into_its_folder() {
     for (name, first) in of_vibration {
         assert!(scratch.read(&format!("o/{name}")) == first, "bits of {name} go with the number of threads");
     }
+    assert!(scratch.read("o/motion.csv") == motion, "bits of the motion go with the number of threads");
 }
 
 /// A mistake ends with status 2, line and hint, and leaves no folder.

@@ -3,11 +3,14 @@
 use std::sync::Arc;
 
 use dynamics::RigidBody;
-use gearbox::{ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Train};
+use gearbox::{
+    ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Train,
+    motion::{MapRequest, MappedMesh, MovingExactMesh},
+};
 use geometry::Sense;
 use ltca::StaticOptions;
 use reduction::ElasticGear;
-use scene::{BodyScene, Driver, Rotation, Scene, gearbox::Gearbox};
+use scene::{Driver, Rotation, Scene, gearbox::Gearbox};
 
 use crate::{
     AnalysisError, GearCache,
@@ -108,13 +111,28 @@ impl ReducedMesh {
 
     /// Its contact.
     pub fn element(&self, mesh: &Mesh) -> Result<Box<dyn MeshElement>, GearboxError> {
-        Ok(Box::new(ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.gears), self.options.clone())?))
+        Ok(Box::new(self.exact(mesh)?))
     }
 
-    /// Mass and inertia of pinion and wheel, of their meshes.
-    pub fn bodies(&self) -> Result<[RigidBody; 2], AnalysisError> {
-        let of = |i: usize| body(&self.scene, &self.meshes, &BodyScene::default(), i);
-        Ok([of(0)?, of(1)?])
+    /// The same, as itself.
+    pub fn exact(&self, mesh: &Mesh) -> Result<ExactMesh, GearboxError> {
+        ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.gears), self.options.clone())
+    }
+
+    /// The contact as a mesh in motion, with a damper along the normal (N s/mm).
+    pub fn moving(&self, mesh: &Mesh, damping: f64) -> Result<MovingExactMesh, GearboxError> {
+        Ok(MovingExactMesh::new(self.exact(mesh)?, damping))
+    }
+
+    /// A map of the contact.
+    pub fn map(&self, mesh: &Mesh, request: &MapRequest) -> Result<MappedMesh, GearboxError> {
+        MappedMesh::new(&mesh.pair, &self.gears, &self.options, request)
+    }
+
+    /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.
+    pub fn body(&self, gear: usize) -> Result<RigidBody, AnalysisError> {
+        let stated = self.scene.gears()[gear].body.clone().unwrap_or_default();
+        body(&self.scene, &self.meshes, &stated, gear)
     }
 
     /// Teeth of its window.

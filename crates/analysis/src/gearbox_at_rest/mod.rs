@@ -4,13 +4,17 @@
 //! |---|---|
 //! | `parts` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `motion` | from rest on, in time |
 //! | `result` | what is read off all positions |
+//! | `room` | what is said of parts that have no room, and of large deflections |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
 mod inertia;
 mod meshes;
+mod motion;
 mod parts;
 mod result;
+mod room;
 mod swings;
 mod vibration;
 
@@ -21,6 +25,7 @@ use scene::gearbox::Gearbox;
 
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
 use meshes::{ReducedMesh, widening};
+pub use motion::GearboxMotionResult;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 pub use swings::{ExcitationLine, GearboxSwings, OrderForces, SpeedRms};
 use vibration::Parts;
@@ -91,7 +96,18 @@ pub fn solve_gearbox(
         }
     };
     warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
-    Ok(result::result(file, meshes, &train, &reduced, (positions, vibration), warnings))
+    let rest = motion::AtRest {
+        file,
+        structure: &structure,
+        meshes: &meshes,
+        operation: &operation,
+        train: &train,
+        reduced: &reduced,
+        positions: &positions,
+    };
+    let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, observer)).transpose()?;
+    let result = result::result(file, meshes, &train, &reduced, (positions, vibration), warnings);
+    Ok(GearboxResult { motion: moved, ..result })
 }
 
 fn count(file: &Gearbox) -> u32 {

@@ -34,7 +34,7 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
         shaft: b.shaft,
         position: b.position,
         stiffness: Matrix6::from_fn(|i, j| b.stiffness[i][j]),
-        damping: Matrix6::zeros(),
+        damping: Matrix6::from_fn(|i, j| if i == j && i < 3 { b.damping[i] } else { 0.0 }),
     });
     let housing = file.housing.as_ref().map(|rows| DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]));
     Ok(Structure { shafts, discs, bearings: bearings.collect(), housing, ..Structure::default() })

@@ -4,7 +4,11 @@ use gearbox::{GearboxPosition, Mesh, Train, face_load_factor};
 use geometry::GearPair;
 use scene::gearbox::Gearbox;
 
-use super::{GearboxSwings, meshes::ReducedMesh};
+use super::{
+    GearboxMotionResult, GearboxSwings,
+    meshes::ReducedMesh,
+    room::{deflections, room},
+};
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -29,6 +33,8 @@ pub struct GearboxResult {
     pub vibration: Option<GearboxSwings>,
     /// What the user should hear.
     pub warnings: Vec<String>,
+    /// In motion, where the file asks for it.
+    pub motion: Option<GearboxMotionResult>,
 }
 
 /// A mesh over all positions.
@@ -42,6 +48,8 @@ pub struct MeshResult {
     pub normal_force: f64,
     /// Mean and peak to peak of the transmission error, mm.
     pub transmission_error: [f64; 2],
+    /// The largest one, mm, either way.
+    pub largest_transmission_error: f64,
     /// Mean misalignment in and across the plane of action, mm over the face width.
     pub misalignment: [f64; 2],
     /// K_Hbeta of the solved load distribution.
@@ -109,6 +117,7 @@ pub(super) fn result(
             slices,
             normal_force: mean(own().map(|m| m.normal_force)),
             transmission_error: [mean(te()), peak_to_peak(te())],
+            largest_transmission_error: te().map(f64::abs).fold(0.0, f64::max),
             misalignment: [mean(own().map(|m| m.misalignment_in_plane)), mean(own().map(|m| m.misalignment_across))],
             face_load_factor: face_load_factor(all, i, slices),
             max_pressure: pressure,
@@ -130,16 +139,21 @@ pub(super) fn result(
         OutputResult { mean: mean(own()), peak_to_peak: peak_to_peak(own()) }
     };
     let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    let of_meshes: Vec<MeshResult> = (0..meshes.len()).map(mesh).collect();
+    let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
+    let mut warnings = warnings;
+    warnings.extend(room(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     GearboxResult {
         ratios: train.ratios().to_vec(),
-        meshes: (0..meshes.len()).map(mesh).collect(),
+        meshes: of_meshes,
         bearings: (0..file.bearings.len()).map(bearing).collect(),
         outputs: (0..file.torques.len()).map(output).collect(),
         input_torque: mean(all.iter().map(|p| p.input_torque)),
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
-        pairs: meshes.into_iter().map(|m| m.pair).collect(),
+        pairs,
         positions,
         vibration,
         warnings,
+        motion: None,
     }
 }

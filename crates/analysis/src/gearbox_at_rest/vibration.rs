@@ -90,7 +90,7 @@ pub(super) fn vibration(
         shafts: parts.operation.held.clone(),
         turns: if asked.held_input { vec![parts.operation.input] } else { Vec::new() },
     };
-    let structure = inertia::heavy(parts, &gears);
+    let structure = inertia::heavy(parts.file, parts.structure, parts.operation, &gears);
     let train = (parts.meshes, parts.train, parts.operation.sense);
     let [from, to] = asked.speeds_rpm.map(|rpm| RPM * rpm);
     let speed = |i: u32, count: u32| from + (to - from) * f64::from(i) / f64::from(count - 1);

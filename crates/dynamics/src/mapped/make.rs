@@ -5,7 +5,7 @@ use std::sync::Arc;
 use contact_map::{ContactMap, MapError, MapPlan};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::{KeptPlaces, MapExcess, MappedPair, MappedSide, projection::Projection, sampler::SidePhase};
+use super::{KeptPlaces, MapExcess, MappedPair, MappedSide, Projection, sampler::SidePhase};
 use crate::{COORDINATES, Displacement, Drive, PairMechanism, PairMotionError, Speed, start::quasi_static_balance};
 use ltca::StaticError;
 

@@ -2,15 +2,14 @@
 
 mod balance;
 mod make;
-mod projection;
 mod sampler;
 
-use contact_map::{ContactMap, CutPlace, MapContact, Wanted};
+use contact::FlankProjection as Projection;
+use contact_map::{ContactMap, KeptPlaces, MapContact, Wanted};
 use nalgebra::{DMatrix, DVector};
 use std::sync::Arc;
 
 use crate::{COORDINATES, Displacement, PairMechanism};
-use projection::Projection;
 
 pub use make::MapRequest;
 
@@ -81,32 +80,6 @@ impl MappedSide {
     fn contact(&self, kept: &mut KeptPlaces, phase: f64, q: &DVector<f64>, wanted: Wanted) -> MapContact {
         let [approach, tilt] = self.motion(q);
         self.map.contact(kept.at(&self.map, phase, tilt), approach, wanted)
-    }
-}
-
-/// The last two places at which a side was asked: a step begins at one and ends at the other.
-#[derive(Debug, Clone, Default)]
-struct KeptPlaces {
-    both: [CutPlace; 2],
-    /// Which was asked last.
-    last: usize,
-}
-
-impl KeptPlaces {
-    fn at(&mut self, map: &ContactMap, phase: f64, tilt: f64) -> &CutPlace {
-        let wanted = [phase, if map.tilts().is_some() { tilt } else { 0.0 }];
-        if self.both[self.last].at != wanted {
-            self.last = 1 - self.last;
-            let place = &mut self.both[self.last];
-            if place.at != wanted {
-                map.move_place(place, wanted);
-            }
-        }
-        &self.both[self.last]
-    }
-
-    fn last(&self) -> &CutPlace {
-        &self.both[self.last]
     }
 }
 

@@ -5,7 +5,7 @@ use geometry::GearPair;
 use ltca::StaticError;
 use nalgebra::DVector;
 
-use super::projection::Projection;
+use super::Projection;
 use crate::{COORDINATES, Displacement, elastic_displacement::ElasticDisplacement, mesh_side::MeshSide};
 
 /// One side of the teeth at one phase.

@@ -1,6 +1,8 @@
 //! Laws of shafts, bearings and gears that stand and swing together.
 
 mod exact;
+mod motion;
+mod motion_contact;
 mod overhung;
 mod pairs;
 mod rest;

@@ -175,12 +175,46 @@ fn what_cannot_stand_is_refused() {
     assert!(matches!(with(&structure, -1.0), Err(GearboxError::Drives { .. })));
     assert!(matches!(with(&structure, f64::NAN), Err(GearboxError::OutOfRange { .. })));
     let loose = Structure { bearings: Vec::new(), ..structure.clone() };
-    assert!(matches!(with(&loose, 1e5), Err(GearboxError::Matrix(_))));
+    let what_is_free = |structure: &Structure| match with(structure, 1e5).err() {
+        Some(GearboxError::Loose { motion, .. }) => motion,
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(what_is_free(&loose), "along x");
+    let mut slides = structure.clone();
+    slides.bearings.iter_mut().for_each(|b| b.stiffness[(2, 2)] = 0.0);
+    assert_eq!(what_is_free(&slides), "along z");
+    // Two bearings at one place hold no shaft upright.
+    let mut tilts = structure.clone();
+    tilts.bearings.iter_mut().for_each(|b| b.position = 40.0);
+    tilts.bearings.iter_mut().for_each(|b| (3..6).for_each(|i| b.stiffness[(i, i)] = 0.0));
+    assert!(what_is_free(&tilts).starts_with("tilting about"), "{}", what_is_free(&tilts));
     assert!(matches!(with(&structure, 1e5).unwrap().solve(f64::NAN), Err(GearboxError::OutOfRange { .. })));
     let mut far = operation(&structure, 2, Sense::Ccw, Vec::new());
     far.held = vec![7];
     let found = StaticGearbox::new(structure, meshes, far, springs);
     assert!(matches!(found.err(), Some(GearboxError::NoShaft { shaft: 7, .. })));
+}
+
+/// Flanks that stand far apart for their load meet: the linear guess reaches a millionth of the way, and the gears turn by
+/// the gap and the compliance.
+#[test]
+fn a_light_load_closes_a_wide_gap() {
+    let pair = pair([21, 40], 18.0);
+    let structure = single(&pair, 0.0);
+    let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair }];
+    let force = |torque: f64, excess: f64| {
+        let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
+        let mut gearbox = StaticGearbox::new(structure.clone(), meshes.clone(), run, |_, mesh, meshing| {
+            let mut own = spring(mesh, meshing);
+            own.excess = excess;
+            Ok(Box::new(own))
+        });
+        gearbox.as_mut().unwrap().solve(0.0).unwrap().meshes[0].normal_force
+    };
+    for torque in [1e-3, 1.0, 1e5] {
+        let [touching, apart] = [0.0, -0.05].map(|excess| force(torque, excess));
+        assert!((apart / touching - 1.0).abs() < 1e-6, "{torque} N mm: {apart} beside {touching} N");
+    }
 }
 
 /// Two meshes of one ratio between two shafts share the load, and a thicker tooth takes more of it.

@@ -170,6 +170,7 @@ const OURS: [&str; 58] = [
     "positions.csv",
     "shafts.csv",
     "line_load.csv",
+    "motion.csv",
     "cases.csv",
     "cases.parquet",
     "optimum.toml",

@@ -1,6 +1,7 @@
-//! Files of a gearbox at rest: positions, shaft lines, line loads, headline numbers, page, closing table.
+//! Files of a gearbox: positions, shaft lines, line loads, vibration, rows in time, headline numbers, page, closing table.
 
 mod modes;
+mod motion;
 mod page;
 mod response;
 mod rows;
@@ -20,7 +21,7 @@ pub use summary::gearbox_summary;
 pub use table::gearbox_table;
 
 /// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`; of a vibration `modes.csv`, `campbell.csv`,
-/// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`.
+/// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`; of a motion `motion.csv`.
 ///
 /// # Errors
 /// When the system refuses.
@@ -28,12 +29,17 @@ pub fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn Re
     files.write("positions.csv", rows::positions(file, result).as_bytes())?;
     files.write("shafts.csv", rows::shafts(file, result).as_bytes())?;
     files.write("line_load.csv", rows::line_loads(result).as_bytes())?;
-    let Some(swings) = &result.vibration else { return Ok(()) };
-    files.write("modes.csv", modes::modes(file, swings).as_bytes())?;
-    files.write("campbell.csv", modes::campbell(swings).as_bytes())?;
-    files.write("crossings.csv", modes::crossings(swings).as_bytes())?;
-    files.write("response.csv", response::response(file, swings).as_bytes())?;
-    files.write("rms.csv", response::rms(file, swings).as_bytes())?;
-    files.write("bearing_forces.csv", response::bearing_forces(file, swings).as_bytes())?;
-    files.write("bearing_forces.uff", response::universal(file, swings).as_bytes())
+    if let Some(swings) = &result.vibration {
+        files.write("modes.csv", modes::modes(file, swings).as_bytes())?;
+        files.write("campbell.csv", modes::campbell(swings).as_bytes())?;
+        files.write("crossings.csv", modes::crossings(swings).as_bytes())?;
+        files.write("response.csv", response::response(file, swings).as_bytes())?;
+        files.write("rms.csv", response::rms(file, swings).as_bytes())?;
+        files.write("bearing_forces.csv", response::bearing_forces(file, swings).as_bytes())?;
+        files.write("bearing_forces.uff", response::universal(file, swings).as_bytes())?;
+    }
+    match &result.motion {
+        Some(own) => files.write("motion.csv", motion::motion(file, own).as_bytes()),
+        None => Ok(()),
+    }
 }

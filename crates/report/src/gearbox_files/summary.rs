@@ -52,6 +52,7 @@ pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, file
         "mean_input_torque_nm": 1e-3 * result.input_torque,
         "positions": result.positions.len(),
         "certificate": { "residual": result.certificate[0], "body_balance": result.certificate[1] },
+        "motion": super::motion::summary(file, result),
         "cost": cost,
         "warnings": result.warnings,
         "files": files,

@@ -49,6 +49,7 @@ pub fn gearbox_table(file: &Gearbox, result: &GearboxResult, cost: &Cost) -> Str
     }
     let [residual, balance] = result.certificate;
     let _ = writeln!(t, "  worst residual {residual:.0e}, bodies in balance to {balance:.0e}");
+    super::motion::table(&mut t, file, result);
     let _ = writeln!(t, "  {} positions in {:.2} s", result.positions.len(), cost.wall_s);
     if let Some(swings) = &result.vibration {
         t += &vibration(file, swings);

@@ -53,9 +53,16 @@ fn of_headline(headline: &Value, key: &str) -> Result<f64, String> {
             Value::Array(list) => part.parse::<usize>().ok().and_then(|i| list.get(i)),
             other => other.get(part),
         };
-        value = next.ok_or_else(|| format!("the headline has no `{key}`"))?;
+        value = next.ok_or_else(|| missing(headline, key))?;
     }
     value.as_f64().ok_or_else(|| format!("`{key}` of the headline is no number"))
+}
+
+/// A key that the headline has not, with what may have been meant.
+fn missing(headline: &Value, key: &str) -> String {
+    let known: Vec<&str> = headline.as_object().into_iter().flatten().map(|(name, _)| name.as_str()).collect();
+    let near = scene::nearest(key, &known).map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    format!("the headline has no `{key}`{near}")
 }
 
 fn of_column(series: &[f64], take: PlanTake, cycles: usize) -> Result<f64, String> {

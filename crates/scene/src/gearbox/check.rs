@@ -8,6 +8,8 @@ use super::file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
 };
 use super::housing::housing;
+use super::loads::{apart, loaded};
+use super::motion::motion;
 use super::raw::{RawBearing, RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
 use super::values::{Checked, missing, needed_number, needed_word, numbers, square};
 use super::vibration::vibration;
@@ -43,6 +45,8 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     };
     let input = input(s, table, &names)?;
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
+    apart(s, &raw.mesh, &meshes)?;
+    loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let name = raw.name.unwrap_or_else(|| {
@@ -61,6 +65,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
         positions_per_cycle: s.whole("positions_per_cycle", &raw.analysis.positions_per_cycle, 32, 1, 10_000)?,
         cycles: s.whole("cycles", &raw.analysis.cycles, 1, 1, 10_000)?,
         vibration: raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?,
+        motion: raw.motion.as_ref().map(|table| motion(s, table)).transpose()?,
     })
 }
 
@@ -171,7 +176,8 @@ fn bearing(s: &Source<'_>, table: &Spanned<RawBearing>, shafts: &[(String, f64)]
             diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
         }
     }
-    Ok(GearboxBearing { name, shaft, position, stiffness })
+    let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
+    Ok(GearboxBearing { name, shaft, position, stiffness, damping })
 }
 
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
@@ -246,16 +252,19 @@ fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) ->
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[input]", (&raw.shaft, &raw.position_mm), shafts)?;
     let rotation = s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?;
-    let inertia = 1e3 * s.number("inertia_kg_m2", &raw.inertia_kg_m2, 0.0, 0.0, 1e12)?;
-    Ok(GearboxInput { shaft, position, rotation, inertia })
+    Ok(GearboxInput { shaft, position, rotation, inertia: inertia(s, &raw.inertia_kg_m2)? })
 }
 
 fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) -> Checked<GearboxTorque> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[torque]]", (&raw.shaft, &raw.position_mm), shafts)?;
     let torque = 1e3 * needed_number(s, table, "[[torque]]", "torque_nm", &raw.torque_nm, 0.0, 1e12)?;
-    let inertia = 1e3 * s.number("inertia_kg_m2", &raw.inertia_kg_m2, 0.0, 0.0, 1e12)?;
-    Ok(GearboxTorque { shaft, position, torque, inertia })
+    Ok(GearboxTorque { shaft, position, torque, inertia: inertia(s, &raw.inertia_kg_m2)? })
+}
+
+/// Inertia of a machine at a coupling, t mm^2.
+fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
+    Ok(1e3 * s.number("inertia_kg_m2", value, 0.0, 0.0, 1e12)?)
 }
 
 /// Shaft and place of a part.

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::GearboxMotion;
 use crate::{Rotation, Scene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -31,6 +32,8 @@ pub struct Gearbox {
     pub cycles: u32,
     /// Vibration about where it stands, where it is asked for.
     pub vibration: Option<GearboxVibration>,
+    /// How it runs in time; none: at rest alone.
+    pub motion: Option<GearboxMotion>,
 }
 
 /// A shaft.
@@ -46,7 +49,7 @@ pub struct GearboxShaft {
     pub young_mpa: f64,
     /// Poisson's ratio.
     pub poisson: f64,
-    /// Density, t/mm^3.
+    /// Density, t/mm^3; it matters in motion.
     pub density: f64,
     /// Rigid in rigid bearings.
     pub held: bool,
@@ -74,6 +77,8 @@ pub struct GearboxBearing {
     pub position: f64,
     /// Stiffness for displacements x, y, z and turns about them: N/mm, N, N mm.
     pub stiffness: [[f64; 6]; 6],
+    /// Damping along x, y, z, N s/mm.
+    pub damping: [f64; 3],
 }
 
 /// A gear on a shaft.

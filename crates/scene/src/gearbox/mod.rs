@@ -4,11 +4,14 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
-//! | `raw`, `check`, `values`, `housing`, `vibration` | its words, and what they mean: every complaint is made here |
+//! | `vibration`, `motion` | how it swings, and how it runs in time |
+//! | `raw`, `check`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
 mod housing;
+mod loads;
+mod motion;
 mod raw;
 mod read;
 mod values;
@@ -18,3 +21,4 @@ pub use file::{
     Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
     GearboxVibration,
 };
+pub use motion::{GearboxDrive, GearboxMotion, MeshModel};

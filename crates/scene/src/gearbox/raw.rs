@@ -3,16 +3,28 @@
 use serde::Deserialize;
 use toml::Spanned;
 
+use super::motion::RawMotion;
 use crate::spanned::{Number, Numbers, Rows, Switch, Whole, Word, Words};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[
-    ("", &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "vibration"]),
+    (
+        "",
+        &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "vibration", "motion"],
+    ),
     ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "density_kg_m3", "held"]),
     ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
     (
         "[bearing]",
-        &["name", "shaft", "position_mm", "stiffness_n_per_mm", "tilt_stiffness_nm_per_rad", "matrix_n_mm_rad"],
+        &[
+            "name",
+            "shaft",
+            "position_mm",
+            "stiffness_n_per_mm",
+            "tilt_stiffness_nm_per_rad",
+            "matrix_n_mm_rad",
+            "damping_n_s_per_mm",
+        ],
     ),
     (
         "[gear]",
@@ -24,6 +36,7 @@ const TABLES: &[(&str, &[&str])] = &[
     ("housing", &["matrix_n_mm_rad", "file", "matrix", "nodes", "turn_nodes"]),
     ("analysis", &["positions_per_cycle", "cycles"]),
     ("vibration", &["from_rpm", "to_rpm", "speeds", "orders", "damping_ratio", "modes", "input"]),
+    ("motion", super::motion::KEYS),
 ];
 
 /// The same, as messages look them up.
@@ -50,6 +63,7 @@ pub(super) struct RawGearbox {
     #[serde(default)]
     pub analysis: RawAnalysis,
     pub vibration: Option<Spanned<RawVibration>>,
+    pub motion: Option<Spanned<RawMotion>>,
 }
 
 #[derive(Debug, Default, Deserialize)]
@@ -82,6 +96,7 @@ pub(super) struct RawBearing {
     pub stiffness_n_per_mm: Numbers,
     pub tilt_stiffness_nm_per_rad: Numbers,
     pub matrix_n_mm_rad: Rows,
+    pub damping_n_s_per_mm: Numbers,
 }
 
 #[derive(Debug, Default, Deserialize)]

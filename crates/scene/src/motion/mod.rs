@@ -289,16 +289,23 @@ choices! {
     }
 }
 
+impl Integration {
+    /// The method, generalised-alpha with a spectral radius at infinite frequency (default 0.9).
+    pub fn scheme(self, spectral_radius: Option<f64>) -> Scheme {
+        match self {
+            Self::Energy => Scheme::Energy,
+            Self::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: spectral_radius.unwrap_or(0.9) },
+            Self::Newmark => Scheme::Newmark,
+            Self::DormandPrince => Scheme::DormandPrince,
+            Self::RungeKutta4 => Scheme::RungeKutta4,
+        }
+    }
+}
+
 impl MotionScene {
     /// The method with its parameters.
     pub fn scheme(&self) -> Scheme {
-        match self.method {
-            Integration::Energy => Scheme::Energy,
-            Integration::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: self.spectral_radius.unwrap_or(0.9) },
-            Integration::Newmark => Scheme::Newmark,
-            Integration::DormandPrince => Scheme::DormandPrince,
-            Integration::RungeKutta4 => Scheme::RungeKutta4,
-        }
+        self.method.scheme(self.spectral_radius)
     }
 }
 

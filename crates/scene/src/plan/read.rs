@@ -102,6 +102,9 @@ impl Plan {
                 })?
             }
         };
+        if let Some(samples) = words.samples.filter(|n| !(1..=SAMPLES[1]).contains(n)) {
+            return Err(wrong(format!("--samples {samples}"), format!("allowed is 1 .. {}", SAMPLES[1])));
+        }
         let sampling = Sampling {
             design,
             samples: words.samples.unwrap_or(SAMPLES[0]),

@@ -1,11 +1,16 @@
 //! What displacements of both gears do to flanks in one plane of action. Theory (75).
 
 use geometry::{GearPair, Side};
-use nalgebra::Vector3;
+use nalgebra::{SVector, Vector3};
 
-use crate::{COORDINATES, Displacement};
+/// Coordinates of a gear: x, y, z and the turns about them.
+const COORDINATES: usize = 6;
 
-/// Approach of the flanks of one side and their tilt, as linear functions of the twelve displacements.
+/// Displacements of both gears.
+type Displacement = SVector<f64, 12>;
+
+/// Approach of the flanks of one side and their tilt, as linear functions of the twelve displacements:
+/// x, y, z (mm) and turns (rad) of pinion and wheel, x from axis to axis.
 ///
 /// ```text
 /// x = a . d: approach along the normal at the pitch point, mm;   gamma = b . d: tilt in the plane of action, rad
@@ -14,7 +19,7 @@ use crate::{COORDINATES, Displacement};
 /// The flanks of an involute pair touch in this plane and have one normal there, so that no other displacement closes
 /// or opens a gap to first order.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Projection {
+pub struct FlankProjection {
     /// a.
     pub approach: Displacement,
     /// b.
@@ -25,7 +30,7 @@ pub(crate) struct Projection {
     across: Vector3<f64>,
 }
 
-impl Projection {
+impl FlankProjection {
     /// Of the flanks on a side.
     pub fn new(pair: &GearPair, side: Side) -> Self {
         let s = side.sign();

@@ -1,0 +1,209 @@
+//! A gearbox in motion: from its equilibrium on, row by row.
+
+use std::f64::consts::TAU;
+
+use dynamics::RigidBody;
+use gearbox::{
+    GearboxError, GearboxPosition, Mesh, Meshing, Operation, Structure, Train, Vector12,
+    motion::{
+        ContactSpring, Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, MapRequest, MotionOptions, MotionPlan,
+        MovingMesh, ReductionCertificate,
+    },
+};
+use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
+
+use super::{inertia, meshes::ReducedMesh};
+use crate::{AnalysisError, Observer, PhaseWork, run_phase, unless_cancelled};
+
+/// Largest force of a map over the mean at rest.
+const OVERLOAD: f64 = 4.0;
+/// Error with which a map is taken, over that aimed at.
+const WORST: f64 = 10.0;
+/// Phases of a cycle at which the contact is looked at for its mean stiffness.
+const PHASES: usize = 32;
+/// Highest frequency of the shafts over that of the fastest mesh, where none is stated.
+const BEYOND: f64 = 4.0;
+
+/// A gearbox in motion, run.
+#[derive(Debug, Clone)]
+pub struct GearboxMotionResult {
+    /// Rows, the start among them.
+    pub rows: Vec<GearboxInstant>,
+    /// Frequency of each mesh at the speed of the start, Hz.
+    pub mesh_frequencies: Vec<f64>,
+    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    pub stiffness: Vec<f64>,
+    /// Damping of each mesh along its normal, N s/mm.
+    pub damping: Vec<f64>,
+    /// Length of a step, s.
+    pub step: f64,
+    /// Steps taken, and those that were divided.
+    pub steps: [u64; 2],
+    /// Where the energy went.
+    pub energy: GearboxEnergy,
+    /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
+    pub separations: Vec<[u64; 2]>,
+    /// How much of its map each mesh has used at most; 0 for others.
+    pub reach: Vec<f64>,
+    /// How well the shafts were reduced.
+    pub reduction: ReductionCertificate,
+}
+
+/// What is known of the gearbox at rest when its motion begins.
+pub(super) struct AtRest<'a> {
+    pub file: &'a Gearbox,
+    pub structure: &'a Structure,
+    pub meshes: &'a [Mesh],
+    pub operation: &'a Operation,
+    pub train: &'a Train,
+    pub reduced: &'a [ReducedMesh],
+    pub positions: &'a [GearboxPosition],
+}
+
+/// Runs a gearbox as its file asks for.
+pub(super) fn run(
+    rest: &AtRest<'_>,
+    asked: &GearboxMotion,
+    observer: &mut dyn Observer,
+) -> Result<GearboxMotionResult, AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::Gearbox {
+        file: rest.file.file.display().to_string(),
+        source: Box::new(source),
+    };
+    let bodies = inertia::gears(rest.file, rest.reduced)?;
+    let structure = inertia::heavy(rest.file, rest.structure, rest.operation, &bodies);
+    let springs: Vec<ContactSpring> = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {
+        (0..rest.meshes.len()).map(|i| rest.spring(i)).collect::<Result<_, _>>()
+    })
+    .map_err(failed)?;
+    let damping: Vec<f64> = (0..rest.meshes.len())
+        .map(|i| rest.damping(i, &bodies, springs[i].stiffness.mean, asked.mesh_damping_ratio))
+        .collect();
+    let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
+        let one = |i: usize| {
+            let made = rest.element(i, asked, &springs[i], damping[i]);
+            progress.tick();
+            made.map_err(|source| GearboxError::AtMesh { mesh: rest.meshes[i].name.clone(), source: Box::new(source) })
+        };
+        (0..rest.meshes.len()).map(one).collect::<Result<Vec<_>, _>>()
+    })
+    .map_err(failed)?;
+    let speed = asked.speed_rpm * TAU / 60.0;
+    let options = MotionOptions {
+        drive: match asked.drive {
+            GearboxDrive::Speed => Drive::Speed(speed),
+            GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
+        },
+        modal_damping: asked.modal_damping_ratio,
+        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(speed)),
+    };
+    let mut elements = elements.into_iter();
+    let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
+    let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
+        elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
+    });
+    let mut mechanism = made.map_err(failed)?;
+    let start = mechanism.start(options.modal_damping).map_err(failed)?;
+    let step = 1.0 / (rest.fastest(speed) * f64::from(asked.steps_per_cycle));
+    let steps = u64::from(asked.cycles) * u64::from(asked.steps_per_cycle);
+    let plan = MotionPlan { scheme: asked.scheme, step, steps, steps_per_row: u64::from(asked.steps_per_row) };
+    let mut rows: Vec<GearboxInstant> = Vec::new();
+    let count = steps / plan.steps_per_row;
+    let (done, cancelled) = run_phase(observer, "run", PhaseWork::Steps(count), |progress| {
+        let mut cancelled = None;
+        let done = mechanism.run(&start, &plan, |instant| {
+            rows.push(instant.clone());
+            progress.tick();
+            cancelled = unless_cancelled(progress).err();
+            cancelled.is_none()
+        });
+        (done, cancelled)
+    });
+    if let Some(stopped) = cancelled {
+        return Err(stopped);
+    }
+    let done = done.map_err(failed)?;
+    Ok(GearboxMotionResult {
+        rows,
+        mesh_frequencies: mechanism.mesh_frequencies(),
+        stiffness: springs.iter().map(|s| s.stiffness.mean).collect(),
+        damping,
+        step,
+        steps: [done.steps, done.divided],
+        energy: done.energy,
+        separations: done.separations,
+        reach: done.reach,
+        reduction: *mechanism.bodies().certificate(),
+    })
+}
+
+impl AtRest<'_> {
+    /// Displacements of a mesh at all positions.
+    fn stands(&self, mesh: usize) -> Vec<Vector12> {
+        self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
+    }
+
+    fn spring(&self, mesh: usize) -> Result<ContactSpring, GearboxError> {
+        let stands = self.stands(mesh);
+        let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
+        let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
+        let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
+        ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
+    }
+
+    /// Damping along the normal, N s/mm: the ratio of both gears turning against each other.
+    ///
+    /// ```text
+    /// c = 2 zeta sqrt(k m_e),   1/m_e = cos^2 b_b (r_b1^2/J_1 + r_b2^2/J_2)
+    /// ```
+    fn damping(&self, mesh: usize, bodies: &[RigidBody], stiffness: f64, ratio: f64) -> f64 {
+        let pair = &self.meshes[mesh].pair;
+        let own = self.file.meshes[mesh].gears.map(|g| bodies[g].polar_inertia);
+        let lever = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
+        let mobility: f64 = (0..2).map(|g| lever[g] * lever[g] / own[g]).sum();
+        if mobility.is_finite() { 2.0 * ratio * (stiffness / mobility).sqrt() } else { 0.0 }
+    }
+
+    fn element(
+        &self,
+        mesh: usize,
+        asked: &GearboxMotion,
+        spring: &ContactSpring,
+        damping: f64,
+    ) -> Result<Box<dyn MovingMesh>, GearboxError> {
+        let (own, meshing): (&Mesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
+        let alike = || {
+            let wrong = [&own.pair.pinion, &own.pair.wheel].iter().any(|g| g.modifications().has_pitch_errors());
+            let what = "pitch errors: the contact comes back after whole turns, not after a mesh cycle";
+            if wrong { Err(GearboxError::Unmapped { what }) } else { Ok(()) }
+        };
+        Ok(match asked.mesh {
+            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, damping)?),
+            MeshModel::Spring => {
+                alike()?;
+                let made = spring.mesh(own, meshing)?.with_coast_flanks(own, meshing)?;
+                Box::new(made.with_damping(damping))
+            }
+            MeshModel::Mapped => {
+                let request = MapRequest {
+                    stands: self.stands(mesh),
+                    mean_force: spring.force,
+                    overload: OVERLOAD,
+                    tolerance: asked.map_tolerance,
+                    worst: (WORST * asked.map_tolerance).min(0.5),
+                };
+                let map = self.reduced[mesh].map(own, &request)?;
+                // Shared over the mean length of the contact lines under the mean force.
+                let length = map.mean_loaded_length(spring.force, PHASES);
+                let per_length = if length > 0.0 { damping / length } else { 0.0 };
+                Box::new(map.with_damping(per_length))
+            }
+        })
+    }
+
+    /// Highest mesh frequency, Hz.
+    fn fastest(&self, speed: f64) -> f64 {
+        let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
+        a.iter().zip(&b).map(|(a, b)| (b - a).abs() * speed).fold(0.0, f64::max)
+    }
+}

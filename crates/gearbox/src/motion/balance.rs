@@ -1,0 +1,130 @@
+//! The balance of forces on the coordinates of a gearbox in motion. Theory (92), (93).
+
+use integrate::{Forces, Mechanism};
+use nalgebra::{DMatrix, DVector};
+
+use super::GearboxMechanism;
+use crate::GearboxError;
+
+impl GearboxMechanism {
+    /// Forces of the shafts, bearings, loads and drive.
+    fn bodies_and_loads(&self, q: &DVector<f64>, v: &DVector<f64>, speed: f64, out: &mut Forces) {
+        out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
+        let damped = &self.damping * v;
+        out.dissipated += damped.dot(v);
+        out.other -= damped;
+        let turned = &self.gyroscopic * v;
+        out.other.axpy(-speed, &turned, 1.0);
+        for load in &self.loads {
+            out.other += load;
+            out.supplied += load.dot(v);
+        }
+        if out.tangents {
+            out.stiffness += &self.stiffness;
+            out.damping += &self.damping;
+            out.damping.zip_apply(&self.gyroscopic, |c, g| *c += speed * g);
+            if let Some(i) = self.free.turn {
+                let mut column = out.damping.column_mut(i);
+                column += turned;
+            }
+        }
+    }
+
+    /// Forces of one mesh.
+    fn mesh(
+        &mut self,
+        mesh: usize,
+        [angle, speed]: [f64; 2],
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+        out: &mut Forces,
+    ) -> Result<(), GearboxError> {
+        let turn = self.free.turn;
+        let rates = self.displacements(mesh, v);
+        let cycles = self.cycles(mesh, angle);
+        let (d, live) = self.ask(mesh, angle, q)?;
+        let per_turn = live.cycles_per_turn;
+        let passing = per_turn * speed;
+        let damper = live.element().damping(&rates, passing);
+        let energy_rate = live.element().energy_rate();
+        let live = &mut self.live[mesh];
+        let reply = live.reply(&self.meshes[mesh], cycles, &d)?.clone();
+        let to_gears = &live.to_gears;
+        out.conservative += to_gears.tr_mul(&reply.force);
+        out.other += to_gears.tr_mul(&damper.force);
+        out.dissipated += damper.dissipated;
+        match turn {
+            Some(i) => {
+                out.conservative[i] -= per_turn * energy_rate;
+                out.other[i] += per_turn * damper.along_cycles;
+            }
+            None => {
+                // What the input pushes uneven teeth through with.
+                out.supplied -= damper.along_cycles * passing;
+                if out.rates {
+                    out.parametric += energy_rate * passing;
+                }
+            }
+        }
+        if out.tangents {
+            out.stiffness += to_gears.tr_mul(&((damper.slope - reply.tangent) * to_gears));
+            out.damping += to_gears.tr_mul(&(damper.rate_slope * to_gears));
+        }
+        Ok(())
+    }
+}
+
+impl Mechanism for GearboxMechanism {
+    type Error = GearboxError;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
+        let input = self.input(t, q, v);
+        self.bodies_and_loads(q, v, input[1], out);
+        (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
+        let [angle, _] = self.input(t, q, q);
+        let mut sum = 0.5 * q.dot(&(&self.stiffness * q));
+        for i in 0..self.live.len() {
+            sum += self.ask(i, angle, q)?.1.element().energy();
+        }
+        Ok(sum)
+    }
+
+    fn events(&self) -> usize {
+        2 * self.live.len()
+    }
+
+    /// Overlap of the undeformed flanks of each mesh, side by side: positive in contact.
+    fn event_values(
+        &mut self,
+        t: f64,
+        q: &DVector<f64>,
+        _: &DVector<f64>,
+        out: &mut [f64],
+    ) -> Result<(), GearboxError> {
+        let [angle, _] = self.input(t, q, q);
+        for (i, values) in out.chunks_mut(2).enumerate() {
+            let (_, live) = self.ask(i, angle, q)?;
+            values.copy_from_slice(&live.element().overlaps()?);
+        }
+        Ok(())
+    }
+
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), GearboxError> {
+        let [angle, _] = self.input(t, q, q);
+        for i in 0..self.live.len() {
+            let (_, live) = self.ask(i, angle, q)?;
+            let reach = live.element().reach();
+            let checked = live.element().check();
+            self.reach[i] = self.reach[i].max(reach);
+            checked.map_err(|source| crate::static_gearbox::at_mesh(&self.meshes[i], source))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,85 @@
+//! Where the energy of a gearbox goes, counted in common axes. Theory (96).
+
+use integrate::{Ledger, State};
+use nalgebra::DVector;
+
+use super::GearboxMechanism;
+use crate::GearboxError;
+
+/// Energy of a motion since its start, mJ (N mm).
+///
+/// ```text
+/// d(kinetic + shafts + supports + meshes) = input_work + output_work - dissipated + residual
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxEnergy {
+    /// Work of the input's torque.
+    pub input_work: f64,
+    /// Work of the torques of the outputs; below 0 where they load.
+    pub output_work: f64,
+    /// Kinetic energy of all bodies, the nominal turn included.
+    pub kinetic: f64,
+    /// Strain energy of the shafts.
+    pub shafts: f64,
+    /// Strain energy of bearings and housing.
+    pub supports: f64,
+    /// Elastic energy of the meshes.
+    pub meshes: f64,
+    /// What has been stored since the start, of all four.
+    pub gained: f64,
+    /// What bearings, modes and meshes have taken.
+    pub dissipated: f64,
+    /// What does not close, over the sum of all work and of the kinetic energy at the start.
+    pub relative_residual: f64,
+}
+
+impl GearboxMechanism {
+    /// The energy at `state` of a motion that began at `start`.
+    ///
+    /// ```text
+    /// input at given speed: E = E_z + Omega m . v + const,   W_in = W_z + Omega m . (v - v_0) - sum T_j theta_j
+    /// ```
+    /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them; m = B' M r. Torques are
+    /// constant: their work is that of the turns.
+    ///
+    /// # Errors
+    /// [`GearboxError`] of a mesh.
+    pub fn energy(&mut self, start: &State, state: &State, ledger: &Ledger) -> Result<GearboxEnergy, GearboxError> {
+        let moved = &state.q - &start.q;
+        let of_outputs = self.loads[0].dot(&moved);
+        let mut energy = GearboxEnergy {
+            input_work: self.loads[1].dot(&moved),
+            output_work: of_outputs,
+            kinetic: ledger.kinetic,
+            shafts: 0.0,
+            supports: 0.5 * self.support_energy(&state.q),
+            meshes: 0.0,
+            gained: ledger.kinetic + ledger.potential - ledger.initial,
+            dissipated: ledger.dissipated,
+            relative_residual: 0.0,
+        };
+        let mut began = ledger.initial;
+        if self.free.turn.is_none() {
+            let (omega, time) = (self.input_speed(), state.time - start.time);
+            let heavy = &self.bodies.mass * &self.free.rigid;
+            let momentum = self.free.basis.tr_mul(&heavy);
+            let along = |v: &DVector<f64>| omega * momentum.dot(v) + 0.5 * omega * omega * heavy.dot(&self.free.rigid);
+            let nominal = self.outputs.dot(&self.free.rigid) * omega * time;
+            let shift = along(&state.v) - along(&start.v);
+            energy.output_work += nominal;
+            energy.input_work = ledger.parametric + ledger.supplied - of_outputs + shift - nominal;
+            energy.kinetic += along(&state.v);
+            energy.gained += shift;
+            began += along(&start.v);
+        }
+        energy.shafts = 0.5 * state.q.dot(&(&self.stiffness * &state.q)) - energy.supports;
+        let [angle, _] = self.input(state.time, &state.q, &state.v);
+        for i in 0..self.live.len() {
+            energy.meshes += self.ask(i, angle, &state.q)?.1.element().energy();
+        }
+        let left = energy.gained - energy.input_work - energy.output_work + energy.dissipated;
+        let turnover = energy.input_work.abs() + energy.output_work.abs() + energy.dissipated + began.abs();
+        energy.relative_residual = if turnover > 0.0 { left / turnover } else { 0.0 };
+        Ok(energy)
+    }
+}

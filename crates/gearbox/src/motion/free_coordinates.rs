@@ -1,0 +1,98 @@
+//! Free coordinates of a gearbox in motion, and what they do to its bodies. Theory (92).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Drive, ReducedBodies};
+use crate::{Assembly, Operation, Train};
+
+/// Coordinates z of the motion.
+///
+/// ```text
+/// y = B z + r psi,   theta of shaft i = ratio_i psi + deviation
+/// ```
+/// psi: turn of the input, given with time or a coordinate of its own; r turns all shafts by their ratios. All other
+/// coordinates are deviations from that, so that they keep their digits however far the shafts have turned.
+#[derive(Debug, Clone)]
+pub(super) struct FreeCoordinates {
+    /// B, with a column r where the input's turn is free.
+    pub basis: DMatrix<f64>,
+    /// r.
+    pub rigid: DVector<f64>,
+    /// What the input torque acts on.
+    pub input: DVector<f64>,
+    /// r in the coordinates z without psi: turns of the train with the input held back to its place.
+    pub turning: DVector<f64>,
+    /// Number of the coordinate psi, where a torque drives.
+    pub turn: Option<usize>,
+    /// Which coordinates are turns (rad); the others are mm, modes among them.
+    pub turns: Vec<bool>,
+}
+
+impl FreeCoordinates {
+    pub fn new(
+        assembly: &Assembly,
+        bodies: &ReducedBodies,
+        train: &Train,
+        operation: &Operation,
+        drive: &Drive,
+    ) -> Self {
+        let n = bodies.size();
+        let held = |shaft: usize| operation.held.contains(&shaft);
+        let input_shaft = assembly.structure().discs[operation.input].shaft;
+        let input_turn = bodies.of_node(assembly.disc(operation.input).unwrap_or(0)) + 5;
+        let along = |of: &dyn Fn(usize) -> f64| {
+            DVector::from_fn(n, |i, _| if bodies.axis(i) == Some(5) { of(bodies.shaft(i)) } else { 0.0 })
+        };
+        let rigid = along(&|shaft| train.ratios()[shaft]);
+        let mut input = DVector::zeros(n);
+        input[input_turn] = 1.0;
+        let (mut columns, mut turns): (Vec<DVector<f64>>, Vec<bool>) = Default::default();
+        for shaft in (0..train.ratios().len()).filter(|s| held(*s) && *s != input_shaft) {
+            columns.push(along(&|s| f64::from(u8::from(s == shaft))));
+            turns.push(true);
+        }
+        for i in (0..n).filter(|i| !held(bodies.shaft(*i)) && *i != input_turn) {
+            let mut column = DVector::zeros(n);
+            column[i] = 1.0;
+            columns.push(column);
+            turns.push(bodies.axis(i).is_some_and(|axis| axis > 2));
+        }
+        let turn = matches!(drive, Drive::Torque { .. }).then_some(columns.len());
+        if turn.is_some() {
+            columns.push(rigid.clone());
+            turns.push(true);
+        }
+        let basis = DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]);
+        // All coordinates that a column moves turn by one ratio.
+        let ratio = |j: usize| {
+            let moved = columns[j].iter().zip(rigid.iter()).find(|(x, _)| **x != 0.0);
+            moved.map_or(0.0, |(_, r)| if Some(j) == turn { 0.0 } else { *r })
+        };
+        let turning = DVector::from_fn(columns.len(), |j, _| ratio(j));
+        Self { basis, rigid, input, turning, turn, turns }
+    }
+
+    /// Number of coordinates z.
+    pub fn count(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// y of the deviations alone.
+    pub fn deviations(&self, z: &DVector<f64>) -> DVector<f64> {
+        let mut own = z.clone();
+        if let Some(i) = self.turn {
+            own[i] = 0.0;
+        }
+        &self.basis * own
+    }
+
+    /// B' A B; what a turn of the whole train does not touch has exact zeros there.
+    pub fn of(&self, matrix: &DMatrix<f64>, turns: bool) -> DMatrix<f64> {
+        let mut all = self.basis.transpose() * matrix * &self.basis;
+        if let (Some(i), false) = (self.turn, turns) {
+            all.row_mut(i).fill(0.0);
+            all.column_mut(i).fill(0.0);
+        }
+        all
+    }
+}

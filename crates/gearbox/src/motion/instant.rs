@@ -1,0 +1,148 @@
+//! What is read off a state of the motion.
+
+use integrate::State;
+use nalgebra::{DMatrix, DVector};
+
+use super::GearboxMechanism;
+use crate::{BearingState, GearboxError};
+
+/// A mesh at an instant.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MeshInstant {
+    /// Mesh cycles ([`crate::Train::cycles`]).
+    pub cycles: f64,
+    /// Transmission error by the turns of both gears, mm on the transverse line of action
+    /// ([`crate::MeshState::transmission_error`]): the dynamic one.
+    pub transmission_error: f64,
+    /// Sum of the normal forces, N, elastic part.
+    pub normal_force: f64,
+    /// Forces (N) and moments (N mm) on gear 1 and gear 2, damping included, common axes.
+    pub wrench: [f64; 12],
+}
+
+/// A gearbox at an instant of its motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxInstant {
+    /// Time, s.
+    pub time: f64,
+    /// Angle of the input from its start (rad) and its speed (rad/s), about +z.
+    pub input: [f64; 2],
+    /// Torque on the input, N mm about +z: the given one, or the one that keeps the given speed.
+    pub input_torque: f64,
+    /// Speeds of the discs of the torques, rad/s about +z.
+    pub output_speeds: Vec<f64>,
+    /// Meshes in their order.
+    pub meshes: Vec<MeshInstant>,
+    /// Bearings in their order, damping included; their forces are those on the shafts.
+    pub bearings: Vec<BearingState>,
+}
+
+impl GearboxMechanism {
+    /// What results hold of a state.
+    ///
+    /// # Errors
+    /// [`GearboxError`] of a mesh.
+    pub fn instant(&mut self, state: &State) -> Result<GearboxInstant, GearboxError> {
+        let State { time, q, v, a, .. } = state;
+        let input = self.input(*time, q, v);
+        let mut meshes = Vec::new();
+        let mut on_bodies = DVector::zeros(self.bodies.size());
+        for i in 0..self.live.len() {
+            let own = self.mesh_instant(i, input, q, v)?;
+            let at = self.live[i].gears;
+            (0..12).for_each(|k| on_bodies[at[k / 6] + k % 6] += own.wrench[k]);
+            meshes.push(own);
+        }
+        let (y, rates) = (self.free.deviations(q), self.free.deviations(v));
+        let input_torque = match self.free.turn {
+            Some(i) => self.loads[1][i],
+            None => self.reaction([q, v, a], &on_bodies),
+        };
+        let speed_of = |torque: &crate::Torque| {
+            let shaft = self.assembly.structure().discs[torque.disc].shaft;
+            let own = self.assembly.disc(torque.disc).map_or(0.0, |n| rates[self.bodies.of_node(n) + 5]);
+            self.train.ratios()[shaft] * input[1] + own
+        };
+        let output_speeds = self.operation.torques.iter().map(speed_of).collect();
+        Ok(GearboxInstant {
+            time: *time,
+            input,
+            input_torque,
+            output_speeds,
+            meshes,
+            bearings: self.bearing_states(&y, &rates),
+        })
+    }
+
+    fn mesh_instant(
+        &mut self,
+        mesh: usize,
+        [angle, speed]: [f64; 2],
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+    ) -> Result<MeshInstant, GearboxError> {
+        let cycles = self.cycles(mesh, angle);
+        let rates = self.displacements(mesh, v);
+        let (d, live) = self.ask(mesh, angle, q)?;
+        let passing = live.cycles_per_turn * speed;
+        let damper = live.element().damping(&rates, passing);
+        let live = &mut self.live[mesh];
+        let turn = live.turn;
+        let reply = live.reply(&self.meshes[mesh], cycles, &d)?;
+        let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + damper.force));
+        let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
+        let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
+        let transmission_error = meshing.side().sign() * (r1 * d[5] + r2 * d[11]);
+        Ok(MeshInstant { cycles, transmission_error, normal_force, wrench: wrench.into() })
+    }
+
+    /// Torque that keeps the input at its speed: what its coordinate leaves over. Dampers of modes do not brake the turn
+    /// of the whole train, so that what they do to the other turns is held here.
+    fn reaction(&self, z: [&DVector<f64>; 3], on_bodies: &DVector<f64>) -> f64 {
+        let [y, rate, acceleration] = z.map(|x| self.free.deviations(x));
+        let shaft = self.assembly.structure().discs[self.operation.input].shaft;
+        let held = self.operation.held.contains(&shaft);
+        let own = |i: &usize| {
+            if held {
+                self.bodies.axis(*i) == Some(5) && self.bodies.shaft(*i) == shaft
+            } else {
+                self.free.input[*i] != 0.0
+            }
+        };
+        // No gyroscopic moment acts about the axis.
+        let row = |i: usize| {
+            let of = |m: &DMatrix<f64>, x: &DVector<f64>| m.column(i).dot(x);
+            of(&self.bodies.mass, &acceleration) + of(&self.bodies.damping, &rate) + of(&self.bodies.stiffness, &y)
+                - on_bodies[i]
+                - self.outputs[i]
+        };
+        let modal = self.free.turning.dot(&(&self.damping * z[1]));
+        (0..self.bodies.size()).filter(own).map(row).sum::<f64>() - modal
+    }
+
+    fn bearing_states(&self, y: &DVector<f64>, rates: &DVector<f64>) -> Vec<BearingState> {
+        let at = |x: &DVector<f64>| {
+            let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
+            DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| x[rows(i)])
+        };
+        let (u, du) = (at(y), at(rates));
+        let supports = self.assembly.supports();
+        let forces = supports.forces(&u) - &supports.damping * du;
+        let relative = &u - supports.seats(&u);
+        let of = |i: usize| BearingState {
+            force: std::array::from_fn(|k| forces[6 * i + k]),
+            moment: std::array::from_fn(|k| forces[6 * i + 3 + k]),
+            displacement: std::array::from_fn(|k| relative[6 * i + k]),
+        };
+        (0..u.len() / 6).map(of).collect()
+    }
+
+    /// Twice the strain energy of bearings and housing at a state, N mm.
+    pub(super) fn support_energy(&self, q: &DVector<f64>) -> f64 {
+        let y = self.free.deviations(q);
+        let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
+        let u = DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[rows(i)]);
+        let (bearings, housing) = self.assembly.supports().energies(&u);
+        bearings.iter().sum::<f64>() + housing.unwrap_or(0.0)
+    }
+}

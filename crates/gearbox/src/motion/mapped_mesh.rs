@@ -1,0 +1,252 @@
+//! A map of the exact contact as a mesh of the gearbox in motion. Theory (72), (95).
+
+use std::sync::Arc;
+
+use contact::FlankProjection;
+use contact_map::{ContactMap, ContactSample, KeptPlaces, LoadedSlice, MapContact, MapPlan, PhaseContact, Wanted};
+use geometry::GearPair;
+use ltca::StaticOptions;
+use nalgebra::SMatrix;
+use reduction::ElasticGear;
+
+use super::{MeshDamper, MovingMesh};
+use crate::{ExactMesh, GearboxError, MeshElement, MeshReply, Vector12};
+
+/// What a map of a mesh must hold, and how well.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapRequest {
+    /// Displacements of the gears in the mesh's own axes at rest, one entry a position: the map is made about their mean.
+    pub stands: Vec<Vector12>,
+    /// Sum of the normal forces there, N.
+    pub mean_force: f64,
+    /// Largest force over that.
+    pub overload: f64,
+    /// Root mean square of the approach's error over the mean approach that is aimed at.
+    pub tolerance: f64,
+    /// The same with which a map is taken that would cost too much to be finer.
+    pub worst: f64,
+}
+
+/// The driving flanks of a mesh by a table of their exact contact: forces, moments and energy over phase, approach and
+/// tilt in the plane of action.
+#[derive(Debug, Clone)]
+pub struct MappedMesh {
+    map: Arc<ContactMap>,
+    projection: FlankProjection,
+    kept: KeptPlaces,
+    /// N s/mm a mm of contact line.
+    damping_per_length: f64,
+    /// Backlash along the normal, mm.
+    backlash: f64,
+    cycles: f64,
+    approach: f64,
+    tilt: f64,
+    contact: MapContact,
+}
+
+impl MappedMesh {
+    /// Maps the contact of gears as [`ExactMesh`] has them, about where they stand.
+    ///
+    /// # Errors
+    /// [`GearboxError::Unmapped`] for teeth that are not alike and for friction, [`GearboxError::Map`] where no map is
+    /// good enough.
+    pub fn new(
+        pair: &GearPair,
+        gears: &Arc<[ElasticGear; 2]>,
+        options: &StaticOptions,
+        request: &MapRequest,
+    ) -> Result<Self, GearboxError> {
+        refuse(pair, options, request)?;
+        let projection = FlankProjection::new(pair, options.side());
+        let about = request.stands.iter().sum::<Vector12>() / request.stands.len() as f64;
+        let plan = MapPlan {
+            mean_force: request.mean_force,
+            largest_force: request.overload * request.mean_force,
+            tilt: Some(tilt_range(&request.stands, &projection, pair)),
+            width: pair.face_width(),
+            tolerance: request.tolerance,
+            worst: request.worst,
+        };
+        let at = |phase: f64| {
+            let mut mesh = ExactMesh::new(pair.clone(), Arc::clone(gears), options.clone())?;
+            mesh.go_to(phase)?;
+            Ok(MappedPhase { mesh, projection: &projection, about: &about })
+        };
+        let map = ContactMap::build(&plan, at).map_err(|e| GearboxError::Map(Box::new(e)))?;
+        Ok(Self {
+            map: Arc::new(map),
+            projection,
+            kept: KeptPlaces::default(),
+            damping_per_length: 0.0,
+            backlash: pair.backlash() * pair.base_helix_angle().cos(),
+            cycles: 0.0,
+            approach: 0.0,
+            tilt: 0.0,
+            contact: MapContact::default(),
+        })
+    }
+
+    /// With dampers on the contact lines, N s/mm a mm, each held at the force there.
+    #[must_use]
+    pub fn with_damping(self, per_length: f64) -> Self {
+        Self { damping_per_length: per_length, ..self }
+    }
+
+    /// The map.
+    pub fn map(&self) -> &ContactMap {
+        &self.map
+    }
+
+    /// Mean over a cycle of the loaded length of contact lines, mm, under a force (N) and the mean tilt.
+    pub fn mean_loaded_length(&self, force: f64, phases: usize) -> f64 {
+        let tilt = self.map.tilts().map_or(0.0, |[low, high]| 0.5 * (low + high));
+        let at = |i: usize| {
+            let phase = i as f64 / phases as f64;
+            let place = self.map.place(phase, tilt);
+            let contact = self.map.contact(&place, self.map.approach(phase, tilt, force), Wanted::default());
+            self.map.loaded_length(&place, &contact)
+        };
+        (0..phases).map(at).sum::<f64>() / phases.max(1) as f64
+    }
+}
+
+/// What no map holds.
+fn refuse(pair: &GearPair, options: &StaticOptions, request: &MapRequest) -> Result<(), GearboxError> {
+    let what = if options.contact.friction > 0.0 {
+        "friction"
+    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.modifications().has_pitch_errors()) {
+        "pitch errors: the contact comes back after whole turns, not after a mesh cycle"
+    } else if request.stands.is_empty() || !(request.mean_force > 0.0 && request.mean_force.is_finite()) {
+        "a mesh without load: nothing says what forces occur"
+    } else {
+        return Ok(());
+    };
+    Err(GearboxError::Unmapped { what })
+}
+
+/// Tilts of the gears at rest, and as much on either side as half a deflection over the face width makes.
+fn tilt_range(stands: &[Vector12], projection: &FlankProjection, pair: &GearPair) -> [f64; 2] {
+    let all = || stands.iter().map(|d| projection.tilt.dot(d));
+    let deflection = stands.iter().map(|d| projection.approach.dot(d).abs()).fold(0.0, f64::max);
+    let [low, high] = [all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max)];
+    let margin = (0.5 * deflection / pair.face_width()).max(2.0 * (high - low));
+    [low - margin, high + margin]
+}
+
+impl MeshElement for MappedMesh {
+    fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
+        if !cycles.is_finite() {
+            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
+        }
+        self.cycles = cycles;
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+        let Self { map, projection, kept, .. } = self;
+        let along = [&projection.approach, &projection.tilt];
+        [self.approach, self.tilt] = along.map(|a| a.dot(displacements));
+        let wanted = Wanted { energy: true, phase_rate: true };
+        self.contact = map.contact(kept.at(map, self.cycles, self.tilt), self.approach, wanted);
+        let contact = &self.contact;
+        let mut tangent = SMatrix::zeros();
+        for (i, a) in along.into_iter().enumerate() {
+            for (j, b) in along.into_iter().enumerate() {
+                tangent -= contact.stiffness[i][j] * a * b.transpose();
+            }
+        }
+        let force = contact.moment * projection.tilt - contact.force * projection.approach;
+        Ok(MeshReply { force, tangent, normal_force: contact.force })
+    }
+
+    /// Refuses a place at which the flanks that the map does not have would touch.
+    fn check(&mut self) -> Result<(), GearboxError> {
+        let gap_mm = self.map.first_touch(self.kept.last()) - self.approach;
+        if gap_mm <= self.backlash {
+            return Ok(());
+        }
+        Err(GearboxError::BeyondBacklash { gap_mm, backlash_mm: self.backlash })
+    }
+}
+
+impl MovingMesh for MappedMesh {
+    fn energy(&self) -> f64 {
+        self.contact.energy
+    }
+
+    fn energy_rate(&self) -> f64 {
+        self.contact.phase_rate
+    }
+
+    fn damping(&mut self, rates: &Vector12, _cycles: f64) -> MeshDamper {
+        let along = [&self.projection.approach, &self.projection.tilt];
+        let own = along.map(|a| a.dot(rates));
+        let found = self.map.damping(self.kept.last(), &self.contact, own, self.damping_per_length);
+        let mut all = MeshDamper::default();
+        for (i, a) in along.into_iter().enumerate() {
+            all.force -= found.force[i] * a;
+            all.dissipated += found.force[i] * own[i];
+            for (j, b) in along.into_iter().enumerate() {
+                all.rate_slope += found.rate_slope[i][j] * a * b.transpose();
+            }
+        }
+        all.slope += found.approach_slope * along[0] * along[0].transpose();
+        all
+    }
+
+    fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
+        Ok([self.approach - self.map.first_touch(self.kept.last()), f64::NEG_INFINITY])
+    }
+
+    fn reach(&self) -> f64 {
+        let force = self.contact.force / self.map.largest_force();
+        // Without contact a tilt does nothing.
+        let tilt = self
+            .map
+            .tilts()
+            .filter(|_| force > 0.0)
+            .map_or(0.0, |[low, high]| (self.tilt - 0.5 * (low + high)).abs() / (0.5 * (high - low)));
+        force.max(tilt)
+    }
+}
+
+/// The contact of a mesh at one phase, as a map asks for it.
+struct MappedPhase<'a> {
+    mesh: ExactMesh,
+    projection: &'a FlankProjection,
+    about: &'a Vector12,
+}
+
+impl MappedPhase<'_> {
+    fn displaced(&self, approach: f64, tilt: f64) -> Vector12 {
+        let Self { projection, about, .. } = self;
+        let rest = [approach - projection.approach.dot(about), tilt - projection.tilt.dot(about)];
+        *about + projection.displacement(rest[0], rest[1])
+    }
+}
+
+impl PhaseContact for MappedPhase<'_> {
+    type Error = GearboxError;
+
+    fn overlap(&mut self, approach: f64, tilt: f64) -> f64 {
+        let d = self.displaced(approach, tilt);
+        self.mesh.overlap(&d)
+    }
+
+    fn sample(&mut self, approach: f64, tilt: f64) -> Result<ContactSample, GearboxError> {
+        let d = self.displaced(approach, tilt);
+        self.mesh.forget();
+        let reply = self.mesh.evaluate(&d)?;
+        let per_turn = self.projection.approach[11];
+        let slices = self.mesh.pressed().map(|(position, force, length)| LoadedSlice {
+            force,
+            length,
+            lever: self.projection.lever(&position),
+        });
+        Ok(ContactSample {
+            force: -reply.force[11] / per_turn,
+            stiffness: -reply.tangent[(11, 11)] / (per_turn * per_turn),
+            slices: slices.collect(),
+        })
+    }
+}

@@ -1,0 +1,191 @@
+//! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
+
+use nalgebra::{DMatrix, DVector};
+
+use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
+use crate::{
+    Assembly, GearboxError, Mesh, Meshing, Operation, Structure, Train, Vector12,
+    static_gearbox::{at_mesh, check, turn},
+};
+
+/// Shafts, bearings and meshes that move: any number of each, every mesh at its own phase.
+///
+/// ```text
+/// M z'' = -dV/dz - (C + psi' G) z' + loads + dampers of the meshes,   V = z' K z/2 + sum of V_mesh(c_i(psi), D_i z)
+/// ```
+pub struct GearboxMechanism {
+    pub(super) assembly: Assembly,
+    pub(super) meshes: Vec<Mesh>,
+    pub(super) train: Train,
+    pub(super) operation: Operation,
+    pub(super) bodies: ReducedBodies,
+    pub(super) free: FreeCoordinates,
+    pub(super) live: Vec<LiveMesh>,
+    pub(super) drive: Drive,
+    pub(super) mass: DMatrix<f64>,
+    pub(super) stiffness: DMatrix<f64>,
+    /// Of bearings and modes.
+    pub(super) damping: DMatrix<f64>,
+    /// At the unit speed of the input.
+    pub(super) gyroscopic: DMatrix<f64>,
+    /// Torques of the outputs on the bodies.
+    pub(super) outputs: DVector<f64>,
+    /// Of the outputs, and of the input where a torque drives.
+    pub(super) loads: [DVector<f64>; 2],
+    /// Most that each mesh has been used of what it holds, at the ends of steps.
+    pub(super) reach: Vec<f64>,
+    /// Mesh cycles with the input at its start.
+    pub(super) start_cycles: Vec<f64>,
+}
+
+impl GearboxMechanism {
+    /// With one element a mesh, in their order; `elements` makes them from how the mesh runs. Modal damping comes with
+    /// the start of the motion ([`GearboxMechanism::start`]).
+    ///
+    /// # Errors
+    /// [`GearboxError`]: where parts do not fit, a torque drives, or a bearing holds the turn about the axis.
+    pub fn new(
+        structure: Structure,
+        meshes: Vec<Mesh>,
+        operation: Operation,
+        options: &MotionOptions,
+        mut elements: impl FnMut(usize, &Mesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
+    ) -> Result<Self, GearboxError> {
+        let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
+        check(&structure, &train, &operation)?;
+        check_motion(&structure, options)?;
+        let mut held = vec![false; structure.shafts.len()];
+        operation.held.iter().for_each(|&shaft| held[shaft] = true);
+        let assembly = Assembly::new(structure)?;
+        let bodies = ReducedBodies::new(&assembly, &held, options.limit)?;
+        let free = FreeCoordinates::new(&assembly, &bodies, &train, &operation, &options.drive);
+        let mut outputs = DVector::zeros(bodies.size());
+        let mut balancing = 0.0;
+        for torque in &operation.torques {
+            outputs[bodies.of_node(assembly.disc(torque.disc).unwrap_or(0)) + 5] += torque.torque;
+            balancing -= torque.torque * train.ratios()[assembly.structure().discs[torque.disc].shaft];
+        }
+        let given = match options.drive {
+            Drive::Speed(_) => 0.0,
+            Drive::Torque { torque, .. } => torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount),
+        };
+        let loads = [free.basis.tr_mul(&outputs), free.basis.tr_mul(&free.input) * given];
+        let mut deviations = free.basis.clone();
+        if let Some(i) = free.turn {
+            deviations.column_mut(i).fill(0.0);
+        }
+        let (start_cycles, further) = (train.cycles(0.0), train.cycles(1.0));
+        let mut live = Vec::new();
+        for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
+            let element = elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?;
+            let gears = mesh.discs.map(|d| bodies.of_node(assembly.disc(d).unwrap_or(0)));
+            let rate = further[i] - start_cycles[i];
+            live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), rate));
+        }
+        let spin = bodies.skew(&assembly.gyroscopic(train.ratios())?);
+        let gyroscopic = free.of(&spin, false);
+        let (mass, stiffness) = (free.of(&bodies.mass, true), free.of(&bodies.stiffness, false));
+        let damping = free.of(&bodies.damping, false);
+        let (drive, reach) = (options.drive, vec![0.0; live.len()]);
+        Ok(Self {
+            assembly,
+            meshes,
+            train,
+            operation,
+            bodies,
+            free,
+            live,
+            drive,
+            mass,
+            stiffness,
+            damping,
+            gyroscopic,
+            outputs,
+            loads,
+            reach,
+            start_cycles,
+        })
+    }
+
+    /// Matrices and parts.
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// Nominal motion of the train.
+    pub fn train(&self) -> &Train {
+        &self.train
+    }
+
+    /// Shafts in reduced coordinates.
+    pub fn bodies(&self) -> &ReducedBodies {
+        &self.bodies
+    }
+
+    /// Number of coordinates.
+    pub fn count(&self) -> usize {
+        self.free.count()
+    }
+
+    /// Nominal speed of the input at the start, rad/s about +z.
+    pub fn input_speed(&self) -> f64 {
+        self.operation.sense.sign() as f64 * self.drive.start()
+    }
+
+    /// Frequency of each mesh at the speed of the start, Hz.
+    pub fn mesh_frequencies(&self) -> Vec<f64> {
+        self.live.iter().map(|m| (m.cycles_per_turn * self.input_speed()).abs()).collect()
+    }
+
+    /// Angle (rad about +z) and speed of the input.
+    pub(super) fn input(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
+        match self.free.turn {
+            Some(i) => [q[i], v[i]],
+            None => [self.input_speed() * t, self.input_speed()],
+        }
+    }
+
+    /// Cycles of a mesh with the input at an angle.
+    pub(super) fn cycles(&self, mesh: usize, angle: f64) -> f64 {
+        self.start_cycles[mesh] + self.live[mesh].cycles_per_turn * angle
+    }
+
+    /// Has a mesh answer at a state.
+    pub(super) fn ask(
+        &mut self,
+        mesh: usize,
+        angle: f64,
+        q: &DVector<f64>,
+    ) -> Result<(Vector12, &mut LiveMesh), GearboxError> {
+        let cycles = self.cycles(mesh, angle);
+        let d = self.displacements(mesh, q);
+        let live = &mut self.live[mesh];
+        live.reply(&self.meshes[mesh], cycles, &d)?;
+        Ok((d, live))
+    }
+
+    /// Displacements of both gears of a mesh, or their rates, in its own axes.
+    pub(super) fn displacements(&self, mesh: usize, q: &DVector<f64>) -> Vector12 {
+        let d = &self.live[mesh].to_gears * q;
+        Vector12::from_fn(|i, _| d[i])
+    }
+}
+
+/// That speed, damping and bearings have a meaning in motion.
+fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), GearboxError> {
+    let (torque, speed) = match options.drive {
+        Drive::Speed(speed) => (0.0, speed),
+        Drive::Torque { start, torque } => (torque.unwrap_or(0.0), start),
+    };
+    let values = [("speed, rad/s", speed), ("torque, N mm", torque), ("modal damping", options.modal_damping)];
+    if let Some((quantity, value)) = values.into_iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0)) {
+        return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value });
+    }
+    for bearing in &structure.bearings {
+        let turning = |m: &nalgebra::Matrix6<f64>| m.row(5).amax().max(m.column(5).amax());
+        if turning(&bearing.stiffness) > 0.0 || turning(&bearing.damping) > 0.0 {
+            return Err(GearboxError::HeldTurn { bearing: bearing.name.clone() });
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,41 @@
+//! How shafts, bearings and gears move in time: any number of meshes, each at its own phase.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
+//! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
+//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
+//! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
+//! | `start`, `run` | from equilibrium on, row by row |
+//! | `instant`, `energy` | what is read off |
+
+mod balance;
+mod contact_spring;
+mod energy;
+mod free_coordinates;
+mod instant;
+mod live_mesh;
+mod mapped_mesh;
+mod mechanism;
+mod moving_exact;
+mod moving_mesh;
+mod normal_damper;
+mod options;
+mod pitch_errors;
+mod reduced_bodies;
+mod run;
+mod spring_mesh;
+mod start;
+
+pub use contact_spring::ContactSpring;
+pub use energy::GearboxEnergy;
+pub use instant::{GearboxInstant, MeshInstant};
+pub use mapped_mesh::{MapRequest, MappedMesh};
+pub use mechanism::GearboxMechanism;
+pub use moving_exact::MovingExactMesh;
+pub use moving_mesh::{MeshDamper, MovingMesh};
+pub use options::{Drive, MotionOptions};
+pub use pitch_errors::PitchErrors;
+pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
+pub use run::{GearboxRun, MotionPlan};
+pub use spring_mesh::SpringMesh;

@@ -1,0 +1,36 @@
+//! What is asked of a motion of a gearbox.
+
+/// What turns the input, in the sense of [`crate::Operation`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Drive {
+    /// At a given speed, rad/s: the input coupling counts as infinitely heavy.
+    Speed(f64),
+    /// By a torque, from a speed on.
+    Torque {
+        /// Speed at the start, rad/s.
+        start: f64,
+        /// Torque on the input, N mm; `None`: the one that balances the loads by the ratios of the train.
+        torque: Option<f64>,
+    },
+}
+
+/// Drive, damping of the shafts, and how finely they are reduced.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionOptions {
+    /// What turns the input.
+    pub drive: Drive,
+    /// Damping ratio of every elastic mode about the equilibrium at the start, meshes at their tangent there; beside
+    /// what bearings and meshes have.
+    pub modal_damping: f64,
+    /// Highest frequency that shafts must show, rad/s.
+    pub limit: f64,
+}
+
+impl Drive {
+    /// Speed of the input at the start, rad/s, without its sense.
+    pub(super) fn start(&self) -> f64 {
+        match *self {
+            Self::Speed(speed) | Self::Torque { start: speed, .. } => speed,
+        }
+    }
+}

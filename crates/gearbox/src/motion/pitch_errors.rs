@@ -1,0 +1,47 @@
+//! Teeth that stand where they should not: pitch errors of both gears as the mesh meets them. Theory (94).
+
+use crate::GearboxError;
+
+/// Deviations of the teeth of gear 1 and gear 2, mm along the normal of the flanks that drive: positive where a tooth
+/// stands nearer to its mate.
+///
+/// ```text
+/// e(c) = sum over pairs k of w(c - k) (e_1[k mod z_1] + e_2[-k mod z_2]),   w(x) = 1 - 3 y^2 + 2 y^3,  y = |x - 1/2| <= 1
+/// ```
+/// A spring stands for all pairs in contact at once: the load goes over from one pair to the next within a cycle, by
+/// weights that add up to 1 and have no corner. Gear 2 turns the other way, so that its teeth come in descending order.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct PitchErrors {
+    teeth: [Vec<f64>; 2],
+}
+
+impl PitchErrors {
+    /// Of the teeth of both gears, an entry a tooth; none where a gear has none.
+    ///
+    /// # Errors
+    /// [`GearboxError::OutOfRange`] where an entry is no number.
+    pub fn new(teeth: [Vec<f64>; 2]) -> Result<Self, GearboxError> {
+        match teeth.iter().flatten().copied().find(|e| !e.is_finite()) {
+            Some(value) => Err(GearboxError::OutOfRange { part: "teeth".into(), quantity: "pitch error, mm", value }),
+            None => Ok(Self { teeth }),
+        }
+    }
+
+    /// e (mm) and de/dc (mm a cycle) at a place in the mesh cycles.
+    pub fn at(&self, cycles: f64) -> [f64; 2] {
+        // The pair whose middle is behind, and the one whose middle is ahead.
+        let behind = (cycles - 0.5).floor();
+        let y = cycles - 0.5 - behind;
+        let [a, b] = [self.of_pair(behind), self.of_pair(behind + 1.0)];
+        let share = y * y * (3.0 - 2.0 * y);
+        [a + share * (b - a), 6.0 * y * (1.0 - y) * (b - a)]
+    }
+
+    fn of_pair(&self, k: f64) -> f64 {
+        let of = |own: &[f64], k: f64| {
+            let place = k.rem_euclid(own.len().max(1) as f64) as usize;
+            own.get(place).copied().unwrap_or(0.0)
+        };
+        of(&self.teeth[0], k) + of(&self.teeth[1], -k)
+    }
+}

@@ -1,0 +1,165 @@
+//! Shafts in motion with few coordinates: component mode synthesis after Craig and Bampton. Theory (91).
+
+use fem::{Condensation, Modes, natural_modes};
+use nalgebra::{DMatrix, DVector};
+
+use crate::{Assembly, GearboxError};
+
+/// Modes of shafts with their seats held are kept up to so many times the frequency that is asked for: the usual rule.
+const BEYOND: f64 = 2.0;
+/// Frequency over the highest one that is compared, below which a motion is rigid.
+const RIGID: f64 = 1e-6;
+
+/// Matrices of shafts, discs and bearings in reduced coordinates y.
+///
+/// ```text
+/// q = T y_seats + Phi y_modes,   T: how all nodes follow the seats at rest,   K_ii Phi = M_ii Phi omega^2,  omega <= 2 omega_max
+/// ```
+/// Seats are the nodes of all discs and bearings, six coordinates each; what forces act on is kept as it is.
+#[derive(Debug, Clone)]
+pub struct ReducedBodies {
+    /// First coordinate of the seats' nodes among those of the assembly, ascending, and the shaft of each.
+    nodes: Vec<(usize, usize)>,
+    /// Shaft of each mode.
+    modes: Vec<usize>,
+    basis: DMatrix<f64>,
+    pub(super) mass: DMatrix<f64>,
+    pub(super) stiffness: DMatrix<f64>,
+    pub(super) damping: DMatrix<f64>,
+    certificate: ReductionCertificate,
+}
+
+/// How well few coordinates stand for all.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReductionCertificate {
+    /// Coordinates of the whole, and of the reduced model.
+    pub coordinates: [usize; 2],
+    /// Modes of shafts with their seats held that are kept.
+    pub modes: usize,
+    /// Frequency that was asked for, rad/s.
+    pub limit: f64,
+    /// Natural frequencies up to there, without meshes and at rest, that were compared with those of the whole.
+    pub compared: usize,
+    /// Largest relative difference among them.
+    pub error: f64,
+}
+
+impl ReducedBodies {
+    /// Reduces an assembly whose shafts `held` neither bend nor shift; natural frequencies up to `limit` (rad/s) are held
+    /// against those of all nodes.
+    ///
+    /// # Errors
+    /// [`GearboxError::OutOfRange`] for a limit that is not above 0, [`GearboxError::Matrix`] where a coordinate has
+    /// neither mass nor stiffness.
+    pub fn new(assembly: &Assembly, held: &[bool], limit: f64) -> Result<Self, GearboxError> {
+        if !(limit > 0.0 && limit.is_finite()) {
+            let quantity = "highest frequency, rad/s";
+            return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value: limit });
+        }
+        let nodes = nodes(assembly);
+        let kept: Vec<usize> = nodes.iter().flat_map(|(n, _)| *n..*n + 6).collect();
+        let (k, m) = (assembly.stiffness_without_meshes(), assembly.mass());
+        let condensation = Condensation::new(&k, &kept)?;
+        let mut columns: Vec<DVector<f64>> = Vec::new();
+        let mut modes = Vec::new();
+        for (shaft, (at, line)) in assembly.lines().enumerate().filter(|(s, _)| !held[*s]) {
+            let inner: Vec<usize> = (at..at + line.mass.nrows()).filter(|i| !kept.contains(i)).collect();
+            if inner.is_empty() {
+                continue;
+            }
+            let Modes { frequencies, shapes } = natural_modes(&block(&k, &inner), &block(&m, &inner))?;
+            for (i, _) in frequencies.iter().enumerate().filter(|(_, w)| **w <= BEYOND * limit) {
+                let mut column = DVector::zeros(assembly.size());
+                inner.iter().enumerate().for_each(|(row, &at)| column[at] = shapes[(row, i)]);
+                columns.push(column);
+                modes.push(shaft);
+            }
+        }
+        let seats = kept.len();
+        let basis = DMatrix::from_fn(assembly.size(), seats + columns.len(), |i, j| {
+            if j < seats { condensation.map[(i, j)] } else { columns[j - seats][i] }
+        });
+        let of = |matrix: &DMatrix<f64>| {
+            let raw = basis.transpose() * matrix * &basis;
+            0.5 * (&raw + raw.transpose())
+        };
+        let (mass, stiffness, damping) = (of(&m), of(&k), of(&assembly.damping()));
+        let coordinates = [assembly.size(), basis.ncols()];
+        let certificate = ReductionCertificate { coordinates, modes: modes.len(), limit, compared: 0, error: 0.0 };
+        let mut bodies = Self { nodes, modes, basis, mass, stiffness, damping, certificate };
+        bodies.compare(assembly, held, [&k, &m])?;
+        Ok(bodies)
+    }
+
+    /// Holds natural frequencies against those of all nodes; held shafts are left out on both sides.
+    fn compare(&mut self, assembly: &Assembly, held: &[bool], [k, m]: [&DMatrix<f64>; 2]) -> Result<(), GearboxError> {
+        let limit = self.certificate.limit;
+        let frequencies = |k: DMatrix<f64>, m: DMatrix<f64>| -> Result<Vec<f64>, GearboxError> {
+            if k.is_empty() {
+                return Ok(Vec::new());
+            }
+            let found = natural_modes(&k, &m)?.frequencies;
+            Ok(found.into_iter().filter(|w| *w > RIGID * limit).collect())
+        };
+        let free = |shaft: &usize| !held[*shaft];
+        let ranges = assembly.lines().map(|(at, line)| at..at + line.mass.nrows()).enumerate();
+        let all: Vec<usize> = ranges.filter(|(shaft, _)| free(shaft)).flat_map(|(_, own)| own).collect();
+        let own: Vec<usize> = (0..self.size()).filter(|i| free(&self.shaft(*i))).collect();
+        let whole = frequencies(block(k, &all), block(m, &all))?;
+        let few = frequencies(block(&self.stiffness, &own), block(&self.mass, &own))?;
+        let below = whole.iter().take_while(|w| **w <= limit).count();
+        let errors = whole.iter().take(below).enumerate().map(|(i, w)| few.get(i).map_or(1.0, |f| (f / w - 1.0).abs()));
+        self.certificate.error = errors.fold(0.0, f64::max);
+        self.certificate.compared = below;
+        Ok(())
+    }
+
+    /// How well they stand for all nodes.
+    pub fn certificate(&self) -> &ReductionCertificate {
+        &self.certificate
+    }
+
+    /// Number of coordinates y.
+    pub fn size(&self) -> usize {
+        self.basis.ncols()
+    }
+
+    /// Shaft that a coordinate belongs to.
+    pub(super) fn shaft(&self, coordinate: usize) -> usize {
+        match self.nodes.get(coordinate / 6) {
+            Some((_, shaft)) => *shaft,
+            None => self.modes[coordinate - 6 * self.nodes.len()],
+        }
+    }
+
+    /// Which of the six coordinates of a node this one is; `None` for modes.
+    pub(super) fn axis(&self, coordinate: usize) -> Option<usize> {
+        (coordinate < 6 * self.nodes.len()).then_some(coordinate % 6)
+    }
+
+    /// First coordinate of a node of the assembly.
+    pub(super) fn of_node(&self, node: usize) -> usize {
+        6 * self.nodes.iter().position(|(n, _)| *n == node).unwrap_or(0)
+    }
+
+    /// A matrix of all nodes in reduced coordinates; skew-symmetric ones stay so to the last bit.
+    pub(super) fn skew(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        let raw = self.basis.transpose() * matrix * &self.basis;
+        0.5 * (&raw - raw.transpose())
+    }
+}
+
+/// Nodes of discs and bearings, each once.
+fn nodes(assembly: &Assembly) -> Vec<(usize, usize)> {
+    let structure = assembly.structure();
+    let discs = structure.discs.iter().enumerate().filter_map(|(i, d)| Some((assembly.disc(i)?, d.shaft)));
+    let bearings = structure.bearings.iter().enumerate().map(|(i, b)| (assembly.bearing(i), b.shaft));
+    let mut all: Vec<(usize, usize)> = discs.chain(bearings).collect();
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+fn block(matrix: &DMatrix<f64>, of: &[usize]) -> DMatrix<f64> {
+    DMatrix::from_fn(of.len(), of.len(), |i, j| matrix[(of[i], of[j])])
+}

@@ -1,0 +1,75 @@
+//! A motion from its start, row by row.
+
+use integrate::{Integrator, Ledger, Scheme, State, StepControl};
+
+use super::{GearboxEnergy, GearboxInstant, GearboxMechanism};
+use crate::GearboxError;
+
+/// How a motion is integrated.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MotionPlan {
+    /// Method.
+    pub scheme: Scheme,
+    /// Length of a step, s.
+    pub step: f64,
+    /// Steps in all.
+    pub steps: u64,
+    /// Steps a row.
+    pub steps_per_row: u64,
+}
+
+/// How a motion ended.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxRun {
+    /// State at the start and at the end.
+    pub states: [State; 2],
+    /// Energy of the deviations as the integrator has it.
+    pub ledger: Ledger,
+    /// Energy in common axes.
+    pub energy: GearboxEnergy,
+    /// Steps taken.
+    pub steps: u64,
+    /// Steps that were taken in parts, where one had no solution.
+    pub divided: u64,
+    /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
+    pub separations: Vec<[u64; 2]>,
+    /// How much of what each mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
+    pub reach: Vec<f64>,
+}
+
+impl GearboxMechanism {
+    /// Runs from `start`; `seen` is told of rows, the start among them, and stops the motion by `false`.
+    ///
+    /// # Errors
+    /// [`GearboxError::Motion`] of the integrator, those of the meshes.
+    pub fn run(
+        &mut self,
+        start: &State,
+        plan: &MotionPlan,
+        mut seen: impl FnMut(&GearboxInstant) -> bool,
+    ) -> Result<GearboxRun, GearboxError> {
+        let scale = self.scale(start);
+        let mut integrator = Integrator::new(plan.scheme, StepControl::Fixed(plan.step), scale);
+        let mut state = start.clone();
+        let mut separations = vec![[0; 2]; self.live.len()];
+        let per_row = plan.steps_per_row.max(1);
+        let rows = plan.steps.div_ceil(per_row);
+        for row in 0..=rows {
+            // Times are counted from the start: sums of steps would drift.
+            let until = start.time + plan.step * (row * per_row).min(plan.steps) as f64;
+            integrator.advance(self, &mut state, until, |_, progress| {
+                for crossing in progress.crossings.iter().filter(|c| c.direction == integrate::Direction::Down) {
+                    separations[crossing.event / 2][crossing.event % 2] += 1;
+                }
+            })?;
+            if !seen(&self.instant(&state)?) {
+                break;
+            }
+        }
+        let ledger = integrator.ledger().copied().unwrap_or_default();
+        let energy = self.energy(start, &state, &ledger)?;
+        let [steps, divided] = integrator.steps();
+        let (states, reach) = ([start.clone(), state], self.reach.clone());
+        Ok(GearboxRun { states, ledger, energy, steps, divided, separations, reach })
+    }
+}

@@ -1,0 +1,183 @@
+//! A mesh as a spring whose stiffness follows the mesh cycle, with pitch errors, backlash and a damper. Theory (94).
+
+use std::f64::consts::TAU;
+
+use lumped::{
+    Fourier,
+    shaft18::{MeshGeometry, MeshLine},
+};
+use nalgebra::{SMatrix, Vector6};
+
+use super::{MeshDamper, MovingMesh, PitchErrors, normal_damper::NormalDamper};
+use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12};
+
+/// Flanks that press along one line of action.
+///
+/// ```text
+/// delta = h . d + e(c) - j,   e: excess and pitch errors,   V = k(c) delta^2/2,   F = k delta  (delta > 0),   0 else
+/// ```
+#[derive(Debug, Clone)]
+struct Flanks {
+    /// h.
+    lever: Vector12,
+    /// j: clearance, mm.
+    clearance: f64,
+    /// Whether excess and errors press (+1) or relieve (-1) these flanks.
+    errors: f64,
+    at: Pressed,
+}
+
+/// Where flanks are.
+#[derive(Debug, Clone, Copy, Default)]
+struct Pressed {
+    /// delta, mm.
+    compression: f64,
+    /// k (N/mm) and dk/dc.
+    stiffness: [f64; 2],
+    /// de/dc, mm a cycle.
+    error_rate: f64,
+}
+
+impl Pressed {
+    fn force(&self) -> f64 {
+        if self.compression > 0.0 { self.stiffness[0] * self.compression } else { 0.0 }
+    }
+}
+
+/// A mesh of few numbers: for vibration of the shafts, where the contact itself is not asked for.
+#[derive(Debug, Clone)]
+pub struct SpringMesh {
+    sides: [Option<Flanks>; 2],
+    stiffness: Fourier,
+    excess: Fourier,
+    errors: PitchErrors,
+    damping: f64,
+    cycles: f64,
+}
+
+impl SpringMesh {
+    /// The flanks that drive, of a mesh as it runs; `stiffness` along the normal (N/mm) over the phase, 2 pi a mesh
+    /// cycle. Without errors, backlash and damping.
+    ///
+    /// # Errors
+    /// [`GearboxError::Mesh`] where the gears have no line of action, [`GearboxError::OutOfRange`] for a stiffness that
+    /// is not above 0 everywhere.
+    pub fn new(mesh: &Mesh, meshing: &Meshing, stiffness: Fourier) -> Result<Self, GearboxError> {
+        let least = stiffness.least();
+        if !(least > 0.0 && least.is_finite()) {
+            let (part, quantity) = (mesh.name.clone(), "mesh stiffness, N/mm");
+            return Err(GearboxError::OutOfRange { part, quantity, value: least });
+        }
+        let drive =
+            Flanks { lever: lever(&line(mesh, meshing.side())?), clearance: 0.0, errors: 1.0, at: Pressed::default() };
+        let (excess, errors) = (Fourier::constant(0.0), PitchErrors::default());
+        Ok(Self { sides: [Some(drive), None], stiffness, excess, errors, damping: 0.0, cycles: 0.0 })
+    }
+
+    /// With flanks that are thicker than nominal ones, mm along the normal over the phase, 2 pi a mesh cycle: the static
+    /// transmission error is in it.
+    #[must_use]
+    pub fn with_excess(self, excess: Fourier) -> Self {
+        Self { excess, ..self }
+    }
+
+    /// With pitch errors of both gears.
+    #[must_use]
+    pub fn with_errors(self, errors: PitchErrors) -> Self {
+        Self { errors, ..self }
+    }
+
+    /// With the other flanks at the pair's backlash, along their own line of action.
+    ///
+    /// # Errors
+    /// As [`SpringMesh::new`].
+    pub fn with_coast_flanks(mut self, mesh: &Mesh, meshing: &Meshing) -> Result<Self, GearboxError> {
+        let line = line(mesh, meshing.side().opposite())?;
+        // Backlash is counted on the transverse line of action.
+        let clearance = mesh.pair.backlash() * line.cos_base_helix;
+        self.sides[1] = Some(Flanks { lever: lever(&line), clearance, errors: -1.0, at: Pressed::default() });
+        Ok(self)
+    }
+
+    /// With a damper along the normal, N s/mm, that is held at the force of the flanks: none pulls, and none pushes
+    /// where contact only begins.
+    #[must_use]
+    pub fn with_damping(self, damping: f64) -> Self {
+        Self { damping, ..self }
+    }
+
+    /// Mean stiffness along the normal, N/mm.
+    pub fn mean_stiffness(&self) -> f64 {
+        self.stiffness.mean
+    }
+
+    fn flanks(&self) -> impl Iterator<Item = &Flanks> {
+        self.sides.iter().flatten()
+    }
+}
+
+impl MeshElement for SpringMesh {
+    fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
+        if !cycles.is_finite() {
+            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
+        }
+        self.cycles = cycles;
+        Ok(())
+    }
+
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+        let phase = TAU * (self.cycles - self.cycles.floor());
+        let ([k, slope], [excess, along]) = (self.stiffness.with_slope(phase), self.excess.with_slope(phase));
+        let [own, own_rate] = self.errors.at(self.cycles);
+        let [error, error_rate] = [excess + own, TAU * along + own_rate];
+        let mut reply = MeshReply { force: Vector12::zeros(), tangent: SMatrix::zeros(), normal_force: 0.0 };
+        for side in self.sides.iter_mut().flatten() {
+            let compression = side.lever.dot(displacements) + side.errors * error - side.clearance;
+            side.at = Pressed { compression, stiffness: [k, TAU * slope], error_rate: side.errors * error_rate };
+            if compression > 0.0 {
+                reply.force -= side.at.force() * side.lever;
+                reply.tangent -= k * side.lever * side.lever.transpose();
+                reply.normal_force += side.at.force();
+            }
+        }
+        Ok(reply)
+    }
+}
+
+impl MovingMesh for SpringMesh {
+    fn energy(&self) -> f64 {
+        self.flanks().map(|s| 0.5 * s.at.force() * s.at.compression).sum()
+    }
+
+    fn energy_rate(&self) -> f64 {
+        let of = |s: &Flanks| {
+            let square = s.at.compression.max(0.0).powi(2);
+            0.5 * s.at.stiffness[1] * square + s.at.force() * s.at.error_rate
+        };
+        self.flanks().map(of).sum()
+    }
+
+    fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper {
+        let mut all = MeshDamper::default();
+        for side in self.flanks().filter(|s| s.at.compression > 0.0) {
+            let (force, by_cycles) = (side.at.force(), side.at.error_rate);
+            let (lever, damping, stiffness) = (&side.lever, self.damping, side.at.stiffness[0]);
+            NormalDamper { lever, damping, force, stiffness, by_cycles }.add(rates, cycles, &mut all);
+        }
+        all
+    }
+
+    fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
+        Ok(self.sides.each_ref().map(|s| s.as_ref().map_or(f64::NEG_INFINITY, |s| s.at.compression)))
+    }
+}
+
+fn line(mesh: &Mesh, side: geometry::Side) -> Result<MeshLine, GearboxError> {
+    let line = MeshGeometry::of_pair(&mesh.pair, side).line();
+    line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })
+}
+
+fn lever(line: &MeshLine) -> Vector12 {
+    let h: &[Vector6<f64>; 2] = &line.levers;
+    Vector12::from_fn(|i, _| h[i / 6][i % 6])
+}

@@ -1,0 +1,114 @@
+//! Where a motion begins: in equilibrium, moving on as the equilibrium moves.
+
+use fem::natural_modes;
+use integrate::{Forces, Mechanism, State};
+use nalgebra::{DMatrix, DVector};
+
+use super::GearboxMechanism;
+use crate::{
+    GearboxError,
+    equilibrium::{Left, Norms, equilibrium},
+    static_gearbox::{guessed_lever, guessed_stiffness},
+};
+
+/// Share of a cycle of the fastest mesh either way over which velocities are taken.
+const SPAN: f64 = 1e-3;
+/// Size of a coordinate that the equilibrium does not move, over the largest of its kind.
+const LEAST: f64 = 1e-3;
+
+impl GearboxMechanism {
+    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly; and modal damping
+    /// about it from now on.
+    ///
+    /// ```text
+    /// C += M Phi diag(2 zeta omega) Phi' M,   (K - df_mesh/dz) Phi = M Phi omega^2
+    /// ```
+    /// # Errors
+    /// [`GearboxError`] where there is no equilibrium.
+    pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
+        let z = self.standing(0.0, None)?;
+        if modal_damping > 0.0 {
+            let k = self.tangent(&z)?;
+            let modes = natural_modes(&k, &self.mass)?;
+            // A tangent has round-off: what turns the whole train is no elastic mode.
+            let turning = usize::from(self.free.turn.is_some());
+            for (i, omega) in modes.frequencies.iter().enumerate().skip(turning) {
+                let heavy = &self.mass * modes.shapes.column(i);
+                self.damping.ger(2.0 * modal_damping * omega, &heavy, &heavy, 1.0);
+            }
+            if let Some(i) = self.free.turn {
+                self.damping.row_mut(i).fill(0.0);
+                self.damping.column_mut(i).fill(0.0);
+            }
+        }
+        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let speed = self.input_speed();
+        let mut v = DVector::zeros(z.len());
+        if speed != 0.0 {
+            let way = SPAN / fastest;
+            let after = self.standing(way, Some(&z))?;
+            let before = self.standing(-way, Some(&z))?;
+            v = (after - before) * (speed / (2.0 * way));
+        }
+        if let Some(i) = self.free.turn {
+            v[i] = speed;
+        }
+        Ok(State::new(0.0, z, v))
+    }
+
+    /// Sizes of the coordinates: what deflections and turns are at `state`.
+    pub fn scale(&self, state: &State) -> DVector<f64> {
+        let of = |turns: bool| {
+            let own = state.q.iter().zip(&self.free.turns).filter(|(_, t)| **t == turns).map(|(x, _)| x.abs());
+            own.fold(0.0, f64::max)
+        };
+        let sizes = [of(false).max(1e-6), of(true).max(1e-9)];
+        let one = |(x, turns): (&f64, &bool)| x.abs().max(LEAST * sizes[usize::from(*turns)]);
+        let mut scale = DVector::from_iterator(state.q.len(), state.q.iter().zip(&self.free.turns).map(one));
+        if let Some(i) = self.free.turn {
+            scale[i] = sizes[1];
+        }
+        scale
+    }
+
+    /// Equilibrium with the input turned by an angle (rad about +z); the turn itself is left at 0.
+    fn standing(&mut self, angle: f64, from: Option<&DVector<f64>>) -> Result<DVector<f64>, GearboxError> {
+        // The turn of the whole train comes last, if it is one.
+        let count = self.count();
+        let n = count - usize::from(self.free.turn.is_some());
+        let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
+        let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
+        let load = self.loads[0].rows(0, n).into_owned();
+        let mut guessed = stiffness.clone();
+        for (i, (mesh, meshing)) in self.meshes.iter().zip(self.train.meshing()).enumerate() {
+            let lever = self.live[i].to_gears.tr_mul(&guessed_lever(mesh, meshing)?);
+            let lever = lever.rows(0, n).into_owned();
+            guessed.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
+        }
+        let norms = Norms::new(guessed)?;
+        let start = from.map_or_else(|| norms.displacements(&load), |z| z.rows(0, n).into_owned());
+        let found = equilibrium(&norms, &load, start, |z| {
+            let mut left = Left { residual: &stiffness * z - &load, tangent: stiffness.clone() };
+            let whole = all(z);
+            for i in 0..self.live.len() {
+                let cycles = self.cycles(i, angle);
+                let d = self.displacements(i, &whole);
+                let live = &mut self.live[i];
+                let reply = live.reply(&self.meshes[i], cycles, &d)?.clone();
+                let own = live.to_gears.columns(0, n);
+                left.residual -= own.tr_mul(&reply.force);
+                left.tangent -= own.tr_mul(&(reply.tangent * own));
+            }
+            Ok(left)
+        })?;
+        Ok(all(&found.displacements))
+    }
+
+    /// K - df_mesh/dz at a place, symmetric.
+    fn tangent(&mut self, z: &DVector<f64>) -> Result<DMatrix<f64>, GearboxError> {
+        let mut forces = Forces::zeros(z.len());
+        self.forces(0.0, z, &DVector::zeros(z.len()), &mut forces)?;
+        let k = forces.stiffness;
+        Ok(0.5 * (&k + k.transpose()))
+    }
+}

@@ -1,0 +1,358 @@
+//! Laws of motion in time: energy, phases, sidebands, and the pair alone.
+
+use std::f64::consts::{PI, TAU};
+
+use gearbox::{
+    Disc, Mesh, Operation, Structure, Torque,
+    motion::{Drive, GearboxInstant, GearboxMechanism, MotionOptions, MotionPlan, PitchErrors, SpringMesh},
+};
+use geometry::Sense;
+use integrate::{Integrator, Scheme, State, StepControl};
+use lumped::{
+    Fourier,
+    shaft18::{
+        MeshGeometry, Segment, Shaft as LumpedShaft, ShaftMechanism, ShaftStation, ShaftSystem, ShaftTorque, Station,
+    },
+};
+use nalgebra::DVector;
+
+use crate::pairs::{operation, pair, single, two_stages};
+
+/// Two stages whose gears and couplings have mass.
+fn heavy() -> (Structure, Vec<Mesh>) {
+    let (mut structure, meshes) = two_stages();
+    let gear = |disc: &mut Disc, outer: f64| {
+        *disc = Disc::ring(disc.name.clone(), disc.shaft, disc.position, [outer, 30.0], 20.0, 7.85e-9);
+    };
+    for (i, outer) in [53.0, 160.0, 58.0, 145.0, 80.0, 120.0].into_iter().enumerate() {
+        gear(&mut structure.discs[i], outer);
+    }
+    (structure, meshes)
+}
+
+const OUTPUT: f64 = 4e5;
+
+fn loaded(structure: &Structure, sense: Sense) -> Operation {
+    let torque = -(sense.sign() as f64) * OUTPUT;
+    operation(structure, 4, sense, vec![Torque { disc: 5, torque }])
+}
+
+fn stiffness() -> Fourier {
+    Fourier { mean: 4e5, cosine: vec![5e4], sine: vec![2e4, 1e4] }
+}
+
+/// A train of two stages whose meshes have a varying stiffness, a damper, backlash and pitch errors on gear 2.
+fn train(drive: Drive, sense: Sense, error: f64) -> GearboxMechanism {
+    let (structure, meshes) = heavy();
+    let options = MotionOptions { drive, modal_damping: 0.01, limit: TAU * 4000.0 };
+    let operation = loaded(&structure, sense);
+    GearboxMechanism::new(structure, meshes, operation, &options, |i, mesh, meshing| {
+        let mut teeth = [Vec::new(), vec![0.0; 53]];
+        if i == 0 {
+            teeth[1][7] = error;
+        } else {
+            teeth[1].clear();
+        }
+        let spring =
+            SpringMesh::new(mesh, meshing, stiffness())?.with_damping(20.0).with_coast_flanks(mesh, meshing)?;
+        Ok(Box::new(spring.with_errors(PitchErrors::new(teeth)?)))
+    })
+    .unwrap()
+}
+
+fn run(
+    mechanism: &mut GearboxMechanism,
+    scheme: Scheme,
+    cycles: f64,
+    steps_per_cycle: u32,
+) -> (Vec<GearboxInstant>, gearbox::motion::GearboxRun) {
+    let start = mechanism.start(0.01).unwrap();
+    let step = 1.0 / mechanism.mesh_frequencies()[0] / f64::from(steps_per_cycle);
+    let steps = (cycles * f64::from(steps_per_cycle)).round() as u64;
+    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1 };
+    let mut rows = Vec::new();
+    let run = mechanism.run(&start, &plan, |instant| {
+        rows.push(instant.clone());
+        true
+    });
+    (rows, run.unwrap())
+}
+
+/// Work of input and output is stored or taken by dampers, at given speed and under a given torque, either way round;
+/// and the input's work by its ledger is that of its torque at every instant.
+#[test]
+fn energy_of_a_train_of_two_stages_is_accounted_for() {
+    let speed = 100.0;
+    for (drive, sense) in [
+        (Drive::Speed(speed), Sense::Ccw),
+        (Drive::Speed(speed), Sense::Cw),
+        (Drive::Torque { start: speed, torque: None }, Sense::Ccw),
+        (Drive::Torque { start: speed, torque: Some(1.1 * OUTPUT * 17.0 * 19.0 / 53.0 / 47.0) }, Sense::Cw),
+    ] {
+        let mut mechanism = train(drive, sense, 0.004);
+        let (rows, done) = run(&mut mechanism, Scheme::Energy, 30.0, 60);
+        let energy = done.energy;
+        let said = format!("{drive:?}, {sense:?}: {energy:?}");
+        assert!(energy.relative_residual.abs() < 1e-9, "{said}");
+        assert!(energy.input_work > 0.0 && energy.output_work < 0.0 && energy.dissipated > 0.0, "{said}");
+        assert!(energy.shafts > 0.0 && energy.supports > 0.0 && energy.meshes > 0.0 && energy.kinetic > 0.0, "{said}");
+        let power = |p: &GearboxInstant| p.input_torque * p.input[1];
+        let work: f64 = rows.windows(2).map(|w| 0.5 * (power(&w[0]) + power(&w[1])) * (w[1].time - w[0].time)).sum();
+        // Trapezoids on 60 rows a cycle, with the ripple of both meshes in the torque.
+        assert!((work / energy.input_work - 1.0).abs() < 2e-3, "{work} beside {said}");
+        let out: f64 = rows
+            .windows(2)
+            .map(|w| 0.5 * (w[0].output_speeds[0] + w[1].output_speeds[0]) * (w[1].time - w[0].time))
+            .sum();
+        let of_load = -(sense.sign() as f64) * OUTPUT * out;
+        let off = of_load / energy.output_work - 1.0;
+        assert!(off.abs() < 1e-3, "{of_load} beside {said}");
+    }
+}
+
+/// With generalised-alpha, what does not close falls with the square of the step.
+#[test]
+fn the_energy_residual_of_generalised_alpha_falls_with_the_square_of_the_step() {
+    let residual = |steps: u32| {
+        let mut mechanism = train(Drive::Speed(100.0), Sense::Ccw, 0.0);
+        run(&mut mechanism, Scheme::GeneralisedAlpha { rho: 0.9 }, 10.0, steps).1.energy.relative_residual.abs()
+    };
+    let [coarse, fine] = [residual(200), residual(400)];
+    assert!(fine < 1e-4, "{coarse:.1e}, {fine:.1e}");
+    assert!(fine < 0.35 * coarse, "{coarse:.1e}, {fine:.1e}");
+}
+
+/// The phases of both meshes count the teeth that have gone through, in either sense, driven by speed or by torque: 17
+/// a turn of the input at the first mesh and 17/53 19 at the second.
+#[test]
+fn phases_in_motion_are_those_counted_by_hand() {
+    for drive in [Drive::Speed(150.0), Drive::Torque { start: 150.0, torque: None }] {
+        for sense in [Sense::Ccw, Sense::Cw] {
+            let mut mechanism = train(drive, sense, 0.0);
+            let (rows, _) = run(&mut mechanism, Scheme::Energy, 20.0, 30);
+            let (first, last) = (&rows[0], &rows[rows.len() - 1]);
+            let turns = (last.input[0] - first.input[0]) / TAU * sense.sign() as f64;
+            assert!((turns - 20.0 / 17.0).abs() < 0.01, "{turns} turns of the input");
+            for (mesh, teeth) in [17.0, 17.0 / 53.0 * 19.0].into_iter().enumerate() {
+                let gone = last.meshes[mesh].cycles - first.meshes[mesh].cycles;
+                assert!((gone - turns * teeth).abs() < 1e-9, "mesh {mesh}: {gone} beside {}", turns * teeth);
+            }
+            let ratio = last.output_speeds[0] / last.input[1];
+            let wanted = 17.0 * 19.0 / 53.0 / 47.0;
+            assert!((ratio / wanted - 1.0).abs() < 0.02, "{ratio} beside {wanted}");
+        }
+    }
+}
+
+/// Amplitudes of a signal over one whole period, by orders.
+fn amplitude(samples: &[f64], order: usize) -> f64 {
+    let n = samples.len();
+    let sum = |of: fn(f64) -> f64| -> f64 {
+        samples.iter().enumerate().map(|(i, x)| x * of(TAU * ((order * i) % n) as f64 / n as f64)).sum()
+    };
+    2.0 * sum(f64::cos).hypot(sum(f64::sin)) / n as f64
+}
+
+/// One wrong tooth of gear 2 meets its mate once a turn of the middle shaft: the forces of both meshes then have the
+/// frequency of that shaft, and lines beside their mesh frequencies at distances of it. With all teeth alike they have
+/// none of them. The transmission error of the first mesh has the tooth's own share at the shaft's frequency.
+#[test]
+fn a_pitch_error_on_the_middle_shaft_shows_at_its_frequency_at_both_meshes() {
+    let wrong_by = 0.01;
+    let spectra = |error: f64| {
+        let mut mechanism = train(Drive::Speed(60.0), Sense::Ccw, error);
+        // 53 cycles of the first mesh are a turn of the middle shaft: one to settle, one to look at.
+        let (rows, _) = run(&mut mechanism, Scheme::Energy, 2.0 * 53.0, 40);
+        let turn = &rows[rows.len() - 1 - 53 * 40..rows.len() - 1];
+        let force = |mesh: usize| turn.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
+        ([force(0), force(1)], turn.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>())
+    };
+    let ((wrong, lag), (right, _)) = (spectra(wrong_by), spectra(0.0));
+    for (mesh, teeth) in [53, 19].into_iter().enumerate() {
+        let mean = right[mesh].iter().sum::<f64>() / right[mesh].len() as f64;
+        for order in [1, 2, teeth - 1, teeth + 1] {
+            let [with, without] = [&wrong, &right].map(|all| amplitude(&all[mesh], order) / mean);
+            assert!(with > 1e3 * without, "mesh {mesh}, order {order} of the shaft: {with:.1e} beside {without:.1e}");
+        }
+        let own = amplitude(&right[mesh], teeth) / mean;
+        assert!(own > 1e-3, "mesh {mesh} at its mesh frequency: {own:.1e}");
+        let sideband = amplitude(&wrong[mesh], teeth + 1) / mean;
+        assert!(sideband > 1e-6, "mesh {mesh} beside its mesh frequency: {sideband:.1e}");
+    }
+    // The tooth counts for a cycle of 53: 2 e/53 at the first order, on the transverse line of action.
+    let helix = pair([17, 53], 15.0).base_helix_angle();
+    let (found, wanted) = (amplitude(&lag, 1), 2.0 * wrong_by / 53.0 / helix.cos());
+    // What little the shafts turn against each other is the rest.
+    assert!((found / wanted - 1.0).abs() < 0.02, "{found:.3e} mm beside {wanted:.3e} mm");
+}
+
+/// Two rigid shafts in rigid bearings and the spring between their gears are the pair's own model: started 20 um off
+/// its equilibrium the pair rings, flanks part and meet, the same way step by step.
+///
+/// The model knows the phase by nominal time: alike for a stiffness that is always the same, and for one that varies
+/// where the pinion is so heavy that it keeps its speed.
+#[test]
+fn a_pair_alone_moves_as_its_own_model() {
+    for (k, pinion, tolerance) in [(Fourier::constant(4e5), 0.2, 1e-8), (stiffness(), 2e5, 1e-5)] {
+        let [found, wanted] = pair_alone(&k, [pinion, 9.0]);
+        let size = wanted.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let off = found.iter().zip(&wanted).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(size > 0.015, "{size} mm");
+        assert!(off < tolerance * size, "pinion of {pinion} t mm^2: {off:.2e} mm of {size:.2e} mm");
+    }
+}
+
+/// Transmission errors of the pair in the gearbox and of its own model, step by step.
+fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
+    let gears = pair([17, 53], 15.0);
+    let mut structure = single(&gears, 0.0);
+    for (disc, polar) in structure.discs.iter_mut().zip(inertia) {
+        (disc.mass, disc.polar_inertia, disc.diametral_inertia) = (1e-3, polar, 0.5 * polar);
+    }
+    let (speed, torque) = (300.0, 2e5);
+    let mut operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
+    operation.held = vec![0, 1];
+    let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
+    let options =
+        MotionOptions { drive: Drive::Torque { start: speed, torque: None }, modal_damping: 0.0, limit: TAU * 1000.0 };
+    let mut mechanism = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
+        Ok(Box::new(SpringMesh::new(mesh, meshing, k.clone())?.with_coast_flanks(mesh, meshing)?))
+    })
+    .unwrap();
+    assert_eq!(mechanism.count(), 2);
+    let mut start = mechanism.start(0.0).unwrap();
+    // Coordinates: turn of the wheel beside the nominal one, turn of the input.
+    let r = [gears.pinion.base_radius(), gears.wheel.base_radius()];
+    start.q[0] += 0.02 / r[1];
+    start.v.fill(0.0);
+    start.v[1] = speed;
+    // Polar inertia of discs and shafts, as the gearbox has them.
+    let mass = integrate::Mechanism::mass(&mechanism).clone();
+    let ratio = -17.0 / 53.0;
+    let of_wheel = mass[(0, 0)];
+    let of_pinion = mass[(1, 1)] - ratio * ratio * of_wheel;
+    let meshing = mechanism.train().meshing()[0];
+    let geometry = MeshGeometry::of_pair(&gears, meshing.side());
+    let half = 0.5 * gears.backlash() * geometry.line().unwrap().cos_base_helix;
+    // The phase that the pair has at the start, as the model counts from t = 0.
+    let phase = mechanism.train().cycles(0.0)[0] * TAU;
+    let shifted = Fourier {
+        mean: k.mean,
+        cosine: (1..=2).map(|n| shifted_by(&k, n, phase)[0]).collect(),
+        sine: (1..=2).map(|n| shifted_by(&k, n, phase)[1]).collect(),
+    };
+    let system = ShaftSystem {
+        shafts: [of_pinion, of_wheel].map(turning).into(),
+        meshes: vec![lumped::shaft18::Mesh {
+            gears: [0, 1].map(|shaft| ShaftStation { shaft, station: 0 }),
+            geometry,
+            stiffness: shifted,
+            damping_ratio: 0.0,
+            half_backlash: half,
+            error: Fourier::constant(0.0),
+            run_out: Default::default(),
+        }],
+        torques: [-torque * ratio, torque]
+            .into_iter()
+            .enumerate()
+            .map(|(shaft, torque)| ShaftTorque { place: ShaftStation { shaft, station: 0 }, torque })
+            .collect(),
+        speed,
+        ..ShaftSystem::default()
+    };
+    let mut own = ShaftMechanism::new(&system).unwrap();
+    let lean = integrate::Mechanism::mass(&own).clone();
+    assert!((lean[(0, 0)] / of_pinion - 1.0).abs() < 1e-6, "{} beside {of_pinion}", lean[(0, 0)]);
+    // The model's zero is the middle of the backlash.
+    let beyond = half / geometry.line().unwrap().cos_base_helix;
+    let q = DVector::from_vec(vec![meshing.side().sign() * beyond / r[0], start.q[0]]);
+    let mut state = State::new(0.0, q, DVector::zeros(2));
+    let step = 1.0 / mechanism.mesh_frequencies()[0] / 100.0;
+    let steps = 400;
+    let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
+    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1 };
+    let mut found = Vec::new();
+    let done = mechanism
+        .run(&start, &plan, |instant| {
+            found.push(instant.meshes[0].transmission_error);
+            true
+        })
+        .unwrap();
+    let mut integrator = Integrator::new(scheme, StepControl::Fixed(step), own.scale());
+    let mut wanted = vec![meshing.side().sign() * r[1] * start.q[0]];
+    for i in 1..=steps {
+        integrator.advance(&mut own, &mut state, step * i as f64, |_, _| ()).unwrap();
+        wanted.push(meshing.side().sign() * (r[0] * state.q[0] + r[1] * state.q[1]) - beyond);
+    }
+    assert!(done.separations[0][0] > 3, "the flanks come apart: {:?}", done.separations);
+    [found, wanted]
+}
+
+/// Coefficients of order n of f(phi + by).
+fn shifted_by(f: &Fourier, n: usize, by: f64) -> [f64; 2] {
+    let ([a, b], (sin, cos)) = (f.coefficients(n), (n as f64 * by).sin_cos());
+    [a * cos + b * sin, b * cos - a * sin]
+}
+
+/// A shaft that turns and does nothing else.
+fn turning(polar_inertia: f64) -> LumpedShaft {
+    let segment = |length| Segment {
+        length,
+        outer_diameter: 20.0,
+        inner_diameter: 0.0,
+        young: 2.06e5,
+        poisson: 0.3,
+        density: 1e-20,
+    };
+    LumpedShaft {
+        segments: vec![segment(50.0)],
+        stations: vec![Station {
+            position: 25.0,
+            mass: 1e-3,
+            polar_inertia,
+            transverse_inertia: 0.5 * polar_inertia,
+            kept: [false, false, false, false, false, true],
+        }],
+        supports: [0.0, 50.0]
+            .map(|position| lumped::shaft18::Support {
+                position,
+                stiffness: [1e6, 1e6, 1e6, 0.0, 0.0, 0.0],
+                damping: [0.0; 6],
+            })
+            .into(),
+    }
+}
+
+/// Few coordinates show the natural frequencies of all nodes, those far below the limit the better.
+#[test]
+fn reduced_shafts_have_the_natural_frequencies_of_the_whole() {
+    let (structure, _) = heavy();
+    let assembly = gearbox::Assembly::new(structure).unwrap();
+    let reduced = |hz: f64| {
+        let bodies = gearbox::motion::ReducedBodies::new(&assembly, &[false; 3], 2.0 * PI * hz).unwrap();
+        *bodies.certificate()
+    };
+    let [low, high] = [reduced(3000.0), reduced(12_000.0)];
+    assert!(low.compared > 10 && high.compared > low.compared, "{low:?}, {high:?}");
+    assert!(high.modes > low.modes && high.coordinates[1] < high.coordinates[0], "{low:?}, {high:?}");
+    // Modes that are left out begin at twice the limit; their share falls with the fourth power of the distance.
+    assert!(low.error < 5e-3 && high.error < 2e-2, "{low:?}, {high:?}");
+}
+
+/// A bearing that holds its shaft's turn is refused by name, a speed that is none by its value.
+#[test]
+fn what_cannot_run_is_refused() {
+    let (mut structure, meshes) = heavy();
+    let options = |speed: f64| MotionOptions { drive: Drive::Speed(speed), modal_damping: 0.0, limit: 1e4 };
+    let made = |structure: &Structure, options: &MotionOptions| {
+        let operation = loaded(structure, Sense::Ccw);
+        GearboxMechanism::new(structure.clone(), meshes.clone(), operation, options, |_, mesh, meshing| {
+            Ok(Box::new(SpringMesh::new(mesh, meshing, Fourier::constant(1e5))?))
+        })
+    };
+    assert!(made(&structure, &options(f64::NAN)).is_err());
+    assert!(made(&structure, &options(10.0)).is_ok());
+    structure.bearings[1].stiffness[(5, 5)] = 1.0;
+    let refused = made(&structure, &options(10.0));
+    assert!(matches!(refused.err(), Some(gearbox::GearboxError::HeldTurn { bearing }) if bearing == "0 loose"));
+}

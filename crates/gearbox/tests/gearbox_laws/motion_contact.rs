@@ -1,0 +1,152 @@
+//! Laws of motion with the exact contact of the teeth, and with maps of it.
+
+use std::{f64::consts::TAU, sync::Arc};
+
+use gearbox::{
+    Disc, ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Operation, StaticGearbox, Structure, Torque, Vector12,
+    motion::{
+        ContactSpring, Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions,
+        MotionPlan, MovingExactMesh, MovingMesh,
+    },
+};
+use geometry::Sense;
+use integrate::Scheme;
+use ltca::StaticOptions;
+use reduction::ElasticGear;
+
+use crate::pairs::{operation, options, pair, reduced, single};
+
+const TORQUE: f64 = 1.5e5;
+
+/// A pair in shafts that bend, with its gears reduced.
+struct Box1 {
+    structure: Structure,
+    meshes: Vec<Mesh>,
+    operation: Operation,
+    gears: Arc<[ElasticGear; 2]>,
+    options: StaticOptions,
+    stands: Vec<Vector12>,
+    cycles: Vec<f64>,
+    mean_force: f64,
+}
+
+impl Box1 {
+    fn new() -> Self {
+        let gears = pair([23, 31], 12.0);
+        let mut structure = single(&gears, 0.3);
+        for (i, outer) in [66.0, 90.0].into_iter().enumerate() {
+            let d = &structure.discs[i];
+            structure.discs[i] = Disc::ring(d.name.clone(), d.shaft, d.position, [outer, 30.0], 20.0, 7.85e-9);
+        }
+        let operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
+        let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
+        let mut found = None;
+        let mut made = |_: usize, mesh: &Mesh, meshing: &Meshing| -> Result<Box<dyn MeshElement>, GearboxError> {
+            let options = options(&mesh.pair, meshing, TORQUE);
+            let gears = reduced(&mesh.pair, &options);
+            let element = ExactMesh::new(mesh.pair.clone(), Arc::clone(&gears), options.clone())?;
+            found = Some((gears, options));
+            Ok(Box::new(element))
+        };
+        let mut rest = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), &mut made).unwrap();
+        let positions: Vec<_> = (0..8).map(|i| rest.solve(TAU / 23.0 * f64::from(i) / 8.0).unwrap()).collect();
+        let (gears, options) = found.unwrap();
+        let stands = positions.iter().map(|p| Vector12::from(p.meshes[0].displacements)).collect();
+        let cycles = positions.iter().map(|p| p.meshes[0].cycles).collect();
+        let mean_force = positions.iter().map(|p| p.meshes[0].normal_force).sum::<f64>() / 8.0;
+        Self { structure, meshes, operation, gears, options, stands, cycles, mean_force }
+    }
+
+    fn map(&self) -> MappedMesh {
+        let request = MapRequest {
+            stands: self.stands.clone(),
+            mean_force: self.mean_force,
+            overload: 3.0,
+            tolerance: 2e-3,
+            worst: 2e-2,
+        };
+        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, &request).unwrap()
+    }
+
+    fn exact(&self) -> ExactMesh {
+        ExactMesh::new(self.meshes[0].pair.clone(), Arc::clone(&self.gears), self.options.clone()).unwrap()
+    }
+
+    fn run(&self, element: Box<dyn MovingMesh>, cycles: f64) -> (Vec<GearboxInstant>, GearboxRun) {
+        let drive = Drive::Speed(200.0);
+        let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 3000.0 };
+        let mut element = Some(element);
+        let (structure, meshes, operation) = (self.structure.clone(), self.meshes.clone(), self.operation.clone());
+        let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, _, _| Ok(element.take().unwrap()));
+        let mut mechanism = made.unwrap();
+        let start = mechanism.start(options.modal_damping).unwrap();
+        let step = 1.0 / mechanism.mesh_frequencies()[0] / 50.0;
+        let steps = (50.0 * cycles) as u64;
+        let plan = MotionPlan { scheme: Scheme::Energy, step, steps, steps_per_row: 1 };
+        let mut rows = Vec::new();
+        let done = mechanism.run(&start, &plan, |instant| {
+            rows.push(instant.clone());
+            true
+        });
+        (rows, done.unwrap())
+    }
+}
+
+/// A map stands where the contact does, and moves as it does, to its own error; the energy of either is accounted for,
+/// that of the map to round-off.
+#[test]
+fn a_mapped_mesh_moves_as_the_contact_that_it_was_made_from() {
+    let box1 = Box1::new();
+    let map = box1.map();
+    let (told, deflection) = (map.map().certificate().rms_error_mm, map.map().certificate().deflection_mm);
+    let mut map_at_rest = map.clone();
+    let mut exact = box1.exact();
+    for (i, d) in box1.stands.iter().enumerate() {
+        let cycles = box1.cycles[i];
+        let ask = |mesh: &mut dyn MeshElement| {
+            mesh.go_to(cycles).unwrap();
+            mesh.evaluate(d).unwrap()
+        };
+        let (mapped, true_one) = (ask(&mut map_at_rest), ask(&mut exact));
+        let off = mapped.normal_force / true_one.normal_force - 1.0;
+        assert!(off.abs() < 0.02, "{i}: force {} N beside {} N", mapped.normal_force, true_one.normal_force);
+    }
+    let (of_map, run) = box1.run(Box::new(map.with_damping(0.05)), 12.0);
+    assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
+    assert!(run.reach[0] > 0.2 && run.reach[0] < 1.0, "{:?}", run.reach);
+    let (of_contact, run) = box1.run(Box::new(MovingExactMesh::new(exact, 1.0)), 12.0);
+    assert!(run.energy.relative_residual.abs() < 1e-7, "{:?}", run.energy);
+    let errors = of_map.iter().zip(&of_contact);
+    let off = errors.map(|(a, b)| (a.meshes[0].transmission_error - b.meshes[0].transmission_error).abs());
+    let off = off.fold(0.0, f64::max);
+    println!("map off by {told:.2e} of {deflection:.2e} mm, motions by {off:.2e} mm");
+    assert!(off < 0.03 * deflection, "{off:.2e} mm, deflection {deflection:.2e} mm, error of the map {told:.2e} mm");
+}
+
+/// A spring made of the contact about the mean displacement answers there as the contact does at every phase, but for
+/// the orders that it leaves out, and moves like it as long as forces stay near their mean.
+#[test]
+fn a_spring_of_the_contact_stands_for_it_near_its_load() {
+    let box1 = Box1::new();
+    let about = box1.stands.iter().sum::<Vector12>() / 8.0;
+    let found = ContactSpring::of(&mut box1.exact(), &about, 32).unwrap();
+    let train = gearbox::Train::new(&box1.structure, &box1.meshes, &[0.0; 4], 2, Sense::Ccw).unwrap();
+    let mut spring = found.mesh(&box1.meshes[0], &train.meshing()[0]).unwrap();
+    let mut exact = box1.exact();
+    for i in 0..16 {
+        let ask = |mesh: &mut dyn MeshElement| {
+            mesh.go_to(f64::from(i) / 16.0).unwrap();
+            mesh.evaluate(&about).unwrap()
+        };
+        let (own, wanted) = (ask(&mut spring), ask(&mut exact));
+        let off = own.force[11] / wanted.force[11] - 1.0;
+        assert!(off.abs() < 0.02, "{i}: {} beside {} N mm", own.force[11], wanted.force[11]);
+    }
+    let (of_spring, run) = box1.run(Box::new(spring.with_damping(1.0)), 12.0);
+    assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
+    let (of_contact, _) = box1.run(Box::new(MovingExactMesh::new(exact, 1.0)), 12.0);
+    let mean =
+        |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).sum::<f64>() / rows.len() as f64;
+    let (own, wanted) = (mean(&of_spring), mean(&of_contact));
+    assert!((own / wanted - 1.0).abs() < 0.02, "mean DTE {own:.3e} mm beside {wanted:.3e} mm");
+}

@@ -1,0 +1,62 @@
+//! Which meshes carry load: teeth that nothing presses have no place to stand.
+
+use toml::Spanned;
+
+use super::{
+    file::{GearboxGear, GearboxInput, GearboxMesh, GearboxTorque},
+    raw::RawMesh,
+    values::Checked,
+};
+use crate::Source;
+
+/// No two meshes of the same gears.
+pub(super) fn apart(s: &Source<'_>, tables: &[Spanned<RawMesh>], meshes: &[GearboxMesh]) -> Checked<()> {
+    for (i, mesh) in meshes.iter().enumerate() {
+        let [a, b] = mesh.gears;
+        if let Some(first) = meshes[..i].iter().find(|m| m.gears == [a, b] || m.gears == [b, a]) {
+            let said = format!("the meshes \"{}\" and \"{}\" have the same gears", first.name, mesh.name);
+            return Err(s.conflict(&tables[i].span(), said, "two gears mesh once: leave one out"));
+        }
+    }
+    Ok(())
+}
+
+/// Every mesh without which some shafts are not driven has a load beyond it.
+pub(super) fn loaded(
+    s: &Source<'_>,
+    tables: &[Spanned<RawMesh>],
+    (meshes, gears): (&[GearboxMesh], &[GearboxGear]),
+    (input, torques): (&GearboxInput, &[GearboxTorque]),
+) -> Checked<()> {
+    let ends = |m: &GearboxMesh| m.gears.map(|g| gears[g].shaft);
+    // Shafts that the input reaches by all meshes but one.
+    let reached = |without: Option<usize>| {
+        let mut all = vec![input.shaft];
+        let mut at = 0;
+        while let Some(&shaft) = all.get(at) {
+            for (_, mesh) in meshes.iter().enumerate().filter(|(k, _)| Some(*k) != without) {
+                let [a, b] = ends(mesh);
+                for (from, to) in [(a, b), (b, a)] {
+                    if from == shaft && !all.contains(&to) {
+                        all.push(to);
+                    }
+                }
+            }
+            at += 1;
+        }
+        all
+    };
+    let driven = reached(None);
+    for (i, mesh) in meshes.iter().enumerate() {
+        let still = reached(Some(i));
+        let beyond = |shaft: &usize| driven.contains(shaft) && !still.contains(shaft);
+        let alone = driven.iter().any(&beyond);
+        if alone && !torques.iter().any(|t| t.torque > 0.0 && beyond(&t.shaft)) {
+            let said = format!("the mesh \"{}\" carries no load: no torque acts on the shafts beyond it", mesh.name);
+            let advice =
+                "load them, as [[torque]] with `shaft`, `position_mm` and `torque_nm` above 0; or leave the mesh out";
+            return Err(s.conflict(&tables[i].span(), said, advice));
+        }
+    }
+    Ok(())
+}
