@@ -110,13 +110,12 @@ fn a_housing_is_read_from_files_of_other_programs() {
     }
     // Nodes 100, 90, .. 50; each on springs, tied to node 100 along x.
     let nodes: Vec<i64> = (0..6).map(|i| 100 - 10 * i).collect();
-    let mut wanted = vec![vec![0.0; 36]; 36];
-    for i in 0..36 {
-        wanted[i][i] = 1e5 + i as f64;
-        if i % 6 == 0 && i > 0 {
-            (wanted[0][i], wanted[i][0]) = (-1e3, -1e3);
-        }
-    }
+    let entry = |i: usize, j: usize| match (i, j) {
+        (i, j) if i == j => 1e5 + i as f64,
+        (0, k) | (k, 0) if k % 6 == 0 => -1e3,
+        _ => 0.0,
+    };
+    let wanted: Vec<Vec<f64>> = (0..36).map(|i| (0..36).map(|j| entry(i, j)).collect()).collect();
     let mut punch = "DMIG    KHOUSE  0       6       2       0                       36\n".to_owned();
     for (column, values) in wanted.iter().enumerate() {
         punch += &format!("DMIG*   KHOUSE          {:>16}{:>16}\n", nodes[column / 6], column % 6 + 1);

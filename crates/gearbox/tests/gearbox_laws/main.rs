@@ -1,6 +1,7 @@
 //! Laws of shafts, bearings and gears that stand and swing together.
 
 mod exact;
+mod forced;
 mod motion;
 mod motion_contact;
 mod overhung;

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 58] = [
+const OURS: [&str; 64] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -169,6 +169,12 @@ const OURS: [&str; 58] = [
     "study.csv",
     "positions.csv",
     "shafts.csv",
+    "modes.csv",
+    "crossings.csv",
+    "response.csv",
+    "rms.csv",
+    "bearing_forces.csv",
+    "bearing_forces.uff",
     "line_load.csv",
     "motion.csv",
     "cases.csv",
