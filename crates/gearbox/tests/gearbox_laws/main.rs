@@ -3,6 +3,7 @@
 mod exact;
 mod motion;
 mod motion_contact;
+mod motion_pair;
 mod overhung;
 mod pairs;
 mod rest;
