@@ -1,4 +1,5 @@
 //! Laws of motion with the exact contact of the teeth, and with maps of it.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::{f64::consts::TAU, sync::Arc};
 
