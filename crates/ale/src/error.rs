@@ -85,7 +85,10 @@ impl AleError {
     pub fn hint(&self) -> Option<String> {
         match self {
             Self::LoadedTooth { .. } => Some("use a wider window (analysis.window_teeth) or less torque".into()),
-            Self::TooWide { teeth, .. } => Some(format!("use at most {teeth} teeth in the window")),
+            Self::TooWide { teeth, .. } => Some(format!(
+                "the window is as wide as the contact ratio asks for, or as `analysis.window_teeth` says, {teeth} teeth at most; \
+                 is `face_width_mm` in mm, and the helix angle right?"
+            )),
             Self::WrongCount { .. } => None,
             Self::Starved { window, .. } | Self::Dropped { window, .. } => Some(format!(
                 "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",

@@ -237,13 +237,28 @@ impl SceneError {
             }
             Self::OutOfRange { advice, .. } => advice.clone(),
             Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
-            Self::Setting { .. } => Some(
-                "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value".into(),
-            ),
+            Self::Setting { label, .. } => Some(example(label).into()),
             Self::NoKey { .. } => Some("tables and key with dots between them, as `operation.torque_nm`".into()),
             Self::NotYet { instead, .. } => Some(instead.clone()),
             Self::Geometry { source, .. } => source.hint(),
             Self::DataFile(error) => error.hint(),
         }
+    }
+}
+
+/// How the word of the command line is written that a complaint is about.
+fn example(label: &str) -> &'static str {
+    match label.split([' ', '=']).next().unwrap_or_default() {
+        "--vary" => {
+            "write `--vary operation.torque_nm=50:200:7`, a list `=50,100`, or `~0:40` for values that are drawn"
+        }
+        "--design" => "latin-hypercube, sobol and random are known",
+        "--samples" => "100 are usual",
+        "--parameter" => {
+            "write `--parameter pinion.modification.tip_relief_um=0:40`: a key, its least and its largest value"
+        }
+        "--torques" => "write torques of the pinion in N m with commas between them: `--torques 75,150,225`",
+        "--measure" => "write `--measure peak-to-peak`, `rms` or a mesh harmonic",
+        _ => "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
     }
 }

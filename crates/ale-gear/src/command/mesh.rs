@@ -159,7 +159,20 @@ fn check_as(file: &Path, scene: &Path, which: WhichGear, json: bool) -> Result<S
 }
 
 fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Result<String, CommandError> {
-    let report = MeshReport::of_gear(&read(file)?, names, teeth);
+    let mesh = read(file)?;
+    let report = MeshReport::of_gear(&mesh, names, teeth);
+    // Flanks of neighbours tell how many teeth there are.
+    if let (Some(said), Some(found)) = (teeth, MeshInfo::with_names(&mesh, names).gear.teeth)
+        && said != found
+    {
+        return Err(CommandError::input(
+            format_args!(
+                "{}: {said} teeth are asked for, and its flanks lie as those of {found} teeth do",
+                file.display()
+            ),
+            Some(format!("is the number right, `--teeth {found}`; or is it the mesh of another gear?")),
+        ));
+    }
     let t = mesh_findings(&report);
     let errors = report.findings.iter().filter(|f| f.severity == Severity::Error).count();
     if errors > 0 {
