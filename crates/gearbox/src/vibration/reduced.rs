@@ -50,7 +50,7 @@ impl Rotors {
         let mut order: Vec<usize> = (0..eigen.eigenvalues.len()).collect();
         order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
         let ways = directions * eigen.eigenvectors.select_columns(&order);
-        let turned = &high * &ways;
+        let turned = high * &ways;
         let rated = DMatrix::from_fn(ways.nrows(), ways.ncols(), |i, j| 2.0 * squares[i].sqrt() * ways[(i, j)]);
         let mut reduced = self.clone();
         reduced.rest.frequencies.truncate(low);

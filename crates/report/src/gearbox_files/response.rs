@@ -79,7 +79,7 @@ pub(super) fn universal(file: &Gearbox, swings: &GearboxSwings) -> String {
         for (i, bearing) in file.bearings.iter().enumerate() {
             for (k, (what, _)) in COMPONENTS.into_iter().enumerate() {
                 let own = || swings.orders.iter().map(move |all| &all[place]);
-                let ends = [own().next(), own().last()].map(|o| o.map_or(0.0, |o| o.frequency_hz));
+                let ends = [own().next(), own().next_back()].map(|o| o.map_or(0.0, |o| o.frequency_hz));
                 let steps = swings.orders.len().saturating_sub(1).max(1) as f64;
                 let mesh = &file.meshes[order.mesh].name;
                 functions.push(Function {
