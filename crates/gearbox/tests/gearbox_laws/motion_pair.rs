@@ -73,8 +73,8 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let phase = mechanism.train().cycles(0.0)[0] * TAU;
     let shifted = Fourier {
         mean: k.mean,
-        cosine: (1..=2).map(|n| shifted_by(&k, n, phase)[0]).collect(),
-        sine: (1..=2).map(|n| shifted_by(&k, n, phase)[1]).collect(),
+        cosine: (1..=2).map(|n| shifted_by(k, n, phase)[0]).collect(),
+        sine: (1..=2).map(|n| shifted_by(k, n, phase)[1]).collect(),
     };
     let system = ShaftSystem {
         shafts: [of_pinion, of_wheel].map(turning).into(),
