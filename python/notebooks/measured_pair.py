@@ -31,7 +31,7 @@ tables = {
     "pair": {"normal_module_mm": 3.0, "face_width_mm": 20.0},
     "operation": {"torque_nm": 340.0},
     "analysis": {"kind": "dynamic", "model": "mapped", "positions_per_cycle": 16},
-    "motion": {"mesh_damping_ratio": 0.02, "continuation": {"motions": 80, "time_points": 1}},
+    "motion": {"mesh_damping_ratio": 0.02},
 }
 pair = ale_gear.Pair(ale_gear.Scene(tables))
 
@@ -41,7 +41,9 @@ pair = ale_gear.Pair(ale_gear.Scene(tables))
 # %%
 jumps = {}
 for torque in (85.0, 340.0):
-    curve = pair.curve(3000.0, 4600.0, set={"operation.torque_nm": torque})
+    curve = pair.curve(3000.0, 4600.0, set={
+        "operation.torque_nm": torque, "motion.continuation.motions": 80, "motion.continuation.time_points": 1,
+    })
     speed, swing = curve[curve.keys()[0]], curve["peak_to_peak_dte_um"]
     mesh_hz = 50 * speed / 60
     back = np.flatnonzero(np.diff(speed) < 0)

@@ -27,10 +27,10 @@ scene = ale_gear.Scene(
     pair={"normal_module_mm": 3.0, "face_width_mm": 20.0},
     operation={"torque_nm": 50.0},
     analysis={"kind": "dynamic", "model": "mapped", "positions_per_cycle": 16},
-    motion={"mesh_damping_ratio": 0.03, "continuation": {"motions": 60, "time_points": 1}},
+    motion={"mesh_damping_ratio": 0.03},
 )
 pair = ale_gear.Pair(scene)
-curve = pair.curve(2500.0, 6500.0)
+curve = pair.curve(4500.0, 7000.0, set={"motion.continuation.motions": 120, "motion.continuation.time_points": 1})
 print(curve)
 
 # %%

@@ -1,6 +1,7 @@
 """What all tests share: the repository, the command, and a scene that is solved at once."""
 
 import os
+import signal
 import subprocess
 from pathlib import Path
 
@@ -18,6 +19,12 @@ TABLES = {
     "operation": {"torque_nm": 120.0},
     "analysis": {"positions_per_cycle": 8},
 }
+
+
+@pytest.fixture(scope="session", autouse=True)
+def ctrl_c_is_heard() -> None:
+    """Shells start what runs behind them deaf to it."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")

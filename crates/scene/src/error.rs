@@ -258,7 +258,7 @@ fn example(label: &str) -> &'static str {
             "write `--parameter pinion.modification.tip_relief_um=0:40`: a key, its least and its largest value"
         }
         "--torques" => "write torques of the pinion in N m with commas between them: `--torques 75,150,225`",
-        "--measure" => "write `--measure peak-to-peak`, `rms` or a mesh harmonic",
+        "--measure" => "peak-to-peak, rms and harmonics are known",
         _ => "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
     }
 }

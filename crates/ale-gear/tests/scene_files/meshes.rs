@@ -31,6 +31,9 @@ fn a_generated_mesh_checks_and_tells_its_parts() {
         }
         let check = scratch.ale_gear(["mesh", "check", "p.msh", "--teeth", "30"]);
         assert_eq!((check.code, check.stderr.as_str()), (Some(0), ""), "{}", check.stdout);
+        let other = scratch.ale_gear(["mesh", "check", "p.msh", "--teeth", "23"]);
+        assert_eq!(other.code, Some(2), "{}", other.stdout);
+        assert!(other.stderr.contains("23 teeth") && other.stderr.contains("--teeth 30"), "{}", other.stderr);
     }
 }
 

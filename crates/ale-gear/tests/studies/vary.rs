@@ -173,11 +173,27 @@ fn words_of_a_plan_are_checked_first() {
         (&["--vary", "operation.torque_nm=1:2:0", "--output", "mean_ste_um"], "`0` is no number of values"),
         (&["--vary", "operation.torque_nm~a:2", "--output", "mean_ste_um"], "`a` is no number"),
         (&["--samples", "3"], "a plan file says keys, samples and seed itself"),
+        (
+            &["--vary", "operation.torque_nm~1:2", "--samples", "0", "--output", "mean_ste_um"],
+            "--samples 0: allowed is 1 .. 10000000",
+        ),
     ] {
         let run = scratch.command(&[&["vary", "a.toml", "--out", "o"][..], words].concat());
         assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);
     }
     assert_eq!(scratch.names(), ["a.toml", "plan.toml"]);
+}
+
+/// A number that the headline has not is named with what may have been meant, and a plan without any result is none.
+#[test]
+fn a_plan_without_a_result_fails() {
+    let scratch = Scratch::new().file("a.toml", five_teeth());
+    let words = ["--vary", "operation.torque_nm=100,150", "--output", "peak_to_peak_ste", "--out", "o"];
+    let run = scratch.command(&[&["vary", "a.toml"][..], &words].concat());
+    assert_eq!(run.code, Some(1), "{}", run.stderr);
+    for said in ["no case has a result", "did you mean `peak_to_peak_ste_um`?", "`cases.csv` in o"] {
+        assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
+    }
 }
 
 /// Pitch deviations of a class: a row tells F_p of the gear that was drawn, its other numbers are those of a run with

@@ -133,7 +133,7 @@ fn modes(file: &Gearbox, result: &GearboxResult, swings: &GearboxSwings) -> Vec<
         let parts = parts.map(|of| cut(&mode.shape.iter().map(of).collect::<Vec<_>>()));
         let held = holders(file, &mode.energy.strain);
         let name = format!("mode {}: {:.1} Hz, {held}", i + 1, mode.frequency / std::f64::consts::TAU);
-        ModeInSpace { name, shafts: Packed::new(parts.as_flattened().iter().map(Vec::as_slice)) }
+        ModeInSpace { name, shafts: Packed::new(parts.iter().flatten().map(Vec::as_slice)) }
     };
     let all = first_modes(swings).iter().filter(|m| m.shape.len() == counts.iter().sum::<usize>());
     all.enumerate().map(one).collect()
