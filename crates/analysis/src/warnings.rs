@@ -117,13 +117,13 @@ pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64, cen
              take a larger torque, or none"
         ));
     }
-    said.extend(large_error(error, module));
+    said.extend(large_error(error, (LARGE_ERROR_MODULES, module)));
     said
 }
 
-/// What is said of a transmission error that is too large for linear elasticity; both in mm.
-pub(crate) fn large_error(error: f64, module: f64) -> Option<String> {
-    (error > LARGE_ERROR_MODULES * module).then(|| {
+/// What is said of a transmission error that is too large for linear elasticity: over so many modules; both in mm.
+pub(crate) fn large_error(error: f64, (most, module): (f64, f64)) -> Option<String> {
+    (error > most * module).then(|| {
         format!(
             "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \
              small deflections; is the torque in N m?"

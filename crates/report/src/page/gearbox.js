@@ -14,6 +14,18 @@
     return [0, 1, 2, 3, 4, 5].map(k => (1 - share) * values[6 * i + k] + share * values[6 * (i + 1) + k]);
   };
 
+  // Faces between neighbours of so many rings.
+  const rings = count => {
+    const faces = [];
+    for (let r = 0; r + 1 < count; r++) {
+      for (let k = 0; k < AROUND; k++) {
+        const [a, b] = [AROUND * r + k, AROUND * r + (k + 1) % AROUND];
+        faces.push(a, b, b + AROUND, a, b + AROUND, a + AROUND);
+      }
+    }
+    return faces;
+  };
+
   // Rings along a shaft, closed at both ends, moved as its sections are.
   class ShaftInSpace {
     constructor(data) {
@@ -22,17 +34,10 @@
       const out = data.sections.flatMap(([from, to, outer]) => this.heights(from, to).map(z => [outer, z]));
       const back = data.sections.flatMap(([from, to, , inner]) => this.heights(from, to).map(z => [inner, z])).reverse();
       this.rings = [...out, ...back, out[0]];
-      const faces = [];
-      for (let r = 0; r + 1 < this.rings.length; r++) {
-        for (let k = 0; k < AROUND; k++) {
-          const [a, b] = [AROUND * r + k, AROUND * r + (k + 1) % AROUND];
-          faces.push(a, b, b + AROUND, a, b + AROUND, a + AROUND);
-        }
-      }
       const geometry = new THREE.BufferGeometry();
       this.places = new Float32Array(3 * AROUND * this.rings.length);
       geometry.setAttribute("position", new THREE.BufferAttribute(this.places, 3));
-      geometry.setIndex(faces);
+      geometry.setIndex(rings(this.rings.length));
       this.mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: SHAFT, side: THREE.DoubleSide, flatShading: true }));
       this.mesh.frustumCulled = false;
     }
@@ -68,17 +73,30 @@
       // Turns are small but for the scale that they are drawn at.
       const turn = new THREE.Vector3(ax, ay, az), angle = turn.length();
       this.teeth.quaternion.setFromAxisAngle(angle > 0 ? turn.divideScalar(angle) : new THREE.Vector3(0, 0, 1), angle);
-      this.teeth.quaternion.multiply(new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(0, 0, 1), this.data.angle + ratio * input));
+      this.teeth.quaternion.multiply(this.teeth.quaternion.clone().setFromAxisAngle(new THREE.Vector3(0, 0, 1), this.data.angle + ratio * input));
     }
   }
+
+  // A surface of revolution about z of radii and heights.
+  const revolved = profile => {
+    const places = profile.flatMap(([r, z]) => Array.from({ length: AROUND }, (_, k) => [r * Math.cos(TAU * k / AROUND), r * Math.sin(TAU * k / AROUND), z]).flat());
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute("position", new THREE.Float32BufferAttribute(places, 3));
+    geometry.setIndex(rings(profile.length));
+    return geometry;
+  };
 
   class BearingInBox {
     constructor(data, shaft, longest) {
       Object.assign(this, { data, shaft, longest });
-      const ring = new THREE.CylinderGeometry(1.5 * data.radius, 1.5 * data.radius, 0.5 * data.radius, AROUND, 1, true);
-      this.ring = new THREE.Mesh(ring.rotateX(0.25 * TAU), new THREE.MeshLambertMaterial({ color: BEARING, side: THREE.DoubleSide, transparent: true, opacity: 0.55 }));
-      this.ring.position.set(shaft.origin[0], shaft.origin[1], shaft.origin[2] + data.position);
-      this.arrow = new THREE.ArrowHelper(new THREE.Vector3(1, 0, 0), this.ring.position, 1, FORCE);
+      const { radius } = data, solid = (color, more) => new THREE.MeshLambertMaterial({ color, side: THREE.DoubleSide, flatShading: true, ...more });
+      this.place = new THREE.Vector3(shaft.origin[0], shaft.origin[1], shaft.origin[2] + data.position);
+      const ring = [[1.45, -0.25], [1.6, -0.25], [1.6, 0.25], [1.45, 0.25], [1.45, -0.25]].map(([r, z]) => [r * radius, z * radius]);
+      this.ring = new THREE.Mesh(revolved(ring), solid(BEARING));
+      this.ring.position.copy(this.place);
+      // Of length 1, its point at the origin.
+      this.arrow = new THREE.Mesh(revolved([[0, -1], [0.025, -1], [0.025, -0.25], [0.07, -0.25], [0, 0]]), solid(FORCE));
+      this.arrow.frustumCulled = false;
     }
 
     // The force on the shaft, as an arrow that ends where it acts.
@@ -86,10 +104,11 @@
       const along = new THREE.Vector3(...(force ?? [0, 0, 0])), size = along.length();
       this.arrow.visible = size > 1e-6 * most;
       if (!this.arrow.visible) return;
-      const length = Math.max(0.15, size / most) * this.longest, head = 0.22 * length;
-      this.arrow.setDirection(along.divideScalar(size));
-      this.arrow.setLength(length, head, 0.6 * head);
-      this.arrow.position.copy(this.ring.position).addScaledVector(along, -length);
+      along.divideScalar(size);
+      this.arrow.scale.setScalar(Math.max(0.15, size / most) * this.longest);
+      this.arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), along);
+      // Outside of the ring, where it can be seen.
+      this.arrow.position.copy(this.place).addScaledVector(along, -1.6 * this.data.radius);
     }
   }
 

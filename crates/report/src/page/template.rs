@@ -72,7 +72,8 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
 fn with_scripts(mut page: String) -> String {
     let has = |class: &str| page.contains(&format!("class=\"{class}\">"));
     let mut scripts = String::new();
-    let in_space = [("view", scripts::VIEW), ("gearbox", scripts::GEARBOX)].into_iter().find(|(class, _)| has(class));
+    // The part that holds the picture is a `view` on both pages.
+    let in_space = [("gearbox", scripts::GEARBOX), ("view", scripts::VIEW)].into_iter().find(|(class, _)| has(class));
     if in_space.is_some() || has("plot") || has("map") {
         let [style, uplot, charts] = [scripts::UPLOT_STYLE, scripts::UPLOT, scripts::CHARTS];
         scripts += &format!("<style>{style}</style>\n");
