@@ -40,7 +40,7 @@ pub struct AtRest {
 /// The gears in space: remembered, then drawn when somebody writes the result.
 enum InSpace {
     Remembered(Box<(ViewRecorder, StaticModel)>),
-    Drawn(Option<View>, Vec<String>),
+    Drawn(Option<Box<View>>, Vec<String>),
 }
 
 /// Remembers what the files are made of, and writes fields on the way.
@@ -155,11 +155,11 @@ impl AtRest {
             let (recorder, model) = &mut **remembered;
             let recorder = std::mem::replace(recorder, ViewRecorder::new(&self.scene));
             let mut said = Vec::new();
-            let view = recorder.view_or_warning(&self.scene, model, &mut said);
+            let view = recorder.view_or_warning(&self.scene, model, &mut said).map(Box::new);
             *gears = InSpace::Drawn(view, said);
         }
         let (view, said) = match &*gears {
-            InSpace::Drawn(view, said) => (view.as_ref(), &said[..]),
+            InSpace::Drawn(view, said) => (view.as_deref(), &said[..]),
             InSpace::Remembered(_) => (None, &[][..]),
         };
         let mut history = self.history.clone();
