@@ -5,13 +5,19 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{Assembly, GearboxError};
 
-/// Modes of shafts with their seats held are kept up to so many times the frequency that is asked for: the usual rule.
+/// Modes of shafts with their seats held are kept up to so many times the frequency that is asked for, at first: the usual
+/// rule, which says nothing of seats that carry gears.
 const BEYOND: f64 = 2.0;
+/// Relative error of natural frequencies up to there beyond which more modes are kept.
+const GOOD: f64 = 5e-3;
+
+/// Where the search for more ends in any case.
+const MOST: f64 = 1e9;
 
 /// Matrices of shafts, discs and bearings in reduced coordinates y.
 ///
 /// ```text
-/// q = T y_seats + Phi y_modes,   T: how all nodes follow the seats at rest,   K_ii Phi = M_ii Phi omega^2,  omega <= 2 omega_max
+/// q = T y_seats + Phi y_modes,   T: how all nodes follow the seats at rest,   K_ii Phi = M_ii Phi omega^2,  omega <= 2 omega_max, and more
 /// ```
 /// Seats are the nodes of all discs and bearings, six coordinates each; what forces act on is kept as it is.
 #[derive(Debug, Clone)]
@@ -44,7 +50,7 @@ pub struct ReductionCertificate {
 
 impl ReducedBodies {
     /// Reduces an assembly whose shafts `held` neither bend nor shift; natural frequencies up to `limit` (rad/s) are held
-    /// against those of all nodes.
+    /// against those of all nodes, and modes are added until they are off by half a per cent at the most.
     ///
     /// # Errors
     /// [`GearboxError::OutOfRange`] for a limit that is not above 0, [`GearboxError::Matrix`] where a coordinate has
@@ -54,6 +60,23 @@ impl ReducedBodies {
             let quantity = "highest frequency, rad/s";
             return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value: limit });
         }
+        let mut beyond = BEYOND;
+        loop {
+            let (bodies, is_all) = Self::with_modes(assembly, held, [limit, beyond * limit])?;
+            if bodies.certificate.error <= GOOD || is_all || beyond > MOST {
+                return Ok(bodies);
+            }
+            beyond *= 2.0;
+        }
+    }
+
+    /// With the modes up to a frequency, and whether these are all.
+    fn with_modes(
+        assembly: &Assembly,
+        held: &[bool],
+        [limit, highest]: [f64; 2],
+    ) -> Result<(Self, bool), GearboxError> {
+        let mut is_all = true;
         let nodes = nodes(assembly);
         let kept: Vec<usize> = nodes.iter().flat_map(|(n, _)| *n..*n + 6).collect();
         let (k, m) = (assembly.stiffness_without_meshes(), assembly.mass());
@@ -66,7 +89,8 @@ impl ReducedBodies {
                 continue;
             }
             let Modes { frequencies, shapes } = natural_modes(&block(&k, &inner), &block(&m, &inner))?;
-            for (i, _) in frequencies.iter().enumerate().filter(|(_, w)| **w <= BEYOND * limit) {
+            is_all &= frequencies.iter().all(|w| *w <= highest);
+            for (i, _) in frequencies.iter().enumerate().filter(|(_, w)| **w <= highest) {
                 let mut column = DVector::zeros(assembly.size());
                 inner.iter().enumerate().for_each(|(row, &at)| column[at] = shapes[(row, i)]);
                 columns.push(column);
@@ -86,7 +110,7 @@ impl ReducedBodies {
         let certificate = ReductionCertificate { coordinates, modes: modes.len(), limit, compared: 0, error: 0.0 };
         let mut bodies = Self { nodes, modes, basis, mass, stiffness, damping, certificate };
         bodies.compare(assembly, held, [&k, &m])?;
-        Ok(bodies)
+        Ok((bodies, is_all))
     }
 
     /// Holds natural frequencies against those of all nodes; held shafts are left out on both sides.
