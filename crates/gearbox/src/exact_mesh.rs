@@ -12,7 +12,7 @@ use ltca::{StaticError, StaticOptions};
 use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
-use crate::{GearboxError, MeshElement, MeshReply, Vector12};
+use crate::{GearboxError, MeshElement, MeshReply, Vector12, mesh_element::finite_cycles};
 
 /// Slices of two reduced gears, station by station, as `ltca` solves them for a pair alone.
 #[derive(Debug)]
@@ -124,10 +124,7 @@ impl ExactMesh {
 
 impl MeshElement for ExactMesh {
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
-        if !cycles.is_finite() {
-            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
-        }
-        let station = Station::at_cycles(cycles);
+        let station = Station::at_cycles(finite_cycles(cycles)?);
         let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()];
         let window = SlidingWindow::at(station, self.window.window().count(), teeth, self.options.contact.sense)
             .map_err(StaticError::from)?;

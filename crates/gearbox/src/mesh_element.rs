@@ -49,6 +49,12 @@ pub trait MeshElement {
     }
 }
 
+/// Mesh cycles that are a number.
+pub(crate) fn finite_cycles(cycles: f64) -> Result<f64, GearboxError> {
+    let wrong = || GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles };
+    if cycles.is_finite() { Ok(cycles) } else { Err(wrong()) }
+}
+
 /// A mesh as a spring along its line of action that presses and does not pull: F = k max(0, h . q + e).
 #[derive(Debug, Clone, PartialEq)]
 pub struct LinearMesh {

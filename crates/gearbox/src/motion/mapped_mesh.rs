@@ -10,7 +10,7 @@ use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
 use super::{MeshDamper, MovingMesh};
-use crate::{ExactMesh, GearboxError, MeshElement, MeshReply, Vector12};
+use crate::{ExactMesh, GearboxError, MeshElement, MeshReply, Vector12, mesh_element::finite_cycles};
 
 /// What a map of a mesh must hold, and how well.
 #[derive(Debug, Clone, PartialEq)]
@@ -135,10 +135,7 @@ fn tilt_range(stands: &[Vector12], projection: &FlankProjection, pair: &GearPair
 
 impl MeshElement for MappedMesh {
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
-        if !cycles.is_finite() {
-            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
-        }
-        self.cycles = cycles;
+        self.cycles = finite_cycles(cycles)?;
         Ok(())
     }
 

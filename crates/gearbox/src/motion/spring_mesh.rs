@@ -9,7 +9,7 @@ use lumped::{
 use nalgebra::{SMatrix, Vector6};
 
 use super::{MeshDamper, MovingMesh, PitchErrors, normal_damper::NormalDamper};
-use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12};
+use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, mesh_element::finite_cycles};
 
 /// Flanks that press along one line of action.
 ///
@@ -118,10 +118,7 @@ impl SpringMesh {
 
 impl MeshElement for SpringMesh {
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
-        if !cycles.is_finite() {
-            return Err(GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles });
-        }
-        self.cycles = cycles;
+        self.cycles = finite_cycles(cycles)?;
         Ok(())
     }
 

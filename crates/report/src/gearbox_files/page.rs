@@ -8,7 +8,7 @@ use minijinja::{context, value::Serde};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use super::{space::BoxInSpace, vibration_page::vibration};
+use super::{space::BoxInSpace, summary, vibration_page::vibration};
 use crate::{
     Cost, ReportError,
     charts::{Curve, embedded, line_chart},
@@ -56,18 +56,10 @@ fn meshes(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {
     let one = |(i, m): (usize, &analysis::gearbox_at_rest::MeshResult)| {
         let shaft = |gear: usize| &file.shafts[file.gears[gear].shaft].name;
         let pair = &result.pairs[i];
-        json!({
-            "name": m.name,
-            "shafts": file.meshes[i].gears.map(shaft),
-            "teeth": [pair.pinion.teeth(), pair.wheel.teeth()],
-            "normal_force_n": m.normal_force,
-            "mean_ste_um": 1e3 * m.transmission_error[0],
-            "peak_to_peak_ste_um": 1e3 * m.transmission_error[1],
-            "misalignment_in_plane_um": 1e3 * m.misalignment[0],
-            "misalignment_across_um": 1e3 * m.misalignment[1],
-            "face_load_factor": m.face_load_factor,
-            "max_pressure_mpa": m.max_pressure,
-        })
+        let mut row = summary::mesh(m, pair);
+        row["shafts"] = json!(file.meshes[i].gears.map(shaft));
+        row["teeth"] = json!([pair.pinion.teeth(), pair.wheel.teeth()]);
+        row
     };
     result.meshes.iter().enumerate().map(one).collect()
 }

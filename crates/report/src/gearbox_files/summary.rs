@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
+use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings, MeshResult};
+use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use serde_json::{Value, json};
 
@@ -11,22 +12,7 @@ use crate::{Cost, SUMMARY_SCHEMA};
 
 /// What is known of a gearbox but its rows. Names of keys bear the units.
 pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, files: &[String]) -> String {
-    let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| {
-        json!({
-            "name": m.name,
-            "eps_gamma": pair.total_contact_ratio(),
-            "centre_distance_mm": pair.centre_distance(),
-            "slices": m.slices,
-            "mean_normal_force_n": m.normal_force,
-            "mean_ste_um": 1e3 * m.transmission_error[0],
-            "peak_to_peak_ste_um": 1e3 * m.transmission_error[1],
-            "misalignment_in_plane_um": 1e3 * m.misalignment[0],
-            "misalignment_across_um": 1e3 * m.misalignment[1],
-            "face_load_factor": m.face_load_factor,
-            "max_pressure_mpa": m.max_pressure,
-            "timing_deg": m.timing.to_degrees(),
-        })
-    });
+    let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair));
     let bearings = result.bearings.iter().map(|b| {
         json!({
             "name": b.name,
@@ -107,5 +93,23 @@ fn vibration(file: &Gearbox, (asked, swings): (&GearboxVibration, &GearboxSwings
         "meshes": meshes.collect::<Vec<_>>(),
         "bearings": bearings.collect::<Vec<_>>(),
         "gears": gears.collect::<Vec<_>>(),
+    })
+}
+
+/// What is known of a mesh: the page tells the same.
+pub(super) fn mesh(m: &MeshResult, pair: &GearPair) -> Value {
+    json!({
+        "name": m.name,
+        "eps_gamma": pair.total_contact_ratio(),
+        "centre_distance_mm": pair.centre_distance(),
+        "slices": m.slices,
+        "mean_normal_force_n": m.normal_force,
+        "mean_ste_um": 1e3 * m.transmission_error[0],
+        "peak_to_peak_ste_um": 1e3 * m.transmission_error[1],
+        "misalignment_in_plane_um": 1e3 * m.misalignment[0],
+        "misalignment_across_um": 1e3 * m.misalignment[1],
+        "face_load_factor": m.face_load_factor,
+        "max_pressure_mpa": m.max_pressure,
+        "timing_deg": m.timing.to_degrees(),
     })
 }
