@@ -53,7 +53,7 @@ pub use local::{EndFace, LocalBody, LocalContact, LocalLaw, LocalState, layer_co
 pub use nodal::{ContactRow, LinePoints, Scene, Support, closest_points, contact_row, least_gap, line_points};
 pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
-pub use pose::{check_offsets, displaced, frames, gear_centre, gear_pose, reference_angle};
+pub use pose::{check_offsets, displaced, frames, gear_centre, gear_pose, own_turns, reference_angle};
 pub use result::{MeshForce, Site, SliceResult, SliceState, Wrench, opening_by_motion, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{

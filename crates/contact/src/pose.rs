@@ -3,7 +3,7 @@
 
 use ale::{Station, ToothWindow};
 use geometry::GearPair;
-use nalgebra::{Translation3, UnitQuaternion};
+use nalgebra::{SMatrix, Translation3, UnitQuaternion};
 
 use crate::{ContactError, ContactOptions, ContactSet, Pose, Vec3};
 
@@ -89,4 +89,23 @@ pub fn displaced(nominal: [Pose; 2], d: &[f64; 12]) -> [Pose; 2] {
         let tilt = UnitQuaternion::from_scaled_axis(Vec3::new(d[at + 3], d[at + 4], 0.0));
         Pose::from_parts(Translation3::from(nominal[g].translation.vector + moved), tilt * nominal[g].rotation)
     })
+}
+
+/// G of the forces on the displacements of [`displaced`]; none where both axes are along z, and G is 1.
+///
+/// ```text
+/// f_d = G f,   -df_d/dd = G K G',   row of a turn: the moment about the gear's own axis in place of that about z
+/// ```
+/// f: forces and moments in common axes, twelve. Work of the forces is then that of the displacements also on an axis that
+/// is misaligned or tilted, and the contact has one energy.
+pub fn own_turns(poses: &[Pose; 2]) -> Option<SMatrix<f64, 12, 12>> {
+    let axes = poses.map(|pose| pose.rotation * Vec3::z());
+    if axes.iter().all(|axis| *axis == Vec3::z()) {
+        return None;
+    }
+    let mut all = SMatrix::identity();
+    for (gear, axis) in axes.iter().enumerate() {
+        (0..3).for_each(|k| all[(6 * gear + 5, 6 * gear + 3 + k)] = axis[k]);
+    }
+    Some(all)
 }

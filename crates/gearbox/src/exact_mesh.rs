@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ale::{SlidingWindow, Station};
 use contact::{
     ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames,
-    slice_result,
+    own_turns, slice_result,
 };
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};
@@ -152,7 +152,11 @@ impl MeshElement for ExactMesh {
             if i % 6 < 3 { wrench.force[i % 3] } else { wrench.moment[i % 3] }
         });
         let tangent = SMatrix::from_fn(|i, j| found.tangent[i][j]);
-        Ok(MeshReply { force, tangent, normal_force: found.pair_forces.iter().sum() })
+        let normal_force = found.pair_forces.iter().sum();
+        Ok(match own_turns(&self.poses) {
+            None => MeshReply { force, tangent, normal_force },
+            Some(g) => MeshReply { force: g * force, tangent: g * tangent * g.transpose(), normal_force },
+        })
     }
 
     /// Refuses a window beside which a pair of teeth ought to carry load.

@@ -6,7 +6,7 @@ const NEWTON_STEPS: usize = 15;
 const TOLERANCE: f64 = 1e-10;
 /// Sum of the steps that are not taken any more, relative to the approach: two steps tell it to a hundredth. Forces that
 /// do not go on with the pose lack ten times as much, the ends of contact lines a hundred times.
-const REMAINDER: f64 = 2e-9;
+const REMAINDER: f64 = 5e-10;
 const REMAINDER_OF_FORCES: f64 = 1e-12;
 /// Ratio of steps that follow each other below which they are a geometric series.
 const GEOMETRIC: f64 = 0.05;

@@ -4,6 +4,7 @@ mod accuracy;
 mod basins;
 mod continuation;
 mod gearbox;
+mod gearbox_of_pairs;
 mod held_pair;
 mod mapped;
 mod motion_accuracy;

@@ -1,6 +1,6 @@
 //! Forces of one side, with their slopes.
 
-use contact::{ContactError, EvaluationLevel, Pose, Wrench};
+use contact::{ContactError, EvaluationLevel, Pose, Wrench, own_turns};
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 
@@ -10,7 +10,7 @@ use crate::{COORDINATES, Displacement, elastic_displacement::ElasticDisplacement
 /// Forces of one side on the twelve coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SideForce {
-    /// Normal forces: N, N mm.
+    /// Normal forces: N, N mm. Turns have the moment about the gear's own axis ([`own_turns`]).
     pub normal: Displacement,
     /// Friction.
     pub friction: Displacement,
@@ -63,15 +63,26 @@ impl MeshSide {
         let force = self
             .contact
             .evaluate_near(&poses, if tangents { EvaluationLevel::Tangent } else { EvaluationLevel::Forces })?;
-        let all = vector(&force.wrench);
-        let stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
-        let friction = self.friction(&poses);
+        let mut all = vector(&force.wrench);
+        let mut stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
+        let mut friction = self.friction(&poses);
+        let turns = own_turns(&poses);
+        if let Some(g) = &turns {
+            (all, friction) = (g * all, g * friction);
+            stiffness = if tangents { g * stiffness * g.transpose() } else { stiffness };
+        }
         let modal = self.contact.modal().map(|modal| {
             let (forces, n) = (modal.forces(), 2 * COORDINATES + modal.count());
             ModalForce {
                 normal: DVector::from_column_slice(&forces.normal),
                 friction: DVector::from_column_slice(&forces.friction),
-                stiffness: tangents.then(|| -DMatrix::from_row_slice(n, n, &forces.tangent)),
+                stiffness: tangents.then(|| {
+                    let common = -DMatrix::from_row_slice(n, n, &forces.tangent);
+                    let Some(g) = &turns else { return common };
+                    let mut whole = DMatrix::identity(n, n);
+                    whole.view_mut((0, 0), (2 * COORDINATES, 2 * COORDINATES)).copy_from(g);
+                    &whole * common * whole.transpose()
+                }),
             }
         });
         Ok(SideForce { normal: all - friction, friction, stiffness, modal })

@@ -3,6 +3,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
+use contact::{Misalignment, gear_centre, gear_pose};
 use gearbox::{
     Disc, ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Operation, StaticGearbox, Structure, Torque, Vector12,
     motion::{
@@ -13,6 +14,7 @@ use gearbox::{
 use geometry::Sense;
 use integrate::Scheme;
 use ltca::StaticOptions;
+use nalgebra::Vector3;
 use reduction::ElasticGear;
 
 use crate::pairs::{operation, options, pair, reduced, single};
@@ -122,6 +124,38 @@ fn a_mapped_mesh_moves_as_the_contact_that_it_was_made_from() {
     let off = off.fold(0.0, f64::max);
     println!("map off by {told:.2e} of {deflection:.2e} mm, motions by {off:.2e} mm");
     assert!(off < 0.03 * deflection, "{off:.2e} mm, deflection {deflection:.2e} mm, error of the map {told:.2e} mm");
+}
+
+/// Both gears turned as one about the axis of a misaligned wheel stay as they are to each other: forces do no work, with
+/// the wheel's moment about its own axis.
+#[test]
+fn turning_both_gears_about_a_misaligned_axis_takes_no_work() {
+    let gears = pair([23, 31], 12.0);
+    let structure = single(&gears, 0.0);
+    let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
+    let train = gearbox::Train::new(&structure, &meshes, &[0.0; 4], 2, Sense::Ccw).unwrap();
+    let mut options = options(&gears, &train.meshing()[0], TORQUE);
+    let lean = Misalignment { in_plane_of_action: 0.03, across_plane_of_action: 0.05, ..Misalignment::default() };
+    options.contact.offsets[1] = lean.wheel_offset(&gears, options.side());
+    let axis = gear_pose(&gears, &options.contact, 1, 0.0).rotation * Vector3::z();
+    assert!((1e-3..1e-2).contains(&axis.xy().norm()), "{axis}");
+    let mut mesh = ExactMesh::new(gears.clone(), reduced(&gears, &options), options.clone()).unwrap();
+    mesh.go_to(0.3).unwrap();
+    let mut at = Vector12::zeros();
+    at[11] = options.side().sign() * 0.04 / gears.wheel.base_radius();
+    let reply = mesh.evaluate(&at).unwrap();
+    let apart = gear_centre(&gears, &options.contact, 0) - gear_centre(&gears, &options.contact, 1);
+    let mut turn = Vector12::zeros();
+    turn.fixed_rows_mut::<3>(0).copy_from(&axis.cross(&apart));
+    turn.fixed_rows_mut::<3>(3).copy_from(&axis);
+    turn[11] = 1.0;
+    let torque = reply.force[11];
+    assert!(torque.abs() > 1e4, "{}", reply.force);
+    // With the moment about z some 1e-3 would be left.
+    let work = reply.force.dot(&turn) / torque;
+    assert!(work.abs() < 1e-12, "{work:.1e} of the torque {torque:.3e} N mm");
+    let slope = (reply.tangent * turn).norm() / reply.tangent.column(11).norm();
+    assert!(slope < 1e-3, "forces change by {slope:.1e} of what a turn of the wheel alone does");
 }
 
 /// A spring made of the contact about the mean displacement answers there as the contact does at every phase, but for
