@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use ale::{SlidingWindow, Station};
 use contact::{
-    ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames,
-    own_turns, slice_result,
+    ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames, own_turns,
+    slice_result,
 };
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};

@@ -38,7 +38,7 @@ impl Window {
     }
 
     /// w(x).
-    fn at(self, x: f64) -> f64 {
+    pub(crate) fn at(self, x: f64) -> f64 {
         let terms = self.terms().iter().enumerate();
         terms.map(|(k, a)| if k % 2 == 0 { 1.0 } else { -1.0 } * a * (TAU * k as f64 * x).cos()).sum()
     }

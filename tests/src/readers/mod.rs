@@ -6,7 +6,7 @@
 //! | file | readers |
 //! |---|---|
 //! | `meshes` | `.msh` of Gmsh, and the gear in it |
-//! | `scenes` | scenes, words of `--set`, studies, REXS |
+//! | `scenes` | scenes, words of `--set`, studies, gearbox files, REXS |
 //! | `measured` | topographies, pitch errors |
 //! | `kept` | records of reduced gears, checkpoints, rows, result folders, sources of pages |
 //! | `limited` | an allocator that ends the program at too much memory |
@@ -20,18 +20,19 @@ mod scenes;
 pub use kept::{checkpoint, page, record, results, rows, sealed_record};
 pub use measured::{pitch_errors, topography};
 pub use meshes::{gear_mesh, mesh};
-pub use scenes::{rexs, scene, setting, study};
+pub use scenes::{gearbox, rexs, scene, setting, study};
 
 /// A reader of bytes.
 pub type Reader = fn(&[u8]);
 
 /// All of them, by the name of their target and of the folder of their corpus.
-pub const READERS: [(&str, Reader); 13] = [
+pub const READERS: [(&str, Reader); 14] = [
     ("mesh", mesh),
     ("gear_mesh", gear_mesh),
     ("scene", scene),
     ("setting", setting),
     ("study", study),
+    ("gearbox", gearbox),
     ("rexs", rexs),
     ("topography", topography),
     ("pitch_errors", pitch_errors),

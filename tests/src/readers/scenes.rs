@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use scene::{Scene, SceneError, Setting, Starter, read_pair, study::Study};
+use scene::{Scene, SceneError, Setting, Starter, gearbox::Gearbox, read_pair, study::Study};
 
 /// A scene that runs as it is, for what is set beside it.
 const SMALL: &str = "[pinion]\nteeth = 23\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 41\n\
@@ -42,6 +42,15 @@ pub fn study(bytes: &[u8]) {
     let columns = |scene: &Scene| scene.motion.is_some().then(|| report::checkpoint::motion_column_names(scene));
     match Study::parse(text, &beside_scenes("fuzz_study.toml"), &columns) {
         Ok(study) => (0..study.cases.len()).for_each(|case| drop(study.folder(case))),
+        Err(e) => drop((e.to_string(), e.hint())),
+    }
+}
+
+/// A gearbox file, with the pairs of the repository that it names.
+pub fn gearbox(bytes: &[u8]) {
+    let Ok(text) = std::str::from_utf8(bytes) else { return };
+    match Gearbox::parse(text, &beside_scenes("gearbox/fuzz.toml")) {
+        Ok(gearbox) => drop(gearbox.meshes.iter().map(|mesh| mesh.scene.gear_pair()).collect::<Vec<_>>()),
         Err(e) => drop((e.to_string(), e.hint())),
     }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use analysis::gearbox_at_rest::{GearboxMotionResult, solve_gearbox};
+use analysis::gearbox_at_rest::{GearboxResult, solve_gearbox};
 use report::gearbox_files::{gearbox_page, gearbox_summary, gearbox_table, write_gearbox_rows};
 use scene::gearbox::Gearbox;
 
@@ -43,40 +43,45 @@ impl GearboxArgs {
         let result = solve_gearbox(&file, &self.cache.open(), &mut phases)?;
         write_gearbox_rows(&file, &result, &results)?;
         let cost = phases.cost();
-        let missed = result.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE);
-        let missed = missed.map(|share| format!("{share:.1e} of the load is left over"));
-        gearbox_page(&file, &result, &cost, missed.as_deref())?.write(&results)?;
+        let missed = missed(&result);
+        let said: Vec<String> = missed.iter().map(|[what, _]| what.clone()).collect();
+        let failed = (!said.is_empty()).then(|| said.join("; "));
+        gearbox_page(&file, &result, &cost, failed.as_deref())?.write(&results)?;
         // Last of all, so that a summary means that everything is there.
         let files = results.files()?;
-        results.write("summary.json", gearbox_summary(&file, &result, &cost, &files).as_bytes())?;
+        results.write("summary.json", gearbox_summary(&file, &result, &cost, &files, &said).as_bytes())?;
         results.finish(talk::note)?;
         let table = gearbox_table(&file, &result, &cost);
-        let failure = missed.map(|what| {
-            let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid".to_owned();
-            CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint))
-        });
-        let failure = failure.or_else(|| result.motion.as_ref().and_then(motion_failure));
+        let first = missed.into_iter().next();
+        let failure = first
+            .map(|[what, hint]| CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint)));
         let text = if quiet { String::new() } else { format!("{table}\nresults: {}\n", self.out.display()) };
         Ok(Answer { text, failure })
     }
 }
 
-/// Why the rows of a motion do not hold.
-fn motion_failure(motion: &GearboxMotionResult) -> Option<CommandError> {
+/// What does not hold, each with what to do about it.
+fn missed(result: &GearboxResult) -> Vec<[String; 2]> {
+    let mut all = Vec::new();
+    let mut say = |what: String, hint: &str| all.push([what, hint.to_owned()]);
+    if let Some(share) = result.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE) {
+        let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
+        say(format!("{share:.1e} of the load is left over"), hint);
+    }
+    let Some(motion) = &result.motion else { return all };
     let (left, beyond) = (motion.energy.relative_residual.abs(), motion.reach.iter().copied().fold(0.0, f64::max));
-    let off = motion.reduction.error;
-    let failed = |what: String, hint: &str| Some(CommandError::failed(what, Some(hint.to_owned())));
     if left.is_nan() || left > ENERGY {
-        let what = format!("the motion does not hold: {left:.1e} of the energy comes from nowhere");
-        return failed(what, "take more `steps_per_cycle`, or `method = \"energy\"`");
+        let what = format!("{left:.1e} of the energy of the motion comes from nowhere");
+        say(what, "take more `steps_per_cycle`, or `method = \"energy\"`");
     }
     if beyond > 1.0 {
         let what = format!("the motion goes {beyond:.2} times as far as the maps of the contact hold");
-        return failed(what, "take `mesh = \"exact\"`, or let it run with more damping");
+        say(what, "take `mesh = \"exact\"`, or let it run with more damping");
     }
-    if off > FREQUENCIES {
+    let off = motion.reduction.error;
+    if off.is_nan() || off > FREQUENCIES {
         let what = format!("natural frequencies of the reduced shafts are off by {off:.1e}");
-        return failed(what, "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept");
+        say(what, "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept");
     }
-    None
+    all
 }

@@ -35,7 +35,7 @@ fn a_gearbox_is_solved_into_its_folder() {
     let mean = ste.iter().sum::<f64>() / 8.0;
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
-    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv motion.csv positions.csv \
+    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv motion.csv motion_orders.csv positions.csv \
                  report.html report.json.gz response.csv rms.csv shafts.csv";
     assert_eq!(summary["files"], serde_json::json!(files.split(' ').collect::<Vec<_>>()));
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
@@ -63,6 +63,63 @@ fn a_gearbox_is_solved_into_its_folder() {
         assert!(scratch.read(&format!("o/{name}")) == first, "bits of {name} go with the number of threads");
     }
     assert!(scratch.read("o/motion.csv") == motion, "bits of the motion go with the number of threads");
+}
+
+/// A run-up: the speed goes from one to the other over all cycles, orders stand over the speed, and where the speed
+/// changes slowly and away from resonance they are the forced response at that speed; the page is made again to the same
+/// bytes, and two folders are compared.
+#[test]
+fn a_run_up_shows_the_orders_of_every_mesh() {
+    let scratch = two_stages();
+    let motion =
+        "[motion]\nspeed_rpm = 1450.0\nto_speed_rpm = 1550.0\nmesh = \"spring\"\ncycles = 220\nsteps_per_cycle = 40\n";
+    let text = scratch.read("two_stages.toml");
+    let (before, _) = text.split_once("[motion]").unwrap();
+    let vibration = ["from_rpm = 400.0", "to_rpm = 6000.0", "speeds = 57"].into_iter();
+    let wanted = ["from_rpm = 1450.0", "to_rpm = 1550.0", "speeds = 3"];
+    let before = vibration.zip(wanted).fold(before.to_owned(), |text, (from, to)| text.replace(from, to));
+    let scratch = scratch.file("run_up.toml", before + motion);
+    let run = scratch.ale_gear(["gearbox", "run_up.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let rows = scratch.read("o/motion.csv");
+    let speed = column(&rows, "input_speed_rpm");
+    assert_eq!(speed.len(), 220 * 40 + 1);
+    assert!((speed[0] + 1450.0).abs() < 1e-6 && (speed[220 * 40] + 1550.0).abs() < 1e-6, "clockwise: {}", speed[0]);
+    let turned = column(&rows, "mesh_1_cycles");
+    assert!((turned[220 * 40] - turned[0] - 220.0).abs() < 1e-6);
+    let orders = scratch.read("o/motion_orders.csv");
+    let response = scratch.read("o/response.csv");
+    let of = |csv: &str, name: &str, mesh: f64, order: f64| -> Vec<[f64; 2]> {
+        let [meshes, all, speeds, values] =
+            ["exciting_mesh", "exciting_order", "input_rpm", name].map(|name| column(csv, name));
+        let rows = (0..values.len()).filter(|i| meshes[*i] == mesh && all[*i] == order);
+        rows.map(|i| [speeds[i], values[i]]).collect()
+    };
+    for (mesh, order) in [(1.0, 1.0), (2.0, 1.0)] {
+        let name = format!("mesh_{mesh}_");
+        let found = of(&orders, &(name.clone() + "normal_force_n"), mesh, order);
+        let steady = of(&response, &(name + "dynamic_force_n"), mesh, order);
+        assert!(found.len() > 4 && steady.len() == 3, "{} stretches, {} speeds", found.len(), steady.len());
+        let [speed, middle] = found[found.len() / 2];
+        let off = middle / steady[1][1] - 1.0;
+        assert!(
+            (speed / 1500.0 - 1.0).abs() < 0.02 && off.abs() < 0.1,
+            "mesh {mesh} at {speed}/min: {middle} beside {}",
+            steady[1][1]
+        );
+    }
+    let page = scratch.read("o/report.html");
+    assert!(page.contains("Mesh orders in the transmission error"));
+    let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+    assert!(scratch.read("again.html") == page, "the page made again has other bytes");
+    let beside = scratch.ale_gear(["compare", "o", "o"]);
+    assert_eq!(beside.code, Some(0), "{}", beside.stderr);
+    assert!(beside.stdout.contains("peak_to_peak_ste_um[1]"), "{}", beside.stdout);
+    let wrong = scratch.read("run_up.toml").replace("to_speed_rpm", "drive = \"torque\"\nto_speed_rpm");
+    let scratch = scratch.file("wrong.toml", wrong);
+    let run = scratch.ale_gear(["gearbox", "wrong.toml", "--out", "w"]);
+    assert!(run.code == Some(2) && run.stderr.contains("a result where a torque drives"), "{}", run.stderr);
 }
 
 /// A mistake ends with status 2, line and hint, and leaves no folder.
@@ -117,8 +174,8 @@ fn swings(scratch: &Scratch, summary: &serde_json::Value) {
     let last: f64 = at.iter().zip(&force).filter(|(s, _)| **s == at[at.len() - 1]).map(|(_, f)| 0.5 * f * f).sum();
     assert!((last.sqrt() / rms[rms.len() - 1] - 1.0).abs() < 1e-12, "orders of unlike frequencies add up by squares");
     universal(scratch);
-    // Five of the box at rest, three of its vibration.
-    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 8);
+    // Five of the box at rest, three of its vibration, four of its motion.
+    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 12);
 }
 
 /// A strict reader of the universal file: marks, numbers of datasets, columns of every record; values against the table.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `parts` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
-//! | `motion` | from rest on, in time |
+//! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
 //! | `result` | what is read off all positions |
 //! | `room` | what is said of parts that have no room, and of large deflections |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
@@ -12,6 +12,7 @@
 mod inertia;
 mod meshes;
 mod motion;
+mod orders;
 mod parts;
 mod result;
 mod room;
@@ -26,6 +27,7 @@ use scene::gearbox::Gearbox;
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
 use meshes::{ReducedMesh, widening};
 pub use motion::GearboxMotionResult;
+pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 pub use swings::{ExcitationLine, GearboxSwings, OrderForces, SpeedRms};
 use vibration::Parts;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::RigidBody;
+use dynamics::{RigidBody, Speed};
 use gearbox::{
     GearboxError, GearboxPosition, Mesh, Meshing, Operation, Structure, Train, Vector12,
     motion::{
@@ -12,7 +12,11 @@ use gearbox::{
 };
 use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
 
-use super::{inertia, meshes::ReducedMesh};
+use super::{
+    inertia,
+    meshes::ReducedMesh,
+    orders::{MotionOrder, orders},
+};
 use crate::{AnalysisError, Observer, PhaseWork, run_phase, unless_cancelled};
 
 /// Largest force of a map over the mean at rest.
@@ -45,6 +49,8 @@ pub struct GearboxMotionResult {
     pub separations: Vec<[u64; 2]>,
     /// How much of its map each mesh has used at most; 0 for others.
     pub reach: Vec<f64>,
+    /// Orders of every mesh, stretch by stretch.
+    pub orders: Vec<MotionOrder>,
     /// How well the shafts were reduced.
     pub reduction: ReductionCertificate,
 }
@@ -77,7 +83,7 @@ pub(super) fn run(
     })
     .map_err(failed)?;
     let damping: Vec<f64> = (0..rest.meshes.len())
-        .map(|i| rest.damping(i, &bodies, springs[i].stiffness.mean, asked.mesh_damping_ratio))
+        .map(|i| rest.damping(i, &bodies, springs[i].stiffness().mean, asked.mesh_damping_ratio))
         .collect();
     let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
         let one = |i: usize| {
@@ -89,13 +95,14 @@ pub(super) fn run(
     })
     .map_err(failed)?;
     let speed = asked.speed_rpm * TAU / 60.0;
+    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
     let options = MotionOptions {
         drive: match asked.drive {
-            GearboxDrive::Speed => Drive::Speed(speed),
+            GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
             GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
         },
         modal_damping: asked.modal_damping_ratio,
-        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(speed)),
+        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest)),
     };
     let mut elements = elements.into_iter();
     let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
@@ -104,7 +111,9 @@ pub(super) fn run(
     });
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
-    let step = 1.0 / (rest.fastest(speed) * f64::from(asked.steps_per_cycle));
+    // A ramp has its longest steps where it is slowest.
+    let slowest = speed.min(asked.to_speed_rpm.map_or(speed, |rpm| rpm * TAU / 60.0));
+    let step = 1.0 / (rest.fastest(slowest) * f64::from(asked.steps_per_cycle));
     let steps = u64::from(asked.cycles) * u64::from(asked.steps_per_cycle);
     let plan = MotionPlan { scheme: asked.scheme, step, steps, steps_per_row: u64::from(asked.steps_per_row) };
     let mut rows: Vec<GearboxInstant> = Vec::new();
@@ -124,9 +133,10 @@ pub(super) fn run(
     }
     let done = done.map_err(failed)?;
     Ok(GearboxMotionResult {
+        orders: orders(&rows)?,
         rows,
         mesh_frequencies: mechanism.mesh_frequencies(),
-        stiffness: springs.iter().map(|s| s.stiffness.mean).collect(),
+        stiffness: springs.iter().map(|s| s.stiffness().mean).collect(),
         damping,
         step,
         steps: [done.steps, done.divided],
@@ -138,6 +148,16 @@ pub(super) fn run(
 }
 
 impl AtRest<'_> {
+    /// Given speed of the input: constant, or a ramp over all cycles.
+    fn nominal(&self, asked: &GearboxMotion) -> Speed {
+        let from = asked.speed_rpm * TAU / 60.0;
+        let Some(to_rpm) = asked.to_speed_rpm else { return Speed::Constant(from) };
+        let to = to_rpm * TAU / 60.0;
+        // The mean speed of the smooth step is that of both ends.
+        let turned = f64::from(asked.cycles) / self.fastest(1.0);
+        Speed::Ramp { from, to, start: 0.0, duration: turned / (0.5 * (from + to)) }
+    }
+
     /// Displacements of a mesh at all positions.
     fn stands(&self, mesh: usize) -> Vec<Vector12> {
         self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
@@ -181,8 +201,7 @@ impl AtRest<'_> {
             MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, damping)?),
             MeshModel::Spring => {
                 alike()?;
-                let made = spring.mesh(own, meshing)?.with_coast_flanks(own, meshing)?;
-                Box::new(made.with_damping(damping))
+                Box::new(spring.mesh(own, meshing)?.with_damping(damping))
             }
             MeshModel::Mapped => {
                 let request = MapRequest {

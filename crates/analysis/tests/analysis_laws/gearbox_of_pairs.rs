@@ -3,10 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use analysis::{
-    NoCache, NoObserver, StaticAnalysis,
-    gearbox_at_rest::solve_gearbox,
-};
+use analysis::{NoCache, NoObserver, StaticAnalysis, gearbox_at_rest::solve_gearbox};
 use contact::SliceResult;
 use fem::{
     Material,
@@ -108,8 +105,7 @@ fn off(own: &[f64], wanted: &[f64]) -> f64 {
 fn differences(mesh: &MeshState, wanted: &StaticPosition) -> Vec<(&'static str, f64)> {
     let largest = |slices: &mut dyn Iterator<Item = &SliceResult>| slices.map(|s| s.pressure).fold(0.0, f64::max);
     // `max_pressure` of a position leaves the last nine digits of equal ones to chance.
-    let pressures =
-        [largest(&mut mesh.slices.iter()), largest(&mut wanted.pairs.iter().flat_map(|pair| &pair.slices))];
+    let pressures = [largest(&mut mesh.slices.iter()), largest(&mut wanted.pairs.iter().flat_map(|pair| &pair.slices))];
     let mut all = vec![
         ("transmission error", off(&[mesh.transmission_error], &[wanted.transmission_error])),
         ("largest pressure", off(&pressures[..1], &pressures[1..])),

@@ -7,8 +7,8 @@ use super::GearboxMechanism;
 use crate::GearboxError;
 
 impl GearboxMechanism {
-    /// Forces of the shafts, bearings, loads and drive.
-    fn bodies_and_loads(&self, q: &DVector<f64>, v: &DVector<f64>, speed: f64, out: &mut Forces) {
+    /// Forces of the shafts, bearings, loads and drive; `acceleration` is that of a given turn.
+    fn bodies_and_loads(&self, q: &DVector<f64>, v: &DVector<f64>, [speed, acceleration]: [f64; 2], out: &mut Forces) {
         out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
         let damped = &self.damping * v;
         out.dissipated += damped.dot(v);
@@ -18,6 +18,10 @@ impl GearboxMechanism {
         for load in &self.loads {
             out.other += load;
             out.supplied += load.dot(v);
+        }
+        if acceleration != 0.0 {
+            out.other.axpy(-acceleration, &self.momentum, 1.0);
+            out.supplied -= acceleration * self.momentum.dot(v);
         }
         if out.tangents {
             out.stiffness += &self.stiffness;
@@ -83,7 +87,7 @@ impl Mechanism for GearboxMechanism {
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         let input = self.input(t, q, v);
-        self.bodies_and_loads(q, v, input[1], out);
+        self.bodies_and_loads(q, v, [input[1], self.acceleration(t)], out);
         (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
     }
 

@@ -1,21 +1,19 @@
-//! The contact of a mesh about one displacement, phase by phase: what a spring of few numbers stands for. Theory (94).
+//! The contact of a mesh about one displacement, phase by phase: what a spring of few numbers stands for. Theory (94a).
 
 use contact::FlankProjection;
 use lumped::Fourier;
 
-use super::SpringMesh;
+use super::{SpringMesh, TiltingSpring, tilting_spring::TiltingCoefficients};
 use crate::{ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Vector12};
 
 /// Orders of a series over `n` samples that are kept: beyond them teeth that come and go would ring.
 const SAMPLES_PER_ORDER: usize = 4;
 
-/// Stiffness and excess of a mesh over its phase, from its exact contact.
+/// Force, tilting moment and their stiffness over the phase of a mesh, from its exact contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactSpring {
-    /// Stiffness along the normal, N/mm, over the phase, 2 pi a mesh cycle.
-    pub stiffness: Fourier,
-    /// What the flanks are thicker by than nominal ones, along the normal, mm.
-    pub excess: Fourier,
+    projection: FlankProjection,
+    coefficients: TiltingCoefficients,
     /// Mean normal force, N.
     pub force: f64,
 }
@@ -24,40 +22,70 @@ impl ContactSpring {
     /// Looks at the contact at `samples` phases of a cycle with the gears displaced by `about`.
     ///
     /// ```text
-    /// F(c, d) = k(c) [a . d + e(c)],   k = dF/d(a . d),   e = F/k - a . d      at d = about
+    /// F = dV/dx,  M = dV/dgamma,  K their slopes at d = about;   delta_0 = F/K_xx = x + e,   k = K_xx
+    /// s k = 2 M/delta_0 - K_xg,   m delta_0 = K_xg - M/delta_0,   n delta_0^2 = K_gg - s^2 k - 4 s m delta_0
     /// ```
     /// # Errors
     /// [`GearboxError::Unmapped`] where flanks do not touch there at every phase.
     pub fn of(mesh: &mut ExactMesh, about: &Vector12, samples: usize) -> Result<Self, GearboxError> {
         let projection = FlankProjection::new(mesh.pair(), mesh.options().side());
-        let a = &projection.approach;
-        let (mut k, mut e, mut sum) = (Vec::new(), Vec::new(), 0.0);
         let samples = samples.max(1);
+        let mut all: [Vec<f64>; 5] = Default::default();
+        let mut sum = 0.0;
         for i in 0..samples {
             mesh.go_to(i as f64 / samples as f64)?;
-            let reply = mesh.evaluate(about)?;
-            let force = -reply.force[11] / a[11];
-            let stiffness = -reply.tangent[(11, 11)] / (a[11] * a[11]);
-            if !(force > 0.0 && stiffness > 0.0) {
-                return Err(GearboxError::Unmapped { what: "flanks that are apart at some phase under their load" });
-            }
-            k.push(stiffness);
-            e.push(force / stiffness - a.dot(about));
+            let (force, own) = sample(mesh, &projection, about)?;
+            all.iter_mut().zip(own).for_each(|(list, x)| list.push(x));
             sum += force;
         }
         let series = |quantity, values: &[f64]| {
             let found = Fourier::of_samples(quantity, values, samples / SAMPLES_PER_ORDER);
             found.map_err(|source| GearboxError::Mesh { mesh: quantity.to_owned(), source })
         };
-        let (stiffness, excess) = (series("mesh stiffness, N/mm", &k)?, series("excess of the flanks, mm", &e)?);
-        Ok(Self { stiffness, excess, force: sum / samples as f64 })
+        let [k, e, s, m, n] = &all;
+        let coefficients = TiltingCoefficients {
+            stiffness: series("mesh stiffness, N/mm", k)?,
+            excess: series("excess of the flanks, mm", e)?,
+            place: series("place of the mesh force, mm", s)?,
+            by_tilt: [series("stiffness by tilt, N/(mm rad)", m)?, series("stiffness by tilt, N/(mm rad^2)", n)?],
+            tilt: projection.tilt.dot(about),
+        };
+        Ok(Self { projection, coefficients, force: sum / samples as f64 })
     }
 
-    /// The mesh as it runs.
+    /// Stiffness along the normal, N/mm, over the phase, 2 pi a mesh cycle.
+    pub fn stiffness(&self) -> &Fourier {
+        &self.coefficients.stiffness
+    }
+
+    /// The mesh as it runs, with flanks on both sides.
     ///
     /// # Errors
     /// As [`SpringMesh::new`].
-    pub fn mesh(&self, mesh: &Mesh, meshing: &Meshing) -> Result<SpringMesh, GearboxError> {
-        Ok(SpringMesh::new(mesh, meshing, self.stiffness.clone())?.with_excess(self.excess.clone()))
+    pub fn mesh(&self, mesh: &Mesh, meshing: &Meshing) -> Result<TiltingSpring, GearboxError> {
+        let c = &self.coefficients;
+        let both = SpringMesh::new(mesh, meshing, c.stiffness.clone())?.with_excess(c.excess.clone());
+        let coast = both.with_coast_flanks(mesh, meshing)?.without_drive_flanks();
+        Ok(TiltingSpring::new(self.projection, c.clone(), coast))
     }
+}
+
+/// Force, and the five coefficients, at one phase.
+fn sample(
+    mesh: &mut ExactMesh,
+    projection: &FlankProjection,
+    about: &Vector12,
+) -> Result<(f64, [f64; 5]), GearboxError> {
+    let reply = mesh.evaluate(about)?;
+    let ways = [projection.displacement(1.0, 0.0), projection.displacement(0.0, 1.0)];
+    let [force, moment] = ways.map(|w| -reply.force.dot(&w));
+    let slope = |i: usize, j: usize| -ways[i].dot(&(reply.tangent * ways[j]));
+    let (k, mixed, tilting) = (slope(0, 0), 0.5 * (slope(0, 1) + slope(1, 0)), slope(1, 1));
+    if !(force > 0.0 && k > 0.0) {
+        return Err(GearboxError::Unmapped { what: "flanks that are apart at some phase under their load" });
+    }
+    let delta = force / k;
+    let (s, m) = ((2.0 * moment / delta - mixed) / k, (mixed - moment / delta) / delta);
+    let n = (tilting - s * s * k - 4.0 * s * m * delta) / (delta * delta);
+    Ok((force, [k, delta - projection.approach.dot(about), s, m, n]))
 }

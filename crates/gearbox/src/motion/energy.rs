@@ -1,7 +1,6 @@
 //! Where the energy of a gearbox goes, counted in common axes. Theory (96).
 
 use integrate::{Ledger, State};
-use nalgebra::DVector;
 
 use super::GearboxMechanism;
 use crate::GearboxError;
@@ -37,10 +36,10 @@ impl GearboxMechanism {
     /// The energy at `state` of a motion that began at `start`.
     ///
     /// ```text
-    /// input at given speed: E = E_z + Omega m . v + const,   W_in = W_z + Omega m . (v - v_0) - sum T_j theta_j
+    /// input at given speed: E = E_z + Omega m . v + Omega^2 r' M r/2,   W_in = W_z + [Omega m . v + Omega^2 r' M r/2]_0 - sum T_j theta_j
     /// ```
-    /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them; m = B' M r. Torques are
-    /// constant: their work is that of the turns.
+    /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them, the work -Omega' m . v of an
+    /// acceleration in it; m = B' M r. Torques are constant: their work is that of the turns.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.
@@ -60,17 +59,19 @@ impl GearboxMechanism {
         };
         let mut began = ledger.initial;
         if self.free.turn.is_none() {
-            let (omega, time) = (self.input_speed(), state.time - start.time);
-            let heavy = &self.bodies.mass * &self.free.rigid;
-            let momentum = self.free.basis.tr_mul(&heavy);
-            let along = |v: &DVector<f64>| omega * momentum.dot(v) + 0.5 * omega * omega * heavy.dot(&self.free.rigid);
-            let nominal = self.outputs.dot(&self.free.rigid) * omega * time;
-            let shift = along(&state.v) - along(&start.v);
+            let inertia = self.free.rigid.dot(&(&self.bodies.mass * &self.free.rigid));
+            let of = |s: &State| self.input(s.time, &s.q, &s.v);
+            let along = |s: &State| {
+                let [_, omega] = of(s);
+                omega * self.momentum.dot(&s.v) + 0.5 * omega * omega * inertia
+            };
+            let nominal = self.outputs.dot(&self.free.rigid) * (of(state)[0] - of(start)[0]);
+            let shift = along(state) - along(start);
             energy.output_work += nominal;
             energy.input_work = ledger.parametric + ledger.supplied - of_outputs + shift - nominal;
-            energy.kinetic += along(&state.v);
+            energy.kinetic += along(state);
             energy.gained += shift;
-            began += along(&start.v);
+            began += along(start);
         }
         energy.shafts = 0.5 * state.q.dot(&(&self.stiffness * &state.q)) - energy.supports;
         let [angle, _] = self.input(state.time, &state.q, &state.v);

@@ -1,5 +1,6 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
+use dynamics::Speed;
 use nalgebra::{DMatrix, DVector};
 
 use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
@@ -11,7 +12,7 @@ use crate::{
 /// Shafts, bearings and meshes that move: any number of each, every mesh at its own phase.
 ///
 /// ```text
-/// M z'' = -dV/dz - (C + psi' G) z' + loads + dampers of the meshes,   V = z' K z/2 + sum of V_mesh(c_i(psi), D_i z)
+/// M z'' = -dV/dz - (C + psi' G) z' - m psi'' + loads + dampers of the meshes,   V = z' K z/2 + sum of V_mesh(c_i(psi), D_i z)
 /// ```
 pub struct GearboxMechanism {
     pub(super) assembly: Assembly,
@@ -30,6 +31,8 @@ pub struct GearboxMechanism {
     pub(super) gyroscopic: DMatrix<f64>,
     /// Torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
+    /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
+    pub(super) momentum: DVector<f64>,
     /// Of the outputs, and of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
     /// Most that each mesh has been used of what it holds, at the ends of steps.
@@ -69,6 +72,7 @@ impl GearboxMechanism {
             Drive::Speed(_) => 0.0,
             Drive::Torque { torque, .. } => torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount),
         };
+        let momentum = free.basis.tr_mul(&(&bodies.mass * &free.rigid));
         let loads = [free.basis.tr_mul(&outputs), free.basis.tr_mul(&free.input) * given];
         let mut deviations = free.basis.clone();
         if let Some(i) = free.turn {
@@ -101,6 +105,7 @@ impl GearboxMechanism {
             damping,
             gyroscopic,
             outputs,
+            momentum,
             loads,
             reach,
             start_cycles,
@@ -141,7 +146,18 @@ impl GearboxMechanism {
     pub(super) fn input(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         match self.free.turn {
             Some(i) => [q[i], v[i]],
-            None => [self.input_speed() * t, self.input_speed()],
+            None => {
+                let (sense, nominal) = (self.operation.sense.sign() as f64, self.drive.nominal());
+                [sense * nominal.angle(t), sense * nominal.at(t)]
+            }
+        }
+    }
+
+    /// Given acceleration of the input, rad/s^2 about +z; 0 where a torque drives.
+    pub(super) fn acceleration(&self, t: f64) -> f64 {
+        match self.drive {
+            Drive::Speed(speed) => self.operation.sense.sign() as f64 * speed.acceleration(t),
+            Drive::Torque { .. } => 0.0,
         }
     }
 
@@ -173,11 +189,18 @@ impl GearboxMechanism {
 
 /// That speed, damping and bearings have a meaning in motion.
 fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), GearboxError> {
-    let (torque, speed) = match options.drive {
-        Drive::Speed(speed) => (0.0, speed),
-        Drive::Torque { start, torque } => (torque.unwrap_or(0.0), start),
+    let (torque, [speed, last, duration]) = match options.drive {
+        Drive::Speed(Speed::Constant(speed)) => (0.0, [speed; 3]),
+        Drive::Speed(Speed::Ramp { from, to, duration, .. }) => (0.0, [from, to, duration.recip()]),
+        Drive::Torque { start, torque } => (torque.unwrap_or(0.0), [start; 3]),
     };
-    let values = [("speed, rad/s", speed), ("torque, N mm", torque), ("modal damping", options.modal_damping)];
+    let values = [
+        ("speed, rad/s", speed),
+        ("speed, rad/s", last),
+        ("rate of the ramp, 1/s", duration),
+        ("torque, N mm", torque),
+        ("modal damping", options.modal_damping),
+    ];
     if let Some((quantity, value)) = values.into_iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0)) {
         return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value });
     }

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
-//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
+//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `run` | from equilibrium on, row by row |
 //! | `instant`, `energy` | what is read off |
@@ -26,8 +26,10 @@ mod reduced_bodies;
 mod run;
 mod spring_mesh;
 mod start;
+mod tilting_spring;
 
 pub use contact_spring::ContactSpring;
+pub use dynamics::Speed;
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use mapped_mesh::{MapRequest, MappedMesh};
@@ -39,3 +41,4 @@ pub use pitch_errors::PitchErrors;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
 pub use run::{GearboxRun, MotionPlan};
 pub use spring_mesh::SpringMesh;
+pub use tilting_spring::TiltingSpring;

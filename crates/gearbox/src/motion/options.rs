@@ -1,10 +1,12 @@
 //! What is asked of a motion of a gearbox.
 
+use dynamics::Speed;
+
 /// What turns the input, in the sense of [`crate::Operation`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
-    /// At a given speed, rad/s: the input coupling counts as infinitely heavy.
-    Speed(f64),
+    /// At a given speed, rad/s, constant or from one to another: the input coupling counts as infinitely heavy.
+    Speed(Speed),
     /// By a torque, from a speed on.
     Torque {
         /// Speed at the start, rad/s.
@@ -29,8 +31,14 @@ pub struct MotionOptions {
 impl Drive {
     /// Speed of the input at the start, rad/s, without its sense.
     pub(super) fn start(&self) -> f64 {
+        self.nominal().at(0.0)
+    }
+
+    /// Speed of the input by time where it is given, else that of the start.
+    pub(super) fn nominal(&self) -> Speed {
         match *self {
-            Self::Speed(speed) | Self::Torque { start: speed, .. } => speed,
+            Self::Speed(speed) => speed,
+            Self::Torque { start, .. } => Speed::Constant(start),
         }
     }
 }

@@ -1,8 +1,9 @@
 //! A motion from its start, row by row.
 
+use dynamics::Speed;
 use integrate::{Integrator, Ledger, Scheme, State, StepControl};
 
-use super::{GearboxEnergy, GearboxInstant, GearboxMechanism};
+use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism};
 use crate::GearboxError;
 
 /// How a motion is integrated.
@@ -10,7 +11,7 @@ use crate::GearboxError;
 pub struct MotionPlan {
     /// Method.
     pub scheme: Scheme,
-    /// Length of a step, s.
+    /// Length of a step, s, the longest where a given speed changes: steps are then turns of the input that are alike.
     pub step: f64,
     /// Steps in all.
     pub steps: u64,
@@ -55,13 +56,17 @@ impl GearboxMechanism {
         let per_row = plan.steps_per_row.max(1);
         let rows = plan.steps.div_ceil(per_row);
         for row in 0..=rows {
-            // Times are counted from the start: sums of steps would drift.
-            let until = start.time + plan.step * (row * per_row).min(plan.steps) as f64;
-            integrator.advance(self, &mut state, until, |_, progress| {
-                for crossing in progress.crossings.iter().filter(|c| c.direction == integrate::Direction::Down) {
-                    separations[crossing.event / 2][crossing.event % 2] += 1;
-                }
-            })?;
+            let last = (row * per_row).min(plan.steps);
+            // A step of its own for each time where these are not evenly spaced.
+            let first = if self.is_ramp() { (last + 1).saturating_sub(per_row).min(last) } else { last };
+            for step in first..=last {
+                let until = self.time_of(start.time, plan, step)?;
+                integrator.advance(self, &mut state, until, |_, progress| {
+                    for crossing in progress.crossings.iter().filter(|c| c.direction == integrate::Direction::Down) {
+                        separations[crossing.event / 2][crossing.event % 2] += 1;
+                    }
+                })?;
+            }
             if !seen(&self.instant(&state)?) {
                 break;
             }
@@ -71,5 +76,20 @@ impl GearboxMechanism {
         let [steps, divided] = integrator.steps();
         let (states, reach) = ([start.clone(), state], self.reach.clone());
         Ok(GearboxRun { states, ledger, energy, steps, divided, separations, reach })
+    }
+
+    fn is_ramp(&self) -> bool {
+        matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
+    }
+
+    /// Time at which a step ends: evenly spaced, or where the input has turned by its share of the whole ramp.
+    fn time_of(&self, start: f64, plan: &MotionPlan, step: u64) -> Result<f64, GearboxError> {
+        // Times are counted from the start: sums of steps would drift.
+        let Drive::Speed(ramp @ Speed::Ramp { start: begin, duration, .. }) = self.drive else {
+            return Ok(start + plan.step * step as f64);
+        };
+        let angle = ramp.angle(begin + duration) * (step as f64 / plan.steps.max(1) as f64);
+        let never = || GearboxError::OutOfRange { part: "the ramp".into(), quantity: "angle, rad", value: angle };
+        ramp.time_at(angle).ok_or_else(never)
     }
 }

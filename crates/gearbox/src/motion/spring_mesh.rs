@@ -99,6 +99,12 @@ impl SpringMesh {
         Ok(self)
     }
 
+    /// With the coast flanks alone.
+    pub(super) fn without_drive_flanks(mut self) -> Self {
+        self.sides[0] = None;
+        self
+    }
+
     /// With a damper along the normal, N s/mm, that is held at the force of the flanks: none pulls, and none pushes
     /// where contact only begins.
     #[must_use]

@@ -138,7 +138,7 @@ fn names(folder: &Path) -> std::io::Result<Vec<String>> {
 }
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 65] = [
+const OURS: [&str; 66] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -177,6 +177,7 @@ const OURS: [&str; 65] = [
     "bearing_forces.uff",
     "line_load.csv",
     "motion.csv",
+    "motion_orders.csv",
     "cases.csv",
     "cases.parquet",
     "optimum.toml",

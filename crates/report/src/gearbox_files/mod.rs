@@ -2,6 +2,8 @@
 
 mod modes;
 mod motion;
+mod motion_orders;
+mod motion_page;
 mod page;
 mod response;
 mod rows;
@@ -21,7 +23,8 @@ pub use summary::gearbox_summary;
 pub use table::gearbox_table;
 
 /// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`; of a vibration `modes.csv`, `campbell.csv`,
-/// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`; of a motion `motion.csv`.
+/// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`; of a motion `motion.csv`
+/// and, where it is long enough to tell orders, `motion_orders.csv`.
 ///
 /// # Errors
 /// When the system refuses.
@@ -38,8 +41,11 @@ pub fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn Re
         files.write("bearing_forces.csv", response::bearing_forces(file, swings).as_bytes())?;
         files.write("bearing_forces.uff", response::universal(file, swings).as_bytes())?;
     }
-    match &result.motion {
-        Some(own) => files.write("motion.csv", motion::motion(file, own).as_bytes()),
-        None => Ok(()),
+    if let Some(own) = &result.motion {
+        files.write("motion.csv", motion::motion(file, own).as_bytes())?;
+        if !own.orders.is_empty() {
+            files.write("motion_orders.csv", motion_orders::motion_orders(file, &own.orders).as_bytes())?;
+        }
     }
+    Ok(())
 }

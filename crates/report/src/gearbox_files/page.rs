@@ -8,7 +8,7 @@ use minijinja::{context, value::Serde};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use super::{space::BoxInSpace, summary, vibration_page::vibration};
+use super::{motion_page::motion, space::BoxInSpace, summary, vibration_page::vibration};
 use crate::{
     Cost, ReportError,
     charts::{Curve, embedded, line_chart},
@@ -42,13 +42,14 @@ pub fn gearbox_page(
             bearings => Serde(bearings(file, result)),
             charts => charts(file, result),
             vibration => file.vibration.as_ref().zip(result.vibration.as_ref()).map(|(v, s)| vibration(file, v, s)),
+            motion => result.motion.as_ref().map(|own| motion(file, result, own)),
             certificate => result.certificate,
             cost => Serde(serde_json::to_value(cost).unwrap_or_default()),
         },
     )
 }
 
-fn norm(force: [f64; 3]) -> f64 {
+pub(super) fn norm(force: [f64; 3]) -> f64 {
     force[0].hypot(force[1]).hypot(force[2])
 }
 

@@ -20,7 +20,7 @@ const COMPONENTS: [(&str, &str); 6] = [
 ];
 
 /// Columns that say which order of which mesh a row tells of.
-const WHICH: [&str; 4] = ["input_rpm", "exciting_mesh", "exciting_order", "frequency_hz"];
+pub(super) const WHICH: [&str; 4] = ["input_rpm", "exciting_mesh", "exciting_order", "frequency_hz"];
 
 /// Rows of every order of every mesh, speed after speed.
 fn each_order<const N: usize>(

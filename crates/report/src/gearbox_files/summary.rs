@@ -7,11 +7,19 @@ use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use serde_json::{Value, json};
 
+use super::page::norm;
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 use crate::{Cost, SUMMARY_SCHEMA};
 
 /// What is known of a gearbox but its rows. Names of keys bear the units.
-pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, files: &[String]) -> String {
+/// `missed`: what does not hold of it, in words.
+pub fn gearbox_summary(
+    file: &Gearbox,
+    result: &GearboxResult,
+    cost: &Cost,
+    files: &[String],
+    missed: &[String],
+) -> String {
     let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair));
     let bearings = result.bearings.iter().map(|b| {
         json!({
@@ -29,6 +37,10 @@ pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, file
     let vibration = file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own));
     let mut all = json!({
         "schema": SUMMARY_SCHEMA,
+        "program": "ale-gear",
+        "version": env!("CARGO_PKG_VERSION"),
+        "certificate_missed": missed,
+        "headline": headline(result),
         "gearbox": file.file.display().to_string(),
         "name": file.name,
         "shafts": shafts.collect::<Vec<_>>(),
@@ -48,6 +60,21 @@ pub fn gearbox_summary(file: &Gearbox, result: &GearboxResult, cost: &Cost, file
         all["vibration"] = vibration;
     }
     format!("{all:#}\n")
+}
+
+/// The numbers that two gearboxes are compared by.
+fn headline(result: &GearboxResult) -> Value {
+    let of_meshes = |of: &dyn Fn(&MeshResult) -> Option<f64>| result.meshes.iter().map(of).collect::<Vec<_>>();
+    json!({
+        "mean_input_torque_nm": 1e-3 * result.input_torque,
+        "mean_ste_um": of_meshes(&|m| Some(1e3 * m.transmission_error[0])),
+        "peak_to_peak_ste_um": of_meshes(&|m| Some(1e3 * m.transmission_error[1])),
+        "misalignment_in_plane_um": of_meshes(&|m| Some(1e3 * m.misalignment[0])),
+        "face_load_factor": of_meshes(&|m| m.face_load_factor),
+        "max_pressure_mpa": of_meshes(&|m| Some(m.max_pressure)),
+        "peak_to_peak_lag_urad": result.outputs.iter().map(|o| 1e6 * o.peak_to_peak).collect::<Vec<_>>(),
+        "mean_bearing_force_n": result.bearings.iter().map(|b| norm(b.force)).collect::<Vec<_>>(),
+    })
 }
 
 /// Headline of a vibration.

@@ -18,6 +18,8 @@ const ROWS: u64 = 500_000;
 pub struct GearboxMotion {
     /// Speed of the input, 1/min: always, or at the start where a torque drives.
     pub speed_rpm: f64,
+    /// Speed at the end, 1/min, of a motion at given speed that goes from one to another over all its cycles.
+    pub to_speed_rpm: Option<f64>,
     /// What drives.
     pub drive: GearboxDrive,
     /// Torque on the input, N mm, where a torque drives; none: what balances the loads.
@@ -65,6 +67,7 @@ pub enum MeshModel {
 /// Keys of the table.
 pub(super) const KEYS: &[&str] = &[
     "speed_rpm",
+    "to_speed_rpm",
     "drive",
     "input_torque_nm",
     "mesh",
@@ -83,6 +86,7 @@ pub(super) const KEYS: &[&str] = &[
 #[serde(deny_unknown_fields)]
 pub(super) struct RawMotion {
     pub speed_rpm: Number,
+    pub to_speed_rpm: Number,
     pub drive: Word,
     pub input_torque_nm: Number,
     pub mesh: Word,
@@ -113,6 +117,11 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
             "take `drive = \"torque\"`, or leave the torque out: it is a result",
         ));
     }
+    let to_speed_rpm = given("to_speed_rpm", &raw.to_speed_rpm, 1e-3, 1e7)?;
+    if let (GearboxDrive::Torque, Some(own)) = (drive, &raw.to_speed_rpm) {
+        let said = "the speed at the end is a result where a torque drives";
+        return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, or leave `to_speed_rpm` out"));
+    }
     let models = [("mapped", MeshModel::Mapped), ("spring", MeshModel::Spring), ("exact", MeshModel::Exact)];
     let method = s.choice_of::<Integration>("method", &raw.method)?;
     let radius = given("spectral_radius", &raw.spectral_radius, 0.0, 1.0)?;
@@ -130,6 +139,7 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
     }
     Ok(GearboxMotion {
         speed_rpm: needed_number(s, table, "[motion]", "speed_rpm", &raw.speed_rpm, 1e-3, 1e7)?,
+        to_speed_rpm,
         drive,
         input_torque,
         mesh: s.choice("mesh", &raw.mesh, &models)?,
