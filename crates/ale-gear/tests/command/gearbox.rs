@@ -78,6 +78,8 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     let vibration = ["from_rpm = 400.0", "to_rpm = 6000.0", "speeds = 57"].into_iter();
     let wanted = ["from_rpm = 1450.0", "to_rpm = 1550.0", "speeds = 3"];
     let before = vibration.zip(wanted).fold(before.to_owned(), |text, (from, to)| text.replace(from, to));
+    // The speed is given, as by a machine of any inertia.
+    let before = before.replace("input = \"free\"", "input = \"held\"");
     let scratch = scratch.file("run_up.toml", before + motion);
     let run = scratch.ale_gear(["gearbox", "run_up.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
@@ -95,19 +97,15 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
         let rows = (0..values.len()).filter(|i| meshes[*i] == mesh && all[*i] == order);
         rows.map(|i| [speeds[i], values[i]]).collect()
     };
-    for (mesh, order) in [(1.0, 1.0), (2.0, 1.0)] {
-        let name = format!("mesh_{mesh}_");
-        let found = of(&orders, &(name.clone() + "normal_force_n"), mesh, order);
-        let steady = of(&response, &(name + "dynamic_force_n"), mesh, order);
-        assert!(found.len() > 4 && steady.len() == 3, "{} stretches, {} speeds", found.len(), steady.len());
-        let [speed, middle] = found[found.len() / 2];
-        let off = middle / steady[1][1] - 1.0;
-        assert!(
-            (speed / 1500.0 - 1.0).abs() < 0.02 && off.abs() < 0.1,
-            "mesh {mesh} at {speed}/min: {middle} beside {}",
-            steady[1][1]
-        );
-    }
+    // The first mesh hardly swings here: its force is a difference of others.
+    let found = of(&orders, "mesh_2_normal_force_n", 2.0, 1.0);
+    let steady = of(&response, "mesh_2_dynamic_force_n", 2.0, 1.0);
+    assert!(found.len() > 4 && steady.len() == 3, "{} stretches, {} speeds", found.len(), steady.len());
+    let ([speed, middle], [at, wanted]) = (found[found.len() / 2], steady[1]);
+    assert!(
+        (speed / at - 1.0).abs() < 0.01 && (middle / wanted - 1.0).abs() < 0.05,
+        "{middle} N at {speed}/min beside {wanted} N"
+    );
     let page = scratch.read("o/report.html");
     assert!(page.contains("Mesh orders in the transmission error"));
     let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
