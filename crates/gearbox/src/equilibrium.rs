@@ -11,8 +11,6 @@ const HALVINGS: usize = 24;
 /// Step over the displacements that ends the search. It is taken, and the forces follow it by the tangent, which is good
 /// to some thousandths: what is left is some 1e-12.
 const FINE: f64 = 1e-9;
-/// The same below which the meshes need not be looked at again: forces of slices do not follow by the tangent.
-const FINER: f64 = 1e-12;
 /// Residual over the load beyond which a fine step is not the last one.
 const LEFT: f64 = 1e-6;
 /// The same where round-off of the contact does not let the residual fall any more.
@@ -129,12 +127,7 @@ pub(crate) fn equilibrium(
         share = norms.of_displacements(&step) / norms.of_displacements(&z).max(f64::MIN_POSITIVE);
         // A light load is a small part of what closes its gaps: there the residual says when it is found.
         if share <= FINE && (merit <= LEFT * whole || share <= 4.0 * f64::EPSILON) {
-            if share <= FINER {
-                return Ok(found(z, step));
-            }
-            let (next, nothing) = (&z + &step, DVector::zeros(z.len()));
-            let residual = norms.of_forces(&left_at(&next)?.residual) / whole;
-            return Ok(Found { residual, ..found(next, nothing) });
+            return Ok(found(z, step));
         }
         let mut part = 1.0;
         let mut better = None;

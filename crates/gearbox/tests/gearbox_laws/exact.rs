@@ -178,3 +178,46 @@ fn two_stages_of_exact_contacts_are_in_balance() {
         }
     }
 }
+
+/// What shafts and bearings cost: positions of the box beside the same positions of its pairs alone, one after the other.
+#[test]
+fn a_box_costs_little_more_than_its_meshes() {
+    let (structure, meshes) = two_stages();
+    let run = operation(&structure, 4, Sense::Ccw, vec![Torque { disc: 5, torque: -TORQUE }]);
+    let gears = Reduced::default();
+    let mut gearbox = exact(structure, meshes.clone(), run, &gears);
+    let torques = [TORQUE * 19.0 / 47.0, TORQUE];
+    let mut alone: Vec<StaticModel> = (0..2)
+        .map(|i| {
+            let pair = &meshes[i].pair;
+            let own = options(pair, &gearbox.train().meshing()[i], torques[i]);
+            StaticModel::new(pair.clone(), gearbox_gears(&gears, i).clone().unwrap(), own).unwrap()
+        })
+        .collect();
+    let step = std::f64::consts::TAU / 17.0 / 64.0;
+    // Tables of the contact are filled on the way.
+    // All teeth are alike: a pair alone begins at its first.
+    let first: Vec<f64> = gearbox.solve(0.0).unwrap().meshes.iter().map(|m| m.cycles.floor()).collect();
+    let (mut of_box, mut of_pairs) = (Vec::new(), Vec::new());
+    for round in 0..3 {
+        let angles = || (1..65).map(|i| step * f64::from(64 * round + i));
+        let start = std::time::Instant::now();
+        let found: Vec<GearboxPosition> = angles().map(|angle| gearbox.solve(angle).unwrap()).collect();
+        of_box.push(start.elapsed().as_secs_f64());
+        let start = std::time::Instant::now();
+        for position in &found {
+            for ((mesh, model), first) in position.meshes.iter().zip(&mut alone).zip(&first) {
+                model.advance(Station::at_cycles(mesh.cycles - first), |_| ()).unwrap();
+            }
+        }
+        of_pairs.push(start.elapsed().as_secs_f64());
+    }
+    let least = |all: &[f64]| all.iter().copied().fold(f64::INFINITY, f64::min);
+    let ratio = least(&of_box) / least(&of_pairs);
+    println!(
+        "64 positions: box {:.1} ms, pairs {:.1} ms, {ratio:.2} times",
+        1e3 * least(&of_box),
+        1e3 * least(&of_pairs)
+    );
+    assert!(ratio < 2.0, "{ratio} times the pairs alone");
+}
