@@ -5,6 +5,8 @@ use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
 
+use crate::rolling_bearing::RollingBearingError;
+
 /// Why shafts, bearings and gears cannot be put together or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -27,6 +29,20 @@ pub enum GearboxError {
         shaft: String,
         /// How it can move.
         motion: &'static str,
+    },
+    /// No rolling bearing can be made of what is stated.
+    #[error("bearing {bearing}: {source}")]
+    Bearing {
+        /// Name of the bearing.
+        bearing: String,
+        /// What is wrong.
+        source: RollingBearingError,
+    },
+    /// Rolling elements where springs are needed.
+    #[error("bearing {bearing} has a law, and what swings or moves is linear")]
+    NotLinear {
+        /// Name of the bearing.
+        bearing: String,
     },
     /// A part names a shaft that is not there.
     #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
@@ -248,6 +264,8 @@ impl GearboxError {
             Self::Loose { .. } => {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`)"
             }
+            Self::Bearing { source, .. } => source.hint(),
+            Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
             Self::NoShaft { .. } | Self::NoDisc { .. } => {
                 "shafts and discs are numbered in the order in which they are given"
             }

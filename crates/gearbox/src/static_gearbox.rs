@@ -6,9 +6,11 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
-    equilibrium::{Left, Norms, equilibrium},
+    equilibrium::{Found, Left, Norms, equilibrium},
     loose::check_held,
+    pliant::PliantBearing,
     position::{Solved, position},
+    rolling_bearing::RollingReply,
     seats::Seats,
 };
 
@@ -37,6 +39,17 @@ pub struct Operation {
     pub held: Vec<usize>,
 }
 
+/// Loads that a light one is found by way of: powers of this factor, and how many.
+const HEAVIER: f64 = 8.0;
+const MOST_POWERS: i32 = 8;
+
+/// Equilibrium, with what meshes and rolling bearings did there.
+struct Sought {
+    found: Found,
+    replies: Vec<MeshReply>,
+    pressed: Vec<RollingReply>,
+}
+
 /// A gearbox at rest: any number of shafts and meshes.
 pub struct StaticGearbox {
     pub(crate) assembly: Assembly,
@@ -51,6 +64,8 @@ pub struct StaticGearbox {
     /// Load on the seats.
     load: DVector<f64>,
     stiffness: DMatrix<f64>,
+    /// Bearings with rolling elements.
+    pub(crate) pliant: Vec<PliantBearing>,
     norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     last: Vec<(f64, DVector<f64>)>,
@@ -78,14 +93,20 @@ impl StaticGearbox {
         let mut discs: Vec<usize> = meshes.iter().flat_map(|m| m.discs).collect();
         discs.extend(operation.torques.iter().map(|t| t.disc).chain([operation.input]));
         let seats = Seats::new(&assembly, &discs, &held, operation.input)?;
-        let mut load = DVector::zeros(seats.size());
+        let mut load = seats.of_all(&assembly.preload(), &assembly);
         for torque in &operation.torques {
             if let Some(at) = seats.of_disc(&assembly, torque.disc) {
                 load[at + 5] += torque.torque;
             }
         }
         let stiffness = seats.basis.transpose() * &seats.stiffness * &seats.basis;
-        let mut guessed = stiffness.clone();
+        let pliant = PliantBearing::all(&assembly, &seats, &held);
+        let mut rough = DMatrix::zeros(seats.size(), seats.size());
+        let force = guessed_force(&meshes, &operation);
+        for own in &pliant {
+            own.add_stiffness(&assembly.structure().bearings[own.bearing].rough_stiffness(force), &mut rough);
+        }
+        let mut guessed = &stiffness + seats.basis.transpose() * rough * &seats.basis;
         let (mut places, mut made) = (Vec::new(), Vec::new());
         for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
             let at = mesh.discs.map(|d| seats.of_disc(&assembly, d).unwrap_or(0));
@@ -108,6 +129,7 @@ impl StaticGearbox {
             places,
             load,
             stiffness,
+            pliant,
             norms,
             last: Vec::new(),
             replies: Vec::new(),
@@ -137,11 +159,33 @@ impl StaticGearbox {
         for ((element, &c), mesh) in self.elements.iter_mut().zip(&cycles).zip(&self.meshes) {
             element.go_to(c).map_err(|source| at_mesh(mesh, source))?;
         }
-        let Self { seats, elements, places, load, stiffness, norms, meshes, last, .. } = self;
-        let own_load = seats.basis.transpose() * &*load;
-        let start = continued(last, angle).unwrap_or_else(|| norms.displacements(&own_load));
-        let mut replies = Vec::new();
-        let found = equilibrium(norms, &own_load, start, |z| {
+        let load = self.seats.basis.transpose() * &self.load;
+        let start = continued(&self.last, angle).unwrap_or_else(|| self.norms.displacements(&load));
+        let sought = match self.search(&load, start) {
+            Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.pliant.is_empty() => {
+                self.from_heavier_loads(&load).ok_or(failed)
+            }
+            other => other,
+        };
+        let Sought { found, mut replies, pressed } = sought?;
+        let Self { elements, meshes, last, .. } = self;
+        let slices = elements.iter().map(|e| e.slices()).collect();
+        for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
+            element.check().map_err(|source| at_mesh(mesh, source))?;
+        }
+        last.insert(0, (angle, found.displacements.clone()));
+        last.truncate(2);
+        self.follow(&mut replies, &found.last_step);
+        let forces = self.in_common_axes(&replies);
+        self.replies.clone_from(&replies);
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
+    }
+
+    /// Equilibrium of the seats under a load, from `start` on.
+    fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Sought, GearboxError> {
+        let Self { seats, elements, places, stiffness, pliant, norms, meshes, .. } = self;
+        let (mut replies, mut pressed) = (Vec::new(), Vec::new());
+        let found = equilibrium(norms, load, start, |z| {
             let y = &seats.basis * z;
             replies.clear();
             let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
@@ -155,20 +199,27 @@ impl StaticGearbox {
                 }
                 replies.push(reply);
             }
-            let residual = &*stiffness * z - &own_load - seats.basis.transpose() * forces;
+            pressed = pliant.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
+            let residual = &*stiffness * z - load - seats.basis.transpose() * forces;
             let tangent = &*stiffness - seats.basis.transpose() * slopes * &seats.basis;
             Ok(Left { residual, tangent })
         })?;
-        let slices = elements.iter().map(|e| e.slices()).collect();
-        for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
-            element.check().map_err(|source| at_mesh(mesh, source))?;
+        Ok(Sought { found, replies, pressed })
+    }
+
+    /// The same by way of heavier loads. Under a light one play is a bent valley with walls that are hard beside the load:
+    /// steps along it are short. A heavy load finds the way through, and the way back is short.
+    fn from_heavier_loads(&mut self, load: &DVector<f64>) -> Option<Sought> {
+        for powers in 1..=MOST_POWERS {
+            let heavy = load * HEAVIER.powi(powers);
+            let start = self.norms.displacements(&heavy);
+            let Ok(mut sought) = self.search(&heavy, start) else { continue };
+            for power in (0..powers).rev() {
+                sought = self.search(&(load * HEAVIER.powi(power)), sought.found.displacements).ok()?;
+            }
+            return Some(sought);
         }
-        last.insert(0, (angle, found.displacements.clone()));
-        last.truncate(2);
-        self.follow(&mut replies, &found.last_step);
-        let forces = self.in_common_axes(&replies);
-        self.replies.clone_from(&replies);
-        Ok(position(self, Solved { angle, cycles, found, replies, forces, slices }))
+        None
     }
 
     /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
@@ -265,6 +316,13 @@ pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vec
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
     let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
     Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))
+}
+
+/// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
+fn guessed_force(meshes: &[Mesh], operation: &Operation) -> f64 {
+    let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
+    let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
+    if radius > 0.0 { (torque / radius).max(1.0) } else { 1.0 }
 }
 
 /// Stiffness along the normal that the search begins with, N/mm.
