@@ -35,6 +35,18 @@ pub(crate) fn check_held(structure: &Structure, held: &[bool]) -> Result<(), Gea
     Ok(())
 }
 
+impl Structure {
+    /// Whether bearings hold every shaft but those of `held`, which are rigid in rigid bearings, against every rigid motion
+    /// but its turn. Springs about a load hold nothing where rolling elements carry nothing.
+    ///
+    /// # Errors
+    /// [`GearboxError::Loose`].
+    pub fn check_held(&self, held: &[usize]) -> Result<(), GearboxError> {
+        let flags: Vec<bool> = (0..self.shafts.len()).map(|shaft| held.contains(&shaft)).collect();
+        check_held(self, &flags)
+    }
+}
+
 /// Displacements of a bearing at height z by the rigid motions of its shaft.
 fn rigid(z: f64) -> SMatrix<f64, 6, 5> {
     let mut moves = SMatrix::zeros();

@@ -4,14 +4,13 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{
-    Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
-};
+use super::bearing::bearing;
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
-use super::raw::{RawBearing, RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
-use super::values::{Checked, missing, needed_number, needed_word, numbers, square};
+use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
+use super::values::{Checked, missing, needed_number, needed_word, numbers};
 use super::vibration::vibration;
 use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Word, study::setting};
 
@@ -136,50 +135,6 @@ fn section(s: &Source<'_>, table: &Spanned<RawSection>) -> Checked<GearboxSectio
     Ok(GearboxSection { length, outer, inner })
 }
 
-fn bearing(s: &Source<'_>, table: &Spanned<RawBearing>, shafts: &[(String, f64)]) -> Checked<GearboxBearing> {
-    let raw = table.get_ref();
-    let (shaft, position) = place(s, table, "[[bearing]]", (&raw.shaft, &raw.position_mm), shafts)?;
-    let name = match &raw.name {
-        Some(word) => word.get_ref().clone(),
-        None => format!("bearing at {position} mm of {}", shafts[shaft].0),
-    };
-    let mut stiffness = [[0.0; 6]; 6];
-    match &raw.matrix_n_mm_rad {
-        Some(rows) => {
-            let apart = raw.stiffness_n_per_mm.is_some() || raw.tilt_stiffness_nm_per_rad.is_some();
-            if apart {
-                let said = format!("{name} has its stiffness twice");
-                return Err(s.conflict(&rows.span(), said, "give the matrix or the single values, not both"));
-            }
-            let size = rows.get_ref().len();
-            if size != 5 && size != 6 {
-                let said = format!("{name} has a matrix of {size} rows");
-                let advice = "give 6 rows for x, y, z and the turns about them, or 5 without the turn about z";
-                return Err(s.conflict(&rows.span(), said, advice));
-            }
-            for (i, row) in square(s, table, &raw.matrix_n_mm_rad, size)?.iter().enumerate() {
-                stiffness[i][..size].copy_from_slice(row);
-            }
-        }
-        None => {
-            let Some(shifts) = numbers::<3>(s, "stiffness_n_per_mm", &raw.stiffness_n_per_mm, 1e15)? else {
-                return Err(missing(
-                    s,
-                    table,
-                    "[[bearing]]",
-                    "stiffness_n_per_mm",
-                    "a list for x, y and z, or a matrix",
-                ));
-            };
-            let tilts = numbers::<2>(s, "tilt_stiffness_nm_per_rad", &raw.tilt_stiffness_nm_per_rad, 1e15)?;
-            let diagonal = shifts.into_iter().chain(tilts.unwrap_or_default().map(|t| 1e3 * t));
-            diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
-        }
-    }
-    let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
-    Ok(GearboxBearing { name, shaft, position, stiffness, damping })
-}
-
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
     let raw = table.get_ref();
     let name = needed_word(s, table, "[[gear]]", "name", &raw.name, "a name that meshes call it by")?;
@@ -268,7 +223,7 @@ fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
 }
 
 /// Shaft and place of a part.
-fn place<R>(
+pub(super) fn place<R>(
     s: &Source<'_>,
     table: &Spanned<R>,
     name: &str,
