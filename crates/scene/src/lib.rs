@@ -34,6 +34,7 @@ pub mod plan;
 mod raw;
 mod rexs;
 mod rexs_out;
+mod rexs_shaft;
 mod schema;
 mod setting;
 mod source;
@@ -68,6 +69,7 @@ pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
 pub use rexs::{RexsError, read_pair};
+pub use rexs_shaft::{RexsShaft, read_shaft};
 pub use rexs_out::rexs_of;
 pub use schema::{
     BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,

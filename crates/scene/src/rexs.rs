@@ -1,7 +1,8 @@
 //! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and on; XML).
 //!
-//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks. What is missing there
-//! keeps its default, and what the file has beside it (shafts, bearings, load spectra, lubricants) is left alone.
+//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks; shafts are read in
+//! `rexs_shaft`. What is missing there keeps its default, and what the file has beside it (bearings, load spectra,
+//! lubricants) is left alone.
 
 use roxmltree::{Document, Node};
 
@@ -42,19 +43,19 @@ pub enum RexsError {
         /// `gear_1` or `gear_2`.
         role: &'static str,
     },
-    /// A number that every gear has.
-    #[error("gear {gear} has no `{attribute}`")]
+    /// A number that every part of its kind has.
+    #[error("{part} has no `{attribute}`")]
     Missing {
-        /// Number of its component.
-        gear: String,
+        /// Its kind and the number of its component.
+        part: String,
         /// Name of the attribute.
         attribute: &'static str,
     },
     /// A value that cannot be used.
-    #[error("gear {gear}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
+    #[error("{part}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
     Value {
-        /// Number of its component.
-        gear: String,
+        /// Its kind and the number of its component.
+        part: String,
         /// Name of the attribute.
         attribute: &'static str,
         /// As written.
@@ -65,22 +66,38 @@ pub enum RexsError {
         wanted: &'static str,
     },
     /// A number of teeth that no gear has.
-    #[error("gear {gear}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
+    #[error("{part}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
     Teeth {
-        /// Number of its component.
-        gear: String,
+        /// Its kind and the number of its component.
+        part: String,
         /// As read.
         value: f64,
     },
     /// A place or direction that is not three numbers.
-    #[error("gear {gear}: `{attribute}` is not three finite numbers in {wanted}")]
+    #[error("{part}: `{attribute}` is not three finite numbers in {wanted}")]
     Vector {
-        /// Number of its component.
-        gear: String,
+        /// Its kind and the number of its component.
+        part: String,
         /// Name of the attribute.
         attribute: &'static str,
         /// Unit of the standard's data base.
         wanted: &'static str,
+    },
+    /// No shaft of that name, or several to choose from.
+    #[error("has no shaft {asked}: there are {found}")]
+    Shaft {
+        /// Number or name that is asked for, with quotes; `to choose` where none is.
+        asked: String,
+        /// Numbers and names of those that are there.
+        found: String,
+    },
+    /// A shaft without sections, or whose sections leave gaps.
+    #[error("shaft {shaft} {what}")]
+    Sections {
+        /// Number of its component.
+        shaft: String,
+        /// What is wrong with them.
+        what: String,
     },
     /// Two gears that are no external pair.
     #[error("the gears differ in {what}: {pinion} and {wheel}")]
@@ -106,6 +123,8 @@ impl RexsError {
             Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
             Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
             Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
+            Self::Shaft { .. } => "say which one: its number or its name".into(),
+            Self::Sections { .. } => "sections follow on each other from 0 on, hollow or solid, straight or conical".into(),
             Self::Pair { .. } => "only external pairs of one module can be run".into(),
         })
     }
@@ -126,27 +145,28 @@ fn crowded(text: &str) -> Option<usize> {
     None
 }
 
+/// The XML of a file.
+pub(crate) fn parsed(text: &str) -> Result<Document<'_>, RexsError> {
+    match crowded(text) {
+        Some(line) => Err(RexsError::Crowded { line }),
+        None => Ok(Document::parse(text.trim_start_matches('\u{feff}'))?),
+    }
+}
+
 /// The pair of stage `stage` (counted from 1) of a REXS file; torque and speed are those of `from`.
 ///
 /// # Errors
 /// [`RexsError`].
 pub fn read_pair(text: &str, stage: usize, from: &Starter) -> Result<Starter, RexsError> {
-    if let Some(line) = crowded(text) {
-        return Err(RexsError::Crowded { line });
-    }
-    let document = Document::parse(text.trim_start_matches('\u{feff}'))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "model" {
-        return Err(RexsError::Root { root: root.tag_name().name().to_owned() });
-    }
-    let model = Model(root);
+    let document = parsed(text)?;
+    let model = Model::of(&document)?;
     let stages: Vec<Node<'_, '_>> =
         model.relations("stage").filter(|r| refers(*r, "stage", "cylindrical_stage")).collect();
     let wrong = RexsError::Stage { found: stages.len(), asked: stage };
     let relation = *stage.checked_sub(1).and_then(|i| stages.get(i)).ok_or(wrong)?;
     let of = |role: &'static str| {
         let id = reference(relation, role).ok_or(RexsError::Gear { stage, role })?;
-        model.component(id).map(|node| Part { id, node }).ok_or(RexsError::Gear { stage, role })
+        model.component(id).map(|node| Part { kind: "gear", id, node }).ok_or(RexsError::Gear { stage, role })
     };
     let (pinion, wheel) = (of("gear_1")?, of("gear_2")?);
     pair(&model, [pinion, wheel], stage, from)
@@ -206,15 +226,30 @@ fn distance(gears: &[Part<'_, '_>; 2]) -> Result<Option<f64>, RexsError> {
 }
 
 /// The file.
-struct Model<'a, 'i>(Node<'a, 'i>);
+pub(crate) struct Model<'a, 'i>(Node<'a, 'i>);
 
 impl<'a, 'i> Model<'a, 'i> {
-    fn relations(&self, kind: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+    pub(crate) fn of(document: &'a Document<'i>) -> Result<Self, RexsError> {
+        let root = document.root_element();
+        match root.tag_name().name() {
+            "model" => Ok(Self(root)),
+            other => Err(RexsError::Root { root: other.to_owned() }),
+        }
+    }
+
+    /// All components of a kind.
+    pub(crate) fn components(&self, kind: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
+        let all = self.0.children().find(|n| n.has_tag_name("components"));
+        let own = all.into_iter().flat_map(|n| n.children()).filter(|n| n.has_tag_name("component"));
+        own.filter(move |n| n.attribute("type") == Some(kind))
+    }
+
+    pub(crate) fn relations(&self, kind: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
         let all = self.0.children().find(|n| n.has_tag_name("relations"));
         all.into_iter().flat_map(|n| n.children()).filter(move |n| n.attribute("type") == Some(kind))
     }
 
-    fn component(&self, id: &str) -> Option<Node<'a, 'i>> {
+    pub(crate) fn component(&self, id: &str) -> Option<Node<'a, 'i>> {
         let all = self.0.children().find(|n| n.has_tag_name("components"))?;
         all.children().find(|n| n.has_tag_name("component") && n.attribute("id") == Some(id))
     }
@@ -223,7 +258,7 @@ impl<'a, 'i> Model<'a, 'i> {
     fn flank(&self, gear: &str) -> Option<Part<'a, 'i>> {
         let relation = self.relations("flank").find(|r| reference(*r, "gear") == Some(gear))?;
         let id = reference(relation, "left").or_else(|| reference(relation, "right"))?;
-        Some(Part { id, node: self.component(id)? })
+        Some(Part { kind: "gear", id, node: self.component(id)? })
     }
 
     fn name(&self, stage: usize) -> Option<String> {
@@ -233,21 +268,27 @@ impl<'a, 'i> Model<'a, 'i> {
 }
 
 /// Number of the component that has a role in a relation.
-fn reference<'a>(relation: Node<'a, '_>, role: &str) -> Option<&'a str> {
+pub(crate) fn reference<'a>(relation: Node<'a, '_>, role: &str) -> Option<&'a str> {
     relation.children().find(|n| n.attribute("role") == Some(role))?.attribute("id")
 }
 
-fn refers(relation: Node<'_, '_>, role: &str, hint: &str) -> bool {
+pub(crate) fn refers(relation: Node<'_, '_>, role: &str, hint: &str) -> bool {
     relation.children().any(|n| n.attribute("role") == Some(role) && n.attribute("hint") == Some(hint))
 }
 
 /// A component.
-struct Part<'a, 'i> {
-    id: &'a str,
-    node: Node<'a, 'i>,
+pub(crate) struct Part<'a, 'i> {
+    /// What messages call it.
+    pub kind: &'static str,
+    pub id: &'a str,
+    pub node: Node<'a, 'i>,
 }
 
 impl Part<'_, '_> {
+    fn named(&self) -> String {
+        format!("{} {}", self.kind, self.id)
+    }
+
     fn attribute(&self, name: &str) -> Option<Node<'_, '_>> {
         self.node.children().find(|n| n.has_tag_name("attribute") && n.attribute("id") == Some(name))
     }
@@ -256,7 +297,7 @@ impl Part<'_, '_> {
         self.attribute(name)?.text().map(str::trim)
     }
 
-    fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {
+    pub(crate) fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {
         let Some(node) = self.attribute(attribute) else { return Ok(None) };
         let unit = node.attribute("unit").unwrap_or_default();
         let value = node.text().unwrap_or_default().trim();
@@ -268,7 +309,7 @@ impl Part<'_, '_> {
         match value.parse::<f64>().ok().filter(|v| v.is_finite() && same) {
             Some(number) => Ok(Some(number)),
             None => Err(RexsError::Value {
-                gear: self.id.to_owned(),
+                part: self.named(),
                 attribute,
                 value: value.to_owned(),
                 unit: unit.to_owned(),
@@ -277,20 +318,20 @@ impl Part<'_, '_> {
         }
     }
 
-    fn needed(&self, attribute: &'static str, unit: &'static str) -> Result<f64, RexsError> {
-        self.number(attribute, unit)?.ok_or_else(|| RexsError::Missing { gear: self.id.to_owned(), attribute })
+    pub(crate) fn needed(&self, attribute: &'static str, unit: &'static str) -> Result<f64, RexsError> {
+        self.number(attribute, unit)?.ok_or_else(|| RexsError::Missing { part: self.named(), attribute })
     }
 
     fn teeth(&self) -> Result<u32, RexsError> {
         let value = self.needed("number_of_teeth", "")?;
         let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
-        if whole { Ok(value as u32) } else { Err(RexsError::Teeth { gear: self.id.to_owned(), value }) }
+        if whole { Ok(value as u32) } else { Err(RexsError::Teeth { part: self.named(), value }) }
     }
 
     /// Three lengths, mm.
     fn vector(&self, attribute: &'static str) -> Result<Option<[f64; 3]>, RexsError> {
         let Some(node) = self.attribute(attribute) else { return Ok(None) };
-        let wrong = || RexsError::Vector { gear: self.id.to_owned(), attribute, wanted: "mm" };
+        let wrong = || RexsError::Vector { part: self.named(), attribute, wanted: "mm" };
         let array = node.children().find(|n| n.has_tag_name("array")).ok_or_else(wrong)?;
         let words = array.children().filter(Node::is_element).map(|n| n.text().unwrap_or_default().trim());
         let values: Vec<f64> = words.filter_map(|w| w.parse().ok()).filter(|v: &f64| v.is_finite()).collect();

@@ -5,6 +5,7 @@
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
 //! | `vibration`, `motion` | how it swings, and how it runs in time |
+//! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
 //! | `raw`, `check`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
@@ -17,6 +18,7 @@ mod motion;
 mod raw;
 mod read;
 mod rolling;
+mod shaft;
 mod values;
 mod vibration;
 

@@ -12,7 +12,10 @@ const TABLES: &[(&str, &[&str])] = &[
         "",
         &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "vibration", "motion"],
     ),
-    ("[shaft]", &["name", "origin_mm", "section", "young_mpa", "poisson", "density_kg_m3", "held"]),
+    (
+        "[shaft]",
+        &["name", "origin_mm", "section", "rexs", "rexs_shaft", "young_mpa", "poisson", "density_kg_m3", "held"],
+    ),
     ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
     (
         "[bearing]",
@@ -92,6 +95,8 @@ pub(super) struct RawShaft {
     pub origin_mm: Numbers,
     #[serde(default)]
     pub section: Vec<Spanned<RawSection>>,
+    pub rexs: Word,
+    pub rexs_shaft: Word,
     pub young_mpa: Number,
     pub poisson: Number,
     pub density_kg_m3: Number,
