@@ -293,7 +293,8 @@ impl GearboxError {
             Self::Drives { .. } => "turn its sign, or make this shaft the input",
             Self::NoEquilibrium { .. } => {
                 "is every shaft held in x, y, z and against tilting, along z both ways where rolling bearings take thrust one \
-                 way alone, and can the teeth carry the torques (files have N m)?"
+                 way alone, and can the teeth carry the torques (files have N m)? Hardly any torque is not found its way through \
+                 the play of bearings"
             }
             Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
             Self::Unmapped { .. } => "take the mesh as \"exact\"",

@@ -29,6 +29,7 @@ pub mod motion;
 mod pliant;
 mod position;
 pub mod rolling_bearing;
+mod search;
 mod seats;
 mod static_gearbox;
 mod static_result;

@@ -6,11 +6,11 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
-    equilibrium::{Found, Left, Norms, equilibrium},
+    equilibrium::Norms,
     loose::check_held,
     pliant::PliantBearing,
     position::{Solved, position},
-    rolling_bearing::RollingReply,
+    search::Sought,
     seats::Seats,
 };
 
@@ -39,17 +39,6 @@ pub struct Operation {
     pub held: Vec<usize>,
 }
 
-/// Loads that a light one is found by way of: powers of this factor, and how many.
-const HEAVIER: f64 = 8.0;
-const MOST_POWERS: i32 = 8;
-
-/// Equilibrium, with what meshes and rolling bearings did there.
-struct Sought {
-    found: Found,
-    replies: Vec<MeshReply>,
-    pressed: Vec<RollingReply>,
-}
-
 /// A gearbox at rest: any number of shafts and meshes.
 pub struct StaticGearbox {
     pub(crate) assembly: Assembly,
@@ -58,15 +47,15 @@ pub struct StaticGearbox {
     pub(crate) operation: Operation,
     pub(crate) held: Vec<bool>,
     pub(crate) seats: Seats,
-    elements: Vec<Box<dyn MeshElement>>,
+    pub(crate) elements: Vec<Box<dyn MeshElement>>,
     /// First coordinates of both gears of each mesh among the seats', and the turn of its axes.
-    places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
+    pub(crate) places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
     /// Load on the seats.
     load: DVector<f64>,
-    stiffness: DMatrix<f64>,
+    pub(crate) stiffness: DMatrix<f64>,
     /// Bearings with rolling elements.
     pub(crate) pliant: Vec<PliantBearing>,
-    norms: Norms,
+    pub(crate) norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     last: Vec<(f64, DVector<f64>)>,
     /// Meshes of the last position, in their own axes.
@@ -163,7 +152,7 @@ impl StaticGearbox {
         let start = continued(&self.last, angle).unwrap_or_else(|| self.norms.displacements(&load));
         let sought = match self.search(&load, start) {
             Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.pliant.is_empty() => {
-                self.from_heavier_loads(&load).ok_or(failed)
+                self.by_heavier_loads(&load).ok_or(failed)
             }
             other => other,
         };
@@ -179,47 +168,6 @@ impl StaticGearbox {
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
         Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
-    }
-
-    /// Equilibrium of the seats under a load, from `start` on.
-    fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Sought, GearboxError> {
-        let Self { seats, elements, places, stiffness, pliant, norms, meshes, .. } = self;
-        let (mut replies, mut pressed) = (Vec::new(), Vec::new());
-        let found = equilibrium(norms, load, start, |z| {
-            let y = &seats.basis * z;
-            replies.clear();
-            let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
-            for (i, ((at, turn), element)) in places.iter().zip(elements.iter_mut()).enumerate() {
-                let own = turn.transpose() * Vector12::from_fn(|k, _| y[at[k / 6] + k % 6]);
-                let reply = element.evaluate(&own).map_err(|source| at_mesh(&meshes[i], source))?;
-                forces += spread(y.len(), *at, &(turn * reply.force));
-                let tangent = turn * reply.tangent * turn.transpose();
-                for (k, m) in (0..12).flat_map(|k| (0..12).map(move |m| (k, m))) {
-                    slopes[(at[k / 6] + k % 6, at[m / 6] + m % 6)] += tangent[(k, m)];
-                }
-                replies.push(reply);
-            }
-            pressed = pliant.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
-            let residual = &*stiffness * z - load - seats.basis.transpose() * forces;
-            let tangent = &*stiffness - seats.basis.transpose() * slopes * &seats.basis;
-            Ok(Left { residual, tangent })
-        })?;
-        Ok(Sought { found, replies, pressed })
-    }
-
-    /// The same by way of heavier loads. Under a light one play is a bent valley with walls that are hard beside the load:
-    /// steps along it are short. A heavy load finds the way through, and the way back is short.
-    fn from_heavier_loads(&mut self, load: &DVector<f64>) -> Option<Sought> {
-        for powers in 1..=MOST_POWERS {
-            let heavy = load * HEAVIER.powi(powers);
-            let start = self.norms.displacements(&heavy);
-            let Ok(mut sought) = self.search(&heavy, start) else { continue };
-            for power in (0..powers).rev() {
-                sought = self.search(&(load * HEAVIER.powi(power)), sought.found.displacements).ok()?;
-            }
-            return Some(sought);
-        }
-        None
     }
 
     /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
@@ -305,7 +253,7 @@ pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
 }
 
 /// Twelve values put where both gears are among the seats.
-fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
+pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
     let mut all = DVector::zeros(size);
     (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
     all

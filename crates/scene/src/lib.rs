@@ -69,8 +69,8 @@ pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
 pub use rexs::{RexsError, read_pair};
-pub use rexs_shaft::{RexsShaft, read_shaft};
 pub use rexs_out::rexs_of;
+pub use rexs_shaft::{RexsShaft, read_shaft};
 pub use schema::{
     BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
     all_keys, json_schema,

@@ -124,7 +124,9 @@ impl RexsError {
             Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
             Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
             Self::Shaft { .. } => "say which one: its number or its name".into(),
-            Self::Sections { .. } => "sections follow on each other from 0 on, hollow or solid, straight or conical".into(),
+            Self::Sections { .. } => {
+                "sections follow on each other from 0 on, hollow or solid, straight or conical".into()
+            }
             Self::Pair { .. } => "only external pairs of one module can be run".into(),
         })
     }

@@ -230,8 +230,14 @@ mod tests {
             said(&MODEL.replacen(from, to, 1), Some("7"))
         };
         let gap = "<attribute id=\"u_coordinate_on_shaft\" unit=\"mm\">40<";
-        assert_eq!(with(gap, &gap.replace("40", "41")), "shaft 7 has a section 12 that begins at 41 mm and not at 40 mm");
-        assert_eq!(with("unit=\"mm\">60<", "unit=\"m\">60<"), "shaft section 12: `length` is 60 m, wanted is a number in mm");
+        assert_eq!(
+            with(gap, &gap.replace("40", "41")),
+            "shaft 7 has a section 12 that begins at 41 mm and not at 40 mm"
+        );
+        assert_eq!(
+            with("unit=\"mm\">60<", "unit=\"m\">60<"),
+            "shaft section 12: `length` is 60 m, wanted is a number in mm"
+        );
         assert!(with(">45<", ">0.01<").contains("nearly in a point"));
         assert!(with(">10<", ">35<").contains("wider outside than inside"));
         assert!(with("unit=\"mm\">60<", "unit=\"mm\">-60<").contains("without length"));

@@ -40,7 +40,9 @@ fn rolling_bearings_are_read_as_they_are_written() {
     assert_eq!(file.bearings[0].stiffness, [[0.0; 6]; 6]);
     assert_eq!((of(0).conformity, of(4).conformity), ([0.515, 0.53], [0.52, 0.53]));
     assert!((of(0).radial_clearance - 8e-3).abs() < 1e-15, "{}", of(0).radial_clearance);
-    let RollingSize::Elements { elements, diameter, length, pitch_diameter } = of(2).size else { panic!("{:?}", of(2)) };
+    let RollingSize::Elements { elements, diameter, length, pitch_diameter } = of(2).size else {
+        panic!("{:?}", of(2))
+    };
     assert_eq!((elements, diameter, length, pitch_diameter), (17, 8.6, 12.5, 53.5));
     assert_eq!(of(1).size, RollingSize::Catalogue { bore: 25.0, outer_diameter: 52.0, static_rating: 27e3 });
     assert_eq!((of(2).rows, of(3).rows), (vec![[0.0, -1.0]], vec![[0.0, 1.0]]));
@@ -60,15 +62,30 @@ fn mistakes_in_rolling_bearings_are_told_with_their_place() {
     let (deep, cones) = ("type = \"deep-groove-ball\"\nelements", "takes_thrust = \"-z\"\n");
     let cases = [
         ("\"deep-groove-ball\"", "\"deep-grove-ball\"", "deep-grove-ball", "did you mean \"deep-groove-ball\"?"),
-        ("\"deep-groove-ball\"", "\"spherical-roller\"", "no law of a \"spherical-roller\" bearing", "give its stiffness"),
+        (
+            "\"deep-groove-ball\"",
+            "\"spherical-roller\"",
+            "no law of a \"spherical-roller\" bearing",
+            "give its stiffness",
+        ),
         (deep, "elements", "`elements` is of a rolling bearing", "`type`"),
-        (deep, "stiffness_n_per_mm = [1.0, 1.0, 1.0]\ntype = \"deep-groove-ball\"\nelements", "with a `type`", "follows"),
+        (
+            deep,
+            "stiffness_n_per_mm = [1.0, 1.0, 1.0]\ntype = \"deep-groove-ball\"\nelements",
+            "with a `type`",
+            "follows",
+        ),
         ("elements = 9", "elements = 1", "elements", "3 .. 500"),
         ("elements = 9\n", "", "has no `elements`", "rolling elements"),
         ("element_diameter_mm = 7.938\n", "", "has no `element_diameter_mm`", ""),
         ("pitch_diameter_mm = 38.5\n", "", "has no `pitch_diameter_mm`", ""),
         ("pitch_diameter_mm = 38.5", "static_rating_kn = 7.8", "a static rating", "leave one of both out"),
-        (deep, "type = \"deep-groove-ball\"\ncontact_angle_deg = 15.0\nelements", "no `contact_angle_deg`", "clearance"),
+        (
+            deep,
+            "type = \"deep-groove-ball\"\ncontact_angle_deg = 15.0\nelements",
+            "no `contact_angle_deg`",
+            "clearance",
+        ),
         (deep, "type = \"deep-groove-ball\"\naxial_clearance_um = 5.0\nelements", "no `axial_clearance_um`", "play"),
         (deep, "type = \"deep-groove-ball\"\nelement_length_mm = 5.0\nelements", "no `element_length_mm`", "out"),
         ("inner_conformity = 0.515", "inner_conformity = 0.5", "inner_conformity", "0.502"),
@@ -79,7 +96,12 @@ fn mistakes_in_rolling_bearings_are_told_with_their_place() {
         (cones, "takes_thrust = \"left\"\n", "\"left\"", "+z"),
         (cones, "takes_thrust = \"-z\"\nradial_clearance_um = 5.0\n", "no `radial_clearance_um`", "preload_n"),
         (cones, "takes_thrust = \"-z\"\narrangement = \"tandem\"\n", "`arrangement` of one row", "rows = 2"),
-        ("axial_clearance_um = 5.0", "axial_clearance_um = 5.0\npreload_n = 1.0", "a preload and an axial", "one of both"),
+        (
+            "axial_clearance_um = 5.0",
+            "axial_clearance_um = 5.0\npreload_n = 1.0",
+            "a preload and an axial",
+            "one of both",
+        ),
         ("profile = \"logarithmic\"", "profile = \"log\"", "\"log\"", "logarithmic"),
         ("contact_angle_deg = 30.0", "contact_angle_deg = 0.0", "contact_angle_deg", "5 .. 75"),
         ("row_distance_mm = 15.0\n", "", "has no `row_distance_mm`", ""),

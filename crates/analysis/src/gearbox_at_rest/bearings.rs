@@ -14,6 +14,10 @@ use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, Rolling
 const BALLS_DENT: f64 = 4200.0;
 const ROLLERS_DENT: f64 = 4000.0;
 
+/// Tilts that catalogues let deep groove balls and rollers have at most, 10 and 4 minutes, rad.
+const BALLS_TILT: f64 = 2.9e-3;
+const ROLLERS_TILT: f64 = 1.2e-3;
+
 /// A rolling bearing over all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingLoad {
@@ -50,7 +54,8 @@ fn bearing(own: &GearboxBearing) -> Result<Bearing, GearboxError> {
 }
 
 fn law(own: &GearboxRolling) -> Result<RollingBearing, RollingBearingError> {
-    let rows: Vec<Row> = own.rows.iter().map(|[position, thrust]| Row { position: *position, thrust: *thrust }).collect();
+    let rows: Vec<Row> =
+        own.rows.iter().map(|[position, thrust]| Row { position: *position, thrust: *thrust }).collect();
     let axial = match own.axial {
         AxialPlay::Clearance(way) => AxialSetting::Clearance(way),
         AxialPlay::Preload(force) => AxialSetting::Preload(force),
@@ -74,8 +79,7 @@ fn elements(own: &GearboxRolling) -> Result<RollingElements, RollingBearingError
         }
         RollingSize::Catalogue { bore, outer_diameter, static_rating } => {
             let catalogue = Catalogue { bore, outer_diameter, static_rating, rows: own.rows.len() };
-            let filling =
-                if own.kind == RollingKind::DeepGrooveBall { Filling::Eccentric } else { Filling::Around };
+            let filling = if own.kind == RollingKind::DeepGrooveBall { Filling::Eccentric } else { Filling::Around };
             if has_balls {
                 RollingElements::Balls(catalogue.balls(filling, contact_angle, conformity)?)
             } else {
@@ -114,7 +118,7 @@ pub(super) fn rolling_load(
 }
 
 /// What the user should hear of a rolling bearing.
-pub(super) fn warnings(name: &str, is_held: bool, load: &RollingLoad) -> Vec<String> {
+pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<String> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {
@@ -136,10 +140,16 @@ pub(super) fn warnings(name: &str, is_held: bool, load: &RollingLoad) -> Vec<Str
     } else if load.loaded[1] == 0 {
         said.push(format!("bearing {name} carries nothing at any position: the shaft floats in its clearance"));
     }
-    let (dent, what) = match load.elements {
-        RollingElements::Balls(_) => (BALLS_DENT, "ball"),
-        RollingElements::Rollers(_) => (ROLLERS_DENT, "roller"),
+    let (dent, most, what) = match load.elements {
+        RollingElements::Balls(_) => (BALLS_DENT, BALLS_TILT, "ball"),
+        RollingElements::Rollers(_) => (ROLLERS_DENT, ROLLERS_TILT, "roller"),
     };
+    if tilt > most && load.loaded[1] > 0 {
+        let (tilt, most) = (1e3 * tilt, 1e3 * most);
+        said.push(format!(
+            "bearing {name} tilts by {tilt:.1} mrad: catalogues let {what} bearings tilt by some {most:.1} mrad at most"
+        ));
+    }
     if load.pressure > dent {
         let pressure = load.pressure;
         said.push(format!(

@@ -90,7 +90,9 @@ pub fn solve_gearbox(
     // What swings and moves has springs in place of rolling elements, about where these stand.
     let linear = match (&file.vibration, &file.motion) {
         (None, None) => structure.clone(),
-        _ => structure.about(&positions).and_then(|own| own.check_held(&operation.held).map(|()| own)).map_err(failed)?,
+        _ => {
+            structure.about(&positions).and_then(|own| own.check_held(&operation.held).map(|()| own)).map_err(failed)?
+        }
     };
     let vibration = match &file.vibration {
         None => None,

@@ -149,7 +149,8 @@ pub(super) fn result(
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
     for (own, load) in file.bearings.iter().zip(&bearings) {
         let is_held = file.shafts[own.shaft].held;
-        warnings.extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, r)));
+        warnings
+            .extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, (load.tilt, r))));
     }
     warnings.extend(room(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     GearboxResult {

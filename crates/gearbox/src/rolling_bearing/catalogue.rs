@@ -2,9 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::{
-    BallGeometry, RollerGeometry, RollerProfile, RollingBearingError, geometry::MOST_ELEMENTS,
-};
+use super::{BallGeometry, RollerGeometry, RollerProfile, RollingBearingError, geometry::MOST_ELEMENTS};
 
 /// What a catalogue says of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -122,11 +120,7 @@ impl Catalogue {
     ///
     /// # Errors
     /// [`RollingBearingError`] where no rollers do.
-    pub fn rollers(
-        &self,
-        contact_angle: f64,
-        profile: RollerProfile,
-    ) -> Result<RollerGeometry, RollingBearingError> {
+    pub fn rollers(&self, contact_angle: f64, profile: RollerProfile) -> Result<RollerGeometry, RollingBearingError> {
         self.check()?;
         let pitch_diameter = self.pitch_diameter();
         let (share, pitch) = if contact_angle > 0.0 { (CONES, CAGED) } else { (CYLINDERS, CAGED_CYLINDERS) };

@@ -25,7 +25,9 @@ pub enum RollingBearingError {
         pitch_diameter_mm: f64,
     },
     /// Balls between which rings pass through each other.
-    #[error("a radial clearance of {clearance_um} um is more than the grooves are deep for: {most_um:.0} um at the most")]
+    #[error(
+        "a radial clearance of {clearance_um} um is more than the grooves are deep for: {most_um:.0} um at the most"
+    )]
     Clearance {
         /// As stated, um.
         clearance_um: f64,

@@ -107,7 +107,9 @@ mod tests {
     /// Known values: Abramowitz and Stegun, table 17.1.
     #[test]
     fn elliptic_integrals_are_those_of_the_tables() {
-        for (m, k, e) in [(0.0, FRAC_PI_2, FRAC_PI_2), (0.5, 1.854_074_677, 1.350_643_881), (0.99, 3.695_637_363, 1.015_993_546)] {
+        for (m, k, e) in
+            [(0.0, FRAC_PI_2, FRAC_PI_2), (0.5, 1.854_074_677, 1.350_643_881), (0.99, 3.695_637_363, 1.015_993_546)]
+        {
             let (own_k, own_e) = complete(m);
             assert!((own_k - k).abs() < 1e-9 && (own_e - e).abs() < 1e-9, "m = {m}: {own_k}, {own_e}");
         }

@@ -162,12 +162,7 @@ impl RollingBearing {
 }
 
 /// How far a row has to be pressed along the axis until it carries a force.
-fn pressed_way(
-    elements: RollingElements,
-    row: Row,
-    clearance: f64,
-    force: f64,
-) -> Result<f64, RollingBearingError> {
+fn pressed_way(elements: RollingElements, row: Row, clearance: f64, force: f64) -> Result<f64, RollingBearingError> {
     let refused = |wanted| Err(RollingBearingError::OutOfRange { quantity: "preload, N", value: force, wanted });
     if force < 0.0 {
         return refused("0 or more");

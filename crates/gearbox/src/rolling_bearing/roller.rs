@@ -17,7 +17,7 @@ pub(super) struct RollerRow {
     geometry: RollerGeometry,
     row: Row,
     /// What rings have to approach by at every lamina until it presses, mm.
-    gaps: [f64; LAMINAE],
+    gaps: Vec<f64>,
     /// Of one lamina, N/mm^(10/9).
     stiffness: f64,
 }
@@ -34,7 +34,7 @@ impl RollerRow {
         geometry.check()?;
         let (sin, cos) = geometry.contact_angle.sin_cos();
         let own = 0.5 * clearance * cos + axial * sin;
-        let gaps = std::array::from_fn(|k| own + 2.0 * relief(&geometry, place(&geometry, k)));
+        let gaps = (0..LAMINAE).map(|k| own + 2.0 * relief(&geometry, place(&geometry, k))).collect();
         let stiffness = LINE * geometry.length.powf(8.0 / 9.0) / LAMINAE as f64;
         Ok(Self { geometry, row, gaps, stiffness })
     }

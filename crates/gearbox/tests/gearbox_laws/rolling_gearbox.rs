@@ -137,7 +137,8 @@ fn springs_about_the_load_agree_to_the_second_order() {
         }
     }
     let after = |share: f64| {
-        let (law, springs) = (solved(&structure, &meshes, LIGHT * (1.0 + share)), solved(&linear, &meshes, LIGHT * (1.0 + share)));
+        let (law, springs) =
+            (solved(&structure, &meshes, LIGHT * (1.0 + share)), solved(&linear, &meshes, LIGHT * (1.0 + share)));
         [apart(&law, &springs), apart(&law, &base)]
     };
     let ([once, way], [twice, _]) = (after(0.01), after(0.02));
@@ -159,7 +160,8 @@ fn housings_are_in_series_with_rolling_bearings() {
         });
         let mut all = Structure { housing: Some(own), ..structure.clone() };
         let last = &all.bearings[1];
-        all.bearings[1] = Bearing::diagonal(last.name.clone(), last.shaft, last.position, [2e5, 2e5, 0.0, 0.0, 0.0, 0.0]);
+        all.bearings[1] =
+            Bearing::diagonal(last.name.clone(), last.shaft, last.position, [2e5, 2e5, 0.0, 0.0, 0.0, 0.0]);
         all
     };
     let soft = housed(2e5);

@@ -81,11 +81,7 @@ impl RollingKind {
     }
 }
 
-pub(super) fn rolling(
-    s: &Source<'_>,
-    table: &Spanned<RawBearing>,
-    word: &Spanned<String>,
-) -> Checked<GearboxRolling> {
+pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanned<String>) -> Checked<GearboxRolling> {
     let (raw, name) = (table.get_ref(), word.get_ref().as_str());
     if OTHERS.contains(&name) {
         let said = format!("there is no law of a \"{name}\" bearing here");
@@ -126,15 +122,25 @@ pub(super) fn rolling(
 /// What to do about a key that a kind does not take.
 fn advice(key: &str) -> &'static str {
     match key {
-        "radial_clearance_um" => "rings with a contact angle are set along the axis: `axial_clearance_um` or `preload_n`",
+        "radial_clearance_um" => {
+            "rings with a contact angle are set along the axis: `axial_clearance_um` or `preload_n`"
+        }
         "axial_clearance_um" | "preload_n" => "its play is `radial_clearance_um`, below 0 where it is pressed",
-        "contact_angle_deg" => "deep grooves get theirs from clearance and load, cylindrical rollers have none: leave it out",
+        "contact_angle_deg" => {
+            "deep grooves get theirs from clearance and load, cylindrical rollers have none: leave it out"
+        }
         "takes_thrust" | "arrangement" => "deep grooves take thrust both ways, cylindrical rollers none: leave it out",
         _ => "leave it out",
     }
 }
 
-fn needed(s: &Source<'_>, table: &Spanned<RawBearing>, key: &str, value: &Number, [low, high]: [f64; 2]) -> Checked<f64> {
+fn needed(
+    s: &Source<'_>,
+    table: &Spanned<RawBearing>,
+    key: &str,
+    value: &Number,
+    [low, high]: [f64; 2],
+) -> Checked<f64> {
     needed_number(s, table, "[[bearing]]", key, value, low, high)
 }
 
@@ -184,7 +190,9 @@ fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
 
 fn axial(s: &Source<'_>, raw: &RawBearing) -> Checked<AxialPlay> {
     let Some(preload) = &raw.preload_n else {
-        return Ok(AxialPlay::Clearance(1e-3 * s.number("axial_clearance_um", &raw.axial_clearance_um, 0.0, -1e3, 1e4)?));
+        return Ok(AxialPlay::Clearance(
+            1e-3 * s.number("axial_clearance_um", &raw.axial_clearance_um, 0.0, -1e3, 1e4)?,
+        ));
     };
     if raw.axial_clearance_um.is_some() {
         return Err(s.conflict(&preload.span(), "a preload and an axial clearance", "rows are set by one of both"));

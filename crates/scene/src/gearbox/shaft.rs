@@ -25,11 +25,11 @@ pub(super) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<Gearbo
     few(s, "sections of a shaft", &raw.section)?;
     let read = raw.rexs.as_ref().map(|word| rexs(s, table, word)).transpose()?;
     let sections = match (&read, raw.section.is_empty()) {
-        (Some(own), true) => own.sections.iter().map(|[length, outer, inner]| GearboxSection {
-            length: *length,
-            outer: *outer,
-            inner: *inner,
-        }).collect(),
+        (Some(own), true) => own
+            .sections
+            .iter()
+            .map(|[length, outer, inner]| GearboxSection { length: *length, outer: *outer, inner: *inner })
+            .collect(),
         (None, false) => all(&raw.section, |t| section(s, t))?,
         (Some(_), false) => {
             let said = format!("the shaft \"{name}\" has its sections twice");
