@@ -9,7 +9,7 @@
 
 use crate::{
     RexsError,
-    rexs::{Model, Part, parsed, reference, refers},
+    rexs_document::{Model, Part, parsed, reference, refers},
 };
 
 /// A shaft of a REXS file.
