@@ -1,10 +1,15 @@
 //! Gearboxes on rolling bearings: balance, search from play, and the springs that stand for them.
 
+use std::f64::consts::TAU;
+
 use gearbox::{
-    Assembly, Bearing, GearboxError, GearboxPosition, Operation, Rotors, StaticGearbox, Structure, Torque,
+    Assembly, Bearing, Disc, GearboxError, GearboxPosition, Operation, Rotors, StaticGearbox, Structure, Torque,
+    motion::{Drive, GearboxMechanism, MotionOptions, MotionPlan, SpringMesh},
     rolling_bearing::{AxialSetting, BallGeometry, RollerProfile, RollingBearing, RollingElements, Row},
 };
 use geometry::Sense;
+use integrate::Scheme;
+use lumped::Fourier;
 use nalgebra::DMatrix;
 
 use crate::pairs::{operation, springs, two_stages};
@@ -225,4 +230,59 @@ fn laws_do_not_swing() {
     // Three shafts turn freely.
     let free = modes.modes_at_rest().frequencies.iter().filter(|w| **w == 0.0).count();
     assert_eq!(free, 3, "{:?}", &modes.modes_at_rest().frequencies[..6]);
+}
+
+/// A motion on springs about the load begins where the gearbox stands, in a housing that gives way, with its forces and the
+/// energy of the law, and all of it is accounted for.
+#[test]
+fn a_motion_begins_where_rolling_bearings_stand() {
+    let (mut structure, meshes) = on_rolling_bearings(0.01, AxialSetting::Preload(200.0));
+    for (disc, outer) in structure.discs.iter_mut().zip([53.0, 160.0, 58.0, 145.0, 80.0, 120.0]) {
+        *disc = Disc::ring(disc.name.clone(), disc.shaft, disc.position, [outer, 30.0], 20.0, 7.85e-9);
+    }
+    let n = 6 * structure.bearings.len();
+    let seat = |axis: usize| if axis < 3 { 3e5 } else { 3e8 };
+    structure.housing = Some(DMatrix::from_fn(n, n, |i, j| if i == j { seat(i % 6) } else { 0.0 }));
+    let base = solved(&structure, &meshes, TORQUE);
+    let linear = structure.about(std::slice::from_ref(&base)).unwrap();
+    let stored: f64 = base.rolling.iter().flatten().map(|r| r.energy).sum();
+    let pressed = |(i, b): (usize, &gearbox::BearingState)| {
+        let shaft = &base.shafts[structure.bearings[i].shaft];
+        let node = shaft.positions.iter().position(|z| (z - structure.bearings[i].position).abs() < 1e-9).unwrap();
+        let seat_moves = |k: usize| shaft.displacements[node][k] - b.displacement[k];
+        (0..5).map(|k| 0.5 * seat(k) * seat_moves(k).powi(2)).sum::<f64>()
+    };
+    let housing: f64 = base.bearings.iter().enumerate().map(pressed).sum();
+    let options = MotionOptions { drive: Drive::Speed(50.0), modal_damping: 0.02, limit: TAU * 3000.0 };
+    let operation = run(&linear, Sense::Ccw, TORQUE);
+    let mut mechanism = GearboxMechanism::new(linear, meshes, operation, &options, |_, mesh, meshing| {
+        let even = Fourier { mean: 4e5, cosine: Vec::new(), sine: Vec::new() };
+        Ok(Box::new(SpringMesh::new(mesh, meshing, even)?.with_damping(5.0)))
+    })
+    .unwrap();
+    let start = mechanism.start(0.02).unwrap();
+    let plan = MotionPlan { scheme: Scheme::Energy, step: 1e-5, steps: 200, steps_per_row: 100 };
+    let mut rows = Vec::new();
+    let done = mechanism.run(&start, &plan, |instant| {
+        rows.push(instant.clone());
+        true
+    });
+    let energy = done.unwrap().energy;
+    for row in &rows {
+        for (a, b) in row.bearings.iter().zip(&base.bearings) {
+            for k in 0..3 {
+                assert!(
+                    (a.force[k] - b.force[k]).abs() < 1e-3,
+                    "{} beside {} N at {} s",
+                    a.force[k],
+                    b.force[k],
+                    row.time
+                );
+                assert!((a.displacement[k] - b.displacement[k]).abs() < 1e-8, "{k}");
+            }
+        }
+    }
+    let off = energy.supports / (stored + housing) - 1.0;
+    assert!(off.abs() < 1e-6, "{} beside {stored} and {housing} mJ", energy.supports);
+    assert!(energy.relative_residual.abs() < 1e-9, "{energy:?}");
 }
