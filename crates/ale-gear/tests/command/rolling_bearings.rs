@@ -10,7 +10,7 @@ fn scene() -> Scratch {
 }
 
 /// The scene at rest alone, quickly, with some words put otherwise.
-fn changed(changes: &[(&str, &str)]) -> Scratch {
+fn changed(changes: Changes<'_>) -> Scratch {
     let scratch = scene();
     let text = scratch.read("rolling_bearings.toml");
     let rest = text.find("[vibration]").unwrap();
@@ -21,6 +21,9 @@ fn changed(changes: &[(&str, &str)]) -> Scratch {
     }
     scratch.file("box.toml", text)
 }
+
+/// Words of the scene, and what stands there instead.
+type Changes<'a> = &'a [(&'a str, &'a str)];
 
 /// Column of a file with commas.
 fn column(csv: &str, name: &str) -> Vec<f64> {
@@ -75,7 +78,7 @@ fn a_gearbox_on_rolling_bearings_is_solved() {
 #[test]
 fn impossible_bearings_are_told() {
     let thrust = ("takes_thrust = \"-z\"", "takes_thrust = \"+z\"");
-    let cases: [(&[(&str, &str)], i32, &str); 6] = [
+    let cases: [(Changes<'_>, i32, &str); 6] = [
         (
             &[("radial_clearance_um = 8.0", "radial_clearance_um = 5000.0")],
             2,
@@ -114,7 +117,7 @@ fn impossible_bearings_are_told() {
 /// Light loads, wide play, heavy preload and shafts that are held: in balance, and said where something is off.
 #[test]
 fn odd_bearings_are_solved_and_said() {
-    let cases: [(&[(&str, &str)], &str); 5] = [
+    let cases: [(Changes<'_>, &str); 5] = [
         (&[("torque_nm = 740.0", "torque_nm = 0.01")], ""),
         (
             &[
