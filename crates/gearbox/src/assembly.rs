@@ -49,8 +49,13 @@ impl Assembly {
         &self.structure
     }
 
-    /// Number of coordinates.
+    /// Number of coordinates: six a node, and six an open seat of the [`Supports`] after them.
     pub fn size(&self) -> usize {
+        self.nodes() + 6 * self.supports.open().len()
+    }
+
+    /// Number of coordinates of nodes.
+    fn nodes(&self) -> usize {
         self.first[self.lines.len()]
     }
 
@@ -69,9 +74,28 @@ impl Assembly {
         self.first.iter().copied().zip(&self.lines)
     }
 
-    /// Displacements at the bearings out of those of all nodes, six a bearing.
+    /// Displacements at the bearings out of those of all nodes, six a bearing, and those of open seats.
     pub fn at_bearings(&self, q: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(6 * self.bearings.len(), |i, _| q[self.bearings[i / 6] + i % 6])
+        DVector::from_fn(self.supports.stiffness.nrows(), |i, _| q[self.of_support(i)])
+    }
+
+    /// Where a coordinate of the supports is among all.
+    fn of_support(&self, i: usize) -> usize {
+        let shafts = 6 * self.bearings.len();
+        if i < shafts { self.bearings[i / 6] + i % 6 } else { self.nodes() + i - shafts }
+    }
+
+    /// First coordinate of a bearing's open seat.
+    pub(crate) fn open_seat(&self, bearing: usize) -> Option<usize> {
+        let at = self.supports.open().iter().position(|b| *b == bearing)?;
+        Some(self.nodes() + 6 * at)
+    }
+
+    /// Forces of preloaded bearings on all coordinates with nothing displaced, N, N mm.
+    pub(crate) fn preload(&self) -> DVector<f64> {
+        let mut all = DVector::zeros(self.size());
+        self.supports.preload.iter().enumerate().for_each(|(i, f)| all[self.of_support(i)] += f);
+        all
     }
 
     /// Compression of a mesh spring, mm.
@@ -196,10 +220,9 @@ impl Assembly {
     }
 
     fn add_supports(&self, all: &mut DMatrix<f64>, own: &DMatrix<f64>) {
-        let of = |i: usize| self.bearings[i / 6] + i % 6;
         for i in 0..own.nrows() {
             for j in 0..own.ncols() {
-                all[(of(i), of(j))] += own[(i, j)];
+                all[(self.of_support(i), self.of_support(j))] += own[(i, j)];
             }
         }
     }

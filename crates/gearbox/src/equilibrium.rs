@@ -4,8 +4,8 @@ use nalgebra::{Cholesky, DMatrix, DVector, Dyn};
 
 use crate::GearboxError;
 
-/// Steps before giving up; two to four are usual, more where teeth come into contact on the way.
-const STEPS: usize = 60;
+/// Steps before giving up; two to four are usual, more where teeth or rolling elements come into contact on the way.
+const STEPS: usize = 120;
 /// Halvings of a step that does not lead nearer.
 const HALVINGS: usize = 24;
 /// Step over the displacements that ends the search. It is taken, and the forces follow it by the tangent, which is good
@@ -18,6 +18,8 @@ const ROUND_OFF: f64 = 1e-7;
 
 /// Newton's step over that of K_0 beyond which the tangent holds nothing.
 const FAR: f64 = 1e6;
+/// Share of K_0 that is added to a tangent which holds nothing somewhere.
+const SHIFT: f64 = 1e-3;
 /// Doublings of a step on which nothing touches, and halvings of the one on which something does.
 const DOUBLINGS: usize = 64;
 
@@ -81,10 +83,20 @@ impl Norms {
 
     /// Newton's step; none where the tangent is singular, as it is where nothing touches.
     fn step(&self, left: &Left) -> Option<DVector<f64>> {
-        let right = -left.residual.component_mul(&self.scale);
-        let solved = scaled(&left.tangent, &self.scale).lu().solve(&right)?.component_mul(&self.scale);
         let most = FAR * self.of_forces(&left.residual);
-        Some(solved).filter(|s| s.iter().all(|x| x.is_finite()) && self.of_displacements(s) <= most)
+        self.solved(&left.tangent, &left.residual).filter(|s| self.of_displacements(s) <= most)
+    }
+
+    /// The step of the tangent with a share of K_0: energy falls along it, and what the tangent holds is held.
+    fn shifted_step(&self, left: &Left) -> DVector<f64> {
+        let shifted = &left.tangent + SHIFT * &self.stiffness;
+        self.solved(&shifted, &left.residual).unwrap_or_else(|| -self.displacements(&left.residual))
+    }
+
+    fn solved(&self, tangent: &DMatrix<f64>, residual: &DVector<f64>) -> Option<DVector<f64>> {
+        let right = -residual.component_mul(&self.scale);
+        let solved = scaled(tangent, &self.scale).lu().solve(&right)?.component_mul(&self.scale);
+        Some(solved).filter(|s| s.iter().all(|x| x.is_finite()))
     }
 }
 
@@ -97,8 +109,9 @@ fn scaled(matrix: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
 /// ```text
 /// (K - df_mesh/dz) dz = -r,   z := z + s dz,   s = 1, 1/2, ... until sqrt(r' K_0^-1 r) falls
 /// ```
-/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough. Where teeth that ought
-/// to carry do not touch, the tangent is singular, and the step of K_0 is followed to the least energy along it.
+/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough. Where teeth or rolling
+/// elements that ought to carry do not touch, the tangent is singular; the step of the tangent with a share of K_0 is then
+/// followed to the least energy along it, and so is one whose residual does not fall.
 pub(crate) fn equilibrium(
     norms: &Norms,
     load: &DVector<f64>,
@@ -119,11 +132,9 @@ pub(crate) fn equilibrium(
             let nothing = DVector::zeros(z.len());
             return Ok(found(z, nothing));
         }
-        let Some(step) = norms.step(&left) else {
-            (z, left) = approached(&z, -norms.displacements(&left.residual), &mut left_at)?;
-            merit = norms.of_forces(&left.residual);
-            continue;
-        };
+        let newton = norms.step(&left);
+        let is_held = newton.is_some();
+        let step = newton.unwrap_or_else(|| norms.shifted_step(&left));
         share = norms.of_displacements(&step) / norms.of_displacements(&z).max(f64::MIN_POSITIVE);
         // A light load is a small part of what closes its gaps: there the residual says when it is found.
         if share <= FINE && (merit <= LEFT * whole || share <= 4.0 * f64::EPSILON) {
@@ -131,7 +142,7 @@ pub(crate) fn equilibrium(
         }
         let mut part = 1.0;
         let mut better = None;
-        for _ in 0..HALVINGS {
+        for _ in 0..if is_held { HALVINGS } else { 0 } {
             let next = &z + part * &step;
             // Poses beyond reason may have no contact that can be solved: nearer ones do.
             if let Ok(there) = left_at(&next) {
@@ -148,12 +159,15 @@ pub(crate) fn equilibrium(
         }
         match better {
             Some((next, there, size)) => (z, left, merit) = (next, there, size),
-            None if share <= ROUND_OFF => {
+            None if is_held && share <= ROUND_OFF => {
                 // The elements stand where the last try was.
                 left_at(&z)?;
                 return Ok(found(z, step));
             }
-            None => return Err(GearboxError::NoEquilibrium { iterations, step: share }),
+            None => {
+                (z, left) = approached(&z, step, &mut left_at)?;
+                merit = norms.of_forces(&left.residual);
+            }
         }
     }
     Err(GearboxError::NoEquilibrium { iterations: STEPS, step: share })

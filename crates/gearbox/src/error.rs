@@ -5,6 +5,8 @@ use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
 
+use crate::rolling_bearing::RollingBearingError;
+
 /// Why shafts, bearings and gears cannot be put together or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -27,6 +29,20 @@ pub enum GearboxError {
         shaft: String,
         /// How it can move.
         motion: &'static str,
+    },
+    /// No rolling bearing can be made of what is stated.
+    #[error("bearing {bearing}: {source}")]
+    Bearing {
+        /// Name of the bearing.
+        bearing: String,
+        /// What is wrong.
+        source: RollingBearingError,
+    },
+    /// Rolling elements where springs are needed.
+    #[error("bearing {bearing} has a law, and what swings or moves is linear")]
+    NotLinear {
+        /// Name of the bearing.
+        bearing: String,
     },
     /// A part names a shaft that is not there.
     #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
@@ -246,8 +262,12 @@ impl GearboxError {
             Self::NoShafts => "give one shaft at least",
             Self::Shaft { source, .. } => return source.hint(),
             Self::Loose { .. } => {
-                "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`)"
+                "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
+                 `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about a \
+                 load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
             }
+            Self::Bearing { source, .. } => source.hint(),
+            Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
             Self::NoShaft { .. } | Self::NoDisc { .. } => {
                 "shafts and discs are numbered in the order in which they are given"
             }
@@ -272,7 +292,9 @@ impl GearboxError {
             Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
             Self::Drives { .. } => "turn its sign, or make this shaft the input",
             Self::NoEquilibrium { .. } => {
-                "is every shaft held in x, y, z and against tilting, and can the teeth carry the torques (files have N m)?"
+                "is every shaft held in x, y, z and against tilting, along z both ways where rolling bearings take thrust one \
+                 way alone, and can the teeth carry the torques (files have N m)? Hardly any torque is not found its way through \
+                 the play of bearings"
             }
             Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
             Self::Unmapped { .. } => "take the mesh as \"exact\"",

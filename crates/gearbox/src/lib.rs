@@ -3,7 +3,7 @@
 //! The files in the order of the model:
 //!
 //! 1. [`Structure`] and its parts: what the user says;
-//! 2. [`Supports`]: bearings in series with the housing;
+//! 2. [`Supports`]: bearings in series with the housing; [`rolling_bearing`]: those whose stiffness follows the load;
 //! 3. [`Assembly`]: matrices of all nodes;
 //! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
@@ -17,6 +17,7 @@
 
 mod assembly;
 mod balance;
+mod bearing;
 mod campbell;
 mod equilibrium;
 mod error;
@@ -25,7 +26,10 @@ mod loose;
 mod mesh_element;
 mod modal_energy;
 pub mod motion;
+mod pliant;
 mod position;
+pub mod rolling_bearing;
+mod search;
 mod seats;
 mod static_gearbox;
 mod static_result;
@@ -36,6 +40,7 @@ mod vibration;
 mod whirl;
 
 pub use assembly::Assembly;
+pub use bearing::Bearing;
 pub use error::GearboxError;
 pub use exact_mesh::ExactMesh;
 pub use mesh_element::{LinearMesh, MeshElement, MeshReply, Vector12};
@@ -44,7 +49,7 @@ pub use static_gearbox::{Operation, StaticGearbox, Torque};
 pub use static_result::{
     BearingState, GearboxCertificate, GearboxPosition, MeshState, ShaftLine, face_load_factor, line_load,
 };
-pub use structure::{Bearing, Disc, ElasticMesh, Machine, MeshSpring, Shaft, Structure};
+pub use structure::{Disc, ElasticMesh, Machine, MeshSpring, Shaft, Structure};
 pub use supports::Supports;
 pub use train::{Mesh, Meshing, Train};
 pub use vibration::{Harmonic, MeanMesh, MeshExcitation, MeshSample, Vibration, own_cycle, rms, turn_levers};

@@ -16,7 +16,7 @@ const MOTIONS: [&str; 5] = ["along x", "along y", "along z", "tilting about x", 
 /// ```text
 /// K = sum T_b' K_b T_b,   u_b = T_b (x, y, z, theta_x, theta_y),   u = x + theta x r      r from the middle of the shaft
 /// ```
-/// Housings are in series with the bearings: what these do not hold, nothing holds.
+/// Rolling bearings count with all their elements pressed, whatever their clearance. Housings are in series with the bearings: what these do not hold, nothing holds.
 ///
 /// # Errors
 /// [`GearboxError::Loose`].
@@ -26,13 +26,25 @@ pub(crate) fn check_held(structure: &Structure, held: &[bool]) -> Result<(), Gea
         let mut stiffness = Matrix5::zeros();
         for bearing in structure.bearings.iter().filter(|b| b.shaft == i) {
             let moves = rigid(bearing.position - half);
-            stiffness += moves.transpose() * bearing.stiffness * moves;
+            stiffness += moves.transpose() * bearing.rough_stiffness(1.0) * moves;
         }
         if let Some(motion) = free(&(0.5 * (stiffness + stiffness.transpose()))) {
             return Err(GearboxError::Loose { shaft: shaft.name.clone(), motion: MOTIONS[motion] });
         }
     }
     Ok(())
+}
+
+impl Structure {
+    /// Whether bearings hold every shaft but those of `held`, which are rigid in rigid bearings, against every rigid motion
+    /// but its turn. Springs about a load hold nothing where rolling elements carry nothing.
+    ///
+    /// # Errors
+    /// [`GearboxError::Loose`].
+    pub fn check_held(&self, held: &[usize]) -> Result<(), GearboxError> {
+        let flags: Vec<bool> = (0..self.shafts.len()).map(|shaft| held.contains(&shaft)).collect();
+        check_held(self, &flags)
+    }
 }
 
 /// Displacements of a bearing at height z by the rigid motions of its shaft.

@@ -1,12 +1,13 @@
 //! What is read off a solved position of a gearbox. Theory (85).
 
 use contact::SliceResult;
-use nalgebra::{DVector, Vector3};
+use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::{
     GearboxPosition, MeshReply, MeshState, StaticGearbox, Vector12,
     balance::{Balance, balances},
     equilibrium::Found,
+    rolling_bearing::{RollingReply, RollingState},
     static_result::{BearingState, GearboxCertificate, ShaftLine},
 };
 
@@ -16,6 +17,8 @@ pub(crate) struct Solved {
     pub cycles: Vec<f64>,
     pub found: Found,
     pub replies: Vec<MeshReply>,
+    /// Of bearings with rolling elements.
+    pub pressed: Vec<RollingReply>,
     /// Forces on the gears, common axes.
     pub forces: Vec<Vector12>,
     pub slices: Vec<Vec<SliceResult>>,
@@ -23,7 +26,7 @@ pub(crate) struct Solved {
 
 /// Everything that is known of it.
 pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPosition {
-    let Solved { angle, cycles, found, replies, forces, slices } = solved;
+    let Solved { angle, cycles, found, replies, pressed, forces, slices } = solved;
     let seats = &gearbox.seats.basis * &found.displacements;
     let mut all = gearbox.seats.all(&seats);
     for (shaft, _) in gearbox.held.iter().enumerate().filter(|(_, held)| **held) {
@@ -31,12 +34,25 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
     }
     let at_bearings = gearbox.assembly.at_bearings(&all);
     let supports = gearbox.assembly.supports();
-    let (on_shafts, of_seats) = (supports.forces(&at_bearings), supports.seats(&at_bearings));
-    let bearings: Vec<BearingState> = (0..gearbox.assembly.structure().bearings.len())
-        .map(|i| BearingState {
-            force: std::array::from_fn(|k| on_shafts[6 * i + k]),
-            moment: std::array::from_fn(|k| on_shafts[6 * i + 3 + k]),
-            displacement: std::array::from_fn(|k| at_bearings[6 * i + k] - of_seats[6 * i + k]),
+    let [relative, on_shafts] = supports.standing(&at_bearings);
+    let structure = gearbox.assembly.structure();
+    let step = &gearbox.seats.basis * &found.last_step;
+    let at_rest = |b: &crate::Bearing| b.law.as_ref().map(|_| RollingState::at_rest());
+    let mut rolling: Vec<Option<RollingState>> = structure.bearings.iter().map(at_rest).collect();
+    for (own, reply) in gearbox.pliant.iter().zip(&pressed) {
+        rolling[own.bearing] = Some(own.state(reply, &seats, &step));
+    }
+    let bearings: Vec<BearingState> = (0..structure.bearings.len())
+        .map(|i| {
+            let rolls = rolling[i].map_or_else(Vector6::zeros, |state| state.force);
+            // The reaction of a held shaft stands by itself.
+            let counts = if gearbox.held[structure.bearings[i].shaft] { 0.0 } else { 1.0 };
+            let own = |k: usize| counts * on_shafts[6 * i + k] + rolls[k];
+            BearingState {
+                force: std::array::from_fn(own),
+                moment: std::array::from_fn(|k| own(3 + k)),
+                displacement: std::array::from_fn(|k| relative[6 * i + k]),
+            }
         })
         .collect();
     let balance = balances(gearbox, &gearbox.reactions(&seats, &forces), &forces, &bearings);
@@ -49,6 +65,7 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
         input_angle: angle,
         shafts: (0..gearbox.held.len()).map(|shaft| shaft_line(gearbox, shaft, &all)).collect(),
         bearings,
+        rolling,
         meshes,
         input_torque,
         held_reactions: held,

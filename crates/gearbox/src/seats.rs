@@ -5,7 +5,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{Assembly, GearboxError};
 
-/// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free.
+/// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free. Rolling bearings
+/// and preloaded ones are such places; after them come the open seats of the housing.
 ///
 /// ```text
 /// K_s = T' K T,   q = T y   (all other coordinates follow, exactly at rest);   y = B z
@@ -17,6 +18,7 @@ pub(crate) struct Seats {
     nodes: Vec<usize>,
     /// Shaft of each seat.
     shafts: Vec<usize>,
+    size: usize,
     condensation: Condensation,
     /// K_s.
     pub stiffness: DMatrix<f64>,
@@ -36,7 +38,17 @@ impl Seats {
                 shafts.push(shaft);
             }
         }
-        let kept: Vec<usize> = nodes.iter().flat_map(|n| *n..*n + 6).collect();
+        for (i, bearing) in assembly.structure().bearings.iter().enumerate() {
+            let node = assembly.bearing(i);
+            let acts = bearing.law.is_some() || bearing.preload.amax() > 0.0;
+            if acts && !nodes.contains(&node) {
+                nodes.push(node);
+                shafts.push(bearing.shaft);
+            }
+        }
+        let open = assembly.supports().open();
+        let in_housing = open.iter().filter_map(|b| assembly.open_seat(*b)).flat_map(|at| at..at + 6);
+        let kept: Vec<usize> = nodes.iter().flat_map(|n| *n..*n + 6).chain(in_housing).collect();
         let mut k = assembly.stiffness_without_meshes();
         // A held shaft keeps no elasticity of its own: what it does to the housing, it does not by moving.
         for (shaft, _) in held.iter().enumerate().filter(|(_, h)| **h) {
@@ -66,14 +78,50 @@ impl Seats {
                 columns.push(column);
             }
         }
+        for (at, &bearing) in open.iter().enumerate() {
+            let shaft = assembly.structure().bearings[bearing].shaft;
+            for axis in 0..6 {
+                // What neither rolling elements nor the housing hold stays where it is.
+                if assembly.supports().is_housed(bearing, axis) || (axis < 5 && !held[shaft]) {
+                    let mut column = DVector::zeros(kept.len());
+                    column[6 * (nodes.len() + at) + axis] = 1.0;
+                    columns.push(column);
+                }
+            }
+        }
         let basis = DMatrix::from_fn(kept.len(), columns.len(), |i, j| columns[j][i]);
-        Ok(Self { nodes, shafts, condensation, stiffness, basis })
+        let size = kept.len();
+        Ok(Self { nodes, shafts, size, condensation, stiffness, basis })
     }
 
     /// First coordinate of a disc's seat among the seats'.
     pub fn of_disc(&self, assembly: &Assembly, disc: usize) -> Option<usize> {
-        let node = assembly.disc(disc)?;
+        self.of_node(assembly.disc(disc)?)
+    }
+
+    /// First coordinate among the seats' of a node, by its first coordinate.
+    pub fn of_node(&self, node: usize) -> Option<usize> {
         Some(6 * self.nodes.iter().position(|n| *n == node)?)
+    }
+
+    /// First coordinate among the seats' of an open seat of the housing.
+    pub fn of_open(&self, assembly: &Assembly, at: usize) -> Option<usize> {
+        let first = assembly.supports().open().first().and_then(|b| assembly.open_seat(*b))?;
+        Some(6 * self.nodes.len() + at - first)
+    }
+
+    /// Forces on all coordinates as those of the seats; none may act elsewhere.
+    pub fn of_all(&self, forces: &DVector<f64>, assembly: &Assembly) -> DVector<f64> {
+        let mut own = DVector::zeros(self.size);
+        for (i, node) in self.nodes.iter().enumerate() {
+            (0..6).for_each(|k| own[6 * i + k] = forces[node + k]);
+        }
+        for at in assembly.supports().open().iter().filter_map(|b| assembly.open_seat(*b)) {
+            if let Some(to) = self.of_open(assembly, at) {
+                (0..6).for_each(|k| own[to + k] = forces[at + k]);
+            }
+        }
+        own
     }
 
     /// Seats of a shaft, each with its first coordinate among the seats' and among those of the assembly.
@@ -84,7 +132,7 @@ impl Seats {
 
     /// Number of coordinates of all seats.
     pub fn size(&self) -> usize {
-        6 * self.nodes.len()
+        self.size
     }
 
     /// Displacements of all nodes.

@@ -6,9 +6,11 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
-    equilibrium::{Left, Norms, equilibrium},
+    equilibrium::Norms,
     loose::check_held,
+    pliant::PliantBearing,
     position::{Solved, position},
+    search::Sought,
     seats::Seats,
 };
 
@@ -45,13 +47,15 @@ pub struct StaticGearbox {
     pub(crate) operation: Operation,
     pub(crate) held: Vec<bool>,
     pub(crate) seats: Seats,
-    elements: Vec<Box<dyn MeshElement>>,
+    pub(crate) elements: Vec<Box<dyn MeshElement>>,
     /// First coordinates of both gears of each mesh among the seats', and the turn of its axes.
-    places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
+    pub(crate) places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
     /// Load on the seats.
     load: DVector<f64>,
-    stiffness: DMatrix<f64>,
-    norms: Norms,
+    pub(crate) stiffness: DMatrix<f64>,
+    /// Bearings with rolling elements.
+    pub(crate) pliant: Vec<PliantBearing>,
+    pub(crate) norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     last: Vec<(f64, DVector<f64>)>,
     /// Meshes of the last position, in their own axes.
@@ -78,14 +82,20 @@ impl StaticGearbox {
         let mut discs: Vec<usize> = meshes.iter().flat_map(|m| m.discs).collect();
         discs.extend(operation.torques.iter().map(|t| t.disc).chain([operation.input]));
         let seats = Seats::new(&assembly, &discs, &held, operation.input)?;
-        let mut load = DVector::zeros(seats.size());
+        let mut load = seats.of_all(&assembly.preload(), &assembly);
         for torque in &operation.torques {
             if let Some(at) = seats.of_disc(&assembly, torque.disc) {
                 load[at + 5] += torque.torque;
             }
         }
         let stiffness = seats.basis.transpose() * &seats.stiffness * &seats.basis;
-        let mut guessed = stiffness.clone();
+        let pliant = PliantBearing::all(&assembly, &seats, &held);
+        let mut rough = DMatrix::zeros(seats.size(), seats.size());
+        let force = guessed_force(&meshes, &operation);
+        for own in &pliant {
+            own.add_stiffness(&assembly.structure().bearings[own.bearing].rough_stiffness(force), &mut rough);
+        }
+        let mut guessed = &stiffness + seats.basis.transpose() * rough * &seats.basis;
         let (mut places, mut made) = (Vec::new(), Vec::new());
         for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
             let at = mesh.discs.map(|d| seats.of_disc(&assembly, d).unwrap_or(0));
@@ -108,6 +118,7 @@ impl StaticGearbox {
             places,
             load,
             stiffness,
+            pliant,
             norms,
             last: Vec::new(),
             replies: Vec::new(),
@@ -137,28 +148,16 @@ impl StaticGearbox {
         for ((element, &c), mesh) in self.elements.iter_mut().zip(&cycles).zip(&self.meshes) {
             element.go_to(c).map_err(|source| at_mesh(mesh, source))?;
         }
-        let Self { seats, elements, places, load, stiffness, norms, meshes, last, .. } = self;
-        let own_load = seats.basis.transpose() * &*load;
-        let start = continued(last, angle).unwrap_or_else(|| norms.displacements(&own_load));
-        let mut replies = Vec::new();
-        let found = equilibrium(norms, &own_load, start, |z| {
-            let y = &seats.basis * z;
-            replies.clear();
-            let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
-            for (i, ((at, turn), element)) in places.iter().zip(elements.iter_mut()).enumerate() {
-                let own = turn.transpose() * Vector12::from_fn(|k, _| y[at[k / 6] + k % 6]);
-                let reply = element.evaluate(&own).map_err(|source| at_mesh(&meshes[i], source))?;
-                forces += spread(y.len(), *at, &(turn * reply.force));
-                let tangent = turn * reply.tangent * turn.transpose();
-                for (k, m) in (0..12).flat_map(|k| (0..12).map(move |m| (k, m))) {
-                    slopes[(at[k / 6] + k % 6, at[m / 6] + m % 6)] += tangent[(k, m)];
-                }
-                replies.push(reply);
+        let load = self.seats.basis.transpose() * &self.load;
+        let start = continued(&self.last, angle).unwrap_or_else(|| self.norms.displacements(&load));
+        let sought = match self.search(&load, start) {
+            Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.pliant.is_empty() => {
+                self.by_heavier_loads(&load).ok_or(failed)
             }
-            let residual = &*stiffness * z - &own_load - seats.basis.transpose() * forces;
-            let tangent = &*stiffness - seats.basis.transpose() * slopes * &seats.basis;
-            Ok(Left { residual, tangent })
-        })?;
+            other => other,
+        };
+        let Sought { found, mut replies, pressed } = sought?;
+        let Self { elements, meshes, last, .. } = self;
         let slices = elements.iter().map(|e| e.slices()).collect();
         for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
             element.check().map_err(|source| at_mesh(mesh, source))?;
@@ -168,7 +167,7 @@ impl StaticGearbox {
         self.follow(&mut replies, &found.last_step);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
-        Ok(position(self, Solved { angle, cycles, found, replies, forces, slices }))
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
     }
 
     /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
@@ -254,7 +253,7 @@ pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
 }
 
 /// Twelve values put where both gears are among the seats.
-fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
+pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
     let mut all = DVector::zeros(size);
     (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
     all
@@ -265,6 +264,13 @@ pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vec
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
     let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
     Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))
+}
+
+/// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
+fn guessed_force(meshes: &[Mesh], operation: &Operation) -> f64 {
+    let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
+    let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
+    if radius > 0.0 { (torque / radius).max(1.0) } else { 1.0 }
 }
 
 /// Stiffness along the normal that the search begins with, N/mm.

@@ -2,6 +2,8 @@
 
 use contact::SliceResult;
 
+use crate::rolling_bearing::RollingState;
+
 /// How a shaft bends.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShaftLine {
@@ -73,6 +75,8 @@ pub struct GearboxPosition {
     pub shafts: Vec<ShaftLine>,
     /// Bearings in their order.
     pub bearings: Vec<BearingState>,
+    /// What is known of those among them that have rolling elements.
+    pub rolling: Vec<Option<RollingState>>,
     /// Meshes in their order.
     pub meshes: Vec<MeshState>,
     /// Torque that holds the input, N mm about +z.

@@ -6,7 +6,7 @@ use fem::beam::BeamPiece;
 use lumped::shaft18::MeshGeometry;
 use nalgebra::{DMatrix, Matrix6, SMatrix, Vector6};
 
-use crate::GearboxError;
+use crate::{Bearing, GearboxError};
 
 /// A shaft: Timoshenko sections one after the other along +z.
 #[derive(Debug, Clone, PartialEq)]
@@ -37,22 +37,6 @@ pub struct Disc {
     pub diametral_inertia: f64,
     /// Inertia about the axis, t mm^2.
     pub polar_inertia: f64,
-}
-
-/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bearing {
-    /// Name for messages and tables.
-    pub name: String,
-    /// Shaft, from 0.
-    pub shaft: usize,
-    /// Position of its middle, mm from the shaft's z = 0.
-    pub position: f64,
-    /// Stiffness for displacements x, y, z and turns about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero row
-    /// and column for the turn about z.
-    pub stiffness: Matrix6<f64>,
-    /// Damping of the same, symmetric: N s/mm, N s, N mm s.
-    pub damping: Matrix6<f64>,
 }
 
 /// A mesh as one spring along its line of action: a mean mesh stiffness, for natural frequencies.
@@ -136,15 +120,6 @@ impl Disc {
     }
 }
 
-impl Bearing {
-    /// A bearing without coupling between the coordinates and without damping: stiffness of x, y, z (N/mm) and of the
-    /// turns about x, y, z (N mm).
-    pub fn diagonal(name: impl Into<String>, shaft: usize, position: f64, stiffness: [f64; 6]) -> Self {
-        let stiffness = Matrix6::from_diagonal(&Vector6::from(stiffness));
-        Self { name: name.into(), shaft, position, stiffness, damping: Matrix6::zeros() }
-    }
-}
-
 impl MeshSpring {
     /// The spring of two involute gears, evenly loaded: the levers of theory (53).
     ///
@@ -185,6 +160,9 @@ impl Structure {
             let of = |m: &Matrix6<f64>| DMatrix::from_column_slice(6, 6, m.as_slice());
             elastic(&bearing.name, "stiffness", &of(&bearing.stiffness))?;
             elastic(&bearing.name, "damping", &of(&bearing.damping))?;
+            for value in bearing.preload.iter().chain([&bearing.stored]) {
+                finite(&bearing.name, "preload, N, N mm", *value)?;
+            }
         }
         if let Some(housing) = &self.housing {
             let (bearings, wanted) = (self.bearings.len(), 6 * self.bearings.len());

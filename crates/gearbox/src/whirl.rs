@@ -84,6 +84,7 @@ impl Rotors {
     /// # Errors
     /// As [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for what is not there.
     pub fn holding(assembly: Assembly, held: &Held) -> Result<Self, GearboxError> {
+        assembly.structure().check_linear()?;
         let (stiffness, mass) = (assembly.stiffness(), assembly.mass());
         // Beyond this squares of frequencies are no numbers, and the search for them does not end.
         let steepest = stiffness.amax() / mass.diagonal().min();

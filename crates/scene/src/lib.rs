@@ -33,7 +33,10 @@ mod output;
 pub mod plan;
 mod raw;
 mod rexs;
+mod rexs_document;
+mod rexs_error;
 mod rexs_out;
+mod rexs_shaft;
 mod schema;
 mod setting;
 mod source;
@@ -67,8 +70,10 @@ pub use motion::{
 pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
-pub use rexs::{RexsError, read_pair};
+pub use rexs::read_pair;
+pub use rexs_error::RexsError;
 pub use rexs_out::rexs_of;
+pub use rexs_shaft::{RexsShaft, read_shaft};
 pub use schema::{
     BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
     all_keys, json_schema,

@@ -1,152 +1,30 @@
 //! Gear data from REXS files (Reusable Engineering EXchange Standard, rexs.info, versions 1.0 to 1.4 and on; XML).
 //!
-//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks. What is missing there
-//! keeps its default, and what the file has beside it (shafts, bearings, load spectra, lubricants) is left alone.
+//! Read is what a pair begins with: a `cylindrical_stage` with its two gears and their flanks; shafts are read in
+//! `rexs_shaft`. What is missing there keeps its default, and what the file has beside it (bearings, load spectra,
+//! lubricants) is left alone.
 
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
-use crate::Starter;
-
-/// Why no pair comes out of a REXS file.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum RexsError {
-    /// It is no XML.
-    #[error("is no XML: {0}")]
-    Xml(#[from] roxmltree::Error),
-    /// An element that the reader of XML would take hours for.
-    #[error("has an element of more than {ATTRIBUTES} attributes in line {line}")]
-    Crowded {
-        /// Line in which it begins, from 1.
-        line: usize,
-    },
-    /// It is XML of another kind.
-    #[error("is no REXS file: its root is <{root}>, not <model>")]
-    Root {
-        /// Name of the root.
-        root: String,
-    },
-    /// It has no such stage.
-    #[error("has {found} cylindrical stages, stage {asked} is wanted")]
-    Stage {
-        /// Stages that it has.
-        found: usize,
-        /// Counted from 1.
-        asked: usize,
-    },
-    /// A stage without its two gears.
-    #[error("stage {stage} has no {role}")]
-    Gear {
-        /// Counted from 1.
-        stage: usize,
-        /// `gear_1` or `gear_2`.
-        role: &'static str,
-    },
-    /// A number that every gear has.
-    #[error("gear {gear} has no `{attribute}`")]
-    Missing {
-        /// Number of its component.
-        gear: String,
-        /// Name of the attribute.
-        attribute: &'static str,
-    },
-    /// A value that cannot be used.
-    #[error("gear {gear}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
-    Value {
-        /// Number of its component.
-        gear: String,
-        /// Name of the attribute.
-        attribute: &'static str,
-        /// As written.
-        value: String,
-        /// As written.
-        unit: String,
-        /// Unit of the standard's data base.
-        wanted: &'static str,
-    },
-    /// A number of teeth that no gear has.
-    #[error("gear {gear}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
-    Teeth {
-        /// Number of its component.
-        gear: String,
-        /// As read.
-        value: f64,
-    },
-    /// A place or direction that is not three numbers.
-    #[error("gear {gear}: `{attribute}` is not three finite numbers in {wanted}")]
-    Vector {
-        /// Number of its component.
-        gear: String,
-        /// Name of the attribute.
-        attribute: &'static str,
-        /// Unit of the standard's data base.
-        wanted: &'static str,
-    },
-    /// Two gears that are no external pair.
-    #[error("the gears differ in {what}: {pinion} and {wheel}")]
-    Pair {
-        /// In what.
-        what: &'static str,
-        /// Gear 1.
-        pinion: f64,
-        /// Gear 2.
-        wheel: f64,
-    },
-}
-
-impl RexsError {
-    /// What the user can do next.
-    pub fn hint(&self) -> Option<String> {
-        Some(match self {
-            Self::Xml(_) | Self::Crowded { .. } | Self::Root { .. } => {
-                "export the model as REXS in XML (`.rexs`), not packed (`.rexsz`) and not as JSON".into()
-            }
-            Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
-            Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
-            Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
-            Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
-            Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
-            Self::Pair { .. } => "only external pairs of one module can be run".into(),
-        })
-    }
-}
-
-/// Attributes of an element at the most: each is compared with all before it. REXS has a handful.
-const ATTRIBUTES: usize = 10_000;
-
-/// Line of the first element with more attributes than that, by its equals signs: no `<` stands within an element.
-fn crowded(text: &str) -> Option<usize> {
-    let mut line = 1;
-    for part in text.split('<') {
-        if part.matches('=').nth(ATTRIBUTES).is_some() {
-            return Some(line);
-        }
-        line += part.matches('\n').count();
-    }
-    None
-}
+use crate::{
+    RexsError, Starter,
+    rexs_document::{Model, Part, parsed, reference, refers},
+};
 
 /// The pair of stage `stage` (counted from 1) of a REXS file; torque and speed are those of `from`.
 ///
 /// # Errors
 /// [`RexsError`].
 pub fn read_pair(text: &str, stage: usize, from: &Starter) -> Result<Starter, RexsError> {
-    if let Some(line) = crowded(text) {
-        return Err(RexsError::Crowded { line });
-    }
-    let document = Document::parse(text.trim_start_matches('\u{feff}'))?;
-    let root = document.root_element();
-    if root.tag_name().name() != "model" {
-        return Err(RexsError::Root { root: root.tag_name().name().to_owned() });
-    }
-    let model = Model(root);
+    let document = parsed(text)?;
+    let model = Model::of(&document)?;
     let stages: Vec<Node<'_, '_>> =
         model.relations("stage").filter(|r| refers(*r, "stage", "cylindrical_stage")).collect();
     let wrong = RexsError::Stage { found: stages.len(), asked: stage };
     let relation = *stage.checked_sub(1).and_then(|i| stages.get(i)).ok_or(wrong)?;
     let of = |role: &'static str| {
         let id = reference(relation, role).ok_or(RexsError::Gear { stage, role })?;
-        model.component(id).map(|node| Part { id, node }).ok_or(RexsError::Gear { stage, role })
+        model.component(id).map(|node| Part { kind: "gear", id, node }).ok_or(RexsError::Gear { stage, role })
     };
     let (pinion, wheel) = (of("gear_1")?, of("gear_2")?);
     pair(&model, [pinion, wheel], stage, from)
@@ -205,104 +83,10 @@ fn distance(gears: &[Part<'_, '_>; 2]) -> Result<Option<f64>, RexsError> {
     Ok((frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| square.sqrt()))
 }
 
-/// The file.
-struct Model<'a, 'i>(Node<'a, 'i>);
-
-impl<'a, 'i> Model<'a, 'i> {
-    fn relations(&self, kind: &'static str) -> impl Iterator<Item = Node<'a, 'i>> {
-        let all = self.0.children().find(|n| n.has_tag_name("relations"));
-        all.into_iter().flat_map(|n| n.children()).filter(move |n| n.attribute("type") == Some(kind))
-    }
-
-    fn component(&self, id: &str) -> Option<Node<'a, 'i>> {
-        let all = self.0.children().find(|n| n.has_tag_name("components"))?;
-        all.children().find(|n| n.has_tag_name("component") && n.attribute("id") == Some(id))
-    }
-
-    /// Either flank of a gear: what is read of it is the same on both sides.
-    fn flank(&self, gear: &str) -> Option<Part<'a, 'i>> {
-        let relation = self.relations("flank").find(|r| reference(*r, "gear") == Some(gear))?;
-        let id = reference(relation, "left").or_else(|| reference(relation, "right"))?;
-        Some(Part { id, node: self.component(id)? })
-    }
-
-    fn name(&self, stage: usize) -> Option<String> {
-        let program = self.0.attribute("applicationId")?;
-        Some(format!("{program}, stage {stage}"))
-    }
-}
-
-/// Number of the component that has a role in a relation.
-fn reference<'a>(relation: Node<'a, '_>, role: &str) -> Option<&'a str> {
-    relation.children().find(|n| n.attribute("role") == Some(role))?.attribute("id")
-}
-
-fn refers(relation: Node<'_, '_>, role: &str, hint: &str) -> bool {
-    relation.children().any(|n| n.attribute("role") == Some(role) && n.attribute("hint") == Some(hint))
-}
-
-/// A component.
-struct Part<'a, 'i> {
-    id: &'a str,
-    node: Node<'a, 'i>,
-}
-
-impl Part<'_, '_> {
-    fn attribute(&self, name: &str) -> Option<Node<'_, '_>> {
-        self.node.children().find(|n| n.has_tag_name("attribute") && n.attribute("id") == Some(name))
-    }
-
-    fn text(&self, name: &str) -> Option<&str> {
-        self.attribute(name)?.text().map(str::trim)
-    }
-
-    fn number(&self, attribute: &'static str, wanted: &'static str) -> Result<Option<f64>, RexsError> {
-        let Some(node) = self.attribute(attribute) else { return Ok(None) };
-        let unit = node.attribute("unit").unwrap_or_default();
-        let value = node.text().unwrap_or_default().trim();
-        let same = match wanted {
-            "deg" => matches!(unit, "deg" | "\u{b0}"),
-            "" => matches!(unit, "" | "none" | "-"),
-            _ => unit == wanted,
-        };
-        match value.parse::<f64>().ok().filter(|v| v.is_finite() && same) {
-            Some(number) => Ok(Some(number)),
-            None => Err(RexsError::Value {
-                gear: self.id.to_owned(),
-                attribute,
-                value: value.to_owned(),
-                unit: unit.to_owned(),
-                wanted: if wanted.is_empty() { "no unit" } else { wanted },
-            }),
-        }
-    }
-
-    fn needed(&self, attribute: &'static str, unit: &'static str) -> Result<f64, RexsError> {
-        self.number(attribute, unit)?.ok_or_else(|| RexsError::Missing { gear: self.id.to_owned(), attribute })
-    }
-
-    fn teeth(&self) -> Result<u32, RexsError> {
-        let value = self.needed("number_of_teeth", "")?;
-        let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
-        if whole { Ok(value as u32) } else { Err(RexsError::Teeth { gear: self.id.to_owned(), value }) }
-    }
-
-    /// Three lengths, mm.
-    fn vector(&self, attribute: &'static str) -> Result<Option<[f64; 3]>, RexsError> {
-        let Some(node) = self.attribute(attribute) else { return Ok(None) };
-        let wrong = || RexsError::Vector { gear: self.id.to_owned(), attribute, wanted: "mm" };
-        let array = node.children().find(|n| n.has_tag_name("array")).ok_or_else(wrong)?;
-        let words = array.children().filter(Node::is_element).map(|n| n.text().unwrap_or_default().trim());
-        let values: Vec<f64> = words.filter_map(|w| w.parse().ok()).filter(|v: &f64| v.is_finite()).collect();
-        let in_mm = matches!(node.attribute("unit"), None | Some("mm"));
-        let three = array.children().filter(Node::is_element).count() == 3 && in_mm;
-        values.try_into().ok().filter(|_| three).map(Some).ok_or_else(wrong)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::rexs_document::ATTRIBUTES;
 
     /// A stage as the standard's pages describe it, gears 27 : 51 at a distance of 190 mm.
     const MODEL: &str = r#"<?xml version="1.0" encoding="UTF-8"?>

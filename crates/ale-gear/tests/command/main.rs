@@ -7,5 +7,6 @@ mod folders;
 mod gearbox;
 mod messages;
 mod resume;
+mod rolling_bearings;
 #[path = "../util/mod.rs"]
 mod util;

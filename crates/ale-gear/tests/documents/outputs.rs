@@ -103,6 +103,8 @@ fn every_kind() -> Scratch {
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
     run(&["gearbox", &stages, "--out", "out-gearbox"]);
+    let rolling = repository().join("scenes/gearbox/rolling_bearings.toml").display().to_string();
+    run(&["gearbox", &rolling, "--out", "out-rolling"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
     scratch
 }

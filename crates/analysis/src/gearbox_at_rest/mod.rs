@@ -2,13 +2,14 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `parts` | shafts, discs and bearings of the file |
+//! | `parts`, `bearings` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
 //! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
 //! | `result` | what is read off all positions |
 //! | `room` | what is said of parts that have no room, and of large deflections |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
+mod bearings;
 mod inertia;
 mod meshes;
 mod motion;
@@ -25,6 +26,7 @@ use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
 use scene::gearbox::Gearbox;
 
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
+pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
 pub use motion::GearboxMotionResult;
 pub use orders::MotionOrder;
@@ -87,10 +89,17 @@ pub fn solve_gearbox(
             Ok((positions, samples))
         })
     })?;
+    // What swings and moves has springs in place of rolling elements, about where these stand.
+    let linear = match (&file.vibration, &file.motion) {
+        (None, None) => structure.clone(),
+        _ => {
+            structure.about(&positions).and_then(|own| own.check_held(&operation.held).map(|()| own)).map_err(failed)?
+        }
+    };
     let vibration = match &file.vibration {
         None => None,
         Some(asked) => {
-            let parts = Parts { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
+            let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
             let found = widening(all, &mut reduced, cache, &mut warnings, |reduced| {
                 vibration::vibration(&parts, asked, reduced, &samples, observer)
             });
@@ -100,7 +109,7 @@ pub fn solve_gearbox(
     warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
     let rest = motion::AtRest {
         file,
-        structure: &structure,
+        structure: &linear,
         meshes: &meshes,
         operation: &operation,
         train: &train,
@@ -108,7 +117,7 @@ pub fn solve_gearbox(
         positions: &positions,
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, observer)).transpose()?;
-    let result = result::result(file, meshes, &train, &reduced, (positions, vibration), warnings);
+    let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), warnings);
     Ok(GearboxResult { motion: moved, ..result })
 }
 

@@ -4,10 +4,12 @@ use fem::{
     Material,
     beam::{BeamPiece, BeamSection},
 };
-use gearbox::{Bearing, Disc, GearboxError, Operation, Shaft, Structure, Torque, Train};
+use gearbox::{Disc, GearboxError, Operation, Shaft, Structure, Torque, Train};
 use geometry::Sense;
-use nalgebra::{DMatrix, Matrix6};
+use nalgebra::DMatrix;
 use scene::{Rotation, gearbox::Gearbox};
+
+use super::bearings::bearings;
 
 /// All parts. Discs are the gears, the input and the torques, in this order.
 pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
@@ -29,15 +31,9 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
     let torque =
         |(i, t): (usize, &scene::gearbox::GearboxTorque)| Disc::seat(format!("torque {}", i + 1), t.shaft, t.position);
     discs.extend(file.torques.iter().enumerate().map(torque));
-    let bearings = file.bearings.iter().map(|b| Bearing {
-        name: b.name.clone(),
-        shaft: b.shaft,
-        position: b.position,
-        stiffness: Matrix6::from_fn(|i, j| b.stiffness[i][j]),
-        damping: Matrix6::from_fn(|i, j| if i == j && i < 3 { b.damping[i] } else { 0.0 }),
-    });
+    let bearings = bearings(file)?;
     let housing = file.housing.as_ref().map(|rows| DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]));
-    Ok(Structure { shafts, discs, bearings: bearings.collect(), housing, ..Structure::default() })
+    Ok(Structure { shafts, discs, bearings, housing, ..Structure::default() })
 }
 
 /// Disc of the input, its sense, and the keys of all discs.

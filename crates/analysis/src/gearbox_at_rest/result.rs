@@ -1,11 +1,12 @@
 //! What is read off all positions of a gearbox.
 
-use gearbox::{GearboxPosition, Mesh, Train, face_load_factor};
+use gearbox::{GearboxPosition, Mesh, Structure, Train, face_load_factor};
 use geometry::GearPair;
 use scene::gearbox::Gearbox;
 
 use super::{
-    GearboxMotionResult, GearboxSwings,
+    GearboxMotionResult, GearboxSwings, RollingLoad,
+    bearings::rolling_load,
     meshes::ReducedMesh,
     room::{deflections, room},
 };
@@ -73,6 +74,8 @@ pub struct BearingLoad {
     pub moment: [f64; 3],
     /// Largest tilt of the shaft against the seat, rad.
     pub tilt: f64,
+    /// What is known of its rolling elements, where it has some.
+    pub rolling: Option<RollingLoad>,
 }
 
 /// An output over all positions.
@@ -99,7 +102,7 @@ fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 pub(super) fn result(
-    file: &Gearbox,
+    (file, structure): (&Gearbox, &Structure),
     meshes: Vec<Mesh>,
     train: &Train,
     reduced: &[ReducedMesh],
@@ -132,6 +135,7 @@ pub(super) fn result(
             force: std::array::from_fn(|k| mean(own().map(|b| b.force[k]))),
             moment: std::array::from_fn(|k| mean(own().map(|b| b.moment[k]))),
             tilt: own().map(|b| b.displacement[3].hypot(b.displacement[4])).fold(0.0, f64::max),
+            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, i),
         }
     };
     let output = |i: usize| {
@@ -142,11 +146,17 @@ pub(super) fn result(
     let of_meshes: Vec<MeshResult> = (0..meshes.len()).map(mesh).collect();
     let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
     let mut warnings = warnings;
+    let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
+    for (own, load) in file.bearings.iter().zip(&bearings) {
+        let is_held = file.shafts[own.shaft].held;
+        warnings
+            .extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, (load.tilt, r))));
+    }
     warnings.extend(room(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     GearboxResult {
         ratios: train.ratios().to_vec(),
         meshes: of_meshes,
-        bearings: (0..file.bearings.len()).map(bearing).collect(),
+        bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
         input_torque: mean(all.iter().map(|p| p.input_torque)),
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],

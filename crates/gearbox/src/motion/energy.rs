@@ -45,15 +45,18 @@ impl GearboxMechanism {
     /// [`GearboxError`] of a mesh.
     pub fn energy(&mut self, start: &State, state: &State, ledger: &Ledger) -> Result<GearboxEnergy, GearboxError> {
         let moved = &state.q - &start.q;
-        let of_outputs = self.loads[0].dot(&moved);
+        // Preloads of bearings are no torques: what they give is taken off what is stored.
+        let of_loads = self.loads[0].dot(&moved);
+        let of_preload = self.preload.dot(&self.free.deviations(&moved));
+        let of_outputs = of_loads - of_preload;
         let mut energy = GearboxEnergy {
             input_work: self.loads[1].dot(&moved),
             output_work: of_outputs,
             kinetic: ledger.kinetic,
             shafts: 0.0,
-            supports: 0.5 * self.support_energy(&state.q),
+            supports: self.support_energy(&state.q),
             meshes: 0.0,
-            gained: ledger.kinetic + ledger.potential - ledger.initial,
+            gained: ledger.kinetic + ledger.potential - ledger.initial - of_preload,
             dissipated: ledger.dissipated,
             relative_residual: 0.0,
         };
@@ -68,12 +71,12 @@ impl GearboxMechanism {
             let nominal = self.outputs.dot(&self.free.rigid) * (of(state)[0] - of(start)[0]);
             let shift = along(state) - along(start);
             energy.output_work += nominal;
-            energy.input_work = ledger.parametric + ledger.supplied - of_outputs + shift - nominal;
+            energy.input_work = ledger.parametric + ledger.supplied - of_loads + shift - nominal;
             energy.kinetic += along(state);
             energy.gained += shift;
             began += along(start);
         }
-        energy.shafts = 0.5 * state.q.dot(&(&self.stiffness * &state.q)) - energy.supports;
+        energy.shafts = 0.5 * (state.q.dot(&(&self.stiffness * &state.q)) - self.springs_energy(&state.q));
         let [angle, _] = self.input(state.time, &state.q, &state.v);
         for i in 0..self.live.len() {
             energy.meshes += self.ask(i, angle, &state.q)?.1.element().energy();

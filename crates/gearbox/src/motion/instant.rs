@@ -122,14 +122,10 @@ impl GearboxMechanism {
     }
 
     fn bearing_states(&self, y: &DVector<f64>, rates: &DVector<f64>) -> Vec<BearingState> {
-        let at = |x: &DVector<f64>| {
-            let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
-            DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| x[rows(i)])
-        };
-        let (u, du) = (at(y), at(rates));
+        let (u, du) = (self.at_bearings(y), self.at_bearings(rates));
         let supports = self.assembly.supports();
-        let forces = supports.forces(&u) - &supports.damping * du;
-        let relative = &u - supports.seats(&u);
+        let [relative, springs] = supports.standing(&u);
+        let forces = springs - &supports.damping * du;
         let of = |i: usize| BearingState {
             force: std::array::from_fn(|k| forces[6 * i + k]),
             moment: std::array::from_fn(|k| forces[6 * i + 3 + k]),
@@ -138,12 +134,22 @@ impl GearboxMechanism {
         (0..u.len() / 6).map(of).collect()
     }
 
-    /// Twice the strain energy of bearings and housing at a state, N mm.
-    pub(super) fn support_energy(&self, q: &DVector<f64>) -> f64 {
+    /// Twice the strain energy of the springs of bearings and housing at a state, N mm.
+    pub(super) fn springs_energy(&self, q: &DVector<f64>) -> f64 {
         let y = self.free.deviations(q);
-        let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
-        let u = DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[rows(i)]);
-        let (bearings, housing) = self.assembly.supports().energies(&u);
+        let (bearings, housing) = self.assembly.supports().energies(&self.at_bearings(&y));
         bearings.iter().sum::<f64>() + housing.unwrap_or(0.0)
+    }
+
+    /// Energy of bearings and housing at a state, that of preloads among it, N mm.
+    pub(super) fn support_energy(&self, q: &DVector<f64>) -> f64 {
+        let stored: f64 = self.assembly.structure().bearings.iter().map(|b| b.stored).sum();
+        let pressed = self.assembly.supports().pressed_energy() + stored;
+        0.5 * self.springs_energy(q) - self.preload.dot(&self.free.deviations(q)) + pressed
+    }
+
+    fn at_bearings(&self, y: &DVector<f64>) -> DVector<f64> {
+        let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
+        DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[rows(i)])
     }
 }

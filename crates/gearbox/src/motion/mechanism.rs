@@ -33,7 +33,9 @@ pub struct GearboxMechanism {
     pub(super) outputs: DVector<f64>,
     /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
     pub(super) momentum: DVector<f64>,
-    /// Of the outputs, and of the input where a torque drives.
+    /// Of preloaded bearings on the bodies.
+    pub(super) preload: DVector<f64>,
+    /// Of the outputs with the preloads of bearings, and of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
     /// Most that each mesh has been used of what it holds, at the ends of steps.
     pub(super) reach: Vec<f64>,
@@ -57,6 +59,7 @@ impl GearboxMechanism {
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
         check(&structure, &train, &operation)?;
         check_motion(&structure, options)?;
+        structure.check_linear()?;
         let mut held = vec![false; structure.shafts.len()];
         operation.held.iter().for_each(|&shaft| held[shaft] = true);
         let assembly = Assembly::new(structure)?;
@@ -73,7 +76,8 @@ impl GearboxMechanism {
             Drive::Torque { torque, .. } => torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount),
         };
         let momentum = free.basis.tr_mul(&(&bodies.mass * &free.rigid));
-        let loads = [free.basis.tr_mul(&outputs), free.basis.tr_mul(&free.input) * given];
+        let preload = bodies.preload(&assembly);
+        let loads = [free.basis.tr_mul(&(&outputs + &preload)), free.basis.tr_mul(&free.input) * given];
         let mut deviations = free.basis.clone();
         if let Some(i) = free.turn {
             deviations.column_mut(i).fill(0.0);
@@ -106,6 +110,7 @@ impl GearboxMechanism {
             gyroscopic,
             outputs,
             momentum,
+            preload,
             loads,
             reach,
             start_cycles,

@@ -165,6 +165,11 @@ impl ReducedBodies {
         6 * self.nodes.iter().position(|(n, _)| *n == node).unwrap_or(0)
     }
 
+    /// Forces of preloaded bearings on the coordinates.
+    pub(super) fn preload(&self, assembly: &Assembly) -> DVector<f64> {
+        self.basis.tr_mul(&assembly.preload())
+    }
+
     /// A matrix of all nodes in reduced coordinates; skew-symmetric ones stay so to the last bit.
     pub(super) fn skew(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
         let raw = self.basis.transpose() * matrix * &self.basis;

@@ -8,6 +8,8 @@ mod motion_pair;
 mod overhung;
 mod pairs;
 mod rest;
+mod rolling;
+mod rolling_gearbox;
 mod ross;
 mod rotors;
 mod swinging;

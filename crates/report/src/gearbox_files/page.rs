@@ -40,6 +40,7 @@ pub fn gearbox_page(
             meshes => Serde(meshes(file, result)),
             shafts => Serde(shafts(file, result)),
             bearings => Serde(bearings(file, result)),
+            rolls => result.bearings.iter().any(|b| b.rolling.is_some()),
             charts => charts(file, result),
             vibration => file.vibration.as_ref().zip(result.vibration.as_ref()).map(|(v, s)| vibration(file, v, s)),
             motion => result.motion.as_ref().map(|own| motion(file, result, own)),
@@ -94,6 +95,7 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {
             "force_n": b.force,
             "radial_n": b.force[0].hypot(b.force[1]),
             "tilt_mrad": 1e3 * b.tilt,
+            "rolling": b.rolling.as_ref().map(super::summary::rolling),
         })
     };
     result.bearings.iter().enumerate().map(one).collect()

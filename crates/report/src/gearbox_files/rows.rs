@@ -1,7 +1,7 @@
 //! Rows of a gearbox as files with commas.
 
 use analysis::gearbox_at_rest::GearboxResult;
-use gearbox::{GearboxPosition, line_load};
+use gearbox::{GearboxPosition, line_load, rolling_bearing::RollingState};
 use scene::gearbox::Gearbox;
 
 use crate::csv::{push_number, push_row, quoted};
@@ -37,6 +37,13 @@ fn columns(file: &Gearbox) -> Vec<Column> {
         }
         for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
             push(format!("bearing_{}_moment_{axis}_nmm", i + 1), Box::new(move |p| p.bearings[i].moment[k]));
+        }
+        if file.bearings[i].rolling.is_some() {
+            let of = move |p: &GearboxPosition, what: fn(&RollingState) -> f64| p.rolling[i].as_ref().map_or(0.0, what);
+            let name = |what: &str| format!("bearing_{}_{what}", i + 1);
+            push(name("element_force_n"), Box::new(move |p| of(p, |s| s.element_force)));
+            push(name("hertz_pressure_mpa"), Box::new(move |p| of(p, |s| s.pressure)));
+            push(name("loaded_elements"), Box::new(move |p| of(p, |s| s.loaded as f64)));
         }
     }
     push("residual".into(), Box::new(|p| p.certificate.residual));

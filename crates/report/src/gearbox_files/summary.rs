@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings, MeshResult};
+use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings, MeshResult, RollingLoad};
+use gearbox::rolling_bearing::RollingElements;
 use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use serde_json::{Value, json};
@@ -22,12 +23,16 @@ pub fn gearbox_summary(
 ) -> String {
     let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair));
     let bearings = result.bearings.iter().map(|b| {
-        json!({
+        let mut own = json!({
             "name": b.name,
             "mean_force_n": b.force,
             "mean_moment_nmm": b.moment,
             "max_tilt_urad": 1e6 * b.tilt,
-        })
+        });
+        if let Some(load) = &b.rolling {
+            own["rolling"] = rolling(load);
+        }
+        own
     });
     let outputs = result
         .outputs
@@ -74,6 +79,27 @@ fn headline(result: &GearboxResult) -> Value {
         "max_pressure_mpa": of_meshes(&|m| Some(m.max_pressure)),
         "peak_to_peak_lag_urad": result.outputs.iter().map(|o| 1e6 * o.peak_to_peak).collect::<Vec<_>>(),
         "mean_bearing_force_n": result.bearings.iter().map(|b| norm(b.force)).collect::<Vec<_>>(),
+    })
+}
+
+/// What is known of a rolling bearing: the page tells the same.
+pub(super) fn rolling(load: &RollingLoad) -> Value {
+    let (elements, diameter, length, pitch_diameter) = match &load.elements {
+        RollingElements::Balls(b) => (b.elements, b.diameter, None, b.pitch_diameter),
+        RollingElements::Rollers(r) => (r.elements, r.diameter, Some(r.length), r.pitch_diameter),
+    };
+    json!({
+        "elements_per_row": elements,
+        "element_diameter_mm": diameter,
+        "element_length_mm": length,
+        "pitch_diameter_mm": pitch_diameter,
+        "is_estimated": load.is_estimated,
+        "elements": load.count,
+        "min_loaded_elements": load.loaded[0],
+        "max_loaded_elements": load.loaded[1],
+        "max_element_force_n": load.element_force,
+        "max_hertz_pressure_mpa": load.pressure,
+        "stiffness_n_mm_rad": load.stiffness,
     })
 }
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
+use analysis::gearbox_at_rest::{BearingLoad, GearboxResult, GearboxSwings};
 use scene::gearbox::Gearbox;
 
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
@@ -31,17 +31,7 @@ pub fn gearbox_table(file: &Gearbox, result: &GearboxResult, cost: &Cost) -> Str
             fixed(m.max_pressure, 0),
         );
     }
-    let _ = writeln!(t, "\n  {:<24} {:>10} {:>10} {:>10}", "bearing", "radial N", "axial N", "tilt mrad");
-    for b in &result.bearings {
-        let _ = writeln!(
-            t,
-            "  {:<24} {:>10} {:>10} {:>10}",
-            b.name,
-            fixed(b.force[0].hypot(b.force[1]), 0),
-            fixed(b.force[2], 0),
-            fixed(1e3 * b.tilt, 3)
-        );
-    }
+    bearings(&mut t, &result.bearings);
     let _ = writeln!(t, "\n  input torque {} N m", fixed(1e-3 * result.input_torque, 2));
     for (i, o) in result.outputs.iter().enumerate() {
         let (mean, range) = (fixed(1e6 * o.mean, 1), fixed(1e6 * o.peak_to_peak, 2));
@@ -58,6 +48,27 @@ pub fn gearbox_table(file: &Gearbox, result: &GearboxResult, cost: &Cost) -> Str
         let _ = writeln!(t, "\nwarning: {warning}");
     }
     t
+}
+
+/// Forces and tilts; where there are rolling elements, what the hardest pressed one carries.
+fn bearings(t: &mut String, all: &[BearingLoad]) {
+    let rolls = all.iter().any(|b| b.rolling.is_some());
+    let _ = write!(t, "\n  {:<24} {:>10} {:>10} {:>10}", "bearing", "radial N", "axial N", "tilt mrad");
+    let _ = if rolls { writeln!(t, " {:>10} {:>9} {:>9}", "element N", "MPa", "loaded") } else { writeln!(t) };
+    for b in all {
+        let radial = fixed(b.force[0].hypot(b.force[1]), 0);
+        let (axial, tilt) = (fixed(b.force[2], 0), fixed(1e3 * b.tilt, 3));
+        let _ = write!(t, "  {:<24} {radial:>10} {axial:>10} {tilt:>10}", b.name);
+        let _ = match &b.rolling {
+            Some(own) => {
+                let loaded = format!("{}/{}", own.loaded[1], own.count);
+                let (force, pressure) = (fixed(own.element_force, 0), fixed(own.pressure, 0));
+                writeln!(t, " {force:>10} {pressure:>9} {loaded:>9}")
+            }
+            None if rolls => writeln!(t, " {:>10} {:>9} {:>9}", "-", "-", "-"),
+            None => writeln!(t),
+        };
+    }
 }
 
 /// Modes that are listed.

@@ -4,14 +4,14 @@ use std::path::Path;
 
 use toml::Spanned;
 
-use super::file::{
-    Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
-};
+use super::bearing::bearing;
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxTorque};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
-use super::raw::{RawBearing, RawGear, RawGearbox, RawInput, RawMesh, RawSection, RawShaft, RawTorque};
-use super::values::{Checked, missing, needed_number, needed_word, numbers, square};
+use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque};
+use super::shaft::{length, shaft};
+use super::values::{Checked, missing, needed_number, needed_word};
 use super::vibration::vibration;
 use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Word, study::setting};
 
@@ -19,8 +19,6 @@ use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Wo
 const PARTS: usize = 100;
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
-/// Lengths and positions at the most, mm.
-const FAR: f64 = 1e6;
 
 pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     few(s, "shafts", &raw.shaft)?;
@@ -69,11 +67,11 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     })
 }
 
-fn all<R, T>(tables: &[Spanned<R>], of: impl Fn(&Spanned<R>) -> Checked<T>) -> Checked<Vec<T>> {
+pub(super) fn all<R, T>(tables: &[Spanned<R>], of: impl Fn(&Spanned<R>) -> Checked<T>) -> Checked<Vec<T>> {
     tables.iter().map(of).collect()
 }
 
-fn few<R>(s: &Source<'_>, what: &str, tables: &[Spanned<R>]) -> Checked<()> {
+pub(super) fn few<R>(s: &Source<'_>, what: &str, tables: &[Spanned<R>]) -> Checked<()> {
     match tables.get(PARTS) {
         Some(table) => {
             let said = format!("a gearbox of {} {what}", tables.len());
@@ -99,85 +97,6 @@ fn distinct<'a, R>(
         seen.push(name);
     }
     Ok(())
-}
-
-fn length(shaft: &GearboxShaft) -> f64 {
-    shaft.sections.iter().map(|x| x.length).sum()
-}
-
-fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<GearboxShaft> {
-    let raw = table.get_ref();
-    let name = needed_word(s, table, "[[shaft]]", "name", &raw.name, "a name that bearings and gears call it by")?;
-    if raw.section.is_empty() {
-        let said = format!("the shaft \"{name}\" has no sections");
-        return Err(s.conflict(&table.span(), said, "list them from its z = 0 on, each as [[shaft.section]]"));
-    }
-    few(s, "sections of a shaft", &raw.section)?;
-    Ok(GearboxShaft {
-        origin: numbers::<3>(s, "origin_mm", &raw.origin_mm, FAR)?.unwrap_or_default(),
-        sections: all(&raw.section, |t| section(s, t))?,
-        young_mpa: s.number("young_mpa", &raw.young_mpa, 2.06e5, 1.0, 1e12)?,
-        poisson: s.number("poisson", &raw.poisson, 0.3, 0.0, 0.499)?,
-        density: 1e-12 * s.number("density_kg_m3", &raw.density_kg_m3, 7850.0, 1.0, 1e5)?,
-        held: raw.held.as_ref().is_some_and(|h| *h.get_ref()),
-        name,
-    })
-}
-
-fn section(s: &Source<'_>, table: &Spanned<RawSection>) -> Checked<GearboxSection> {
-    let raw = table.get_ref();
-    let of = |key, value| needed_number(s, table, "[[shaft.section]]", key, value, 1e-3, FAR);
-    let (length, outer) = (of("length_mm", &raw.length_mm)?, of("outer_diameter_mm", &raw.outer_diameter_mm)?);
-    let inner = s.number("inner_diameter_mm", &raw.inner_diameter_mm, 0.0, 0.0, FAR)?;
-    if inner >= outer {
-        let said = format!("a section {outer} mm wide outside and {inner} mm inside");
-        return Err(s.conflict(&table.span(), said, "the inner diameter is the smaller one; 0 is solid"));
-    }
-    Ok(GearboxSection { length, outer, inner })
-}
-
-fn bearing(s: &Source<'_>, table: &Spanned<RawBearing>, shafts: &[(String, f64)]) -> Checked<GearboxBearing> {
-    let raw = table.get_ref();
-    let (shaft, position) = place(s, table, "[[bearing]]", (&raw.shaft, &raw.position_mm), shafts)?;
-    let name = match &raw.name {
-        Some(word) => word.get_ref().clone(),
-        None => format!("bearing at {position} mm of {}", shafts[shaft].0),
-    };
-    let mut stiffness = [[0.0; 6]; 6];
-    match &raw.matrix_n_mm_rad {
-        Some(rows) => {
-            let apart = raw.stiffness_n_per_mm.is_some() || raw.tilt_stiffness_nm_per_rad.is_some();
-            if apart {
-                let said = format!("{name} has its stiffness twice");
-                return Err(s.conflict(&rows.span(), said, "give the matrix or the single values, not both"));
-            }
-            let size = rows.get_ref().len();
-            if size != 5 && size != 6 {
-                let said = format!("{name} has a matrix of {size} rows");
-                let advice = "give 6 rows for x, y, z and the turns about them, or 5 without the turn about z";
-                return Err(s.conflict(&rows.span(), said, advice));
-            }
-            for (i, row) in square(s, table, &raw.matrix_n_mm_rad, size)?.iter().enumerate() {
-                stiffness[i][..size].copy_from_slice(row);
-            }
-        }
-        None => {
-            let Some(shifts) = numbers::<3>(s, "stiffness_n_per_mm", &raw.stiffness_n_per_mm, 1e15)? else {
-                return Err(missing(
-                    s,
-                    table,
-                    "[[bearing]]",
-                    "stiffness_n_per_mm",
-                    "a list for x, y and z, or a matrix",
-                ));
-            };
-            let tilts = numbers::<2>(s, "tilt_stiffness_nm_per_rad", &raw.tilt_stiffness_nm_per_rad, 1e15)?;
-            let diagonal = shifts.into_iter().chain(tilts.unwrap_or_default().map(|t| 1e3 * t));
-            diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
-        }
-    }
-    let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
-    Ok(GearboxBearing { name, shaft, position, stiffness, damping })
 }
 
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
@@ -268,7 +187,7 @@ fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
 }
 
 /// Shaft and place of a part.
-fn place<R>(
+pub(super) fn place<R>(
     s: &Source<'_>,
     table: &Spanned<R>,
     name: &str,

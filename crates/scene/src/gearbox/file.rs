@@ -79,6 +79,76 @@ pub struct GearboxBearing {
     pub stiffness: [[f64; 6]; 6],
     /// Damping along x, y, z, N s/mm.
     pub damping: [f64; 3],
+    /// Rolling elements in place of the stiffness, which is zero then.
+    pub rolling: Option<GearboxRolling>,
+}
+
+/// A rolling bearing whose stiffness follows its load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxRolling {
+    /// Of which kind.
+    pub kind: RollingKind,
+    /// Its rolling elements, or what a catalogue says.
+    pub size: RollingSize,
+    /// Nominal contact angle, rad; 0 for deep grooves and cylindrical rollers.
+    pub contact_angle: f64,
+    /// Groove radius over ball diameter: inner and outer ring.
+    pub conformity: [f64; 2],
+    /// Rollers without relief.
+    pub straight_rollers: bool,
+    /// Radial clearance, the whole play, mm.
+    pub radial_clearance: f64,
+    /// How its rows are set along the axis.
+    pub axial: AxialPlay,
+    /// Place of each row beside the middle, mm, and +1 or -1 for the thrust of the shaft that it takes.
+    pub rows: Vec<[f64; 2]>,
+}
+
+/// Kind of a rolling bearing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RollingKind {
+    /// Balls in deep grooves.
+    DeepGrooveBall,
+    /// Balls with a contact angle.
+    AngularContactBall,
+    /// Cylindrical rollers between rings without ribs for thrust.
+    CylindricalRoller,
+    /// Tapered rollers.
+    TaperedRoller,
+}
+
+/// What is known of the inside of a rolling bearing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RollingSize {
+    /// The elements of a row, mm; the length is that of rollers.
+    Elements {
+        /// How many a row has.
+        elements: u32,
+        /// Diameter.
+        diameter: f64,
+        /// Length that presses.
+        length: f64,
+        /// Diameter of the circle of their centres.
+        pitch_diameter: f64,
+    },
+    /// What catalogues say.
+    Catalogue {
+        /// Bore, mm.
+        bore: f64,
+        /// Outer diameter, mm.
+        outer_diameter: f64,
+        /// C_0, N.
+        static_rating: f64,
+    },
+}
+
+/// How rows are set along the axis.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AxialPlay {
+    /// Way until a row touches, mm; below 0: pressed.
+    Clearance(f64),
+    /// Force that presses each row, N.
+    Preload(f64),
 }
 
 /// A gear on a shaft.

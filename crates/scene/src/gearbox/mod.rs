@@ -5,8 +5,11 @@
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
 //! | `vibration`, `motion` | how it swings, and how it runs in time |
+//! | `shaft` | sections of the file, or of a REXS file |
+//! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
 //! | `raw`, `check`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
+mod bearing;
 mod check;
 mod file;
 mod housing;
@@ -14,11 +17,13 @@ mod loads;
 mod motion;
 mod raw;
 mod read;
+mod rolling;
+mod shaft;
 mod values;
 mod vibration;
 
 pub use file::{
-    Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxSection, GearboxShaft, GearboxTorque,
-    GearboxVibration,
+    AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRolling, GearboxSection,
+    GearboxShaft, GearboxTorque, GearboxVibration, RollingKind, RollingSize,
 };
 pub use motion::{GearboxDrive, GearboxMotion, MeshModel};

@@ -1,0 +1,161 @@
+//! Bearings of a gearbox file as its solver takes them, and what is read off those with rolling elements.
+
+use gearbox::{
+    Bearing, GearboxError, GearboxPosition,
+    rolling_bearing::{
+        AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing,
+        RollingBearingError, RollingElements, RollingState, Row,
+    },
+};
+use nalgebra::Matrix6;
+use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize};
+
+/// Pressures from which on balls and rollers leave dents (ISO 76), MPa.
+const BALLS_DENT: f64 = 4200.0;
+const ROLLERS_DENT: f64 = 4000.0;
+
+/// Tilts that catalogues let deep groove balls and rollers have at most, 10 and 4 minutes, rad.
+const BALLS_TILT: f64 = 2.9e-3;
+const ROLLERS_TILT: f64 = 1.2e-3;
+
+/// A rolling bearing over all positions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollingLoad {
+    /// What rolls in it, as stated or estimated.
+    pub elements: RollingElements,
+    /// Rolling elements of all rows.
+    pub count: usize,
+    /// Whether they are estimated from the catalogue's values.
+    pub is_estimated: bool,
+    /// Mean of its tangents: x, y, z and the turns about x and y, N/mm, N, N mm.
+    pub stiffness: [[f64; 5]; 5],
+    /// Largest force of a rolling element, N.
+    pub element_force: f64,
+    /// Largest Hertz pressure, MPa.
+    pub pressure: f64,
+    /// Fewest and most rolling elements that carry.
+    pub loaded: [usize; 2],
+}
+
+/// All bearings.
+pub(super) fn bearings(file: &Gearbox) -> Result<Vec<Bearing>, GearboxError> {
+    file.bearings.iter().map(bearing).collect()
+}
+
+fn bearing(own: &GearboxBearing) -> Result<Bearing, GearboxError> {
+    let stiffness = Matrix6::from_fn(|i, j| own.stiffness[i][j]);
+    let linear = Bearing {
+        damping: Matrix6::from_fn(|i, j| if i == j && i < 3 { own.damping[i] } else { 0.0 }),
+        ..Bearing::linear(&own.name, own.shaft, own.position, stiffness)
+    };
+    let Some(rolling) = &own.rolling else { return Ok(linear) };
+    let law = law(rolling).map_err(|source| GearboxError::Bearing { bearing: own.name.clone(), source })?;
+    Ok(Bearing { law: Some(law.into()), ..linear })
+}
+
+fn law(own: &GearboxRolling) -> Result<RollingBearing, RollingBearingError> {
+    let rows: Vec<Row> =
+        own.rows.iter().map(|[position, thrust]| Row { position: *position, thrust: *thrust }).collect();
+    let axial = match own.axial {
+        AxialPlay::Clearance(way) => AxialSetting::Clearance(way),
+        AxialPlay::Preload(force) => AxialSetting::Preload(force),
+    };
+    RollingBearing::new(elements(own)?, &rows, own.radial_clearance, axial)
+}
+
+fn elements(own: &GearboxRolling) -> Result<RollingElements, RollingBearingError> {
+    let GearboxRolling { contact_angle, conformity, .. } = *own;
+    let profile = if own.straight_rollers { RollerProfile::Straight } else { RollerProfile::Logarithmic };
+    let has_balls = has_balls(own.kind);
+    Ok(match own.size {
+        RollingSize::Elements { elements, diameter, pitch_diameter, .. } if has_balls => {
+            let elements = elements as usize;
+            RollingElements::Balls(BallGeometry { elements, diameter, pitch_diameter, contact_angle, conformity })
+        }
+        RollingSize::Elements { elements, diameter, length, pitch_diameter } => {
+            let elements = elements as usize;
+            let own = RollerGeometry { elements, diameter, length, pitch_diameter, contact_angle, profile };
+            RollingElements::Rollers(own)
+        }
+        RollingSize::Catalogue { bore, outer_diameter, static_rating } => {
+            let catalogue = Catalogue { bore, outer_diameter, static_rating, rows: own.rows.len() };
+            let filling = if own.kind == RollingKind::DeepGrooveBall { Filling::Eccentric } else { Filling::Around };
+            if has_balls {
+                RollingElements::Balls(catalogue.balls(filling, contact_angle, conformity)?)
+            } else {
+                RollingElements::Rollers(catalogue.rollers(contact_angle, profile)?)
+            }
+        }
+    })
+}
+
+fn has_balls(kind: RollingKind) -> bool {
+    matches!(kind, RollingKind::DeepGrooveBall | RollingKind::AngularContactBall)
+}
+
+/// What is read off a rolling bearing; `None` for others.
+pub(super) fn rolling_load(
+    own: &GearboxBearing,
+    bearing: &Bearing,
+    positions: &[GearboxPosition],
+    i: usize,
+) -> Option<RollingLoad> {
+    let (rolling, law) = (own.rolling.as_ref()?, bearing.law.as_ref()?);
+    let states: Vec<&RollingState> = positions.iter().filter_map(|p| p.rolling.get(i)?.as_ref()).collect();
+    let share = 1.0 / states.len().max(1) as f64;
+    let mean = share * states.iter().map(|s| s.stiffness).sum::<Matrix6<f64>>();
+    let most = |of: &dyn Fn(&RollingState) -> f64| states.iter().map(|s| of(s)).fold(0.0, f64::max);
+    let loaded = || states.iter().map(|s| s.loaded);
+    Some(RollingLoad {
+        elements: *law.elements(),
+        count: law.count(),
+        is_estimated: matches!(rolling.size, RollingSize::Catalogue { .. }),
+        stiffness: std::array::from_fn(|k| std::array::from_fn(|m| mean[(k, m)])),
+        element_force: most(&|s| s.element_force),
+        pressure: most(&|s| s.pressure),
+        loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
+    })
+}
+
+/// What the user should hear of a rolling bearing.
+pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<String> {
+    let mut said = Vec::new();
+    if load.is_estimated {
+        let what = match &load.elements {
+            RollingElements::Balls(b) => {
+                format!("{} balls of {:.2} mm on a circle of {:.1} mm", b.elements, b.diameter, b.pitch_diameter)
+            }
+            RollingElements::Rollers(r) => {
+                let size = format!("{:.2} x {:.2} mm", r.diameter, r.length);
+                format!("{} rollers of {size} on a circle of {:.1} mm", r.elements, r.pitch_diameter)
+            }
+        };
+        said.push(format!(
+            "bearing {name}: its inside is estimated from bore, outer diameter and static rating: {what} a row; state \
+             `elements` and their sizes where they are known"
+        ));
+    }
+    if is_held {
+        said.push(format!("bearing {name} is on a shaft that is held: its rolling elements carry nothing"));
+    } else if load.loaded[1] == 0 {
+        said.push(format!("bearing {name} carries nothing at any position: the shaft floats in its clearance"));
+    }
+    let (dent, most, what) = match load.elements {
+        RollingElements::Balls(_) => (BALLS_DENT, BALLS_TILT, "ball"),
+        RollingElements::Rollers(_) => (ROLLERS_DENT, ROLLERS_TILT, "roller"),
+    };
+    if tilt > most && load.loaded[1] > 0 {
+        let (tilt, most) = (1e3 * tilt, 1e3 * most);
+        said.push(format!(
+            "bearing {name} tilts by {tilt:.1} mrad: catalogues let {what} bearings tilt by some {most:.1} mrad at most"
+        ));
+    }
+    if load.pressure > dent {
+        let pressure = load.pressure;
+        said.push(format!(
+            "bearing {name}: {pressure:.0} MPa on a {what}, beyond the {dent:.0} MPa of the static rating (ISO 76): \
+             steel no longer stays elastic"
+        ));
+    }
+    said
+}

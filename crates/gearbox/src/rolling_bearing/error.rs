@@ -1,0 +1,61 @@
+//! What is refused of a rolling bearing.
+
+/// Why no bearing can be made of what is stated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RollingBearingError {
+    /// A value that no bearing has.
+    #[error("{quantity} = {value} is not {wanted}")]
+    OutOfRange {
+        /// The quantity, with its unit.
+        quantity: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it may be.
+        wanted: &'static str,
+    },
+    /// More rolling elements than there is room for.
+    #[error("{elements} rolling elements of {diameter_mm} mm do not fit on a pitch circle of {pitch_diameter_mm} mm")]
+    Crowded {
+        /// Elements a row.
+        elements: usize,
+        /// Their diameter, mm.
+        diameter_mm: f64,
+        /// Diameter of the circle of their centres, mm.
+        pitch_diameter_mm: f64,
+    },
+    /// Balls between which rings pass through each other.
+    #[error(
+        "a radial clearance of {clearance_um} um is more than the grooves are deep for: {most_um:.0} um at the most"
+    )]
+    Clearance {
+        /// As stated, um.
+        clearance_um: f64,
+        /// Twice the distance of the centres of curvature of both grooves, um.
+        most_um: f64,
+    },
+    /// A load rating that no such bearing has.
+    #[error("a static load rating of {rating_n:.0} N fits no bearing of this size: {least_n:.0} N to {most_n:.0} N do")]
+    Rating {
+        /// As stated, N.
+        rating_n: f64,
+        /// Of the smallest elements, N.
+        least_n: f64,
+        /// Of the largest ones, N.
+        most_n: f64,
+    },
+}
+
+impl RollingBearingError {
+    /// What the user can do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::OutOfRange { .. } => "take the values of the catalogue or of the drawing",
+            Self::Crowded { .. } => "are the diameters those of the elements and of the circle of their centres?",
+            Self::Clearance { .. } => "files have the clearance in um: the whole play from one side to the other",
+            Self::Rating { .. } => {
+                "files have it in kN; or state the rolling elements themselves: how many, their diameter and pitch circle"
+            }
+        }
+    }
+}

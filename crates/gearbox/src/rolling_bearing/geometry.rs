@@ -1,0 +1,150 @@
+//! What is in a rolling bearing, as drawings have it.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+
+use super::{PointContact, RollingBearingError};
+
+/// Balls of a row and their grooves.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallGeometry {
+    /// Z, in one row.
+    pub elements: usize,
+    /// D, mm.
+    pub diameter: f64,
+    /// Diameter of the circle of the balls' centres, mm.
+    pub pitch_diameter: f64,
+    /// Nominal contact angle, rad; 0 for deep grooves, whose angle the clearance and the load make.
+    pub contact_angle: f64,
+    /// Radius of the groove over D: inner ring, outer ring.
+    pub conformity: [f64; 2],
+}
+
+/// Rollers of a row.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollerGeometry {
+    /// Z, in one row.
+    pub elements: usize,
+    /// D (of a tapered roller in its middle), mm.
+    pub diameter: f64,
+    /// Length that presses, mm.
+    pub length: f64,
+    /// Diameter of the circle of the rollers' centres, mm.
+    pub pitch_diameter: f64,
+    /// Contact angle, rad; 0 for cylindrical rollers.
+    pub contact_angle: f64,
+    /// How rollers are relieved to their ends.
+    pub profile: RollerProfile,
+}
+
+/// Relief of a roller towards its ends.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RollerProfile {
+    /// The logarithmic one of ISO/TS 16281.
+    Logarithmic,
+    /// None.
+    Straight,
+}
+
+/// What rolls.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum RollingElements {
+    /// Balls.
+    Balls(BallGeometry),
+    /// Rollers.
+    Rollers(RollerGeometry),
+}
+
+/// A row of rolling elements.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Row {
+    /// Its middle beside that of the bearing, mm along +z.
+    pub position: f64,
+    /// Whether it takes a thrust of the shaft towards +z (+1) or -z (-1); without meaning at a contact angle of 0.
+    pub thrust: f64,
+}
+
+/// How the rings stand against each other along the axis before any load.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AxialSetting {
+    /// Way of the shaft into the direction of the row's thrust until it touches, mm; below 0: pressed by as much.
+    Clearance(f64),
+    /// Force with which each row is pressed, N.
+    Preload(f64),
+}
+
+/// Rolling elements of a row at the most.
+pub(super) const MOST_ELEMENTS: usize = 500;
+
+fn within(
+    quantity: &'static str,
+    value: f64,
+    [least, most]: [f64; 2],
+    wanted: &'static str,
+) -> Result<(), RollingBearingError> {
+    if (least..=most).contains(&value) {
+        Ok(())
+    } else {
+        Err(RollingBearingError::OutOfRange { quantity, value, wanted })
+    }
+}
+
+/// Elements that have room on their circle.
+fn room(elements: usize, diameter: f64, pitch_diameter: f64) -> Result<(), RollingBearingError> {
+    within("rolling elements", elements as f64, [3.0, MOST_ELEMENTS as f64], "a whole number of 3 to 500")?;
+    within("diameter of the elements, mm", diameter, [1e-3, 1e5], "0.001 to 100000")?;
+    within("pitch diameter, mm", pitch_diameter, [1e-3, 1e6], "0.001 to 1000000")?;
+    let half = if diameter < pitch_diameter { (diameter / pitch_diameter).asin() } else { FRAC_PI_2 };
+    // Digits of a drawing are no overlap.
+    if elements as f64 * half <= PI * (1.0 + 1e-6) {
+        return Ok(());
+    }
+    Err(RollingBearingError::Crowded { elements, diameter_mm: diameter, pitch_diameter_mm: pitch_diameter })
+}
+
+impl BallGeometry {
+    pub(super) fn check(&self) -> Result<(), RollingBearingError> {
+        room(self.elements, self.diameter, self.pitch_diameter)?;
+        within("contact angle, rad", self.contact_angle, [0.0, 1.4], "0 to 1.4 (80 degrees)")?;
+        for c in self.conformity {
+            within("groove radius over ball diameter", c, [0.502, 1.0], "0.502 to 1: half the ball is no groove")?;
+        }
+        Ok(())
+    }
+
+    /// gamma = D cos(alpha)/d_pw.
+    pub fn gamma(&self) -> f64 {
+        self.diameter * self.contact_angle.cos() / self.pitch_diameter
+    }
+
+    /// A = r_i + r_o - D: distance of the centres of curvature of both grooves, mm.
+    pub fn groove_distance(&self) -> f64 {
+        (self.conformity[0] + self.conformity[1] - 1.0) * self.diameter
+    }
+
+    /// Contact with the inner and the outer ring; `None` where it is none at a point.
+    ///
+    /// ```text
+    /// across the groove: 2/D - 1/r,   along it: 2/D + 2 gamma/(D (1 - gamma)) inside, 2/D - 2 gamma/(D (1 + gamma)) outside
+    /// ```
+    pub fn contacts(&self) -> Option<[PointContact; 2]> {
+        let (ball, gamma) = (2.0 / self.diameter, self.gamma());
+        let race = [ball * gamma / (1.0 - gamma), -ball * gamma / (1.0 + gamma)];
+        let of = |i: usize| PointContact::new([[ball, race[i]], [ball, -1.0 / (self.conformity[i] * self.diameter)]]);
+        Some([of(0)?, of(1)?])
+    }
+}
+
+impl RollerGeometry {
+    pub(super) fn check(&self) -> Result<(), RollingBearingError> {
+        room(self.elements, self.diameter, self.pitch_diameter)?;
+        within("contact angle, rad", self.contact_angle, [0.0, 1.4], "0 to 1.4 (80 degrees)")?;
+        within("length of the rollers, mm", self.length, [1e-3, 1e5], "0.001 to 100000")?;
+        let slender = self.length / self.diameter;
+        within("length over diameter of the rollers", slender, [0.1, 50.0], "0.1 to 50")
+    }
+
+    /// gamma = D cos(alpha)/d_pw.
+    pub fn gamma(&self) -> f64 {
+        self.diameter * self.contact_angle.cos() / self.pitch_diameter
+    }
+}

@@ -1,0 +1,192 @@
+//! All rows of a bearing as one law: forces are the gradient of a convex energy. Theory (97) to (100).
+
+use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
+
+use super::{AxialSetting, RollingBearingError, RollingElements, Row, ball::BallRow, roller::RollerRow};
+
+/// What a bearing does at some displacements of its inner ring against the outer one: x, y, z (mm) and the turns about x
+/// and y (rad); it rolls about z without a moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollingReply {
+    /// Elastic energy, N mm.
+    pub energy: f64,
+    /// Force (N) and moment about the bearing's middle (N mm) on the inner ring: -dV/dd.
+    pub force: Vector5<f64>,
+    /// Tangent d2V/dd2, symmetric without negative eigenvalues: N/mm, N, N mm.
+    pub stiffness: Matrix5<f64>,
+    /// Largest force of a rolling element, N.
+    pub element_force: f64,
+    /// Largest pressure of a contact, MPa.
+    pub pressure: f64,
+    /// Rolling elements that carry, of all rows.
+    pub loaded: usize,
+}
+
+impl RollingReply {
+    /// A bearing that carries nothing.
+    pub(super) fn nothing() -> Self {
+        let (force, stiffness) = (Vector5::zeros(), Matrix5::zeros());
+        Self { energy: 0.0, force, stiffness, element_force: 0.0, pressure: 0.0, loaded: 0 }
+    }
+
+    /// Counts an element that carries.
+    pub(super) fn count(&mut self, force: f64, pressure: f64) {
+        self.element_force = self.element_force.max(force);
+        self.pressure = self.pressure.max(pressure);
+        self.loaded += 1;
+    }
+
+    /// The force with a moment about z, which is zero.
+    pub fn force6(&self) -> Vector6<f64> {
+        Vector6::from_fn(|i, _| if i < 5 { self.force[i] } else { 0.0 })
+    }
+
+    /// The tangent with the turn about z, which meets nothing.
+    pub fn stiffness6(&self) -> Matrix6<f64> {
+        with_turn(&self.stiffness)
+    }
+}
+
+/// Five coordinates as six.
+pub(super) fn with_turn(m: &Matrix5<f64>) -> Matrix6<f64> {
+    Matrix6::from_fn(|i, j| if i < 5 && j < 5 { m[(i, j)] } else { 0.0 })
+}
+
+/// One row.
+#[derive(Debug, Clone, PartialEq)]
+enum LoadedRow {
+    Balls(BallRow),
+    Rollers(RollerRow),
+}
+
+impl LoadedRow {
+    fn new(elements: RollingElements, row: Row, clearance: f64, axial: f64) -> Result<Self, RollingBearingError> {
+        Ok(match elements {
+            RollingElements::Balls(own) => Self::Balls(BallRow::new(own, row, clearance, axial)?),
+            RollingElements::Rollers(own) => Self::Rollers(RollerRow::new(own, row, clearance, axial)?),
+        })
+    }
+
+    fn add(&self, d: &Vector5<f64>, reply: &mut RollingReply) {
+        match self {
+            Self::Balls(row) => row.add(d, reply),
+            Self::Rollers(row) => row.add(d, reply),
+        }
+    }
+}
+
+/// A rolling bearing whose stiffness follows its load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RollingBearing {
+    elements: RollingElements,
+    rows: Vec<LoadedRow>,
+}
+
+/// Contact angle that deep grooves are taken to have where nothing is known of their load, rad.
+const ROUGH_ANGLE: f64 = 0.1;
+/// Halvings that find a preload to its last digits, and doublings of the way that is tried for it.
+const HALVINGS: usize = 100;
+const DOUBLINGS: usize = 60;
+
+impl RollingBearing {
+    /// Of its rolling elements, its rows, the radial clearance (the whole play, mm; below 0: pressed) and how the rings
+    /// stand along the axis.
+    ///
+    /// # Errors
+    /// [`RollingBearingError`] for values that no bearing has.
+    pub fn new(
+        elements: RollingElements,
+        rows: &[Row],
+        radial_clearance: f64,
+        axial: AxialSetting,
+    ) -> Result<Self, RollingBearingError> {
+        if rows.is_empty() {
+            return Err(RollingBearingError::OutOfRange { quantity: "rows", value: 0.0, wanted: "1 or more" });
+        }
+        let numbers = rows.iter().flat_map(|r| [("position of a row, mm", r.position), ("thrust of a row", r.thrust)]);
+        let setting = match axial {
+            AxialSetting::Clearance(way) => ("axial clearance, mm", way),
+            AxialSetting::Preload(force) => ("preload, N", force),
+        };
+        let all = numbers.chain([("radial clearance, mm", radial_clearance), setting]);
+        for (quantity, value) in all {
+            if !value.is_finite() {
+                return Err(RollingBearingError::OutOfRange { quantity, value, wanted: "a number" });
+            }
+        }
+        let one = |row: &Row| {
+            let way = match axial {
+                AxialSetting::Clearance(way) => way,
+                AxialSetting::Preload(force) => -pressed_way(elements, *row, radial_clearance, force)?,
+            };
+            LoadedRow::new(elements, *row, radial_clearance, way)
+        };
+        let rows = rows.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        Ok(Self { elements, rows })
+    }
+
+    /// What rolls in it.
+    pub fn elements(&self) -> &RollingElements {
+        &self.elements
+    }
+
+    /// Rolling elements of all rows.
+    pub fn count(&self) -> usize {
+        let a_row = match &self.elements {
+            RollingElements::Balls(own) => own.elements,
+            RollingElements::Rollers(own) => own.elements,
+        };
+        a_row * self.rows.len()
+    }
+
+    /// Force and tangent at displacements of the inner ring against the outer one.
+    pub fn evaluate(&self, displacements: &Vector5<f64>) -> RollingReply {
+        let mut reply = RollingReply::nothing();
+        self.rows.iter().for_each(|row| row.add(displacements, &mut reply));
+        reply
+    }
+
+    /// Stiffness of its size before anything is known of its load: all elements pressed evenly by their share of a force
+    /// (N). What it holds at all, it holds here.
+    pub(crate) fn rough_stiffness(&self, force: f64) -> Matrix6<f64> {
+        let mut reply = RollingReply::nothing();
+        let share = force / self.count() as f64;
+        for row in &self.rows {
+            match row {
+                LoadedRow::Balls(own) => own.pressed(share, ROUGH_ANGLE, &mut reply),
+                LoadedRow::Rollers(own) => own.pressed(share, &mut reply),
+            }
+        }
+        with_turn(&reply.stiffness)
+    }
+}
+
+/// How far a row has to be pressed along the axis until it carries a force.
+fn pressed_way(elements: RollingElements, row: Row, clearance: f64, force: f64) -> Result<f64, RollingBearingError> {
+    let refused = |wanted| Err(RollingBearingError::OutOfRange { quantity: "preload, N", value: force, wanted });
+    if force < 0.0 {
+        return refused("0 or more");
+    }
+    let free = LoadedRow::new(elements, row, clearance, 0.0)?;
+    let carries = |way: f64| {
+        let mut reply = RollingReply::nothing();
+        free.add(&Vector5::new(0.0, 0.0, row.thrust * way, 0.0, 0.0), &mut reply);
+        -row.thrust * reply.force[2]
+    };
+    let (mut near, mut far) = (0.0, 1e-6);
+    let grown = (0..DOUBLINGS).any(|_| {
+        let enough = carries(far) >= force;
+        if !enough {
+            (near, far) = (far, 2.0 * far);
+        }
+        enough
+    });
+    if !grown {
+        return refused("one that the row can carry along the axis");
+    }
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (near + far);
+        if carries(middle) < force { near = middle } else { far = middle }
+    }
+    Ok(far)
+}

@@ -1,0 +1,33 @@
+//! How hard does a rolling bearing press back, and how stiff is it? Theory (97) to (101).
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `hertz` | contact of a ball and a raceway: stiffness, pressure |
+//! | `geometry` | what is in a bearing, as drawings have it, and whether it fits |
+//! | `catalogue` | the same estimated from bore, outer diameter and static load rating |
+//! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
+//! | `law` | all rows together: [`RollingBearing`] |
+//! | `state` | what is told of it, and the linear bearing that stands for it |
+//! | `error` | what is refused |
+//!
+//! After ISO/TS 16281: rigid rings, steel, no friction, no centrifugal forces, no cage; contacts have no edges.
+
+mod ball;
+mod catalogue;
+mod error;
+mod geometry;
+mod hertz;
+mod law;
+mod roller;
+mod state;
+
+pub use catalogue::{Catalogue, Filling};
+pub use error::RollingBearingError;
+pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
+pub use hertz::PointContact;
+pub use law::{RollingBearing, RollingReply};
+pub use state::RollingState;
+pub(crate) use state::Tangent;
+
+/// Young's modulus (MPa) and Poisson's ratio of bearing steel, as ISO 76 and ISO 281 count with them.
+const STEEL: [f64; 2] = [2.07e5, 0.3];

@@ -1,0 +1,89 @@
+//! Bearings of a gearbox file: of a stiffness, or of rolling elements.
+
+use toml::Spanned;
+
+use super::{
+    check::place,
+    file::GearboxBearing,
+    raw::RawBearing,
+    rolling::{TYPED, rolling},
+    values::{Checked, missing, numbers, square},
+};
+use crate::Source;
+
+pub(super) fn bearing(
+    s: &Source<'_>,
+    table: &Spanned<RawBearing>,
+    shafts: &[(String, f64)],
+) -> Checked<GearboxBearing> {
+    let raw = table.get_ref();
+    let (shaft, position) = place(s, table, "[[bearing]]", (&raw.shaft, &raw.position_mm), shafts)?;
+    let name = match &raw.name {
+        Some(word) => word.get_ref().clone(),
+        None => format!("bearing at {position} mm of {}", shafts[shaft].0),
+    };
+    let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
+    let (stiffness, rolling) = match &raw.kind {
+        Some(word) => {
+            apart(s, raw)?;
+            ([[0.0; 6]; 6], Some(rolling(s, table, word)?))
+        }
+        None => {
+            if let Some((span, key)) = TYPED.iter().find_map(|(key, of)| Some((of(raw)?, *key))) {
+                let said = format!("`{key}` is of a rolling bearing");
+                return Err(s.conflict(&span, said, "say which with `type`, or give its stiffness alone"));
+            }
+            (stiffness(s, table, &name)?, None)
+        }
+    };
+    Ok(GearboxBearing { name, shaft, position, stiffness, damping, rolling })
+}
+
+/// A rolling bearing has no stiffness of its own.
+fn apart(s: &Source<'_>, raw: &RawBearing) -> Checked<()> {
+    let stated = [
+        ("stiffness_n_per_mm", raw.stiffness_n_per_mm.as_ref().map(Spanned::span)),
+        ("tilt_stiffness_nm_per_rad", raw.tilt_stiffness_nm_per_rad.as_ref().map(Spanned::span)),
+        ("matrix_n_mm_rad", raw.matrix_n_mm_rad.as_ref().map(Spanned::span)),
+    ];
+    match stated.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        Some((key, span)) => {
+            let said = format!("`{key}` of a bearing with a `type`");
+            Err(s.conflict(&span, said, "its stiffness follows the load: leave one of both out"))
+        }
+        None => Ok(()),
+    }
+}
+
+fn stiffness(s: &Source<'_>, table: &Spanned<RawBearing>, name: &str) -> Checked<[[f64; 6]; 6]> {
+    let raw = table.get_ref();
+    let mut stiffness = [[0.0; 6]; 6];
+    match &raw.matrix_n_mm_rad {
+        Some(rows) => {
+            let apart = raw.stiffness_n_per_mm.is_some() || raw.tilt_stiffness_nm_per_rad.is_some();
+            if apart {
+                let said = format!("{name} has its stiffness twice");
+                return Err(s.conflict(&rows.span(), said, "give the matrix or the single values, not both"));
+            }
+            let size = rows.get_ref().len();
+            if size != 5 && size != 6 {
+                let said = format!("{name} has a matrix of {size} rows");
+                let advice = "give 6 rows for x, y, z and the turns about them, or 5 without the turn about z";
+                return Err(s.conflict(&rows.span(), said, advice));
+            }
+            for (i, row) in square(s, table, &raw.matrix_n_mm_rad, size)?.iter().enumerate() {
+                stiffness[i][..size].copy_from_slice(row);
+            }
+        }
+        None => {
+            let Some(shifts) = numbers::<3>(s, "stiffness_n_per_mm", &raw.stiffness_n_per_mm, 1e15)? else {
+                let what = "a list for x, y and z, a matrix, or the `type` of a rolling bearing";
+                return Err(missing(s, table, "[[bearing]]", "stiffness_n_per_mm", what));
+            };
+            let tilts = numbers::<2>(s, "tilt_stiffness_nm_per_rad", &raw.tilt_stiffness_nm_per_rad, 1e15)?;
+            let diagonal = shifts.into_iter().chain(tilts.unwrap_or_default().map(|t| 1e3 * t));
+            diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
+        }
+    }
+    Ok(stiffness)
+}

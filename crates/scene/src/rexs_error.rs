@@ -1,0 +1,127 @@
+//! What is refused of a REXS file.
+
+use crate::rexs_document::ATTRIBUTES;
+
+/// Why no pair or shaft comes out of a REXS file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RexsError {
+    /// It is no XML.
+    #[error("is no XML: {0}")]
+    Xml(#[from] roxmltree::Error),
+    /// An element that the reader of XML would take hours for.
+    #[error("has an element of more than {ATTRIBUTES} attributes in line {line}")]
+    Crowded {
+        /// Line in which it begins, from 1.
+        line: usize,
+    },
+    /// It is XML of another kind.
+    #[error("is no REXS file: its root is <{root}>, not <model>")]
+    Root {
+        /// Name of the root.
+        root: String,
+    },
+    /// It has no such stage.
+    #[error("has {found} cylindrical stages, stage {asked} is wanted")]
+    Stage {
+        /// Stages that it has.
+        found: usize,
+        /// Counted from 1.
+        asked: usize,
+    },
+    /// A stage without its two gears.
+    #[error("stage {stage} has no {role}")]
+    Gear {
+        /// Counted from 1.
+        stage: usize,
+        /// `gear_1` or `gear_2`.
+        role: &'static str,
+    },
+    /// A number that every part of its kind has.
+    #[error("{part} has no `{attribute}`")]
+    Missing {
+        /// Its kind and the number of its component.
+        part: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+    },
+    /// A value that cannot be used.
+    #[error("{part}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
+    Value {
+        /// Its kind and the number of its component.
+        part: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// As written.
+        value: String,
+        /// As written.
+        unit: String,
+        /// Unit of the standard's data base.
+        wanted: &'static str,
+    },
+    /// A number of teeth that no gear has.
+    #[error("{part}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
+    Teeth {
+        /// Its kind and the number of its component.
+        part: String,
+        /// As read.
+        value: f64,
+    },
+    /// A place or direction that is not three numbers.
+    #[error("{part}: `{attribute}` is not three finite numbers in {wanted}")]
+    Vector {
+        /// Its kind and the number of its component.
+        part: String,
+        /// Name of the attribute.
+        attribute: &'static str,
+        /// Unit of the standard's data base.
+        wanted: &'static str,
+    },
+    /// No shaft of that name, or several to choose from.
+    #[error("has no shaft {asked}: there are {found}")]
+    Shaft {
+        /// Number or name that is asked for, with quotes; `to choose` where none is.
+        asked: String,
+        /// Numbers and names of those that are there.
+        found: String,
+    },
+    /// A shaft without sections, or whose sections leave gaps.
+    #[error("shaft {shaft} {what}")]
+    Sections {
+        /// Number of its component.
+        shaft: String,
+        /// What is wrong with them.
+        what: String,
+    },
+    /// Two gears that are no external pair.
+    #[error("the gears differ in {what}: {pinion} and {wheel}")]
+    Pair {
+        /// In what.
+        what: &'static str,
+        /// Gear 1.
+        pinion: f64,
+        /// Gear 2.
+        wheel: f64,
+    },
+}
+
+impl RexsError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        Some(match self {
+            Self::Xml(_) | Self::Crowded { .. } | Self::Root { .. } => {
+                "export the model as REXS in XML (`.rexs`), not packed (`.rexsz`) and not as JSON".into()
+            }
+            Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
+            Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
+            Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
+            Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
+            Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
+            Self::Shaft { .. } => "say which one: its number or its name".into(),
+            Self::Sections { .. } => {
+                "sections follow on each other from 0 on, hollow or solid, straight or conical".into()
+            }
+            Self::Pair { .. } => "only external pairs of one module can be run".into(),
+        })
+    }
+}
