@@ -59,12 +59,15 @@ impl GearPair {
     ///
     /// # Errors
     /// [`GeometryError::FacesApart`] where the faces do not overlap, [`GeometryError::ContactRatio`] where they do so by
-    /// too little.
+    /// too little, [`GeometryError::OutOfRange`] for an offset that is no number.
     pub fn with_mid_face_offset(self, offset: f64) -> Result<Self, GeometryError> {
+        if !offset.is_finite() {
+            let (name, expected) = ("offset of the mid-faces [mm]", "a finite number");
+            return Err(GeometryError::OutOfRange { name, value: offset, expected });
+        }
         let pair = Self { mid_face_offset: offset, ..self };
         let [from, to] = pair.common_face();
-        // No number is no overlap.
-        if !(to > from && offset.is_finite()) {
+        if to <= from {
             let [pinion_mm, wheel_mm] = pair.faces();
             return Err(GeometryError::FacesApart { pinion_mm, wheel_mm });
         }

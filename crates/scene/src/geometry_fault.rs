@@ -74,9 +74,10 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
 
 /// A quantity that the geometry calls by its name.
 fn named(table: &str, name: &str) -> Vec<String> {
-    const NAMES: [(&str, &[&str]); 10] = [
+    const NAMES: [(&str, &[&str]); 11] = [
         ("normal module", &["pair.normal_module_mm"]),
         ("face width", &["face_width_mm", "pair.face_width_mm"]),
+        ("offset of the mid-faces", &["pair.mid_face_offset_mm"]),
         ("bore diameter", &["bore_diameter_mm"]),
         ("addendum", &["pair.addendum_coefficient"]),
         ("dedendum", &["pair.dedendum_coefficient", "profile_shift", "teeth"]),

@@ -41,11 +41,9 @@ pub fn line_pressure(
         let support = &row.supports[0];
         for (&node, w) in support.nodes[..support.count].iter().zip(support.weights) {
             let Some([_, z]) = patch.node_coordinates(node) else { continue };
+            // A node beyond the common face holds up the last faces that reach into it.
+            let z = z.clamp(low, high);
             let (from, to) = ((z - 0.5 * element).max(low), (z + 0.5 * element).min(high));
-            // A node beyond the common face holds what presses on the last faces that reach into it.
-            if to <= from {
-                continue;
-            }
             for b in 0..bins {
                 let bin = [low + b as f64 * width, low + (b + 1) as f64 * width];
                 let share = f * w * covered(&[bin], [from, to]) / (to - from);
