@@ -2,7 +2,8 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use ale::Station;
-use contact::Bulk;
+use contact::{Bulk, GapSource, Law};
+use fem::Integration;
 use geometry::{FlankModification, GearData, GearModifications, Sense};
 use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::Extent;
@@ -110,7 +111,8 @@ fn load_lies_on_the_common_face() {
             let told = format!("beta {beta}, widths {widths:?}, offset {offset}, phase {}", p.mesh_phase);
             for s in p.pairs.iter().flat_map(|pair| &pair.slices) {
                 assert!(s.z > low && s.z < high, "{told}: a slice at {} mm of {low} .. {high}", s.z);
-                assert!((s.z - s.wheel_z - offset).abs() < 1e-2, "{told}: {} mm on the wheel, {} mm", s.wheel_z, s.z);
+                // The foot is off by the gap times the sine of the helix.
+                assert!((s.z - s.wheel_z - offset).abs() < 0.05, "{told}: {} mm on the wheel, {} mm", s.wheel_z, s.z);
             }
             let z = height(&p);
             assert!(z > low && z < high, "{told}: the load at {z} mm of {low} .. {high}");
@@ -124,18 +126,21 @@ fn load_lies_on_the_common_face() {
     }
 }
 
-/// A spur pair that is the same above and below the middle of its common face carries the load there: the tilting moment
-/// is the force times its height.
+/// Of a spur pair the tilting moment is the force times the height of the load over the gear's own mid-face. Two equal gears
+/// see each other the other way up, at a phase s as at 1 - s: the load is as far above the middle of the common face there
+/// as it is below it here.
 #[test]
 fn tilting_moments_follow_the_offset() {
-    let case = case(0.0, [26.0, 26.0], 6.0);
-    for p in cycle(&case) {
-        assert!((height(&p) - 3.0).abs() < 1e-6, "the load at {} mm", height(&p));
-        for (g, z) in [(0, 3.0), (1, -3.0)] {
+    let case = of_widths(1, default_data(0.0), [26.0, 26.0], 6.0, COUNTS, Extent::Periodic);
+    let positions = cycle(&case);
+    let above: Vec<f64> = positions.iter().map(|p| height(p) - 3.0).collect();
+    assert!(above[2].abs() < 1e-3 && (above[1] + above[3]).abs() < 1e-3, "{above:?} mm above the middle");
+    for p in &positions {
+        for (g, z) in [(0, height(p)), (1, height(p) - 6.0)] {
             let [force, moment] = [p.wrench[g].force, p.wrench[g].moment];
             let wanted = [-z * force[1], z * force[0]];
             let off = (0..2).map(|k| (moment[k] - wanted[k]).abs()).fold(0.0, f64::max);
-            assert!(off < 1e-6 * force[1].abs(), "gear {g}: {moment:?}, not {wanted:?} N mm");
+            assert!(off < 1e-3 * force[1].abs(), "gear {g}: {moment:?}, not {wanted:?} N mm");
         }
     }
 }
@@ -159,14 +164,17 @@ fn overhang_stiffens_to_a_limit() {
     }
 }
 
-/// One gear alone wider than its mate: softer than both, stiffer than none, on either side.
+/// So it does with one gear alone wider than its mate, whichever it is.
 #[test]
 fn each_wide_gear_stiffens() {
-    let of = |widths, offset| mean_error_um(&case(15.0, widths, offset));
-    let (none, pinion, wheel) = (of([20.0, 20.0], 0.0), of([28.0, 20.0], 0.0), of([20.0, 28.0], 0.0));
-    let both = of([28.0, 28.0], 8.0);
-    println!("mean STE {none:.4}, wide pinion {pinion:.4}, wide wheel {wheel:.4}, both {both:.4} um");
-    assert!(both < pinion.min(wheel) && pinion.max(wheel) < none, "{none}, {pinion}, {wheel}, {both} um");
+    let of = |widths| mean_error_um(&case(15.0, widths, 0.0));
+    let none = of([20.0, 20.0]);
+    for wide in [[[24.0, 20.0], [28.0, 20.0], [36.0, 20.0]], [[20.0, 24.0], [20.0, 28.0], [20.0, 36.0]]] {
+        let [a, b, c] = wide.map(of);
+        println!("mean STE {none:.4} um of equal faces, {a:.4}, {b:.4}, {c:.4} um of {wide:?}");
+        let rates = [(none - a) / 4.0, (a - b) / 4.0, (b - c) / 8.0];
+        assert!(rates[2] > 0.0 && rates[1] < rates[0] && rates[2] < rates[1], "{wide:?}: {rates:?} um a mm");
+    }
 }
 
 /// As the load goes to zero the contact lines are those of the geometry: nominal flanks touch over the common face as
@@ -214,4 +222,69 @@ fn all_degrees_of_freedom_agree() {
     let whole = sector.full(own.clone()).solve(station).unwrap().transmission_error;
     let reduced = sector.reduced(own).solve(station).unwrap().transmission_error;
     assert!((whole / reduced - 1.0).abs() < 1e-8, "{whole} mm with all, {reduced} mm reduced");
+}
+
+/// Face widths, offset, and at phases 1/4, 1/2 and 3/4 the STE (um) and the forces of pairs -1, 0, +1 (N).
+type Reference = ([f64; 2], f64, [(f64, [f64; 3]); 3]);
+
+/// CalculiX 2.21, surface-to-surface penalty 1e7 MPa/mm, frictionless: the decks of `study::calculix` of the very meshes
+/// below (C3D20, sectors of 5 teeth), default pair, 150 N m.
+const CALCULIX: [Reference; 3] = [
+    (
+        [20.0, 20.0],
+        0.0,
+        [(9.4510, [0.0, 2374.9, 1172.1]), (9.8210, [493.6, 2556.3, 497.5]), (9.4614, [1163.4, 2384.0, 0.0])],
+    ),
+    (
+        [26.0, 20.0],
+        2.0,
+        [(8.7498, [0.0, 2345.3, 1201.7]), (9.0304, [489.9, 2517.6, 539.8]), (8.7716, [1150.4, 2396.9, 0.0])],
+    ),
+    (
+        [20.0, 26.0],
+        -3.0,
+        [(8.3459, [0.0, 2379.3, 1167.7]), (8.7573, [437.0, 2591.7, 518.6]), (8.6387, [1087.9, 2459.5, 0.0])],
+    ),
+];
+
+/// Pressed points on the facets of these meshes have CalculiX's transmission error to 0.7 % and its forces to 0.5 % of
+/// all; what wide gears and the offset take off the error is known to 0.2 % of it, and by slices to a tenth of itself.
+#[test]
+fn calculix_sees_the_same_overhang() {
+    let mut even = Vec::new();
+    for (widths, offset, reference) in CALCULIX {
+        let mut case = of_widths(2, default_data(20.0), widths, offset, [4, 3, 2, 2], Extent::Sector(5));
+        case.elements.integration = Integration::Full;
+        let points = case.options().with_contact(|c| {
+            (c.law, c.gap, c.points_per_face_edge) = (Law::Penalty(1e7), GapSource::Facet, 8);
+        });
+        let window = |options| StaticOptions { window: Some(3), ..options };
+        let mut models = [window(points), window(case.slice_options())].map(|options| case.reduced(options));
+        let mut means = [0.0; 3];
+        for (phase, (wanted, forces)) in [0.25, 0.5, 0.75].into_iter().zip(reference) {
+            let [nodal, slices] = models.each_mut().map(|m| m.solve(Station { cycle: 0, phase }).unwrap());
+            let told = format!("widths {widths:?} mm, offset {offset} mm, phase {phase}");
+            let [own, sliced] = [&nodal, &slices].map(|p| 1e3 * p.transmission_error);
+            println!("{told}: STE {own:.4} um, CalculiX {wanted}; slices {sliced:.4}");
+            assert!((own / wanted - 1.0).abs() < 7e-3, "{told}: {own} um, CalculiX {wanted} um");
+            let all: f64 = forces.iter().sum();
+            for (pair, force) in nodal.pairs.iter().zip(forces) {
+                let off = (pair.normal_force - force) / all;
+                assert!(off.abs() < 5e-3, "{told}: pair {} has {} N, CalculiX {force} N", pair.pair, pair.normal_force);
+            }
+            means.iter_mut().zip([wanted, own, sliced]).for_each(|(mean, ste)| *mean += ste / 3.0);
+        }
+        if even.is_empty() {
+            even.extend(means);
+        }
+        let [wanted, own, sliced] = [0, 1, 2].map(|i| means[i] / even[i]);
+        println!(
+            "widths {widths:?} mm: {own:.4} of the error of equal faces, CalculiX {wanted:.4}; slices {sliced:.4}"
+        );
+        assert!((own - wanted).abs() < 2e-3, "widths {widths:?} mm: {own} of the error, CalculiX {wanted}");
+        // Slices have a local approach that does not go with the mesh: what the overhang takes off is compared in um.
+        let [taken, by_slices] = [0, 2].map(|i| even[i] - means[i]);
+        let off = (by_slices - taken).abs();
+        assert!(off <= 0.1 * taken, "widths {widths:?} mm: slices have {by_slices} um less, CalculiX {taken} um");
+    }
 }
