@@ -56,7 +56,9 @@ fn positions_say_the_offset_of_mid_faces() {
     let text = text();
     let level = of(&text);
     let shifted = text.replacen("origin_mm = [91.0, 0.0, 0.0]", "origin_mm = [91.0, 0.0, 3.0]", 1);
-    let moved = of(&shifted.replacen("[\"contact.slices=16\"]", "[\"pair.mid_face_offset_mm=3.0\"]", 1));
+    assert_eq!(level.mid_face_offset([0, 1]), Some(0.5));
+    assert_eq!(level.mid_face_offset([2, 3]), None);
+    let moved = of(&shifted.replacen("[\"contact.slices=16\"]", "[\"pair.mid_face_offset_mm=3.5\"]", 1));
     let apart = |file: &Gearbox, mesh: usize| file.mid_face_offset(file.meshes[mesh].gears).unwrap_or(0.0);
     // The second stage has its pinion on the shaft that moved.
     let said = [apart(&moved, 0) - apart(&level, 0), apart(&moved, 1) - apart(&level, 1)];
@@ -87,9 +89,9 @@ fn mistakes_are_told_with_their_place() {
             "leave the mesh out",
         ),
         (
-            "shaft = \"middle\"\nposition_mm = 50.0",
+            "shaft = \"middle\"\nposition_mm = 50.5",
             "shaft = \"middle\"\nposition_mm = 150.0",
-            "\"2\" (24 mm) do not overlap: their mid-faces are 100 mm apart",
+            "\"1\" (26 mm wide) and \"2\" (24 mm) do not overlap: their mid-faces are 100 mm apart",
             "`position_mm`",
         ),
         (

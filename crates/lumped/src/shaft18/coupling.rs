@@ -119,7 +119,7 @@ impl MeshGeometry {
         let [r1, r2] = base_radii.map(|r| r / working.cos());
         let ([m1, m2], up) = (self.middle, |height: f64| Vector3::new(0.0, 0.0, height));
         Ok(MeshLine {
-            levers: [lever(r1 * towards + up(m1), 1.0), lever(-r2 * towards + up(m2), -1.0)],
+            levers: [lever(r1 * towards + up(m1), 1.0), lever(-(r2 * towards - up(m2)), -1.0)],
             base_radii,
             cos_base_helix: base_helix.cos(),
         })
