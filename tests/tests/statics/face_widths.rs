@@ -227,7 +227,7 @@ fn all_degrees_of_freedom_agree() {
 /// Face widths, offset, and at phases 1/4, 1/2 and 3/4 the STE (um) and the forces of pairs -1, 0, +1 (N).
 type Reference = ([f64; 2], f64, [(f64, [f64; 3]); 3]);
 
-/// CalculiX 2.21, surface-to-surface penalty 1e7 MPa/mm, frictionless: the decks of `study::calculix` of the very meshes
+/// CalculiX 2.20, surface-to-surface penalty 1e7 MPa/mm, frictionless: the decks of `study::calculix` of the very meshes
 /// below (C3D20, sectors of 5 teeth), default pair, 150 N m.
 const CALCULIX: [Reference; 3] = [
     (
