@@ -167,6 +167,24 @@ pub fn of_order(
     Case { pair, meshes, elements: ElementOptions::default(), torque }
 }
 
+/// A pair whose gears have face widths of their own (mm) and an offset of their mid-faces (mm), on meshes of the built-in
+/// mesher with face elements of 2 mm; `counts`: elements along the profile, the fillet, across the tooth, in the rim.
+pub fn of_widths(
+    order: u32,
+    data: [GearData; 2],
+    widths: [f64; 2],
+    offset: f64,
+    [profile, fillet, thickness, rim]: [u32; 4],
+    extent: mesh::Extent,
+) -> Case {
+    let [pinion, wheel] = [0, 1].map(|i| GearData { face_width: widths[i], ..data[i].clone() });
+    let pair = GearPair::new(Gear::new(pinion).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let pair = pair.with_mid_face_offset(offset).unwrap_or_else(|e| panic!("{e}"));
+    let counts = |width: f64| [profile, fillet, thickness, (width / 2.0).round() as u32, rim];
+    let [[first, _], [_, second]] = widths.map(|width| meshes(&pair, order, counts(width), extent));
+    Case { pair, meshes: [first, second], elements: ElementOptions::default(), torque: 150e3 }
+}
+
 /// The default pair at another helix angle, degrees.
 pub fn default_data(beta_deg: f64) -> [GearData; 2] {
     let data = GearData { helix_angle: beta_deg.to_radians(), ..GearData::default() };
@@ -178,7 +196,8 @@ pub fn modified(pair: &GearPair, modifications: [GearModifications; 2]) -> GearP
     let [a, b] = modifications;
     let pinion = pair.pinion.clone().with_modifications(a).unwrap();
     let wheel = pair.wheel.clone().with_modifications(b).unwrap();
-    GearPair::new(pinion, wheel, Some(pair.centre_distance())).unwrap()
+    let moved = GearPair::new(pinion, wheel, Some(pair.centre_distance())).unwrap();
+    moved.with_mid_face_offset(pair.mid_face_offset()).unwrap()
 }
 
 /// The same mesh, larger.

@@ -76,6 +76,7 @@ impl<'a> Coarse<'a> {
             .map(|(data, body)| Gear::new(GearData { bore_diameter: body.bore_diameter, ..data.clone() }).ok())
             .collect::<Option<_>>()?;
         let pair = GearPair::new(gears[0].clone(), gears[1].clone(), Some(self.pair.centre_distance())).ok()?;
+        let pair = pair.with_mid_face_offset(self.pair.mid_face_offset()).ok()?;
         let elastic = |i: usize| {
             let mesh = mesh::generate(&gears[i], &mesher(bodies[i].extent)).ok()?;
             let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gears[i].teeth()).ok()?;

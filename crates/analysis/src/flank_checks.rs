@@ -71,6 +71,15 @@ impl NamedFlanks<'_> {
             let said = format!("{file}: the {whose}'s flanks lie at z = {low:.3} to {high:.3} mm, not about z = 0");
             return Err(mismatch(said, shifted(middle)));
         }
+        let width = exact.face_width();
+        if high.max(-low) > 0.5 * width + allowed {
+            let said = format!(
+                "{file}: the {whose}'s flanks reach from z = {low:.3} to {high:.3} mm, and its face is {width:.3} mm wide"
+            );
+            let hint =
+                format!("is `face_width_mm` of the {whose} that of the mesh, and mid-face of the mesh at z = 0?");
+            return Err(mismatch(said, hint));
+        }
         Ok(())
     }
 

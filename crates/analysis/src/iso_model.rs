@@ -186,7 +186,7 @@ fn push(wrench: &mut [Wrench; 2], scene: &Scene, pair: &GearPair, turned: f64, l
     let turn = nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), turned);
     let point = turn * flank.point(roll, z);
     let on_wheel = force * (turn * flank.normal(roll, z));
-    let arms = [point, point - Vec3::new(pair.centre_distance(), 0.0, 0.0)];
+    let arms = [point, point - Vec3::new(pair.centre_distance(), 0.0, pair.mid_face_offset())];
     for ((wrench, arm), force) in wrench.iter_mut().zip(arms).zip([-on_wheel, on_wheel]) {
         let moment = arm.cross(&force);
         for k in 0..3 {

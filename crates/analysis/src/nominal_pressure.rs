@@ -92,9 +92,10 @@ fn points(pair: &GearPair) -> impl Iterator<Item = (char, f64)> {
         .filter_map(|(name, xi)| Some((name, xi?)))
 }
 
-/// Total length of the contact lines when that of a pair passes `xi` at mid-face, mm.
+/// Total length of the contact lines when that of a pair passes `xi` in the middle of the common face, mm.
 fn length_at(pair: &GearPair, xi: f64) -> f64 {
     let side = Side::Left;
-    let angle = (xi - pair.path_coordinate(side, 0.0, 0, 0.0)) / (side.sign() * pair.pinion.base_radius());
+    let angle =
+        (xi - pair.path_coordinate(side, 0.0, 0, pair.common_middle()[0])) / (side.sign() * pair.pinion.base_radius());
     pair.contact_line_length(side, angle)
 }

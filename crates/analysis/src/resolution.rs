@@ -101,7 +101,7 @@ fn face_elements(scene: &Scene) -> ([Option<u32>; 2], [Option<u32>; 2]) {
     let face_elements = scene.gears().map(|gear| gear.mesher.filter(|_| elastic).map(|m| m.elements_face));
     let would_do = scene.gears().map(|gear| {
         let order = gear.mesher.map_or(2, |m| m.order);
-        elastic.then(|| scene.face_elements(order))
+        elastic.then(|| scene.face_elements(gear, order))
     });
     (face_elements, would_do)
 }

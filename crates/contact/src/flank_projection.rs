@@ -24,7 +24,7 @@ pub struct FlankProjection {
     pub approach: Displacement,
     /// b.
     pub tilt: Displacement,
-    /// Pitch point at mid-face, mm.
+    /// Pitch point in the middle of the common face, mm.
     point: Vector3<f64>,
     /// Direction of zeta.
     across: Vector3<f64>,
@@ -40,9 +40,9 @@ impl FlankProjection {
         // A gear that moves along its axis has its flanks turned by the twist of its teeth.
         let normal = (along - s * base * pair.pinion.twist() * Vector3::z()).normalize();
         let pitch_radius = base / cos;
-        let point = Vector3::new(pitch_radius, 0.0, 0.0);
+        let point = Vector3::new(pitch_radius, 0.0, pair.common_middle()[0]);
         let out_of_plane = along.cross(&Vector3::z());
-        let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, 0.0)];
+        let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, pair.mid_face_offset())];
         let [mut approach, mut tilt] = [Displacement::zeros(); 2];
         for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
             let moment = (point - centres[g]).cross(&normal);

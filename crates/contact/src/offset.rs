@@ -20,8 +20,8 @@ pub struct Offset {
     pub tilt_y: f64,
 }
 
-/// Deviation of the wheel's axis from the pinion's, as displacement over the face width from z = -b/2 to z = +b/2, mm;
-/// the parts add up.
+/// Deviation of the wheel's axis from the pinion's, as displacement over the face width from z = -b/2 to z = +b/2, mm, b the common
+/// face width; the parts add up.
 ///
 /// Terms after ISO/TR 10064-3, which gives the deviations over the bearing span; here they are over the **face width**.
 ///

@@ -7,10 +7,11 @@ use nalgebra::{SMatrix, Translation3, UnitQuaternion};
 
 use crate::{ContactError, ContactOptions, ContactSet, Pose, Vec3};
 
-/// Centre of a gear, mm.
+/// Centre of a gear, at its mid-face, mm.
 pub fn gear_centre(pair: &GearPair, options: &ContactOptions, gear: usize) -> Vec3 {
     let o = options.offsets[gear];
-    Vec3::new([0.0, pair.centre_distance()][gear] + o.x, o.y, o.z)
+    let [x, z] = [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][gear];
+    Vec3::new(x + o.x, o.y, z + o.z)
 }
 
 /// Pose of a gear that is turned by `angle` (rad) about its own axis.
@@ -26,10 +27,12 @@ pub fn gear_pose(pair: &GearPair, options: &ContactOptions, gear: usize, angle: 
 /// Wheel angle at which the transmission error is zero, rad: the unmodified flanks touch there, unloaded, axes parallel
 /// through the displaced centres.
 ///
-/// A gear displaced by z along its axis has its flanks turned by -k z, k the twist of its teeth.
+/// A gear displaced by z along its axis has its flanks turned by -k z, k the twist of its teeth. The offset of the
+/// mid-faces is no displacement: it moves the end faces alone.
 pub fn reference_angle(pair: &GearPair, options: &ContactOptions, pinion_angle: f64) -> f64 {
     let [a, b] = [0, 1].map(|i| gear_centre(pair, options, i));
-    let [t1, t2] = [pair.pinion.twist() * a.z, pair.wheel.twist() * b.z];
+    let [z1, z2] = options.offsets.map(|o| o.z);
+    let [t1, t2] = [pair.pinion.twist() * z1, pair.wheel.twist() * z2];
     pair.wheel_angle_at(options.side(), pinion_angle - t1, [b.x - a.x, b.y - a.y]) + t2
 }
 
@@ -50,9 +53,13 @@ pub fn check_offsets(pair: &GearPair, options: &ContactOptions) -> Result<(), Co
     if !(distance > least && distance < pair.pinion.tip_radius() + pair.wheel.tip_radius()) {
         return bad("distance of the displaced axes [mm]", distance, "between the sums of base and of tip radii");
     }
-    let apart = b.z - a.z;
+    let apart = options.offsets[1].z - options.offsets[0].z;
     if apart.is_nan() || apart.abs() >= pair.face_width() {
-        return bad("axial offset between the gears [mm]", apart, "smaller than the face width");
+        return bad(
+            "axial displacement of the gears against each other [mm]",
+            apart,
+            "smaller than the common face width",
+        );
     }
     Ok(())
 }

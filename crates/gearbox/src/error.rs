@@ -135,13 +135,17 @@ pub enum GearboxError {
         /// Centre distance of the pair, mm.
         wanted_mm: f64,
     },
-    /// Gears of a mesh whose mid-planes differ.
-    #[error("mesh {mesh}: gear 2 lies {offset_mm} mm beside gear 1 along the axis")]
+    /// Gears of a mesh at other heights than their pair is made for.
+    #[error(
+        "mesh {mesh}: the mid-face of gear 2 lies {offset_mm} mm above that of gear 1, and the pair is made for {pair_mm} mm"
+    )]
     Beside {
         /// Name of the mesh.
         mesh: String,
-        /// How far, mm.
+        /// Where the shafts have it, mm along +z.
         offset_mm: f64,
+        /// Offset of the pair's mid-faces, mm.
+        pair_mm: f64,
     },
     /// Two ways through the train turn a shaft unlike.
     #[error("shaft {shaft} would turn {} and {} times the input's turns", ratios[0], ratios[1])]
@@ -286,7 +290,7 @@ impl GearboxError {
             Self::TooLarge { .. } => "take longer elements, or fewer sections",
             Self::Distance { .. } => "place the shafts by the centre distance, or give the pair theirs",
             Self::Beside { .. } => {
-                "place both gears with their mid-planes at one height; offsets of mid-planes are not in this model"
+                "place the gears by the offset of their mid-faces, or leave `mid_face_offset_mm` out of the scene: positions say it then"
             }
             Self::Ratios { .. } => "numbers of teeth around a closed train must agree",
             Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",

@@ -57,7 +57,7 @@ impl Train {
     /// those of the others follow from the first mesh that reaches them.
     ///
     /// # Errors
-    /// [`GearboxError`]: distances of axes that the pairs were not made for, gears beside each other, rings whose ratios
+    /// [`GearboxError`]: distances of axes and offsets of mid-faces that the pairs were not made for, rings whose ratios
     /// disagree, shafts that nothing drives.
     pub fn new(
         structure: &Structure,
@@ -219,8 +219,9 @@ fn direction(structure: &Structure, mesh: &Mesh) -> Result<f64, GearboxError> {
         return Err(GearboxError::Distance { mesh: mesh.name.clone(), distance_mm, wanted_mm });
     }
     let offset_mm = b[2] - a[2];
-    if offset_mm.abs() > SAME * wanted_mm {
-        return Err(GearboxError::Beside { mesh: mesh.name.clone(), offset_mm });
+    let pair_mm = mesh.pair.mid_face_offset();
+    if (offset_mm - pair_mm).abs() > SAME * wanted_mm {
+        return Err(GearboxError::Beside { mesh: mesh.name.clone(), offset_mm, pair_mm });
     }
     Ok(dy.atan2(dx))
 }

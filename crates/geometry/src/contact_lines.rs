@@ -7,7 +7,7 @@ use crate::{GearPair, Side};
 pub struct ContactLine {
     /// Pinion tooth, not wrapped.
     pub tooth: i64,
-    /// Axial range [z_0, z_1], mm.
+    /// Axial range [z_0, z_1] over the pinion's mid-face, mm.
     pub z: [f64; 2],
     /// Length along the line, mm.
     pub length: f64,
@@ -17,20 +17,20 @@ impl GearPair {
     /// Contact line of pinion tooth `tooth` at pinion angle `pinion_angle` (rad), if it is in contact.
     ///
     /// In the plane of action (path of contact by face width) the line is straight, inclined by b_b; it is clipped
-    /// by the rectangle: xi_A <= xi(z) <= xi_E, |z| <= b/2.
+    /// by the rectangle: xi_A <= xi(z) <= xi_E, z within the common face.
     pub fn contact_line(&self, side: Side, pinion_angle: f64, tooth: i64) -> Option<ContactLine> {
         let [start, end] = self.path_of_contact();
-        let half = 0.5 * self.face_width();
+        let [low, high] = self.common_face();
         let middle = self.path_coordinate(side, pinion_angle, tooth, 0.0);
         let slope = side.sign() * self.base_helix_angle().tan();
         let (z0, z1) = if slope == 0.0 {
             if middle < start || middle > end {
                 return None;
             }
-            (-half, half)
+            (low, high)
         } else {
             let (a, b) = ((start - middle) / slope, (end - middle) / slope);
-            (a.min(b).max(-half), a.max(b).min(half))
+            (a.min(b).max(low), a.max(b).min(high))
         };
         (z1 > z0).then(|| ContactLine { tooth, z: [z0, z1], length: (z1 - z0) / self.base_helix_angle().cos() })
     }
@@ -54,7 +54,7 @@ impl GearPair {
     pub fn contact_lines(&self, side: Side, pinion_angle: f64) -> Vec<ContactLine> {
         let pitch = self.transverse_base_pitch();
         let [start, end] = self.path_of_contact();
-        let at_zero = self.path_coordinate(side, pinion_angle, 0, 0.0);
+        let at_zero = self.path_coordinate(side, pinion_angle, 0, self.common_middle()[0]);
         let reach = 0.5 * self.face_width() * self.base_helix_angle().tan().abs();
         // xi(tooth) = at_zero + s tooth p_bt: every tooth whose line can reach the rectangle.
         let (low, high) = ((start - reach - at_zero) / pitch, (end + reach - at_zero) / pitch);

@@ -103,6 +103,17 @@ pub enum GeometryError {
         /// Length of path of contact, mm; not positive.
         overlap_mm: f64,
     },
+    /// The gears pass each other along the axes.
+    #[error(
+        "the faces do not overlap: the pinion's is from {:.4} to {:.4} mm, the wheel's from {:.4} to {:.4} mm over the \
+         pinion's mid-face", pinion_mm[0], pinion_mm[1], wheel_mm[0], wheel_mm[1]
+    )]
+    FacesApart {
+        /// End faces of the pinion, mm over its mid-face.
+        pinion_mm: [f64; 2],
+        /// Those of the wheel, mm over the pinion's mid-face.
+        wheel_mm: [f64; 2],
+    },
     /// Not even one pair of teeth is in contact at every moment.
     #[error("total contact ratio {contact_ratio:.4} is below 1: the teeth lose each other")]
     ContactRatio {
@@ -166,6 +177,10 @@ impl GeometryError {
                 "shorten the {tip}'s tip (addendum, tip diameter), raise the dedendum or the centre distance, or shift the {root}'s profile outwards"
             ),
             Self::NoContact { .. } => "lower the centre distance or raise the tip diameters".into(),
+            Self::FacesApart { pinion_mm, wheel_mm } => {
+                let widths = 0.5 * (pinion_mm[1] - pinion_mm[0] + wheel_mm[1] - wheel_mm[0]);
+                format!("the offset of the mid-faces must be less than half of both face widths, {widths:.4} mm")
+            }
             Self::ContactRatio { .. } => {
                 "lower the centre distance, or raise addendum, helix angle or face width".into()
             }

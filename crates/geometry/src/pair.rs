@@ -9,11 +9,15 @@ use crate::{Gear, GeometryError, Side};
 /// Depth over the module from which on a tip in a fillet is more than rounded data.
 const INTERFERENCE_MODULES: f64 = 1e-3;
 
-/// A running pair: pinion at the origin, wheel at (a, 0, 0).
+/// A running pair: pinion at the origin, wheel at (a, 0, o), o the offset of its mid-face.
 ///
 /// ```text
 /// cos a_wt = (r_b1 + r_b2) / a
+/// z in [max(-b_1/2, o - b_2/2), min(b_1/2, o + b_2/2)]      common face, heights from the pinion's mid-face
 /// ```
+/// Flanks touch over the common face only. An offset moves the end faces of the wheel and not its teeth: it is the wheel
+/// without offset, made longer and cut to other end faces. Its own frame is at its own mid-face.
+///
 /// The path of contact is measured by xi (mm) from the pinion's tangent point T1 along the transverse line of
 /// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -23,10 +27,12 @@ pub struct GearPair {
     /// Gear 2.
     pub wheel: Gear,
     centre_distance: f64,
+    /// Height of the wheel's mid-face over the pinion's, mm.
+    mid_face_offset: f64,
 }
 
 impl GearPair {
-    /// A pair at the given centre distance (mm), or at the one without backlash from thinning
+    /// A pair whose mid-faces are at one height, at the given centre distance (mm), or at the one without backlash from thinning
     /// (`inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2)`).
     ///
     /// # Errors
@@ -44,8 +50,28 @@ impl GearPair {
             }
         }
         let centre_distance = centre_distance.unwrap_or_else(|| nominal_centre_distance(&pinion, &wheel));
-        let pair = Self { pinion, wheel, centre_distance };
+        let pair = Self { pinion, wheel, centre_distance, mid_face_offset: 0.0 };
         pair.check()?;
+        Ok(pair)
+    }
+
+    /// The same pair with the wheel's mid-face `offset` (mm) above the pinion's, along +z.
+    ///
+    /// # Errors
+    /// [`GeometryError::FacesApart`] where the faces do not overlap, [`GeometryError::ContactRatio`] where they do so by
+    /// too little, [`GeometryError::OutOfRange`] for an offset that is no number.
+    pub fn with_mid_face_offset(self, offset: f64) -> Result<Self, GeometryError> {
+        if !offset.is_finite() {
+            let (name, expected) = ("offset of the mid-faces [mm]", "a finite number");
+            return Err(GeometryError::OutOfRange { name, value: offset, expected });
+        }
+        let pair = Self { mid_face_offset: offset, ..self };
+        let [from, to] = pair.common_face();
+        if to <= from {
+            let [pinion_mm, wheel_mm] = pair.faces();
+            return Err(GeometryError::FacesApart { pinion_mm, wheel_mm });
+        }
+        pair.check_contact_ratio()?;
         Ok(pair)
     }
 
@@ -84,10 +110,12 @@ impl GearPair {
         if self.path_length() <= 0.0 {
             return Err(GeometryError::NoContact { overlap_mm: self.path_length() });
         }
-        if self.total_contact_ratio() < 1.0 {
-            return Err(GeometryError::ContactRatio { contact_ratio: self.total_contact_ratio() });
-        }
-        Ok(())
+        self.check_contact_ratio()
+    }
+
+    fn check_contact_ratio(&self) -> Result<(), GeometryError> {
+        let contact_ratio = self.total_contact_ratio();
+        if contact_ratio < 1.0 { Err(GeometryError::ContactRatio { contact_ratio }) } else { Ok(()) }
     }
 
     /// Working centre distance a, mm.
@@ -111,9 +139,34 @@ impl GearPair {
         self.pinion.base_helix_angle()
     }
 
-    /// Face width common to both gears, mm.
+    /// Height of the wheel's mid-face over the pinion's, along +z, mm.
+    pub fn mid_face_offset(&self) -> f64 {
+        self.mid_face_offset
+    }
+
+    /// Heights of the end faces of pinion and wheel over the pinion's mid-face, mm.
+    pub fn faces(&self) -> [[f64; 2]; 2] {
+        let of = |middle: f64, width: f64| [middle - 0.5 * width, middle + 0.5 * width];
+        [of(0.0, self.pinion.face_width()), of(self.mid_face_offset, self.wheel.face_width())]
+    }
+
+    /// Heights over the pinion's mid-face between which both gears have flanks, mm.
+    pub fn common_face(&self) -> [f64; 2] {
+        let [[p0, p1], [w0, w1]] = self.faces();
+        [p0.max(w0), p1.min(w1)]
+    }
+
+    /// Middle of the common face over the mid-faces of pinion and wheel, mm; 0 where both mid-faces are in it.
+    pub fn common_middle(&self) -> [f64; 2] {
+        let [from, to] = self.common_face();
+        let middle = 0.5 * (from + to);
+        [middle, middle - self.mid_face_offset]
+    }
+
+    /// Width of the common face b, mm.
     pub fn face_width(&self) -> f64 {
-        self.pinion.face_width().min(self.wheel.face_width())
+        let [from, to] = self.common_face();
+        to - from
     }
 
     /// Transverse base pitch, mm.
@@ -167,7 +220,7 @@ impl GearPair {
         (pitch - thickness(&self.pinion) - thickness(&self.wheel)) * a_wt.cos()
     }
 
-    /// Path coordinate xi (mm) of pinion tooth `tooth` at height `z` (mm) when the pinion stands at angle
+    /// Path coordinate xi (mm) of pinion tooth `tooth` at height `z` (mm, over the pinion's mid-face) when the pinion stands at angle
     /// `pinion_angle` [rad, counter-clockwise] and the flanks on `side` are in contact.
     ///
     /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
@@ -177,18 +230,23 @@ impl GearPair {
         p.base_radius() * (side.sign() * turn + p.profile().base_half_angle() + self.working_pressure_angle())
     }
 
-    /// Pinion angle (rad) at which pinion tooth 0 stands, at mid-face, in the middle of the path of contact.
+    /// Pinion angle (rad) at which pinion tooth 0 stands, in the middle of the common face, in the middle of the path of
+    /// contact.
     pub fn middle_angle(&self, side: Side) -> f64 {
         let [start, end] = self.path_of_contact();
         let p = &self.pinion;
         let roll = 0.5 * (start + end) / p.base_radius();
-        side.sign() * (roll - p.profile().base_half_angle() - self.working_pressure_angle())
+        let at_mid_face = side.sign() * (roll - p.profile().base_half_angle() - self.working_pressure_angle());
+        at_mid_face - p.twist() * self.common_middle()[0]
     }
 
     /// Wheel angle (rad) at which its tooth 0 (own frame turned by this angle) touches pinion tooth 0 on flanks
     /// `side`, both unloaded; pinion tooth k then touches wheel tooth -k.
     ///
-    /// s (theta_2 - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
+    /// ```text
+    /// s (theta_2 - k_2 o - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
+    /// ```
+    /// o: offset of the mid-faces, k_2: twist of the wheel's teeth. Both angles are of tooth 0 at its own mid-face.
     pub fn wheel_angle(&self, side: Side, pinion_angle: f64) -> f64 {
         self.wheel_angle_at(side, pinion_angle, [self.centre_distance, 0.0])
     }
@@ -203,7 +261,7 @@ impl GearPair {
         let (s, a_wt) = (side.sign(), ((rb1 + rb2) / distance).acos());
         let tangents = distance * a_wt.sin();
         let rest = tangents - rb1 * (s * (pinion_angle - turned) + s1 + a_wt) - rb2 * (s2 + a_wt);
-        turned + (PI + s * rest / rb2)
+        turned + (PI + s * rest / rb2) + self.wheel.twist() * self.mid_face_offset
     }
 }
 

@@ -25,6 +25,10 @@ pub struct GeometrySheet {
     pub path_of_contact_mm: f64,
     pub approach_path_mm: f64,
     pub recess_path_mm: f64,
+    /// Of the common face.
+    pub common_face_width_mm: f64,
+    /// Height of the wheel's mid-face over the pinion's.
+    pub mid_face_offset_mm: f64,
     pub eps_alpha: f64,
     pub eps_beta: f64,
     pub eps_gamma: f64,
@@ -47,6 +51,7 @@ pub struct GeometrySheet {
 #[allow(missing_docs)]
 pub struct GearSheet {
     pub teeth: u32,
+    pub face_width_mm: f64,
     pub profile_shift: f64,
     pub reference_diameter_mm: f64,
     pub base_diameter_mm: f64,
@@ -162,6 +167,8 @@ impl GearPair {
             path_of_contact_mm: end - start,
             approach_path_mm: pitch_point - start,
             recess_path_mm: end - pitch_point,
+            common_face_width_mm: self.face_width(),
+            mid_face_offset_mm: self.mid_face_offset(),
             eps_alpha: self.transverse_contact_ratio(),
             eps_beta: self.overlap_ratio(),
             eps_gamma: self.total_contact_ratio(),
@@ -223,6 +230,7 @@ fn gear_sheet(gear: &Gear, a_wt: f64, [low, high]: [f64; 2], single: Option<[f64
     };
     GearSheet {
         teeth: gear.teeth(),
+        face_width_mm: data.face_width,
         profile_shift: data.profile_shift,
         reference_diameter_mm: 2.0 * gear.reference_radius(),
         base_diameter_mm: 2.0 * base,

@@ -163,10 +163,9 @@ impl<'a> Unloaded<'a> {
         let (side, pitch) = (options.side(), pair.transverse_base_pitch());
         let theta1 = self.station.pinion_angle(pair, options.side(), options.sense);
         let [start, end] = pair.path_of_contact();
-        let half = 0.5 * pair.pinion.face_width().max(pair.wheel.face_width());
-        let reach = half * pair.base_helix_angle().tan().abs() + 0.5 * pitch;
+        let reach = 0.5 * pair.face_width() * pair.base_helix_angle().tan().abs() + 0.5 * pitch;
         // The tooth number rises with xi for left flanks and falls for right ones.
-        let at_zero = pair.path_coordinate(side, theta1, 0, 0.0);
+        let at_zero = pair.path_coordinate(side, theta1, 0, pair.common_middle()[0]);
         let (low, high) = ((start - reach - at_zero) / pitch, (end + reach - at_zero) / pitch);
         let (low, high) = if side.sign() > 0.0 { (low, high) } else { (-high, -low) };
         low.floor() as i64..=high.ceil() as i64

@@ -11,14 +11,14 @@ pub(crate) fn contact_line(windowed: &WindowedPair, e: &Equilibrium, k: usize) -
     let (Some(first), Some(second)) = (set.patch_of(0, k, side), set.patch_of(1, k, side)) else {
         return Vec::new();
     };
-    let half = 0.5 * pair.face_width();
+    let face = pair.common_face();
     if set.slices().is_some() {
         let of_rows = e.rows.iter().zip(&e.slices).zip(e.solution.openings.iter().zip(&e.states));
         let of_pair = of_rows.filter(|((row, _), _)| row.patches == (first, second));
         let stations = of_pair.map(|((row, slice), (&o, state))| {
             (row.point, line_station(row.gap, o, state.local.approach, 0.0), *slice)
         });
-        return slice_line(set, &e.poses, (first, second), stations, half);
+        return slice_line(set, &e.poses, (first, second), stations, face);
     }
-    nodal_contact_line(set, &options.contact, &e.poses, &e.displacements, (first, second), [half, e.approach(pair)])
+    nodal_contact_line(set, &options.contact, &e.poses, &e.displacements, (first, second), (face, e.approach(pair)))
 }

@@ -115,7 +115,6 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
     let turned = e.station.pinion_angle(pair, options.side(), sense);
     let nominal = pair.contact_line(options.side(), turned, running - e.station.middle_pair(sense));
     let along = 1.0 / pair.base_helix_angle().cos();
-    let half = 0.5 * pair.face_width();
     let modulus =
         hertz::effective_modulus([0, 1].map(|i| (gears[i].material().young_mpa(), gears[i].material().poisson())));
     let slices: Vec<SliceResult> = e
@@ -142,7 +141,7 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
         // 0.0 first: the sum of nothing is -0.0 otherwise.
         normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
         max_pressure,
-        contact_line_length: along * covered(&line, [-half, half]),
+        contact_line_length: along * covered(&line, pair.common_face()),
         geometric_line_length: nominal.map_or(0.0, |line| line.length),
         points_in_contact: loaded.len(),
         slices,

@@ -191,7 +191,7 @@ fn lines(pair: &GearPair, options: &StaticOptions, station: Station) -> Vec<Line
     let pitch = pair.transverse_base_pitch();
     let [low, high] = [start - BEYOND * pitch, end + BEYOND * pitch];
     let reach = 0.5 * pair.face_width() * pair.base_helix_angle().tan().abs();
-    let middle = pair.path_coordinate(side, theta1, 0, 0.0);
+    let middle = pair.path_coordinate(side, theta1, 0, pair.common_middle()[0]);
     let ends = [(low - reach - middle) / pitch, (high + reach - middle) / pitch].map(|x| side.sign() * x);
     let teeth = ends[0].min(ends[1]).ceil() as i64..=ends[0].max(ends[1]).floor() as i64;
     let running = station.middle_pair(options.contact.sense);
@@ -225,12 +225,12 @@ fn line(
     let [start, end] = pair.path_of_contact();
     let slack = BEYOND * pair.transverse_base_pitch();
     let mut hint = SliceHint::default();
-    let width = pair.face_width();
+    let (width, common) = (pair.face_width(), pair.common_middle()[0]);
     let is_nominal = options.contact.offsets.iter().all(|offset| *offset == Offset::default());
     let (length, base_radii) = (pair.tangent_length(), [pair.pinion.base_radius(), pair.wheel.base_radius()]);
     let [middle, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(side, theta1, tooth, z));
     let gap = |i: usize| {
-        let z = width * ((i as f64 + 0.5) / places as f64 - 0.5);
+        let z = common + width * ((i as f64 + 0.5) / places as f64 - 0.5);
         let xi = middle + (beside - middle) * z;
         if xi < start - slack || xi > end + slack {
             return f64::INFINITY;
@@ -238,7 +238,8 @@ fn line(
         if is_nominal && xi >= start && xi <= end {
             // On parallel axes in their places nominal flanks touch all along the path of contact.
             let rolls = [xi / base_radii[0], (length - xi) / base_radii[1]];
-            return [0, 1].map(|k| Surface::depth(&flanks[k], [rolls[k], z])).iter().sum();
+            let heights = [z, z - pair.mid_face_offset()];
+            return [0, 1].map(|k| Surface::depth(&flanks[k], [rolls[k], heights[k]])).iter().sum();
         }
         let Some(place) = facing.nearest(z, &mut hint) else { return f64::INFINITY };
         place.gap + [0, 1].map(|k| Surface::depth(&flanks[k], place.at[k])).iter().sum::<f64>()

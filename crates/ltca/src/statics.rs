@@ -55,8 +55,8 @@ impl StaticModel {
         let (own, asked) = (&self.options.contact, &options.contact);
         let alike = ContactOptions { friction: asked.friction, offsets: asked.offsets, ..own.clone() } == *asked;
         let nominal = |a: &GearPair, b: &GearPair| {
-            let distance = a.centre_distance() == b.centre_distance();
-            distance && a.pinion.data() == b.pinion.data() && a.wheel.data() == b.wheel.data()
+            let place = |pair: &GearPair| [pair.centre_distance(), pair.mid_face_offset()];
+            place(a) == place(b) && a.pinion.data() == b.pinion.data() && a.wheel.data() == b.wheel.data()
         };
         let known = (alike && nominal(&self.pair, &pair)).then(|| self.contact_set());
         Self::with_set(pair, Arc::clone(&self.gears), options, known)

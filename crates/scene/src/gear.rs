@@ -14,6 +14,9 @@ pub struct GearScene {
     pub teeth: u32,
     /// Helix angle at the reference cylinder, right hand positive, degrees.
     pub helix_angle_deg: f64,
+    /// Face width, mm; `None`: the pair's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub face_width_mm: Option<f64>,
     /// Diameter of the rigid bore, mm.
     pub bore_diameter_mm: f64,
     /// Profile shift coefficient.
@@ -93,8 +96,12 @@ pub struct PairScene {
     pub normal_module_mm: f64,
     /// Normal pressure angle, degrees.
     pub normal_pressure_angle_deg: f64,
-    /// Face width of both gears, mm.
+    /// Face width of gears that state none of their own, mm; the narrower one where both do and this is left out.
     pub face_width_mm: f64,
+    /// Height of the wheel's mid-face over the pinion's along +z, mm; `None`: 0, in a gearbox where the shafts have the
+    /// gears.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mid_face_offset_mm: Option<f64>,
     /// Working centre distance, mm; `None`: the nominal one that follows from the profile shifts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_distance_mm: Option<f64>,
@@ -128,6 +135,11 @@ impl GearScene {
     pub fn helix_angle(&self) -> f64 {
         self.helix_angle_deg.to_radians()
     }
+
+    /// Face width, mm: its own, or that of the pair.
+    pub fn width_mm(&self, pair: &PairScene) -> f64 {
+        self.face_width_mm.unwrap_or(pair.face_width_mm)
+    }
 }
 
 impl PairScene {
@@ -136,9 +148,16 @@ impl PairScene {
         self.normal_pressure_angle_deg.to_radians()
     }
 
-    /// Elements along the face that a mesh of this order asks for, with root stress or without.
-    pub(crate) fn face_elements(&self, order: u32, root_stress: bool) -> u32 {
+    /// Heights between which gears of some face widths (mm) both have flanks, over the pinion's mid-face, mm; the first
+    /// is above the second where they pass each other.
+    pub fn common_face_mm(&self, [pinion, wheel]: [f64; 2]) -> [f64; 2] {
+        let offset = self.mid_face_offset_mm.unwrap_or(0.0);
+        [(-0.5 * pinion).max(offset - 0.5 * wheel), (0.5 * pinion).min(offset + 0.5 * wheel)]
+    }
+
+    /// Elements along the face that a mesh of this order asks for on a gear of a width (mm), with root stress or without.
+    pub(crate) fn face_elements(&self, width_mm: f64, order: u32, root_stress: bool) -> u32 {
         let resolution = if root_stress { FaceResolution::RootStress } else { FaceResolution::Contact };
-        mesh::face_elements(self.face_width_mm, self.normal_module_mm, order, resolution)
+        mesh::face_elements(width_mm, self.normal_module_mm, order, resolution)
     }
 }

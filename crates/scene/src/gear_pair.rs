@@ -18,7 +18,12 @@ impl Scene {
         };
         let pinion = gear("pinion", &self.pinion)?;
         let wheel = gear("wheel", &self.wheel)?;
-        GearPair::new(pinion, wheel, self.pair.centre_distance_mm).map_err(|e| self.geometry_fault("pair", e))
+        let pair = GearPair::new(pinion, wheel, self.pair.centre_distance_mm);
+        let placed = match self.pair.mid_face_offset_mm {
+            Some(offset) => pair.and_then(|pair| pair.with_mid_face_offset(offset)),
+            None => pair,
+        };
+        placed.map_err(|e| self.geometry_fault("pair", e))
     }
 }
 
@@ -29,7 +34,7 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
         normal_module: scene.pair.normal_module_mm,
         normal_pressure_angle: scene.pair.normal_pressure_angle(),
         helix_angle: gear.helix_angle(),
-        face_width: scene.pair.face_width_mm,
+        face_width: gear.width_mm(&scene.pair),
         profile_shift: gear.profile_shift,
         thickness_allowance: gear.thickness_allowance_mm,
         addendum_coefficient: scene.pair.addendum_coefficient,

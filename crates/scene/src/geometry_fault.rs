@@ -58,8 +58,12 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
         ],
         GeometryError::NoContact { .. } | GeometryError::ContactRatio { .. } => {
             let tips = both("tip_diameter_mm");
-            [vec![pair("centre_distance_mm")], tips.into(), vec![pair("addendum_coefficient"), pair("face_width_mm")]]
-                .concat()
+            let widths = both("face_width_mm");
+            let of_pair = ["addendum_coefficient", "mid_face_offset_mm", "face_width_mm"].map(pair);
+            [vec![pair("centre_distance_mm")], tips.into(), of_pair.into(), widths.into()].concat()
+        }
+        GeometryError::FacesApart { .. } => {
+            [vec![pair("mid_face_offset_mm")], both("face_width_mm").into(), vec![pair("face_width_mm")]].concat()
         }
         GeometryError::OffFlank { name, .. } => on_flank(table, name),
         GeometryError::GridOffFlank { .. } => flank_keys(table, &["topography"]),
@@ -70,9 +74,10 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
 
 /// A quantity that the geometry calls by its name.
 fn named(table: &str, name: &str) -> Vec<String> {
-    const NAMES: [(&str, &[&str]); 10] = [
+    const NAMES: [(&str, &[&str]); 11] = [
         ("normal module", &["pair.normal_module_mm"]),
-        ("face width", &["pair.face_width_mm"]),
+        ("face width", &["face_width_mm", "pair.face_width_mm"]),
+        ("offset of the mid-faces", &["pair.mid_face_offset_mm"]),
         ("bore diameter", &["bore_diameter_mm"]),
         ("addendum", &["pair.addendum_coefficient"]),
         ("dedendum", &["pair.dedendum_coefficient", "profile_shift", "teeth"]),

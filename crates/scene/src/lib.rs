@@ -267,9 +267,20 @@ impl Scene {
             && self.contact.method == Method::Slice
     }
 
-    /// Elements along the face that a mesh of this order asks for; the default of `elements_face`.
-    pub fn face_elements(&self, order: u32) -> u32 {
-        self.pair.face_elements(order, self.output.root_stress)
+    /// Face widths of pinion and wheel, mm.
+    pub fn face_widths_mm(&self) -> [f64; 2] {
+        self.gears().map(|gear| gear.width_mm(&self.pair))
+    }
+
+    /// Width over which both gears have flanks, mm; 0 where they pass each other.
+    pub fn common_face_width_mm(&self) -> f64 {
+        let [from, to] = self.pair.common_face_mm(self.face_widths_mm());
+        (to - from).max(0.0)
+    }
+
+    /// Elements along the face that a mesh of this order asks for on a gear; the default of `elements_face`.
+    pub fn face_elements(&self, gear: &GearScene, order: u32) -> u32 {
+        self.pair.face_elements(gear.width_mm(&self.pair), order, self.output.root_stress)
     }
 
     /// Gear ratio z2/z1.

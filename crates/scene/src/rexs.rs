@@ -49,6 +49,7 @@ fn pair(model: &Model<'_, '_>, gears: [Part<'_, '_>; 2], stage: usize, from: &St
     };
     let shift = [0, 1].map(|i| of_flank(i, "addendum_modification_coefficient", ""));
     let [x1, x2] = shift;
+    let apart = apart(&gears)?;
     Ok(Starter {
         name: model.name(stage).unwrap_or_default(),
         teeth,
@@ -58,7 +59,9 @@ fn pair(model: &Model<'_, '_>, gears: [Part<'_, '_>; 2], stage: usize, from: &St
         profile_shift: [x1?.unwrap_or(0.0), x2?.unwrap_or(0.0)],
         pressure_angle_deg: of_flank(0, "normal_pressure_angle", "deg")?,
         tip_diameter_mm: [gears[0].number("tip_diameter", "mm")?, gears[1].number("tip_diameter", "mm")?],
-        centre_distance_mm: distance(&gears)?,
+        own_face_width_mm: if widths[0] == widths[1] { [None, None] } else { widths.map(Some) },
+        centre_distance_mm: apart.map(|[across, _]| across),
+        mid_face_offset_mm: apart.map(|[_, along]| along).filter(|along| along.abs() > ONE_HEIGHT),
         ..from.clone()
     })
 }
@@ -71,8 +74,12 @@ fn alike(what: &'static str, pinion: f64, wheel: f64) -> Result<(), RexsError> {
     }
 }
 
-/// Distance of the axes from where the gears stand, mm, where both say so in the same frame.
-fn distance(gears: &[Part<'_, '_>; 2]) -> Result<Option<f64>, RexsError> {
+/// Heights nearer than this are one, mm.
+const ONE_HEIGHT: f64 = 1e-6;
+
+/// Distance of the axes, and how far the second gear stands above the first along its axis, mm, where both say so in the
+/// same frame; a gear stands where its mid-face is.
+fn apart(gears: &[Part<'_, '_>; 2]) -> Result<Option<[f64; 2]>, RexsError> {
     let frames = [0, 1].map(|i| gears[i].text("reference_component_for_position"));
     let places = [gears[0].vector("support_vector")?, gears[1].vector("support_vector")?];
     let axis = gears[0].vector("u_axis_vector")?;
@@ -80,7 +87,7 @@ fn distance(gears: &[Part<'_, '_>; 2]) -> Result<Option<f64>, RexsError> {
     let apart = [0, 1, 2].map(|k| b[k] - a[k]);
     let along: f64 = (0..3).map(|k| apart[k] * axis[k]).sum::<f64>() / axis.iter().map(|x| x * x).sum::<f64>().sqrt();
     let square = apart.iter().map(|x| x * x).sum::<f64>() - along * along;
-    Ok((frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| square.sqrt()))
+    Ok((frames[0] == frames[1] && square > 0.0 && square.is_finite()).then(|| [square.sqrt(), along]))
 }
 
 #[cfg(test)]
@@ -120,6 +127,7 @@ mod tests {
         assert_eq!((found.face_width_mm, found.profile_shift), (48.0, [0.23, 0.0]));
         assert_eq!((found.pressure_angle_deg, found.centre_distance_mm), (Some(20.0), Some(190.0)));
         assert_eq!((found.torque_nm, found.name.as_str()), (150.0, "Test, stage 1"));
+        assert_eq!((found.own_face_width_mm, found.mid_face_offset_mm), ([Some(50.0), Some(48.0)], Some(7.0)));
     }
 
     /// Each fault is told with its place and a way out; a file cut off anywhere ends in a message.

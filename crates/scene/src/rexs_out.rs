@@ -10,7 +10,7 @@ const GEARS: [u32; 2] = [2, 3];
 const FLANKS: [u32; 2] = [4, 5];
 
 /// The pair as a `cylindrical_stage` with two gears and their flanks, the axes along x, the wheel beside the pinion along
-/// z. Numbers read back to the same bits.
+/// z, each gear where its mid-face is. Numbers read back to the same bits.
 pub fn rexs_of(pair: &GearPair) -> String {
     let mut t = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let version = env!("CARGO_PKG_VERSION");
@@ -34,15 +34,20 @@ pub fn rexs_of(pair: &GearPair) -> String {
         );
     }
     t.push_str(" </relations>\n <components>\n");
-    let _ = writeln!(t, "  <component id=\"{stage}\" type=\"cylindrical_stage\"/>");
+    let width = pair.face_width();
+    let _ = writeln!(
+        t,
+        "  <component id=\"{stage}\" type=\"cylindrical_stage\">\
+         <attribute id=\"common_face_width\" unit=\"mm\">{width}</attribute></component>"
+    );
     for (i, gear) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
-        component(&mut t, gear, i, [0.0, pair.centre_distance()][i]);
+        component(&mut t, gear, i, [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][i]);
     }
     t.push_str(" </components>\n</model>\n");
     t
 }
 
-fn component(t: &mut String, gear: &Gear, i: usize, beside: f64) {
+fn component(t: &mut String, gear: &Gear, i: usize, [beside, along]: [f64; 2]) {
     let data = gear.data();
     let vector = |x: f64, z: f64| format!("<array><c>{x}</c><c>0</c><c>{z}</c></array>");
     let of_gear: [(&str, &str, String); 8] = [
@@ -53,7 +58,7 @@ fn component(t: &mut String, gear: &Gear, i: usize, beside: f64) {
         ("tip_diameter", "mm", (2.0 * gear.tip_radius()).to_string()),
         ("root_diameter", "mm", (2.0 * gear.root_radius()).to_string()),
         ("u_axis_vector", "mm", vector(1.0, 0.0)),
-        ("support_vector", "mm", vector(0.0, beside)),
+        ("support_vector", "mm", vector(along, beside)),
     ];
     let of_flank: [(&str, &str, String); 2] = [
         ("normal_pressure_angle", "deg", data.normal_pressure_angle.to_degrees().to_string()),
@@ -94,5 +99,21 @@ mod tests {
         assert!((read.centre_distance_mm.unwrap() - 187.5).abs() < 1e-9);
         let tips = [&pair.pinion, &pair.wheel].map(|gear| Some(2.0 * gear.tip_radius()));
         assert_eq!(read.tip_diameter_mm, tips);
+        assert_eq!((read.own_face_width_mm, read.mid_face_offset_mm), ([None, None], None));
+    }
+
+    /// Faces of two widths and at two heights come back as well.
+    #[test]
+    fn widths_and_offset_come_back() {
+        let data = GearData { face_width: 26.0, ..GearData::default() };
+        let wheel = GearData { face_width: 24.0, helix_angle: -data.helix_angle, ..data.clone() };
+        let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+        let pair = pair.with_mid_face_offset(-0.75).unwrap();
+        let read = read_pair(&rexs_of(&pair), 1, &Starter::default()).unwrap();
+        assert_eq!((read.own_face_width_mm, read.mid_face_offset_mm), ([Some(26.0), Some(24.0)], Some(-0.75)));
+        let text = read.text("a.toml");
+        let scene = crate::Scene::parse(&text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let again = scene.gear_pair().unwrap();
+        assert_eq!((again.common_face(), again.faces()), (pair.common_face(), pair.faces()));
     }
 }

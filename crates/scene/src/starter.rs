@@ -15,8 +15,12 @@ pub struct Starter {
     pub module_mm: f64,
     /// The pinion's helix angle, degrees, right hand positive.
     pub helix_deg: f64,
-    /// Face width of both gears, mm.
+    /// Face width of gears that have none of their own, mm.
     pub face_width_mm: f64,
+    /// Own face widths of pinion and wheel, mm.
+    pub own_face_width_mm: [Option<f64>; 2],
+    /// Height of the wheel's mid-face over the pinion's, mm; `None`: 0.
+    pub mid_face_offset_mm: Option<f64>,
     /// Torque on the driven gear, N m.
     pub torque_nm: f64,
     /// Speed of the driver, 1/min.
@@ -42,6 +46,8 @@ impl Default for Starter {
             module_mm: 3.0,
             helix_deg: 20.0,
             face_width_mm: 20.0,
+            own_face_width_mm: [None, None],
+            mid_face_offset_mm: None,
             torque_nm: 150.0,
             speed_rpm: 1000.0,
             profile_shift: [0.0, 0.0],
@@ -104,6 +110,9 @@ impl Starter {
                 self.profile_shift[i],
                 self.bore(i)
             );
+            if let Some(width) = self.own_face_width_mm[i] {
+                let _ = writeln!(t, "face_width_mm = {width:?}");
+            }
             if let Some(tip) = self.tip_diameter_mm[i] {
                 let _ = writeln!(t, "tip_diameter_mm = {tip:?}");
             }
@@ -124,6 +133,10 @@ impl Starter {
     fn pair_and_load(&self, t: &mut String) {
         let _ =
             write!(t, "[pair]\nnormal_module_mm = {:?}\nface_width_mm = {:?}\n", self.module_mm, self.face_width_mm);
+        let _ = match self.mid_face_offset_mm {
+            Some(offset) => writeln!(t, "mid_face_offset_mm = {offset:?}"),
+            None => writeln!(t, "# mid_face_offset_mm = 0.5        # of the wheel over the pinion, along +z"),
+        };
         let _ = match self.pressure_angle_deg {
             Some(angle) => writeln!(t, "normal_pressure_angle_deg = {angle:?}"),
             None => writeln!(t, "# normal_pressure_angle_deg = 20.0"),
@@ -212,6 +225,8 @@ mod tests {
                 centre_distance_mm: Some(84.0),
                 pressure_angle_deg: Some(20.0),
                 tip_diameter_mm: [None, Some(111.9)],
+                own_face_width_mm: [Some(20.0), None],
+                mid_face_offset_mm: Some(0.5),
                 kind,
             };
             let scene = read(&asked.text("a.toml"));
@@ -220,6 +235,7 @@ mod tests {
             assert_eq!(scene.wheel.helix_angle_deg, 15.0);
             assert_eq!([scene.pinion.profile_shift, scene.wheel.profile_shift], [0.3, 0.1]);
             assert_eq!((scene.pair.normal_module_mm, scene.pair.face_width_mm), (2.5, 18.0));
+            assert_eq!((scene.face_widths_mm(), scene.pair.mid_face_offset_mm), ([20.0, 18.0], Some(0.5)));
             assert_eq!((scene.pair.centre_distance_mm, scene.operation.torque_nm), (Some(84.0), 80.0));
             assert_eq!(scene.operation.speed_rpm, 1500.0);
             assert!(scene.gear_pair().is_ok());

@@ -48,6 +48,23 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert!((file.shafts[0].density - 7.85e-9).abs() < 1e-20, "{}", file.shafts[0].density);
 }
 
+/// Gears at two heights have the offset that their positions say, whatever heights shafts begin at; what the scene of the
+/// pair says of it may agree.
+#[test]
+fn positions_say_the_offset_of_mid_faces() {
+    let of = |text: &str| Gearbox::parse(text, &folder().join("two_stages.toml")).unwrap_or_else(|e| panic!("{e}"));
+    let text = text();
+    let level = of(&text);
+    let shifted = text.replacen("origin_mm = [91.0, 0.0, 0.0]", "origin_mm = [91.0, 0.0, 3.0]", 1);
+    assert_eq!(level.mid_face_offset([0, 1]), Some(0.5));
+    assert_eq!(level.mid_face_offset([2, 3]), None);
+    let moved = of(&shifted.replacen("[\"contact.slices=16\"]", "[\"pair.mid_face_offset_mm=3.5\"]", 1));
+    let apart = |file: &Gearbox, mesh: usize| file.mid_face_offset(file.meshes[mesh].gears).unwrap_or(0.0);
+    // The second stage has its pinion on the shaft that moved.
+    let said = [apart(&moved, 0) - apart(&level, 0), apart(&moved, 1) - apart(&level, 1)];
+    assert!((said[0] - 3.0).abs() < 1e-12 && (said[1] + 3.0).abs() < 1e-12, "{said:?} mm");
+}
+
 /// A mistake is told with its line, what is allowed, and what to do.
 #[test]
 fn mistakes_are_told_with_their_place() {
@@ -70,6 +87,18 @@ fn mistakes_are_told_with_their_place() {
             "shaft = \"middle\"\nposition_mm = 100.0",
             "the mesh \"second\" carries no load",
             "leave the mesh out",
+        ),
+        (
+            "shaft = \"middle\"\nposition_mm = 50.5",
+            "shaft = \"middle\"\nposition_mm = 150.0",
+            "\"1\" (26 mm wide) and \"2\" (24 mm) do not overlap: their mid-faces are 100 mm apart",
+            "`position_mm`",
+        ),
+        (
+            "set = [\"contact.slices=16\"]",
+            "set = [\"pair.mid_face_offset_mm=-2\"]",
+            "`mid_face_offset_mm` is -2",
+            "leave it out of the scene",
         ),
         ("pinion = \"3\"\nwheel = \"4\"", "pinion = \"1\"\nwheel = \"2\"", "have the same gears", "leave one out"),
         ("from_rpm = 400.0", "from_rpm = 7000.0", "speeds from 7000 to 6000", "higher one"),

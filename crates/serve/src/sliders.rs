@@ -108,7 +108,7 @@ fn start(
 /// In the plane of action or, where the scene has them so, along and across the plane of axes; the ends are 2 um a mm
 /// of face width.
 fn misalignment(scene: &Scene, written: &Written) -> Vec<Slider> {
-    let most = round_up(2.0 * scene.pair.face_width_mm).max(20.0);
+    let most = round_up(2.0 * scene.common_face_width_mm()).max(20.0);
     let by_axes = ["deviation_um", "inclination_um"].iter().any(|name| written.contains_key(&misaligned(name)));
     let names = if by_axes {
         [("deviation_um", "deviation of axes"), ("inclination_um", "inclination of axes")]

@@ -5,6 +5,7 @@ mod calculix;
 mod contact_ratio;
 mod corner_contact;
 mod face_load;
+mod face_widths;
 mod given_poses;
 mod gmsh_meshes;
 mod laws_of_statics;

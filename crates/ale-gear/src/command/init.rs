@@ -166,6 +166,8 @@ impl PairArgs {
             module_mm: self.module_mm.unwrap_or(d.module_mm),
             helix_deg: self.helix_deg.unwrap_or(d.helix_deg),
             face_width_mm: self.face_width_mm.unwrap_or(d.face_width_mm),
+            own_face_width_mm: if self.face_width_mm.is_some() { [None, None] } else { d.own_face_width_mm },
+            mid_face_offset_mm: d.mid_face_offset_mm,
             torque_nm: self.torque_nm.unwrap_or(d.torque_nm),
             speed_rpm: self.speed_rpm.unwrap_or(d.speed_rpm),
             profile_shift: two("--profile-shift", &self.profile_shift, d.profile_shift)?,

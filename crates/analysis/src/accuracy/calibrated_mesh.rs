@@ -1,7 +1,7 @@
 //! Meshes whose errors are known from random pairs.
 
 use mesh::StructuredOptions;
-use scene::{MesherScene, Scene};
+use scene::{GearScene, MesherScene, Scene};
 use serde::{Deserialize, Serialize};
 
 use super::Rung;
@@ -23,14 +23,14 @@ impl CalibratedMesh {
             return None;
         }
         let d = StructuredOptions::default();
-        let default = |m: &MesherScene| {
+        let default = |gear: &GearScene, m: &MesherScene| {
             let counts = [m.elements_profile, m.elements_fillet, m.elements_thickness, m.elements_face, m.elements_rim];
-            let face = scene.face_elements(m.order);
+            let face = scene.face_elements(gear, m.order);
             m.order == d.order
                 && counts == [d.elements_profile, d.elements_fillet, d.elements_thickness, face, d.elements_rim]
         };
         let rung = Rung::of(scene).map(|rung| Self::Rung(rung.elements_profile));
-        let is_default = scene.gears().iter().all(|g| g.mesher.as_ref().is_some_and(default));
+        let is_default = scene.gears().iter().all(|g| g.mesher.as_ref().is_some_and(|m| default(g, m)));
         rung.or(is_default.then_some(Self::Default))
     }
 

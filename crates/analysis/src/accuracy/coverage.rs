@@ -70,7 +70,7 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
         }
     };
     check("a helix angle", scene.pinion.helix_angle_deg.abs(), HELIX_DEG);
-    check("b/m_n", scene.pair.face_width_mm / module, WIDTH_MODULES);
+    check("b/m_n", result.pair.face_width() / module, WIDTH_MODULES);
     check("a normal pressure angle", scene.pair.normal_pressure_angle_deg, PRESSURE_ANGLE_DEG);
     check("a Hertz pressure at the pitch point (MPa)", nominal_pressure(scene, &result.pair), PRESSURE_MPA);
     let positions = f64::from(scene.analysis.positions_per_cycle);
@@ -89,6 +89,10 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
         );
         check(&format!("profile shift of the {name}"), gear.profile_shift, SHIFT);
         check(&format!("rim of the {name} in modules"), rim, LEAST_RIM_MODULES..=f64::INFINITY);
+    }
+    let [first, second] = result.pair.faces();
+    if first != second {
+        all.push("faces of two widths or at two heights: the calibration has equal ones side by side".into());
     }
     let measured = |gear: &&GearScene| {
         let flanks = [&gear.modification.drive, &gear.modification.coast];

@@ -62,7 +62,7 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
         overlap / (1.0 + overlap),
         flag(relief),
         flag(crowned),
-        (scene.pair.face_width_mm / (10.0 * scene.pair.normal_module_mm)).ln(),
+        (pair.face_width() / (10.0 * scene.pair.normal_module_mm)).ln(),
     ]
 }
 

@@ -64,7 +64,9 @@ impl Rung {
     pub fn mesher(self, scene: &Scene) -> MesherScene {
         let n = self.elements_profile;
         let slope = scene.pinion.helix_angle_deg.to_radians().tan().abs();
-        let modules = scene.pair.face_width_mm / scene.pair.normal_module_mm;
+        // Gears of two widths have one mesh, fine enough for the wider one.
+        let [first, second] = scene.face_widths_mm();
+        let modules = first.max(second) / scene.pair.normal_module_mm;
         let by_length = (f64::from(n) * modules / FACE_LENGTH_MODULES * (1.0 + slope)).ceil() as u32;
         let oblique = (f64::from(n) * slope).round() as u32;
         MesherScene {

@@ -58,7 +58,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
             gear: &meshes[i],
             material: &materials[i],
             angle: angles[i],
-            centre_x: [0.0, pair.centre_distance()][i],
+            centre: [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][i],
         };
         let deck = Deck {
             bodies: [body(0), body(1)],

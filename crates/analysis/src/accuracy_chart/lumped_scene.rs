@@ -106,8 +106,8 @@ pub(super) fn shaft18(scene: &mut Scene) {
     lumped(scene, Model::Shaft18, &[], StiffnessFrom::Iso);
     scene.shaft18 =
         Some(Shaft18Scene { mass_damping_per_s: 20.0, stiffness_damping_s: 2e-7, gravity_m_per_s2: [0.0; 3] });
-    let width = scene.pair.face_width_mm;
-    for gear in [&mut scene.pinion, &mut scene.wheel] {
+    let widths = scene.face_widths_mm();
+    for (gear, width) in [&mut scene.pinion, &mut scene.wheel].into_iter().zip(widths) {
         gear.shaft = Some(shaft(gear, width));
     }
 }

@@ -32,6 +32,8 @@ fn scene_of(file: &Gearbox, mesh: usize, meshing: Option<&Meshing>) -> Scene {
     if scene.pair.centre_distance_mm.is_none_or(|stated| (stated - apart).abs() < 1e-6 * apart) {
         scene.pair.centre_distance_mm = Some(apart);
     }
+    // What the scene states of it was held against this where the file was read.
+    scene.pair.mid_face_offset_mm = file.mid_face_offset(own.gears);
     if let Some(meshing) = meshing {
         scene.operation.driver = match meshing.driver {
             geometry::Driver::Pinion => Driver::Pinion,

@@ -21,8 +21,10 @@ pub struct GearPattern {
     pub name: &'static str,
     /// The driving flank of tooth 0, nominal: micro-geometry is too small to be seen.
     pub flank: Flank,
-    /// x of the gear's centre, mm; y and z are 0.
-    pub centre_x: f64,
+    /// x and z of the gear's centre, at mid-face, mm; y is 0.
+    pub centre: [f64; 2],
+    /// Ends of the common face over the gear's own mid-face, mm: what the grid covers of the flank.
+    pub face: [f64; 2],
     /// Largest pressure and line load over roll angle and height.
     pub grid: FlankPattern,
 }
@@ -31,6 +33,13 @@ impl GearPattern {
     /// Diameter at roll angle `roll` (rad), mm: d = 2 r_b sqrt(1 + u^2).
     pub fn diameter(&self, roll: f64) -> f64 {
         diameter(self.flank.base_radius, roll)
+    }
+
+    /// Height of the lower edge of a station's strip over the gear's mid-face, mm; that of the number of stations is the
+    /// upper end of the common face.
+    pub fn strip_edge(&self, station: usize) -> f64 {
+        let ([low, high], count) = (self.face, self.grid.stations().len());
+        0.5 * (low + high) + 0.5 * (high - low) * (2.0 * station.min(count) as f64 / count as f64 - 1.0)
     }
 
     /// Largest pressure of all, MPa.
@@ -63,14 +72,16 @@ pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Resu
 /// [`StudyError`] when the flank has no height.
 pub fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
-    let stations = stations(pair.face_width(), scene.contact.slices.unwrap_or(1) as usize);
+    let stations = stations(pair, gear, scene.contact.slices.unwrap_or(1) as usize);
     FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)
 }
 
 /// A grid with the flank that it lies on.
 pub fn on_flank(scene: &Scene, pair: &GearPair, gear: usize, grid: FlankPattern) -> GearPattern {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
-    GearPattern { name: ["pinion", "wheel"][gear], flank, centre_x: [0.0, pair.centre_distance()][gear], grid }
+    let centre = [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][gear];
+    let face = pair.common_face().map(|z| z - centre[1]);
+    GearPattern { name: ["pinion", "wheel"][gear], flank, centre, face, grid }
 }
 
 /// What a loaded slice of a pair is to the pattern of a gear.
@@ -97,9 +108,10 @@ fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize)
     Ok(on_flank(scene, pair, gear, grid))
 }
 
-/// Mid-heights of `count` slices over the face width, mm.
-fn stations(width: f64, count: usize) -> Vec<f64> {
-    (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect()
+/// Mid-heights of `count` slices of the common face over the gear's own mid-face, mm.
+fn stations(pair: &GearPair, gear: usize, count: usize) -> Vec<f64> {
+    let (width, middle) = (pair.face_width(), pair.common_middle()[gear]);
+    (0..count).map(|i| middle + width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect()
 }
 
 /// The loaded slices of a position on `side` as touches of one tooth of a gear.

@@ -32,15 +32,15 @@ const AROUND: usize = 4;
 /// carry, and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end
 /// face, or between three stations that are about to touch.
 ///
-/// `stations` (mm) are evenly spaced, ascending, half a step inside of the faces at -+ `half`; `solved` has `None` for
+/// `stations` (mm) are evenly spaced, ascending, half a step inside of the ends `face` of the common face; `solved` has `None` for
 /// stations that are too far apart to have been looked at.
 pub fn loaded_intervals(
     stations: &[f64],
     solved: &[Option<LineStation>],
-    half: f64,
+    face: [f64; 2],
     gap: impl FnMut(usize, f64) -> f64,
 ) -> Vec<[f64; 2]> {
-    Line { stations, solved, step: 2.0 * half / stations.len().max(1) as f64, gap }.intervals(half)
+    Line { stations, solved, step: (face[1] - face[0]) / stations.len().max(1) as f64, gap }.intervals(face)
 }
 
 struct Line<'a, G> {
@@ -51,13 +51,13 @@ struct Line<'a, G> {
 }
 
 impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
-    fn intervals(&mut self, half: f64) -> Vec<[f64; 2]> {
+    fn intervals(&mut self, face: [f64; 2]) -> Vec<[f64; 2]> {
         let count = self.stations.len();
         let mut all = Vec::new();
         let mut from = None;
         for i in 0..count {
             match (from, self.presses(i)) {
-                (None, true) => from = Some(if i == 0 { self.end(0, -half) } else { self.between(i, i - 1) }),
+                (None, true) => from = Some(if i == 0 { self.end(0, face[0]) } else { self.between(i, i - 1) }),
                 (Some(start), false) => {
                     all.push([start, self.between(i - 1, i)]);
                     from = None;
@@ -65,11 +65,11 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
                 _ => {}
             }
             if !self.presses(i) {
-                all.extend(self.unreached(i, half));
+                all.extend(self.unreached(i, face));
             }
         }
         if let Some(start) = from {
-            all.push([start, self.end(count - 1, half)]);
+            all.push([start, self.end(count - 1, face[1])]);
         }
         all
     }
@@ -91,11 +91,11 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
 
     /// A part of the line that no station carries, beside station `i`, which is open: at an end face, or where the gap
     /// dips between stations.
-    fn unreached(&mut self, i: usize, half: f64) -> Option<[f64; 2]> {
+    fn unreached(&mut self, i: usize, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
         let here = self.solved[i]?.gap;
         let z = self.stations[i];
         let count = self.stations.len();
-        let face = [(0, -half), (count - 1, half)].into_iter().find(|(end, _)| *end == i).map(|(_, face)| face);
+        let face = [(0, low), (count - 1, high)].into_iter().find(|(end, _)| *end == i).map(|(_, face)| face);
         if let Some(face) = face {
             let there = self.under_load(i, face);
             let end = (there < 0.0).then(|| self.zero_of(i, [face, z], [there, here]))?;

@@ -31,7 +31,7 @@ pub fn line_pressure(
     modulus: f64,
 ) -> f64 {
     let along = 1.0 / pair.base_helix_angle().cos();
-    let half = 0.5 * pair.face_width();
+    let [low, high] = pair.common_face();
     let element = patch.mean_face_size()[1];
     let bins = (pair.face_width() / (BIN_ELEMENTS * element)).floor().clamp(1.0, 64.0) as usize;
     let width = pair.face_width() / bins as f64;
@@ -41,9 +41,11 @@ pub fn line_pressure(
         let support = &row.supports[0];
         for (&node, w) in support.nodes[..support.count].iter().zip(support.weights) {
             let Some([_, z]) = patch.node_coordinates(node) else { continue };
-            let (from, to) = ((z - 0.5 * element).max(-half), (z + 0.5 * element).min(half));
+            // A node beyond the common face holds up the last faces that reach into it.
+            let z = z.clamp(low, high);
+            let (from, to) = ((z - 0.5 * element).max(low), (z + 0.5 * element).min(high));
             for b in 0..bins {
-                let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+                let bin = [low + b as f64 * width, low + (b + 1) as f64 * width];
                 let share = f * w * covered(&[bin], [from, to]) / (to - from);
                 load[b] += share;
                 path[b] += share * row.coordinates[0] * pair.pinion.base_radius();
@@ -52,7 +54,7 @@ pub fn line_pressure(
     }
     (0..bins)
         .map(|b| {
-            let bin = [-half + b as f64 * width, -half + (b + 1) as f64 * width];
+            let bin = [low + b as f64 * width, low + (b + 1) as f64 * width];
             // A bin that the line leaves carries its load on part of its length.
             let length = along * covered(line, bin).max(0.5 * width);
             let radius = if load[b] > 0.0 { relative_radius(pair, path[b] / load[b]) } else { return 0.0 };
@@ -70,14 +72,14 @@ fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
 
 /// Axial intervals over which a pair of patches touches, by the deformed gap where the undeformed flanks at the loaded
 /// pose are nearest. `displacements` are those of both gears' boundary coordinates, mm; `approach` that of the flanks
-/// under load, mm; `half` half the face width, mm.
+/// under load, mm; `face` the common face, mm.
 pub fn nodal_contact_line(
     set: &ContactSet,
     options: &ContactOptions,
     poses: &[Pose; 2],
     displacements: &[Vec<f64>; 2],
     (first, second): (usize, usize),
-    [half, approach]: [f64; 2],
+    (face, approach): ([f64; 2], f64),
 ) -> Vec<[f64; 2]> {
     let [patch, other] = [&set.patches()[0][first], &set.patches()[1][second]];
     let [low, high] = patch.range();
@@ -92,7 +94,7 @@ pub fn nodal_contact_line(
         Some(row.gap + opening(&row.supports[0], u1) + opening(&row.supports[1], u2))
     };
     let inset = 1e-6 * (high[1] - low[1]);
-    let range = [(low[1] + inset).max(-half), (high[1] - inset).min(half)];
+    let range = [(low[1] + inset).max(face[0]), (high[1] - inset).min(face[1])];
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * approach)
 }
 
@@ -103,7 +105,7 @@ pub fn slice_line(
     poses: &[Pose; 2],
     pair: (usize, usize),
     rows: impl Iterator<Item = (usize, LineStation, Slice)>,
-    half: f64,
+    face: [f64; 2],
 ) -> Vec<[f64; 2]> {
     let Some(slices) = set.slices() else { return Vec::new() };
     let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), poses);
@@ -119,7 +121,7 @@ pub fn slice_line(
         let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
         touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
     };
-    loaded_intervals(stations, &solved, half, gap)
+    loaded_intervals(stations, &solved, face, gap)
 }
 
 /// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included,
@@ -174,11 +176,11 @@ fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
     let [start, end] = pair.path_of_contact();
     let theta1 = station.pinion_angle(pair, side, options.sense);
     let tooth = running - station.middle_pair(options.sense);
-    let half = 0.5 * pair.face_width();
+    let (half, [middle, _]) = (0.5 * pair.face_width(), pair.common_middle());
     let (w_low, w_high) = (flank2.nominal().roll_form, flank2.nominal().roll_tip);
     (0..=32)
         .map(|i| {
-            let z = half * (f64::from(i) / 16.0 - 1.0);
+            let z = middle + half * (f64::from(i) / 16.0 - 1.0);
             let xi = pair.path_coordinate(side, theta1, tooth, z);
             let u = xi.clamp(start, end) / base_radius;
             let point = poses[0].transform_point(&flank1.point(u, z).into());

@@ -34,10 +34,12 @@ pub(super) struct FirstOrderGap {
     base_radius: [f64; 2],
     /// Roll angles [low, high] of both flanks.
     rolls: [[f64; 2]; 2],
-    /// Roll angles of nominal contact at mid-face; they go beyond the flanks as if these went on.
+    /// Roll angles of nominal contact at the first one's mid-face; they go beyond the flanks as if these went on.
     touch: [f64; 2],
     /// Of the first one with height, rad/mm.
     twist: f64,
+    /// Height of the second one's mid-face over the first one's, mm.
+    offset: f64,
     cos_base_helix: f64,
     /// Between places, mm of the first flank's arc in its middle.
     stride: f64,
@@ -89,26 +91,30 @@ impl FirstOrderGap {
         let line = across.y.atan2(across.x);
         let s = first.side.sign();
         // Both touch the line of action at the same turn from the line of centres, seen from their own centres.
-        let at = |flank: &Flank, pose: &Pose, [low, high]: [f64; 2], line: f64| {
+        let at = |(flank, z): (&Flank, f64), pose: &Pose, [low, high]: [f64; 2], line: f64| {
             let axis = pose.rotation * Vec3::x();
-            let root = axis.y.atan2(axis.x) + flank.generating_angle(0.0, 0.0);
+            let root = axis.y.atan2(axis.x) + flank.generating_angle(0.0, z);
             let middle = 0.5 * (low + high);
             middle + (s * (root - line) + pressure_angle - middle + PI).rem_euclid(TAU) - PI
         };
-        let [u1, own] = [at(first, poses[0], rolls[0], line), at(second, poses[1], rolls[1], line + PI)];
+        // At the height of the first one's mid-face.
+        let offset = across.z;
+        let [u1, own] =
+            [at((first, 0.0), poses[0], rolls[0], line), at((second, -offset), poses[1], rolls[1], line + PI)];
         let length = distance * pressure_angle.sin() - first.base_radius * u1;
         let [low, high] = rolls[0];
         let stride = first.base_radius * 0.5 * (high * high - low * low) / STRIDES;
         let cos_base_helix = first.base_helix_angle.cos();
         let apart = cos_base_helix * (length - second.base_radius * own);
         let axes = poses.map(|pose| pose.rotation * Vec3::z());
-        let tilted = 2.0 * axes[0].cross(&axes[1]).norm() * first.half_width;
+        let tilted = 2.0 * axes[0].cross(&axes[1]).norm() * (first.half_width + offset.abs());
         let serves = stride > 0.0 && first.side == second.side && apart.abs() + tilted <= NEARLY * stride;
         serves.then(|| Self {
             base_radius: [first.base_radius, second.base_radius],
             rolls,
             touch: [u1, length / second.base_radius],
             twist: s * first.twist,
+            offset,
             cos_base_helix,
             stride,
             apart,
@@ -170,7 +176,7 @@ impl FirstOrderGap {
         let place = |s: f64| -> Place {
             let [u1, u2] = rolls(s);
             let parted = parted(s);
-            [s, parted + surfaces[0].depth([u1, z]) + surfaces[1].depth([u2, z]), parted]
+            [s, parted + surfaces[0].depth([u1, z]) + surfaces[1].depth([u2, z - self.offset]), parted]
         };
         let told = |p: Place| {
             let doubt = 0.5 * amount + share * p[2] + self.tilted;

@@ -48,8 +48,8 @@ impl SliceSet {
         options: &ContactOptions,
     ) -> Result<Self, ContactError> {
         let count = options.slices.max(1);
-        let width = pair.face_width();
-        let stations = (0..count).map(|i| width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
+        let (width, [middle, _]) = (pair.face_width(), pair.common_middle());
+        let stations = (0..count).map(|i| middle + width * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
         let geometry = [&pair.pinion, &pair.wheel];
         let mut bodies = [Vec::new(), Vec::new()];
         for (i, of_gear) in bodies.iter_mut().enumerate() {
@@ -111,7 +111,7 @@ impl SliceSet {
         self.corner_contact || slice.local.off_line == 0.0
     }
 
-    /// Heights of the stations, mm, ascending.
+    /// Heights of the stations on the pinion, mm, ascending: those of slices of the common face.
     pub fn stations(&self) -> &[f64] {
         &self.stations
     }

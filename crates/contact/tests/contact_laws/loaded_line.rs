@@ -8,7 +8,7 @@ fn length(g: impl Fn(f64) -> f64, o: impl Fn(f64) -> f64, count: usize, reach: f
     let stations: Vec<f64> = (0..count).map(|i| 20.0 * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
     let known = |&z: &f64| (g(z) <= reach).then(|| LineStation { gap: g(z) + o(z), opened: o(z) });
     let solved: Vec<_> = stations.iter().map(known).collect();
-    covered(&loaded_intervals(&stations, &solved, 10.0, |_, z| g(z)), [-10.0, 10.0])
+    covered(&loaded_intervals(&stations, &solved, [-10.0, 10.0], |_, z| g(z)), [-10.0, 10.0])
 }
 
 /// A crowned line that shrinks to nothing: from nine stations and from ninety, to a 10^4th, wherever its middle lies.

@@ -12,7 +12,7 @@ use geometry::{GearPair, Sense};
 use ltca::StaticModel;
 use reduction::ElasticGear;
 
-use crate::pairs::{operation, options, pair, reduced, single, two_stages};
+use crate::pairs::{of_widths, operation, options, pair, reduced, single, two_stages};
 
 const TORQUE: f64 = 2e5;
 
@@ -51,47 +51,75 @@ fn angle_at(gearbox: &StaticGearbox, cycles: f64) -> f64 {
 #[test]
 fn held_shafts_leave_the_pair_alone() {
     let pair = pair([21, 32], 20.0);
-    for (input, sense, direction) in
-        [(2, Sense::Ccw, 0.0), (2, Sense::Cw, 0.0), (3, Sense::Ccw, 0.0), (2, Sense::Ccw, 1.9)]
-    {
-        let structure = single(&pair, direction);
-        let driven = if input == 2 { 1 } else { 0 };
-        // The torque is on the other shaft, which turns against the input.
-        let torque = sense.sign() as f64 * TORQUE;
-        let mut run = operation(&structure, input, sense, vec![Torque { disc: driven, torque }]);
-        run.held = vec![0, 1];
-        let gears = Reduced::default();
-        let mut gearbox = exact(structure, one(&pair), run, &gears);
-        let own = options(&pair, &gearbox.train().meshing()[0], TORQUE);
-        let gears = gearbox_gears(&gears, 0).clone().unwrap();
-        let mut alone = StaticModel::new(pair.clone(), gears, own).unwrap();
-        for cycles in [0.05, 0.3, 0.5, 0.8, 1.15] {
-            let found = gearbox.solve(angle_at(&gearbox, cycles)).unwrap_or_else(|e| panic!("{e}"));
-            let wanted = alone.advance(Station::at_cycles(found.meshes[0].cycles), |_| ()).unwrap();
-            let mesh = &found.meshes[0];
-            let at = format!("input {input}, {sense:?}, direction {direction}, {cycles} cycles");
-            let off = mesh.transmission_error / wanted.transmission_error - 1.0;
-            println!("{at}: transmission error off by {off:.1e}, {:?}", found.certificate);
-            assert!(off.abs() < 1e-9, "{at}: transmission error {off:.1e}");
-            let normal: f64 = wanted.pairs.iter().map(|p| p.normal_force).sum();
-            let (sin, cos) = direction.sin_cos();
-            for g in 0..2 {
-                let [x, y, z] = mesh.force[g];
-                let own = [cos * x + sin * y, cos * y - sin * x, z];
-                for (axis, own) in own.iter().enumerate() {
-                    let off = (own - wanted.wrench[g].force[axis]).abs() / normal;
-                    assert!(off < 1e-9, "{at}: force {axis} on gear {g}: {off:.1e}");
-                }
-                let [x, y, z] = mesh.moment[g];
-                let own = [cos * x + sin * y, cos * y - sin * x, z];
-                for (axis, own) in own.iter().enumerate() {
-                    let off = (own - wanted.wrench[g].moment[axis]).abs() / TORQUE;
-                    assert!(off < 1e-9, "{at}: moment {axis} on gear {g}: {off:.1e}");
-                }
-            }
-            let pressure = mesh.slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
-            assert!((pressure / wanted.max_pressure - 1.0).abs() < 1e-9, "{at}: pressure {pressure}");
+    for run in [(2, Sense::Ccw, 0.0), (2, Sense::Cw, 0.0), (3, Sense::Ccw, 0.0), (2, Sense::Ccw, 1.9)] {
+        is_the_pair_alone(&pair, run);
+    }
+}
+
+/// The same of gears of two face widths at two heights.
+#[test]
+fn gears_at_two_heights_are_the_pair_with_that_offset() {
+    for offset in [4.0, -7.5] {
+        let pair = of_widths([21, 32], 20.0, [26.0, 20.0]).with_mid_face_offset(offset).unwrap();
+        for run in [(2, Sense::Ccw, 0.0), (3, Sense::Cw, -0.7)] {
+            is_the_pair_alone(&pair, run);
         }
+    }
+}
+
+/// Positions must be those that the pair is made for.
+#[test]
+fn other_heights_are_refused() {
+    let pair = pair([21, 32], 20.0).with_mid_face_offset(2.0).unwrap();
+    let mut structure = single(&pair, 0.0);
+    structure.discs[1].position += 1.5;
+    let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
+    let error = gearbox::Train::new(&structure, &one(&pair), &run.keys, run.input, run.sense).unwrap_err();
+    let told = error.to_string();
+    assert!(told.contains("1.5 mm above") && told.contains("made for 2 mm"), "{told}");
+    assert!(error.hint().is_some());
+}
+
+/// One run: input disc, sense, direction of the wheel.
+fn is_the_pair_alone(pair: &GearPair, (input, sense, direction): (usize, Sense, f64)) {
+    let mut structure = single(pair, direction);
+    structure.discs[1].position += pair.mid_face_offset();
+    let driven = if input == 2 { 1 } else { 0 };
+    // The torque is on the other shaft, which turns against the input.
+    let torque = sense.sign() as f64 * TORQUE;
+    let mut run = operation(&structure, input, sense, vec![Torque { disc: driven, torque }]);
+    run.held = vec![0, 1];
+    let gears = Reduced::default();
+    let mut gearbox = exact(structure, one(pair), run, &gears);
+    let own = options(pair, &gearbox.train().meshing()[0], TORQUE);
+    let gears = gearbox_gears(&gears, 0).clone().unwrap();
+    let mut alone = StaticModel::new(pair.clone(), gears, own).unwrap();
+    for cycles in [0.05, 0.3, 0.5, 0.8, 1.15] {
+        let found = gearbox.solve(angle_at(&gearbox, cycles)).unwrap_or_else(|e| panic!("{e}"));
+        let wanted = alone.advance(Station::at_cycles(found.meshes[0].cycles), |_| ()).unwrap();
+        let mesh = &found.meshes[0];
+        let at = format!("input {input}, {sense:?}, direction {direction}, {cycles} cycles");
+        let off = mesh.transmission_error / wanted.transmission_error - 1.0;
+        println!("{at}: transmission error off by {off:.1e}, {:?}", found.certificate);
+        assert!(off.abs() < 1e-9, "{at}: transmission error {off:.1e}");
+        let normal: f64 = wanted.pairs.iter().map(|p| p.normal_force).sum();
+        let (sin, cos) = direction.sin_cos();
+        for g in 0..2 {
+            let [x, y, z] = mesh.force[g];
+            let own = [cos * x + sin * y, cos * y - sin * x, z];
+            for (axis, own) in own.iter().enumerate() {
+                let off = (own - wanted.wrench[g].force[axis]).abs() / normal;
+                assert!(off < 1e-9, "{at}: force {axis} on gear {g}: {off:.1e}");
+            }
+            let [x, y, z] = mesh.moment[g];
+            let own = [cos * x + sin * y, cos * y - sin * x, z];
+            for (axis, own) in own.iter().enumerate() {
+                let off = (own - wanted.wrench[g].moment[axis]).abs() / TORQUE;
+                assert!(off < 1e-9, "{at}: moment {axis} on gear {g}: {off:.1e}");
+            }
+        }
+        let pressure = mesh.slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
+        assert!((pressure / wanted.max_pressure - 1.0).abs() < 1e-9, "{at}: pressure {pressure}");
     }
 }
 

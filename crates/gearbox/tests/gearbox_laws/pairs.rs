@@ -17,11 +17,17 @@ use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// Module 3 mm, 20 degrees, face width 20 mm; gear 1 with a right-hand helix where it is above 0.
 pub fn pair(teeth: [u32; 2], helix_deg: f64) -> GearPair {
+    of_widths(teeth, helix_deg, [20.0; 2])
+}
+
+/// The same with a face width for each gear, mm.
+pub fn of_widths(teeth: [u32; 2], helix_deg: f64, widths: [f64; 2]) -> GearPair {
     let gear = |i: usize| {
         let helix = [helix_deg, -helix_deg][i].to_radians();
         let z = teeth[i];
         let bore_diameter = 0.55 * 3.0 * f64::from(z) / helix.cos();
-        Gear::new(GearData { teeth: z, helix_angle: helix, bore_diameter, ..GearData::default() }).unwrap()
+        let face_width = widths[i];
+        Gear::new(GearData { teeth: z, helix_angle: helix, bore_diameter, face_width, ..GearData::default() }).unwrap()
     };
     GearPair::new(gear(0), gear(1), None).unwrap()
 }

@@ -1,5 +1,6 @@
 //! Laws of the crate `geometry`.
 
+mod faces;
 mod iso21771;
 mod modification;
 mod nonsense;

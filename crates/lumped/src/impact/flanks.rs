@@ -54,8 +54,8 @@ impl FlankSide {
                 .map(|tooth| FlankPatch::rigid(tooth, Box::new(gear.modified_flank(side, tooth)), range))
                 .collect()
         });
-        let width = pair.face_width();
-        let stations = (0..slices).map(|i| width * ((i as f64 + 0.5) / slices as f64 - 0.5)).collect();
+        let (width, [middle, _]) = (pair.face_width(), pair.common_middle());
+        let stations = (0..slices).map(|i| middle + width * ((i as f64 + 0.5) / slices as f64 - 0.5)).collect();
         let hints = vec![SliceHint::default(); slices * pair.pinion.teeth() as usize];
         Self { side, patches, stations, hints }
     }
@@ -78,8 +78,8 @@ impl FlankSide {
         let (low, high) = (start - beyond * pitch, end + beyond * pitch);
         let reach = 0.5 * pair.face_width() * pair.base_helix_angle().tan().abs();
         let s = self.side.sign();
-        // xi(tooth) = xi_0 + s tooth p_bt at mid-face.
-        let middle = pair.path_coordinate(self.side, at.pinion_angle, 0, 0.0);
+        // xi(tooth) = xi_0 + s tooth p_bt in the middle of the common face.
+        let middle = pair.path_coordinate(self.side, at.pinion_angle, 0, pair.common_middle()[0]);
         let ends = [(low - reach - middle) / pitch, (high + reach - middle) / pitch].map(|x| s * x);
         let (first, last) = (ends[0].min(ends[1]).ceil() as i64, ends[0].max(ends[1]).floor() as i64);
         // The wheel tooth that stands nearest to these flanks of pinion tooth 0.

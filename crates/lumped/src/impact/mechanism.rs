@@ -118,7 +118,8 @@ impl ImpactMechanism {
         let angles = at.frame_angles(&self.pair);
         [0, 1].map(|g| {
             let i = COORDINATES * g;
-            let place = Vector3::new([0.0, self.pair.centre_distance()][g] + d[i], d[i + 1], d[i + 2]);
+            let [x, z] = [[0.0, 0.0], [self.pair.centre_distance(), self.pair.mid_face_offset()]][g];
+            let place = Vector3::new(x + d[i], d[i + 1], z + d[i + 2]);
             let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[i + 3], d[i + 4], 0.0));
             let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[g] + d[i + 5]);
             Pose::from_parts(Translation3::from(place), tilt * turn)

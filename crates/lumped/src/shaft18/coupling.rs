@@ -26,6 +26,9 @@ pub struct MeshGeometry {
     pub centre_distance: f64,
     /// Direction from gear 1's axis to gear 2's, rad from +x towards +y.
     pub direction: f64,
+    /// Height of the middle of the common face over the mid-faces of gear 1 and gear 2, mm.
+    #[serde(default)]
+    pub middle: [f64; 2],
     /// Flanks of gear 1 that carry the load: left where it drives counter-clockwise, or is driven clockwise.
     pub side: Side,
 }
@@ -34,11 +37,12 @@ pub struct MeshGeometry {
 ///
 /// ```text
 /// delta = h_1 . d_1 + h_2 . d_2,   h_1 = [n; p_1 x n],  h_2 = -[n; p_2 x n]
-/// n = cos b_b t - s sin b_b e_z,   t = (sin a_wt, s cos a_wt),   p_1 = r_w1 e_c,  p_2 = -r_w2 e_c       (e_c along the line of centres)
+/// n = cos b_b t - s sin b_b e_z,   t = (sin a_wt, s cos a_wt),   p_1 = r_w1 e_c + m_1 e_z,  p_2 = -r_w2 e_c + m_2 e_z
 /// ```
 /// delta: compression of the mesh along the normal, mm; a normal force F presses gear i with -F h_i. n: out of gear 1's
-/// loaded flank, s = +1 left, -1 right; p: from the gear's centre to the pitch point at mid-face, where the resultant
-/// of an evenly loaded mesh acts on average. Turns alone give delta = s cos b_b (r_b1 theta_1 + r_b2 theta_2). On the
+/// loaded flank, s = +1 left, -1 right; e_c along the line of centres; p: from the gear's centre at mid-face to the
+/// pitch point in the middle of the common face (m: its heights), where the resultant of an evenly loaded mesh acts on
+/// average. Turns alone give delta = s cos b_b (r_b1 theta_1 + r_b2 theta_2). On the
 /// coast flanks the true line of action is the mirror image: with one line for both, backlash is exact in turning and
 /// along the line, and not across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,6 +66,7 @@ impl MeshGeometry {
             helix_angle: data.helix_angle,
             centre_distance: pair.centre_distance(),
             direction: 0.0,
+            middle: pair.common_middle(),
             side,
         }
     }
@@ -86,6 +91,9 @@ impl MeshGeometry {
         inside("normal pressure angle, rad", self.normal_pressure_angle, 0.0, 0.5 * PI, "between 0 and pi/2")?;
         inside("helix angle, rad", self.helix_angle, -0.5 * PI, 0.5 * PI, "between -pi/2 and pi/2")?;
         finite("direction of the line of centres, rad", self.direction)?;
+        for height in self.middle {
+            finite("height of the middle of the common face, mm", height)?;
+        }
         let (beta, alpha_n, s) = (self.helix_angle, self.normal_pressure_angle, self.side.sign());
         let alpha_t = (alpha_n.tan() / beta.cos()).atan();
         let base_radii = self.teeth.map(|z| 0.5 * self.normal_module * f64::from(z) / beta.cos() * alpha_t.cos());
@@ -109,8 +117,9 @@ impl MeshGeometry {
             sign * SVector::<f64, 6>::from([n.x, n.y, n.z, turn.x, turn.y, turn.z])
         };
         let [r1, r2] = base_radii.map(|r| r / working.cos());
+        let ([m1, m2], up) = (self.middle, |height: f64| Vector3::new(0.0, 0.0, height));
         Ok(MeshLine {
-            levers: [lever(r1 * towards, 1.0), lever(-r2 * towards, -1.0)],
+            levers: [lever(r1 * towards + up(m1), 1.0), lever(-(r2 * towards - up(m2)), -1.0)],
             base_radii,
             cos_base_helix: base_helix.cos(),
         })

@@ -147,19 +147,24 @@ fn lumping_keeps_mass_centre_and_inertia_about_the_axis() {
 }
 
 /// The line of action is what the true flanks say: the gap at the pitch point changes with each displacement of either
-/// gear by -h.
+/// gear by -h; in the middle of the common face, wherever the wheel's mid-face is.
 #[test]
 fn mesh_line_is_the_slope_of_the_true_gap() {
-    for (side, hand) in [(Side::Left, 1.0), (Side::Right, 1.0), (Side::Left, -1.0), (Side::Right, -1.0)] {
+    let runs = [(Side::Left, 1.0), (Side::Right, 1.0), (Side::Left, -1.0), (Side::Right, -1.0)];
+    for ((side, hand), offset) in runs.into_iter().flat_map(|run| [0.0, 13.0].map(|offset| (run, offset))) {
         let data = GearData { helix_angle: hand * 25f64.to_radians(), thickness_allowance: 0.0, ..GearData::default() };
         let wheel = GearData { helix_angle: -data.helix_angle, teeth: 41, profile_shift: 0.2, ..data.clone() };
         let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+        let pair = pair.with_mid_face_offset(offset).unwrap();
         let line = MeshGeometry::of_pair(&pair, side).line().unwrap();
-        // Pinion angle at which the flanks of teeth 0 touch at the pitch point at mid-face.
+        let projection = contact::FlankProjection::new(&pair, side);
+        let middle = pair.common_middle()[0];
+        // Pinion angle at which the flanks of teeth 0 touch at the pitch point in the middle of the common face.
         let roll = pair.working_pressure_angle().tan();
-        let theta1 = side.sign() * (roll - pair.pinion.profile().base_half_angle() - pair.working_pressure_angle());
+        let theta1 = side.sign() * (roll - pair.pinion.profile().base_half_angle() - pair.working_pressure_angle())
+            - pair.pinion.twist() * middle;
         let angles = [theta1, pair.wheel_angle(side, theta1)];
-        let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, 0.0)];
+        let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, offset)];
         let flanks = [pair.pinion.flank(side), pair.wheel.flank(side)];
         let pose = |g: usize, d: &SVector<f64, 6>| {
             let turn = UnitQuaternion::from_scaled_axis(Vector3::new(d[3], d[4], d[5]));
@@ -169,7 +174,7 @@ fn mesh_line_is_the_slope_of_the_true_gap() {
         };
         let still = SVector::<f64, 6>::zeros();
         let gap = |d: [SVector<f64, 6>; 2]| {
-            let point = pose(0, &d[0]).transform_point(&flanks[0].point(roll, 0.0).into());
+            let point = pose(0, &d[0]).transform_point(&flanks[0].point(roll, middle).into());
             flanks[1].locate(&pose(1, &d[1]).inverse_transform_point(&point).coords).unwrap().distance
         };
         assert!(gap([still, still]).abs() < 1e-10, "{side:?}, hand {hand}: flanks do not touch at the pitch point");
@@ -186,7 +191,12 @@ fn mesh_line_is_the_slope_of_the_true_gap() {
                 let scale = if axis < 3 { 1.0 } else { line.base_radii[g] };
                 assert!(
                     (slope - expected).abs() < 1e-5 * scale,
-                    "{side:?}, hand {hand}, gear {g}, axis {axis}: {slope}, not {expected}"
+                    "{side:?}, hand {hand}, offset {offset}, gear {g}, axis {axis}: {slope}, not {expected}"
+                );
+                let projected = projection.approach[6 * g + axis];
+                assert!(
+                    (projected + expected).abs() < 1e-12 * scale,
+                    "{side:?}, hand {hand}, offset {offset}, gear {g}, axis {axis}: approach {projected}"
                 );
             }
         }

@@ -49,7 +49,7 @@ fn field_map(pattern: &GearPattern, largest: f64) -> FieldMap<'static> {
     let GearPattern { grid, flank, name, .. } = pattern;
     let (rolls, count) = (grid.rolls(), grid.stations().len());
     let pressure = grid.max_pressure();
-    let z = (0..=count).map(|i| flank.half_width * (2.0 * i as f64 / count as f64 - 1.0)).collect();
+    let z = (0..=count).map(|i| pattern.strip_edge(i)).collect();
     let places = (0..rolls.len()).flat_map(|i| (0..count).map(move |station| station * rolls.len() + i));
     FieldMap {
         title: format!("Contact pattern: {name}, {} flank", flank.side.name()),
@@ -119,10 +119,9 @@ fn flank(area: &Area<'_>, pattern: &GearPattern, scale: f64) -> Result<(), Strin
 
 /// Two opposite corners (z, diameter; mm) and pressure (MPa) of every touched cell.
 fn cells(pattern: &GearPattern) -> Vec<([(f64, f64); 2], f64)> {
-    let GearPattern { grid, flank, .. } = pattern;
+    let grid = &pattern.grid;
     let (rolls, count) = (grid.rolls(), grid.stations().len());
     let shared = count.div_ceil(COLUMNS).max(1);
-    let along = |station: usize| flank.half_width * (2.0 * station.min(count) as f64 / count as f64 - 1.0);
     let mut cells = Vec::new();
     for first in (0..count).step_by(shared) {
         let columns = first..(first + shared).min(count);
@@ -130,8 +129,8 @@ fn cells(pattern: &GearPattern) -> Vec<([(f64, f64); 2], f64)> {
             let values = columns.clone().map(|station| grid.max_pressure()[station * rolls.len() + i]);
             let pressure = values.fold(0.0, f64::max);
             if pressure > 0.0 {
-                let low = (along(columns.start), edge(pattern, i));
-                let high = (along(columns.end), edge(pattern, i + 1));
+                let low = (pattern.strip_edge(columns.start), edge(pattern, i));
+                let high = (pattern.strip_edge(columns.end), edge(pattern, i + 1));
                 cells.push(([low, high], pressure));
             }
         }

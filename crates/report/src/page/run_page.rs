@@ -83,7 +83,7 @@ fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
         ("teeth, ratio", format!("{} : {}, {ratio:.3}", pinion.teeth, wheel.teeth)),
         ("normal module", format!("{} mm", pair.normal_module_mm)),
         ("helix angle of the pinion", format!("{} deg", pinion.helix_angle_deg)),
-        ("face width", format!("{} mm", pair.face_width_mm)),
+        ("face width", widths(scene)),
         ("centre distance", format!("{:.3} mm", facts.geometry.centre_distance_mm)),
         ("contact ratio", format!("{:.3}", facts.geometry.eps_gamma)),
         ("", format!("{} N m", scene.operation.torque_nm)),
@@ -99,6 +99,16 @@ fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
         rows.push(["slices over the face".to_owned(), format!("{count} ({whose})")]);
     }
     rows
+}
+
+/// One face width, or both and how they stand to each other.
+fn widths(scene: &Scene) -> String {
+    let [pinion, wheel] = scene.face_widths_mm();
+    match scene.pair.mid_face_offset_mm {
+        Some(offset) if offset != 0.0 => format!("{pinion} : {wheel} mm, mid-faces {offset} mm apart"),
+        _ if pinion != wheel => format!("{pinion} : {wheel} mm"),
+        _ => format!("{pinion} mm"),
+    }
 }
 
 /// The speed of the driver, or the first and the last one.

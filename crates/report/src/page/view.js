@@ -117,7 +117,7 @@
         gears.forEach(gear => space.scene.remove(gear.group));
         gears = data.gears.map((gear, i) => new GearInSpace(gear, i));
         gears.forEach(gear => space.scene.add(gear.group));
-        centre = data.gears[1].centre;
+        centre = data.gears[1].centre[0];
       }
       largest = Object.fromEntries(Object.keys(QUANTITIES).map(q => [q, Math.max(...gears.map(g => g.largest(q)))]));
       largest.pressure = data.frames.reduce((top, f) => f.bands.reduce((m, b) => b.pressure.reduce((n, p) => Math.max(n, p), m), top), largest.pressure);
@@ -137,6 +137,7 @@
       gears[0].group.position.x = 0;
       const apart = Number($("apart").value);
       gears[1].group.position.x = centre + 0.006 * apart * centre;
+      gears[1].group.position.z = data.gears[1].centre[1];
       // In mesh the bands lie between flanks, where nobody sees them: they shine through.
       gears.forEach(gear => { gear.bands.material.depthTest = apart > 0; });
       $("phase").textContent = `phase ${frame.phase.toFixed(3)}`;

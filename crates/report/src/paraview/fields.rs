@@ -155,7 +155,11 @@ impl<'a> GearState<'a> {
             displacement: vec![[0.0; 3]; count],
             pressure: vec![0.0; count],
             rotation: Rotation3::from_axis_angle(&Vector3::z_axis(), angle),
-            centre: Vector3::new(if part == 0 { 0.0 } else { model.pair().centre_distance() }, 0.0, 0.0),
+            centre: if part == 0 {
+                Vector3::zeros()
+            } else {
+                Vector3::new(pair.centre_distance(), 0.0, pair.mid_face_offset())
+            },
             elements: &PLAIN,
         })
     }

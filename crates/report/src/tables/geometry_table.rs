@@ -94,6 +94,8 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     row("base pitch, normal", &[sheet.normal_base_pitch_mm], 4, "mm");
     row("path of contact", &[sheet.path_of_contact_mm], 4, "mm");
     row("  of approach, of recess", &[sheet.approach_path_mm, sheet.recess_path_mm], 4, "mm");
+    row("common face width", &[sheet.common_face_width_mm], 4, "mm");
+    row("  the wheel's mid-face over the pinion's", &[sheet.mid_face_offset_mm], 4, "mm");
     row("transverse contact ratio", &[sheet.eps_alpha], 4, "");
     row("overlap ratio", &[sheet.eps_beta], 4, "");
     row("total contact ratio", &[sheet.eps_gamma], 4, "");
@@ -110,6 +112,7 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
         let _ = writeln!(t, "  {what:<44}{}{}  {unit}", cell(both[0]), cell(both[1]));
     };
     pair("teeth", &|g| Some(f64::from(g.teeth)), 0, "");
+    pair("face width b", &|g| Some(g.face_width_mm), 4, "mm");
     pair("profile shift coefficient", &|g| Some(g.profile_shift), 4, "");
     pair("reference diameter d", &|g| Some(g.reference_diameter_mm), 4, "mm");
     pair("base diameter d_b", &|g| Some(g.base_diameter_mm), 4, "mm");

@@ -50,8 +50,8 @@ pub struct View {
 struct GearView {
     name: &'static str,
     teeth: u32,
-    /// x of its centre, mm.
-    centre: f64,
+    /// x and z of its centre, at mid-face, mm.
+    centre: [f64; 2],
     /// r_b (mm), half tooth angle at the base circle (rad), twist (rad/mm): the helicoid of [`geometry::Flank`].
     flank: [f64; 3],
     /// Tooth 0, from the middle of one space to that of the next.
@@ -170,7 +170,7 @@ impl GearView {
         Self {
             name: ["pinion", "wheel"][i],
             teeth: gear.teeth(),
-            centre: [0.0, pair.centre_distance()][i],
+            centre: [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][i],
             flank: [gear.base_radius(), gear.profile().base_half_angle(), gear.twist()],
             sector: Shape::of_tooth(gear),
             window,

@@ -132,7 +132,7 @@ fn a_pattern_covers_the_flank() {
         half_width: 10.0,
     };
     let grid = study::FlankPattern::new([0.2, 0.5], 8, vec![-7.5, -2.5, 2.5, 7.5]).unwrap();
-    let pattern = GearPattern { name: "wheel", flank, centre_x: 95.0, grid };
+    let pattern = GearPattern { name: "wheel", flank, centre: [95.0, 0.0], face: [-10.0, 10.0], grid };
     let mut out = Vec::new();
     write_pattern_vtu(&pattern, &mut out).unwrap();
     let arrays = arrays(&out);

@@ -35,23 +35,30 @@ pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> 
     })
 }
 
-pub(super) fn pair(s: &Source<'_>, raw: &RawPair) -> Checked<PairScene> {
-    let face_width_mm = value!(s, PAIR, raw.face_width_mm)?;
+/// What both share; the gears say whether they have widths of their own.
+pub(super) fn pair(s: &Source<'_>, raw: &RawPair, [pinion, wheel]: [&RawGear; 2]) -> Checked<PairScene> {
+    let own = [optional!(s, GEAR, pinion.face_width_mm)?, optional!(s, GEAR, wheel.face_width_mm)?];
+    let face_width_mm = match (own, optional!(s, PAIR, raw.face_width_mm)?) {
+        (_, Some(width)) => width,
+        ([Some(a), Some(b)], None) => a.min(b),
+        // Told by who looks for all that is needed.
+        _ => value!(s, PAIR, raw.face_width_mm)?,
+    };
+    // Each at most 0.01 rad over the narrower face: more than that is no misalignment but another gear drive.
+    let [a, b] = own.map(|width| width.unwrap_or(face_width_mm));
+    let most = 10.0 * a.min(b);
     let mut pair = PairScene {
         normal_module_mm: value!(s, PAIR, raw.normal_module_mm)?,
         normal_pressure_angle_deg: value!(s, PAIR, raw.normal_pressure_angle_deg)?,
         face_width_mm,
+        mid_face_offset_mm: optional!(s, PAIR, raw.mid_face_offset_mm)?,
         centre_distance_mm: optional!(s, PAIR, raw.centre_distance_mm)?,
         addendum_coefficient: value!(s, PAIR, raw.addendum_coefficient)?,
         dedendum_coefficient: value!(s, PAIR, raw.dedendum_coefficient)?,
         root_radius_coefficient: value!(s, PAIR, raw.root_radius_coefficient)?,
         misalignment: match &raw.misalignment {
             None => Default::default(),
-            Some(table) =>
-            // Each at most 0.01 rad: more than that is no misalignment but another gear drive.
-            {
-                MisalignmentScene::read(s, table.get_ref(), 10.0 * face_width_mm)?
-            }
+            Some(table) => MisalignmentScene::read(s, table.get_ref(), most)?,
         },
     };
     if raw.root_radius_coefficient.is_none() {
@@ -95,9 +102,11 @@ pub(super) fn gear(
     hand: Hand,
     pair: &PairScene,
     shared: Material,
-    face_elements: impl Fn(u32) -> u32,
+    face_elements: impl Fn(f64, u32) -> u32,
 ) -> Checked<GearScene> {
     let teeth = value!(s, GEAR, raw.teeth)?;
+    let face_width_mm = optional!(s, GEAR, raw.face_width_mm)?;
+    let width = face_width_mm.unwrap_or(pair.face_width_mm);
     let helix_angle_deg = match hand {
         Hand::Own => value!(s, GEAR, raw.helix_angle_deg)?,
         Hand::Against(other) => against(s, raw, other)?,
@@ -105,7 +114,7 @@ pub(super) fn gear(
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
     let widest_arc = 0.25 * pair.normal_module_mm;
     let bore_limit = reference.max(1e-3);
-    let (mesh, mesher) = mesh_source(s, raw, teeth, face_elements)?;
+    let (mesh, mesher) = mesh_source(s, raw, teeth, |order| face_elements(width, order))?;
     let groups = groups(s, &raw.groups)?;
     let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
     let bore_of_mesh = match &mesh {
@@ -120,6 +129,7 @@ pub(super) fn gear(
     Ok(GearScene {
         teeth,
         helix_angle_deg,
+        face_width_mm,
         bore_diameter_mm: s.number(
             "bore_diameter_mm",
             &raw.bore_diameter_mm,
@@ -150,7 +160,7 @@ pub(super) fn gear(
         material: material(s, &raw.material, shared)?,
         modification: match &raw.modification {
             None => Default::default(),
-            Some(table) => ModificationScene::read(s, table.get_ref(), pair.face_width_mm)?,
+            Some(table) => ModificationScene::read(s, table.get_ref(), width)?,
         },
         body: None,
         bearing: Default::default(),

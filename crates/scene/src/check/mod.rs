@@ -21,9 +21,9 @@ type Checked<T> = Result<T, SceneError>;
 pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     all_given(source, &raw)?;
     let shared = material(source, &raw.material, steel())?;
-    let pair = pair(source, &raw.pair)?;
+    let pair = pair(source, &raw.pair, [&raw.pinion, &raw.wheel])?;
     let root_stress = raw.output.root_stress.as_ref().is_some_and(|on| *on.get_ref());
-    let face_elements = |order| pair.face_elements(order, root_stress);
+    let face_elements = |width, order| pair.face_elements(width, order, root_stress);
     let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared, face_elements)?;
     let hand = Hand::Against(pinion.helix_angle_deg);
     let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
@@ -75,12 +75,13 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
 }
 
 fn all_given(source: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let own_widths = raw.pinion.face_width_mm.is_some() && raw.wheel.face_width_mm.is_some();
     let needed = [
         ("`[pinion] teeth`", raw.pinion.teeth.is_none()),
         ("`[pinion] helix_angle_deg`", raw.pinion.helix_angle_deg.is_none()),
         ("`[wheel] teeth`", raw.wheel.teeth.is_none()),
         ("`[pair] normal_module_mm`", raw.pair.normal_module_mm.is_none()),
-        ("`[pair] face_width_mm`", raw.pair.face_width_mm.is_none()),
+        ("`[pair] face_width_mm`", raw.pair.face_width_mm.is_none() && !own_widths),
         ("`[operation] torque_nm`", raw.operation.torque_nm.is_none()),
     ];
     let keys: Vec<String> = needed.into_iter().filter(|(_, gone)| *gone).map(|(key, _)| key.to_owned()).collect();

@@ -140,6 +140,15 @@ fn of_model(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             "leave it out, or use `model = \"reduced\"`",
         ));
     }
+    if let (Some(offset), Model::Lumped12) = (&raw.pair.mid_face_offset_mm, scene.analysis.model)
+        && scene.pair.mid_face_offset_mm != Some(0.0)
+    {
+        return Err(s.conflict(
+            &offset.span(),
+            "the model \"lumped12\" has both mid-faces at one height: its force pair is about them",
+            "leave `mid_face_offset_mm` out, or use \"shaft18\", \"impact\" or \"reduced\", which have it",
+        ));
+    }
     if let (Some(penalty), Model::Iso) = (&raw.contact.penalty_mpa_per_mm, scene.analysis.model) {
         return Err(s.conflict(
             &penalty.span(),

@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::bearing::bearing;
-use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxTorque};
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxTorque, mid_face_offset};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
@@ -13,7 +13,7 @@ use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque};
 use super::shaft::{length, shaft};
 use super::values::{Checked, missing, needed_number, needed_word};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, Number, Rotation, Scene, SceneError, Source, Word, study::setting};
+use crate::{Kind, Method, Model, Number, PairScene, Rotation, Scene, SceneError, Source, Word, study::setting};
 
 /// Parts of a kind at the most: the matrices are dense.
 const PARTS: usize = 100;
@@ -44,6 +44,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     let input = input(s, table, &names)?;
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
     apart(s, &raw.mesh, &meshes)?;
+    meshes.iter().zip(&raw.mesh).try_for_each(|(mesh, table)| facing(s, table, mesh, (&shafts, &gears)))?;
     loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
@@ -165,6 +166,39 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
         None => format!("{}/{}", gears[pair[0]].name, gears[pair[1]].name),
     };
     Ok(GearboxMesh { name, gears: pair, scene })
+}
+
+/// Digits of a file by which a stated offset may differ from that of the positions, mm.
+const DIGITS: f64 = 1e-6;
+
+/// That the faces of two gears overlap where their shafts have them, and that the scene says nothing else.
+fn facing(
+    s: &Source<'_>,
+    table: &Spanned<RawMesh>,
+    mesh: &GearboxMesh,
+    (shafts, gears): (&[GearboxShaft], &[GearboxGear]),
+) -> Checked<()> {
+    let placed = mid_face_offset(shafts, gears, mesh.gears).unwrap_or(0.0);
+    let [pinion, wheel] = mesh.gears.map(|g| gears[g].name.as_str());
+    if let Some(stated) = mesh.scene.pair.mid_face_offset_mm
+        && (stated - placed).abs() > DIGITS
+    {
+        let said = format!(
+            "the mid-face of \"{wheel}\" lies {placed} mm above that of \"{pinion}\", and the scene's `mid_face_offset_mm` is {stated}"
+        );
+        return Err(s.conflict(&table.span(), said, "leave it out of the scene, or move a gear (`position_mm`)"));
+    }
+    let widths = mesh.scene.face_widths_mm();
+    let common = PairScene { mid_face_offset_mm: Some(placed), ..mesh.scene.pair }.common_face_mm(widths);
+    if common[1] > common[0] {
+        return Ok(());
+    }
+    let said = format!(
+        "the faces of \"{pinion}\" ({} mm wide) and \"{wheel}\" ({} mm) do not overlap: their mid-faces are {placed} mm apart \
+         along z",
+        widths[0], widths[1]
+    );
+    Err(s.conflict(&table.span(), said, "gears in mesh stand beside each other: see `position_mm` and `origin_mm`"))
 }
 
 fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) -> Checked<GearboxInput> {

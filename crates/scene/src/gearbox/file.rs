@@ -36,6 +36,22 @@ pub struct Gearbox {
     pub motion: Option<GearboxMotion>,
 }
 
+/// Heights nearer than this are one: round-off of sums of positions, mm.
+const ONE_HEIGHT: f64 = 1e-9;
+
+impl Gearbox {
+    /// Height of the mid-face of the second gear over that of the first one, along +z, mm; `None` where they are at one
+    /// height.
+    pub fn mid_face_offset(&self, gears: [usize; 2]) -> Option<f64> {
+        mid_face_offset(&self.shafts, &self.gears, gears)
+    }
+}
+
+pub(super) fn mid_face_offset(shafts: &[GearboxShaft], all: &[GearboxGear], gears: [usize; 2]) -> Option<f64> {
+    let [a, b] = gears.map(|g| shafts[all[g].shaft].origin[2] + all[g].position);
+    Some(b - a).filter(|offset| offset.abs() > ONE_HEIGHT)
+}
+
 /// A shaft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxShaft {

@@ -36,10 +36,11 @@ table! {
 
 table! {
     /// `[pair]`
-    PAIR, RawPair: "what both gears share", needed ["normal_module_mm", "face_width_mm"]; {
+    PAIR, RawPair: "what both gears share", needed ["normal_module_mm"]; {
         normal_module_mm: bare(0.01, 200.0), "normal module, mm";
         normal_pressure_angle_deg: number(5.0, 40.0, 20.0), "normal pressure angle, degrees";
-        face_width_mm: bare(0.01, 1e4), "face width of both gears, mm";
+        face_width_mm: bare(0.01, 1e4), "face width of gears that state none of their own, mm; left out where both do";
+        mid_face_offset_mm: bare(-1e4, 1e4), "height of the wheel's mid-face over the pinion's along +z, mm; default: 0, in a gearbox where the shafts have the gears";
         centre_distance_mm: bare(0.01, 1e5), "working centre distance, mm; default: the one that follows from the profile shifts";
         addendum_coefficient: number(0.1, 2.0, 1.0), "addendum of the basic rack over the normal module";
         dedendum_coefficient: number(0.1, 2.5, 1.25), "dedendum of the basic rack over the normal module";

@@ -20,8 +20,8 @@ pub struct Body<'a> {
     pub material: &'a Material,
     /// Turn about its own axis, rad, +z.
     pub angle: f64,
-    /// x of its axis, mm; y is 0.
-    pub centre_x: f64,
+    /// x and z of its centre, at mid-face, mm; y is 0.
+    pub centre: [f64; 2],
 }
 
 /// Both gears at one position, the driven one loaded.
@@ -86,15 +86,15 @@ impl Deck<'_> {
 
     /// Nodes, elements, material, bore and flanks of one gear.
     fn body(&self, t: &mut String, i: usize, first_node: usize, first_element: usize) -> Result<(), CalculixError> {
-        let Body { gear, material, angle, centre_x } = self.bodies[i];
+        let Body { gear, material, angle, centre } = self.bodies[i];
         let (mesh, name) = (gear.mesh(), NAMES[i]);
         let turned = angle + if i == self.driven { self.sense() * self.closing } else { 0.0 };
         let (sin, cos) = turned.sin_cos();
         line(t, format_args!("*NODE, NSET=all_{name}"));
         for (n, [x, y, z]) in mesh.nodes.iter().enumerate() {
             // CalculiX reads at most 20 characters a number.
-            let (px, py) = (centre_x + cos * x - sin * y, sin * x + cos * y);
-            line(t, format_args!("{}, {px:.12e}, {py:.12e}, {z:.12e}", first_node + n));
+            let (px, py, pz) = (centre[0] + cos * x - sin * y, sin * x + cos * y, centre[1] + z);
+            line(t, format_args!("{}, {px:.12e}, {py:.12e}, {pz:.12e}", first_node + n));
         }
         let mut number = first_element;
         for block in &mesh.blocks {
@@ -133,9 +133,9 @@ impl Deck<'_> {
     fn rest(&self, t: &mut String) {
         let (driver, driven) = (NAMES[1 - self.driven], NAMES[self.driven]);
         let [reference, rotation] = self.rigid_nodes();
-        let centre = self.bodies[self.driven].centre_x;
-        line(t, format_args!("*NODE, NSET=axis\n{reference}, {centre:.12e}, 0., 0."));
-        line(t, format_args!("*NODE, NSET=rotation\n{rotation}, {centre:.12e}, 0., 0."));
+        let [x, z] = self.bodies[self.driven].centre;
+        line(t, format_args!("*NODE, NSET=axis\n{reference}, {x:.12e}, 0., {z:.12e}"));
+        line(t, format_args!("*NODE, NSET=rotation\n{rotation}, {x:.12e}, 0., {z:.12e}"));
         line(t, format_args!("*RIGID BODY, NSET=bore_{driven}, REF NODE={reference}, ROT NODE={rotation}"));
         line(t, format_args!("*SURFACE INTERACTION, NAME=flanks"));
         line(t, format_args!("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6e}", self.penalty));

@@ -45,7 +45,7 @@ impl Pair {
             gear: &gears[i],
             material: &Material::STEEL,
             angle: turned[i],
-            centre_x: [0.0, pair.centre_distance()][i],
+            centre: [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][i],
         };
         Deck {
             bodies: [body(0), body(1)],

@@ -67,6 +67,7 @@ const TORQUE: &[Row] = &[
 /// Keys of a gear.
 const GEAR: &[Row] = &[
     ("teeth", Iso, "", "31"),
+    ("face_width_mm", Iso, "", "18"),
     ("helix_angle_deg", Iso, "", "15"),
     ("bore_diameter_mm", Reduced, "", "50"),
     ("profile_shift", Iso, "", "0.1"),
@@ -161,6 +162,7 @@ const SCENE: &[Row] = &[
     ("pair.normal_module_mm", Iso, "", "3.5"),
     ("pair.normal_pressure_angle_deg", Iso, "", "21"),
     ("pair.face_width_mm", Iso, "", "22"),
+    ("pair.mid_face_offset_mm", Iso, "", "2"),
     ("pair.centre_distance_mm", Iso, "", "96"),
     ("pair.addendum_coefficient", Iso, "", "0.95"),
     ("pair.dedendum_coefficient", Iso, "", "1.3"),

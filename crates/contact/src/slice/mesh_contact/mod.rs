@@ -390,7 +390,7 @@ impl MeshContact {
     /// Total length of the contact lines of the last evaluation on the driving side, with the gears' frames at `poses`,
     /// mm: as that of a position at rest, theory (21b).
     pub fn line_length(&self, pair: &GearPair, poses: &[Pose; 2]) -> f64 {
-        let half = 0.5 * pair.face_width();
+        let face = pair.common_face();
         let (rows, slices) = (self.rows(), self.slices());
         let (forces, openings) = (self.solver.forces(), self.solver.openings());
         let mut length = 0.0;
@@ -404,7 +404,7 @@ impl MeshContact {
                 let station = line_station(rows[i].gap, openings[i], approach, self.modal_opening(i));
                 (rows[i].point, station, slices[i])
             });
-            length += covered(&slice_line(&self.set, poses, patches, stations, half), [-half, half]);
+            length += covered(&slice_line(&self.set, poses, patches, stations, face), face);
             from = to;
         }
         length / pair.base_helix_angle().cos()

@@ -78,6 +78,7 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
                 helix_angle: beta,
                 centre_distance,
                 direction: 0.0,
+                middle: [0.0; 2],
                 side: Side::Left,
             },
             stiffness: Fourier { mean: 4.5e5, cosine: vec![0.6e5, 0.15e5], sine: vec![0.0, 0.1e5] },
