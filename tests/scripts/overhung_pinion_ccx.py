@@ -238,7 +238,8 @@ def core(plain, args, whole):
     teeth = TEETH[0] if whole else 1
     assert abs(own[-1] - own[0] - pitch) < 1e-9, (own[-1] - own[0], pitch)
     angles = np.concatenate([own[:-1] + k * pitch for k in range(teeth)] + [[own[-1] + (teeth - 1) * pitch]])
-    heights = middles([STUB, -26.0, -21.5, -17.5, -15.0])[:-1] + list(np.linspace(-15, 15, 2 * args.face + 1))
+    face = list(np.linspace(-0.5 * FACE, 0.5 * FACE, 2 * args.face + 1))
+    heights = middles([STUB, -26.0, -21.5, -17.5, -0.5 * FACE])[:-1] + face
     radii = middles(RADII)
     return grid(angles, radii, heights, lambda z: twist(z, 0, args.helix))
 
@@ -351,6 +352,56 @@ def joined(xyz, faces, coarse):
     return found
 
 
+def write_sector(ale_gear, folder, args, path):
+    """One tooth of the pinion with its part of shaft and stub, as a periodic sector whose bore is the stub's end."""
+    plain = sector(ale_gear, folder, "pinion", args.profile, args.face, args.helix)
+    body = Body()
+    body.add(plain[0], plain[1], 0)
+    body.add(*core(plain, args, whole=False), 1000)
+    body.close()
+    flat = turned(body.xyz, -twist(body.xyz[:, 2], 0, args.helix))
+    radius, angle = np.hypot(flat[:, 0], flat[:, 1]), np.arctan2(flat[:, 1], flat[:, 0])
+    owners = {}
+    for number in range(len(CCX_FACES)):
+        for element, nodes in enumerate(body.hexes[:, list(CCX_FACES[number])]):
+            owners.setdefault(tuple(sorted(nodes)), []).append((element, number))
+    half = np.pi / TEETH[0]
+    masks = {"bore": np.abs(body.xyz[:, 2] - STUB) < 1e-6, "cut_0": np.abs(angle + half) * radius < 1e-5,
+             "cut_1": np.abs(angle - half) * radius < 1e-5, "flank_left_0": on_left_flank(body, 0, 0, args.helix)}
+    mirror = Body()
+    mirror.xyz, mirror.hexes = body.xyz * [1, -1, 1], body.hexes
+    masks["flank_right_0"] = on_left_flank(mirror, 0, 0, -args.helix)
+    groups = {}
+    for name, mask in masks.items():
+        faces = []
+        for element, number, nodes in body.faces(mask):
+            if len(owners[tuple(sorted(nodes[:4]))]) == 1:
+                faces.append(nodes)
+        groups[name] = faces
+    out = ["$MeshFormat", "2.2 0 8", "$EndMeshFormat", "$PhysicalNames", str(len(groups) + 1)]
+    out += [f'2 {k} "{name}"' for k, name in enumerate(groups, 1)] + ['3 99 "gear"', "$EndPhysicalNames"]
+    out += ["$Nodes", str(len(body.xyz))] + [f"{i} {x!r} {y!r} {z!r}" for i, (x, y, z) in enumerate(body.xyz.tolist(), 1)]
+    out += ["$EndNodes", "$Elements", str(len(body.hexes) + sum(map(len, groups.values())))]
+    number = 1
+    for k, faces in enumerate(groups.values(), 1):
+        for nodes in faces:
+            out.append(f"{number} 16 2 {k} {k} " + " ".join(str(n + 1) for n in nodes))
+            number += 1
+    for nodes in body.hexes:
+        out.append(f"{number} 17 2 99 1 " + " ".join(str(n + 1) for n in nodes))
+        number += 1
+    text = path.with_suffix(".txt.msh")
+    text.write_text("\n".join(out + ["$EndElements", ""]))
+    gmsh.initialize()
+    gmsh.option.setNumber("General.Terminal", 0)
+    gmsh.option.setNumber("Mesh.Binary", 1)
+    gmsh.open(str(text))
+    gmsh.write(str(path))
+    gmsh.finalize()
+    text.unlink()
+    print(json.dumps({"nodes": len(body.xyz), "elements": len(body.hexes), **{k: len(v) for k, v in groups.items()}}))
+
+
 FIRST_OWN = [0]
 
 
@@ -365,8 +416,12 @@ def main():
     parser.add_argument("--coarse", type=int, default=2)
     parser.add_argument("--teeth", type=lambda t: [int(k) for k in t.split(",")], default=[0])
     parser.add_argument("--element", default="C3D20R")
+    parser.add_argument("--sector", type=Path, help="write the mesh of one tooth with its part of the shaft, no more")
     args = parser.parse_args()
     args.folder.mkdir(parents=True, exist_ok=True)
+    if args.sector:
+        write_sector(args.ale_gear, args.folder, args, args.sector)
+        return
     bodies = [pinion(args.ale_gear, args.folder, args, args.coarse), wheel(args.ale_gear, args.folder, args, args.coarse)]
     shaft = Body()
     ends = [STUB, -35.0, -40.0, NEAR] + list(np.linspace(NEAR, FAR, 16)[1:]) + [-172.0, -178.0, INPUT]
