@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A pinion cut into the overhung end of its shaft, one solid, against a wheel on a rigid bore, by CalculiX: the numbers in
-crates/gearbox/tests/data/overhung_pinion.json, and the mesh of hub and shaft in one that the same test reads.
+crates/analysis/tests/data/overhung_pinion.json, and the mesh of hub and shaft in one that the same test reads.
 
     apt-get install calculix-ccx; pip install gmsh numpy
     python3 overhung_pinion_ccx.py ALE_GEAR FOLDER [--helix 0] [--turn 0.0052] [--profile 28] [--face 16]

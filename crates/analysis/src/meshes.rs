@@ -2,7 +2,8 @@
 
 use geometry::{Gear, GearPair};
 use mesh::{
-    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup, generate,
+    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup,
+    generate,
 };
 
 use scene::{Coupling, GearScene, MesherScene, Reduction, Scene};

@@ -256,7 +256,9 @@ impl GearboxError {
             Self::Loose { .. } => {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`)"
             }
-            Self::SharedSeat { .. } => "move one of them: bearings and loads act beside the part of the shaft that is meshed with the gear",
+            Self::SharedSeat { .. } => {
+                "move one of them: bearings and loads act beside the part of the shaft that is meshed with the gear"
+            }
             Self::NoShaft { .. } | Self::NoDisc { .. } => {
                 "shafts and discs are numbered in the order in which they are given"
             }

@@ -82,7 +82,9 @@ pub enum ReductionError {
         faces: usize,
     },
     /// A bore that is held by its means, of a gear that keeps all its freedoms.
-    #[error("a bore with the coupling `distributing` is held by its means, which a gear with all its freedoms does not know")]
+    #[error(
+        "a bore with the coupling `distributing` is held by its means, which a gear with all its freedoms does not know"
+    )]
     NotReduced,
     /// Normal modes of one gear asked for on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]

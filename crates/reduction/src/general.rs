@@ -76,7 +76,6 @@ impl GeneralGear {
         Ok(Mat::from_fn(wanted.len(), all.ncols(), |i, j| all[(wanted[i], j)]))
     }
 
-
     /// C of a window, mm/N.
     pub(crate) fn compliance(&self, seen: Seen) -> Result<Mat<f64>, ReductionError> {
         match (seen, &self.seat) {

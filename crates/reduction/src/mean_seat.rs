@@ -1,4 +1,4 @@
-//! A gear held by the means of its bore: a free body in balance with six reactions. Theory (11a).
+//! A gear held by the means of its bore: a free body in balance with six reactions. Theory (13a), (13b).
 
 use faer::{Mat, MatMut};
 use fem::{DofMap, SymmetricMatrix};
@@ -94,13 +94,13 @@ impl MeanSeat {
         let m = rows.len();
         let share: Vec<Vector6<f64>> =
             rows.iter().map(|&r| self.inverse * Vector6::from_fn(|k, _| self.rigid[(r, k)])).collect();
-        let moved: Vec<Vector6<f64>> =
-            rows.iter().map(|&r| Vector6::from_fn(|k, _| reactions[(r, k)])).collect();
+        let moved: Vec<Vector6<f64>> = rows.iter().map(|&r| Vector6::from_fn(|k, _| reactions[(r, k)])).collect();
         let own = fem::dense::product(self.forces.transpose(), reactions.as_ref());
         let own = Matrix6::from_fn(|i, j| 0.5 * (own[(i, j)] + own[(j, i)]));
         let folded: Vec<Vector6<f64>> = share.iter().map(|s| own * s).collect();
         Mat::from_fn(m, m, |i, j| {
-            springs[(i, j)] - moved[i].dot(&share[j]) - share[i].dot(&moved[j]) + 0.5 * (share[i].dot(&folded[j]) + share[j].dot(&folded[i]))
+            springs[(i, j)] - moved[i].dot(&share[j]) - share[i].dot(&moved[j])
+                + 0.5 * (share[i].dot(&folded[j]) + share[j].dot(&folded[i]))
         })
     }
 

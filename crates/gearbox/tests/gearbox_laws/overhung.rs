@@ -77,8 +77,10 @@ fn a_reach_is_a_rigid_body() {
         let apart = (found - wanted).amax() / wanted.amax();
         println!("reach {reach}: compliance off by {apart:.1e}");
         assert!(apart < 1e-10, "reach {reach}: compliance of the gear off by {apart:e}");
-        let line = with.of_sections(&(&compliance * DVector::from_fn(with.size(), |i, _| f64::from(u8::from(i == at)))));
-        let straight = (line[at] - of_section.fixed_view::<6, 6>(on, on)[(0, 0)]
+        let line =
+            with.of_sections(&(&compliance * DVector::from_fn(with.size(), |i, _| f64::from(u8::from(i == at)))));
+        let straight = (line[at]
+            - of_section.fixed_view::<6, 6>(on, on)[(0, 0)]
             - reach * of_section.fixed_view::<6, 6>(on, on)[(0, 4)])
             .abs();
         assert!(straight < 1e-12, "reach {reach}: the section is {straight:e} mm off");

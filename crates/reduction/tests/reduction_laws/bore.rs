@@ -148,7 +148,10 @@ fn a_mean_seat_is_that_of_the_whole_gear() {
         };
         let [load, held] = [sums(&(&unit * &f)), sums(&(&whole.means * (&reactions * &f)))];
         let balance = (load[0] - held[0]).norm() / load[0].norm() + (load[1] - held[1]).norm() / load[1].norm();
-        println!("order {order}: C {c:.1e}, field {apart:.1e}, means {mean:.1e}, left {:.1e}, balance {balance:.1e}", left.amax());
+        println!(
+            "order {order}: C {c:.1e}, field {apart:.1e}, means {mean:.1e}, left {:.1e}, balance {balance:.1e}",
+            left.amax()
+        );
         assert!(c < 1e-8, "order {order}: C differs by {c:e} of its largest entry");
         assert!(apart < 1e-8, "order {order}: the field differs by {apart:e} of its largest entry");
         // Areas of curved faces depend on the rule that they are summed up by.

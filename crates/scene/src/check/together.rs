@@ -3,7 +3,9 @@
 use toml::Spanned;
 
 use super::{Checked, accuracy_in_time};
-use crate::{Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
+use crate::{
+    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source,
+};
 
 /// What can only be judged with the whole scene in view.
 pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
