@@ -53,7 +53,7 @@ fn solved(text: &str, reference: &Reference) -> (Found, [f64; 2]) {
     let file = Gearbox::parse(text, &folder.join("overhung_pinion.toml")).unwrap_or_else(|e| panic!("{e}"));
     let found = solve_gearbox(&file, &NoCache, &mut NoObserver).unwrap_or_else(|e| panic!("{e}"));
     let torque = found.input_torque.abs();
-    assert!((torque / reference.torque() - 1.0).abs() < 1e-4, "{torque} N mm beside {}", reference.torque());
+    assert!((torque / reference.torque() - 1.0).abs() < 1e-3, "{torque} N mm beside {}", reference.torque());
     assert!(found.certificate.iter().all(|share| *share < 1e-8), "{:?}", found.certificate);
     let mesh = &found.positions[0].meshes[0];
     let pair = &found.pairs[0];
@@ -87,6 +87,7 @@ fn off(name: &str, section: &str, text: &str, reference: &Reference) -> [f64; 2]
         100.0 * (load / theirs - 1.0),
         100.0 * parts.fold(0.0, f64::max)
     );
+    println!("  strips, N: {:.0?}\n  CalculiX:  {:.0?}", found.strips, reference.strips());
     [own / wanted - 1.0, load / theirs - 1.0]
 }
 
@@ -101,6 +102,20 @@ fn shipped() -> String {
 fn hub_and_shaft_in_one_are_those_of_calculix() {
     let reference = Reference::read("overhung_pinion.json");
     let [misalignment, load] = off("hub and shaft in one", "stub", &shipped(), &reference);
+    assert!(misalignment.abs() < 0.03, "misalignment off by {:.2} %", 100.0 * misalignment);
+    assert!(load.abs() < 0.03, "largest over mean line load off by {:.2} %", 100.0 * load);
+}
+
+/// The same with a helix of 15 degrees: three pairs share the load, an axial force tilts the shaft.
+#[test]
+fn a_helical_pinion_in_one_with_its_shaft_is_that_of_calculix() {
+    let reference = Reference::read("overhung_helical_pinion.json");
+    let distance = 0.5 * 3.0 / 15f64.to_radians().cos() * 53.0;
+    let text = shipped()
+        .replace("origin_mm = [79.5, ", &format!("origin_mm = [{distance:?}, "))
+        .replace("overhung_pair.toml", "overhung_helical_pair.toml")
+        .replace("torque_nm = 574.67", &format!("torque_nm = {:?}", 1e-3 * reference.torque() * 32.0 / 21.0));
+    let [misalignment, load] = off("helical, hub and shaft in one", "stub", &text, &reference);
     assert!(misalignment.abs() < 0.03, "misalignment off by {:.2} %", 100.0 * misalignment);
     assert!(load.abs() < 0.03, "largest over mean line load off by {:.2} %", 100.0 * load);
 }
