@@ -242,8 +242,8 @@ impl Assembly {
     }
 }
 
-/// Reach of the disc at each node that has one. Nothing else may be there: it would have to know which coordinates those
-/// of the node are.
+/// Reach of the disc at each node that has one. Nothing else may be there: it would have to know which coordinates
+/// those of the node are.
 fn reaches(structure: &Structure, discs: &[usize], bearings: &[usize]) -> Result<Vec<(usize, f64)>, GearboxError> {
     let with_reach = structure.discs.iter().enumerate().filter(|(_, d)| d.reach != 0.0);
     let one = |(i, disc): (usize, &Disc)| {

@@ -109,7 +109,8 @@ pub enum MeshError {
     },
     /// No face of the bore lies on the part that is to be held.
     #[error(
-        "no face of the bore lies between z = {from_mm:.4} and {to_mm:.4} mm as a whole; the bore reaches from {low_mm:.4} to {high_mm:.4} mm"
+        "no face of the bore lies between z = {from_mm:.4} and {to_mm:.4} mm as a whole; the bore reaches from \
+         {low_mm:.4} to {high_mm:.4} mm"
     )]
     NotHeld {
         /// Where it is to be held from, mm.

@@ -118,7 +118,9 @@ impl ReductionError {
             Self::LargeBoundary { .. } => {
                 Some("take the massless boundary, or coarse grids over the flanks, or a mesh that is cyclic".into())
             }
-            Self::NoMeanTurn { .. } => Some("hold a larger part of the bore (`held_mm`), or take the coupling `kinematic`".into()),
+            Self::NoMeanTurn { .. } => {
+                Some("hold a larger part of the bore (`held_mm`), or take the coupling `kinematic`".into())
+            }
             Self::NotReduced => Some("take `model = \"reduced\"`, or the coupling `kinematic`".into()),
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),

@@ -14,9 +14,9 @@ use crate::ReductionError;
 /// K u = f - B l,   l = (R'B)^-1 R' f                             reactions, as the body is free otherwise
 /// u = P K~^-1 P' f,   P = 1 - R (R'B)^-1 B',   K~ = K + six springs
 /// ```
-/// W: integrals of the shape functions over the held faces ([`GearMesh::bore_weights`]), A their sum, c and rho centroid
-/// and radius of gyration of the faces. The springs hold the body without any redundancy: forces in balance leave them
-/// without force, so that their stiffness is in no result.
+/// W: integrals of the shape functions over the held faces ([`GearMesh::bore_weights`]), A their sum, c and rho
+/// centroid and radius of gyration of the faces. The springs hold the body without any redundancy: forces in balance leave
+/// them without force, so that their stiffness is in no result.
 #[derive(Debug)]
 pub(crate) struct MeanSeat {
     rigid: Mat<f64>,

@@ -48,7 +48,8 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert!((file.shafts[0].density - 7.85e-9).abs() < 1e-20, "{}", file.shafts[0].density);
 }
 
-/// A gear moves with the cross-section at its mid-plane, or where its seat is said to be: then it may stand beyond the end.
+/// A gear moves with the cross-section at its mid-plane, or where its seat is said to be: then it may stand beyond
+/// the end.
 #[test]
 fn a_seat_may_be_beside_the_gear() {
     let file = Gearbox::read(&folder().join("overhung_pinion.toml")).unwrap();

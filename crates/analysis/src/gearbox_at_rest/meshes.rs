@@ -129,7 +129,8 @@ impl ReducedMesh {
             let apart = !file.shafts[gear.shaft].held && (held - seat).abs() > OFF_SEAT * width;
             apart.then(|| {
                 format!(
-                    "the mesh of gear {} is held about z = {held:.3} mm from its mid-plane, and its seat is at {seat:.3} mm: \
+                    "the mesh of gear {} is held about z = {held:.3} mm from its mid-plane, and its seat is at \
+                     {seat:.3} mm: \
                      say `seat_mm = {:.3}`",
                     gear.name,
                     gear.position + held

@@ -34,8 +34,8 @@ impl Reference {
         sum
     }
 
-    /// f_in by the turn of a section of the pinion, um over the face: lean of the wheel's axis against the pinion's in the
-    /// plane of action of left flanks, the wheel held.
+    /// f_in by the turn of a section of the pinion, um over the face: lean of the wheel's axis against the pinion's in
+    /// the plane of action of left flanks, the wheel held.
     fn misalignment(&self, section: &str, [width, pressure_angle]: [f64; 2]) -> f64 {
         let turn = self.numbers(&format!("/{section}/turn_rad"));
         1e3 * width * (-turn[1] * pressure_angle.sin() + turn[0] * pressure_angle.cos())
@@ -82,7 +82,8 @@ fn off(name: &str, section: &str, text: &str, reference: &Reference) -> [f64; 2]
     let [load, theirs] = [&found.strips, &reference.strips()].map(|s| largest_over_mean(s));
     let parts = found.strips.iter().zip(reference.strips()).map(|(a, b)| (a - b).abs() / reference.strips()[0]);
     println!(
-        "{name}: f_in {own:.3} beside {wanted:.3} um ({:+.2} %), largest over mean {load:.4} beside {theirs:.4} ({:+.2} %), strips within {:.2} % of the largest",
+        "{name}: f_in {own:.3} beside {wanted:.3} um ({:+.2} %), largest over mean {load:.4} beside {theirs:.4} \
+         ({:+.2} %), strips within {:.2} % of the largest",
         100.0 * (own / wanted - 1.0),
         100.0 * (load / theirs - 1.0),
         100.0 * parts.fold(0.0, f64::max)
@@ -131,8 +132,8 @@ fn the_coupling_at_a_stubs_end_does_not_matter() {
     assert!(load.abs() < 0.03, "largest over mean line load off by {:.2} %", 100.0 * load);
 }
 
-/// A ring of teeth on a rigid bore of the shaft's diameter, the shaft a beam to its end: within 3 % as well, of the hub's own
-/// turn. Held by the means of its bore the ring lacks the shaft inside of it, and the load is too even.
+/// A ring of teeth on a rigid bore of the shaft's diameter, the shaft a beam to its end: within 3 % as well, of the
+/// hub's own turn. Held by the means of its bore the ring lacks the shaft inside of it, and the load is too even.
 #[test]
 fn a_ring_on_the_shaft_beside_calculix() {
     let reference = Reference::read("overhung_pinion.json");

@@ -47,8 +47,8 @@ fn slope_and_deflection_of_an_overhung_seat_are_the_closed_form() {
     }
 }
 
-/// A gear that moves with a cross-section some way off: what a force and a moment do to its middle is what they do to the
-/// section, carried over as by a rigid body; and the other way round.
+/// A gear that moves with a cross-section some way off: what a force and a moment do to its middle is what they do to
+/// the section, carried over as by a rigid body; and the other way round.
 #[test]
 fn a_reach_is_a_rigid_body() {
     let (l, c, reach, k) = (300.0, 70.0, 50.0, 2e5);

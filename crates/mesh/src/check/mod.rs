@@ -303,7 +303,8 @@ fn place(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
         findings.push(Finding::new(Severity::Warning, FindingKind::Axis, 1, text));
         return;
     }
-    // Hubs and shafts may reach farther on one side than on the other: where flanks are named, they say where mid-face is.
+    // Hubs and shafts may reach farther on one side than on the other: where flanks are named, they say where
+    // mid-face is.
     let flanks = mesh.surfaces.iter().filter(|group| names.parse(&group.name).is_some());
     let heights = flanks.flat_map(|g| &g.faces).flat_map(Face::nodes).map(|&n| mesh.nodes[n as usize][2]);
     let [mut low, mut high] = least_and_largest(&mut heights.into_iter());

@@ -321,8 +321,8 @@ fn each_fault_is_found() {
     one(&mesh, FindingKind::BoreNotRound, Severity::Warning);
 }
 
-/// A pinion in one with its part of the shaft: the end of the stub is its bore, mid-face is where the flanks have it, and
-/// nothing is to be remarked on. Held area and means are those of the annulus.
+/// A pinion in one with its part of the shaft: the end of the stub is its bore, mid-face is where the flanks have it,
+/// and nothing is to be remarked on. Held area and means are those of the annulus.
 #[test]
 fn a_gear_in_one_with_its_shaft() {
     let mesh = repository_mesh("hub_and_shaft_hex20.msh");

@@ -110,8 +110,8 @@ impl GearReducer {
         }
     }
 
-    /// Whether the window's nodes are last in the factor, and it tells of all else from them alone: it does not know the
-    /// reactions of a bore that is held by its means.
+    /// Whether the window's nodes are last in the factor, and it tells of all else from them alone: it does not know
+    /// the reactions of a bore that is held by its means.
     pub(crate) fn is_last(&self, window: &Window) -> bool {
         let by_means = self.gear.bore_coupling() == BoreCoupling::Distributing;
         self.coordinates.are_nodes() && !by_means && Arc::ptr_eq(&window.reduced, &self.base)

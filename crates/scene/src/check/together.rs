@@ -101,7 +101,8 @@ fn bore(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             return refused(what, "leave it out, or use `model = \"reduced\"`");
         }
         if model == Model::Full && gear.bore.coupling == Coupling::Distributing {
-            let what = "a bore with the coupling \"distributing\" is held by its means, which the model \"full\" does not know";
+            let what =
+                "the model \"full\" does not know bores that are held by their means (coupling \"distributing\")";
             return refused(what.into(), "use `model = \"reduced\"`, or the coupling \"kinematic\"");
         }
     }
