@@ -2,10 +2,11 @@
 
 use geometry::{Gear, GearPair};
 use mesh::{
-    Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup, generate,
+    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup,
+    generate,
 };
 
-use scene::{GearScene, MesherScene, Reduction, Scene};
+use scene::{Coupling, GearScene, MesherScene, Reduction, Scene};
 
 use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts, flank_checks::NamedFlanks};
 
@@ -58,7 +59,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
             let failed =
                 |source: MeshError| AnalysisError::MadeMesh { gear: whose.to_owned(), source: Box::new(source) };
             let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
-            let (gear, facts) = to_compute(scene, found, "built-in mesher".to_owned()).map_err(failed)?;
+            let (gear, facts) = to_compute(scene, gear, found, "built-in mesher".to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, warnings: Vec::new() })
         }
     }
@@ -96,7 +97,7 @@ pub fn checked_mesh(
     let flanks = NamedFlanks { file: &file, whose, found: &found, exact, names: &gear.groups };
     flanks.lie_on_the_gear()?;
     flanks.are_whole()?;
-    let (gear, facts) = to_compute(scene, found, source).map_err(complain)?;
+    let (gear, facts) = to_compute(scene, gear, found, source).map_err(complain)?;
     Ok(SceneMesh { gear, facts, warnings })
 }
 
@@ -213,7 +214,20 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &G
 /// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough,
 /// else it is
 /// repeated to the whole gear.
-fn to_compute(scene: &Scene, found: GearMesh, mut source: String) -> Result<(GearMesh, MeshFacts), MeshError> {
+fn to_compute(
+    scene: &Scene,
+    gear: &GearScene,
+    found: GearMesh,
+    mut source: String,
+) -> Result<(GearMesh, MeshFacts), MeshError> {
+    let found = match gear.bore.held_mm {
+        Some(part) => found.held_between(part)?,
+        None => found,
+    };
+    let found = found.coupled(match gear.bore.coupling {
+        Coupling::Kinematic => BoreCoupling::Kinematic,
+        Coupling::Distributing => BoreCoupling::Distributing,
+    });
     let copies = if found.is_periodic_sector() { found.tooth_count() as usize } else { 1 };
     if found.is_periodic_sector() {
         source += &format!(", one sector, repeated {copies} times");

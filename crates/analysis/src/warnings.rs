@@ -2,7 +2,7 @@
 
 use fem::locks_from;
 use ltca::{StaticModel, StaticPosition};
-use mesh::{ElementKind, Extent};
+use mesh::{BoreCoupling, ElementKind, Extent};
 use reduction::{ElasticGear, GearReducer};
 
 use crate::{coarse::Coarse, reduced};
@@ -58,7 +58,8 @@ const HELD: f64 = 0.1;
 fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
     let gear = [&model.pair().pinion, &model.pair().wheel][i];
     let (bore, reference) = (gear.data().bore_diameter, 2.0 * gear.reference_radius());
-    if bore < THIN * reference {
+    let held = |g: &ElasticGear| g.gear().bore_coupling() == BoreCoupling::Kinematic;
+    if bore < THIN * reference || !held(&model.gears()[i]) {
         return None;
     }
     let as_is = coarse.solid();

@@ -93,6 +93,23 @@ impl SymmetricMatrix {
             .flat_map(move |column| (starts[column]..starts[column + 1]).map(move |k| (rows[k], column, values[k])))
     }
 
+    /// Adds to one entry of the diagonal.
+    ///
+    /// # Errors
+    /// [`FemError::BadDof`] where the diagonal has no such entry.
+    pub fn add_to_diagonal(&mut self, dof: usize, value: f64) -> Result<(), FemError> {
+        let count = self.n();
+        let (starts, rows, _) = self.arrays();
+        // The rows of a column ascend from the diagonal on.
+        match starts.get(dof).filter(|_| dof < count).filter(|start| rows.get(**start) == Some(&dof)) {
+            Some(&at) => {
+                self.lower.val_mut()[at] += value;
+                Ok(())
+            }
+            None => Err(FemError::BadDof { dof, count }),
+        }
+    }
+
     /// The diagonal.
     pub fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = vec![0.0; self.n()];

@@ -3,10 +3,17 @@
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
 use nalgebra::{DMatrix, DVector, SVector};
 
-use crate::{GearboxError, Structure, Supports};
+use crate::{Disc, GearboxError, Structure, Supports};
 
 /// A structure cut into beam elements; six coordinates a node (displacements x, y, z in mm, turns about them in rad),
 /// shaft after shaft.
+///
+/// Coordinates of a node are those of its cross-section, but where a disc has a reach h: there they are those of the
+/// disc's middle, which moves with the section as a rigid body.
+///
+/// ```text
+/// u_section = u - turn x (0, 0, h),   turn_section = turn        q_sections = T q
+/// ```
 #[derive(Debug, Clone, PartialEq)]
 pub struct Assembly {
     structure: Structure,
@@ -15,6 +22,8 @@ pub struct Assembly {
     first: Vec<usize>,
     discs: Vec<usize>,
     bearings: Vec<usize>,
+    /// First coordinates of the nodes whose disc has a reach, and the reach, mm.
+    reaches: Vec<(usize, f64)>,
     supports: Supports,
 }
 
@@ -27,7 +36,7 @@ impl Assembly {
         structure.check()?;
         let mut lines = Vec::with_capacity(structure.shafts.len());
         for (i, shaft) in structure.shafts.iter().enumerate() {
-            let of_discs = structure.discs.iter().filter(|d| d.shaft == i).map(|d| d.position);
+            let of_discs = structure.discs.iter().filter(|d| d.shaft == i).map(Disc::seat_position);
             let of_bearings = structure.bearings.iter().filter(|b| b.shaft == i).map(|b| b.position);
             let places: Vec<f64> = of_discs.chain(of_bearings).collect();
             let line = BeamLine::new(&shaft.pieces, &places, shaft.longest_element, BeamTheory::Timoshenko);
@@ -38,10 +47,11 @@ impl Assembly {
             first.push(first[first.len() - 1] + line.stiffness.nrows());
         }
         let node = |shaft: usize, z: f64| first[shaft] + NODE_COORDINATES * lines[shaft].node_at(z);
-        let discs = structure.discs.iter().map(|d| node(d.shaft, d.position)).collect();
-        let bearings = structure.bearings.iter().map(|b| node(b.shaft, b.position)).collect();
+        let discs: Vec<usize> = structure.discs.iter().map(|d| node(d.shaft, d.seat_position())).collect();
+        let bearings: Vec<usize> = structure.bearings.iter().map(|b| node(b.shaft, b.position)).collect();
+        let reaches = reaches(&structure, &discs, &bearings)?;
         let supports = Supports::new(&structure)?;
-        Ok(Self { structure, lines, first, discs, bearings, supports })
+        Ok(Self { structure, lines, first, discs, bearings, reaches, supports })
     }
 
     /// What it was made from.
@@ -72,6 +82,30 @@ impl Assembly {
     /// First coordinate and elements of each shaft.
     pub(crate) fn lines(&self) -> impl Iterator<Item = (usize, &BeamLine)> {
         self.first.iter().copied().zip(&self.lines)
+    }
+
+    /// T q: displacements of the cross-sections of all nodes.
+    pub fn of_sections(&self, q: &DVector<f64>) -> DVector<f64> {
+        let mut own = q.clone();
+        for &(at, reach) in &self.reaches {
+            own[at] -= reach * q[at + 4];
+            own[at + 1] += reach * q[at + 3];
+        }
+        own
+    }
+
+    /// T' m T, from cross-sections to coordinates; in place.
+    fn to_coordinates(&self, m: &mut DMatrix<f64>) {
+        for &(at, reach) in &self.reaches {
+            for (turn, shift, arm) in [(at + 4, at, -reach), (at + 3, at + 1, reach)] {
+                for i in 0..m.nrows() {
+                    m[(i, turn)] += arm * m[(i, shift)];
+                }
+                for j in 0..m.ncols() {
+                    m[(turn, j)] += arm * m[(shift, j)];
+                }
+            }
+        }
     }
 
     /// Displacements at the bearings out of those of all nodes, six a bearing, and those of open seats.
@@ -137,6 +171,7 @@ impl Assembly {
     /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
     pub fn stiffness_without_meshes(&self) -> DMatrix<f64> {
         let mut k = self.of_shafts(|line| &line.stiffness);
+        self.to_coordinates(&mut k);
         self.add_supports(&mut k, &self.supports.stiffness);
         k
     }
@@ -166,6 +201,7 @@ impl Assembly {
     /// Consistent mass of the shafts, and that of discs and machines: t, t mm, t mm^2.
     pub fn mass(&self) -> DMatrix<f64> {
         let mut m = self.of_shafts(|line| &line.mass);
+        self.to_coordinates(&mut m);
         for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
             let inertia = [disc.mass; 3].into_iter().chain([disc.diametral_inertia; 2]).chain([disc.polar_inertia]);
             inertia.enumerate().for_each(|(axis, value)| m[(at + axis, at + axis)] += value);
@@ -202,6 +238,7 @@ impl Assembly {
             let n = line.gyroscopic.nrows();
             g.view_mut((at, at), (n, n)).copy_from(&(*speed * &line.gyroscopic));
         }
+        self.to_coordinates(&mut g);
         for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
             let momentum = disc.polar_inertia * speeds[disc.shaft];
             g[(at + 3, at + 4)] += momentum;
@@ -226,4 +263,19 @@ impl Assembly {
             }
         }
     }
+}
+
+/// Reach of the disc at each node that has one. Nothing else may be there: it would have to know which coordinates
+/// those of the node are.
+fn reaches(structure: &Structure, discs: &[usize], bearings: &[usize]) -> Result<Vec<(usize, f64)>, GearboxError> {
+    let with_reach = structure.discs.iter().enumerate().filter(|(_, d)| d.reach != 0.0);
+    let one = |(i, disc): (usize, &Disc)| {
+        let other_disc = structure.discs.iter().zip(discs).enumerate().find(|(j, (_, n))| *j != i && **n == discs[i]);
+        let other_bearing = structure.bearings.iter().zip(bearings).find(|(_, n)| **n == discs[i]);
+        match other_disc.map(|(_, (d, _))| &d.name).or(other_bearing.map(|(b, _)| &b.name)) {
+            Some(other) => Err(GearboxError::SharedSeat { disc: disc.name.clone(), other: other.clone() }),
+            None => Ok((discs[i], disc.reach)),
+        }
+    };
+    with_reach.map(one).collect()
 }

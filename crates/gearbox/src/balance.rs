@@ -89,8 +89,8 @@ pub(crate) fn balances(
 }
 
 fn gear_height(gearbox: &StaticGearbox, disc: usize) -> f64 {
-    let shaft = gearbox.assembly.structure().discs[disc].shaft;
-    gearbox.assembly.disc(disc).map_or(0.0, |node| height(gearbox, shaft, node))
+    let disc_of = &gearbox.assembly.structure().discs[disc];
+    gearbox.assembly.disc(disc).map_or(0.0, |node| height(gearbox, disc_of.shaft, node) + disc_of.reach)
 }
 
 /// Height of a node on its shaft, mm.

@@ -64,6 +64,14 @@ pub enum GearboxError {
         /// How many there are.
         count: usize,
     },
+    /// Something else at the cross-section that a disc with a reach moves with.
+    #[error("{other} is at the cross-section of the shaft that {disc} moves with")]
+    SharedSeat {
+        /// Name of the disc with a reach.
+        disc: String,
+        /// Name of what else is there.
+        other: String,
+    },
     /// A part sits beside its shaft.
     #[error("{part} at {position_mm} mm is not on its shaft of {length_mm} mm")]
     OffShaft {
@@ -272,6 +280,9 @@ impl GearboxError {
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
+            Self::SharedSeat { .. } => {
+                "move one of them: bearings and loads act beside the part of the shaft that is meshed with the gear"
+            }
             Self::NoShaft { .. } | Self::NoDisc { .. } => {
                 "shafts and discs are numbered in the order in which they are given"
             }

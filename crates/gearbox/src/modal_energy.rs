@@ -47,12 +47,13 @@ impl ModalEnergy {
     /// Of complex amplitudes x: x^H K x and x^H M x, part by part, over those of all matrices.
     pub(crate) fn of(assembly: &Assembly, [k, m]: [&DMatrix<f64>; 2], shape: &DVector<Complex<f64>>) -> Self {
         let parts = [shape.map(|x| x.re), shape.map(|x| x.im)];
+        let sections = parts.each_ref().map(|p| assembly.of_sections(p));
         let mut strain = Vec::new();
         let mut kinetic = Vec::new();
         // What entries of the stiffness make of the amplitudes: the measure of round-off.
         let mut gross = 0.0;
         for (i, (at, line)) in assembly.lines().enumerate() {
-            let own = parts.each_ref().map(|p| p.rows(at, line.mass.nrows()).into_owned());
+            let own = sections.each_ref().map(|p| p.rows(at, line.mass.nrows()).into_owned());
             let of = |m: &DMatrix<f64>| own.iter().map(|p| p.dot(&(m * p))).sum::<f64>();
             strain.push((Component::Shaft(i), of(&line.stiffness)));
             kinetic.push((Component::Shaft(i), of(&line.mass)));

@@ -86,6 +86,7 @@ fn turn_along(gearbox: &StaticGearbox, shaft: usize, seats: &DVector<f64>, all: 
 fn shaft_line(gearbox: &StaticGearbox, shaft: usize, all: &DVector<f64>) -> ShaftLine {
     let (first, line) = gearbox.assembly.line(shaft);
     let positions = line.positions().to_vec();
+    let all = gearbox.assembly.of_sections(all);
     let of = |node: usize| std::array::from_fn(|axis| all[first + 6 * node + axis]);
     ShaftLine { displacements: (0..positions.len()).map(of).collect(), positions }
 }

@@ -31,6 +31,10 @@ pub struct Disc {
     pub shaft: usize,
     /// Position of its mid-plane, mm from the shaft's z = 0.
     pub position: f64,
+    /// Height of its mid-plane above the cross-section of the shaft that it moves with, mm: 0 for most; else of a gear
+    /// that is meshed in one with the shaft from there on, or sits on a hub of that reach. The cross-section has to be
+    /// on the shaft, the mid-plane need not.
+    pub reach: f64,
     /// Mass, t.
     pub mass: f64,
     /// Inertia about a diameter through its centre, t mm^2.
@@ -97,7 +101,7 @@ pub struct Structure {
 impl Disc {
     /// A seat without mass.
     pub fn seat(name: impl Into<String>, shaft: usize, position: f64) -> Self {
-        Self { name: name.into(), shaft, position, mass: 0.0, diametral_inertia: 0.0, polar_inertia: 0.0 }
+        Self { name: name.into(), shaft, position, reach: 0.0, mass: 0.0, diametral_inertia: 0.0, polar_inertia: 0.0 }
     }
 
     /// A ring between two diameters (mm), of some width (mm) and density (t/mm^3).
@@ -116,7 +120,17 @@ impl Disc {
         let mass = density * PI * width * 0.25 * (outer * outer - inner * inner);
         let polar_inertia = mass * (outer * outer + inner * inner) / 8.0;
         let diametral_inertia = 0.5 * polar_inertia + mass * width * width / 12.0;
-        Self { name: name.into(), shaft, position, mass, diametral_inertia, polar_inertia }
+        Self { name: name.into(), shaft, position, reach: 0.0, mass, diametral_inertia, polar_inertia }
+    }
+
+    /// The same, moving with the cross-section at `seat` (mm from the shaft's z = 0).
+    pub fn seated_at(self, seat: f64) -> Self {
+        Self { reach: self.position - seat, ..self }
+    }
+
+    /// Where its cross-section is, mm from the shaft's z = 0.
+    pub fn seat_position(&self) -> f64 {
+        self.position - self.reach
     }
 }
 
@@ -150,7 +164,9 @@ impl Structure {
         }
         self.check_size()?;
         for disc in &self.discs {
-            self.on_shaft(&disc.name, disc.shaft, disc.position)?;
+            finite(&disc.name, "position, mm", disc.position)?;
+            finite(&disc.name, "reach, mm", disc.reach)?;
+            self.on_shaft(&disc.name, disc.shaft, disc.seat_position())?;
             not_negative(&disc.name, "mass, t", disc.mass)?;
             not_negative(&disc.name, "diametral inertia, t mm^2", disc.diametral_inertia)?;
             not_negative(&disc.name, "polar inertia, t mm^2", disc.polar_inertia)?;

@@ -107,6 +107,21 @@ pub enum MeshError {
         /// Smallest radius of a node, mm.
         found_mm: f64,
     },
+    /// No face of the bore lies on the part that is to be held.
+    #[error(
+        "no face of the bore lies between z = {from_mm:.4} and {to_mm:.4} mm as a whole; the bore reaches from \
+         {low_mm:.4} to {high_mm:.4} mm"
+    )]
+    NotHeld {
+        /// Where it is to be held from, mm.
+        from_mm: f64,
+        /// Up to where, mm.
+        to_mm: f64,
+        /// Lowest place of the bore, mm.
+        low_mm: f64,
+        /// Highest place, mm.
+        high_mm: f64,
+    },
     /// Only a sector between two cuts can be repeated.
     #[error("the mesh is no periodic sector: it has no cuts")]
     NoCuts,
@@ -211,6 +226,9 @@ impl MeshError {
             Self::CutInPart { .. } => "put all faces of each cut into its group",
             Self::CutsCross => "is the sector the smallest part that repeats, one tooth?",
             Self::TooLarge { .. } => "make the sector's mesh coarser",
+            Self::NotHeld { .. } => {
+                "whole faces of the mesh are held: hold a longer part, or mesh the bore finer along the face"
+            }
             Self::NoBore { .. } => "set bore_diameter_mm to that of the mesh, or name the bore's group",
         };
         Some(hint.to_owned())

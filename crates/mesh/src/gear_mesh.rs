@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use geometry::Side;
 
-use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
+use crate::{BoreCoupling, Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceGroup};
 
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
@@ -13,6 +13,7 @@ pub struct GearMesh {
     pub(crate) teeth: u32,
     pub(crate) bore: SurfaceGroup,
     bore_nodes: Vec<u32>,
+    pub(crate) coupling: BoreCoupling,
     pub(crate) flanks: BTreeMap<(u32, Side), Vec<Face>>,
     pub(crate) cuts: Option<[SurfaceGroup; 2]>,
 }
@@ -75,7 +76,7 @@ impl GearMesh {
         cuts: Option<[SurfaceGroup; 2]>,
     ) -> Self {
         let bore_nodes = bore.nodes();
-        Self { mesh, teeth, bore, bore_nodes, flanks, cuts }
+        Self { mesh, teeth, bore, bore_nodes, coupling: BoreCoupling::Kinematic, flanks, cuts }
     }
 
     /// The mesh.
@@ -88,12 +89,12 @@ impl GearMesh {
         self.teeth
     }
 
-    /// Faces of the bore.
+    /// Faces of the bore that are held.
     pub fn bore(&self) -> &SurfaceGroup {
         &self.bore
     }
 
-    /// Nodes of the bore, ascending.
+    /// Nodes of these faces, ascending; [`GearMesh::held_nodes`] are those that do not move.
     pub fn bore_nodes(&self) -> &[u32] {
         &self.bore_nodes
     }

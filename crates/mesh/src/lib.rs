@@ -3,6 +3,7 @@
 //! Lengths in mm. Node order inside an element is Gmsh's own for every kind.
 
 mod block;
+mod bore;
 mod check;
 pub mod element;
 pub mod error;
@@ -20,6 +21,7 @@ mod root_fillets;
 mod sector;
 pub mod structured;
 
+pub use bore::BoreCoupling;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;

@@ -2,7 +2,7 @@
 
 use crate::{GearReducer, ReductionError, Window};
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
-use mesh::GearMesh;
+use mesh::{BoreCoupling, GearMesh};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
@@ -23,9 +23,12 @@ impl FullGear {
     /// Assembles the gear.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`].
+    /// [`ReductionError::Fem`]; [`ReductionError::NotReduced`] for a bore that is held by its means.
     pub fn new(gear: GearMesh, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
-        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
+        if gear.bore_coupling() == BoreCoupling::Distributing {
+            return Err(ReductionError::NotReduced);
+        }
+        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.held_nodes());
         let stiffness = fem::assemble_stiffness(gear.mesh(), &material, &dofs, elements)?;
         Ok(Self { gear, material, elements: *elements, dofs, stiffness })
     }

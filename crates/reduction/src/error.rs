@@ -75,6 +75,17 @@ pub enum ReductionError {
         /// Most that are possible.
         most: usize,
     },
+    /// Faces of a bore that have no mean turn.
+    #[error("the {faces} held faces of the bore are too small to hold the gear by their mean displacement and turn")]
+    NoMeanTurn {
+        /// Held faces.
+        faces: usize,
+    },
+    /// A bore that is held by its means, of a gear that keeps all its freedoms.
+    #[error(
+        "a bore with the coupling `distributing` is held by its means, which a gear with all its freedoms does not know"
+    )]
+    NotReduced,
     /// Normal modes of one gear asked for on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -107,6 +118,10 @@ impl ReductionError {
             Self::LargeBoundary { .. } => {
                 Some("take the massless boundary, or coarse grids over the flanks, or a mesh that is cyclic".into())
             }
+            Self::NoMeanTurn { .. } => {
+                Some("hold a larger part of the bore (`held_mm`), or take the coupling `kinematic`".into())
+            }
+            Self::NotReduced => Some("take `model = \"reduced\"`, or the coupling `kinematic`".into()),
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }

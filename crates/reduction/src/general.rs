@@ -1,10 +1,10 @@
 //! One sparse factor of a whole gear, cyclic or not.
 
-use faer::Mat;
+use faer::{Mat, MatMut};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, dense};
-use mesh::Mesh;
+use mesh::{BoreCoupling, GearMesh, Mesh};
 
-use crate::{ReductionError, load::Load};
+use crate::{ReductionError, load::Load, mean_seat::MeanSeat};
 
 /// Columns of all free degrees of freedom held at a time: 256 of 10^5 freedoms are 200 MB.
 const COLUMNS: usize = 256;
@@ -13,7 +13,9 @@ const COLUMNS: usize = 256;
 #[derive(Debug)]
 pub(crate) struct GeneralGear {
     dofs: DofMap,
+    /// Of the stiffness, or of K~ where the bore is held by its means.
     factor: BoundaryLastFactor,
+    seat: Option<MeanSeat>,
 }
 
 /// A window as the factor sees it.
@@ -28,16 +30,23 @@ pub(crate) enum Seen<'a> {
 impl GeneralGear {
     /// Assembles and factors with the nodes `last` (ascending) last.
     pub(crate) fn new(
-        mesh: &Mesh,
-        held: &[u32],
+        gear: &GearMesh,
         material: &Material,
         elements: &ElementOptions,
         last: &[u32],
     ) -> Result<Self, ReductionError> {
-        let dofs = DofMap::new(mesh.nodes.len(), held);
-        let stiffness = fem::assemble_stiffness(mesh, material, &dofs, elements)?;
+        let mesh = gear.mesh();
+        let dofs = DofMap::new(mesh.nodes.len(), gear.held_nodes());
+        let mut stiffness = fem::assemble_stiffness(mesh, material, &dofs, elements)?;
+        let seat = match gear.bore_coupling() {
+            BoreCoupling::Kinematic => None,
+            BoreCoupling::Distributing => Some(MeanSeat::new(gear, &dofs)?),
+        };
+        if let Some(seat) = &seat {
+            stiffness = seat.held(stiffness)?;
+        }
         let factor = BoundaryLastFactor::new(&stiffness, &node_dofs(&dofs, last))?;
-        Ok(Self { dofs, factor })
+        Ok(Self { dofs, factor, seat })
     }
 
     /// Number of free degrees of freedom.
@@ -45,16 +54,40 @@ impl GeneralGear {
         self.dofs.free_count()
     }
 
-    /// K^-1 b in place for forces b (N) on all free freedoms, n x k.
-    pub(crate) fn solve(&self, rhs: faer::MatMut<'_, f64>) -> Result<(), ReductionError> {
-        Ok(self.factor.solve(rhs)?)
+    /// K^-1 b in place for forces b (N) on all free freedoms, n x k; of a bore that is held by its means P K~^-1 P' b.
+    pub(crate) fn solve(&self, mut rhs: MatMut<'_, f64>) -> Result<(), ReductionError> {
+        if let Some(seat) = &self.seat {
+            seat.balance(rhs.as_mut());
+        }
+        self.factor.solve(rhs.as_mut())?;
+        if let Some(seat) = &self.seat {
+            seat.settle(rhs);
+        }
+        Ok(())
+    }
+
+    /// Rows `wanted` of the same.
+    fn solve_rows(&self, forces: &Mat<f64>, wanted: &[usize]) -> Result<Mat<f64>, ReductionError> {
+        if self.seat.is_none() {
+            return Ok(self.factor.solve_rows(forces.as_ref(), wanted)?);
+        }
+        let mut all = forces.clone();
+        self.solve(all.as_mut())?;
+        Ok(Mat::from_fn(wanted.len(), all.ncols(), |i, j| all[(wanted[i], j)]))
     }
 
     /// C of a window, mm/N.
     pub(crate) fn compliance(&self, seen: Seen) -> Result<Mat<f64>, ReductionError> {
-        match seen {
-            Seen::Last => Ok(self.factor.compliance()),
-            Seen::Loads(loads) => load_compliance(&self.factor, loads, |n| self.dofs.position(n)),
+        match (seen, &self.seat) {
+            (Seen::Last, None) => Ok(self.factor.compliance()),
+            (Seen::Last, Some(seat)) => {
+                let mut reactions = seat.reactions().clone();
+                self.factor.solve(reactions.as_mut())?;
+                Ok(seat.compliance(&self.factor.compliance(), self.factor.boundary(), &reactions))
+            }
+            (Seen::Loads(loads), _) => {
+                load_compliance(self.factor.n(), loads, |n| self.dofs.position(n), |rhs| self.solve(rhs))
+            }
         }
     }
 
@@ -64,7 +97,7 @@ impl GeneralGear {
             Seen::Last => Ok(self.factor.expand(u.as_ref())?),
             Seen::Loads(loads) => {
                 let mut field = spread(loads, f, self.factor.n(), |n| self.dofs.position(n));
-                self.factor.solve(field.as_mut())?;
+                self.solve(field.as_mut())?;
                 Ok(field)
             }
         }
@@ -77,7 +110,7 @@ impl GeneralGear {
             Seen::Last => Ok(self.factor.condense(force.as_ref())?),
             Seen::Loads(loads) => {
                 let (wanted, loads) = self.on_support(loads);
-                let field = self.factor.solve_rows(force.as_ref(), &wanted)?;
+                let field = self.solve_rows(force, &wanted)?;
                 Ok(means(&loads, &field))
             }
         }
@@ -124,7 +157,7 @@ impl GeneralGear {
                 Seen::Last => self.factor.expand_rows(unit.as_ref(), &support)?,
                 Seen::Loads(loads) => {
                     let force = spread(loads, &unit, self.factor.n(), |n| self.dofs.position(n));
-                    self.factor.solve_rows(force.as_ref(), &support)?
+                    self.solve_rows(&force, &support)?
                 }
             };
             stress.as_mut().subcols_mut(start, width).copy_from(operator.apply(field.as_ref())?);
@@ -190,11 +223,13 @@ fn means(loads: &[Vec<(usize, f64)>], field: &Mat<f64>) -> Mat<f64> {
     })
 }
 
-/// P' K^-1 P for the loads P, three directions each, mm/N; `position` places a mesh node among the free ones.
+/// P' K^-1 P for the loads P, three directions each, mm/N; `position` places a mesh node among the `free` freedoms,
+/// `solve` is K^-1 in place.
 pub(crate) fn load_compliance(
-    factor: &BoundaryLastFactor,
+    free: usize,
     loads: &[Load],
     position: impl Fn(u32) -> Option<usize>,
+    solve: impl Fn(MatMut<'_, f64>) -> Result<(), ReductionError>,
 ) -> Result<Mat<f64>, ReductionError> {
     let placed: Vec<Vec<(usize, f64)>> =
         loads.iter().map(|load| load.iter().filter_map(|&(n, w)| Some((position(n)?, w))).collect()).collect();
@@ -202,8 +237,8 @@ pub(crate) fn load_compliance(
     let mut compliance = Mat::<f64>::zeros(n, n);
     for start in (0..n).step_by(COLUMNS) {
         let width = (n - start).min(COLUMNS);
-        let mut columns = spread(loads, &unit_columns(n, start, width), factor.n(), &position);
-        factor.solve(columns.as_mut())?;
+        let mut columns = spread(loads, &unit_columns(n, start, width), free, &position);
+        solve(columns.as_mut())?;
         compliance.as_mut().subcols_mut(start, width).copy_from(means(&placed, &columns));
     }
     Ok(Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)])))

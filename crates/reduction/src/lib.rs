@@ -17,6 +17,7 @@ mod general;
 mod layer_profile;
 mod load;
 mod local_compliance;
+mod mean_seat;
 mod modes;
 mod plane_strain;
 mod record;

@@ -78,7 +78,7 @@ impl LocalCompliance {
     ) -> Result<Self, ReductionError> {
         let half = FreeHalf::new(gear, geometry, material, elements, tooth, side)?;
         let factor = BoundaryLastFactor::new(&half.stiffness, &[])?;
-        let compliance = load_compliance(&factor, &grid.loads, |n| half.position(n))?;
+        let compliance = load_compliance(factor.n(), &grid.loads, |n| half.position(n), |rhs| Ok(factor.solve(rhs)?))?;
         let layer = LayerProfile::new(geometry, material.poisson(), half.overshoot)?;
         let nodes = (0..grid.positions.len() as u32).collect();
         Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })

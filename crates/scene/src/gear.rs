@@ -42,6 +42,9 @@ pub struct GearScene {
     pub mesher: Option<MesherScene>,
     /// The mesh's own names for the parts of the gear.
     pub groups: GroupNames,
+    /// How its shaft holds its bore.
+    #[serde(skip_serializing_if = "BoreScene::is_default")]
+    pub bore: BoreScene,
     /// What it is made of.
     pub material: Material,
     /// Micro-geometry of the flanks.
@@ -56,6 +59,39 @@ pub struct GearScene {
     /// The shaft it sits on; set exactly for the model of shafts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaft: Option<ShaftScene>,
+}
+
+choices! {
+    /// How a bore follows its shaft.
+    pub enum Coupling {
+        /// As a rigid body, node by node.
+        Kinematic = "kinematic",
+        /// By its area-weighted mean displacement and mean turn.
+        Distributing = "distributing",
+    }
+}
+
+/// How a shaft holds a bore.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct BoreScene {
+    /// Part of it that is held, from and to, mm from mid-face; `None`: all of it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_mm: Option<[f64; 2]>,
+    /// How it follows.
+    pub coupling: Coupling,
+}
+
+impl Default for BoreScene {
+    fn default() -> Self {
+        Self { held_mm: None, coupling: Coupling::Kinematic }
+    }
+}
+
+impl BoreScene {
+    /// Whether all of the bore is rigid.
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// Options of the structured mesher.

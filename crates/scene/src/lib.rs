@@ -56,7 +56,7 @@ pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use builder::{SceneBuilder, Value};
 pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use error::{Line, Place, SceneError};
-pub use gear::{GearScene, Material, MesherScene, PairScene};
+pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
 pub use keys::{Tables, nearest};
 pub use ladder::{

@@ -65,6 +65,19 @@ fn positions_say_the_offset_of_mid_faces() {
     assert!((said[0] - 3.0).abs() < 1e-12 && (said[1] + 3.0).abs() < 1e-12, "{said:?} mm");
 }
 
+/// A gear moves with the cross-section at its mid-plane, or where its seat is said to be: then it may stand beyond
+/// the end.
+#[test]
+fn a_seat_may_be_beside_the_gear() {
+    let file = Gearbox::read(&folder().join("overhung_pinion.toml")).unwrap();
+    assert_eq!((file.gears[0].position, file.gears[0].seat), (185.0, 155.0));
+    assert_eq!((file.gears[1].position, file.gears[1].seat), (185.0, 185.0));
+    let text = std::fs::read_to_string(folder().join("overhung_pinion.toml")).unwrap();
+    let error =
+        Gearbox::parse(&text.replace("seat_mm = 155.0\n", ""), &folder().join("overhung_pinion.toml")).unwrap_err();
+    assert!(error.to_string().contains("0 .. 155"), "{error}");
+}
+
 /// A mistake is told with its line, what is allowed, and what to do.
 #[test]
 fn mistakes_are_told_with_their_place() {
@@ -72,6 +85,7 @@ fn mistakes_are_told_with_their_place() {
         ("shaft = \"fast\"", "shaft = \"fats\"", "\"fats\"", "did you mean \"fast\"?"),
         ("wheel = \"4\"", "wheel = \"2\"", "\"3\" and \"2\" are on one shaft", "two shafts"),
         ("position_mm = 185.0", "position_mm = 285.0", "0 .. 200", ""),
+        ("key_deg = 5.0", "key_deg = 5.0\nseat_mm = 300.0", "0 .. 200", ""),
         ("length_mm = 40.0", "length = 40.0", "`length`", "did you mean `length_mm`?"),
         ("inner_diameter_mm = 10.0", "inner_diameter_mm = 40.0", "35 mm wide outside and 40 mm inside", "smaller"),
         ("name = \"middle\"\n", "name = \"fast\"\n", "two shafts with the name \"fast\"", "`name` of its own"),

@@ -10,7 +10,10 @@ use gearbox::{
 use geometry::Sense;
 use ltca::StaticOptions;
 use reduction::ElasticGear;
-use scene::{Driver, Rotation, Scene, gearbox::Gearbox};
+use scene::{
+    Driver, Rotation, Scene,
+    gearbox::{Gearbox, GearboxGear},
+};
 
 use crate::{
     AnalysisError, GearCache,
@@ -83,6 +86,9 @@ pub(super) fn widening<T>(
     }
 }
 
+/// How far from its seat a bore may be held before it is told, over the face width.
+const OFF_SEAT: f64 = 0.05;
+
 /// The gears of a mesh, reduced.
 pub(super) struct ReducedMesh {
     pub scene: Scene,
@@ -109,6 +115,31 @@ impl ReducedMesh {
         let of_pair = gears::warnings(&mesh.pair).into_iter().chain(meshes.iter().flat_map(|m| m.warnings.clone()));
         let warnings = of_pair.chain(warnings).map(|said| format!("{}: {said}", mesh.name)).collect();
         Ok(Self { scene, options, meshes, gears: Arc::new(gears), keys, warnings })
+    }
+
+    /// What is held of the bores, where that is about another cross-section than the gear's seat: a shaft would take
+    /// hold of it by a lever that is not there.
+    pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<String> {
+        let width = self.scene.pair.face_width_mm;
+        let gears = file.meshes[i].gears.into_iter().zip(&self.meshes).map(|(gear, mesh)| (&file.gears[gear], mesh));
+        let one = |(gear, mesh): (&GearboxGear, &SceneMesh)| {
+            let weights = mesh.gear.bore_weights();
+            let z = |n: u32| mesh.gear.mesh().nodes[n as usize][2];
+            let area: f64 = weights.iter().map(|(_, w)| w).sum();
+            let held = weights.iter().map(|&(n, w)| w * z(n)).sum::<f64>() / area;
+            let seat = gear.seat - gear.position;
+            let apart = !file.shafts[gear.shaft].held && (held - seat).abs() > OFF_SEAT * width;
+            apart.then(|| {
+                format!(
+                    "the mesh of gear {} is held about z = {held:.3} mm from its mid-plane, and its seat is at \
+                     {seat:.3} mm: \
+                     say `seat_mm = {:.3}`",
+                    gear.name,
+                    gear.position + held
+                )
+            })
+        };
+        gears.filter_map(one).collect()
     }
 
     /// Its contact.

@@ -65,8 +65,9 @@ pub fn solve_gearbox(
         };
         meshes.iter().enumerate().map(one).collect::<Result<Vec<_>, AnalysisError>>()
     })?;
-    for own in &reduced {
+    for (i, own) in reduced.iter().enumerate() {
         warnings.extend(own.warnings.clone());
+        warnings.extend(own.seats(file, i));
     }
     let all = (file, &meshes[..]);
     let (positions, samples) = widening(all, &mut reduced, cache, &mut warnings, |reduced| {

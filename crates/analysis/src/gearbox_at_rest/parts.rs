@@ -26,7 +26,8 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
         let length: f64 = own.sections.iter().map(|s| s.length).sum();
         shafts.push(Shaft { name: own.name.clone(), origin: own.origin, pieces, longest_element: length / 16.0 });
     }
-    let mut discs: Vec<Disc> = file.gears.iter().map(|g| Disc::seat(&g.name, g.shaft, g.position)).collect();
+    let mut discs: Vec<Disc> =
+        file.gears.iter().map(|g| Disc::seat(&g.name, g.shaft, g.position).seated_at(g.seat)).collect();
     discs.push(Disc::seat("the input", file.input.shaft, file.input.position));
     let torque =
         |(i, t): (usize, &scene::gearbox::GearboxTorque)| Disc::seat(format!("torque {}", i + 1), t.shaft, t.position);

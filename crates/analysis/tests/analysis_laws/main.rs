@@ -10,3 +10,4 @@ mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;
 mod nominal_load;
+mod overhung;

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearbox::{
     Assembly, Bearing, Disc, GearboxError, GearboxPosition, Operation, Rotors, StaticGearbox, Structure, Torque,
-    motion::{Drive, GearboxMechanism, MotionOptions, MotionPlan, SpringMesh},
+    motion::{Drive, GearboxMechanism, MotionOptions, MotionPlan, Speed, SpringMesh},
     rolling_bearing::{AxialSetting, BallGeometry, RollerProfile, RollingBearing, RollingElements, Row},
 };
 use geometry::Sense;
@@ -253,7 +253,8 @@ fn a_motion_begins_where_rolling_bearings_stand() {
         (0..5).map(|k| 0.5 * seat(k) * seat_moves(k).powi(2)).sum::<f64>()
     };
     let housing: f64 = base.bearings.iter().enumerate().map(pressed).sum();
-    let options = MotionOptions { drive: Drive::Speed(50.0), modal_damping: 0.02, limit: TAU * 3000.0 };
+    let options =
+        MotionOptions { drive: Drive::Speed(Speed::Constant(50.0)), modal_damping: 0.02, limit: TAU * 3000.0 };
     let operation = run(&linear, Sense::Ccw, TORQUE);
     let mut mechanism = GearboxMechanism::new(linear, meshes, operation, &options, |_, mesh, meshing| {
         let even = Fourier { mean: 4e5, cosine: Vec::new(), sine: Vec::new() };

@@ -41,6 +41,7 @@ pub fn overhung() -> Structure {
         name: name.into(),
         shaft: 0,
         position,
+        reach: 0.0,
         mass,
         diametral_inertia,
         polar_inertia,

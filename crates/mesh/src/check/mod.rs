@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::error::list;
 use crate::quality::{min_det_j, positions, scaled_jacobian};
-use crate::{FaceTable, GroupNames, Mesh, info};
+use crate::{Face, FaceTable, GroupNames, Mesh, info};
 
 /// How bad a finding is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -111,7 +111,7 @@ impl MeshReport {
         off_boundary(mesh, &table, &mut findings);
         cuts::check(mesh, names, teeth, &mut findings);
         size(mesh, names, &mut findings);
-        place(mesh, &mut findings);
+        place(mesh, names, &mut findings);
         findings.sort_by_key(|f| std::cmp::Reverse(f.severity));
         Self { findings }
     }
@@ -272,17 +272,25 @@ fn size(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
         );
         findings.push(Finding::new(Severity::Warning, FindingKind::Units, 1, text));
     }
-    if let Some([low, high]) = info::bore_radius(mesh, names).filter(|[low, high]| high - low > 1e-3 * high) {
+    // The end of a shaft that is meshed in one with its gear is as good a bore as a cylinder.
+    let flat = |face: &Face| {
+        let z = |n: &u32| mesh.nodes[*n as usize][2];
+        face.nodes().iter().all(|n| (z(n) - z(&face.nodes()[0])).abs() < 1e-6 * largest)
+    };
+    let is_end = mesh.surface(&names.bore).is_some_and(|bore| bore.faces.iter().all(flat));
+    if let Some([low, high]) = info::bore_radius(mesh, names).filter(|[low, high]| !is_end && high - low > 1e-3 * high)
+    {
         let text = format!("bore radius between {low:.4} and {high:.4} mm: is the gear's axis the z axis?");
         findings.push(Finding::new(Severity::Warning, FindingKind::BoreNotRound, 1, text));
     }
 }
 
 /// Axis and mid-face: about z, at z = 0.
-fn place(mesh: &Mesh, findings: &mut Vec<Finding>) {
-    let range = |value: &dyn Fn(&[f64; 3]) -> f64| {
-        mesh.nodes.iter().map(value).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)])
+fn place(mesh: &Mesh, names: &GroupNames, findings: &mut Vec<Finding>) {
+    let least_and_largest = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(v), h.max(v)])
     };
+    let range = |value: &dyn Fn(&[f64; 3]) -> f64| least_and_largest(&mut mesh.nodes.iter().map(value));
     // A gear with a bore has no node near its axis.
     let hollow = |a: usize, b: usize| {
         let [low, high] = range(&|x| x[a].hypot(x[b]));
@@ -295,7 +303,14 @@ fn place(mesh: &Mesh, findings: &mut Vec<Finding>) {
         findings.push(Finding::new(Severity::Warning, FindingKind::Axis, 1, text));
         return;
     }
-    let [low, high] = range(&|x| x[2]);
+    // Hubs and shafts may reach farther on one side than on the other: where flanks are named, they say where
+    // mid-face is.
+    let flanks = mesh.surfaces.iter().filter(|group| names.parse(&group.name).is_some());
+    let heights = flanks.flat_map(|g| &g.faces).flat_map(Face::nodes).map(|&n| mesh.nodes[n as usize][2]);
+    let [mut low, mut high] = least_and_largest(&mut heights.into_iter());
+    if low >= high {
+        [low, high] = range(&|x| x[2]);
+    }
     let middle = 0.5 * (low + high);
     if middle.abs() > 1e-3 * (high - low) {
         let text = format!("mid-face at z = {middle:.4} mm, not at 0: tooth 0 is where it should be at z = 0 only");

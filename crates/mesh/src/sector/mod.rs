@@ -128,7 +128,7 @@ impl GearMesh {
         surfaces.dedup_by(|a, b| a.name == b.name);
         let origins = numbers.origins().iter().map(|o| Origin { copy: o.copy, node: o.node }).collect();
         let on_axis = !numbers.shared.is_empty();
-        let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts);
+        let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts).coupled(self.coupling);
         let pairs = (0_u32..).zip(&partner).filter(|(_, there)| **there != NO_PARTNER);
         let cuts = pairs.map(|(here, &there)| [here, there]).collect();
         Ok(Copies { gear, origins, cuts, on_axis })

@@ -320,3 +320,39 @@ fn each_fault_is_found() {
     mesh.nodes.iter_mut().for_each(|x| x[1] += 3.0);
     one(&mesh, FindingKind::BoreNotRound, Severity::Warning);
 }
+
+/// A pinion in one with its part of the shaft: the end of the stub is its bore, mid-face is where the flanks have it,
+/// and nothing is to be remarked on. Held area and means are those of the annulus.
+#[test]
+fn a_gear_in_one_with_its_shaft() {
+    let mesh = repository_mesh("hub_and_shaft_hex20.msh");
+    let report = MeshReport::of_gear(&mesh, &GroupNames::default(), Some(21));
+    assert!(report.findings.is_empty(), "{:?}", report.findings);
+    let mut moved = mesh.clone();
+    moved.nodes.iter_mut().for_each(|x| x[2] += 15.0);
+    let findings = MeshReport::of_gear(&moved, &GroupNames::default(), Some(21)).findings;
+    assert!(matches!(&findings[..], [f] if f.kind == FindingKind::MidFace && f.text.contains("15.0")), "{findings:?}");
+    let found = GearMesh::from_groups(mesh, &GroupNames::default(), 21).unwrap().whole().unwrap();
+    let weights = found.bore_weights();
+    let area: f64 = weights.iter().map(|w| w.1).sum();
+    let exact = std::f64::consts::PI * (22.5f64.powi(2) - 8.0f64.powi(2));
+    // Quadratic edges on a circle of 126 elements.
+    assert!((area / exact - 1.0).abs() < 1e-6, "{area} beside {exact} mm^2");
+    let mean = |axis: usize| weights.iter().map(|&(n, w)| w * found.mesh().nodes[n as usize][axis]).sum::<f64>() / area;
+    assert!(mean(0).abs() < 1e-9 && mean(1).abs() < 1e-9 && (mean(2) + 30.0).abs() < 1e-9, "centroid");
+}
+
+/// A part of the bore: the faces between two heights, of copies of a sector as well.
+#[test]
+fn a_bore_held_on_a_part_of_its_width() {
+    let sector = || GearMesh::from_groups(repository_mesh("periodic_hex20.msh"), &GroupNames::default(), 30).unwrap();
+    let area = |gear: &GearMesh| gear.bore_weights().iter().map(|w| w.1).sum::<f64>();
+    let all = area(&sector().whole().unwrap());
+    let part = sector().held_between([-10.0, 0.0]).unwrap();
+    let (share, nodes) = (area(&part.clone().whole().unwrap()) / all, part.bore_nodes());
+    assert!(share > 0.2 && share < 0.8, "{share} of the bore");
+    assert!(nodes.iter().all(|&n| part.mesh().nodes[n as usize][2] <= 1e-6), "held above z = 0");
+    assert_eq!(sector(), sector().held_between([-10.0, 10.0]).unwrap(), "all of it");
+    let error = sector().held_between([20.0, 30.0]).unwrap_err();
+    assert!(matches!(error, MeshError::NotHeld { .. }) && error.to_string().contains("-10.0000"), "{error}");
+}

@@ -42,8 +42,8 @@ impl SectorMesh {
         }
         let cuts = copies.cuts.clone();
         // Whoever is held in one copy is held where it is a node of the next one.
-        let mut held = sector.bore_nodes().to_vec();
-        let is_held = |n: &u32| sector.bore_nodes().binary_search(n).is_ok();
+        let mut held = sector.held_nodes().to_vec();
+        let is_held = |n: &u32| sector.held_nodes().binary_search(n).is_ok();
         held.extend(cuts.iter().filter(|pair| pair.iter().any(is_held)).flatten());
         held.sort_unstable();
         held.dedup();
@@ -97,7 +97,7 @@ impl SectorMesh {
             }
         }
         cuts.sort_unstable();
-        let held = (0..own.len() as u32).filter(|&i| gear.bore_nodes().binary_search(&own[i as usize]).is_ok());
+        let held = (0..own.len() as u32).filter(|&i| gear.held_nodes().binary_search(&own[i as usize]).is_ok());
         let held = held.collect();
         for node in blocks.iter_mut().flat_map(|b| &mut b.connectivity) {
             *node = number(*node);

@@ -5,7 +5,7 @@ use std::fmt;
 use blake3::Hasher;
 use fem::Material;
 use geometry::{Gear, Side};
-use mesh::GearMesh;
+use mesh::{BoreCoupling, GearMesh};
 
 use super::{MAGIC, RECORD_VERSION};
 use crate::ReductionOptions;
@@ -68,6 +68,12 @@ fn mesh(hasher: &mut Hasher, gear: &GearMesh) {
         numbers(hasher, &block.connectivity);
     }
     numbers(hasher, gear.bore_nodes());
+    // A rigid bore is what records knew before there was another.
+    if gear.bore_coupling() != BoreCoupling::Kinematic {
+        hasher.update(gear.bore_coupling().name().as_bytes());
+        // Weights of the means come of the faces, which need not be those that their nodes have.
+        gear.bore().faces.iter().for_each(|face| numbers(hasher, face.nodes()));
+    }
     for cut in gear.cuts().into_iter().flatten() {
         numbers(hasher, &cut.nodes());
     }

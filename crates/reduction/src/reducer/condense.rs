@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use faer::Mat;
 use fem::Material;
-use mesh::GearMesh;
+use mesh::{BoreCoupling, GearMesh};
 
 use super::{ReductionOptions, ReductionWay};
 use crate::{
@@ -76,6 +76,8 @@ pub(super) fn condense<E: From<ReductionError>>(
     coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
     let mut turn = PitchTurn::of_gear(&gear);
+    // The means of a bore join all sectors.
+    let general = general || gear.bore_coupling() == BoreCoupling::Distributing;
     let sectors = if general { None } else { sectors(&gear, turn.as_ref(), options)? };
     if let Some((part, copies)) = sectors {
         let seen = copies.as_ref().unwrap_or(&gear);
@@ -100,7 +102,7 @@ pub(super) fn condense<E: From<ReductionError>>(
     let first = Opened::new(&gear, &coordinates, options)?;
     let (last, seen) =
         if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
-    let factor = GeneralGear::new(gear.mesh(), gear.bore_nodes(), material, &options.elements, last)?;
+    let factor = GeneralGear::new(&gear, material, &options.elements, last)?;
     let compliance = factor.compliance(seen)?;
     let method = Method::General(Box::new(factor), turn);
     Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))

@@ -101,7 +101,7 @@ impl GearReducer {
         method: OnceLock<Result<Method, ReductionError>>,
     ) -> Self {
         let Condensed { gear, coordinates, summary, base } = condensed;
-        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.bore_nodes());
+        let dofs = DofMap::new(gear.mesh().nodes.len(), gear.held_nodes());
         let (given, asked) = Default::default();
         Self { gear, given, material, options, dofs, coordinates, summary, method, base, asked }
     }

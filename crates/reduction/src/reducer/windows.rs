@@ -3,6 +3,7 @@
 use std::{f64::consts::TAU, sync::Arc};
 
 use geometry::{Gear, Side};
+use mesh::BoreCoupling;
 
 use super::{GearReducer, Method, ReductionOptions, condense::Opened};
 use crate::{
@@ -109,9 +110,11 @@ impl GearReducer {
         }
     }
 
-    /// Whether the window's nodes are last in the factor.
+    /// Whether the window's nodes are last in the factor, and it tells of all else from them alone: it does not know
+    /// the reactions of a bore that is held by its means.
     pub(crate) fn is_last(&self, window: &Window) -> bool {
-        self.coordinates.are_nodes() && Arc::ptr_eq(&window.reduced, &self.base)
+        let by_means = self.gear.bore_coupling() == BoreCoupling::Distributing;
+        self.coordinates.are_nodes() && !by_means && Arc::ptr_eq(&window.reduced, &self.base)
     }
 
     /// Unit loads of a window's coordinates.

@@ -1,5 +1,6 @@
 //! Laws of the crate `reduction`.
 
+mod bore;
 mod common;
 mod cyclic;
 mod modes;

@@ -4,12 +4,13 @@ use std::path::{Path, PathBuf};
 
 use geometry::GearData;
 use mesh::{GroupNames, Mesh};
+use toml::Spanned;
 
 use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
-    schema::{MATERIAL, MESHER, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
+    BoreScene, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
+    schema::{MATERIAL, MESHER, RawBore, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
     source::Source,
     spanned::Word,
 };
@@ -157,6 +158,10 @@ pub(super) fn gear(
         mesh,
         mesher,
         groups,
+        bore: match &raw.bore {
+            None => Default::default(),
+            Some(table) => bore(s, table)?,
+        },
         material: material(s, &raw.material, shared)?,
         modification: match &raw.modification {
             None => Default::default(),
@@ -222,6 +227,25 @@ fn mesher_options(
         elements_rim: value!(s, MESHER, raw.elements_rim)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
     })
+}
+
+/// How the bore is held; on which part of it, the mesh says whether it has that.
+fn bore(s: &Source<'_>, table: &Spanned<RawBore>) -> Checked<BoreScene> {
+    let raw = table.get_ref();
+    let held_mm = match &raw.held_mm {
+        None => None,
+        Some(list) => {
+            let values = list.get_ref().iter().map(|v| s.number("held_mm", &Some(v.clone()), 0.0, -1e6, 1e6));
+            match values.collect::<Checked<Vec<_>>>()?[..] {
+                [from, to] if from < to => Some([from, to]),
+                _ => {
+                    let what = "`held_mm` is not two heights, the lower one first";
+                    return Err(s.conflict(&list.span(), what, "for example held_mm = [-10.0, 4.0], mm from mid-face"));
+                }
+            }
+        }
+    };
+    Ok(BoreScene { held_mm, coupling: choice!(s, raw.coupling)? })
 }
 
 /// The mesh's own names; those of flanks need a place for the tooth number.

@@ -3,7 +3,9 @@
 use toml::Spanned;
 
 use super::{Checked, accuracy_in_time};
-use crate::{DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source};
+use crate::{
+    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source,
+};
 
 /// What can only be judged with the whole scene in view.
 pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
@@ -17,6 +19,7 @@ pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked
         accuracy(s, raw, scene)?;
     }
     window(s, raw, scene)?;
+    bore(s, raw, scene)?;
     of_method(s, raw, scene)?;
     of_model(s, raw, scene)
 }
@@ -78,6 +81,29 @@ fn window(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
                 format!("`window_teeth` is {window}, but the smaller gear has {teeth} teeth"),
                 "leave it out: the window follows from the contact ratio",
             ));
+        }
+    }
+    Ok(())
+}
+
+/// What knows how a bore is held.
+fn bore(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let model = scene.analysis.model;
+    for (gear, table) in scene.gears().into_iter().zip([&raw.pinion.bore, &raw.wheel.bore]) {
+        let Some(table) = table else { continue };
+        let refused = |what: String, advice: &str| Err(s.conflict(&table.span(), what, advice));
+        if !scene.accuracy.is_none() {
+            let what = "`bore` says how a bore is held, and the bounds of [accuracy] are those of rigid bores";
+            return refused(what.into(), "leave [accuracy] out, or this table");
+        }
+        if !model.has_reduced_gears() && model != Model::Full {
+            let what = format!("`bore` means nothing to the model \"{}\", which has no mesh", model.word());
+            return refused(what, "leave it out, or use `model = \"reduced\"`");
+        }
+        if model == Model::Full && gear.bore.coupling == Coupling::Distributing {
+            let what =
+                "the model \"full\" does not know bores that are held by their means (coupling \"distributing\")";
+            return refused(what.into(), "use `model = \"reduced\"`, or the coupling \"kinematic\"");
         }
     }
     Ok(())

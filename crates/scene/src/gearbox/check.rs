@@ -5,7 +5,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::bearing::bearing;
-use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxTorque, mid_face_offset};
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, mid_face_offset};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
@@ -103,7 +103,13 @@ fn distinct<'a, R>(
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
     let raw = table.get_ref();
     let name = needed_word(s, table, "[[gear]]", "name", &raw.name, "a name that meshes call it by")?;
+    // A gear that is meshed in one with its part of the shaft need not be on the rest of it: its seat is.
+    let place = if raw.seat_mm.is_some() { place_of_gear } else { place };
     let (shaft, position) = place(s, table, "[[gear]]", (&raw.shaft, &raw.position_mm), shafts)?;
+    let seat = match &raw.seat_mm {
+        None => position,
+        Some(_) => s.number("seat_mm", &raw.seat_mm, position, 0.0, shafts[shaft].1)?,
+    };
     let key = s.number("key_deg", &raw.key_deg, 0.0, -360.0, 360.0)?.to_radians();
     let stated = |key: &str, value: &Number, unit: f64, least: f64| {
         let read = value.is_some().then(|| s.number(key, value, 0.0, least, 1e12)).transpose();
@@ -114,7 +120,7 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
         stated("transverse_inertia_kg_m2", &raw.transverse_inertia_kg_m2, 1e3, 1e-15)?,
         stated("polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 1e3, 1e-15)?,
     ];
-    Ok(GearboxGear { name, shaft, position, key, inertia })
+    Ok(GearboxGear { name, shaft, position, seat, key, inertia })
 }
 
 fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Checked<GearboxMesh> {
@@ -220,7 +226,7 @@ fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
     Ok(1e3 * s.number("inertia_kg_m2", value, 0.0, 0.0, 1e12)?)
 }
 
-/// Shaft and place of a part.
+/// Shaft and place of a part on it.
 pub(super) fn place<R>(
     s: &Source<'_>,
     table: &Spanned<R>,
@@ -228,8 +234,30 @@ pub(super) fn place<R>(
     (shaft, position): (&Word, &Number),
     shafts: &[(String, f64)],
 ) -> Checked<(usize, f64)> {
+    let on = shaft_of(s, table, name, shaft, shafts)?;
+    Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, shafts[on].1)?))
+}
+
+/// The same of a gear whose mid-plane may be beyond an end.
+fn place_of_gear<R>(
+    s: &Source<'_>,
+    table: &Spanned<R>,
+    name: &str,
+    (shaft, position): (&Word, &Number),
+    shafts: &[(String, f64)],
+) -> Checked<(usize, f64)> {
+    let on = shaft_of(s, table, name, shaft, shafts)?;
+    Ok((on, needed_number(s, table, name, "position_mm", position, -1e6, 1e6)?))
+}
+
+fn shaft_of<R>(
+    s: &Source<'_>,
+    table: &Spanned<R>,
+    name: &str,
+    shaft: &Word,
+    shafts: &[(String, f64)],
+) -> Checked<usize> {
     let known: Vec<(&str, usize)> = shafts.iter().enumerate().map(|(i, x)| (x.0.as_str(), i)).collect();
     let Some(word) = shaft else { return Err(missing(s, table, name, "shaft", "the name of a shaft")) };
-    let on = s.one_of("shaft", word, &known)?;
-    Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, shafts[on].1)?))
+    s.one_of("shaft", word, &known)
 }

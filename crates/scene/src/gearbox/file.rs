@@ -176,6 +176,8 @@ pub struct GearboxGear {
     pub shaft: usize,
     /// Its mid-plane, mm from the shaft's z = 0.
     pub position: f64,
+    /// The cross-section that its bore moves with, mm from the shaft's z = 0.
+    pub seat: f64,
     /// Angle of tooth 0 against the mark of the shaft, rad.
     pub key: f64,
     /// Mass (t), inertia about an axis across its own and about its own (t mm^2), where they are stated.

@@ -3,6 +3,7 @@
 use super::ladder::{RawShaft, SHAFT};
 use super::motion::{BEARING, BODY, RawBearing, RawBody};
 use super::{INF, Table};
+use crate::Coupling;
 use crate::modification::{MODIFICATION, RawModification};
 
 table! {
@@ -21,6 +22,7 @@ table! {
         mesh: text(), "Gmsh mesh file of the gear, instead of the built-in mesher";
         mesher: table(MESHER: RawMesher);
         groups: always(GROUPS: RawGroups);
+        bore: table(BORE: RawBore);
         material: always(MATERIAL: RawMaterial);
         modification: table(MODIFICATION: RawModification);
         body: table(BODY: RawBody);
@@ -53,6 +55,14 @@ table! {
         flank_right: text(), "clockwise side; default: flank_right_{k}";
         cut_0: text(), "clockwise cut face of a sector; default: cut_0";
         cut_1: text(), "counter-clockwise cut face; default: cut_1";
+    }
+}
+
+table! {
+    /// `[pinion.bore]`
+    BORE, RawBore: "how the shaft holds the bore; models with a mesh"; {
+        held_mm: numbers(), "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it";
+        coupling: word(Coupling), "kinematic: every node of the bore moves with the shaft; distributing: the bore deforms, and its area-weighted mean displacement and turn are the shaft's";
     }
 }
 

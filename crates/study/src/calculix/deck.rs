@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use fem::Material;
 use geometry::Side;
-use mesh::GearMesh;
+use mesh::{BoreCoupling, GearMesh};
 
 use super::{
     CalculixError, element_type,
@@ -63,7 +63,8 @@ impl Deck<'_> {
     /// The whole deck; node and element numbers count through both gears from 1.
     ///
     /// # Errors
-    /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::OutOfRange`].
+    /// [`CalculixError::NoSuchElement`], [`CalculixError::MissingFlank`], [`CalculixError::MeanBore`],
+    /// [`CalculixError::OutOfRange`].
     pub fn text(&self) -> Result<String, CalculixError> {
         for (name, value) in
             [("torque [N mm]", self.torque), ("closing angle [rad]", self.closing), ("penalty [MPa/mm]", self.penalty)]
@@ -71,6 +72,10 @@ impl Deck<'_> {
             if !(value.is_finite() && value > 0.0) {
                 return Err(CalculixError::OutOfRange { name, value, expected: "above 0" });
             }
+        }
+        let by_means = |i: &usize| self.bodies[*i].gear.bore_coupling() != BoreCoupling::Kinematic;
+        if let Some(i) = [0, 1].into_iter().find(by_means) {
+            return Err(CalculixError::MeanBore { gear: NAMES[i] });
         }
         let mut t = String::new();
         let (mut first_node, mut first_element) = (1, 1);

@@ -28,6 +28,12 @@ pub enum CalculixError {
         /// Tooth.
         tooth: u32,
     },
+    /// The deck has rigid bores.
+    #[error("the bore of the {gear} has the coupling `distributing`, and the deck has rigid bores")]
+    MeanBore {
+        /// `pinion` or `wheel`.
+        gear: &'static str,
+    },
     /// A value of the deck has no meaning.
     #[error("{name} is {value}, expected {expected}")]
     OutOfRange {
@@ -63,6 +69,7 @@ impl CalculixError {
             }
             Self::NoSuchElement { .. } => Some("use hex8, hex20, tet4, tet10, wedge6 or wedge15".into()),
             Self::MissingFlank { .. } => Some("mesh the whole gear, or more teeth".into()),
+            Self::MeanBore { .. } => Some("take the coupling `kinematic`".into()),
             Self::OutOfRange { .. } => None,
             Self::File { .. } => Some("is the disk full, or the folder write-protected?".into()),
             Self::NoResult { .. } => Some("run `ccx` on the deck by hand and look at what it prints".into()),

@@ -84,6 +84,8 @@ const GEAR: &[Row] = &[
     ("mesher.elements_face", Reduced, "", "3"),
     ("mesher.elements_rim", Reduced, "", "2"),
     ("mesher.sector_teeth", Reduced, "", "5"),
+    ("bore.held_mm", Reduced, "", "[-10, 0]"),
+    ("bore.coupling", Reduced, "", "distributing"),
     ("groups.bore", Files, "", "Hub"),
     ("groups.flank_left", Files, "", "Left_{k}"),
     ("groups.flank_right", Files, "", "Right_{k}"),

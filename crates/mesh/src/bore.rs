@@ -1,0 +1,100 @@
+//! How a gear's bore is held by its shaft, and on which part of its width.
+
+use std::collections::BTreeMap;
+
+use nalgebra::Vector3;
+
+use crate::{Face, GearMesh, MeshError, SurfaceGroup};
+
+/// How the bore follows the shaft, by the names that finite-element programs have for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BoreCoupling {
+    /// Every node of the bore moves with the shaft's cross-section: a rigid bore.
+    #[default]
+    Kinematic,
+    /// The bore is free to deform; its area-weighted mean displacement and mean turn are those of the shaft.
+    ///
+    /// ```text
+    /// integral of u dA = 0,   integral of (x - c) x u dA = 0      in the gear's frame; c: centroid of the held faces
+    /// ```
+    /// What holds it is then spread over the bore as t = a + b x (x - c): six numbers, no local reaction.
+    Distributing,
+}
+
+impl BoreCoupling {
+    /// As scenes spell it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Kinematic => "kinematic",
+            Self::Distributing => "distributing",
+        }
+    }
+}
+
+impl GearMesh {
+    /// The same gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a
+    /// whole. All of its bore: the same mesh.
+    ///
+    /// # Errors
+    /// [`MeshError::NotHeld`] where no face does.
+    pub fn held_between(self, [from, to]: [f64; 2]) -> Result<Self, MeshError> {
+        let heights = || self.bore.faces.iter().flat_map(Face::nodes).map(|&n| self.mesh.nodes[n as usize][2]);
+        let [low, high] = heights().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], z| [a.min(z), b.max(z)]);
+        // Digits of a file, not a part of an element.
+        let near = 1e-6 * (high - low).max(to - from);
+        let inside = |face: &&Face| {
+            let z = |n: &u32| self.mesh.nodes[*n as usize][2];
+            face.nodes().iter().all(|n| (from - near..=to + near).contains(&z(n)))
+        };
+        let faces: Vec<Face> = self.bore.faces.iter().filter(inside).copied().collect();
+        if faces.is_empty() {
+            return Err(MeshError::NotHeld { from_mm: from, to_mm: to, low_mm: low, high_mm: high });
+        }
+        let bore = SurfaceGroup { name: self.bore.name.clone(), faces };
+        let coupling = self.coupling;
+        Ok(Self::from_parts(self.mesh, self.teeth, bore, self.flanks, self.cuts).coupled(coupling))
+    }
+
+    /// The same gear with another coupling of its bore.
+    pub fn coupled(mut self, coupling: BoreCoupling) -> Self {
+        self.coupling = coupling;
+        self
+    }
+
+    /// How the bore follows the shaft.
+    pub fn bore_coupling(&self) -> BoreCoupling {
+        self.coupling
+    }
+
+    /// Nodes that do not move in the gear's frame, ascending: those of a rigid bore, none of one held by its means.
+    pub fn held_nodes(&self) -> &[u32] {
+        match self.coupling {
+            BoreCoupling::Kinematic => self.bore_nodes(),
+            BoreCoupling::Distributing => &[],
+        }
+    }
+
+    /// Integrals of the shape functions over the held faces, mm^2, by node, ascending: what area-weighted means are
+    /// made of. Those of corners of quadratic faces are negative.
+    pub fn bore_weights(&self) -> Vec<(u32, f64)> {
+        let mut all: BTreeMap<u32, f64> = BTreeMap::new();
+        let (mut n, mut dn) = ([0.0; 9], [[0.0; 2]; 9]);
+        for face in &self.bore.faces {
+            for q in face.kind.quadrature() {
+                face.kind.shape(q.xi, &mut n);
+                face.kind.shape_gradient(q.xi, &mut dn);
+                let mut t = [Vector3::zeros(); 2];
+                for (g, &node) in dn.iter().zip(face.nodes()) {
+                    let x = Vector3::from(self.mesh.nodes[node as usize]);
+                    t[0] += g[0] * x;
+                    t[1] += g[1] * x;
+                }
+                let area = q.weight * t[0].cross(&t[1]).norm();
+                for (value, &node) in n.iter().zip(face.nodes()) {
+                    *all.entry(node).or_default() += value * area;
+                }
+            }
+        }
+        all.into_iter().collect()
+    }
+}

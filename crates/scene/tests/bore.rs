@@ -1,0 +1,42 @@
+//! How a scene says that a shaft holds a bore.
+
+use std::path::Path;
+
+use scene::{BoreScene, Coupling, Scene, SceneError};
+
+fn read(more: &str) -> Result<Scene, SceneError> {
+    let text = format!(
+        "[pinion]\nteeth = 21\nhelix_angle_deg = 0.0\n[wheel]\nteeth = 32\n[pair]\nnormal_module_mm = 3.0\n\
+         face_width_mm = 30.0\n[operation]\ntorque_nm = 100.0\n{more}"
+    );
+    Scene::parse(&text, Path::new("a.toml"))
+}
+
+/// All of it, rigidly, is what nothing is said of; each gear has its own.
+#[test]
+fn a_bore_is_read_as_it_is_written() {
+    let scene = read("").unwrap();
+    assert_eq!((scene.pinion.bore, scene.wheel.bore), (BoreScene::default(), BoreScene::default()));
+    let scene = read("[wheel.bore]\nheld_mm = [-15.0, 2]\ncoupling = \"distributing\"\n").unwrap();
+    let wanted = BoreScene { held_mm: Some([-15.0, 2.0]), coupling: Coupling::Distributing };
+    assert_eq!((scene.pinion.bore, scene.wheel.bore), (BoreScene::default(), wanted));
+}
+
+/// What is no part of a bore, and what no model or bound knows.
+#[test]
+fn bores_that_nothing_knows_are_refused() {
+    let by_means = "[pinion.bore]\ncoupling = \"distributing\"\n";
+    let part = "[pinion.bore]\nheld_mm = [0.0, 9.0]\n";
+    for (more, said) in [
+        ("[pinion.bore]\nheld_mm = [4.0, -4.0]\n".into(), "not two heights"),
+        ("[pinion.bore]\nheld_mm = [4.0]\n".into(), "not two heights"),
+        ("[pinion.bore]\ncoupling = \"rbe3\"\n".into(), "distributing"),
+        (format!("{part}[analysis]\nmodel = \"iso\"\n"), "means nothing to the model \"iso\""),
+        (format!("{by_means}[analysis]\nmodel = \"full\"\n"), "the model \"full\" does not know"),
+        (format!("{part}[accuracy]\nmean_ste = \"1 %\"\n"), "rigid bores"),
+    ] {
+        let error = read(&more).err().unwrap_or_else(|| panic!("not refused: {more}"));
+        assert!(error.to_string().contains(said), "{more}: {error}");
+    }
+    assert!(read(&format!("{part}[analysis]\nmodel = \"full\"\n")).is_ok(), "a part of the bore, whole gear");
+}
