@@ -3,10 +3,10 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    GearboxError, MeshReply, StaticGearbox, Vector12,
+    GearboxError, MeshReply, StaticGearbox,
     equilibrium::{Found, Left, equilibrium},
     rolling_bearing::RollingReply,
-    static_gearbox::{at_mesh, spread},
+    static_gearbox::at_mesh,
 };
 
 /// Loads that a light one is found by way of: powers of this factor, and how many.
@@ -23,26 +23,25 @@ pub(crate) struct Sought {
 impl StaticGearbox {
     /// Equilibrium of the seats under a load, from `start` on.
     pub(crate) fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Sought, GearboxError> {
-        let Self { seats, elements, places, stiffness, pliant, norms, meshes, .. } = self;
+        let Self { seats, elements, to_gears, stiffness, pliant, norms, meshes, .. } = self;
         let (mut replies, mut pressed) = (Vec::new(), Vec::new());
         let found = equilibrium(norms, load, start, |z| {
-            let y = &seats.basis * z;
             replies.clear();
-            let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
-            for (i, ((at, turn), element)) in places.iter().zip(elements.iter_mut()).enumerate() {
-                let own = turn.transpose() * Vector12::from_fn(|k, _| y[at[k / 6] + k % 6]);
-                let reply = element.evaluate(&own).map_err(|source| at_mesh(&meshes[i], source))?;
-                forces += spread(y.len(), *at, &(turn * reply.force));
-                let tangent = turn * reply.tangent * turn.transpose();
-                for (k, m) in (0..12).flat_map(|k| (0..12).map(move |m| (k, m))) {
-                    slopes[(at[k / 6] + k % 6, at[m / 6] + m % 6)] += tangent[(k, m)];
-                }
+            let mut left = Left { residual: &*stiffness * z - load, tangent: stiffness.clone() };
+            for (i, (to_gears, element)) in to_gears.iter().zip(elements.iter_mut()).enumerate() {
+                let reply = element.evaluate(&(to_gears * z)).map_err(|source| at_mesh(&meshes[i], source))?;
+                left.residual -= to_gears.tr_mul(&reply.force);
+                left.tangent -= to_gears.tr_mul(&(reply.tangent * to_gears));
                 replies.push(reply);
             }
-            pressed = pliant.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
-            let residual = &*stiffness * z - load - seats.basis.transpose() * forces;
-            let tangent = &*stiffness - seats.basis.transpose() * slopes * &seats.basis;
-            Ok(Left { residual, tangent })
+            if !pliant.is_empty() {
+                let y = &seats.basis * z;
+                let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
+                pressed = pliant.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
+                left.residual -= seats.basis.tr_mul(&forces);
+                left.tangent -= seats.basis.tr_mul(&(slopes * &seats.basis));
+            }
+            Ok(left)
         })?;
         Ok(Sought { found, replies, pressed })
     }

@@ -2,7 +2,7 @@
 
 use geometry::{GearPair, Sense};
 use lumped::shaft18::MeshGeometry;
-use nalgebra::{DMatrix, DVector, SMatrix};
+use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
@@ -50,6 +50,8 @@ pub struct StaticGearbox {
     pub(crate) elements: Vec<Box<dyn MeshElement>>,
     /// First coordinates of both gears of each mesh among the seats', and the turn of its axes.
     pub(crate) places: Vec<([usize; 2], SMatrix<f64, 12, 12>)>,
+    /// Displacements of both gears of each mesh in its own axes by the coordinates z, 12 x n.
+    pub(crate) to_gears: Vec<OMatrix<f64, U12, Dyn>>,
     /// Load on the seats.
     load: DVector<f64>,
     pub(crate) stiffness: DMatrix<f64>,
@@ -96,7 +98,7 @@ impl StaticGearbox {
             own.add_stiffness(&assembly.structure().bearings[own.bearing].rough_stiffness(force), &mut rough);
         }
         let mut guessed = &stiffness + seats.basis.transpose() * rough * &seats.basis;
-        let (mut places, mut made) = (Vec::new(), Vec::new());
+        let (mut places, mut made, mut to_gears) = (Vec::new(), Vec::new(), Vec::new());
         for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
             let at = mesh.discs.map(|d| seats.of_disc(&assembly, d).unwrap_or(0));
             let turn = turn(meshing.direction);
@@ -104,6 +106,9 @@ impl StaticGearbox {
             made.push(elements(i, mesh, meshing).map_err(named)?);
             let lever = seats.basis.transpose() * spread(seats.size(), at, &(turn * guessed_lever(mesh, meshing)?));
             guessed.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
+            let at_gears =
+                OMatrix::<f64, U12, Dyn>::from_fn(seats.basis.ncols(), |k, j| seats.basis[(at[k / 6] + k % 6, j)]);
+            to_gears.push(turn.transpose() * at_gears);
             places.push((at, turn));
         }
         let norms = Norms::new(guessed)?;
@@ -116,6 +121,7 @@ impl StaticGearbox {
             seats,
             elements: made,
             places,
+            to_gears,
             load,
             stiffness,
             pliant,
@@ -177,10 +183,8 @@ impl StaticGearbox {
 
     /// Forces of the meshes after a last small step.
     fn follow(&self, replies: &mut [MeshReply], step: &DVector<f64>) {
-        let seats = &self.seats.basis * step;
-        for ((at, turn), reply) in self.places.iter().zip(replies) {
-            let own = turn.transpose() * Vector12::from_fn(|k, _| seats[at[k / 6] + k % 6]);
-            reply.force += reply.tangent * own;
+        for (to_gears, reply) in self.to_gears.iter().zip(replies) {
+            reply.force += reply.tangent * (to_gears * step);
         }
     }
 
