@@ -57,8 +57,8 @@ impl Bearing {
 }
 
 impl Structure {
-    /// The same with springs in place of rolling elements: about their mean over some positions of it at rest, each with
-    /// the mean of its tangents. What swings and moves is made of it.
+    /// The same with springs in place of rolling elements: about their mean over some positions of it at rest, each
+    /// with the mean of its tangents. What swings and moves is made of it.
     ///
     /// # Errors
     /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.

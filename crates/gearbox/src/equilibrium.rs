@@ -109,9 +109,9 @@ fn scaled(matrix: &DMatrix<f64>, scale: &DVector<f64>) -> DMatrix<f64> {
 /// ```text
 /// (K - df_mesh/dz) dz = -r,   z := z + s dz,   s = 1, 1/2, ... until sqrt(r' K_0^-1 r) falls
 /// ```
-/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough. Where teeth or rolling
-/// elements that ought to carry do not touch, the tangent is singular; the step of the tangent with a share of K_0 is then
-/// followed to the least energy along it, and so is one whose residual does not fall.
+/// Elastic contact has a convex energy, so that a step always leads nearer when it is short enough. Where teeth or
+/// rolling elements that ought to carry do not touch, the tangent is singular; the step of the tangent with a share of
+/// K_0 is then followed to the least energy along it, and so is one whose residual does not fall.
 pub(crate) fn equilibrium(
     norms: &Norms,
     load: &DVector<f64>,

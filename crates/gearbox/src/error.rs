@@ -275,8 +275,8 @@ impl GearboxError {
             Self::Shaft { source, .. } => return source.hint(),
             Self::Loose { .. } => {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
-                 `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about a \
-                 load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
+                 `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about \
+                 a load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
@@ -307,9 +307,9 @@ impl GearboxError {
             Self::NotDriven { .. } => "add the mesh that drives it, or leave the shaft out",
             Self::Drives { .. } => "turn its sign, or make this shaft the input",
             Self::NoEquilibrium { .. } => {
-                "is every shaft held in x, y, z and against tilting, along z both ways where rolling bearings take thrust one \
-                 way alone, and can the teeth carry the torques (files have N m)? Hardly any torque is not found its way through \
-                 the play of bearings"
+                "is every shaft held in x, y, z and against tilting, along z both ways where rolling bearings take thrust \
+                 one way alone, and can the teeth carry the torques (files have N m)? Hardly any torque does not find \
+                 its way through the play of bearings"
             }
             Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
             Self::Unmapped { .. } => "take the mesh as \"exact\"",

@@ -16,7 +16,8 @@ const MOTIONS: [&str; 5] = ["along x", "along y", "along z", "tilting about x", 
 /// ```text
 /// K = sum T_b' K_b T_b,   u_b = T_b (x, y, z, theta_x, theta_y),   u = x + theta x r      r from the middle of the shaft
 /// ```
-/// Rolling bearings count with all their elements pressed, whatever their clearance. Housings are in series with the bearings: what these do not hold, nothing holds.
+/// Rolling bearings count with all their elements pressed, whatever their clearance. Housings are in series with the
+/// bearings: what these do not hold, nothing holds.
 ///
 /// # Errors
 /// [`GearboxError::Loose`].
@@ -36,8 +37,8 @@ pub(crate) fn check_held(structure: &Structure, held: &[bool]) -> Result<(), Gea
 }
 
 impl Structure {
-    /// Whether bearings hold every shaft but those of `held`, which are rigid in rigid bearings, against every rigid motion
-    /// but its turn. Springs about a load hold nothing where rolling elements carry nothing.
+    /// Whether bearings hold every shaft but those of `held`, which are rigid in rigid bearings, against every rigid
+    /// motion but its turn. Springs about a load hold nothing where rolling elements carry nothing.
     ///
     /// # Errors
     /// [`GearboxError::Loose`].

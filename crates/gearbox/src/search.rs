@@ -46,8 +46,8 @@ impl StaticGearbox {
         Ok(Sought { found, replies, pressed })
     }
 
-    /// The same by way of heavier loads. Under a light one play is a bent valley with walls that are hard beside the load:
-    /// steps along it are short. A heavy load finds the way through, and the way back is short.
+    /// The same by way of heavier loads. Under a light one play is a bent valley with walls that are hard beside the
+    /// load: steps along it are short. A heavy load finds the way through, and the way back is short.
     pub(crate) fn by_heavier_loads(&mut self, load: &DVector<f64>) -> Option<Sought> {
         for powers in 1..=MOST_POWERS {
             let heavy = load * HEAVIER.powi(powers);

@@ -5,8 +5,8 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::{Assembly, GearboxError};
 
-/// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free. Rolling bearings
-/// and preloaded ones are such places; after them come the open seats of the housing.
+/// Seats: the places of the shafts that forces act on, six coordinates each, and which of them are free. Rolling
+/// bearings and preloaded ones are such places; after them come the open seats of the housing.
 ///
 /// ```text
 /// K_s = T' K T,   q = T y   (all other coordinates follow, exactly at rest);   y = B z

@@ -4,8 +4,8 @@ use nalgebra::{Cholesky, DMatrix, DVector};
 
 use crate::{GearboxError, Structure};
 
-/// Stiffness of bearings and housing, seen from the shafts; six coordinates a bearing. The seats of rolling bearings in a
-/// housing stay coordinates of their own: six more each, in the order of the bearings.
+/// Stiffness of bearings and housing, seen from the shafts; six coordinates a bearing. The seats of rolling bearings
+/// in a housing stay coordinates of their own: six more each, in the order of the bearings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
     /// Stiffness for displacements of the shafts at the bearings, and of open seats.
@@ -119,7 +119,8 @@ impl Supports {
         u.rows(0, self.seats.nrows()) - self.seats(u)
     }
 
-    /// Forces of the bearings' springs on the shafts when these move by `u`, beside preloads and rolling elements: N, N mm.
+    /// Forces of the bearings' springs on the shafts when these move by `u`, beside preloads and rolling elements: N,
+    /// N mm.
     pub fn forces(&self, u: &DVector<f64>) -> DVector<f64> {
         -(&self.bearings * self.relative(u))
     }

@@ -1,8 +1,10 @@
-//! Shafts from REXS files (rexs.info, components and attributes of the versions 1.0 to 1.4): their sections and material.
+//! Shafts from REXS files (rexs.info, components and attributes of the versions 1.0 to 1.4): their sections and
+//! material.
 //!
 //! | component | attribute | unit |
 //! |---|---|---|
-//! | `shaft_section`, part of a `shaft` | `u_coordinate_on_shaft`, `length`, `outer_diameter_begin`, `outer_diameter_end`, `inner_diameter_begin`, `inner_diameter_end` | mm |
+//! | `shaft_section`, part of a `shaft` | `u_coordinate_on_shaft`, `length` | mm |
+//! | | `outer_diameter_begin`, `outer_diameter_end`, `inner_diameter_begin`, `inner_diameter_end` | mm |
 //! | `material`, referenced by the `shaft` | `elastic_modulus`, `poisson_ratio`, `density` | N / mm^2, none, kg / dm^3 |
 //!
 //! Where the shaft stands, what sits on it and what loads it is left alone.

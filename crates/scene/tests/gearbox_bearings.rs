@@ -168,7 +168,8 @@ fn a_shaft_comes_out_of_a_rexs_file() {
     }
 }
 
-/// Lines left out, told twice or cut short, and numbers of any size: a gearbox or a complaint with a place, and no panic.
+/// Lines left out, told twice or cut short, and numbers of any size: a gearbox or a complaint with a place, and no
+/// panic.
 #[test]
 fn damaged_rolling_bearings_are_read_or_refused() {
     let whole = text();

@@ -41,7 +41,8 @@ impl BallRow {
     /// Adds what it does at displacements of the inner ring.
     ///
     /// ```text
-    /// v = A n_0 - gaps + N (u + theta x r),   delta = |v+| - A,   n = v+/|v+|,   Q = c delta^(3/2),   V = (2/5) c delta^(5/2)
+    /// v = A n_0 - gaps + N (u + theta x r),   delta = |v+| - A,   n = v+/|v+|
+    /// Q = c delta^(3/2),   V = (2/5) c delta^(5/2)
     /// d2V/dv2 = (3/2) c delta^(1/2) n n' + Q/|v+| (1 - n n')
     /// ```
     /// r: centre of curvature of the inner groove; N: onto the radial plane of the ball, radial and axial, for it rolls

@@ -54,7 +54,7 @@ impl RollingBearingError {
             Self::Crowded { .. } => "are the diameters those of the elements and of the circle of their centres?",
             Self::Clearance { .. } => "files have the clearance in um: the whole play from one side to the other",
             Self::Rating { .. } => {
-                "files have it in kN; or state the rolling elements themselves: how many, their diameter and pitch circle"
+                "files have it in kN; or state the rolling elements themselves: number, diameter and pitch circle"
             }
         }
     }

@@ -124,7 +124,8 @@ impl BallGeometry {
     /// Contact with the inner and the outer ring; `None` where it is none at a point.
     ///
     /// ```text
-    /// across the groove: 2/D - 1/r,   along it: 2/D + 2 gamma/(D (1 - gamma)) inside, 2/D - 2 gamma/(D (1 + gamma)) outside
+    /// across the groove: 2/D - 1/r
+    /// along it: 2/D + 2 gamma/(D (1 - gamma)) inside, 2/D - 2 gamma/(D (1 + gamma)) outside
     /// ```
     pub fn contacts(&self) -> Option<[PointContact; 2]> {
         let (ball, gamma) = (2.0 / self.diameter, self.gamma());

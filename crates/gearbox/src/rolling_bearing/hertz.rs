@@ -25,9 +25,9 @@ impl PointContact {
     /// F = |rho_a - rho_b|/(rho_a + rho_b) = [(k^2 + 1) E - 2 K]/[(k^2 - 1) E],   m = 1 - 1/k^2
     /// delta = K [(9/2) S/E]^(1/3) [Q/(pi k E')]^(2/3),   a = [6 k^2 E Q/(pi E' S)]^(1/3),   p = 3 Q k/(2 pi a^2)
     /// ```
-    /// rho_a, rho_b: sums of both bodies in the planes; S = rho_a + rho_b; E' = E_steel/(1 - nu^2); K(m), E(m): complete
-    /// elliptic integrals. Source: Hertz 1881 as Harris and Kotzalas, Rolling Bearing Analysis, chapter 6 have it. `None`
-    /// where the bodies do not touch at a point.
+    /// rho_a, rho_b: sums of both bodies in the planes; S = rho_a + rho_b; E' = E_steel/(1 - nu^2); K(m), E(m):
+    /// complete elliptic integrals. Source: Hertz 1881 as Harris and Kotzalas, Rolling Bearing Analysis, chapter 6
+    /// have it. `None` where the bodies do not touch at a point.
     pub fn new([along, across]: [[f64; 2]; 2]) -> Option<Self> {
         let (a, b): (f64, f64) = (along.iter().sum(), across.iter().sum());
         if !(a > 0.0 && b > 0.0 && a.is_finite() && b.is_finite()) {

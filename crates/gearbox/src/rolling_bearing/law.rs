@@ -4,8 +4,8 @@ use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
 
 use super::{AxialSetting, RollingBearingError, RollingElements, Row, ball::BallRow, roller::RollerRow};
 
-/// What a bearing does at some displacements of its inner ring against the outer one: x, y, z (mm) and the turns about x
-/// and y (rad); it rolls about z without a moment.
+/// What a bearing does at some displacements of its inner ring against the outer one: x, y, z (mm) and the turns about
+/// x and y (rad); it rolls about z without a moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingReply {
     /// Elastic energy, N mm.
@@ -146,8 +146,8 @@ impl RollingBearing {
         reply
     }
 
-    /// Stiffness of its size before anything is known of its load: all elements pressed evenly by their share of a force
-    /// (N). What it holds at all, it holds here.
+    /// Stiffness of its size before anything is known of its load: all elements pressed evenly by their share of a
+    /// force (N). What it holds at all, it holds here.
     pub(crate) fn rough_stiffness(&self, force: f64) -> Matrix6<f64> {
         let mut reply = RollingReply::nothing();
         let share = force / self.count() as f64;

@@ -139,9 +139,9 @@ fn standing(bearing: &RollingBearing, load: &Vector5<f64>) -> Vector5<f64> {
     d
 }
 
-/// Seven load cases of a deep groove bearing as a program for gearboxes has them: seven balls of 11.5 mm on 43.5 mm, grooves
-/// of 0.52 and 0.53, ring tilted by what moves it. Values of MASTA (SMT) as the tests of github.com/minzhun/ISO16281 print
-/// them, with 210 000 MPa; forces are in proportion to that.
+/// Seven load cases of a deep groove bearing as a program for gearboxes has them: seven balls of 11.5 mm on 43.5 mm,
+/// grooves of 0.52 and 0.53, ring tilted by what moves it. Values of MASTA (SMT) as the tests of
+/// github.com/minzhun/ISO16281 print them, with 210 000 MPa; forces are in proportion to that.
 #[test]
 fn displacements_are_those_of_another_program() {
     let geometry = BallGeometry {
@@ -165,7 +165,8 @@ fn displacements_are_those_of_another_program() {
         let bearing = made(RollingElements::Balls(geometry), &MIDDLE, play, PLAYLESS);
         let found = standing(&bearing, &(2.07 / 2.1 * Vector5::new(radial, 0.0, axial, moment, 0.0)));
         let own = [1e3 * found[0].hypot(found[1]), 1e3 * found[2], 1e3 * found[3].hypot(found[4])];
-        // The standard takes moments at d_pw/2 and tilts at the groove's centre, 1 % farther out; a gradient has one of both.
+        // The standard takes moments at d_pw/2 and tilts at the groove's centre, 1 % farther out; a gradient has one
+        // of both.
         for ((value, wanted), near) in own.into_iter().zip(wanted).zip([3e-4, 3e-4, 0.015]).filter(|w| w.0.1 > 0.0) {
             let said = format!("{own:?} beside {wanted} under {radial}, {axial} N, {moment} N mm");
             assert!((value / wanted - 1.0).abs() < near, "{said}");
@@ -216,7 +217,8 @@ fn energy_is_convex() {
     }
 }
 
-/// A turn by one pitch of the elements turns force and moment by as much; one that takes thrust to -z is the mirror image.
+/// A turn by one pitch of the elements turns force and moment by as much; one that takes thrust to -z is the mirror
+/// image.
 #[test]
 fn turned_and_mirrored_bearings_have_turned_and_mirrored_forces() {
     let turn = |v: &Vector5<f64>, angle: f64| {
@@ -296,7 +298,8 @@ fn ribs_are_not_in_it() {
     assert!(thrust(0.05) < -100.0 && thrust(-0.05) == 0.0);
 }
 
-/// 6206 of a catalogue (30 x 62 mm, C_0 = 11.2 kN): nine balls of 9.525 mm. 218: sixteen of 22.2 mm, from its own rating.
+/// 6206 of a catalogue (30 x 62 mm, C_0 = 11.2 kN): nine balls of 9.525 mm. 218: sixteen of 22.2 mm, from its own
+/// rating.
 #[test]
 fn catalogues_lead_to_known_balls() {
     let own = Catalogue { bore: 30.0, outer_diameter: 62.0, static_rating: 11_200.0, rows: 1 };

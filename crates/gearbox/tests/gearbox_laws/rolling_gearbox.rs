@@ -86,7 +86,8 @@ fn trains_on_rolling_bearings_are_in_balance() {
                     let found = found.unwrap_or_else(|e| panic!("{play} {axial:?} {sense:?} {torque}: {e}"));
                     let own = found.certificate;
                     let said = format!("{play} {axial:?} {sense:?} {torque}: {own:?}");
-                    // Beside shafts this stiff that go through a play of 0.2 mm, hundredths of a newton have fewer digits.
+                    // Beside shafts this stiff that go through a play of 0.2 mm, hundredths of a newton have fewer
+                    // digits.
                     assert!(own.body_balance < 1e-9 * (1e3 / torque).max(1.0), "{said}");
                     assert!(own.residual < 1e-6, "{said}");
                     let wanted = (sense.sign() as f64) * torque * (17.0 / 53.0) * (19.0 / 47.0);
@@ -232,8 +233,8 @@ fn laws_do_not_swing() {
     assert_eq!(free, 3, "{:?}", &modes.modes_at_rest().frequencies[..6]);
 }
 
-/// A motion on springs about the load begins where the gearbox stands, in a housing that gives way, with its forces and the
-/// energy of the law, and all of it is accounted for.
+/// A motion on springs about the load begins where the gearbox stands, in a housing that gives way, with its forces
+/// and the energy of the law, and all of it is accounted for.
 #[test]
 fn a_motion_begins_where_rolling_bearings_stand() {
     let (mut structure, meshes) = on_rolling_bearings(0.01, AxialSetting::Preload(200.0));
