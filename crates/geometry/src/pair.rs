@@ -1,4 +1,4 @@
-//! Two gears at a working centre distance. Theory (4), (5), (6).
+//! Two gears at a working centre distance. Theory (4), (5), (6), (6a), (6b).
 
 use std::f64::consts::PI;
 

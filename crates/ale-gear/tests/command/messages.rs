@@ -184,7 +184,7 @@ fn a_value_out_of_range_names_the_range() {
     );
     says(
         &with("face_width_mm = 20.0", "face_width_mm = nan"),
-        "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\nhint: `face_width_mm` means: face width of both gears, mm\n",
+        "ale-gear: a.toml:12: `face_width_mm` is NaN, allowed is 0.01 .. 10000\nhint: `face_width_mm` means: face width of gears that state none of their own, mm; left out where both do\n",
     );
     says(
         &with("model = \"iso\"", "model = \"reducd\""),

@@ -155,6 +155,8 @@ pub(super) fn mesh(m: &MeshResult, pair: &GearPair) -> Value {
         "name": m.name,
         "eps_gamma": pair.total_contact_ratio(),
         "centre_distance_mm": pair.centre_distance(),
+        "common_face_width_mm": pair.face_width(),
+        "mid_face_offset_mm": pair.mid_face_offset(),
         "slices": m.slices,
         "mean_normal_force_n": m.normal_force,
         "mean_ste_um": 1e3 * m.transmission_error[0],

@@ -151,6 +151,42 @@ fn a_pattern_covers_the_flank() {
     }
 }
 
+/// A wider gear's flank is there from end face to end face; pressed is the common face alone, to its very ends.
+#[test]
+fn beyond_the_common_face_nothing_is_pressed() {
+    let flank = Flank {
+        side: Side::Left,
+        base_radius: 45.0,
+        base_half_angle: 0.07,
+        twist: 0.007,
+        base_helix_angle: (0.007_f64 * 45.0).atan(),
+        centre_angle: 0.0,
+        roll_form: 0.2,
+        roll_tip: 0.5,
+        half_width: 10.0,
+    };
+    let mut grid = study::FlankPattern::new([0.2, 0.5], 8, vec![-1.5, 1.0, 3.5]).unwrap();
+    let touches =
+        [-1.5, 1.0, 3.5].map(|z| study::Touch { z, engagement: 0.0, roll: 0.35, pressure: 700.0, line_load: 200.0 });
+    grid.press(&touches, 0.1).unwrap();
+    let pattern = GearPattern { name: "wheel", flank, centre: [95.0, 2.0], face: [-2.75, 4.75], grid };
+    let mut out = Vec::new();
+    write_pattern_vtu(&pattern, &mut out).unwrap();
+    let arrays = arrays(&out);
+    let (pressure, points, connectivity) = (floats(&arrays[0]), floats(&arrays[4]), integers(&arrays[5]));
+    let height = |node: usize| points[3 * node + 2] - 2.0;
+    let heights: Vec<f64> = (0..pressure.len()).step_by(9).map(height).collect();
+    assert_eq!(heights, [-10.0, -2.75, -2.75, -1.5, 1.0, 3.5, 4.75, 4.75, 10.0]);
+    for quad in connectivity.chunks_exact(4) {
+        let nodes = || quad.iter().map(|&n| n as usize);
+        let middle = nodes().map(height).sum::<f64>() / 4.0;
+        let pressed = nodes().any(|n| pressure[n] > 0.0);
+        assert!(!pressed || (middle > -2.75 && middle < 4.75), "pressed at {middle} mm");
+    }
+    assert_eq!(connectivity.len(), 4 * 6 * 8, "quads between rows at one height");
+    assert_eq!((pattern.strip_edge(0), pattern.strip_edge(1), pattern.strip_edge(3)), (-2.75, -0.25, 4.75));
+}
+
 #[test]
 fn a_field_of_another_length_is_refused() {
     let field = Field { name: "pressure", components: 1, values: &[0.0; 3] };
