@@ -1,4 +1,4 @@
-//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79).
+//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79), (79a).
 
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
 use nalgebra::{DMatrix, DVector, SVector};
