@@ -7,6 +7,7 @@
 //! | `mesh` | meshes from arrays and to arrays |
 //! | `pair` | a pair with its reduction held, and what it can be asked |
 //! | `analyses` | a scene in time, along a key, over many cases, at its optimum: into a folder |
+//! | `gearbox` | shafts, bearings and several meshes |
 //! | `at_rest` | a scene at rest: held in memory, written when it is asked for |
 //! | `result` | what a run gives: columns, headline numbers, files |
 //! | `views` | arrays of the program as arrays of NumPy, without a copy |
@@ -18,6 +19,7 @@ mod analyses;
 mod arguments;
 mod at_rest;
 mod error;
+mod gearbox;
 mod mesh;
 mod pair;
 mod result;
@@ -32,7 +34,7 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _native {
     #[pymodule_export]
-    use crate::{mesh::Mesh, pair::Pair, result::Result, scene::Scene};
+    use crate::{gearbox::Gearbox, mesh::Mesh, pair::Pair, result::Result, scene::Scene};
 
     /// Version of the program.
     #[pymodule_export]

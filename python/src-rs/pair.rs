@@ -53,7 +53,7 @@ impl Kept {
 }
 
 /// The store that the caller names: none, the user's, or a folder.
-fn cache_of(cache: Given<'_, '_>) -> Answer<Arc<dyn GearCache + Send>> {
+pub fn cache_of(cache: Given<'_, '_>) -> Answer<Arc<dyn GearCache + Send>> {
     let Some(any) = cache else { return Ok(Arc::new(NoCache)) };
     if !any.is_instance_of::<PyBool>() {
         return Ok(Arc::new(Cache::in_folder(path("cache", any)?)));
@@ -62,7 +62,7 @@ fn cache_of(cache: Given<'_, '_>) -> Answer<Arc<dyn GearCache + Send>> {
 }
 
 /// Threads of a question: no more than machines have.
-fn threads_of(any: &Bound<'_, PyAny>) -> Answer<u32> {
+pub fn threads_of(any: &Bound<'_, PyAny>) -> Answer<u32> {
     match whole("threads", any, 1)? {
         n if n <= MOST_THREADS => Ok(n),
         n => Err(Complaint::argument(
@@ -121,7 +121,7 @@ impl Pair {
 }
 
 /// The result as Python has it; one that does not hold is raised with its exception.
-fn that_holds(py: Python<'_>, result: Result) -> PyResult<Py<Result>> {
+pub fn that_holds(py: Python<'_>, result: Result) -> PyResult<Py<Result>> {
     let failure = result.failure();
     let result = Py::new(py, result)?;
     let Some(failure) = failure else { return Ok(result) };

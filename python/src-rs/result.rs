@@ -47,7 +47,8 @@ enum Files {
 /// Name of the folder of the files in a folder of its own.
 pub const FILES: &str = "result";
 /// The file of rows of a result, whichever it has.
-const ROWS: [&str; 8] = [
+const ROWS: [&str; 9] = [
+    "positions.csv",
     "history.csv",
     "branch.csv",
     "sweep.csv",
@@ -259,7 +260,7 @@ impl Result {
         })?)
     }
 
-    /// What was run: static, dynamic, plan or optimum.
+    /// What was run: static, dynamic, plan, optimum or gearbox.
     #[getter]
     fn kind(&self) -> &str {
         self.kind

@@ -10,7 +10,7 @@
 Keys, columns and signs are those of the command: docs/scene.md, docs/outputs.md, docs/conventions.md.
 """
 
-from ._native import Mesh, Pair, Result, Scene, __version__
+from ._native import Gearbox, Mesh, Pair, Result, Scene, __version__
 from .errors import (
     AleGearError,
     ArgumentError,
@@ -24,6 +24,7 @@ from .errors import (
 __all__ = [
     "AleGearError",
     "ArgumentError",
+    "Gearbox",
     "InexactError",
     "InputError",
     "InternalError",

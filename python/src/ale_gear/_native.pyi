@@ -143,11 +143,35 @@ class Pair:
     def run(self, *, set: _Tables | None = None, progress: _Progress = None) -> Result: ...
 
 @final
+class Gearbox:
+    """A gearbox file that was checked, with the scenes of its pairs."""
+
+    @staticmethod
+    def read(file: _Path) -> Gearbox: ...
+    @staticmethod
+    def parse(toml: str, file: _Path | None = None) -> Gearbox: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def shafts(self) -> list[str]: ...
+    @property
+    def bearings(self) -> list[str]: ...
+    @property
+    def meshes(self) -> list[str]: ...
+    def run(
+        self,
+        *,
+        cache: bool | _Path | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Result: ...
+
+@final
 class Result:
     """The answer to a scene: columns by name, headline numbers, files."""
 
     @property
-    def kind(self) -> Literal["static", "dynamic", "plan", "optimum"]: ...
+    def kind(self) -> Literal["static", "dynamic", "plan", "optimum", "gearbox"]: ...
     @property
     def name(self) -> str: ...
     @property

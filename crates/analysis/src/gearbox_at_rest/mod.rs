@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `parts`, `bearings` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `missed` | what does not hold |
 //! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
 //! | `result` | what is read off all positions |
 //! | `room` | what is said of parts that have no room, and of large deflections |
@@ -12,6 +13,7 @@
 mod bearings;
 mod inertia;
 mod meshes;
+mod missed;
 mod motion;
 mod orders;
 mod parts;
@@ -28,6 +30,7 @@ use scene::gearbox::Gearbox;
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
+pub use missed::Missed;
 pub use motion::GearboxMotionResult;
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};

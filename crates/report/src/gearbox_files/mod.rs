@@ -16,11 +16,28 @@ mod vibration_page;
 use analysis::gearbox_at_rest::GearboxResult;
 use scene::gearbox::Gearbox;
 
-use crate::{ReportError, ResultFiles};
+use crate::{Cost, ReportError, ResultFiles, folder::ResultDirectory};
 
-pub use page::gearbox_page;
-pub use summary::gearbox_summary;
 pub use table::gearbox_table;
+
+/// Writes all files of a gearbox, `summary.json` last: where it is, everything is.
+///
+/// # Errors
+/// When the system refuses, or the page cannot be filled.
+pub fn write_gearbox(
+    file: &Gearbox,
+    result: &GearboxResult,
+    cost: &Cost,
+    results: &ResultDirectory,
+) -> Result<(), ReportError> {
+    write_gearbox_rows(file, result, results)?;
+    let missed: Vec<String> = result.missed().into_iter().map(|own| own.what).collect();
+    let failed = (!missed.is_empty()).then(|| missed.join("; "));
+    page::gearbox_page(file, result, cost, failed.as_deref())?.write(results)?;
+    let files = results.files()?;
+    let summary = summary::gearbox_summary(file, result, cost, &files, &missed);
+    results.write("summary.json", summary.as_bytes())
+}
 
 /// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`; of a vibration `modes.csv`, `campbell.csv`,
 /// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`; of a motion `motion.csv`
@@ -28,7 +45,7 @@ pub use table::gearbox_table;
 ///
 /// # Errors
 /// When the system refuses.
-pub fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn ResultFiles) -> Result<(), ReportError> {
+fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn ResultFiles) -> Result<(), ReportError> {
     files.write("positions.csv", rows::positions(file, result).as_bytes())?;
     files.write("shafts.csv", rows::shafts(file, result).as_bytes())?;
     files.write("line_load.csv", rows::line_loads(result).as_bytes())?;

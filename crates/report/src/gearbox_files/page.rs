@@ -19,7 +19,7 @@ use crate::{
 ///
 /// # Errors
 /// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.
-pub fn gearbox_page(
+pub(super) fn gearbox_page(
     file: &Gearbox,
     result: &GearboxResult,
     cost: &Cost,

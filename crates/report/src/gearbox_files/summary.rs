@@ -14,7 +14,7 @@ use crate::{Cost, SUMMARY_SCHEMA};
 
 /// What is known of a gearbox but its rows. Names of keys bear the units.
 /// `missed`: what does not hold of it, in words.
-pub fn gearbox_summary(
+pub(super) fn gearbox_summary(
     file: &Gearbox,
     result: &GearboxResult,
     cost: &Cost,

@@ -1,0 +1,48 @@
+//! What does not hold of a gearbox that was solved.
+
+use super::GearboxResult;
+
+/// Share of loads that may be left over, and of forces on a body.
+const BALANCE: f64 = 1e-6;
+/// Energy that may come from nowhere, over the work of all.
+const ENERGY: f64 = 1e-3;
+/// Error of the natural frequencies of reduced shafts.
+const FREQUENCIES: f64 = 0.03;
+
+/// A certificate that was missed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Missed {
+    /// What does not hold, in words.
+    pub what: String,
+    /// What to do about it.
+    pub hint: &'static str,
+}
+
+impl GearboxResult {
+    /// What does not hold: balance of forces; in motion energy, the range of maps and springs, frequencies of the reduced
+    /// shafts. Empty where all does.
+    pub fn missed(&self) -> Vec<Missed> {
+        let mut all = Vec::new();
+        let mut say = |what: String, hint| all.push(Missed { what, hint });
+        if let Some(share) = self.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE) {
+            let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
+            say(format!("{share:.1e} of the load is left over"), hint);
+        }
+        let Some(motion) = &self.motion else { return all };
+        let (left, beyond) = (motion.energy.relative_residual.abs(), motion.reach.iter().copied().fold(0.0, f64::max));
+        if left.is_nan() || left > ENERGY {
+            let what = format!("{left:.1e} of the energy of the motion comes from nowhere");
+            say(what, "take more `steps_per_cycle`, or `method = \"energy\"`");
+        }
+        if beyond > 1.0 {
+            let what = format!("the motion goes {beyond:.2} times as far as the maps or springs of the contact hold");
+            say(what, "take `mesh = \"exact\"`, or let it run with more damping");
+        }
+        let off = motion.reduction.error;
+        if off.is_nan() || off > FREQUENCIES {
+            let what = format!("natural frequencies of the reduced shafts are off by {off:.1e}");
+            say(what, "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept");
+        }
+        all
+    }
+}
