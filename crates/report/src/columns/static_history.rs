@@ -75,7 +75,7 @@ impl StaticLayout {
 columns!(StaticRows, LEADING, |_, _| true, {
     TIME = "time_s" ["s"] "since the first position, from `speed_rpm`", |l, p, _| (p.pinion_angle - l.start) / l.speed;
     PINION_ANGLE = "pinion_angle_deg" ["deg"]
-        "in the sense of rotation; 0 where pair 0 stands, at mid-face, in the middle of the path of contact",
+        "in the sense of rotation; 0 where pair 0 stands, in the middle of the common face, in the middle of the path of contact",
         |_, p, _| p.pinion_angle.to_degrees();
     MESH_PHASE = "mesh_phase" [""] "0 .. 1 within the mesh cycle; 0.5 at pinion angle 0", |_, p, _| p.mesh_phase;
     STE = "ste_um" ["um"]
