@@ -226,12 +226,13 @@ fn a_box_costs_little_more_than_its_meshes() {
     // Tables of the contact are filled on the way.
     // All teeth are alike: a pair alone begins at its first.
     let first: Vec<f64> = gearbox.solve(0.0).unwrap().meshes.iter().map(|m| m.cycles.floor()).collect();
-    let (mut of_box, mut of_pairs) = (Vec::new(), Vec::new());
+    let (mut of_box, mut of_pairs, mut steps) = (Vec::new(), Vec::new(), 0);
     for round in 0..3 {
         let angles = || (1..65).map(|i| step * f64::from(64 * round + i));
         let start = std::time::Instant::now();
         let found: Vec<GearboxPosition> = angles().map(|angle| gearbox.solve(angle).unwrap()).collect();
         of_box.push(start.elapsed().as_secs_f64());
+        steps += found.iter().map(|position| position.certificate.iterations).sum::<usize>();
         let start = std::time::Instant::now();
         for position in &found {
             for ((mesh, model), first) in position.meshes.iter().zip(&mut alone).zip(&first) {
@@ -247,5 +248,8 @@ fn a_box_costs_little_more_than_its_meshes() {
         1e3 * least(&of_box),
         1e3 * least(&of_pairs)
     );
-    assert!(ratio < 2.0, "{ratio} times the pairs alone");
+    // The clock of a busy machine is no law; how often the contacts are asked is one.
+    assert!(ratio < 4.0, "{ratio} times the pairs alone");
+    let mean = steps as f64 / 192.0;
+    assert!(mean < 2.5, "{mean} steps of Newton's method a position");
 }
