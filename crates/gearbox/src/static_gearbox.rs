@@ -184,7 +184,11 @@ impl StaticGearbox {
     /// Forces of the meshes after a last small step.
     fn follow(&self, replies: &mut [MeshReply], step: &DVector<f64>) {
         for (to_gears, reply) in self.to_gears.iter().zip(replies) {
+            let before = reply.force[11];
             reply.force += reply.tangent * (to_gears * step);
+            // Where the load lies does not change in so small a step: the sum of the forces goes with their moment.
+            let grown = reply.force[11] / before;
+            reply.normal_force *= if grown.is_finite() { grown } else { 1.0 };
         }
     }
 

@@ -153,7 +153,8 @@ impl GearboxMechanism {
             Some(i) => [q[i], v[i]],
             None => {
                 let (sense, nominal) = (self.operation.sense.sign() as f64, self.drive.nominal());
-                [sense * nominal.angle(t), sense * nominal.at(t)]
+                // No angle is -0.
+                [0.0 + sense * nominal.angle(t), sense * nominal.at(t)]
             }
         }
     }
