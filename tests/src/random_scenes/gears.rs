@@ -102,6 +102,29 @@ fn exact(d: &Draft) -> Option<GearPair> {
     Scene::parse(&text, "drawn.toml".as_ref()).ok()?.gear_pair().ok()
 }
 
+/// Gears that are wider than the common face, at two heights, held by a part of their bores or by its means.
+pub fn draw_faces_and_bores(d: &mut Draft, sizes: &Sizes) {
+    let half = 0.5 * sizes.width;
+    for gear in ["pinion", "wheel"] {
+        if d.chance(0.04) {
+            let width = sizes.width * d.mostly([1.0, 1.3], [0.5, 3.0]);
+            d.set(&format!("{gear}.face_width_mm"), width.clamp(0.1, 1e4));
+        }
+        if d.chance(0.04) {
+            let held = vec![-half * d.mostly([0.6, 1.0], [-1.0, 1.0]), half * d.between(0.6, 1.0)];
+            d.set(&format!("{gear}.bore.held_mm"), held);
+        }
+        if d.chance(0.02) {
+            let coupling = d.pick(&["kinematic", "distributing"]);
+            d.set(&format!("{gear}.bore.coupling"), coupling);
+        }
+    }
+    if d.chance(0.03) {
+        let offset = half * d.mostly([-0.2, 0.2], [-2.0, 2.0]);
+        d.set("pair.mid_face_offset_mm", offset);
+    }
+}
+
 /// Materials of both gears, or of one.
 pub fn draw_materials(d: &mut Draft) {
     for (table, share) in [("material", 0.25), ("pinion.material", 0.08), ("wheel.material", 0.08)] {

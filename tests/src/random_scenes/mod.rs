@@ -85,6 +85,9 @@ pub fn draw(seed: u64, index: u64) -> RandomScene {
     question::draw_output(&mut d, &asked);
     question::draw_accuracy(&mut d, &asked);
     question::draw_derivatives(&mut d, &asked);
+    if asked.meshed && !foreign {
+        gears::draw_faces_and_bores(&mut d, &sizes);
+    }
     let anything = d.chance(ANYTHING);
     if anything {
         let keys = keys_of_schema();
