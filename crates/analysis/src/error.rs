@@ -342,8 +342,9 @@ impl AnalysisError {
     /// Whether the input is fine and yet no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::MadeMesh { .. }
-            | Self::Certificate { .. }
+            // Which part of the bore is held is the scene's word.
+            Self::MadeMesh { source, .. } => !matches!(**source, mesh::MeshError::NotHeld { .. }),
+            Self::Certificate { .. }
             | Self::Sink(_)
             | Self::Cancelled
             | Self::UnstableSteps(_)

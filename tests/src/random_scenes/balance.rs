@@ -35,9 +35,11 @@ pub fn equilibrium(case: &Case<'_>) -> Vec<String> {
     let Some(distance) = case.summary["geometry"]["centre_distance_mm"].as_f64().filter(|_| case.is_static()) else {
         return wrong;
     };
+    // Moments of a gear are about its own mid-face.
+    let up = case.inputs["pair"]["mid_face_offset_mm"].as_f64().unwrap_or(0.0);
     for (row, (a, b)) in moment.0.iter().zip(&moment.1).enumerate() {
         let f = force.1[row];
-        let sum = [a[0] + b[0], a[1] + b[1] - distance * f[2], a[2] + b[2] + distance * f[1]];
+        let sum = [a[0] + b[0] - up * f[1], a[1] + b[1] - distance * f[2] + up * f[0], a[2] + b[2] + distance * f[1]];
         if size(sum) > BALANCE * (distance * size(f)).max(size(*a)).max(size(*b)) {
             wrong.push(format!("row {row}: moments about the pinion's centre sum to {sum:?} N mm of {a:?}"));
             break;

@@ -73,7 +73,13 @@ fn upside_down(d: &mut Draft) {
     for key in ["deviation_um", "inclination_um", "in_plane_of_action_um", "across_plane_of_action_um"] {
         turn(d, &format!("pair.misalignment.{key}"));
     }
+    turn(d, "pair.mid_face_offset_mm");
     for gear in ["pinion", "wheel"] {
+        let key = format!("{gear}.bore.held_mm");
+        if let Some(held) = d.get(&key).and_then(Value::as_array) {
+            let turned: Vec<f64> = held.iter().rev().filter_map(Value::as_float).map(|z| 0.0 - z).collect();
+            d.set(&key, turned);
+        }
         for flank in ["", "drive.", "coast."] {
             let table = format!("{gear}.modification.{flank}");
             turn(d, &format!("{table}lead_slope_um"));
