@@ -120,6 +120,35 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     assert!(run.code == Some(2) && run.stderr.contains("a result where a torque drives"), "{}", run.stderr);
 }
 
+/// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,
+/// run up; a housing out of CalculiX, driven by a torque on maps.
+#[test]
+fn every_key_is_in_a_scene_that_runs() {
+    let folder = repository().join("scenes/gearbox");
+    let scratch = std::fs::read_dir(&folder).unwrap().fold(Scratch::new(), |scratch, entry| {
+        let path = entry.unwrap().path();
+        scratch.file(path.file_name().unwrap().to_str().unwrap(), std::fs::read(&path).unwrap())
+    });
+    let boxes = ["two_stages.toml", "rolling_bearings.toml", "overhung_pinion.toml", "run_up.toml", "in_housing.toml"];
+    let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
+    let has = |key: &str| {
+        all.lines().any(|l| l.split([' ', '=']).next() == Some(key) || l.trim_matches(['[', ']']).ends_with(key))
+    };
+    let keys = scene::gearbox::Gearbox::keys();
+    assert!(keys.len() > 60, "{} keys", keys.len());
+    let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
+    assert!(left.is_empty(), "in no scene: {left:?}");
+    for name in ["run_up.toml", "in_housing.toml"] {
+        let run = scratch.ale_gear(["gearbox", name, "--out", name.trim_end_matches(".toml")]);
+        assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
+    }
+    let speeds = column(&scratch.read("run_up/motion.csv"), "input_speed_rpm");
+    assert!((speeds[speeds.len() - 1] + 1600.0).abs() < 1e-6);
+    // A tenth more than the load asks for makes it faster.
+    let speeds = column(&scratch.read("in_housing/motion.csv"), "input_speed_rpm");
+    assert!(speeds[speeds.len() - 1] < -1500.0, "{} 1/min", speeds[speeds.len() - 1]);
+}
+
 /// A mistake ends with status 2, line and hint, and leaves no folder.
 #[test]
 fn mistakes_in_a_gearbox_are_told_with_their_line() {

@@ -235,7 +235,10 @@ pub(super) fn place<R>(
     shafts: &[(String, f64)],
 ) -> Checked<(usize, f64)> {
     let on = shaft_of(s, table, name, shaft, shafts)?;
-    Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, shafts[on].1)?))
+    let end = shafts[on].1;
+    // Lengths add up to the last digit but a few, as those of a cone's steps: its end is still on the shaft.
+    let said = (1e9 * end).round() / 1e9;
+    Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, said)?.min(end)))
 }
 
 /// The same of a gear whose mid-plane may be beyond an end.

@@ -10,6 +10,15 @@ use super::{
 use crate::{SceneError, Source, read_text};
 
 impl Gearbox {
+    /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
+    pub fn keys() -> Vec<String> {
+        let of = |(table, keys): (String, Vec<&'static str>)| {
+            let table = table.trim_matches(['[', ']']).to_owned();
+            keys.into_iter().map(move |key| if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") })
+        };
+        tables().into_iter().flat_map(of).collect()
+    }
+
     /// Reads and checks a gearbox file and the scenes of its meshes.
     ///
     /// # Errors
