@@ -1,5 +1,6 @@
 //! Where shafts, bearings and gears stand under torques. Theory (81), (83), (84).
 
+use contact::SliceResult;
 use geometry::{GearPair, Sense};
 use lumped::shaft18::MeshGeometry;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
@@ -164,13 +165,13 @@ impl StaticGearbox {
         };
         let Sought { found, mut replies, pressed } = sought?;
         let Self { elements, meshes, last, .. } = self;
-        let slices = elements.iter().map(|e| e.slices()).collect();
+        let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
         for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
             element.check().map_err(|source| at_mesh(mesh, source))?;
         }
         last.insert(0, (angle, found.displacements.clone()));
         last.truncate(2);
-        self.follow(&mut replies, &found.last_step);
+        self.follow(&mut replies, &mut slices, &found.last_step);
         let forces = self.in_common_axes(&replies);
         self.replies.clone_from(&replies);
         Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
@@ -181,14 +182,20 @@ impl StaticGearbox {
         &self.replies
     }
 
-    /// Forces of the meshes after a last small step.
-    fn follow(&self, replies: &mut [MeshReply], step: &DVector<f64>) {
-        for (to_gears, reply) in self.to_gears.iter().zip(replies) {
+    /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, and their
+    /// sum, go with the moment on gear 2, pressures as its square root.
+    fn follow(&self, replies: &mut [MeshReply], slices: &mut [Vec<SliceResult>], step: &DVector<f64>) {
+        for ((to_gears, reply), slices) in self.to_gears.iter().zip(replies).zip(slices) {
             let before = reply.force[11];
             reply.force += reply.tangent * (to_gears * step);
-            // Where the load lies does not change in so small a step: the sum of the forces goes with their moment.
             let grown = reply.force[11] / before;
-            reply.normal_force *= if grown.is_finite() { grown } else { 1.0 };
+            if grown > 0.0 && grown.is_finite() {
+                reply.normal_force *= grown;
+                for slice in slices {
+                    slice.line_load *= grown;
+                    slice.pressure *= grown.sqrt();
+                }
+            }
         }
     }
 

@@ -115,13 +115,18 @@ mod tests {
         }
     }
 
-    /// The ellipse against the fits of Hamrock and Brewe, J. Lubr. Technol. 105 (1983): a few per cent.
+    /// The ellipse against the fit of Hamrock and Brewe, J. Lubr. Technol. 105 (1983), which is off by up to 4 % itself, and
+    /// at a ratio of 60 against the elliptic integrals of SciPy.
     #[test]
     fn ellipses_are_near_the_known_fits() {
         for ratio in [1.5, 3.0, 8.0, 20.0, 60.0] {
             let found = PointContact::new([[0.2, 0.0], [0.2 / ratio, 0.0]]).unwrap();
             let fit = 1.0339 * f64::powf(ratio, 0.636);
-            assert!((found.ellipse / fit - 1.0).abs() < 0.03, "{} beside {fit} at {ratio}", found.ellipse);
+            assert!((found.ellipse / fit - 1.0).abs() < 0.04, "{} beside {fit} at {ratio}", found.ellipse);
+            if ratio == 60.0 {
+                let of_scipy = 13.455_675_854_659_956;
+                assert!((found.ellipse / of_scipy - 1.0).abs() < 1e-12, "{} beside {of_scipy}", found.ellipse);
+            }
         }
     }
 }
