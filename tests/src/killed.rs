@@ -12,19 +12,22 @@ use std::{
 use serde_json::Value as Json;
 use testing::Random;
 
-use crate::{program::ale_gear, small_scenes};
+use crate::{
+    program::ale_gear,
+    small_scenes::{self, SmallDocument},
+};
 
 /// Kills of one run at the most before it is left alone.
 const PATIENCE: u32 = 4;
 /// Keys of `summary.json` that tell of the run and not of its result.
-const OF_THE_RUN: [&str; 4] = ["cost", "first_result_s", "gears_from_cache", "wall_s"];
+const OF_THE_RUN: [&str; 5] = ["cost", "first_result_s", "gears_from_cache", "wall_s", "wall_time_s"];
 
 /// Something that runs for a while.
 #[derive(Debug, Clone)]
 pub struct Task {
-    /// For messages.
-    pub name: &'static str,
-    files: Vec<(&'static str, String)>,
+    /// What is asked; its name is for messages.
+    pub document: SmallDocument,
+    /// Words beyond those of the document.
     words: Vec<&'static str>,
     /// Whether `--resume` goes on from a checkpoint.
     resumes: bool,
@@ -35,50 +38,32 @@ pub type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// Positions at rest with a cache, a motion with checkpoints, a sweep, a study.
 pub fn tasks() -> Vec<Task> {
-    let run =
-        |rest: &[&'static str]| [&["run", "scene.toml", "--out", "o", "--quiet", "--threads", "2"], rest].concat();
+    let rest = small_scenes::long_rest(24);
     let study = "[[case]]\nscene = \"a.toml\"\nvalue = 1\n[[case]]\nscene = \"b.toml\"\nvalue = 2\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
-    let rest = small_scenes::long_rest(24);
+    let study = SmallDocument {
+        name: "study",
+        files: vec![
+            ("study.toml", study.to_owned()),
+            ("a.toml", rest.replace("positions_per_cycle = 24", "positions_per_cycle = 8")),
+            ("b.toml", rest.replace("torque_nm = 60.0", "torque_nm = 90.0")),
+        ],
+        words: vec!["study", "study.toml"],
+    };
+    let task = |document, words: &[&'static str], resumes| Task { document, words: words.to_vec(), resumes };
+    let scene = SmallDocument::scene;
+    let (cached, alone) = (&["--threads", "2", "--cache", "kept"], &["--threads", "2", "--no-cache"]);
     vec![
-        Task {
-            name: "rest with cache",
-            files: vec![("scene.toml", rest.clone())],
-            words: run(&["--cache", "kept"]),
-            resumes: false,
-        },
-        Task {
-            name: "motion with checkpoints",
-            files: vec![("scene.toml", small_scenes::long_motion(60))],
-            words: run(&["--no-cache"]),
-            resumes: true,
-        },
-        Task {
-            name: "sweep",
-            files: vec![("scene.toml", small_scenes::long_sweep(6))],
-            words: run(&["--cache", "kept"]),
-            resumes: false,
-        },
-        Task {
-            name: "study",
-            files: vec![
-                ("study.toml", study.to_owned()),
-                ("a.toml", rest.replace("positions_per_cycle = 24", "positions_per_cycle = 8")),
-                ("b.toml", rest.replace("torque_nm = 60.0", "torque_nm = 90.0")),
-            ],
-            words: vec!["study", "study.toml", "--out", "o", "--quiet", "--threads", "2", "--cache", "kept"],
-            resumes: false,
-        },
+        task(scene("rest with cache", rest), cached, false),
+        task(scene("motion with checkpoints", small_scenes::long_motion(60)), alone, true),
+        task(scene("sweep", small_scenes::long_sweep(6)), cached, false),
+        task(study, cached, false),
     ]
 }
 
 impl Task {
-    fn lay_out(&self, folder: &Path) -> io::Result<()> {
-        self.files.iter().try_for_each(|(name, text)| fs::write(folder.join(name), text))
-    }
-
     fn command(&self, program: &Path, folder: &Path) -> Command {
-        let mut words = self.words.clone();
+        let mut words = self.document.words_into("o", &self.words);
         if self.resumes && folder.join("o.checkpoint").exists() {
             words.push("--resume");
         }
@@ -93,11 +78,11 @@ impl Task {
     /// When it comes to no result.
     pub fn undisturbed(&self, program: &Path) -> io::Result<(Files, Duration)> {
         let folder = tempfile::tempdir()?;
-        self.lay_out(folder.path())?;
+        self.document.lay_out(folder.path())?;
         let start = Instant::now();
         let run = self.command(program, folder.path()).output()?;
         if !run.status.success() {
-            return Err(io::Error::other(format!("{}: {}", self.name, String::from_utf8_lossy(&run.stderr))));
+            return Err(io::Error::other(format!("{}: {}", self.document.name, String::from_utf8_lossy(&run.stderr))));
         }
         Ok((files_of(&folder.path().join("o"))?, start.elapsed()))
     }
@@ -114,7 +99,7 @@ impl Task {
     ) -> Result<u32, String> {
         let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
         let at = folder.path();
-        self.lay_out(at).map_err(|e| e.to_string())?;
+        self.document.lay_out(at).map_err(|e| e.to_string())?;
         let mut kills = 0;
         for _ in 0..PATIENCE {
             let wait = takes.mul_f64(random.between(0.0, 1.05));
@@ -139,19 +124,21 @@ impl Task {
         }
         self.nothing_half_written(at, whole, kills)?;
         let mut names: Vec<String> = names_in(at).map_err(|e| e.to_string())?;
-        names.retain(|n| !self.files.iter().any(|(f, _)| f == n) && !["o", "kept", "user_cache"].contains(&n.as_str()));
+        names.retain(|n| {
+            !self.document.files.iter().any(|(f, _)| f == n) && !["o", "kept", "user_cache"].contains(&n.as_str())
+        });
         if !names.is_empty() {
-            return Err(format!("{}: after {kills} kills {names:?} are left", self.name));
+            return Err(format!("{}: after {kills} kills {names:?} are left", self.document.name));
         }
         if !at.join("o/summary.json").exists() && !at.join("o/report.html").exists() {
-            return Err(format!("{}: there is no result after {kills} kills", self.name));
+            return Err(format!("{}: there is no result after {kills} kills", self.document.name));
         }
         Ok(kills)
     }
 
     fn said(&self, child: std::process::Child, kills: u32) -> String {
         let said = child.wait_with_output().map(|o| String::from_utf8_lossy(&o.stderr).into_owned());
-        format!("{}: fails after {kills} kills: {}", self.name, said.unwrap_or_default())
+        format!("{}: fails after {kills} kills: {}", self.document.name, said.unwrap_or_default())
     }
 
     /// A folder of results is a whole one, whenever it is there.
@@ -160,11 +147,11 @@ impl Task {
         if !out.exists() {
             return Ok(());
         }
-        let now = files_of(&out).map_err(|e| format!("{}: after {kills} kills: {e}", self.name))?;
+        let now = files_of(&out).map_err(|e| format!("{}: after {kills} kills: {e}", self.document.name))?;
         let other = |file: &&PathBuf| now.get(*file) != whole.get(*file);
         match whole.keys().chain(now.keys()).find(other) {
             None => Ok(()),
-            Some(file) => Err(format!("{}: after {kills} kills {} is another", self.name, file.display())),
+            Some(file) => Err(format!("{}: after {kills} kills {} is another", self.document.name, file.display())),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Results as they are recorded in `tests/data/digests.toml`: one digest a scene, and sums of every column by which
+//! Results as they are recorded in `tests/data/digests.toml`: one digest a document, and sums of every column by which
 //! another machine is judged, whose last bits differ.
 
 use std::{collections::BTreeMap, fs, io, path::Path};
@@ -24,12 +24,12 @@ const DIGITS: usize = 9;
 /// Difference of sums over their size that other last bits may make.
 const LAST_BITS: f64 = 1e-7;
 
-/// What is recorded of a scene.
+/// What is recorded of a document.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
-    /// Of all rows and headline numbers, rounded.
+    /// Of the rows of all tables and of the headline, rounded.
     pub digest: String,
-    /// Of every column: sum of sizes, and the sum of values weighted by their row.
+    /// Of every column, by table and name: sum of sizes, and the sum of values weighted by their row.
     pub sums: BTreeMap<String, [f64; 2]>,
 }
 
@@ -41,17 +41,20 @@ pub type Record = BTreeMap<String, Recorded>;
 /// # Errors
 /// When its files cannot be read.
 pub fn of_folder(folder: &Path) -> io::Result<Recorded> {
-    let rows = ["history.csv", "resonance.csv", "branch.csv"].iter().find(|name| folder.join(name).exists());
-    let csv = Csv::read(&folder.join(rows.unwrap_or(&"history.csv")))?;
-    let mut columns: BTreeMap<String, Vec<f64>> = BTreeMap::new();
-    for name in csv.names.iter().filter(|n| !is_noise(n)) {
-        columns.insert(name.clone(), csv.column(name).unwrap_or_default());
+    let mut columns: BTreeMap<String, Column> = BTreeMap::new();
+    for file in csv_files(folder)? {
+        let csv = Csv::read(&folder.join(&file))?;
+        for name in csv.names.iter().filter(|n| !is_noise(n)) {
+            let column = Column::of(&csv, name);
+            columns.insert(format!("{}.{name}", file.trim_end_matches(".csv")), column);
+        }
     }
     let summary: Json = serde_json::from_slice(&fs::read(folder.join("summary.json"))?).map_err(io::Error::other)?;
     flatten("headline", &summary["headline"], &mut columns);
     let mut hasher = blake3::Hasher::new();
-    for (name, values) in &columns {
+    for (name, Column { values, words }) in &columns {
         hasher.update(name.as_bytes());
+        hasher.update(words.as_bytes());
         let largest = values.iter().filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
         for value in values {
             // What is a billionth of its column's largest is as good as nothing.
@@ -59,8 +62,36 @@ pub fn of_folder(folder: &Path) -> io::Result<Recorded> {
             hasher.update(format!("{value:.0$e};", DIGITS - 1).as_bytes());
         }
     }
-    let sums = columns.into_iter().map(|(name, values)| (name, sums(&values))).collect();
+    let sums = columns.into_iter().map(|(name, column)| (name, sums(&column.values))).collect();
     Ok(Recorded { digest: hasher.finalize().to_hex().to_string(), sums })
+}
+
+/// Numbers of a column, and its cells that are none.
+#[derive(Default)]
+struct Column {
+    values: Vec<f64>,
+    words: String,
+}
+
+impl Column {
+    fn of(csv: &Csv, name: &str) -> Self {
+        let mut column = Self { values: csv.column(name).unwrap_or_default(), words: String::new() };
+        let at = csv.names.iter().position(|n| n == name).unwrap_or_default();
+        for (row, _) in csv.rows.iter().zip(&column.values).filter(|(_, v)| v.is_nan()) {
+            column.words.push_str(row.get(at).map_or("", String::as_str));
+            column.words.push(';');
+        }
+        column
+    }
+}
+
+/// Names of the tables in a folder of results, in order.
+fn csv_files(folder: &Path) -> io::Result<Vec<String>> {
+    let names = fs::read_dir(folder)?.map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()));
+    let mut names = names.collect::<io::Result<Vec<String>>>()?;
+    names.retain(|n| n.ends_with(".csv"));
+    names.sort();
+    Ok(names)
 }
 
 fn is_noise(name: &str) -> bool {
@@ -73,10 +104,11 @@ fn sums(values: &[f64]) -> [f64; 2] {
 }
 
 /// Numbers of the headline, each a column of one row.
-fn flatten(path: &str, value: &Json, columns: &mut BTreeMap<String, Vec<f64>>) {
+fn flatten(path: &str, value: &Json, columns: &mut BTreeMap<String, Column>) {
     match value {
         Json::Number(number) if !is_noise(path) && !path.contains("certificate") && !path.contains("worst_") => {
-            columns.insert(path.to_owned(), vec![number.as_f64().unwrap_or(f64::NAN)]);
+            let values = vec![number.as_f64().unwrap_or(f64::NAN)];
+            columns.insert(path.to_owned(), Column { values, ..Column::default() });
         }
         Json::Array(list) => list.iter().enumerate().for_each(|(i, v)| flatten(&format!("{path}.{i}"), v, columns)),
         Json::Object(map) => map.iter().for_each(|(key, v)| flatten(&format!("{path}.{key}"), v, columns)),

@@ -1,8 +1,43 @@
-//! One small scene of every model and kind of run, each solved in less than a second: what must give the same bytes
-//! whatever the threads, the cache and the interruptions.
+//! One small document of every kind, and of every model and kind of run, each solved in some seconds at the most: what
+//! must give the same bytes whatever the threads, the cache and the interruptions.
 
-/// Name and text of a scene.
-pub type SmallScene = (&'static str, String);
+use std::{fs, io, path::Path};
+
+/// Files of a question, and the words of `ale-gear` that ask it.
+#[derive(Debug, Clone)]
+pub struct SmallDocument {
+    /// Of the record.
+    pub name: &'static str,
+    /// Names and texts.
+    pub files: Vec<(&'static str, String)>,
+    /// Words of the command, without `--out`.
+    pub words: Vec<&'static str>,
+}
+
+impl SmallDocument {
+    /// A scene that `ale-gear run` solves.
+    pub fn scene(name: &'static str, text: String) -> Self {
+        Self { name, files: vec![("scene.toml", text)], words: vec!["run", "scene.toml"] }
+    }
+
+    /// A scene that another command takes.
+    fn asked(name: &'static str, text: String, words: &[&'static str]) -> Self {
+        Self { name, files: vec![("scene.toml", text)], words: words.to_vec() }
+    }
+
+    /// Writes the files into a folder.
+    ///
+    /// # Errors
+    /// As the system says.
+    pub fn lay_out(&self, folder: &Path) -> io::Result<()> {
+        self.files.iter().try_for_each(|(name, text)| fs::write(folder.join(name), text))
+    }
+
+    /// Words of the command that write the answer into `out`.
+    pub fn words_into<'a>(&'a self, out: &'a str, further: &[&'a str]) -> Vec<&'a str> {
+        [&self.words[..], &["--out", out, "--quiet"], further].concat()
+    }
+}
 
 const PAIR: &str = "[pinion]
 teeth = 17
@@ -66,8 +101,105 @@ pub fn long_sweep(speeds: u32) -> String {
     moving("cycles = 1\n", &format!("run = \"sweep\"\nwarm_up_cycles = 20\nperiodic_tolerance = 1e-2\n{sweep}"))
 }
 
-/// All of them.
-pub fn all() -> Vec<SmallScene> {
+/// Two stages on three shafts: at rest, in vibration, in motion up a ramp, with one bearing by its type.
+fn gearbox() -> SmallDocument {
+    let shaft = |name: &str, y: f64, length: f64, diameter: f64| {
+        format!(
+            "[[shaft]]\nname = \"{name}\"\norigin_mm = [0.0, {y}, 0.0]\n[[shaft.section]]\nlength_mm = {length}\n\
+             outer_diameter_mm = {diameter}\n"
+        )
+    };
+    let bearing = |shaft: &str, at: f64, z: &str| {
+        format!("[[bearing]]\nshaft = \"{shaft}\"\nposition_mm = {at}\nstiffness_n_per_mm = [2.0e5, 2.0e5, {z}]\n")
+    };
+    let gear = |name: &str, shaft: &str, at: f64| {
+        format!("[[gear]]\nname = \"{name}\"\nshaft = \"{shaft}\"\nposition_mm = {at}\n")
+    };
+    let mesh = |scene: &str, pinion: &str, wheel: &str| {
+        format!("[[mesh]]\nscene = \"{scene}\"\npinion = \"{pinion}\"\nwheel = \"{wheel}\"\n")
+    };
+    let parts = [
+        shaft("fast", 0.0, 90.0, 20.0),
+        shaft("middle", 50.5, 110.0, 25.0),
+        shaft("slow", 101.0, 90.0, 30.0),
+        "[[bearing]]\nshaft = \"fast\"\nposition_mm = 10.0\ntype = \"deep-groove-ball\"\nbore_mm = 20.0\n\
+         outer_diameter_mm = 47.0\nstatic_rating_kn = 6.55\n"
+            .to_owned(),
+        bearing("fast", 80.0, "0.0"),
+        bearing("middle", 10.0, "1.0e5"),
+        bearing("middle", 100.0, "0.0"),
+        bearing("slow", 10.0, "1.0e5"),
+        bearing("slow", 80.0, "0.0"),
+        gear("1", "fast", 30.0),
+        gear("2", "middle", 30.0),
+        gear("3", "middle", 70.0),
+        gear("4", "slow", 70.0),
+        mesh("pair.toml", "1", "2"),
+        mesh("pair.toml", "3", "4"),
+        "[input]\nshaft = \"fast\"\nposition_mm = 0.0\ninertia_kg_m2 = 0.001\n\
+         [[torque]]\nshaft = \"slow\"\nposition_mm = 90.0\ntorque_nm = 60.0\ninertia_kg_m2 = 0.01\n\
+         [analysis]\npositions_per_cycle = 4\n\
+         [vibration]\nfrom_rpm = 500.0\nto_rpm = 4000.0\nspeeds = 6\norders = 2\nmodes = 6\n\
+         [motion]\nspeed_rpm = 1000.0\nto_speed_rpm = 1500.0\nmesh = \"spring\"\ncycles = 6\nsteps_per_cycle = 20\n"
+            .to_owned(),
+    ];
+    let pair = at_rest(4, "[contact]\nslices = 6\n")
+        .replace("helix_angle_deg = 12.0", "helix_angle_deg = 0.0")
+        .replace("face_width_mm = 14.0", "face_width_mm = 14.0\ncentre_distance_mm = 50.5");
+    SmallDocument {
+        name: "gearbox",
+        files: vec![("box.toml", parts.concat()), ("pair.toml", pair)],
+        words: vec!["gearbox", "box.toml"],
+    }
+}
+
+/// Plans, optimisations, sweeps, studies and curves of a scene, and a gearbox.
+fn other_than_scenes() -> Vec<SmallDocument> {
+    let rest = at_rest(4, "[contact]\nslices = 6\n");
+    let mapped = moving("model = \"mapped\"\ncycles = 2\n", &format!("{SETTLES}mesh_damping_ratio = 0.05\n"));
+    let plan = "scene = \"scene.toml\"\n[[output]]\nheadline = \"mean_ste_um\"\n[[output]]\nheadline = \"max_pressure_mpa\"\n[[vary]]\n\
+                key = \"operation.torque_nm\"\nvalues = [40.0, 80.0]\n[[vary]]\nkey = \"pinion.modification.lead_crowning_um\"\n\
+                values = [0.0, 10.0]\n";
+    let study = "[[case]]\nscene = \"scene.toml\"\nvalue = 1\n[[case]]\nscene = \"b.toml\"\nvalue = 2\n\
+                 [[quantity]]\ncolumn = \"ste_um\"\n";
+    vec![
+        gearbox(),
+        SmallDocument {
+            name: "plan",
+            files: vec![("scene.toml", rest.clone()), ("plan.toml", plan.to_owned())],
+            words: vec!["vary", "plan.toml"],
+        },
+        SmallDocument::asked(
+            "plan_of_motions",
+            mapped.clone(),
+            &["vary", "scene.toml", "--vary", "operation.torque_nm=40:80:2", "--output", "peak_to_peak_dte_um"],
+        ),
+        SmallDocument::asked("optimum", rest.clone(), &["optimise", "scene.toml", "--torques", "40,80"]),
+        SmallDocument::asked(
+            "sweep",
+            mapped.clone(),
+            &["sweep", "scene.toml", "--key", "operation.speed_rpm", "--from", "3000", "--to", "5000", "--points", "3"],
+        ),
+        SmallDocument::asked("curve", mapped, &["curve", "scene.toml", "--from", "3000", "--to", "5000"]),
+        SmallDocument {
+            name: "study",
+            files: vec![
+                ("b.toml", rest.replace("torque_nm = 60.0", "torque_nm = 90.0")),
+                ("scene.toml", rest),
+                ("study.toml", study.to_owned()),
+            ],
+            words: vec!["study", "study.toml"],
+        },
+    ]
+}
+
+/// All documents.
+pub fn all() -> Vec<SmallDocument> {
+    scenes().into_iter().map(|(name, text)| SmallDocument::scene(name, text)).chain(other_than_scenes()).collect()
+}
+
+/// Names and texts of the scenes.
+fn scenes() -> Vec<(&'static str, String)> {
     let relief = "[pinion.modification]\ntip_relief_um = 12.0\ntip_relief_start_roll_deg = 28.0\nlead_crowning_um = 4.0\n\
                   [pair.misalignment]\nin_plane_of_action_um = 6.0\n";
     let free = ["pinion", "wheel"].map(|g| format!("[{g}.body]\nfree = [\"x\", \"y\", \"z\"]\n")).concat();

@@ -1,4 +1,4 @@
-//! Results of the small scenes as they are recorded in `tests/data/digests.toml`.
+//! Results of the small documents as they are recorded in `tests/data/digests.toml`.
 //!
 //! `cargo run --profile test -p verification --bin digests` writes the file again: after a change of results that was
 //! decided.
@@ -30,10 +30,11 @@ fn write() -> Result<(), Box<dyn Error>> {
     let old: Record = fs::read_to_string(&file).ok().map(|text| toml::from_str(&text)).transpose()?.unwrap_or_default();
     let program = std::env::current_exe()?;
     let mut record = Record::new();
-    for (name, text) in small_scenes::all() {
+    for document in small_scenes::all() {
+        let name = document.name;
         let folder = tempfile::tempdir()?;
-        fs::write(folder.path().join("scene.toml"), text)?;
-        let words = ["run", "scene.toml", "--out", "o", "--no-cache", "--quiet", "--threads", "1"];
+        document.lay_out(folder.path())?;
+        let words = document.words_into("o", &["--no-cache", "--threads", "1"]);
         let run = ale_gear(&program, folder.path(), &words).output()?;
         if !run.status.success() {
             return Err(format!("{name}: {}", String::from_utf8_lossy(&run.stderr)).into());
@@ -47,6 +48,6 @@ fn write() -> Result<(), Box<dyn Error>> {
         record.insert(name.to_owned(), now);
     }
     fs::write(&file, toml::to_string(&record)?)?;
-    println!("{} scenes", record.len());
+    println!("{} documents", record.len());
     Ok(())
 }

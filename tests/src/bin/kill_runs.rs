@@ -31,7 +31,7 @@ fn run() -> Result<usize, Box<dyn Error>> {
     let (tasks, mut wholes) = (tasks(), Vec::new());
     for task in &tasks {
         let whole = task.undisturbed(&program)?;
-        println!("{}: {} files in {:.2} s", task.name, whole.0.len(), whole.1.as_secs_f64());
+        println!("{}: {} files in {:.2} s", task.document.name, whole.0.len(), whole.1.as_secs_f64());
         wholes.push(whole);
     }
     let (mut kills, mut wrong) = (vec![0; tasks.len()], 0);
@@ -50,7 +50,7 @@ fn run() -> Result<usize, Box<dyn Error>> {
         }
     }
     for (task, kills) in tasks.iter().zip(&kills) {
-        println!("{}: {kills} kills", task.name);
+        println!("{}: {kills} kills", task.document.name);
     }
     println!("{} kills in all, {wrong} runs are not as they must be", kills.iter().sum::<u32>());
     Ok(wrong)

@@ -1,20 +1,19 @@
 //! The same bytes whatever the threads, whatever the cache, in one piece or two; the same numbers as were recorded.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use verification::{
     killed::{Files, files_of},
     program::ale_gear,
     recorded::{Record, of_folder},
-    small_scenes,
+    small_scenes::{self, SmallDocument},
 };
 
 use crate::program;
 
-/// Runs `scene.toml` of a folder; words are further ones.
-fn run(folder: &Path, out: &str, words: &[&str]) -> Files {
-    let all = [&["run", "scene.toml", "--out", out, "--quiet"], words].concat();
-    let run = ale_gear(program(), folder, &all).output().unwrap();
+/// Solves a document that lies in a folder.
+fn run(document: &SmallDocument, folder: &Path, out: &str, words: &[&str]) -> Files {
+    let run = ale_gear(program(), folder, &document.words_into(out, words)).output().unwrap();
     assert!(run.status.success(), "{words:?}: {}", String::from_utf8_lossy(&run.stderr));
     files_of(&folder.join(out)).unwrap()
 }
@@ -29,11 +28,12 @@ fn other(a: &Files, b: &Files) -> Vec<String> {
 
 #[test]
 fn bytes_depend_on_neither_threads_nor_cache() {
-    for (name, text) in small_scenes::all() {
+    for document in small_scenes::all() {
+        let name = document.name;
         let folder = tempfile::tempdir().unwrap();
         let at = folder.path();
-        fs::write(at.join("scene.toml"), text).unwrap();
-        let base = run(at, "base", &["--no-cache", "--threads", "1"]);
+        document.lay_out(at).unwrap();
+        let base = run(&document, at, "base", &["--no-cache", "--threads", "1"]);
         for (what, words) in [
             ("2 threads", &["--no-cache", "--threads", "2"][..]),
             ("7 threads", &["--no-cache", "--threads", "7"]),
@@ -41,7 +41,7 @@ fn bytes_depend_on_neither_threads_nor_cache() {
             ("a cold cache", &["--cache", "kept", "--threads", "2"]),
             ("a warm cache", &["--cache", "kept", "--threads", "1"]),
         ] {
-            let files = run(at, "again", words);
+            let files = run(&document, at, "again", words);
             assert!(files == base, "{name}: with {what} other bytes in {:?}", other(&base, &files));
         }
     }
@@ -50,16 +50,17 @@ fn bytes_depend_on_neither_threads_nor_cache() {
 #[test]
 fn bytes_do_not_depend_on_a_stop_on_the_way() {
     let stops = ["motion_steady", "motion_free", "motion_explicit", "motion_tolerance", "motion_ramp", "motion_modes"];
-    for (name, text) in small_scenes::all().into_iter().filter(|(name, _)| stops.contains(name)) {
+    for document in small_scenes::all().into_iter().filter(|d| stops.contains(&d.name)) {
+        let name = document.name;
         let folder = tempfile::tempdir().unwrap();
         let at = folder.path();
-        fs::write(at.join("scene.toml"), text).unwrap();
-        let base = run(at, "base", &["--no-cache", "--threads", "1"]);
-        let words = ["run", "scene.toml", "--out", "o", "--no-cache", "--quiet", "--stop-after-cycles", "1"];
+        document.lay_out(at).unwrap();
+        let base = run(&document, at, "base", &["--no-cache", "--threads", "1"]);
+        let words = document.words_into("o", &["--no-cache", "--stop-after-cycles", "1"]);
         let stopped = ale_gear(program(), at, &words).output().unwrap();
         assert!(stopped.status.success(), "{name}: {}", String::from_utf8_lossy(&stopped.stderr));
         assert!(at.join("o.checkpoint").exists(), "{name}: no checkpoint");
-        let files = run(at, "o", &["--no-cache", "--resume", "--threads", "2"]);
+        let files = run(&document, at, "o", &["--no-cache", "--resume", "--threads", "2"]);
         assert!(files == base, "{name}: taken up again other bytes in {:?}", other(&base, &files));
     }
 }
@@ -70,17 +71,17 @@ const AGAIN: &str = "results changed: if someone decided that, write tests/data/
 #[test]
 fn results_are_those_that_were_recorded() {
     let record: Record = toml::from_str(include_str!("../../data/digests.toml")).unwrap();
-    let scenes = small_scenes::all();
+    let documents = small_scenes::all();
     let (mut names, mut recorded): (Vec<&str>, Vec<&str>) =
-        (scenes.iter().map(|(name, _)| *name).collect(), record.keys().map(String::as_str).collect());
+        (documents.iter().map(|d| d.name).collect(), record.keys().map(String::as_str).collect());
     names.sort_unstable();
     recorded.sort_unstable();
-    assert_eq!(names, recorded, "scenes and recorded results; {AGAIN}");
-    for (name, text) in scenes {
+    assert_eq!(names, recorded, "documents and recorded results; {AGAIN}");
+    for document in documents {
         let folder = tempfile::tempdir().unwrap();
-        fs::write(folder.path().join("scene.toml"), text).unwrap();
-        run(folder.path(), "o", &["--no-cache", "--threads", "2"]);
-        let changes = record[name].changes(&of_folder(&folder.path().join("o")).unwrap());
-        assert!(changes.is_empty(), "{name}: {}\n{AGAIN}", changes.join("\n"));
+        document.lay_out(folder.path()).unwrap();
+        run(&document, folder.path(), "o", &["--no-cache", "--threads", "2"]);
+        let changes = record[document.name].changes(&of_folder(&folder.path().join("o")).unwrap());
+        assert!(changes.is_empty(), "{}: {}\n{AGAIN}", document.name, changes.join("\n"));
     }
 }
