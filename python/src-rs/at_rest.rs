@@ -146,8 +146,9 @@ impl AtRest {
     /// Writes all files that the command writes; what comes back is the closing table.
     pub fn write(&self, results: &ResultDirectory) -> Result<String, ReportError> {
         if let Some(folder) = self.fields() {
-            for file in names(&folder)? {
-                results.copy(&folder.join(&file), &file)?;
+            // Each folder has a record of its own.
+            for file in names(&folder)?.iter().filter(|name| *name != "summary.json") {
+                results.copy(&folder.join(file), file)?;
             }
         }
         let mut gears = self.gears.lock().unwrap_or_else(PoisonError::into_inner);

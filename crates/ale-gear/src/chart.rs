@@ -2,7 +2,7 @@
 
 use analysis::accuracy_chart::{AccuracyChart, ChartOptions, MemoryGauge, WorkPrecision};
 
-use report::folder::Partial;
+use files::Scratch;
 
 use crate::{error::CommandError, memory, phases::Phases, scene::Scene};
 
@@ -29,8 +29,7 @@ impl MemoryGauge for ProcessMemory {
 /// # Errors
 /// Exit status 1 without a reference.
 pub(crate) fn chart(scene: &Scene, options: &ChartOptions, phases: &mut Phases) -> Result<WorkPrecision, CommandError> {
-    let scratch = Partial::new(std::env::temp_dir().join(format!("ale-gear-calculix-{}", std::process::id())));
-    std::fs::create_dir_all(scratch.path()).map_err(|e| CommandError::write(scratch.path(), &e))?;
+    let scratch = Scratch::make("ale-gear-calculix").map_err(|e| CommandError::write(&std::env::temp_dir(), &e))?;
     let chart = AccuracyChart::new(scene, options).with_memory(&ProcessMemory).with_scratch(scratch.path());
     Ok(chart.run(phases)?)
 }

@@ -26,10 +26,9 @@ mod pace;
 pub mod phases;
 pub mod run;
 pub use ::scene;
-mod stop;
+pub mod stop;
 pub mod talk;
 
-mod kept_cases;
 mod lumped;
 mod study_cases;
 

@@ -4,7 +4,10 @@ use std::io::{ErrorKind, Write};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    match ale_gear::command::Cli::of_process().execute() {
+    let ended = ale_gear::command::Cli::of_process().execute();
+    // A process that is being stopped says nothing more, and its status is that of the stop.
+    ale_gear::stop::unless_stopping();
+    match ended {
         Ok(answer) => {
             let printed = print(&answer.text);
             match answer.failure {

@@ -9,19 +9,19 @@ use analysis::{
     side_by_side, static_certificate,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{checkpoint::HISTORY, close_result, read_columns};
+use report::{checkpoint::HISTORY, close_result, folder::KeptCases, read_columns};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},
 };
 
+use files::{most, read_regular_text};
 use study::Columns;
 
 use crate::{
     certificate::Written,
     error::CommandError,
     gears,
-    kept_cases::KeptCases,
     output::{ResultDirectory, static_headline, write_history},
     phases::Phases,
     scene::Scene,
@@ -134,14 +134,14 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
 /// The summary that the case has just written.
 fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
     let path = folder.join("summary.json");
-    let text = std::fs::read_to_string(&path).map_err(|e| CommandError::write(&path, &e))?;
+    let text = read_regular_text(&path, most::SUMMARY).map_err(|e| CommandError::write(&path, &e))?;
     serde_json::from_str(&text).map_err(|e| {
         let hint = Some("does another program write into the folder?".into());
         CommandError::failed(format_args!("{}: {e}", path.display()), hint)
     })
 }
 
-/// Rows and headline of a scene that is run into a folder, which is taken away again.
+/// Rows and headline of a scene that is run into a folder that nobody looks at.
 ///
 /// # Errors
 /// Those of the run; that of its certificate among them.
@@ -149,13 +149,7 @@ pub(crate) fn numbers(
     folder: &Path,
     solve: impl FnOnce(&ResultDirectory) -> Result<Written, CommandError>,
 ) -> Result<(Columns, serde_json::Value), CommandError> {
-    std::fs::create_dir_all(folder).map_err(|e| CommandError::write(folder, &e))?;
     let own = ResultDirectory::create(folder)?;
-    let written = solve(&own)?;
-    own.finish(|_| ())?;
-    written.verdict?;
-    let found = (read_columns(&folder.join(HISTORY))?, summary(folder)?["headline"].take());
-    // What stays goes with the folder around it.
-    let _ = std::fs::remove_dir_all(folder);
-    Ok(found)
+    solve(&own)?.verdict?;
+    Ok((read_columns(&own.path(HISTORY))?, summary(own.folder())?["headline"].take()))
 }

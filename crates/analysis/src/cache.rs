@@ -12,14 +12,15 @@ pub trait GearCache: Sync {
     /// Whether anything is kept.
     fn is_on(&self) -> bool;
 
-    /// The record of a key; `None` when there is none. A warning says what is wrong with one that cannot be used.
-    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>);
+    /// The record of a key, with the key that it was made for; `None` when there is none. A warning says what is wrong
+    /// with one that cannot be used.
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>);
 
     /// Keeps a record; a warning says why it could not be done.
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String>;
 
     /// The maps of a key, as [`GearCache::load`]. A store need not keep maps.
-    fn load_maps(&self, _: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+    fn load_maps(&self, _: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
         (None, None)
     }
 
@@ -29,16 +30,40 @@ pub trait GearCache: Sync {
     }
 }
 
+/// What a store hands out, with the key that it was made for: who asked takes it for no other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Kept<K, T> {
+    key: K,
+    content: T,
+}
+
+impl<K: PartialEq, T> Kept<K, T> {
+    /// Content that was made for a key.
+    pub fn new(key: K, content: T) -> Self {
+        Self { key, content }
+    }
+
+    /// The content, if it was made for this key.
+    pub fn of(self, key: &K) -> Option<T> {
+        (self.key == *key).then_some(self.content)
+    }
+}
+
+/// Version of what the numbers of a map mean and of how they come about: raised with every change of the code by which
+/// the same scene gets other maps (the test `maps_are_those_of_their_version` notices), so that nobody takes those of before.
+pub const MAP_VERSION: u32 = 1;
+
 /// Names maps: equal for equal gears in equal contact, in practice different for any others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct MapKey([u8; 32]);
 
 impl MapKey {
-    /// Of the reduced gears, and of all else that their contact depends on, in words.
+    /// Of the reduced gears, of [`MAP_VERSION`], and of all else that their contact depends on, in words.
     pub fn new(gears: &[RecordKey], contact: &str) -> Self {
         let mut hasher = blake3::Hasher::new();
         let gears = gears.iter().map(ToString::to_string);
-        for word in gears.chain([env!("CARGO_PKG_VERSION").to_owned(), contact.to_owned()]) {
+        let versions = format!("{} {MAP_VERSION}", env!("CARGO_PKG_VERSION"));
+        for word in gears.chain([versions, contact.to_owned()]) {
             hasher.update(&(word.len() as u64).to_le_bytes());
             hasher.update(word.as_bytes());
         }
@@ -58,7 +83,7 @@ impl<T: GearCache + ?Sized> GearCache for &T {
         (**self).is_on()
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
         (**self).load(key)
     }
 
@@ -66,7 +91,7 @@ impl<T: GearCache + ?Sized> GearCache for &T {
         (**self).save(key, record)
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
         (**self).load_maps(key)
     }
 
@@ -84,7 +109,7 @@ impl GearCache for NoCache {
         false
     }
 
-    fn load(&self, _: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+    fn load(&self, _: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
         (None, None)
     }
 

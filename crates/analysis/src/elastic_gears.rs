@@ -84,7 +84,10 @@ fn one(
     let general = scene.analysis.reduction == Some(Reduction::General);
     let asked = if general { "general" } else { "auto" };
     let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, asked));
-    let (found, warning) = key.as_ref().map_or((None, None), |key| cache.load(key));
+    let (found, warning) = key.as_ref().map_or((None, None), |key| {
+        let (kept, said) = cache.load(key);
+        (kept.and_then(|kept| kept.of(key)), said)
+    });
     let gear = match (found, general) {
         (Some(record), _) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
         (None, true) => GearReducer::general(mesh.gear.clone(), material, options),

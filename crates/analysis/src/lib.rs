@@ -61,7 +61,7 @@ mod static_certificate;
 mod statics;
 mod warnings;
 
-pub use cache::{GearCache, MapKey, NoCache};
+pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache};
 pub use derivatives::{DerivativeRecorder, Derivatives};
 pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;

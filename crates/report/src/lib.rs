@@ -37,7 +37,6 @@ mod cost;
 pub mod csv;
 pub mod envelope_files;
 mod error;
-mod files;
 pub mod folder;
 pub mod gearbox_files;
 mod in_time;
@@ -51,6 +50,7 @@ pub mod optimum_files;
 pub mod page;
 pub mod paraview;
 pub mod plan_files;
+mod result_files;
 mod rows;
 mod static_result;
 mod static_sink;
@@ -63,7 +63,6 @@ pub mod view;
 pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::ReportError;
-pub use files::ResultFiles;
 pub use in_time::{Recorder, Told, solve_accurate, solve_in_time, solve_lumped, solve_many_motions, solve_sweep};
 pub use marked_place::MarkedPlace;
 pub use memory_available::{available_bytes, available_mb};
@@ -72,6 +71,7 @@ pub use motion_result::{
     write_answer, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
     write_motion_result, write_sweep_result,
 };
+pub use result_files::ResultFiles;
 pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_result::{write_static_result, write_static_rows};
 pub use static_sink::StaticFileSink;

@@ -2,7 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::{ReportError, folder::Partial};
+use files::{most, read_regular_text, write_file};
+
+use crate::ReportError;
 
 /// A file and the bytes of it between its marks.
 #[derive(Debug)]
@@ -25,7 +27,7 @@ impl MarkedPlace {
             what,
             marks: format!("`{open}` and `{close}`"),
         };
-        let text = std::fs::read_to_string(file).map_err(|e| complain(e.to_string()))?;
+        let text = read_regular_text(file, most::DOCUMENT).map_err(|e| complain(e.to_string()))?;
         let line = format!("{open}\n");
         let start = text.find(&line).map(|at| at + line.len()).ok_or_else(|| complain(format!("no `{open}`")))?;
         let end = text[start..].find(close).map(|at| start + at).ok_or_else(|| complain(format!("no `{close}`")))?;
@@ -39,21 +41,8 @@ impl MarkedPlace {
     pub fn replace(self, tables: &str) -> Result<(), ReportError> {
         let Self { file, text, start, end } = self;
         let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
-        replace(&file, whole.as_bytes()).map_err(|cause| ReportError::Write { file, cause })
+        write_file(&file, whole.as_bytes()).map_err(|cause| ReportError::Write { file, cause })
     }
-}
-
-/// Writes a file beside it first: one that is half written would be lost. A link stays, and what it leads to is
-/// replaced, with the permissions it had.
-fn replace(file: &Path, content: &[u8]) -> std::io::Result<()> {
-    let target = std::fs::canonicalize(file)?;
-    let name = target.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    let new = Partial::new(target.with_file_name(format!(".{name}.partial-{}", std::process::id())));
-    std::fs::write(new.path(), content)?;
-    std::fs::set_permissions(new.path(), std::fs::metadata(&target)?.permissions())?;
-    std::fs::rename(new.path(), &target)?;
-    new.keep();
-    Ok(())
 }
 
 #[cfg(all(test, unix))]

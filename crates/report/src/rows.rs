@@ -18,7 +18,8 @@ pub fn columns_to_csv(columns: &Columns) -> String {
 /// # Errors
 /// When it is not what it was.
 pub fn read_columns(path: &Path) -> Result<Columns, ReportError> {
-    let text = std::fs::read_to_string(path).map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
+    let text = files::read_regular_text(path, files::most::ROWS)
+        .map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
     parse_columns(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
 }
 

@@ -6,7 +6,7 @@ use std::{
     path::Path,
 };
 
-use geometry::read_regular_text;
+use files::{most, read_regular_text};
 
 /// What a pipe may deliver at the most, bytes; a scene has a few thousand.
 const MOST: u64 = 16 << 20;
@@ -18,7 +18,7 @@ const MOST: u64 = 16 << 20;
 /// says.
 pub fn read_text(path: &Path) -> Result<String> {
     if !is_handed_over(path) {
-        return read_regular_text(path);
+        return read_regular_text(path, most::DOCUMENT);
     }
     let mut text = String::new();
     File::open(path)?.take(MOST + 1).read_to_string(&mut text)?;

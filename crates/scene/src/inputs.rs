@@ -75,7 +75,7 @@ fn files_of(gear: &GearScene) -> impl Iterator<Item = &Path> {
 /// The content of a file that the scene `scene` names.
 pub(super) fn content(origin: Origin, scene: &Path, path: &Path) -> io::Result<Cow<'static, [u8]>> {
     match origin {
-        Origin::Disk => geometry::read_regular_file(&resolved(scene, path)).map(Cow::Owned),
+        Origin::Disk => files::read_regular_file(&resolved(scene, path), files::most::MESH).map(Cow::Owned),
         Origin::Program => in_program(path).map(Cow::Borrowed).ok_or(io::ErrorKind::NotFound.into()),
     }
 }
@@ -96,7 +96,7 @@ pub(super) fn named(s: &Source<'_>, key: &str, word: &Spanned<String>) -> Result
     match s.origin {
         Origin::Program if in_program(&path).is_some() => Ok(path),
         Origin::Program => missing(),
-        Origin::Disk => match fs::metadata(&found).map(|data| geometry::regular(&data)) {
+        Origin::Disk => match fs::metadata(&found).map(|data| files::regular(&data)) {
             Err(_) => missing(),
             Ok(Err(e)) => refuse(e.to_string(), "give the path of a file on disk"),
             Ok(Ok(())) => Ok(path),

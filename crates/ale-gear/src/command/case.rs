@@ -74,6 +74,12 @@ impl CaseArgs {
         if Part::read(out, &digest).is_ok_and(|part| part.range == range) {
             return Ok(told(format!("{}: cases {from}..{to} of {count} are there\n", out.display())));
         }
+        if !Part::may_replace(out) {
+            return Err(CommandError::input(
+                format_args!("--out {}: is there, and is no file of `ale-gear case`", out.display()),
+                Some("give the name of a new file".into()),
+            ));
+        }
         let complain = |e: std::io::Error| CommandError::write(out, &e);
         let done = DoneCases::in_memory(BTreeMap::new());
         solve_range(&plan, range.clone(), &mut phases, &self.cache.open(), &done).map_err(complain)?;

@@ -30,7 +30,7 @@ impl GeometryArgs {
         let scene = self.overrides.read(&self.scene)?;
         let pair = scene.gear_pair()?;
         if let Some(file) = &self.rexs {
-            std::fs::write(file, rexs_of(&pair)).map_err(|e| CommandError::write(file, &e))?;
+            files::write_file(file, rexs_of(&pair).as_bytes()).map_err(|e| CommandError::write(file, &e))?;
         }
         let facts = Facts::of_pair(&scene, &pair);
         if self.json {

@@ -1,12 +1,13 @@
 //! `ale-gear init`: a commented scene to begin with.
 
 use std::{
-    io::{IsTerminal, Write},
+    io::IsTerminal,
     path::{Path, PathBuf},
 };
 
 use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
+use files::{write_file, write_new_file};
 
 use scene::{Starter, read_pair};
 
@@ -138,17 +139,10 @@ fn absent(file: &Path) -> Result<(), CommandError> {
 }
 
 fn write_new(file: &Path, text: &str, replace: bool) -> Result<(), CommandError> {
-    let mut options = std::fs::File::options();
-    options.write(true);
-    if replace {
-        options.create(true).truncate(true)
-    } else {
-        options.create_new(true)
-    };
-    let written = options.open(file).and_then(|mut f| f.write_all(text.as_bytes()));
+    let written = if replace { write_file(file, text.as_bytes()) } else { write_new_file(file, text.as_bytes()) };
     written.map_err(|e| match e.kind() {
         std::io::ErrorKind::AlreadyExists => there(file),
-        std::io::ErrorKind::IsADirectory => is_folder(file),
+        _ if file.is_dir() => is_folder(file),
         std::io::ErrorKind::NotFound => CommandError::input(
             format_args!("{}: cannot be written: {e}", file.display()),
             Some("is the folder there?".into()),

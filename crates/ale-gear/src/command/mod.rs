@@ -108,10 +108,16 @@ enum Command {
     },
     /// Manual page on stdout (roff), as in `ale-gear man | man -l -`
     Man,
+    /// Licences of the program, and of everything by others that it carries, on stdout
+    #[command(alias = "licenses")]
+    Licences,
     /// Look at, check or make meshes
     #[command(subcommand)]
     Mesh(mesh::MeshCommand),
 }
+
+/// Licences of everything that the program carries; `.ci/notices` writes the file.
+const NOTICES: &str = include_str!("../../../../NOTICES.txt");
 
 /// What a command has to say when its work is done.
 #[derive(Debug, Default)]
@@ -176,6 +182,7 @@ impl Cli {
             Some(Command::Report(args)) => args.execute(quiet),
             Some(Command::Serve(args)) => args.execute(),
             Some(Command::Schema) => Ok(schema::execute()),
+            Some(Command::Licences) => Ok(NOTICES.to_owned()),
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
             Some(Command::Man) => shell::man(),
             Some(Command::Mesh(command)) => command.execute(quiet),

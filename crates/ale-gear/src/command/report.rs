@@ -1,6 +1,6 @@
 //! `ale-gear report`: the page of a result folder made again.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use report::compare::ResultFolder;
 
@@ -26,19 +26,11 @@ impl ReportArgs {
         if file.as_os_str() == "-" {
             return Ok(page);
         }
-        replace(&file, &page).map_err(|e| CommandError::write(&file, &e))?;
+        files::write_file(&file, page.as_bytes()).map_err(|e| CommandError::write(&file, &e))?;
         let mut said = format!("{}: written\n", file.display());
         if !missed.is_empty() {
             said.push_str(&format!("THE RESULT DOES NOT HOLD: {missed}\n"));
         }
         Ok(if quiet { String::new() } else { said })
     }
-}
-
-/// Beside it first: a page that is half written would be lost.
-fn replace(file: &Path, page: &str) -> std::io::Result<()> {
-    let mut new = file.as_os_str().to_owned();
-    new.push(".new");
-    std::fs::write(&new, page)?;
-    std::fs::rename(&new, file)
 }

@@ -167,7 +167,7 @@ impl RunArgs {
         let Written { table, verdict } = written;
         let summary = self.out.join("summary.json");
         let text = match (self.json, quiet) {
-            (true, _) => std::fs::read_to_string(&summary)
+            (true, _) => files::read_regular_text(&summary, files::most::SUMMARY)
                 .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None))?,
             (_, true) => String::new(),
             _ => format!("{table}\nresults: {}\n", self.out.display()),

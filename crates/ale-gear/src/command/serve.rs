@@ -6,7 +6,7 @@ use std::{
 };
 
 use ::serve::{Limits, Server};
-use report::folder::remove_partial_paths;
+use files::hold_still;
 
 use super::cache_args::CacheArgs;
 use crate::{
@@ -51,7 +51,7 @@ impl ServeArgs {
             talk::note(format!("no browser was opened ({error}): open the address above in one"));
         }
         server.run(&text, &file, Limits { free_bytes: memory::available_bytes }, &self.cache.open());
-        remove_partial_paths();
+        drop(hold_still());
         Ok(String::new())
     }
 

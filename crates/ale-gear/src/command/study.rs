@@ -15,12 +15,11 @@ use report::study_files::{
 use scene::study::Study;
 
 use super::{cache_args::CacheArgs, run::write_result};
-use report::check_memory;
+use report::{check_memory, folder::KeptCases};
 
 use crate::{
     chart::ProcessMemory,
     error::CommandError,
-    kept_cases::KeptCases,
     memory,
     output::{CASES, ResultDirectory},
     phases::Phases,
@@ -80,7 +79,6 @@ impl StudyArgs {
         });
         let records: Vec<_> = runs.iter().map(|r| r.as_ref().map(|r| &r.record).map_err(|m| &m.failure)).collect();
         let folders: Vec<String> = (0..study.cases.len()).map(|i| study.folder(i)).collect();
-        kept.move_into(&results.path(CASES), folders.iter().map(String::as_str))?;
         let findings = findings(&study, &records)?;
         let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
@@ -100,7 +98,8 @@ impl StudyArgs {
         };
         let table = study_table(of);
         write_study_report(of, &table)?.write(&results)?;
-        // Last of all, so that a summary means that everything is there.
+        // Cases stay where they are until all else is written. Last of all the summary: it means that everything is there.
+        kept.move_into(&results.path(CASES), folders.iter().map(String::as_str))?;
         let files = results.files()?;
         results.write("summary.json", write_study_summary(of, &files).as_bytes())?;
         results.finish(talk::note)?;

@@ -6,9 +6,10 @@ use std::{
 };
 
 use analysis::SharedModels;
+use files::Scratch;
 use report::{
-    folder::{Cache, Partial},
-    plan_files::{DoneCases, KnownCases, PageWords, plan_digest, solve_cases, write_cases},
+    folder::{Cache, beside_results},
+    plan_files::{CaseTable, DoneCases, KnownCases, PageWords, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
 
@@ -131,11 +132,9 @@ pub(super) fn run_plan(
     let mut phases = Phases::with_bars();
     let results = ResultDirectory::create(out)?;
     // Beside the results, so that a run that is cut short goes on from there.
-    let mut name = out.file_name().unwrap_or_default().to_owned();
-    name.push(".cases");
-    let done_file = out.with_file_name(name);
+    let done_file = beside_results(out);
     let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
-    let done = DoneCases::open(&done_file, &plan_digest(plan)?).map_err(complain)?;
+    let done = DoneCases::open(out, &plan_digest(plan)?, &CaseTable::of(plan))?;
     let (count, before) = (plan.cases.count(), done.count());
     if before > 0 {
         talk::note(format!("{before} of {count} cases were done before"));
@@ -164,7 +163,7 @@ pub(super) fn solve_range(
     cache: &Cache,
     done: &DoneCases,
 ) -> std::io::Result<()> {
-    let scratch = Partial::new(std::env::temp_dir().join(format!("ale-gear-cases-{}", std::process::id())));
+    let scratch = Scratch::make("ale-gear-cases")?;
     let in_time = |case: usize, scene: &_| {
         let folder = scratch.path().join(case.to_string());
         let solve = |own: &_| write_result(&with_slices(Clone::clone(scene)), &mut Phases::quiet(), own, cache);

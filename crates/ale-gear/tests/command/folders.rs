@@ -12,6 +12,8 @@ use std::{
 use crate::util::{ISO_SCENE, MOTION_LINES, Scratch, motion_scene, repository};
 
 const MARK: &str = ".ale-gear-work";
+/// By what an earlier result is known.
+const RECORD: &str = "{ \"program\": \"ale-gear\", \"files\": [\"history.csv\"] }";
 
 /// A motion that goes on until it is killed.
 fn endless() -> String {
@@ -115,6 +117,7 @@ fn a_result_that_was_whole_when_the_run_was_killed_is_not_lost() {
     for (name, text) in [("old", "earlier"), ("new", "later")] {
         fs::create_dir(left.join(name)).unwrap();
         fs::write(left.join(name).join("history.csv"), text).unwrap();
+        fs::write(left.join(name).join("summary.json"), RECORD).unwrap();
     }
     // It comes to nothing itself, so what it found can be seen.
     let failing = scratch.ale_gear(["run", "a.toml", "--out", "o", "--set", "pair.centre_distance_mm=80"]);
@@ -129,6 +132,7 @@ fn results_are_written_through_a_link() {
     let at = |name: &str| scratch.path().join(name);
     fs::create_dir_all(at("disk/results")).unwrap();
     fs::write(at("disk/results/history.csv"), "an earlier one").unwrap();
+    fs::write(at("disk/results/summary.json"), RECORD).unwrap();
     symlink("disk/results", at("o")).unwrap();
     for out in ["o", "o/"] {
         fine(&scratch, out);

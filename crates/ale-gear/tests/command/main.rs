@@ -10,3 +10,4 @@ mod resume;
 mod rolling_bearings;
 #[path = "../util/mod.rs"]
 mod util;
+mod writers;

@@ -3,6 +3,7 @@
 mod documents;
 #[path = "../markdown/mod.rs"]
 mod markdown;
+mod notices;
 mod outputs;
 #[path = "../quantities/mod.rs"]
 mod quantities;

@@ -8,7 +8,7 @@ use std::{
 use contact_map::ContactMap;
 use reduction::{RecordKey, ReductionRecord};
 
-use crate::{GearCache, MapKey};
+use crate::{GearCache, Kept, MapKey};
 
 /// Reduced gears in memory before the caller's own store.
 pub struct KeptGears<'a> {
@@ -39,10 +39,10 @@ impl GearCache for KeptGears<'_> {
         true
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner).get(&key.to_string()).cloned();
         match kept {
-            Some(record) => (Some(record), None),
+            Some(record) => (Some(Kept::new(*key, record)), None),
             None if self.store.is_on() => self.store.load(key),
             None => (None, None),
         }
@@ -53,7 +53,7 @@ impl GearCache for KeptGears<'_> {
         if self.store.is_on() { self.store.save(key, record) } else { None }
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
         self.store.load_maps(key)
     }
 

@@ -152,7 +152,7 @@ fn mapped(
     let Some(key) = key else { return MappedPair::new(system, request) };
     let (kept, said) = cache.load_maps(key);
     warnings.extend(said);
-    if let Some(maps) = kept.filter(|maps| MappedPair::can_stand_on(&system, maps)) {
+    if let Some(maps) = kept.and_then(|kept| kept.of(key)).filter(|maps| MappedPair::can_stand_on(&system, maps)) {
         return MappedPair::on(system, maps);
     }
     let made = MappedPair::new(system, request)?;

@@ -10,36 +10,49 @@ use crate::FemError;
 /// depend on the other's timing.
 static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
+/// What METIS takes for an entry of the graph and for a node, bytes, with all coarser graphs and its work space.
+const BYTES: [usize; 2] = [24, 160];
+
 /// Fill-reducing order of the graph's groups, `order[new] = group`.
 ///
+/// `METIS_NodeNDP` with one part makes the order of `METIS_NodeND`, the entry that most programs take. That one catches
+/// SIGTERM and SIGABRT for the whole process while it works, and its handler jumps into the stack of whatever thread
+/// the system hands the signal to.
+///
 /// # Errors
+/// [`FemError::OutOfMemory`] where there is no room for it: without its handlers METIS ends the process then.
 /// [`FemError::Ordering`] when METIS reports a failure.
 pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
     let nodes = graph.group_count();
     if nodes < 2 || graph.neighbours.is_empty() {
         return Ok((0..nodes).collect());
     }
-    let mut count = nodes as i32; // the graph has been checked to fit
     let (mut starts, mut neighbours) = (graph.starts.clone(), graph.neighbours.clone());
     let mut weights = graph.weights.clone();
     let uniform = weights.iter().all(|&w| w == weights[0]);
     let weights = if uniform { ptr::null_mut() } else { weights.as_mut_ptr() };
-    let (mut order, mut inverse) = (vec![0i32; nodes], vec![0i32; nodes]);
+    let (mut order, mut inverse, mut sizes) = (vec![0i32; nodes], vec![0i32; nodes], [0i32; 1]);
     let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
     let guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-    // SAFETY: `starts` has `count + 1` entries, ascending from 0 to the length of `neighbours`, whose entries
-    // are below `count`; `order` and `inverse` have `count`; `options` has the length METIS declares;
-    // all outlive the call.
+    let bytes = BYTES[0].saturating_mul(neighbours.len()).saturating_add(BYTES[1].saturating_mul(nodes));
+    let mut room: Vec<u8> = Vec::new();
+    room.try_reserve_exact(bytes).map_err(|_| FemError::OutOfMemory { bytes })?;
+    drop(room);
+    // SAFETY: `starts` has `nodes + 1` entries, ascending from 0 to the length of `neighbours`, whose entries
+    // are below `nodes` (the graph has been checked to fit); `order` and `inverse` have `nodes`; `sizes` has one entry
+    // less than twice the one part; `options` has the length METIS declares; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
-        metis_sys::METIS_NodeND(
-            &mut count,
+        metis_sys::METIS_NodeNDP(
+            nodes as i32,
             starts.as_mut_ptr(),
             neighbours.as_mut_ptr(),
             weights,
+            1,
             options.as_mut_ptr(),
             order.as_mut_ptr(),
             inverse.as_mut_ptr(),
+            sizes.as_mut_ptr(),
         )
     };
     drop(guard);
@@ -47,4 +60,97 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
         return Err(FemError::Ordering { nodes, status });
     }
     Ok(order.into_iter().map(|group| group as usize).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::SymmetricMatrix;
+
+    /// A block of so many nodes, each coupled with all around it; `numbers` degrees of freedom a node.
+    fn block([a, b, c]: [usize; 3], numbers: usize) -> Graph {
+        let at = |i: usize, j: usize, k: usize| i + a * (j + b * k);
+        let mut triplets = Vec::new();
+        for (i, j, k) in (0..a).flat_map(|i| (0..b).flat_map(move |j| (0..c).map(move |k| (i, j, k)))) {
+            for (p, q, r) in (0..2).flat_map(|p| (0..3).flat_map(move |q| (0..3).map(move |r| (p, q, r)))) {
+                let (x, y, z) = (i + p, j + q, k + r);
+                if x < a && (1..=b).contains(&y) && (1..=c).contains(&z) {
+                    let (first, second) = (numbers * at(i, j, k), numbers * at(x, y - 1, z - 1));
+                    for (m, n) in (0..numbers).flat_map(|m| (0..numbers).map(move |n| (m, n))) {
+                        let (row, column) = ((first + m).max(second + n), (first + m).min(second + n));
+                        triplets.push((row, column, 1.0));
+                    }
+                }
+            }
+        }
+        let n = numbers * a * b * c;
+        Graph::new(&SymmetricMatrix::from_triplets(n, &triplets).unwrap(), &vec![false; n]).unwrap()
+    }
+
+    /// The same by the entry that catches signals.
+    fn by_the_common_entry(graph: &Graph) -> Vec<usize> {
+        let nodes = graph.group_count();
+        let (mut starts, mut neighbours) = (graph.starts.clone(), graph.neighbours.clone());
+        let (mut order, mut inverse) = (vec![0i32; nodes], vec![0i32; nodes]);
+        let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
+        let _guard = ONE_AT_A_TIME.lock().unwrap();
+        // SAFETY: as in `nested_dissection`; the blocks have equal weights.
+        unsafe {
+            metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+            metis_sys::METIS_NodeND(
+                &mut (nodes as i32),
+                starts.as_mut_ptr(),
+                neighbours.as_mut_ptr(),
+                ptr::null_mut(),
+                options.as_mut_ptr(),
+                order.as_mut_ptr(),
+                inverse.as_mut_ptr(),
+            );
+        }
+        order.into_iter().map(|group| group as usize).collect()
+    }
+
+    /// Signals that the process caught at some time while a graph was ordered; bit 0 is signal 1.
+    #[cfg(target_os = "linux")]
+    fn caught_while(order: impl FnOnce() + Send) -> u64 {
+        use std::{
+            fs,
+            sync::atomic::{AtomicBool, Ordering},
+            thread,
+        };
+        let done = AtomicBool::new(false);
+        let look = || {
+            let status = fs::read_to_string("/proc/self/status").unwrap();
+            let word = status.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
+            u64::from_str_radix(word.trim(), 16).unwrap()
+        };
+        thread::scope(|scope| {
+            scope.spawn(|| {
+                order();
+                done.store(true, Ordering::SeqCst);
+            });
+            let mut all = 0;
+            while !done.load(Ordering::SeqCst) {
+                all |= look();
+            }
+            all
+        })
+    }
+
+    /// One test, since what a process catches is seen by all of its threads.
+    #[test]
+    fn the_order_is_that_of_the_common_entry_and_no_signal_is_caught() {
+        for (size, numbers) in [([4, 5, 6], 3), ([12, 14, 17], 3), ([30, 9, 21], 1), ([40, 33, 2], 2)] {
+            let graph = block(size, numbers);
+            let own = nested_dissection(&graph).unwrap();
+            assert!(own == by_the_common_entry(&graph), "{size:?}");
+        }
+        #[cfg(target_os = "linux")]
+        {
+            // SIGABRT is 6, SIGTERM 15.
+            let (graph, both) = (block([40, 40, 30], 1), 1 << 5 | 1 << 14);
+            assert_eq!(caught_while(|| drop(nested_dissection(&graph).unwrap())) & both, 0);
+            assert_eq!(caught_while(|| drop(by_the_common_entry(&graph))) & both, both, "nobody looked in time");
+        }
+    }
 }

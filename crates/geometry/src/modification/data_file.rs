@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::read_regular_text;
+use files::{most, read_regular_text};
 
 /// A file of measured values that cannot be read or understood.
 #[derive(Debug, thiserror::Error)]
@@ -85,7 +85,7 @@ impl DataFileError {
 
 /// The text of a file.
 pub(super) fn text(path: &Path) -> Result<String, DataFileError> {
-    read_regular_text(path).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
+    read_regular_text(path, most::DATA).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
 }
 
 /// Lines with anything on them: number from 1, words.

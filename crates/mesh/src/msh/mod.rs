@@ -15,6 +15,8 @@ pub use write::MshFormat;
 
 use std::path::Path;
 
+use files::{most, read_regular_file};
+
 use crate::{Mesh, MeshError};
 
 impl Mesh {
@@ -30,7 +32,7 @@ impl Mesh {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, MeshError> {
         let path = path.as_ref();
         let bytes =
-            geometry::read_regular_file(path).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
+            read_regular_file(path, most::MESH).map_err(|source| MeshError::Read { path: path.to_owned(), source })?;
         Self::parse(&bytes, path)
     }
 

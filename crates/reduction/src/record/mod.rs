@@ -14,7 +14,8 @@ use crate::{LocalCompliance, ReducedGear, reducer::Summary};
 pub use error::RecordError;
 pub use key::{RecordKey, record_key};
 
-/// Version of the file format and of what the numbers in it mean; another one is never read.
+/// Version of the file format, of what the numbers in it mean and of the code that makes them; another one is never read,
+/// and it is in every key. A test (`a_record_of_another_code_has_another_version`) notices when it must be raised.
 pub const RECORD_VERSION: u32 = 2;
 
 /// First bytes of a file.

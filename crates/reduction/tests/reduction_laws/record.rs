@@ -3,7 +3,7 @@
 use fem::Material;
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GearMesh, GroupNames};
-use reduction::{GearReducer, RecordError, RecordKey, ReductionOptions, ReductionRecord, record_key};
+use reduction::{GearReducer, RECORD_VERSION, RecordError, RecordKey, ReductionOptions, ReductionRecord, record_key};
 
 struct Sample {
     geometry: Gear,
@@ -42,6 +42,45 @@ impl Sample {
         }
         reducer
     }
+}
+
+/// Of version, of its code without comments, and of what a record of the sample holds: count, sum of sizes and sum
+/// weighted by place of the numbers of a window and of a half tooth.
+const RECORD: (u32, &str, usize, f64, f64) = (2, "", 0, 0.0, 0.0);
+
+/// A record of before must not be taken for one of today: its version goes up with what its code does.
+#[test]
+fn a_record_of_another_code_has_another_version() {
+    let sources = [
+        include_str!("../../src/record/mod.rs"),
+        include_str!("../../src/record/key.rs"),
+        include_str!("../../src/record/read.rs"),
+        include_str!("../../src/record/write.rs"),
+    ];
+    let mut hasher = blake3::Hasher::new();
+    let lines = sources.into_iter().flat_map(str::lines).map(|line| line.split("//").next().unwrap_or_default().trim());
+    // The number of the version itself is not what it is about.
+    lines.filter(|line| !line.starts_with("pub const RECORD_VERSION")).for_each(|line| {
+        hasher.update(line.as_bytes());
+    });
+    let code = hasher.finalize().to_hex()[..16].to_owned();
+    let sample = Sample::new();
+    let reducer = sample.reducer();
+    let window = reducer.window(11).unwrap().reduced;
+    let half = reducer.local_compliance(&sample.geometry, 11, Side::Left).unwrap();
+    let matrices = [&window.compliance, &half.compliance];
+    let numbers: Vec<f64> = matrices.iter().flat_map(|m| m.col_iter().flat_map(|c| c.iter().copied())).collect();
+    let sum: f64 = numbers.iter().map(|v| v.abs()).sum();
+    let weighted: f64 = numbers.iter().enumerate().map(|(i, v)| (i + 1) as f64 * v.abs()).sum();
+    let found = (RECORD_VERSION, code.as_str(), numbers.len(), sum, weighted);
+    // Other machines have other last bits.
+    let same = |a: f64, b: f64| (a - b).abs() <= 1e-9 * b.abs();
+    assert!(
+        (found.0, found.1, found.2) == (RECORD.0, RECORD.1, RECORD.2)
+            && same(sum, RECORD.3)
+            && same(weighted, RECORD.4),
+        "records are others: raise RECORD_VERSION, and write here {found:?}"
+    );
 }
 
 #[test]

@@ -39,6 +39,12 @@ pub enum CheckpointError {
         /// The folder.
         folder: PathBuf,
     },
+    /// A folder that was not made for checkpoints.
+    #[error("{}: is there, and was not made by this program for checkpoints", folder.display())]
+    NotOurs {
+        /// The folder.
+        folder: PathBuf,
+    },
     /// There is no checkpoint.
     #[error("{}: cannot be read: {cause}", file.display())]
     None {
@@ -67,6 +73,7 @@ impl CheckpointError {
             Self::Changing { .. } => "run again when nobody writes to it".to_owned(),
             Self::Foreign { .. } | Self::Damaged { .. } => beginning.to_owned(),
             Self::InUse { .. } => "wait for its end, or give another `--out`".to_owned(),
+            Self::NotOurs { .. } => "checkpoints of a run go there: give another `--out`, or move it away".to_owned(),
             Self::None { .. } => {
                 "`--resume` goes on from a run with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder"
                     .to_owned()

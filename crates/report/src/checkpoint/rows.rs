@@ -38,13 +38,19 @@ pub struct Kept {
     blake3: String,
 }
 
+/// A regular file, open: a pipe would have no beginning.
+fn opened(path: &Path) -> std::io::Result<File> {
+    files::regular(&std::fs::metadata(path)?)?;
+    File::open(path)
+}
+
 /// The digest so far of a file of rows, when it begins with what was kept of it.
 ///
 /// # Errors
 /// [`CheckpointError::Damaged`] when it does not.
 fn digested(path: &Path, kept: &Kept) -> Result<blake3::Hasher, CheckpointError> {
     let mut digest = blake3::Hasher::new();
-    let read = File::open(path).and_then(|file| digest.update_reader(file.take(kept.bytes)).map(|_| ()));
+    let read = opened(path).and_then(|file| digest.update_reader(file.take(kept.bytes)).map(|_| ()));
     let what = match read {
         Err(e) => format!("cannot be read: {e}"),
         Ok(()) if digest.count() < kept.bytes => "is shorter than its checkpoint says".into(),
@@ -96,7 +102,9 @@ impl Growing {
     }
 
     fn flush(&mut self) -> Result<Kept, ReportError> {
-        match self.failed.take().or_else(|| self.file.flush().err()) {
+        // On the disk before a checkpoint says that it is there.
+        let written = |file: &mut BufWriter<File>| file.flush().and_then(|()| file.get_ref().sync_data());
+        match self.failed.take().or_else(|| written(&mut self.file).err()) {
             None => Ok(Kept { bytes: self.bytes, blake3: self.digest.finalize().to_hex().to_string() }),
             Some(cause) => Err(ReportError::Write { file: self.path.clone(), cause }),
         }
@@ -111,7 +119,7 @@ fn sheets(layout: &MotionLayout) -> (Sheet<MotionRows>, Sheet<EnergyRows>) {
 /// The columns of a file as far as a checkpoint kept it.
 fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, ReportError> {
     let mut text = String::new();
-    let read = File::open(path).and_then(|file| file.take(kept.bytes).read_to_string(&mut text));
+    let read = opened(path).and_then(|file| file.take(kept.bytes).read_to_string(&mut text));
     read.map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
     parse_columns(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
 }

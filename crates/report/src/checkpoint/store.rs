@@ -1,8 +1,8 @@
 //! Checkpoints on disk: what a run that was cut short goes on from.
 
 use std::{
-    fs::{self, File, TryLockError},
-    io::ErrorKind,
+    fs,
+    io::{ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
@@ -11,6 +11,7 @@ use analysis::{
     motion::{MotionCheckpoint, MotionCourse},
 };
 use dynamics::Checkpoint;
+use files::{Kind, Lock, most, read_regular_text, take_away_left_overs, write_file};
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
@@ -23,9 +24,10 @@ use super::{
 use crate::ReportError;
 
 const STATE: &str = "state.json";
-const NEW_STATE: &str = "state.json.new";
-/// Locked as long as a run uses the folder.
+/// Locked as long as a run uses the folder, and by what it is known as one of checkpoints.
 const IN_USE: &str = "in_use";
+/// What is in that file.
+const HEADING: &str = "ale-gear keeps checkpoints here\n";
 /// Grows with every change of what is stored.
 const VERSION: u32 = 3;
 
@@ -177,23 +179,29 @@ impl CheckpointFolder {
         &self.0
     }
 
-    /// Makes it where it is not there, and keeps other runs out as long as the file lives: two would write into each
+    /// Makes it where it is not there, and keeps other runs out as long as the value lives: two would write into each
     /// other's rows.
     ///
     /// # Errors
+    /// [`CheckpointError::NotOurs`] for a folder that holds anything and was not made for checkpoints,
     /// [`CheckpointError::InUse`], [`ReportError::Write`].
-    pub fn hold(&self) -> Result<File, ReportError> {
+    pub fn hold(&self) -> Result<Lock, ReportError> {
         let path = self.0.join(IN_USE);
-        let open = || {
-            fs::create_dir_all(&self.0)?;
-            File::options().create(true).truncate(false).write(true).open(&path)
-        };
-        let file = open().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
-        match file.try_lock() {
-            Err(TryLockError::WouldBlock) => Err(CheckpointError::InUse { folder: self.0.clone() }.into()),
-            // Not every file system has locks.
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+        let failed = |cause| ReportError::Write { file: path.clone(), cause };
+        fs::create_dir_all(&self.0).map_err(failed)?;
+        let is_empty = fs::read_dir(&self.0).map_err(failed)?.next().is_none();
+        if !is_empty && !self.is_ours() {
+            return Err(CheckpointError::NotOurs { folder: self.0.clone() }.into());
         }
+        let lock = Lock::take(&path).map_err(failed)?;
+        let lock = lock.ok_or_else(|| CheckpointError::InUse { folder: self.0.clone() })?;
+        let said = lock.file().set_len(0).and_then(|()| lock.file().write_all(HEADING.as_bytes()));
+        said.map(|()| lock).map_err(failed)
+    }
+
+    /// Whether its lock is a file that this program wrote, or that a full disk cut short.
+    fn is_ours(&self) -> bool {
+        read_regular_text(&self.0.join(IN_USE), most::DOCUMENT).is_ok_and(|text| HEADING.starts_with(&text))
     }
 
     /// Whether a run has been begun here that has not come to its first checkpoint.
@@ -206,7 +214,8 @@ impl CheckpointFolder {
     /// # Errors
     /// When the system refuses.
     pub fn start(&self) -> Result<(), ReportError> {
-        self.without(&[STATE, NEW_STATE, rows::HISTORY, rows::ENERGY_FILE])
+        take_away_left_overs(&self.0, &Kind::FILE);
+        self.without(&[STATE, rows::HISTORY, rows::ENERGY_FILE])
     }
 
     fn without(&self, files: &[&str]) -> Result<(), ReportError> {
@@ -228,7 +237,8 @@ impl CheckpointFolder {
     /// it.
     pub fn read(&self, scene: &Scene) -> Result<Stored, CheckpointError> {
         let path = self.0.join(STATE);
-        let text = fs::read_to_string(&path).map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;
+        let text = read_regular_text(&path, most::STATE)
+            .map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;
         let stored = Stored::parse(&text, &path, &scene.file)?;
         Rows::check(&self.0, &stored.rows)?;
         Ok(stored)
@@ -243,12 +253,7 @@ impl CheckpointFolder {
         let unwritten = |cause| ReportError::Write { file: path.clone(), cause };
         let state = serde_json::to_string(stored).map_err(|e| unwritten(e.into()))?;
         let text = sealed_state(&state);
-        let new = self.0.join(NEW_STATE);
-        let write = || -> std::io::Result<()> {
-            fs::write(&new, &text)?;
-            fs::rename(&new, &path)
-        };
-        write().map_err(unwritten)
+        write_file(&path, text.as_bytes()).map_err(unwritten)
     }
 
     /// Takes it away once the results are whole; what this program did not put there stays, and the folder with it.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use files::{most, read_regular_text};
 use serde_json::Value;
 
 use study::Columns;
@@ -38,7 +39,7 @@ impl ResultFolder {
         let mut new = Self { path: path.to_owned(), summary: summary(path)?, parts: Vec::new() };
         for name in ROWS {
             let file = path.join(name);
-            match std::fs::read_to_string(&file) {
+            match read_regular_text(&file, most::ROWS) {
                 Ok(text) => {
                     new.parts = parts(&text, &file)?;
                     break;
@@ -100,7 +101,7 @@ pub fn summary(folder: &Path) -> Result<Value, ReportError> {
     if !folder.is_dir() {
         return refuse(if folder.exists() { "is no folder" } else { "there is no such folder" }.into(), MAKE_ONE);
     }
-    let text = match std::fs::read_to_string(folder.join("summary.json")) {
+    let text = match read_regular_text(&folder.join("summary.json"), most::SUMMARY) {
         Ok(text) => text,
         Err(e) if e.kind() == std::io::ErrorKind::NotFound => return refuse("has no summary.json".into(), MAKE_ONE),
         Err(e) => return refuse(format!("summary.json cannot be read: {e}"), MAKE_ONE),
@@ -117,6 +118,9 @@ fn summary_in(text: &str, folder: &Path) -> Result<Value, ReportError> {
     };
     if summary["program"] != "ale-gear" {
         return refuse("summary.json is of another program".into(), MAKE_ONE);
+    }
+    if summary["schema"].is_null() {
+        return refuse("holds no run of a scene".into(), MAKE_ONE);
     }
     if summary["schema"] != SUMMARY_SCHEMA || !summary["headline"].is_object() {
         let version = summary["version"].as_str().unwrap_or("unknown");

@@ -2,15 +2,15 @@
 
 use std::{
     fs::{self, File},
+    io::ErrorKind,
     path::{Path, PathBuf},
-    time::{Duration, SystemTime},
+    time::SystemTime,
 };
 
-use analysis::{GearCache, MapKey};
+use analysis::{GearCache, Kept, MAP_VERSION, MapKey};
 use contact_map::ContactMap;
+use files::{Kind, most, read_regular_file, take_away_left_overs, write_file};
 use reduction::{RecordKey, ReductionRecord};
-
-use super::Partial;
 
 /// A folder of reduced gears and maps, or none.
 ///
@@ -26,10 +26,8 @@ const LIMIT: u64 = 4_000_000_000;
 /// Suffixes of the files: of gears and of maps.
 const SUFFIX: &str = "reduced";
 const MAP_SUFFIX: &str = "map";
-/// And of those that are being written, before the number of the process.
-const TORN: &str = "partial-";
-/// Nobody writes for so long.
-const LONGEST_WRITE: Duration = Duration::from_secs(24 * 3600);
+/// First word of a file of maps.
+const MAP_HEADING: &str = "ale-gear maps";
 
 impl Cache {
     /// Nothing is read or written.
@@ -57,15 +55,12 @@ impl Cache {
         Some(self.folder.as_ref()?.join(format!("{key}.{MAP_SUFFIX}")))
     }
 
-    /// Beside its place first, then renamed: whoever reads sees a whole file or none.
+    /// Whoever reads sees a whole file or none.
     fn write(&self, file: &Path, bytes: &[u8]) -> std::io::Result<()> {
         let Some(folder) = &self.folder else { return Ok(()) };
         fs::create_dir_all(folder)?;
-        let partial = Partial::new(file.with_extension(format!("{TORN}{}", std::process::id())));
-        fs::write(partial.path(), bytes)?;
-        fs::rename(partial.path(), file)?;
-        partial.keep();
-        forget_torn(folder);
+        take_away_left_overs(folder, &Kind::FILE);
+        write_file(file, bytes)?;
         make_room(folder, file);
         Ok(())
     }
@@ -76,17 +71,17 @@ impl GearCache for Cache {
         self.folder.is_some()
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<ReductionRecord>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
         let Some(file) = self.file(key) else { return (None, None) };
-        let bytes = match fs::read(&file) {
+        let bytes = match read_regular_file(&file, most::RECORD) {
             Ok(bytes) => bytes,
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => return (None, None),
+            Err(e) if e.kind() == ErrorKind::NotFound => return (None, None),
             Err(e) => return (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
         };
         match ReductionRecord::from_bytes(&bytes, key) {
             Ok(record) => {
                 touch(&file);
-                (Some(record), None)
+                (Some(Kept::new(*key, record)), None)
             }
             Err(e) => (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
         }
@@ -98,40 +93,59 @@ impl GearCache for Cache {
         written.err().map(|e| format!("{}: {e}; the next run will reduce the gear again", file.display()))
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Vec<ContactMap>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
         let Some(file) = self.map_file(key) else { return (None, None) };
         let complain = |what: String| (None, Some(format!("{}: {what}; the contact was mapped again", file.display())));
-        match fs::read(&file) {
-            Ok(bytes) => match maps_from(&bytes) {
-                Some(maps) => {
+        match read_regular_file(&file, most::RECORD) {
+            Ok(bytes) => match maps_from(&bytes, key) {
+                Ok(maps) => {
                     touch(&file);
-                    (Some(maps), None)
+                    (Some(Kept::new(*key, maps)), None)
                 }
-                None => complain("damaged".into()),
+                Err(what) => complain(what.into()),
             },
-            Err(e) if e.kind() == std::io::ErrorKind::NotFound => (None, None),
+            Err(e) if e.kind() == ErrorKind::NotFound => (None, None),
             Err(e) => complain(e.to_string()),
         }
     }
 
     fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
         let file = self.map_file(key)?;
-        let written = map_bytes(maps).map_err(std::io::Error::other).and_then(|bytes| self.write(&file, &bytes));
+        let written = map_bytes(key, maps).map_err(std::io::Error::other).and_then(|bytes| self.write(&file, &bytes));
         written.err().map(|e| format!("{}: {e}; the next run will map the contact again", file.display()))
     }
 }
 
-/// Maps as JSON, which keeps every digit, after a line with its BLAKE3.
-fn map_bytes(maps: &[&ContactMap]) -> Result<Vec<u8>, serde_json::Error> {
+/// Maps as JSON, which keeps every digit, after three lines: what it is and of which version, the key, and BLAKE3 of the
+/// key and the JSON.
+fn map_bytes(key: &MapKey, maps: &[&ContactMap]) -> Result<Vec<u8>, serde_json::Error> {
     let text = serde_json::to_string(maps)?;
-    Ok(format!("{}\n{text}", blake3::hash(text.as_bytes()).to_hex()).into_bytes())
+    Ok(format!("{MAP_HEADING} {MAP_VERSION}\n{key}\n{}\n{text}", map_digest(&key.to_string(), &text)).into_bytes())
 }
 
-/// Maps that [`map_bytes`] wrote; `None` of anything else.
-fn maps_from(bytes: &[u8]) -> Option<Vec<ContactMap>> {
-    let (digest, text) = std::str::from_utf8(bytes).ok()?.split_once('\n')?;
-    let sound = blake3::hash(text.as_bytes()).to_hex().as_str() == digest;
-    serde_json::from_str(text).ok().filter(|_| sound)
+fn map_digest(key: &str, text: &str) -> String {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(key.as_bytes()).update(text.as_bytes());
+    hasher.finalize().to_hex().to_string()
+}
+
+/// The maps of a key that [`map_bytes`] wrote; else what is wrong.
+fn maps_from(bytes: &[u8], key: &MapKey) -> Result<Vec<ContactMap>, &'static str> {
+    const NO_MAPS: &str = "is no file of maps of this version";
+    let text = std::str::from_utf8(bytes).map_err(|_| NO_MAPS)?;
+    let (heading, rest) = text.split_once('\n').ok_or(NO_MAPS)?;
+    if heading != format!("{MAP_HEADING} {MAP_VERSION}") {
+        return Err(NO_MAPS);
+    }
+    let lines = rest.split_once('\n').and_then(|(own, rest)| Some((own, rest.split_once('\n')?)));
+    let (own, (digest, text)) = lines.ok_or("is damaged: it has no maps")?;
+    if map_digest(own, text) != digest {
+        return Err("is damaged: its checksum is wrong");
+    }
+    if own != key.to_string() {
+        return Err("belongs to another contact");
+    }
+    serde_json::from_str(text).map_err(|_| "is damaged: it has no maps")
 }
 
 /// Marks a file as used now. Where the system does not let it, the file is only taken for older than it is.
@@ -139,17 +153,13 @@ fn touch(file: &Path) {
     let _ = File::options().append(true).open(file).and_then(|f| f.set_modified(SystemTime::now()));
 }
 
-/// Removes what killed processes have left half written.
-fn forget_torn(folder: &Path) {
-    let Ok(entries) = fs::read_dir(folder) else { return };
-    for path in entries.flatten().map(|entry| entry.path()) {
-        let of_process = |e: &str| e.strip_prefix(TORN).is_some_and(|n| n.bytes().all(|b| b.is_ascii_digit()));
-        let ours = path.extension().and_then(|e| e.to_str()).is_some_and(of_process);
-        let since = fs::metadata(&path).and_then(|data| data.modified()).ok().and_then(|t| t.elapsed().ok());
-        if ours && since.is_some_and(|age| age > LONGEST_WRITE) {
-            let _ = fs::remove_file(path);
-        }
-    }
+/// Whether a name is one that this program gives: a key and what the file holds.
+fn is_record(path: &Path) -> bool {
+    let suffix = path.extension().and_then(|e| e.to_str());
+    let key = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+    suffix.is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX)
+        && key.len() == 64
+        && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
 }
 
 /// Removes the least recently used files until the rest is within the limit; `newest` stays.
@@ -158,8 +168,8 @@ fn make_room(folder: &Path, newest: &Path) {
     let mut files: Vec<(SystemTime, u64, PathBuf)> = entries
         .filter_map(|entry| {
             let path = entry.ok()?.path();
-            let data = fs::metadata(&path).ok()?;
-            let ours = path.extension().is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX) && path != newest;
+            let data = fs::symlink_metadata(&path).ok()?;
+            let ours = is_record(&path) && data.is_file() && path != newest;
             ours.then_some((data.modified().ok()?, data.len(), path))
         })
         .collect();

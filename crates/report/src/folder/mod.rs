@@ -2,16 +2,18 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `result_directory` | which files a result may hold; never replaces what this program did not write |
+//! | `result_directory` | a result while it grows, and as it takes its place |
+//! | `record` | by what a result is known; nothing else is ever replaced |
+//! | `names` | which files a result may hold |
+//! | `kept_cases` | cases of a study that are done, beside its results |
 //! | `gear_cache` | reduced gears and maps from run to run |
-//! | `work_folder` | the folder beside it in which it grows, and those of killed processes |
-//! | `partial` | paths that are taken away unless they become whole |
 
 mod gear_cache;
-mod partial;
+mod kept_cases;
+mod names;
+mod record;
 mod result_directory;
-mod work_folder;
 
 pub use gear_cache::Cache;
-pub use partial::{Partial, remove_partial_paths};
+pub use kept_cases::{KeptCases, beside_results, in_use};
 pub use result_directory::ResultDirectory;

@@ -1,11 +1,16 @@
 //! A result folder that is there as a whole or not at all.
 
 use std::fs;
-use std::io::{BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
-use super::work_folder::{self, WorkFolder};
-use crate::{ReportError, ResultFiles, study_files::CASES};
+use files::{WorkFolder, behind_links};
+
+use super::{
+    names::is_ours,
+    record::{self, RESULT, first_stranger, names},
+};
+use crate::{ReportError, ResultFiles};
 
 /// Files are written into a work folder beside the wanted one; [`ResultDirectory::finish`] puts them in its place.
 /// Dropped before that, it takes its files with it.
@@ -24,7 +29,8 @@ impl ResultDirectory {
     ///
     /// # Errors
     /// [`ReportError::Folder`] when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier
-    /// result: nothing that this program did not write is ever replaced.
+    /// result, known by a `summary.json` of this program that lists its files: nothing else is ever replaced.
+    /// [`ReportError::Write`] when the disk is full.
     pub fn create(wanted: &Path) -> Result<Self, ReportError> {
         let complaint = |what: String, hint| ReportError::Folder { folder: wanted.to_owned(), what, hint };
         if wanted.file_name().is_none() {
@@ -45,12 +51,16 @@ impl ResultDirectory {
             {
                 return Err(complaint(
                     format!("holds `{stranger}`, which is no result file"),
-                    "results replace the whole folder: give a new one, or move that file away",
+                    "a result has a summary.json that lists its files, and nothing else is replaced: give a new folder, or move that file away",
                 ));
             }
         }
-        let work = WorkFolder::beside(&place, first_stranger)
-            .map_err(|e| complaint(format!("cannot be made: {e}"), "give a folder that you may write to"))?;
+        let work = work_folder(&place).map_err(|e| match e.kind() {
+            ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
+                ReportError::Write { file: wanted.to_owned(), cause: e }
+            }
+            _ => complaint(format!("cannot be made: {e}"), "give a folder that you may write to"),
+        })?;
         Ok(Self { wanted: wanted.to_owned(), growing: work.new_result(), work })
     }
 
@@ -91,22 +101,20 @@ impl ResultDirectory {
     }
 
     /// Puts the result where it was wanted, in place of an earlier one; `note` hears where a file went that somebody
-    /// put there during the run.
+    /// put there during the run. A result without a `summary.json` gets one that says whose it is and lists its files.
     ///
     /// # Errors
     /// When the system refuses; an earlier result is then still there.
     pub fn finish(self, mut note: impl FnMut(String)) -> Result<(), ReportError> {
-        let Self { wanted, work, .. } = self;
-        work.put_in_place(&mut note).map_err(|cause| ReportError::Write { file: wanted, cause })
+        let Self { wanted, work, growing } = self;
+        let whole = record::complete(&growing).and_then(|()| work.put_in_place(&mut note));
+        whole.map_err(|cause| ReportError::Write { file: wanted, cause })
     }
 }
 
 impl ResultFiles for ResultDirectory {
     fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError> {
-        debug_assert!(
-            is_ours(name),
-            "{name} is not in the list of result files: a second run would refuse its own folder"
-        );
+        debug_assert!(is_ours(name), "{name} is not in the list of result files: what a killed run leaves would stay");
         fs::write(self.path(name), content).map_err(|cause| ReportError::Write { file: self.wanted.join(name), cause })
     }
 
@@ -119,130 +127,14 @@ impl ResultFiles for ResultDirectory {
     }
 }
 
-/// The folder itself where a path is a link to one, else the path, without a slash at its end.
-fn behind_links(wanted: &Path) -> std::io::Result<PathBuf> {
-    let plain: PathBuf = wanted.components().collect();
-    match fs::symlink_metadata(&plain) {
-        Ok(found) if found.is_symlink() => fs::canonicalize(&plain),
-        _ => Ok(plain),
+/// The work folder of a result, with room for it.
+fn work_folder(place: &Path) -> io::Result<WorkFolder> {
+    if let Some(parent) = place.parent().filter(|p| !p.as_os_str().is_empty()) {
+        fs::create_dir_all(parent)?;
     }
-}
-
-/// Names of the entries of a folder, ascending.
-fn names(folder: &Path) -> std::io::Result<Vec<String>> {
-    let mut names: Vec<String> = fs::read_dir(folder)?
-        .map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()))
-        .collect::<Result<_, _>>()?;
-    names.sort_unstable();
-    Ok(names)
-}
-
-/// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 66] = [
-    "summary.json",
-    "history.csv",
-    "history.parquet",
-    "report.html",
-    "report.json.gz",
-    "contact_lines.csv",
-    "contact_pattern_pinion.csv",
-    "contact_pattern_wheel.csv",
-    "contact_pattern.svg",
-    "energy.csv",
-    "spectrum.csv",
-    "section.csv",
-    "waterfall.csv",
-    "cycles.csv",
-    "order_cuts.csv",
-    "resonance.csv",
-    "campbell.csv",
-    "sweep.csv",
-    "bifurcation.csv",
-    "bifurcations.csv",
-    "basins.csv",
-    "basins.svg",
-    "attractors.csv",
-    "branch.csv",
-    "branch.svg",
-    "in_time.csv",
-    "bifurcation.svg",
-    "study.csv",
-    "positions.csv",
-    "shafts.csv",
-    "modes.csv",
-    "crossings.csv",
-    "response.csv",
-    "rms.csv",
-    "bearing_forces.csv",
-    "bearing_forces.uff",
-    "line_load.csv",
-    "motion.csv",
-    "motion_orders.csv",
-    "cases.csv",
-    "cases.parquet",
-    "optimum.toml",
-    "steps.csv",
-    "harris.csv",
-    "influences.csv",
-    "front.csv",
-    "chart.csv",
-    "chart.md",
-    "motion_precision.csv",
-    "motion_precision.md",
-    "motion_precision.png",
-    "motion_precision.svg",
-    "resonance_curves.csv",
-    "resonance_curves.png",
-    "resonance_curves.svg",
-    "resonance_precision.csv",
-    "resonance_precision.md",
-    "resonance_precision.png",
-    "resonance_precision.svg",
-    "envelope.csv",
-    "maps.csv",
-    "work_precision.svg",
-    "work_precision.png",
-    "compare.html",
-    "compare.csv",
-    "compare_curves.csv",
-];
-
-fn is_ours(name: &str) -> bool {
-    OURS.contains(&name)
-        || name.ends_with(".vtu")
-        || name.ends_with(".pvd")
-        || (name.starts_with("compare_") && name.ends_with(".svg"))
-}
-
-/// The first entry of the folder that no run of this program writes.
-fn first_stranger(folder: &Path) -> std::io::Result<Option<String>> {
-    for name in names(folder)? {
-        if name == CASES && folder.join(CASES).is_dir() {
-            if let Some(stranger) = strange_case(&folder.join(CASES))? {
-                return Ok(Some(stranger));
-            }
-        } else if !is_ours(&name) {
-            return Ok(Some(name));
-        }
-    }
-    Ok(None)
-}
-
-/// The first entry below the folder of a study's cases that no run of this program writes.
-fn strange_case(cases: &Path) -> std::io::Result<Option<String>> {
-    for case in names(cases)? {
-        let folder = cases.join(&case);
-        let stranger = match folder.is_dir() {
-            // A case that was being written when the study was killed.
-            true if work_folder::is_work_folder(&folder) => work_folder::stranger(&folder, first_stranger)?,
-            true => first_stranger(&folder)?,
-            false => Some(String::new()),
-        };
-        if let Some(name) = stranger {
-            return Ok(Some(format!("{CASES}/{case}/{name}").trim_end_matches('/').to_owned()));
-        }
-    }
-    Ok(None)
+    let work = WorkFolder::beside(place, &RESULT)?;
+    fs::create_dir(work.new_result())?;
+    Ok(work)
 }
 
 #[cfg(test)]
@@ -260,9 +152,9 @@ mod tests {
 
         for content in [b"first", b"later"] {
             let whole = ResultDirectory::create(&wanted).unwrap();
-            whole.write("summary.json", content).unwrap();
+            whole.write("history.csv", content).unwrap();
             whole.finish(|said| panic!("{said}")).unwrap();
-            assert_eq!(fs::read(wanted.join("summary.json")).unwrap(), content);
+            assert_eq!(fs::read(wanted.join("history.csv")).unwrap(), content);
         }
         assert_eq!(fs::read_dir(scratch.path()).unwrap().count(), 1);
     }
@@ -274,12 +166,12 @@ mod tests {
         let wanted = scratch.path().join("out");
         fs::create_dir(&wanted).unwrap();
         let whole = ResultDirectory::create(&wanted).unwrap();
-        whole.write("summary.json", b"later").unwrap();
+        whole.write("history.csv", b"later").unwrap();
         fs::write(wanted.join("thesis.tex"), "years of work").unwrap();
         let mut told = Vec::new();
         whole.finish(|said| told.push(said)).unwrap();
         assert!(told.len() == 1 && told[0].starts_with("`thesis.tex`"), "{told:?}");
-        assert_eq!(names(&wanted).unwrap(), ["summary.json"]);
+        assert_eq!(names(&wanted).unwrap(), ["history.csv", "summary.json"]);
         let aside = scratch.path().join(format!("out.replaced-{}", std::process::id()));
         assert_eq!(fs::read_to_string(aside.join("thesis.tex")).unwrap(), "years of work");
     }

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use super::{page, tables};
-use crate::{Cost, ReportError, ResultFiles};
+use crate::{Cost, ReportError, folder::ResultDirectory};
 
 /// What files of an optimisation are made of.
 #[derive(Debug, Clone, Copy)]
@@ -53,7 +53,7 @@ impl Goals {
 ///
 /// # Errors
 /// When the system refuses.
-pub fn write_optimum(of: OptimumResult<'_>, results: &dyn ResultFiles) -> Result<String, ReportError> {
+pub fn write_optimum(of: OptimumResult<'_>, results: &ResultDirectory) -> Result<String, ReportError> {
     let OptimumResult { optimum, told, scene, goals, cost, warnings, .. } = of;
     let plan = &optimum.plan;
     results.write("optimum.toml", scene.to_toml().as_bytes())?;
@@ -83,6 +83,7 @@ pub fn write_optimum(of: OptimumResult<'_>, results: &dyn ResultFiles) -> Result
         },
         "cost": cost,
         "warnings": warnings,
+        "files": results.files()?,
     });
     // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";

@@ -71,7 +71,7 @@ const LEAST: u64 = 8 << 20;
 /// [`ReportError::NoResult`] when the folder has not what the page is made of.
 pub fn report_again(folder: &Path) -> Result<String, ReportError> {
     let file = folder.join(SOURCE);
-    let packed = std::fs::read(&file).map_err(|e| refused(&file, &e))?;
+    let packed = files::read_regular_file(&file, files::most::STATE).map_err(|e| refused(&file, &e))?;
     report_from(&packed, &file)
 }
 

@@ -69,7 +69,9 @@ impl<'a> FieldWriter<'a> {
         for (part, name) in ["pinion", "wheel"].into_iter().enumerate() {
             let file = format!("{name}_{index:05}.vtu");
             let mut out = self.results.create(&file)?;
+            // What is held back is a part of the file, too: when it is let go nobody hears of a full disk.
             self.gear(&gears[part], &state(part)?, &mut out)?
+                .and_then(|()| out.flush())
                 .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
             self.entries.push(PvdEntry { time_s, part, file });
         }

@@ -2,10 +2,12 @@
 
 use std::{
     collections::BTreeMap,
-    fs, io,
+    io,
     ops::Range,
     path::{Path, PathBuf},
 };
+
+use files::{most, read_regular_text, write_file};
 
 /// Cases of a plan that one process has solved.
 ///
@@ -79,12 +81,15 @@ impl Part {
     /// # Errors
     /// When the system refuses.
     pub fn write(&self, path: &Path, digest: &str) -> io::Result<()> {
-        let mut name = path.file_name().unwrap_or_default().to_owned();
-        // Two processes at the same part do not meet.
-        name.push(format!(".{}.new", std::process::id()));
-        let beside = path.with_file_name(name);
-        fs::write(&beside, self.first(digest) + &self.text + &self.last(digest))?;
-        fs::rename(&beside, path)
+        write_file(path, (self.first(digest) + &self.text + &self.last(digest)).as_bytes())
+    }
+
+    /// Whether a part may be written there: nothing is, or what begins as a part does.
+    pub fn may_replace(path: &Path) -> bool {
+        match read_regular_text(path, most::ROWS) {
+            Ok(text) => text.is_empty() || text.starts_with("# cases "),
+            Err(e) => e.kind() == io::ErrorKind::NotFound,
+        }
     }
 
     /// Reads a part of the plan with this digest.
@@ -93,7 +98,8 @@ impl Part {
     /// [`PartError::Read`], [`PartError::NotWhole`].
     pub fn read(path: &Path, digest: &str) -> Result<Self, PartError> {
         let file = path.to_owned();
-        let text = fs::read_to_string(path).map_err(|source| PartError::Read { file: file.clone(), source })?;
+        let text =
+            read_regular_text(path, most::ROWS).map_err(|source| PartError::Read { file: file.clone(), source })?;
         let not_whole = |what| PartError::NotWhole { file: file.clone(), what };
         let (first, rest) = text.split_once('\n').ok_or_else(|| not_whole("it has no lines"))?;
         let words = first.strip_prefix("# cases ").and_then(|words| words.split_once(" of "));

@@ -7,7 +7,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{CaseTable, Column, DoneCases, KnownCases, page, spread::Spread};
-use crate::{Cost, ReportError, ResultFiles, checkpoint::InputDigests, columnar, study_files::CASES};
+use crate::{Cost, ReportError, checkpoint::InputDigests, columnar, folder::ResultDirectory, study_files::CASES};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -59,7 +59,7 @@ pub fn write_cases(
     (plan, done): (&Plan, &DoneCases),
     words: PageWords<'_>,
     cost: &Cost,
-    results: &dyn ResultFiles,
+    results: &ResultDirectory,
 ) -> Result<String, ReportError> {
     let header = CaseTable::of(plan).header().to_owned();
     results.write("cases.csv", (header + &done.text()).as_bytes())?;
@@ -74,9 +74,12 @@ pub fn write_cases(
     let told = |column: &Column| {
         Spread::of(column.values.iter().copied()).json(&column.name, column.ascending().first().copied())
     };
+    let table = table(plan, &known, cost);
+    page::page(plan, &known, words, &table)?.write(results)?;
     let summary = json!({
         "name": plan.name,
-        "program": { "version": env!("CARGO_PKG_VERSION") },
+        "program": "ale-gear",
+        "version": env!("CARGO_PKG_VERSION"),
         "plan": {
             "scene": plan.scene_file,
             "axes": plan.axes.iter().map(|axis| &axis.keys).collect::<Vec<_>>(),
@@ -90,11 +93,10 @@ pub fn write_cases(
         },
         "reports": words.reports,
         "wall_time_s": cost.wall_s,
+        "files": results.files()?,
     });
     let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
     results.write("summary.json", text.as_bytes())?;
-    let table = table(plan, &known, cost);
-    page::page(plan, &known, words, &table)?.write(results)?;
     Ok(table)
 }
 

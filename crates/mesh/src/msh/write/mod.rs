@@ -33,7 +33,7 @@ impl MshFormat {
 }
 
 impl Mesh {
-    /// Writes the mesh into a file that Gmsh and other programs open.
+    /// Writes the mesh into a file that Gmsh and other programs open; where that fails, one that is there stays as it is.
     ///
     /// Coordinates are exact in every flavour. All volume elements go into every physical volume
     /// of [`Mesh::volumes`]; in format 2.2 that writes them once a volume, as Gmsh does.
@@ -44,7 +44,7 @@ impl Mesh {
     pub fn write(&self, path: impl AsRef<Path>, format: MshFormat) -> Result<(), MeshError> {
         let path = path.as_ref();
         let bytes = self.to_msh(format)?;
-        std::fs::write(path, bytes).map_err(|source| MeshError::Write { path: path.to_owned(), source })
+        files::write_file(path, &bytes).map_err(|source| MeshError::Write { path: path.to_owned(), source })
     }
 
     /// The content of a mesh file, see [`Mesh::write`].

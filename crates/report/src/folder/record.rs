@@ -1,0 +1,130 @@
+//! By what a result folder is known: its `summary.json`, which says whose it is and lists its files.
+
+use std::{fs, io, path::Path};
+
+use files::{Kind, is_left_over, is_work_folder, most, read_regular_text, stranger, take_away_left_overs};
+use serde_json::{Value, json};
+
+use super::names::is_ours;
+use crate::study_files::CASES;
+
+const SUMMARY: &str = "summary.json";
+
+/// What belongs to this program of a result folder, and of one that grows.
+pub(super) const RESULT: Kind = Kind { growing: strange_in_growing, earlier: first_stranger, remove: remove_result };
+
+/// Names of the entries of a folder, ascending.
+pub(super) fn names(folder: &Path) -> io::Result<Vec<String>> {
+    let mut names: Vec<String> = fs::read_dir(folder)?
+        .map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()))
+        .collect::<Result<_, _>>()?;
+    names.sort_unstable();
+    Ok(names)
+}
+
+/// Files that the summary of a folder lists, itself among them; none where no summary of this program is there.
+fn listed(folder: &Path) -> Option<Vec<String>> {
+    let text = read_regular_text(&folder.join(SUMMARY), most::SUMMARY).ok()?;
+    let summary: Value = serde_json::from_str(&text).ok()?;
+    if summary["program"] != "ale-gear" {
+        return None;
+    }
+    let files = summary["files"].as_array()?;
+    Some(files.iter().filter_map(Value::as_str).chain([SUMMARY]).map(str::to_owned).collect())
+}
+
+/// Gives a result that has no summary one that says whose it is.
+pub(super) fn complete(growing: &Path) -> io::Result<()> {
+    let files = names(growing)?;
+    if !files.iter().any(|name| name == SUMMARY) {
+        let summary = json!({ "program": "ale-gear", "version": env!("CARGO_PKG_VERSION"), "files": files });
+        return fs::write(growing.join(SUMMARY), format!("{summary:#}\n"));
+    }
+    debug_assert!(
+        listed(growing).is_some_and(|all| files.iter().all(|name| all.contains(name))),
+        "{SUMMARY} does not list all of {files:?}: a second run would refuse its own folder"
+    );
+    Ok(())
+}
+
+/// The first entry of a result folder that is no file of this result.
+pub(super) fn first_stranger(folder: &Path) -> io::Result<Option<String>> {
+    let listed = listed(folder);
+    for name in names(folder)? {
+        let path = folder.join(&name);
+        let found = fs::symlink_metadata(&path)?;
+        let is_listed = listed.as_ref().is_some_and(|all| all.contains(&name));
+        let ours = match found.is_dir() {
+            // A page that was being made again when its program was killed.
+            true if is_left_over(&path) => true,
+            true if name == CASES && is_listed => match strange_case(&path, first_stranger)? {
+                Some(stranger) => return Ok(Some(stranger)),
+                None => true,
+            },
+            true => false,
+            false => is_listed && found.is_file(),
+        };
+        if !ours {
+            return Ok(Some(name));
+        }
+    }
+    Ok(None)
+}
+
+/// The same of a folder in which a result grows, which has no summary yet.
+fn strange_in_growing(folder: &Path) -> io::Result<Option<String>> {
+    for name in names(folder)? {
+        let path = folder.join(&name);
+        let found = fs::symlink_metadata(&path)?;
+        if found.is_dir() && name == CASES {
+            if let Some(stranger) = strange_case(&path, strange_in_growing)? {
+                return Ok(Some(stranger));
+            }
+        } else if !found.is_file() || !is_ours(&name) {
+            return Ok(Some(name));
+        }
+    }
+    Ok(None)
+}
+
+/// The first entry below the folder of a study's cases that no run of this program writes.
+fn strange_case(cases: &Path, judge: fn(&Path) -> io::Result<Option<String>>) -> io::Result<Option<String>> {
+    for case in names(cases)? {
+        let folder = cases.join(&case);
+        let stranger = match fs::symlink_metadata(&folder)?.is_dir() {
+            // A case that was being written when the study was killed.
+            true if is_work_folder(&folder) => stranger(&folder, &RESULT)?,
+            true => judge(&folder)?,
+            false => Some(String::new()),
+        };
+        if let Some(name) = stranger {
+            return Ok(Some(format!("{CASES}/{case}/{name}").trim_end_matches('/').to_owned()));
+        }
+    }
+    Ok(None)
+}
+
+/// Takes away the regular files that the record of a result lists, the record last, and the folder.
+///
+/// # Errors
+/// [`io::ErrorKind::DirectoryNotEmpty`] where anything else is in it; that stays, and the record with it.
+pub(crate) fn remove_result(folder: &Path) -> io::Result<()> {
+    take_away_left_overs(folder, &Kind::FILE);
+    for name in listed(folder).unwrap_or_default().iter().filter(|name| *name != SUMMARY) {
+        let path = folder.join(name);
+        match fs::symlink_metadata(&path) {
+            Ok(found) if found.is_file() => fs::remove_file(&path)?,
+            Ok(found) if found.is_dir() && name == CASES => {
+                for case in names(&path)? {
+                    remove_result(&path.join(case))?;
+                }
+                fs::remove_dir(&path)?;
+            }
+            _ => {}
+        }
+    }
+    if names(folder)? == [SUMMARY] {
+        fs::remove_file(folder.join(SUMMARY))?;
+    }
+    fs::remove_dir(folder)
+}
