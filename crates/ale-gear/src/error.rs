@@ -6,7 +6,7 @@ use analysis::{AnalysisError, parameter_study::CaseFailure};
 use report::ReportError;
 use study::StudyError;
 
-use crate::scene::SceneError;
+use crate::{printed, scene::SceneError};
 
 /// What the command says when it cannot go on.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -39,13 +39,15 @@ impl CommandError {
         Self::failed(format_args!("{}: cannot be written: {error}", path.display()), Some(hint))
     }
 
-    /// The whole text for stderr, ending in a newline; `coloured` for a terminal.
+    /// The whole text for stderr, ending in a newline; `coloured` for a terminal. Nothing else in it is a command of a
+    /// terminal.
     pub fn text(&self, coloured: bool) -> String {
         let (red, blue, cyan, plain) =
             if coloured { ("\x1b[1;31m", "\x1b[34m", "\x1b[36m", "\x1b[0m") } else { ("", "", "", "") };
-        let excerpt = self.excerpt.iter().map(|e| format!("{blue}{e}{plain}\n"));
-        let hint = self.hint.iter().map(|h| format!("{cyan}hint:{plain} {h}\n"));
-        format!("{red}ale-gear:{plain} {}\n", self.message) + &excerpt.chain(hint).collect::<String>()
+        let excerpt = self.excerpt.iter().map(|e| format!("{blue}{}{plain}\n", printed::plain(e)));
+        let hint = self.hint.iter().map(|h| format!("{cyan}hint:{plain} {}\n", printed::message(h)));
+        format!("{red}ale-gear:{plain} {}\n", printed::message(&self.message))
+            + &excerpt.chain(hint).collect::<String>()
     }
 
     /// The same with the place in a file that it is about, if that is known.

@@ -9,6 +9,7 @@
 //! | `chart` | what a chart takes from this process |
 //! | [`output`] | what of `analysis` and `report` the command names |
 //! | `stop` | what happens on Ctrl-C |
+//! | [`printed`] | what of a text may go to a terminal |
 //! | [`talk`] | how much is said on stderr |
 //! | [`phases`], `pace` | time and peak memory of each phase, progress bars, remaining time |
 //! | [`certificate`] | a result whose files stand, and whether it holds |
@@ -24,6 +25,7 @@ mod motion;
 pub mod output;
 mod pace;
 pub mod phases;
+pub mod printed;
 pub mod run;
 pub use ::scene;
 pub mod stop;

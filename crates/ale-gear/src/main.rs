@@ -28,7 +28,7 @@ fn main() -> ExitCode {
 /// A reader that has gone (`ale-gear ... | head`) is no failure of the run.
 fn print(text: &str) -> ExitCode {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+    match out.write_all(ale_gear::printed::plain(text).as_bytes()).and_then(|()| out.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             complain(&format!("ale-gear: stdout cannot be written: {error}\nhint: is the disk full?\n"));
             ExitCode::from(1)

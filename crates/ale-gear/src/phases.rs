@@ -13,6 +13,7 @@ use report::{Cost, Phase};
 
 use crate::memory;
 use crate::pace::Pace;
+use crate::printed;
 use crate::talk::{self, Loudness};
 use words::{filled, foreseen, left};
 
@@ -70,7 +71,7 @@ impl Progress for BarProgress {
 
     fn say(&self, message: String) {
         talk::say(Loudness::Details, || format!("  {}: {message}", self.bar.prefix()));
-        self.bar.set_message(message);
+        self.bar.set_message(printed::message(&message));
     }
 }
 
@@ -151,7 +152,7 @@ impl Phases {
         } else {
             ProgressDrawTarget::hidden()
         });
-        bar.set_prefix(name.to_owned());
+        bar.set_prefix(printed::message(name));
         bar.enable_steady_tick(Duration::from_millis(120));
         talk::say(Loudness::Steps, || format!("{name} ..."));
         let own_peak = memory::reset_peak();

@@ -4,7 +4,7 @@ use std::fmt::Display;
 use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering};
 
-use crate::error::CommandError;
+use crate::{error::CommandError, printed};
 
 /// How much is said while work is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -65,9 +65,18 @@ pub(crate) fn progress_after_s() -> Option<u64> {
 /// Says a line on stderr if that much is wanted.
 pub(crate) fn say<D: Display>(from: Loudness, line: impl FnOnce() -> D) {
     if loudness() >= from {
-        // Whoever has closed stderr does not want to hear it.
-        let _ = writeln!(std::io::stderr().lock(), "{}", line());
+        write(&printed::message(&line().to_string()));
     }
+}
+
+/// Says what is wrong, and a line behind it.
+pub(crate) fn complain(error: &CommandError, behind: &str) {
+    write(&format!("\n{}{behind}", error.text(colours_on_stderr())));
+}
+
+fn write(line: &str) {
+    // Whoever has closed stderr does not want to hear it.
+    let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
 /// Says what the user should know however little is to be said.

@@ -1,6 +1,6 @@
 //! From meshes to elastic gears: reduced, from the cache, or whole.
 
-use fem::{ElementOptions, Material};
+use fem::{ElementOptions, Material, Wanted};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
 use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
@@ -51,12 +51,27 @@ pub fn elastic_gears(
     meshes: &[SceneMesh; 2],
     cache: &dyn GearCache,
 ) -> Result<ElasticGears, AnalysisError> {
+    elastic_gears_while(scene, pair, options, meshes, cache, &|| true)
+}
+
+/// The same for who may lose interest: between the steps of the work `wanted` says whether the rest of it is.
+///
+/// # Errors
+/// As [`elastic_gears`], and [`AnalysisError::Cancelled`].
+pub(crate) fn elastic_gears_while(
+    scene: &Scene,
+    pair: &GearPair,
+    options: &StaticOptions,
+    meshes: &[SceneMesh; 2],
+    cache: &dyn GearCache,
+    wanted: Wanted<'_>,
+) -> Result<ElasticGears, AnalysisError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
     let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
         let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
-        one(scene, pair, options, meshes, cache, i)
+        one(scene, pair, options, meshes, (cache, wanted), i)
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));
     let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
@@ -72,7 +87,7 @@ fn one(
     pair: &GearPair,
     options: ReductionOptions,
     meshes: &[SceneMesh; 2],
-    cache: &dyn GearCache,
+    (cache, wanted): (&dyn GearCache, Wanted<'_>),
     i: usize,
 ) -> Result<Built, AnalysisError> {
     let (mesh, material) = (&meshes[i], material(scene, i)?);
@@ -88,12 +103,14 @@ fn one(
         let (kept, said) = cache.load(key);
         (kept.and_then(|kept| kept.of(key)), said)
     });
-    let gear = match (found, general) {
-        (Some(record), _) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
-        (None, true) => GearReducer::general(mesh.gear.clone(), material, options),
-        (None, false) => GearReducer::new(mesh.gear.clone(), material, options),
+    let gear = match found {
+        Some(record) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
+        None => GearReducer::new_while(mesh.gear.clone(), material, options, general, wanted),
     };
-    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning))
+    match gear {
+        Err(error) if error.is_unwanted() => Err(AnalysisError::Cancelled),
+        gear => Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning)),
+    }
 }
 
 fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {

@@ -29,6 +29,7 @@
 
 pub mod accuracy;
 pub mod accuracy_chart;
+mod alike;
 mod cache;
 pub mod certificate;
 mod coarse;
@@ -41,7 +42,9 @@ mod flank_checks;
 mod foreseen;
 pub mod gearbox_at_rest;
 pub mod gears;
+mod headline_keys;
 mod inputs;
+mod interest;
 pub mod iso_model;
 pub mod iso_root;
 pub mod lumped;
@@ -60,11 +63,15 @@ mod side_by_side;
 mod static_certificate;
 mod statics;
 mod warnings;
+mod with_keys;
 
+pub use alike::SharedGears;
 pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache};
 pub use derivatives::{DerivativeRecorder, Derivatives};
 pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
 pub use foreseen::foreseen_s;
+pub use headline_keys::headline_keys;
+pub use interest::Interest;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_cancelled};
 pub use options::options;
 pub use shared_models::{SharedModels, SolvedWithRates, VariedScene};
@@ -75,3 +82,4 @@ pub use statics::{
     wider_window,
 };
 pub use warnings::{body_warnings, locking_warning};
+pub use with_keys::HeadlineKey;

@@ -2,29 +2,37 @@
 //! contact.
 
 use std::{
-    cell::{Cell, RefCell},
+    cell::RefCell,
     ops::ControlFlow,
-    sync::{Arc, Mutex, OnceLock, PoisonError},
+    sync::{
+        Arc, Mutex, OnceLock, PoisonError,
+        atomic::{AtomicBool, Ordering},
+    },
 };
 
 use ale::solve_widening;
+use fem::Wanted;
 use geometry::GearPair;
-use ltca::{Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, StaticOptions, Variation};
+use ltca::{
+    Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition, Variation,
+};
 use mesh::Mesh;
-use scene::{ContactScene, Method, Model, ModificationScene, Scene};
+use scene::{ContactScene, Model, Scene};
 
 use crate::{
-    AnalysisError, Derivatives, GearCache, NoObserver, NoSink,
+    AnalysisError, Derivatives, GearCache, NoObserver,
     accuracy::{AccurateAnalysis, AccurateResult},
-    elastic_gears::{ElasticGears, elastic_gears},
+    alike::{kind, of_gears, shares},
+    elastic_gears::{ElasticGears, elastic_gears_while},
     failure::Failure,
     gears,
     inputs::{meshes_of, settled_scene},
+    interest::Interest,
     meshes::SceneMesh,
     options::options,
     resolution::resolution_warnings,
     static_certificate,
-    statics::wider_window,
+    statics::{SinkResult, StaticSink, wider_window},
     warnings::{body_warnings, deflection_warnings},
 };
 
@@ -153,7 +161,7 @@ impl<'a> SharedModels<'a> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
-        self.base(&scene, &pair, options).map_err(|failure| failure.into_error(&scene)).map(|_| ())
+        self.base(&scene, &pair, options, &|| true).map_err(|failure| failure.into_error(&scene)).map(|_| ())
     }
 
     /// Positions of a scene at rest that hold, and the scene as it was solved.
@@ -165,7 +173,7 @@ impl<'a> SharedModels<'a> {
             let SolvedWithRates { scene, history, .. } = self.solve_with_rates(scene, &[])?;
             return Ok((scene, history));
         }
-        let (scene, history) = self.alone(scene)?;
+        let (scene, history) = self.alone(scene, &|| true)?;
         static_certificate(&history.positions).verdict(&scene)?;
         Ok((scene, history))
     }
@@ -185,7 +193,7 @@ impl<'a> SharedModels<'a> {
         }
         let varied = VariedScene::by_keys(scene, &keys)?;
         let asked = Rates { of: &varied, of_unloaded: true };
-        let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, &|| true)?;
+        let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
         static_certificate(&history.positions).verdict(&scene)?;
         Ok((scene, history, Some(Derivatives { keys, rates })))
     }
@@ -195,33 +203,52 @@ impl<'a> SharedModels<'a> {
     /// # Errors
     /// As of [`SharedModels::solve`].
     pub fn solve_told(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        match self.solve_while(scene, &|| true)? {
+        match self.solve_while(scene, Interest::LASTING)? {
             Some(told) => Ok(told),
             None => self.solve(scene),
         }
     }
 
     /// As [`SharedModels::solve`], with all that a user should hear in the history's warnings, for who may lose
-    /// interest: after each position `wanted` says whether the rest is; `None` where it was not. Scenes that share
-    /// nothing are solved to their end.
+    /// interest; `None` where that happened. A scene that shares nothing reduces its gears to the end.
     ///
     /// # Errors
     /// As [`SharedModels::solve`].
     pub fn solve_while(
         &self,
         scene: &Scene,
-        wanted: &dyn Fn() -> bool,
+        interest: Interest<'_>,
     ) -> Result<Option<(Scene, StaticHistory)>, AnalysisError> {
-        if !shares(scene) {
-            return Ok(wanted().then(|| self.solve(scene)).transpose()?.filter(|_| wanted()));
+        if !(interest.positions)() {
+            return Ok(None);
         }
-        let unwanted = Cell::new(false);
+        // Once lost it does not come back: what was left out stays so.
+        let lost = AtomicBool::new(false);
         let still = || {
-            unwanted.set(unwanted.get() || !wanted());
-            !unwanted.get()
+            lost.fetch_or(!(interest.positions)(), Ordering::Relaxed);
+            !lost.load(Ordering::Relaxed)
         };
-        let (SolvedWithRates { scene, mut history, .. }, base) = self.positions(scene, Rates::default(), &still)?;
-        if unwanted.get() {
+        let given_up = |error: &AnalysisError| match error {
+            AnalysisError::Cancelled => true,
+            AnalysisError::Sink(_) => lost.load(Ordering::Relaxed),
+            _ => false,
+        };
+        if !shares(scene) {
+            return match self.alone(scene, &still) {
+                Err(error) if given_up(&error) => Ok(None),
+                Err(error) => Err(error),
+                Ok((scene, history)) => {
+                    static_certificate(&history.positions).verdict(&scene)?;
+                    Ok(still().then_some((scene, history)))
+                }
+            };
+        }
+        let solved = self.positions(scene, Rates::default(), Interest { positions: &still, ..interest });
+        let (SolvedWithRates { scene, mut history, .. }, base) = match solved {
+            Err(error) if given_up(&error) => return Ok(None),
+            solved => solved?,
+        };
+        if lost.load(Ordering::Relaxed) {
             return Ok(None);
         }
         static_certificate(&history.positions).verdict(&scene)?;
@@ -236,9 +263,9 @@ impl<'a> SharedModels<'a> {
     }
 
     /// A scene that nothing is shared of.
-    fn alone(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
+    fn alone(&self, scene: &Scene, wanted: Wanted<'_>) -> Result<(Scene, StaticHistory), AnalysisError> {
         let analysis = AccurateAnalysis::new(scene).with_cache(&*self.cache).with_shared(self);
-        let AccurateResult { scene, result } = analysis.solve_into(&mut NoObserver, &mut NoSink)?;
+        let AccurateResult { scene, result } = analysis.solve_into(&mut NoObserver, &mut WhileWanted(wanted))?;
         Ok((scene, result.history))
     }
 
@@ -248,7 +275,7 @@ impl<'a> SharedModels<'a> {
     /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
-        let (solved, _) = self.positions(scene, asked, &|| true)?;
+        let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
         static_certificate(&solved.history.positions).verdict(&solved.scene)?;
         Ok(solved)
     }
@@ -258,7 +285,7 @@ impl<'a> SharedModels<'a> {
         &self,
         scene: &Scene,
         asked: Rates<'_>,
-        wanted: &dyn Fn() -> bool,
+        interest: Interest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
@@ -268,7 +295,7 @@ impl<'a> SharedModels<'a> {
         let solved = solve_widening(
             options.window,
             |window| {
-                let base = self.base(&scene, &pair, with(window))?;
+                let base = self.base(&scene, &pair, with(window), interest.gears)?;
                 let mut model = base.model.modified(pair.clone(), with(window))?;
                 last.replace(Some(Arc::clone(&base)));
                 let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
@@ -279,7 +306,7 @@ impl<'a> SharedModels<'a> {
                 let mut rates = Vec::new();
                 let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
                     if asked.of.is_empty() {
-                        return if wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+                        return if (interest.positions)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
                     }
                     rates.push(sensitivities.of(model));
                     if rates.last().is_some_and(Result::is_err) {
@@ -306,7 +333,13 @@ impl<'a> SharedModels<'a> {
     }
 
     /// The model that a scene shares with others of its kind.
-    pub(crate) fn base(&self, scene: &Scene, pair: &GearPair, options: StaticOptions) -> Result<Arc<Base>, Failure> {
+    pub(crate) fn base(
+        &self,
+        scene: &Scene,
+        pair: &GearPair,
+        options: StaticOptions,
+        wanted: Wanted<'_>,
+    ) -> Result<Arc<Base>, Failure> {
         let (own, window) = (kind(scene), options.window);
         let place = {
             let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -331,7 +364,8 @@ impl<'a> SharedModels<'a> {
             Some(other) => (other.meshes.clone(), other.model.modified(pair.clone(), options)?),
             None => {
                 let meshes = self.scene_meshes(scene, pair)?;
-                let ElasticGears { gears, keys, .. } = elastic_gears(scene, pair, &options, &meshes, &*self.cache)?;
+                let ElasticGears { gears, keys, .. } =
+                    elastic_gears_while(scene, pair, &options, &meshes, &*self.cache, wanted)?;
                 let model = StaticModel::new(pair.clone(), gears, options)?;
                 if self.cache.is_on() {
                     keys.save(&*self.cache, model.gears());
@@ -345,36 +379,17 @@ impl<'a> SharedModels<'a> {
     }
 }
 
-/// A kind without what reduced gears know nothing of: slices.
-fn of_gears(kind: &Scene) -> Scene {
-    Scene { contact: ContactScene { slices: None, ..kind.contact }, ..kind.clone() }
-}
+/// Ends an analysis after the first position that is not wanted.
+struct WhileWanted<'a>(Wanted<'a>);
 
-/// Whether a scene shares its model with others.
-fn shares(scene: &Scene) -> bool {
-    scene.analysis.model == Model::Reduced && scene.accuracy.is_none()
-}
+impl StaticSink for WhileWanted<'_> {
+    fn begin(&mut self, _: &Scene) {}
 
-/// What scenes of one kind have in common: all that meshes, matrices and tables of the contact depend on.
-fn kind(scene: &Scene) -> Scene {
-    let mut kind = scene.clone();
-    kind.name.clear();
-    kind.set.clear();
-    kind.file.clear();
-    for gear in [&mut kind.pinion, &mut kind.wheel] {
-        gear.modification = ModificationScene::default();
-        gear.pitch_errors_um.clear();
-        gear.pitch_errors_file = None;
-        // Paths as the scene means them.
-        gear.mesh = gear.mesh.take().map(|path| scene.resolve(&path));
+    fn position(&mut self, _: usize, _: &StaticPosition, _: &StaticModel) -> SinkResult {
+        if (self.0)() { Ok(()) } else { Err(Box::new(AnalysisError::Cancelled)) }
     }
-    kind.pair.misalignment = Default::default();
-    (kind.operation.torque_nm, kind.operation.speed_rpm) = (0.0, 0.0);
-    (kind.analysis.positions_per_cycle, kind.analysis.cycles) = (1, 1);
-    kind.contact.friction = 0.0;
-    if kind.contact.method == Method::Slice {
-        // Stresses are recovered from the gears, and asked for by the case.
-        kind.output.contact_lines = false;
+
+    fn finish(&mut self) -> SinkResult {
+        Ok(())
     }
-    kind
 }

@@ -281,7 +281,9 @@ fn attempt(
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let work = PhaseWork::Seconds(foreseen_s(scene, meshes));
     let (base, mut warnings) = run_phase(observer, name, work, |_| match shared {
-        Some(models) => models.base(scene, pair, options.clone()).map(|base| (GearsOf::Shared(base), Vec::new())),
+        Some(models) => {
+            models.base(scene, pair, options.clone(), &|| true).map(|base| (GearsOf::Shared(base), Vec::new()))
+        }
         None => {
             let ElasticGears { gears, keys, warnings } = elastic_gears(scene, pair, options, meshes, cache)?;
             Ok((GearsOf::Own(Box::new(gears), keys), warnings))

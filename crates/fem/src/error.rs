@@ -128,6 +128,9 @@ pub enum FemError {
         /// Number of entries asked for.
         entries: usize,
     },
+    /// Nobody waits for the factor any more ([`crate::unless_unwanted`]).
+    #[error("nobody waits for this factor any more")]
+    Unwanted,
     /// The factor does not fit into memory.
     #[error("out of memory: the factor needs {bytes} bytes")]
     OutOfMemory {
@@ -160,8 +163,19 @@ impl FemError {
             }
             Self::NoEigenvalues { .. } => "are stiffnesses, masses and damping in their units?",
             Self::NotFinite { .. } => "does the mesh have coordinates that are not numbers?",
-            Self::Shape { .. } | Self::BadDof { .. } | Self::Ordering { .. } => return None,
+            Self::Shape { .. } | Self::BadDof { .. } | Self::Ordering { .. } | Self::Unwanted => return None,
         };
         Some(text.to_owned())
     }
+}
+
+/// Whether the answer of a long computation is still wanted; threads share it.
+pub type Wanted<'a> = &'a (dyn Fn() -> bool + Sync);
+
+/// Ends a computation whose answer nobody waits for any more.
+///
+/// # Errors
+/// [`FemError::Unwanted`].
+pub fn unless_unwanted(wanted: Wanted<'_>) -> Result<(), FemError> {
+    if wanted() { Ok(()) } else { Err(FemError::Unwanted) }
 }

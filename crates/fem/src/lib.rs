@@ -35,7 +35,7 @@ pub use dofs::DofMap;
 pub use element_matrices::{
     ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from,
 };
-pub use error::FemError;
+pub use error::{FemError, Wanted, unless_unwanted};
 pub use factor::BoundaryLastFactor;
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};

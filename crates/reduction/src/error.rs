@@ -98,6 +98,11 @@ impl From<mesh::MeshError> for ReductionError {
 }
 
 impl ReductionError {
+    /// Whether the work ended because nobody waits for it any more ([`crate::GearReducer::new_while`]).
+    pub fn is_unwanted(&self) -> bool {
+        matches!(self, Self::Fem(fem::FemError::Unwanted))
+    }
+
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {

@@ -1,7 +1,7 @@
 //! One sparse factor of a whole gear, cyclic or not.
 
 use faer::{Mat, MatMut};
-use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, dense};
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
 use mesh::{BoreCoupling, GearMesh, Mesh};
 
 use crate::{ReductionError, load::Load, mean_seat::MeanSeat};
@@ -34,6 +34,7 @@ impl GeneralGear {
         material: &Material,
         elements: &ElementOptions,
         last: &[u32],
+        wanted: Wanted<'_>,
     ) -> Result<Self, ReductionError> {
         let mesh = gear.mesh();
         let dofs = DofMap::new(mesh.nodes.len(), gear.held_nodes());
@@ -45,7 +46,7 @@ impl GeneralGear {
         if let Some(seat) = &seat {
             stiffness = seat.held(stiffness)?;
         }
-        let factor = BoundaryLastFactor::new(&stiffness, &node_dofs(&dofs, last))?;
+        let factor = BoundaryLastFactor::new_while(&stiffness, &node_dofs(&dofs, last), wanted)?;
         Ok(Self { dofs, factor, seat })
     }
 
@@ -77,7 +78,7 @@ impl GeneralGear {
     }
 
     /// C of a window, mm/N.
-    pub(crate) fn compliance(&self, seen: Seen) -> Result<Mat<f64>, ReductionError> {
+    pub(crate) fn compliance(&self, seen: Seen, wanted: Wanted<'_>) -> Result<Mat<f64>, ReductionError> {
         match (seen, &self.seat) {
             (Seen::Last, None) => Ok(self.factor.compliance()),
             (Seen::Last, Some(seat)) => {
@@ -86,7 +87,11 @@ impl GeneralGear {
                 Ok(seat.compliance(&self.factor.compliance(), self.factor.boundary(), &reactions))
             }
             (Seen::Loads(loads), _) => {
-                load_compliance(self.factor.n(), loads, |n| self.dofs.position(n), |rhs| self.solve(rhs))
+                let solve = |rhs: MatMut<'_, f64>| {
+                    unless_unwanted(wanted)?;
+                    self.solve(rhs)
+                };
+                load_compliance(self.factor.n(), loads, |n| self.dofs.position(n), solve)
             }
         }
     }

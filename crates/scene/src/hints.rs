@@ -45,6 +45,7 @@ pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<
         _ if comma && after_digit => Some("write numbers with a decimal point: `2.5`, not `2,5`"),
         "duplicate key" => Some("keep one of them; all keys of a table stand under one heading"),
         m if m.contains("invalid fraction") => Some("write a digit behind the decimal point: `2.0`, not `2.`"),
+        m if is_nesting(m) => Some("a key of a scene has four parts at most, and a list of lists is the deepest value"),
         m if m.contains("overflow") => Some("numbers end at 1.8e308"),
         m if m.contains("invalid basic string") => Some("end the text with a quote on the same line"),
         m if m.contains("carriage return") => {
@@ -52,4 +53,9 @@ pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<
         }
         _ => None,
     }
+}
+
+/// Whether the TOML reader has ended at its own limit of depth.
+pub(super) fn is_nesting(message: &str) -> bool {
+    message.contains("recursion limit") || message.contains("cannot recurse")
 }

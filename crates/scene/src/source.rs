@@ -99,6 +99,9 @@ impl Source<'_> {
         if message == "duplicate key" {
             message = format!("`{}` is there twice", self.text.get(span).unwrap_or_default());
         }
+        if hints::is_nesting(&message) {
+            message = "tables, lists or the parts of a key are nested too deep".into();
+        }
         SceneError::Syntax { place, message, advice }
     }
 

@@ -3,11 +3,12 @@
 use std::{
     collections::BTreeMap,
     path::{Path, PathBuf},
+    sync::Arc,
     time::Instant,
 };
 
 use analysis::{
-    GearCache, SharedModels,
+    GearCache, Interest, SharedGears, SharedModels,
     lumped::is_lumped,
     results::{StaticHeadline, patterns, static_headline},
 };
@@ -87,6 +88,23 @@ pub(crate) struct Desk<'a> {
     schema: serde_json::Value,
 }
 
+/// What a move asks for.
+pub(crate) struct Taken {
+    /// The scene with what is set by hand.
+    text: String,
+    /// Of the scene before.
+    sliders: Vec<Slider>,
+    /// The scene checked, or what is wrong with it.
+    scene: Result<Scene, Fault>,
+}
+
+impl Taken {
+    /// What its gears have in common with others; `None` of a scene that is none.
+    pub fn gears(&self) -> Option<Arc<SharedGears>> {
+        self.scene.as_ref().ok().map(|scene| Arc::new(SharedGears::of(scene)))
+    }
+}
+
 /// A scene as it was solved, its positions, and the time that took, ms.
 type Solved = (Scene, StaticHistory, f64);
 
@@ -97,20 +115,20 @@ impl<'a> Desk<'a> {
         Self { start, file: file.to_owned(), limits, models, schema }
     }
 
-    /// The text to begin with, and the name of its file.
-    pub fn start(&self) -> (&str, &Path) {
-        (self.start, &self.file)
+    /// The scene to begin with, where this page can show it.
+    pub fn first_scene(&self) -> Option<Scene> {
+        self.scene(self.start).ok()
     }
 
-    /// Reduces the gears of the first scene; what is wrong with it the page will say.
-    pub fn warm(&self, wanted: &dyn Fn() -> bool) {
-        if let Ok(scene) = self.scene(self.start) {
-            let _ = self.models.solve_while(&scene, wanted);
+    /// Reduces the gears of a scene for those that come.
+    pub fn warm(&self, scene: &Scene, interest: Interest<'_>) {
+        if self.fits(scene).is_ok() {
+            let _ = self.models.solve_while(scene, interest);
         }
     }
 
-    /// The answer to a move as JSON; `None` where it is `wanted` no longer.
-    pub fn answer(&self, change: &Change, wanted: &dyn Fn() -> bool) -> Option<Vec<u8>> {
+    /// The scene that a move asks for.
+    pub fn take(&self, change: &Change) -> Taken {
         let before = flat(&change.text);
         let known = self.scene(&change.text).ok().and_then(|scene| Some((scene.gear_pair().ok()?, scene)));
         let moved = known.as_ref().map_or_else(Vec::new, |(pair, scene)| sliders(scene, pair, &before));
@@ -123,18 +141,24 @@ impl<'a> Desk<'a> {
             None => self.scene(&text),
             Some(fault) => Err(fault),
         };
+        Taken { text, sliders: moved, scene }
+    }
+
+    /// The answer to a move as JSON; `None` where nobody waits for it any more.
+    pub fn answer(&self, number: u64, taken: Taken, interest: Interest<'_>) -> Option<Vec<u8>> {
+        let Taken { text, sliders, scene } = taken;
         let effective = scene.as_ref().map_or_else(|_| BTreeMap::new(), |scene| flat(&scene.to_toml()));
-        let solved = match scene.and_then(|scene| self.solved(&text, &scene, wanted)) {
+        let solved = match scene.and_then(|scene| self.solved(&text, &scene, interest)) {
             Ok(None) => return None,
             Ok(Some(solved)) => Ok(solved),
             Err(fault) => Err(fault),
         };
         let answer = Answer {
-            number: change.number,
+            number,
             text: &text,
             written: flat(&text),
             effective,
-            sliders: &moved,
+            sliders: &sliders,
             fault: None,
             result: None,
         };
@@ -155,13 +179,18 @@ impl<'a> Desk<'a> {
             let fault = Fault::new("the model \"full\" takes minutes a position, and this page follows the hand", HELD);
             return Err(fault.about("analysis.model"));
         }
-        check_memory(&scene, (self.limits.free_bytes)()).map_err(|e| Fault::of_memory(&e))?;
         Ok(scene)
     }
 
-    fn solved(&self, text: &str, scene: &Scene, wanted: &dyn Fn() -> bool) -> Result<Option<Solved>, Fault> {
+    /// Whether memory holds what a scene needs, now.
+    fn fits(&self, scene: &Scene) -> Result<(), Fault> {
+        check_memory(scene, (self.limits.free_bytes)()).map(drop).map_err(|e| Fault::of_memory(&e))
+    }
+
+    fn solved(&self, text: &str, scene: &Scene, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
+        self.fits(scene)?;
         let start = Instant::now();
-        let solved = self.models.solve_while(scene, wanted).map_err(|e| Fault::of_analysis(text, &e))?;
+        let solved = self.models.solve_while(scene, interest).map_err(|e| Fault::of_analysis(text, &e))?;
         Ok(solved.map(|(scene, history)| (scene, history, 1e3 * start.elapsed().as_secs_f64())))
     }
 }

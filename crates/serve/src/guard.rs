@@ -1,6 +1,6 @@
 //! Who may ask: who knows the token, by an address of this machine itself, from the page itself.
 
-use tiny_http::Request;
+use hyper::{HeaderMap, Uri, header};
 
 /// What a request must show.
 #[derive(Debug)]
@@ -35,23 +35,26 @@ impl Guard {
         format!("http://{}/{}/", self.hosts[0], self.token)
     }
 
-    /// What follows the token in the address of a request that may be answered.
-    pub fn admit<'a>(&self, request: &'a Request) -> Result<&'a str, Refusal> {
-        let header = |name: &'static str| {
-            let mut all = request.headers().iter().filter(move |h| h.field.equiv(name));
-            (all.next().map(|h| h.value.as_str()), all.next().is_some())
+    /// What follows the token in the address of a request that may be answered. Nothing but the head of the request is
+    /// looked at.
+    pub fn admit<'a>(&self, uri: &'a Uri, headers: &HeaderMap) -> Result<&'a str, Refusal> {
+        let header = |name| {
+            let mut all = headers.get_all(name).iter();
+            // What is no text is no name of ours.
+            (all.next().map(|value| value.to_str().unwrap_or_default()), all.next().is_some())
         };
-        let (host, twice) = header("Host");
-        if twice || !host.is_some_and(|host| self.hosts.iter().any(|own| host.eq_ignore_ascii_case(own))) {
+        let (host, twice) = header(header::HOST);
+        let own = |host: &str| self.hosts.iter().any(|own| host.eq_ignore_ascii_case(own));
+        if twice || !host.is_some_and(own) || uri.authority().is_some_and(|host| !own(host.as_str())) {
             return Err(Refusal::Host);
         }
         let own = |origin: &str| self.hosts.iter().any(|host| origin == format!("http://{host}"));
-        match header("Origin") {
+        match header(header::ORIGIN) {
             (_, true) => return Err(Refusal::Origin),
             (Some(origin), false) if !own(origin) => return Err(Refusal::Origin),
             _ => {}
         }
-        let (token, rest) = request.url().strip_prefix('/').and_then(|path| path.split_once('/')).unwrap_or_default();
+        let (token, rest) = uri.path().strip_prefix('/').and_then(|path| path.split_once('/')).unwrap_or_default();
         // Hashes are compared in a time that does not depend on how much of them is alike.
         if blake3::hash(token.as_bytes()) != blake3::hash(self.token.as_bytes()) {
             return Err(Refusal::Token);

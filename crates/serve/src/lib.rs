@@ -10,7 +10,10 @@
 //! | `guard` | who may ask: token, host, origin |
 //! | `routes` | which address is what |
 //! | `reply` | answers with the headers that keep a page to itself |
-//! | `moves` | one solve at a time a page, the latest move wins |
+//! | `listen` | takes connections and answers their requests |
+//! | `visit` | how many connections there may be, and how long each may take |
+//! | `queue` | the latest move of a page wins, and no page waits for another |
+//! | `workers` | threads that solve moves |
 //! | `desk` | a scene with its changes, solved, as the page takes it |
 //! | `scene_text` | keys of a scene's text changed one by one; keys that a complaint is about |
 //! | `sliders` | what is moved by hand, and within which ends |
@@ -21,13 +24,16 @@ mod desk;
 mod fault;
 mod form;
 mod guard;
-mod moves;
+mod listen;
 mod page;
+mod queue;
 mod reply;
 mod routes;
 mod scene_text;
 mod server;
 mod sliders;
+mod visit;
+mod workers;
 
 pub use desk::Limits;
 pub use server::{ServeError, Server, Stop};

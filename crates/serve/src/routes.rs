@@ -1,126 +1,169 @@
 //! Which address is what.
 
 use std::{
-    io::Read,
-    sync::{Arc, Mutex, PoisonError},
+    path::PathBuf,
+    sync::{
+        Arc, OnceLock,
+        atomic::{AtomicBool, Ordering},
+        mpsc,
+    },
 };
 
+use http_body_util::BodyExt;
+use hyper::{
+    Method, Request, StatusCode,
+    body::{Body, Bytes, Incoming},
+};
 use report::page::scripts;
-use tiny_http::{Method, Request};
+use tokio::sync::oneshot;
 
 use crate::{
-    desk::{Change, Desk},
+    desk::Change,
     fault::Fault,
     guard::Guard,
-    moves::Moves,
     page,
+    queue::Queue,
     reply::{Reply, json, reply, says},
+    visit::{TRANSFER, Visit},
 };
 
 /// Bytes of a move at most: a scene with measured pitch errors of every tooth is a hundredth of it.
-const MOST: u64 = 1 << 20;
-/// Pages that are known at most; of more, which only a program can open, the first are forgotten.
-const MOST_PAGES: usize = 256;
+const MOST: usize = 1 << 20;
 
 /// What is served.
-pub(crate) struct Routes<'a> {
-    guard: &'a Guard,
-    desk: &'a Desk<'a>,
-    pages: Mutex<Pages>,
+pub(crate) struct Routes {
+    guard: Guard,
+    /// Text of the first scene and the name of its file.
+    start: (String, PathBuf),
+    queue: Arc<Queue>,
+    work: mpsc::Sender<Job>,
 }
 
-#[derive(Default)]
-struct Pages {
-    /// Number of the first that is known.
-    first: u64,
-    known: Vec<Arc<Moves>>,
+/// A move on its way to a thread that solves it.
+pub(crate) struct Job {
+    pub change: Change,
+    /// Set when whoever asked has gone.
+    pub gone: Arc<AtomicBool>,
+    /// Takes the answer; none where a later move has come.
+    pub answer: oneshot::Sender<Option<Vec<u8>>>,
 }
 
-impl<'a> Routes<'a> {
-    /// Nothing is asked yet.
-    pub fn new(guard: &'a Guard, desk: &'a Desk<'a>) -> Self {
-        Self { guard, desk, pages: Mutex::default() }
+/// Says that whoever asked has gone, when it is dropped.
+struct Leaves<'a>(&'a Queue, Arc<AtomicBool>);
+
+impl Drop for Leaves<'_> {
+    fn drop(&mut self) {
+        self.1.store(true, Ordering::SeqCst);
+        self.0.look_again();
+    }
+}
+
+impl Routes {
+    /// Nothing is asked yet; moves go to `work`.
+    pub fn new(guard: Guard, start: (String, PathBuf), queue: Arc<Queue>, work: mpsc::Sender<Job>) -> Self {
+        Self { guard, start, queue, work }
     }
 
-    /// What is being solved ends at its next position.
-    pub fn end(&self) {
-        self.pages().known.iter().for_each(|moves| moves.end());
-    }
-
-    fn pages(&self) -> std::sync::MutexGuard<'_, Pages> {
-        self.pages.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Number of a page that is opened now.
-    fn open(&self) -> u64 {
-        let mut pages = self.pages();
-        if pages.known.len() == MOST_PAGES {
-            pages.known.remove(0).end();
-            pages.first += 1;
-        }
-        pages.known.push(Arc::default());
-        pages.first + pages.known.len() as u64 - 1
-    }
-
-    fn moves(&self, page: u64) -> Option<Arc<Moves>> {
-        let pages = self.pages();
-        pages.known.get(usize::try_from(page.checked_sub(pages.first)?).ok()?).cloned()
-    }
-
-    fn reply(&self, request: &mut Request) -> Reply {
-        let path = match self.guard.admit(request) {
-            Ok(path) => path.to_owned(),
-            Err(refusal) => return says(403, &refusal.to_string()),
+    /// The answer to a request. The token is looked for before anything of a body is read.
+    pub async fn reply(&self, request: Request<Incoming>, visit: &Visit) -> Reply {
+        let (head, body) = request.into_parts();
+        let path = match self.guard.admit(&head.uri, &head.headers) {
+            Ok(path) => path,
+            Err(refusal) => return says(StatusCode::FORBIDDEN, &refusal.to_string()),
         };
-        let script = |text: &str| reply(200, "text/javascript; charset=utf-8", text);
-        match (request.method(), path.as_str()) {
-            (Method::Get, "") => match page::html(self.desk.start(), self.open()) {
-                Ok(html) => reply(200, "text/html; charset=utf-8", html),
-                Err(error) => says(500, &error.to_string()),
+        if !visit.is_known() {
+            return says(StatusCode::SERVICE_UNAVAILABLE, "too many requests at once; ask again");
+        }
+        let answer = match (&head.method, path) {
+            (&Method::POST, "solve") => self.solve(body, visit).await,
+            (&Method::GET, "solve") => says(StatusCode::METHOD_NOT_ALLOWED, "moves are posted"),
+            (&Method::GET, name) => self.file(name),
+            _ => nothing(),
+        };
+        visit.within(TRANSFER);
+        answer
+    }
+
+    fn file(&self, name: &str) -> Reply {
+        static CHARTS: OnceLock<Bytes> = OnceLock::new();
+        static VIEW: OnceLock<Bytes> = OnceLock::new();
+        let both = |a: &str, b: &str| Bytes::from(format!("{a}\n{b}"));
+        let script = |text: Bytes| reply(StatusCode::OK, "text/javascript; charset=utf-8", text);
+        match name {
+            "" => match page::html((self.start.0.as_str(), self.start.1.as_path()), self.queue.open()) {
+                Ok(html) => reply(StatusCode::OK, "text/html; charset=utf-8", html),
+                Err(error) => says(StatusCode::INTERNAL_SERVER_ERROR, &error.to_string()),
             },
-            (Method::Get, "style.css") => reply(200, "text/css; charset=utf-8", page::style()),
-            (Method::Get, "charts.js") => script(&format!("{}\n{}", scripts::UPLOT, scripts::CHARTS)),
-            (Method::Get, "view.js") => script(&format!("{}\n{}", scripts::THREE, scripts::VIEW)),
-            (Method::Get, "page.js") => script(page::SCRIPT),
-            (Method::Post, "solve") => self.solve(request),
-            (Method::Get, "solve") => says(405, "moves are posted"),
-            _ => says(404, "there is nothing of that name"),
+            "style.css" => reply(StatusCode::OK, "text/css; charset=utf-8", page::style()),
+            "charts.js" => script(CHARTS.get_or_init(|| both(scripts::UPLOT, scripts::CHARTS)).clone()),
+            "view.js" => script(VIEW.get_or_init(|| both(scripts::THREE, scripts::VIEW)).clone()),
+            "page.js" => script(Bytes::from_static(page::SCRIPT.as_bytes())),
+            _ => nothing(),
         }
     }
 
-    fn solve(&self, request: &mut Request) -> Reply {
+    async fn solve(&self, body: Incoming, visit: &Visit) -> Reply {
         let wrong = |status, message: String, hint: &str| {
             json(status, serde_json::json!({ "fault": Fault::new(message, hint) }).to_string())
         };
-        let mut body = Vec::new();
-        if let Err(error) = request.as_reader().take(MOST + 1).read_to_end(&mut body) {
-            return wrong(400, format!("the move did not come through: {error}"), "move again");
-        }
-        if body.len() as u64 > MOST {
-            return wrong(413, format!("the move has more than {MOST} bytes"), "keep long lists in files of their own");
-        }
-        let change: Change = match serde_json::from_slice(&body) {
+        visit.within(TRANSFER);
+        let bytes = match read(body).await {
+            Ok(Some(bytes)) => bytes,
+            Ok(None) => {
+                let message = format!("the move has more than {MOST} bytes");
+                return wrong(StatusCode::PAYLOAD_TOO_LARGE, message, "keep long lists in files of their own");
+            }
+            Err(error) => {
+                let message = format!("the move did not come through: {error}");
+                return wrong(StatusCode::BAD_REQUEST, message, "move again");
+            }
+        };
+        let change: Change = match serde_json::from_slice(&bytes) {
             Ok(change) => change,
-            Err(error) => return wrong(400, format!("the move is not readable: {error}"), "load the page again"),
+            Err(error) => {
+                let message = format!("the move is not readable: {error}");
+                return wrong(StatusCode::BAD_REQUEST, message, "load the page again");
+            }
         };
-        let Some(moves) = self.moves(change.page) else {
-            return wrong(400, format!("page {} was not opened by this server", change.page), "load the page again");
-        };
-        let Some(turn) = moves.turn(change.number) else { return overtaken() };
-        match self.desk.answer(&change, &|| turn.is_wanted()) {
-            Some(body) => json(200, body),
-            None => overtaken(),
+        if !self.queue.knows(change.page) {
+            let message = format!("page {} was not opened by this server", change.page);
+            return wrong(StatusCode::BAD_REQUEST, message, "load the page again");
+        }
+        let gone = Arc::<AtomicBool>::default();
+        let _leaves = Leaves(&self.queue, Arc::clone(&gone));
+        let (answer, heard) = oneshot::channel();
+        visit.as_long_as_it_takes();
+        if self.work.send(Job { change, gone, answer }).is_err() {
+            return says(StatusCode::SERVICE_UNAVAILABLE, "the server ends");
+        }
+        match heard.await {
+            Ok(Some(body)) => json(StatusCode::OK, body),
+            Ok(None) => says(StatusCode::CONFLICT, "a later move has come"),
+            Err(_) => {
+                let message = "the solve ended without an answer".to_owned();
+                wrong(StatusCode::INTERNAL_SERVER_ERROR, message, "what the terminal says of it belongs into a report")
+            }
         }
     }
 }
 
-/// A later move has come: nobody looks for this answer.
-fn overtaken() -> Reply {
-    says(409, "a later move has come")
+fn nothing() -> Reply {
+    says(StatusCode::NOT_FOUND, "there is nothing of that name")
 }
 
-/// Answers a request; whoever asked may have gone.
-pub(crate) fn answer(routes: &Routes<'_>, mut request: Request) {
-    let reply = routes.reply(&mut request);
-    let _ = request.respond(reply);
+/// A body; `None` where it is longer than a move may be, or says so, of which no more is read.
+async fn read(mut body: Incoming) -> Result<Option<Vec<u8>>, hyper::Error> {
+    let mut all = Vec::new();
+    if body.size_hint().lower() > MOST as u64 {
+        return Ok(None);
+    }
+    while let Some(frame) = body.frame().await {
+        if let Ok(data) = frame?.into_data() {
+            if all.len() + data.len() > MOST {
+                return Ok(None);
+            }
+            all.extend_from_slice(&data);
+        }
+    }
+    Ok(Some(all))
 }

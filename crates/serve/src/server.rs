@@ -3,19 +3,21 @@
 use std::{
     io,
     net::{Ipv4Addr, SocketAddr, TcpListener},
-    sync::{
-        Arc, Weak,
-        atomic::{AtomicBool, Ordering},
-    },
+    path::Path,
+    sync::{Arc, mpsc},
     thread,
 };
 
 use analysis::GearCache;
+use tokio::{runtime, sync::Notify};
 
 use crate::{
     desk::{Desk, Limits},
     guard::Guard,
-    routes::{Routes, answer},
+    listen,
+    queue::Queue,
+    routes::Routes,
+    workers::Workers,
 };
 
 /// Why no page can be served.
@@ -30,12 +32,12 @@ pub enum ServeError {
         source: io::Error,
     },
     /// The server does not start.
-    #[error("no server on {address}: {reason}")]
+    #[error("no server on {address}: {source}")]
     Start {
         /// Where it was to be.
         address: SocketAddr,
-        /// What happened.
-        reason: String,
+        /// What the system says.
+        source: io::Error,
     },
 }
 
@@ -51,38 +53,26 @@ impl ServeError {
 
 /// A page that is served on this machine alone.
 pub struct Server {
-    http: Arc<tiny_http::Server>,
-    stopped: Arc<AtomicBool>,
+    listener: TcpListener,
+    address: SocketAddr,
     guard: Guard,
+    stop: Arc<Notify>,
 }
 
 impl std::fmt::Debug for Server {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Server").field("at", &self.local_address()).finish_non_exhaustive()
+        f.debug_struct("Server").field("at", &self.address).finish_non_exhaustive()
     }
 }
 
 /// Ends a server, from any thread.
-#[derive(Clone)]
-pub struct Stop {
-    /// The port is free as soon as the server is dropped.
-    http: Weak<tiny_http::Server>,
-    stopped: Arc<AtomicBool>,
-}
-
-impl std::fmt::Debug for Stop {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Stop").finish_non_exhaustive()
-    }
-}
+#[derive(Debug, Clone)]
+pub struct Stop(Arc<Notify>);
 
 impl Stop {
-    /// No further request is taken, and solves end at their next position.
+    /// No further request is taken, and solves end at their next step.
     pub fn stop(&self) {
-        self.stopped.store(true, Ordering::SeqCst);
-        if let Some(http) = self.http.upgrade() {
-            http.unblock();
-        }
+        self.0.notify_one();
     }
 }
 
@@ -95,10 +85,8 @@ impl Server {
         let refused = |source| ServeError::Port { port, source };
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(refused)?;
         let address = listener.local_addr().map_err(refused)?;
-        let http = tiny_http::Server::from_listener(listener, None)
-            .map_err(|e| ServeError::Start { address, reason: e.to_string() })?;
-        let guard = Guard::new(address.port());
-        Ok(Self { http: Arc::new(http), stopped: Arc::default(), guard })
+        listener.set_nonblocking(true).map_err(|source| ServeError::Start { address, source })?;
+        Ok(Self { listener, address, guard: Guard::new(address.port()), stop: Arc::default() })
     }
 
     /// The address of the page, which holds the token.
@@ -106,33 +94,43 @@ impl Server {
         self.guard.address()
     }
 
-    /// Where it listens; `None` only where the system has no such thing.
-    pub fn local_address(&self) -> Option<SocketAddr> {
-        self.http.server_addr().to_ip()
+    /// Where it listens.
+    pub fn local_address(&self) -> SocketAddr {
+        self.address
     }
 
     /// What ends it.
     pub fn stop_handle(&self) -> Stop {
-        Stop { http: Arc::downgrade(&self.http), stopped: Arc::clone(&self.stopped) }
+        Stop(Arc::clone(&self.stop))
     }
 
     /// Serves the page of a scene's text until it is stopped; `file` is what messages name and what paths are relative
-    /// to. Reduced gears come from `cache` and go there.
-    pub fn run(&self, text: &str, file: &std::path::Path, limits: Limits, cache: &dyn GearCache) {
+    /// to. Reduced gears come from `cache` and go there. Nothing that a client sends ends it.
+    ///
+    /// # Errors
+    /// [`ServeError::Start`] when the system gives no means to wait for requests.
+    pub fn run(self, text: &str, file: &Path, limits: Limits, cache: &dyn GearCache) -> Result<(), ServeError> {
+        let Self { listener, address, guard, stop } = self;
+        let start = |source| ServeError::Start { address, source };
+        let runtime = runtime::Builder::new_current_thread().enable_io().enable_time().build().map_err(start)?;
+        let listener = {
+            let _inside = runtime.enter();
+            tokio::net::TcpListener::from_std(listener).map_err(start)?
+        };
+        let (queue, (work, jobs)) = (Arc::new(Queue::default()), mpsc::channel());
         let desk = Desk::new(text, file, limits, cache);
-        let routes = Routes::new(&self.guard, &desk);
+        let workers = Workers::new(&desk, &queue);
         thread::scope(|scope| {
-            // The gears are reduced while the browser opens.
-            scope.spawn(|| desk.warm(&|| !self.stopped.load(Ordering::SeqCst)));
-            while let Ok(request) = self.http.recv() {
-                if self.stopped.load(Ordering::SeqCst) {
-                    break;
-                }
-                let routes = &routes;
-                scope.spawn(move || answer(routes, request));
-            }
-            self.stopped.store(true, Ordering::SeqCst);
-            routes.end();
-        });
+            let workers = &workers;
+            let helper = |name: &str| thread::Builder::new().name(name.into());
+            helper("warm").spawn_scoped(scope, || workers.warm()).map_err(start)?;
+            helper("work").spawn_scoped(scope, move || workers.work(scope, jobs)).map_err(start)?;
+            let routes = Routes::new(guard, (text.to_owned(), file.to_owned()), Arc::clone(&queue), work);
+            runtime.block_on(listen::serve(listener, Arc::new(routes), &stop));
+            queue.end();
+            // With the last connection the last that could give work.
+            drop(runtime);
+            Ok(())
+        })
     }
 }

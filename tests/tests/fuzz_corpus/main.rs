@@ -4,6 +4,7 @@
 //! it. `large` builds what is too large to keep.
 
 mod large;
+mod nested;
 
 use std::{
     fs,

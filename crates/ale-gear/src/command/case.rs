@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
-use report::plan_files::{DoneCases, PageWords, Part, PartError, merged, plan_digest, write_cases};
+use report::plan_files::{DoneCases, PageWords, Part, PartError, check_outputs, merged, plan_digest, write_cases};
 use scene::plan::Plan;
 
 use super::{
@@ -58,6 +58,7 @@ impl CaseArgs {
     /// Solves the cases of the range; the same words leave the same file, however often.
     pub(super) fn execute(self, told: impl Fn(String) -> String) -> Result<String, CommandError> {
         let (plan, mut phases) = (Plan::read(&self.plan)?, Phases::with_bars());
+        check_outputs(&plan).map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
         if let (Some(case), Some(out)) = (self.report, &self.out) {
             let table = write_one(&scene_of(&plan, case)?, &mut phases, out, &self.cache.open())?;
             return Ok(told(format!("{table}\nresults: {}\n", out.display())));

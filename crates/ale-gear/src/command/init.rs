@@ -14,7 +14,7 @@ use scene::{Starter, read_pair};
 use crate::{
     error::CommandError,
     scene::{Kind, Scene},
-    talk::{Loudness, colours_on_stderr, say},
+    talk::complain,
 };
 
 /// Words of `ale-gear init`.
@@ -206,10 +206,8 @@ fn asked_until_it_can_be(shown: &str) -> Result<String, CommandError> {
             Ok(text) => return Ok(text),
             Err(complaint) => {
                 let message = without_place(&complaint.message);
-                let complaint = CommandError { message, excerpt: None, ..complaint }.text(colours_on_stderr());
-                say(Loudness::Quiet, || {
-                    format!("\n{complaint}The questions again; an empty answer keeps what is in brackets.")
-                });
+                let complaint = CommandError { message, excerpt: None, ..complaint };
+                complain(&complaint, "The questions again; an empty answer keeps what is in brackets.");
             }
         }
     }

@@ -23,6 +23,8 @@ mod study;
 mod sweep;
 mod vary;
 
+use std::io::Write;
+
 use clap::{
     ArgAction, Args, Parser, Subcommand,
     error::{ContextKind, ContextValue},
@@ -31,6 +33,7 @@ use clap_complete::Shell;
 
 use crate::{
     error::CommandError,
+    printed,
     stop::on_stop,
     talk::{Loudness, read_progress_after, set_loudness},
 };
@@ -137,7 +140,17 @@ impl From<String> for Answer {
 impl Cli {
     /// The command line of this process; a wrong one, and `--help`, end the process here.
     pub fn of_process() -> Self {
-        Self::try_parse().unwrap_or_else(|error| with_a_way_out(error).exit())
+        Self::try_parse().unwrap_or_else(|error| {
+            let error = with_a_way_out(error);
+            let said = error.render().to_string();
+            let shown = printed::message(&said);
+            if error.use_stderr() && shown != said {
+                // Words of the command line are quoted as they are; without them the usual way has colours.
+                let _ = std::io::stderr().lock().write_all(shown.as_bytes());
+                std::process::exit(error.exit_code());
+            }
+            error.exit()
+        })
     }
 
     /// Does what was asked.
@@ -168,12 +181,12 @@ impl Cli {
             Some(Command::Envelope(args)) => return args.execute(),
             Some(Command::Curve(args)) => return args.execute(quiet),
             Some(Command::Gearbox(args)) => return args.execute(quiet),
+            Some(Command::Optimise(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
             Some(Command::Vary(args)) => args.execute().map(told),
             Some(Command::Case(args)) => args.execute(told),
             Some(Command::Merge(args)) => args.execute().map(told),
-            Some(Command::Optimise(args)) => args.execute().map(told),
             Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Geometry(args)) => args.execute(),
             Some(Command::Init(args)) => args.execute(quiet),

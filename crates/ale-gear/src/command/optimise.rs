@@ -7,13 +7,13 @@ use analysis::{
     optimum::{Optimised, Optimum, optimise, told},
     run_phase,
 };
-use report::optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum};
+use report::optimum_files::{Goals, OptimumResult, optimum_warnings, passed_limits, write_optimum};
 use scene::{
     optimum::{Optimisation, OptimisationWords},
     read_text,
 };
 
-use super::{cache_args::CacheArgs, overrides::Overrides};
+use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
 /// Words of `ale-gear optimise`.
@@ -105,7 +105,7 @@ impl OptimiseArgs {
     }
 
     /// Searches, and writes the results; the text is the closing table.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let (plan, mut phases) = (self.plan()?, Phases::with_bars());
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
@@ -125,7 +125,7 @@ impl OptimiseArgs {
         })?;
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
-        let (goals, warnings) = (Goals::of(&optimum), optimum_warnings(&optimum));
+        let (goals, warnings, passed) = (Goals::of(&optimum), optimum_warnings(&optimum), passed_limits(&optimum));
         let again = self.again(&optimum);
         let of = OptimumResult {
             optimum: &optimum,
@@ -138,6 +138,9 @@ impl OptimiseArgs {
         };
         let text = write_optimum(of, &results)?;
         results.finish(talk::note)?;
-        Ok(format!("{text}\nresults: {}\n", self.out.display()))
+        let text = if quiet { String::new() } else { format!("{text}\nresults: {}\n", self.out.display()) };
+        let hint = "allow more, or let more parameters change, within wider bounds (`--parameter`)";
+        let failure = passed.map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
+        Ok(Answer { text, failure })
     }
 }

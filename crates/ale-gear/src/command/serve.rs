@@ -50,8 +50,10 @@ impl ServeArgs {
         {
             talk::note(format!("no browser was opened ({error}): open the address above in one"));
         }
-        server.run(&text, &file, Limits { free_bytes: memory::available_bytes }, &self.cache.open());
+        let limits = Limits { free_bytes: memory::available_bytes };
+        let served = server.run(&text, &file, limits, &self.cache.open());
         drop(hold_still());
+        served.map_err(|e| CommandError::input(&e, Some(e.hint())))?;
         Ok(String::new())
     }
 

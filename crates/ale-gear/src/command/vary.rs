@@ -9,7 +9,7 @@ use analysis::SharedModels;
 use files::Scratch;
 use report::{
     folder::{Cache, beside_results},
-    plan_files::{CaseTable, DoneCases, KnownCases, PageWords, plan_digest, solve_cases, write_cases},
+    plan_files::{CaseTable, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
 
@@ -129,6 +129,7 @@ pub(super) fn run_plan(
     cache: &Cache,
 ) -> Result<String, CommandError> {
     reports.check(plan)?;
+    check_outputs(plan).map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
     let mut phases = Phases::with_bars();
     let results = ResultDirectory::create(out)?;
     // Beside the results, so that a run that is cut short goes on from there.

@@ -501,3 +501,63 @@ fn habits_from_elsewhere_are_put_right() {
     assert!(run.stderr.contains("ale-gear run a.toml --out DIR"), "{}", run.stderr);
     assert_eq!(run.code, Some(2));
 }
+
+/// Names, keys, values and paths of others say nothing to a terminal: on stderr, in tables, in progress.
+#[test]
+fn no_control_characters_of_files_reach_the_terminal() {
+    // A title, C1's CSI, an override of the direction of writing, DEL.
+    let hostile = "\\u001b]0;owned\\u0007 \\u009b31m \\u202Egnp.\\u2066 \\u007f\\r";
+    let named = format!("name = \"{hostile}\"\n{ISO_SCENE}");
+    let scenes = [
+        named.clone(),
+        with("[pinion]\n", &format!("[pinion]\n\"teeth {hostile}\" = 3\n")),
+        with("[pinion]\n", &format!("[pinion]\nmesh = \"{hostile}.msh\"\n")),
+        format!("{ISO_SCENE}[contact]\nmethod = \"{hostile}\"\n"),
+        format!("[\"{hostile}\"]\n{ISO_SCENE}"),
+    ];
+    let clean = |text: &str| {
+        let obeyed = |c: char| {
+            (c.is_control() && c != '\n' && c != '\t')
+                || ('\u{202a}'..='\u{202e}').contains(&c)
+                || ('\u{2066}'..='\u{2069}').contains(&c)
+        };
+        assert!(!text.chars().any(obeyed), "{text:?}");
+    };
+    for scene in &scenes {
+        let scratch = Scratch::new().file("a.toml", scene);
+        for words in [&["run", "a.toml", "--out", "o", "-vv"][..], &["geometry", "a.toml"], &["init", "--help"]] {
+            let run = scratch.command(words);
+            clean(&run.stdout);
+            clean(&run.stderr);
+        }
+    }
+    let scratch = Scratch::new().file("a.toml", named);
+    let raw = "\x1b]0;owned\x07\u{9b}31m\u{202e}";
+    for words in [
+        &["run", "a.toml", "--out", raw, "--set", raw][..],
+        &["run", raw, "--out", "o"],
+        &[raw],
+        &["mesh", "check", raw],
+    ] {
+        let run = scratch.command(words);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.contains("31m"), "{}", run.stderr);
+        clean(&run.stderr);
+    }
+}
+
+/// A quantity of three hundred digits and a key of thousands of parts are cut to what is read.
+#[test]
+fn numbers_and_words_of_messages_are_as_long_as_one_reads() {
+    let scratch = Scratch::new().file("a.toml", ISO_SCENE);
+    let key = vec!["a"; 5000].join(".");
+    let nested = format!("name={}{}", "[".repeat(50_000), "]".repeat(50_000));
+    for setting in
+        ["operation.torque_nm=1e300", "pinion.teeth=1e200", "pair.face_width_mm=-1e300", &format!("{key}=1"), &nested]
+    {
+        let run = scratch.ale_gear(["run", "a.toml", "--out", "o", "--set", setting]);
+        assert_eq!(run.code, Some(2), "{}", run.stderr);
+        assert!(run.stderr.len() < 1200, "{} bytes: {}", run.stderr.len(), run.stderr);
+        assert!(!run.stderr.contains(&"0".repeat(12)), "{}", run.stderr);
+    }
+}

@@ -48,11 +48,12 @@ fn the_default_pair_becomes_quiet() {
 fn pressure_is_limited() {
     let scratch = Scratch::new();
     let scene = repository().join("scenes/default.toml").display().to_string();
-    let run = |more: &[&str]| {
+    let ends = |code: i32, more: &[&str]| {
         let run = scratch.command(&[&["optimise", &scene, "--evaluations", "5"], more].concat());
-        assert_eq!(run.code, Some(0), "{}", run.stderr);
-        run.stdout
+        assert_eq!(run.code, Some(code), "{}", run.stderr);
+        (run.stdout, run.stderr)
     };
+    let run = |more: &[&str]| ends(0, more).0;
     run(&["--out", "free", "--front", "2"]);
     let front = scratch.read("free/front.csv");
     let [pressures, goals] = ["max_pressure_mpa", "goal_um"].map(|name| column(&front, name));
@@ -63,7 +64,9 @@ fn pressure_is_limited() {
     let limited = summary(&scratch, "limited");
     let pressure = limited["headline"]["torques"][0]["max_pressure_after_mpa"].as_f64().unwrap();
     assert!(pressure <= 1.005 * limit && !said.contains("is passed"), "{pressure} MPa, allowed are {limit}: {said}");
-    let said = run(&["--out", "none", "--max-pressure", "500"]);
+    // The files are there, and the exit status says that they are not what was demanded.
+    let (said, complaint) = ends(3, &["--out", "none", "--max-pressure", "500"]);
+    assert!(complaint.contains("the limit of the pressure, 500 MPa, is passed by"), "{complaint}");
     assert!(said.contains("the limit of the pressure, 500 MPa, is passed by"), "{said}");
     assert!(summary(&scratch, "none")["warnings"][0].as_str().unwrap().contains("is passed by"));
 }

@@ -39,6 +39,39 @@ fn rows(scratch: &Scratch, file: &str) -> Vec<BTreeMap<String, String>> {
     chart_rows(&scratch.read(file))
 }
 
+/// A misspelt number is told before a case is solved: nothing is begun, also where rows of cases are made apart.
+#[test]
+fn numbers_that_no_case_will_have_are_told_before_any_work() {
+    let plan = |wanted: &str| PLAN.replace("headline = \"ste_harmonics_um.1\"", wanted);
+    for (wanted, said) in [
+        ("headline = \"mean_ste_u\"", "the headline has no `mean_ste_u`\nhint: did you mean `mean_ste_um`?"),
+        (
+            "headline = \"ste_harmonics_um.8\"",
+            "no number\nhint: it is a list: write `ste_harmonics_um.0` .. `ste_harmonics_um.7`",
+        ),
+        (
+            "column = \"max_pressure_mp\"\ntake = \"mean\"",
+            "no column `max_pressure_mp`\nhint: did you mean \"max_pressure_mpa\"?",
+        ),
+    ] {
+        let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan(wanted));
+        for words in [&["vary", "plan.toml", "--out", "o"][..], &["case", "plan.toml", "--range", "0..2", "--out", "o"]]
+        {
+            let run = scratch.command(words);
+            assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+            assert!(run.stderr.starts_with("ale-gear: plan.toml: ") && run.stderr.contains(said), "{}", run.stderr);
+            assert_eq!(scratch.names(), ["a.toml", "plan.toml"], "work was begun");
+        }
+    }
+    let scratch = Scratch::new().file("a.toml", motion_scene(1, ""));
+    let words =
+        ["vary", "a.toml", "--out", "o", "--vary", "operation.torque_nm=100,150", "--output", "max_pressure_mp"];
+    let run = scratch.ale_gear(words);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("did you mean `max_pressure_mpa`?"), "{}", run.stderr);
+    assert_eq!(scratch.names(), ["a.toml"], "work was begun");
+}
+
 /// A row has the numbers of a run with its values, bit by bit; a load that no tooth stands is a row that says so.
 #[test]
 fn a_row_has_the_numbers_of_a_run() {
@@ -188,10 +221,10 @@ fn words_of_a_plan_are_checked_first() {
 #[test]
 fn a_plan_without_a_result_fails() {
     let scratch = Scratch::new().file("a.toml", five_teeth());
-    let words = ["--vary", "operation.torque_nm=100,150", "--output", "peak_to_peak_ste", "--out", "o"];
+    let words = ["--vary", "operation.torque_nm=1e7,2e7", "--output", "peak_to_peak_ste_um", "--out", "o"];
     let run = scratch.command(&[&["vary", "a.toml"][..], &words].concat());
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    for said in ["no case has a result", "did you mean `peak_to_peak_ste_um`?", "`cases.csv` in o"] {
+    for said in ["no case has a result", "would bend the teeth", "`cases.csv` in o"] {
         assert!(run.stderr.contains(said), "{said}: {}", run.stderr);
     }
 }

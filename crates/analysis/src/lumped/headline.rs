@@ -7,11 +7,12 @@ use serde::Serialize;
 use study::{Lyapunov, StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
 use super::{LumpedRow, run_loop::LumpedRun};
-use crate::motion::PassageHeadline;
+use crate::{motion::PassageHeadline, with_keys::with_keys};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
 
+with_keys! {
 /// The few numbers that a run is made for; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
@@ -50,6 +51,7 @@ pub struct LumpedHeadline {
     /// The largest of a ramp, and where.
     pub ramp: Option<PassageHeadline>,
     pub certificate: LumpedCertificate,
+}
 }
 
 /// How far a run can be trusted.

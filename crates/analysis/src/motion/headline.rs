@@ -11,11 +11,12 @@ use super::{
     orders::{CriticalSpeed, Passage, PassageHeadline},
     setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration, mesh_range_hz},
 };
-use crate::results::PressurePlace;
+use crate::{results::PressurePlace, with_keys::with_keys};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
 
+with_keys! {
 /// The few numbers that a motion is run for; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
@@ -59,6 +60,7 @@ pub struct MotionHeadline {
     pub ramp: Option<PassageHeadline>,
     pub critical_speeds: Vec<CriticalSpeed>,
     pub certificate: MotionCertificate,
+}
 }
 
 impl MotionHeadline {

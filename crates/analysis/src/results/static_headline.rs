@@ -9,11 +9,12 @@ use super::{
     PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, root_stress_headline,
     transverse_load_factor,
 };
-use crate::worse;
+use crate::{with_keys::with_keys, worse};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;
 
+with_keys! {
 /// The few numbers that a run is made for; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
@@ -53,6 +54,7 @@ pub struct StaticHeadline {
     pub worst_window_edge_load: f64,
     pub bulk_compliance_error: f64,
     pub iterations: usize,
+}
 }
 
 /// Headline numbers of a history over the scene's whole mesh cycles.

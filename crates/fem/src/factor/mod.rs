@@ -20,8 +20,9 @@ use faer::{
 };
 
 use crate::{
-    FemError, SymmetricMatrix, dense,
+    FemError, SymmetricMatrix, Wanted, dense,
     ordering::{Ordering, supernodal, try_zeroed},
+    unless_unwanted,
 };
 
 /// A pivot this small against its diagonal entry is round-off of a body that can move freely.
@@ -46,10 +47,20 @@ impl BoundaryLastFactor {
     /// [`FemError::NotPositiveDefinite`] when something can move freely, [`FemError::BadDof`],
     /// [`FemError::NotFinite`], [`FemError::OutOfMemory`], [`FemError::TooLarge`], [`FemError::Ordering`].
     pub fn new(stiffness: &SymmetricMatrix, boundary: &[usize]) -> Result<Self, FemError> {
+        Self::new_while(stiffness, boundary, &|| true)
+    }
+
+    /// The same for who may lose interest: before and after ordering and factor `wanted` says whether it is.
+    ///
+    /// # Errors
+    /// As [`BoundaryLastFactor::new`], and [`FemError::Unwanted`].
+    pub fn new_while(stiffness: &SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
+        unless_unwanted(wanted)?;
         if let Some((row, column, _)) = stiffness.entries().find(|(_, _, v)| !v.is_finite()) {
             return Err(FemError::NotFinite { row, column });
         }
         let ordering = Ordering::new(stiffness, boundary)?;
+        unless_unwanted(wanted)?;
         let symbolic = ordering.symbolic(stiffness)?;
         let mut values = try_zeroed(symbolic.len_val())?;
         // sequential inside: two gears are factored side by side instead, and the bits stay the same
@@ -69,6 +80,7 @@ impl BoundaryLastFactor {
             let dof = ordering.forward.get(index).copied().unwrap_or(index);
             return Err(FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 });
         }
+        unless_unwanted(wanted)?;
         let factor = Self { ordering, symbolic, values, boundary: boundary.to_vec() };
         factor.check_pivots(stiffness)?;
         Ok(factor)

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
-use fem::{FemError, dense};
+use fem::{FemError, Wanted, dense, unless_unwanted};
 
 /// A row of equal sectors as one super-element between its first and its last cut.
 ///
@@ -59,12 +59,13 @@ pub(super) fn stacked(above: MatRef<'_, f64>, below: MatRef<'_, f64>) -> Mat<f64
 
 impl Chain {
     /// `count` > 0 sectors of stiffness `sector` (2c x 2c, left cut before right cut).
-    pub(super) fn new(sector: &Mat<f64>, count: usize) -> Result<Self, FemError> {
+    pub(super) fn new(sector: &Mat<f64>, count: usize, wanted: Wanted<'_>) -> Result<Self, FemError> {
         let mut links = vec![Link { sectors: 1, join: None }];
         let (mut power, mut power_stiffness) = (0, sector.clone());
         let mut whole: Option<(usize, Mat<f64>)> = None;
         let mut rest = count;
         loop {
+            unless_unwanted(wanted)?;
             if rest % 2 == 1 {
                 whole = Some(match whole {
                     None => (power, power_stiffness.clone()),

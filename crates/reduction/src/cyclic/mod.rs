@@ -22,7 +22,7 @@ mod turn;
 mod vibration;
 
 use faer::{Mat, MatMut, MatRef};
-use fem::{ElementOptions, Material, dense};
+use fem::{ElementOptions, Material, Wanted, dense, unless_unwanted};
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
@@ -63,12 +63,14 @@ impl CyclicGear {
         elements: &ElementOptions,
         loads: &[Load],
         keep: bool,
+        wanted: Wanted<'_>,
     ) -> Result<Option<Self>, ReductionError> {
         let Some(Placed { coordinates, own }) = placed(&part, loads) else { return Ok(None) };
         let (first, count) = arc(coordinates.iter().map(|c| c.0), part.teeth);
-        let sector = Sector::new(&part, material, elements, &own, keep)?;
+        let sector = Sector::new(&part, material, elements, &own, keep, wanted)?;
         let rest = (part.teeth - count) as usize;
-        let chain = (rest > 0).then(|| Chain::new(&sector.stiffness, rest)).transpose()?;
+        let chain = (rest > 0).then(|| Chain::new(&sector.stiffness, rest, wanted)).transpose()?;
+        unless_unwanted(wanted)?;
         let ring = ring(&sector, chain.as_ref(), count as usize)?;
         let (material, elements) = (*material, *elements);
         Ok(Some(Self { part, sector, material, elements, coordinates, first, count, chain, ring }))

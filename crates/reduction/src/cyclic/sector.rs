@@ -1,7 +1,7 @@
 //! One sector, condensed to its cuts and its loads.
 
 use faer::{Mat, MatMut, MatRef};
-use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, dense};
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
 use mesh::Mesh;
 
 use super::{SectorMesh, chain::stacked};
@@ -51,6 +51,7 @@ impl Sector {
         elements: &ElementOptions,
         loads: &[Load],
         keep: bool,
+        wanted: Wanted<'_>,
     ) -> Result<Self, ReductionError> {
         let dofs = DofMap::new(part.mesh.nodes.len(), &part.held);
         let rows = |nodes: &mut dyn Iterator<Item = u32>| -> Vec<usize> {
@@ -67,7 +68,7 @@ impl Sector {
         let cut = 3 * free.len();
         let factor = {
             let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
-            BoundaryLastFactor::new(&stiffness, &boundary)?
+            BoundaryLastFactor::new_while(&stiffness, &boundary, wanted)?
         };
         let spread = if keep { Vec::new() } else { loads.to_vec() };
         let (sin, cos) = (std::f64::consts::TAU / f64::from(part.teeth)).sin_cos();
@@ -83,12 +84,12 @@ impl Sector {
             transfer: Mat::new(),
             own: Mat::new(),
         };
-        sector.condense(keep)?;
+        sector.condense(keep, wanted)?;
         Ok(sector)
     }
 
     /// K_c, H and A.
-    fn condense(&mut self, keep: bool) -> Result<(), ReductionError> {
+    fn condense(&mut self, keep: bool, wanted: Wanted<'_>) -> Result<(), ReductionError> {
         let (kept, ends) = (self.kept, 2 * self.cut);
         let l = self.factor.boundary_factor();
         let mut stiffness = dense::times_transpose(l.get(kept.., kept..));
@@ -96,6 +97,7 @@ impl Sector {
         stiffness = stiffness.transpose().to_owned();
         self.next_frame(stiffness.as_mut());
         self.stiffness = stiffness;
+        unless_unwanted(wanted)?;
         if keep {
             // K = L L' with the kept nodes before the cuts: A = (L_FF L_FF')^-1, H = -L_cF L_FF^-1.
             self.own = dense::inverse_of_product(l.get(..kept, ..kept));
@@ -109,6 +111,7 @@ impl Sector {
         let count = 3 * self.spread.len();
         let (mut own, mut transfer) = (Mat::<f64>::zeros(count, count), Mat::zeros(ends, count));
         for start in (0..count).step_by(COLUMNS) {
+            unless_unwanted(wanted)?;
             let width = (count - start).min(COLUMNS);
             let unit = unit_columns(count, start, width);
             let answer = self.adjoint(self.force(unit.as_ref()).as_ref())?;

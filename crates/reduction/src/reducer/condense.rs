@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use faer::Mat;
-use fem::Material;
+use fem::{Material, Wanted, unless_unwanted};
 use mesh::{BoreCoupling, GearMesh};
 
 use super::{ReductionOptions, ReductionWay};
@@ -67,13 +67,15 @@ impl Condensed {
     }
 }
 
-/// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is.
+/// Condenses a gear to its coordinates while that is `wanted`; `general`: by one factor of the whole gear, whatever the
+/// gear is.
 pub(super) fn condense<E: From<ReductionError>>(
     gear: GearMesh,
     material: &Material,
     options: &ReductionOptions,
     general: bool,
     coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+    wanted: Wanted<'_>,
 ) -> Result<(Condensed, Method), E> {
     let mut turn = PitchTurn::of_gear(&gear);
     // The means of a bore join all sectors.
@@ -83,8 +85,10 @@ pub(super) fn condense<E: From<ReductionError>>(
         let seen = copies.as_ref().unwrap_or(&gear);
         let coordinates = coordinates(seen)?;
         let first = Opened::new(seen, &coordinates, options)?;
-        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, coordinates.are_nodes())?;
+        let nodes = coordinates.are_nodes();
+        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, nodes, wanted)?;
         if let Some(cyclic) = cyclic {
+            unless_unwanted(wanted).map_err(ReductionError::from)?;
             let compliance = cyclic.compliance();
             let method = Method::Cyclic(Box::new(cyclic));
             let gear = copies.unwrap_or(gear);
@@ -102,8 +106,8 @@ pub(super) fn condense<E: From<ReductionError>>(
     let first = Opened::new(&gear, &coordinates, options)?;
     let (last, seen) =
         if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
-    let factor = GeneralGear::new(&gear, material, &options.elements, last)?;
-    let compliance = factor.compliance(seen)?;
+    let factor = GeneralGear::new(&gear, material, &options.elements, last, wanted)?;
+    let compliance = factor.compliance(seen, wanted)?;
     let method = Method::General(Box::new(factor), turn);
     Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
 }

@@ -8,7 +8,7 @@ mod windows;
 
 use std::sync::{Arc, OnceLock};
 
-use fem::{DofMap, ElementOptions, Material};
+use fem::{DofMap, ElementOptions, Material, Wanted};
 use geometry::Side;
 use mesh::{Face, GearMesh};
 
@@ -56,7 +56,7 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError`] when a flank is missing or the matrices are not what they must be.
     pub fn new(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::build(gear, material, options, false, |_| Ok(Coordinates::FlankNodes))
+        Self::new_while(gear, material, options, false, &|| true)
     }
 
     /// The same by one factor of the whole gear, whatever the gear is.
@@ -64,7 +64,22 @@ impl GearReducer {
     /// # Errors
     /// As [`GearReducer::new`].
     pub fn general(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::build(gear, material, options, true, |_| Ok(Coordinates::FlankNodes))
+        Self::new_while(gear, material, options, true, &|| true)
+    }
+
+    /// As [`GearReducer::new`], or where `general` as [`GearReducer::general`], for who may lose interest: between the
+    /// steps of the work `wanted` says whether the rest of it is.
+    ///
+    /// # Errors
+    /// As [`GearReducer::new`], and [`ReductionError::is_unwanted`].
+    pub fn new_while(
+        gear: GearMesh,
+        material: Material,
+        options: ReductionOptions,
+        general: bool,
+        wanted: Wanted<'_>,
+    ) -> Result<Self, ReductionError> {
+        Self::build(gear, material, options, general, |_| Ok(Coordinates::FlankNodes), wanted)
     }
 
     /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the
@@ -79,7 +94,7 @@ impl GearReducer {
         general: bool,
         grids: impl Fn(&GearMesh) -> Result<FlankGrids, E>,
     ) -> Result<Self, E> {
-        Self::build(gear, material, options, general, |gear| Ok(Coordinates::Grids(grids(gear)?)))
+        Self::build(gear, material, options, general, |gear| Ok(Coordinates::Grids(grids(gear)?)), &|| true)
     }
 
     fn build<E: From<ReductionError>>(
@@ -88,8 +103,9 @@ impl GearReducer {
         options: ReductionOptions,
         general: bool,
         coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+        wanted: Wanted<'_>,
     ) -> Result<Self, E> {
-        let (condensed, method) = condense(gear, &material, &options, general, coordinates)?;
+        let (condensed, method) = condense(gear, &material, &options, general, coordinates, wanted)?;
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
     }
 
@@ -125,7 +141,7 @@ impl GearReducer {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
             let nodes = |_: &GearMesh| Ok::<_, ReductionError>(Coordinates::FlankNodes);
-            Ok(condense(gear, &self.material, &self.options, general, nodes)?.1)
+            Ok(condense(gear, &self.material, &self.options, general, nodes, &|| true)?.1)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }

@@ -32,7 +32,7 @@ impl GearReducer {
         };
         let options = ReductionOptions { first, ..self.options.clone() };
         let other = Opened::new(&self.gear, &self.coordinates, &options)?;
-        let compliance = general.compliance(Seen::Loads(&other.loads))?;
+        let compliance = general.compliance(Seen::Loads(&other.loads), &|| true)?;
         let reduced = Arc::new(other.reduced(&options, compliance));
         others.insert(first, reduced.clone());
         Ok(Window { reduced, shift: 0 })

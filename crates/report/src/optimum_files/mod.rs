@@ -4,4 +4,4 @@ mod page;
 mod tables;
 mod write;
 
-pub use write::{Goals, OptimumResult, optimum_warnings, write_optimum};
+pub use write::{Goals, OptimumResult, optimum_warnings, passed_limits, write_optimum};

@@ -93,16 +93,20 @@ pub fn write_optimum(of: OptimumResult<'_>, results: &ResultDirectory) -> Result
 
 /// What a user should hear of an optimum.
 pub fn optimum_warnings(optimum: &Optimum) -> Vec<String> {
+    passed_limits(optimum).into_iter().collect()
+}
+
+/// Which limits the optimum passes, and by how much; `None` where it holds them.
+pub fn passed_limits(optimum: &Optimum) -> Option<String> {
     let over = optimum.evaluation.over_limits();
     let limits = [(optimum.plan.max_pressure_mpa, ""), (optimum.plan.max_edge_pressure_mpa, " at edges")];
     let limits: Vec<String> =
         limits.iter().filter_map(|(limit, place)| Some(format!("{} MPa{place}", (*limit)?))).collect();
-    let passed = format!(
-        "the limit of the pressure, {}, is passed by {:.1} %: no design was found that holds it",
-        limits.join(" and "),
-        100.0 * over
-    );
-    if over > HELD { vec![passed] } else { Vec::new() }
+    // Twice a limit and more is a multiple of it.
+    let by =
+        if over < 1.0 { format!("passed by {:.1} %", 100.0 * over) } else { format!("passed {:.1}-fold", 1.0 + over) };
+    let limits = limits.join(" and ");
+    (over > HELD).then(|| format!("the limit of the pressure, {limits}, is {by}: no design was found that holds it"))
 }
 
 /// Share by which a limit may be passed.

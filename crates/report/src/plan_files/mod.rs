@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `values` | the numbers that a plan wants of a case |
+//! | `outputs` | whether those can be there, before any case is solved |
 //! | `rows` | a case as a row; the rows that are done |
 //! | `known` | the rows of a plan as columns of numbers |
 //! | `page` | the report: spread, curves, maps, correlation, cases to sort |
@@ -15,6 +16,7 @@
 mod curves;
 mod known;
 mod maps;
+mod outputs;
 mod page;
 mod part;
 mod rows;
@@ -24,6 +26,7 @@ mod values;
 mod write;
 
 pub use known::{Column, KnownCases};
+pub use outputs::{OutputError, check_outputs};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseRow, CaseTable, DoneCases};
 pub use solve::{InTime, solve_cases};

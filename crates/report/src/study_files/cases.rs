@@ -7,13 +7,13 @@ use super::{CaseResult, with_result};
 use crate::{
     ReportError,
     checkpoint::{InputDigests, motion_column_names},
-    columns::history_columns,
+    columns::{LumpedLayout, history_columns},
 };
 
-/// Columns that a scene's `history.csv` will have; `None` where only a run can tell.
+/// Columns that a scene's `history.csv` will have, but for those of single pairs.
 pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {
     match &scene.motion {
-        Some(_) if is_lumped(scene) => None,
+        Some(_) if is_lumped(scene) => Some(LumpedLayout::of(scene).sheet().names()),
         Some(_) => Some(motion_column_names(scene)),
         None => Some(history_columns(scene, &[])),
     }

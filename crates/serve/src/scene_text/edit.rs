@@ -6,6 +6,9 @@ use toml_edit::{DocumentMut, Item, Table, TableLike, Value};
 
 use crate::fault::Fault;
 
+/// Parts of a key at most; the deepest of a scene has four.
+const DEEPEST: usize = 8;
+
 /// A text with some keys set otherwise. Each key has dots (`operation.torque_nm`) and its value as it is typed: what is
 /// no TOML is a text, and so is all that `is_text` says of; nothing takes the key away.
 ///
@@ -21,6 +24,10 @@ pub(crate) fn changed(
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(text.to_owned()) };
     for (key, typed) in changes {
         let parts: Vec<&str> = key.split('.').collect();
+        if parts.len() > DEEPEST {
+            let message = format!("a key of {} parts cannot be set; a scene has {DEEPEST} at most", parts.len());
+            return Err(Fault::new(message, "see all keys of the scene in the form").about(key));
+        }
         let value = match typed.trim() {
             "" => None,
             text if is_text(key) => Some(Value::from(text)),
@@ -124,6 +131,18 @@ mod tests {
         let fault = changed(TEXT, &changes, |_| false).unwrap_err();
         assert_eq!(fault.keys, ["pinion.teeth.x"]);
         assert_eq!(changed("no toml", &changes, |_| false).unwrap(), "no toml");
+    }
+
+    #[test]
+    fn keys_of_thousands_of_parts_are_refused() {
+        let all = scene::all_keys();
+        let deepest = all.iter().map(|key| key.split('.').count()).max().unwrap();
+        assert!(deepest < DEEPEST, "a key of {deepest} parts");
+        for parts in [DEEPEST + 1, 5_000, 500_000] {
+            let changes = BTreeMap::from([(vec!["a"; parts].join("."), "1".to_owned())]);
+            let fault = changed(TEXT, &changes, |_| false).unwrap_err();
+            assert!(fault.message.contains(&parts.to_string()), "{}", fault.message);
+        }
     }
 
     #[test]

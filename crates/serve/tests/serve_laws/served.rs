@@ -42,11 +42,11 @@ pub struct Reply {
 impl Served {
     pub fn new(text: &str) -> Self {
         let server = Server::bind(0).unwrap();
-        let address = server.local_address().unwrap();
+        let address = server.local_address();
         let path = server.address().split_once(&address.to_string()).unwrap().1.to_owned();
         let (stop, text) = (server.stop_handle(), text.to_owned());
         let limits = Limits { free_bytes: || 1e12 };
-        let thread = std::thread::spawn(move || server.run(&text, Path::new("a.toml"), limits, &NoCache));
+        let thread = std::thread::spawn(move || server.run(&text, Path::new("a.toml"), limits, &NoCache).unwrap());
         Self { address, path, stop, thread: Some(thread) }
     }
 
