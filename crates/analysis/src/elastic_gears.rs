@@ -3,11 +3,11 @@
 use fem::{ElementOptions, Material};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
-use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
+use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, ReductionStage, record_key};
 
 use scene::{Model, Reduction, Scene};
 
-use crate::{AnalysisError, GearCache, error::solver_error, meshes::SceneMesh};
+use crate::{AnalysisError, GearCache, Progress, error::solver_error, foreseen::foreseen_gear_s, meshes::SceneMesh};
 
 /// Both gears as the analysis takes them.
 #[derive(Debug)]
@@ -40,7 +40,8 @@ impl RecordKeys {
     }
 }
 
-/// Both gears, side by side.
+/// Both gears, side by side; `progress` hears what is begun. A gear that takes long is kept as soon as it is made: a run
+/// that is cut short need not make it again.
 ///
 /// # Errors
 /// [`AnalysisError`] when a mesh is not what the analysis needs.
@@ -49,20 +50,25 @@ pub fn elastic_gears(
     pair: &GearPair,
     options: &StaticOptions,
     meshes: &[SceneMesh; 2],
-    cache: &dyn GearCache,
+    (cache, progress): (&dyn GearCache, &dyn Progress),
 ) -> Result<ElasticGears, AnalysisError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
     let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
         let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
-        one(scene, pair, options, meshes, cache, i)
+        one(scene, pair, options, meshes, (cache, progress), i)
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));
     let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
     let warnings = said.into_iter().chain(also).collect();
     Ok(ElasticGears { gears: [pinion, wheel], keys: RecordKeys([first_key, second_key]), warnings })
 }
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+/// A gear that is foreseen to take longer is kept at once, s; others with all that a run has asked of them at its end.
+const LONG_S: f64 = 0.8;
 
 /// A gear, its key, and what is wrong with its file.
 type Built = (ElasticGear, Option<RecordKey>, Option<String>);
@@ -72,7 +78,7 @@ fn one(
     pair: &GearPair,
     options: ReductionOptions,
     meshes: &[SceneMesh; 2],
-    cache: &dyn GearCache,
+    (cache, progress): (&dyn GearCache, &dyn Progress),
     i: usize,
 ) -> Result<Built, AnalysisError> {
     let (mesh, material) = (&meshes[i], material(scene, i)?);
@@ -85,12 +91,23 @@ fn one(
     let asked = if general { "general" } else { "auto" };
     let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, asked));
     let (found, warning) = key.as_ref().map_or((None, None), |key| cache.load(key));
-    let gear = match (found, general) {
-        (Some(record), _) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
-        (None, true) => GearReducer::general(mesh.gear.clone(), material, options),
-        (None, false) => GearReducer::new(mesh.gear.clone(), material, options),
+    let name = NAMES[i];
+    let tell = |stage: ReductionStage| progress.say(format!("{name} {stage}"));
+    let (gear, said) = match found {
+        Some(record) => {
+            progress.say(format!("{name} from the cache"));
+            (GearReducer::from_record(mesh.gear.clone(), material, options, record), None)
+        }
+        None => {
+            let made = GearReducer::told(mesh.gear.clone(), material, options, general, &tell);
+            let long = foreseen_gear_s(scene, mesh) >= LONG_S;
+            let kept = made.as_ref().ok().filter(|_| long).and_then(|gear| Some((key.as_ref()?, gear.record()?)));
+            let said = kept.and_then(|(key, record)| cache.save(key, &record));
+            (made, said)
+        }
     };
-    Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning))
+    let gear = gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?;
+    Ok((gear, key, warning.or(said)))
 }
 
 fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {
@@ -98,7 +115,7 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
         None => mesh.facts.source.clone(),
         Some(_) => format!("{}: built-in mesher", scene.file.display()),
     };
-    AnalysisError::Reduction { place, gear: ["pinion", "wheel"][i], source: Box::new(source) }
+    AnalysisError::Reduction { place, gear: NAMES[i], source: Box::new(source) }
 }
 
 /// Material of pinion (0) or wheel (1).
@@ -106,7 +123,7 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
 /// # Errors
 /// [`AnalysisError`] when it is none.
 pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
-    let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
+    let (whose, m) = (NAMES[i], scene.gears()[i].material);
     Material::new(m.young_mpa, m.poisson, m.density()).map_err(|source| AnalysisError::Material {
         file: scene.file.display().to_string(),
         gear: whose,

@@ -22,6 +22,7 @@ use crate::{
     inputs::{meshes_of, settled_scene},
     meshes::SceneMesh,
     options::options,
+    plausible::refuse,
     resolution::resolution_warnings,
     static_certificate,
     statics::wider_window,
@@ -166,7 +167,7 @@ impl<'a> SharedModels<'a> {
             return Ok((scene, history));
         }
         let (scene, history) = self.alone(scene)?;
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         Ok((scene, history))
     }
 
@@ -186,7 +187,7 @@ impl<'a> SharedModels<'a> {
         let varied = VariedScene::by_keys(scene, &keys)?;
         let asked = Rates { of: &varied, of_unloaded: true };
         let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, &|| true)?;
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
@@ -224,7 +225,7 @@ impl<'a> SharedModels<'a> {
         if unwanted.get() {
             return Ok(None);
         }
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         let pair = scene.gear_pair()?;
         history.warnings.extend(gears::warnings(&pair));
         history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
@@ -249,7 +250,7 @@ impl<'a> SharedModels<'a> {
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
         let (solved, _) = self.positions(scene, asked, &|| true)?;
-        static_certificate(&solved.history.positions).verdict(&solved.scene)?;
+        static_certificate(&solved.scene, &solved.history.positions).verdict(&solved.scene)?;
         Ok(solved)
     }
 
@@ -262,6 +263,7 @@ impl<'a> SharedModels<'a> {
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
+        refuse(&scene, &pair)?;
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);
@@ -331,7 +333,8 @@ impl<'a> SharedModels<'a> {
             Some(other) => (other.meshes.clone(), other.model.modified(pair.clone(), options)?),
             None => {
                 let meshes = self.scene_meshes(scene, pair)?;
-                let ElasticGears { gears, keys, .. } = elastic_gears(scene, pair, &options, &meshes, &*self.cache)?;
+                let ElasticGears { gears, keys, .. } =
+                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver))?;
                 let model = StaticModel::new(pair.clone(), gears, options)?;
                 if self.cache.is_on() {
                     keys.save(&*self.cache, model.gears());

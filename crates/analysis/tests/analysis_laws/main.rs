@@ -6,6 +6,7 @@ mod continuation;
 mod gearbox;
 mod gearbox_of_pairs;
 mod held_pair;
+mod kept_at_once;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;

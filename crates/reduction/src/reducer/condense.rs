@@ -6,7 +6,7 @@ use faer::Mat;
 use fem::Material;
 use mesh::{BoreCoupling, GearMesh};
 
-use super::{ReductionOptions, ReductionWay};
+use super::{ReductionOptions, ReductionStage, ReductionWay};
 use crate::{
     ReducedGear, ReductionError,
     cyclic::{CyclicGear, PitchTurn, SectorMesh},
@@ -67,12 +67,13 @@ impl Condensed {
     }
 }
 
-/// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is.
+/// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is; `tell` hears
+/// what is begun.
 pub(super) fn condense<E: From<ReductionError>>(
     gear: GearMesh,
     material: &Material,
     options: &ReductionOptions,
-    general: bool,
+    (general, tell): (bool, &dyn Fn(ReductionStage)),
     coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
     let mut turn = PitchTurn::of_gear(&gear);
@@ -83,6 +84,7 @@ pub(super) fn condense<E: From<ReductionError>>(
         let seen = copies.as_ref().unwrap_or(&gear);
         let coordinates = coordinates(seen)?;
         let first = Opened::new(seen, &coordinates, options)?;
+        tell(ReductionStage::Sector);
         let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, coordinates.are_nodes())?;
         if let Some(cyclic) = cyclic {
             let compliance = cyclic.compliance();
@@ -102,7 +104,9 @@ pub(super) fn condense<E: From<ReductionError>>(
     let first = Opened::new(&gear, &coordinates, options)?;
     let (last, seen) =
         if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
+    tell(ReductionStage::Factor { free_count: 3 * (gear.mesh().nodes.len() - gear.held_nodes().len()) });
     let factor = GeneralGear::new(&gear, material, &options.elements, last)?;
+    tell(ReductionStage::Compliance);
     let compliance = factor.compliance(seen)?;
     let method = Method::General(Box::new(factor), turn);
     Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))

@@ -16,7 +16,7 @@ use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load
 use asked::Asked;
 use condense::{Condensed, condense};
 
-pub use options::{ReductionOptions, ReductionWay};
+pub use options::{ReductionOptions, ReductionStage, ReductionWay};
 
 pub(crate) use condense::{Method, Summary};
 
@@ -56,7 +56,22 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError`] when a flank is missing or the matrices are not what they must be.
     pub fn new(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::build(gear, material, options, false, |_| Ok(Coordinates::FlankNodes))
+        Self::told(gear, material, options, false, &|_| ())
+    }
+
+    /// The same for who waits; `general`: by one factor of the whole gear, whatever the gear is; `tell` hears what is
+    /// begun.
+    ///
+    /// # Errors
+    /// As [`GearReducer::new`].
+    pub fn told(
+        gear: GearMesh,
+        material: Material,
+        options: ReductionOptions,
+        general: bool,
+        tell: &dyn Fn(ReductionStage),
+    ) -> Result<Self, ReductionError> {
+        Self::build(gear, material, options, (general, tell), |_| Ok(Coordinates::FlankNodes))
     }
 
     /// The same by one factor of the whole gear, whatever the gear is.
@@ -64,7 +79,7 @@ impl GearReducer {
     /// # Errors
     /// As [`GearReducer::new`].
     pub fn general(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::build(gear, material, options, true, |_| Ok(Coordinates::FlankNodes))
+        Self::told(gear, material, options, true, &|_| ())
     }
 
     /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the
@@ -79,17 +94,17 @@ impl GearReducer {
         general: bool,
         grids: impl Fn(&GearMesh) -> Result<FlankGrids, E>,
     ) -> Result<Self, E> {
-        Self::build(gear, material, options, general, |gear| Ok(Coordinates::Grids(grids(gear)?)))
+        Self::build(gear, material, options, (general, &|_| ()), |gear| Ok(Coordinates::Grids(grids(gear)?)))
     }
 
     fn build<E: From<ReductionError>>(
         gear: GearMesh,
         material: Material,
         options: ReductionOptions,
-        general: bool,
+        way: (bool, &dyn Fn(ReductionStage)),
         coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
     ) -> Result<Self, E> {
-        let (condensed, method) = condense(gear, &material, &options, general, coordinates)?;
+        let (condensed, method) = condense(gear, &material, &options, way, coordinates)?;
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
     }
 
@@ -125,7 +140,7 @@ impl GearReducer {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
             let nodes = |_: &GearMesh| Ok::<_, ReductionError>(Coordinates::FlankNodes);
-            Ok(condense(gear, &self.material, &self.options, general, nodes)?.1)
+            Ok(condense(gear, &self.material, &self.options, (general, &|_| ()), nodes)?.1)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }

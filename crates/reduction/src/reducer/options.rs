@@ -16,6 +16,30 @@ pub struct ReductionOptions {
     pub elements: ElementOptions,
 }
 
+/// What a reduction begins, for who waits.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReductionStage {
+    /// Stiffness and factor of one sector, and the ring of all of them.
+    Sector,
+    /// Stiffness of the whole gear, its ordering and its factor.
+    Factor {
+        /// Free degrees of freedom.
+        free_count: usize,
+    },
+    /// Compliance of the window.
+    Compliance,
+}
+
+impl std::fmt::Display for ReductionStage {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Sector => f.write_str("condenses one sector"),
+            Self::Factor { free_count } => write!(f, "factors {free_count} degrees of freedom"),
+            Self::Compliance => f.write_str("finds the compliance of the window"),
+        }
+    }
+}
+
 /// Which way a gear was condensed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ReductionWay {

@@ -30,7 +30,7 @@ impl GearReducer {
         let mut others: BTreeMap<_, _> = by_first.collect();
         let general = summary.way == ReductionWay::General;
         let Some(base) = others.remove(&first) else {
-            return Self::build(gear, material, options, general, |_| Ok(Coordinates::FlankNodes));
+            return Self::told(gear, material, options, general, &|_| ());
         };
         let seen = match (gear.is_periodic_sector(), general) {
             (false, _) => None,
