@@ -103,7 +103,7 @@ impl AtRest {
             results.finish(drop)?;
         }
         let StaticResult { mut history, mut facts, model, .. } = result;
-        facts.certificate = static_certificate(&history.positions);
+        facts.certificate = static_certificate(&solved, &history.positions);
         let gears = match model {
             Some(model) => {
                 facts.first_result_s = first_result_s;

@@ -1,5 +1,6 @@
 //! Wall time and peak memory of each phase, and bars for those who wait; into a log, a line now and then.
 
+mod watch;
 mod words;
 
 use std::fmt::Write;
@@ -15,6 +16,7 @@ use crate::memory;
 use crate::pace::Pace;
 use crate::printed;
 use crate::talk::{self, Loudness};
+use watch::Watch;
 use words::{filled, foreseen, left};
 
 /// Records phases one after the other.
@@ -42,6 +44,8 @@ struct OpenPhase {
     bar: ProgressBar,
     start: Instant,
     own_peak: bool,
+    /// Says lines of text while no step is done.
+    watch: Option<Watch>,
 }
 
 /// The bar of a running phase; may be shared between threads.
@@ -53,6 +57,8 @@ pub struct BarProgress {
     due: Option<Arc<AtomicU64>>,
     /// Of the steps so far; `None` where their number is only a limit.
     pace: Option<SharedPace>,
+    /// What was foreseen for all of it, s, where it has no steps.
+    foreseen_s: Option<f64>,
 }
 
 /// The pace of a phase, for its bar and for its lines of text.
@@ -87,15 +93,18 @@ impl BarProgress {
         let (done, length) = (self.bar.position(), self.bar.length());
         let seconds = elapsed.as_secs_f64();
         let (name, beside) = (self.bar.prefix(), self.bar.message());
-        let of = match (length, &self.pace) {
+        let steps = match (length, &self.pace) {
             (None, _) => String::new(),
-            (Some(most), None) => format!(" of at most {most}"),
-            (Some(all), Some(_)) => format!(" of {all}"),
+            (Some(most), None) => format!("{done} of at most {most} "),
+            (Some(all), Some(_)) => format!("{done} of {all} "),
         };
         let open = length.unwrap_or(0).saturating_sub(done);
-        let rest = self.pace.as_ref().map(|pace| rest(pace, open, seconds)).unwrap_or_default();
+        let rest = match &self.pace {
+            Some(pace) => rest(pace, open, seconds),
+            None => self.foreseen_s.map(foreseen).unwrap_or_default(),
+        };
         talk::say(Loudness::Bars, || {
-            format!("{name}: {done}{of} after {seconds:.0} s{rest} {beside}").trim_end().to_owned()
+            format!("{name}: {steps}after {seconds:.0} s{rest} {beside}").trim_end().to_owned()
         });
     }
 }
@@ -158,13 +167,17 @@ impl Phases {
         let own_peak = memory::reset_peak();
         let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
         let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
-        self.open.push(OpenPhase { name: name.to_owned(), bar: bar.clone(), start: Instant::now(), own_peak });
-        BarProgress { bar, due, pace }
+        let foreseen_s = if let PhaseWork::Seconds(seconds) = work { Some(seconds) } else { None };
+        let progress = BarProgress { bar: bar.clone(), due, pace, foreseen_s };
+        let watch = Watch::begin(&progress);
+        self.open.push(OpenPhase { name: name.to_owned(), bar, start: Instant::now(), own_peak, watch });
+        progress
     }
 
     /// Ends the phase that began last.
     fn close(&mut self) {
-        let Some(OpenPhase { name, bar, start, own_peak }) = self.open.pop() else { return };
+        let Some(OpenPhase { name, bar, start, own_peak, watch }) = self.open.pop() else { return };
+        drop(watch);
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
         bar.finish_and_clear();

@@ -108,7 +108,7 @@ fn write_rows(scene: &Scene, models: &SharedModels<'_>, results: &ResultDirector
     let facts = Facts {
         geometry: gears::geometry_facts(&pair),
         geometry_sheet: Some(pair.sheet()),
-        certificate: static_certificate(&history.positions),
+        certificate: static_certificate(&scene, &history.positions),
         ..Facts::default()
     };
     Ok(close_result(&scene, (&facts, &phases.cost()), &headline, &history.warnings, results)?)

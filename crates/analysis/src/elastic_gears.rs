@@ -3,11 +3,13 @@
 use fem::{ElementOptions, Material, Wanted};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
-use reduction::{ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, record_key};
+use reduction::{
+    ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, ReductionStage, ReductionWatch, record_key,
+};
 
 use scene::{Model, Reduction, Scene};
 
-use crate::{AnalysisError, GearCache, error::solver_error, meshes::SceneMesh};
+use crate::{AnalysisError, GearCache, Progress, error::solver_error, foreseen::foreseen_gear_s, meshes::SceneMesh};
 
 /// Both gears as the analysis takes them.
 #[derive(Debug)]
@@ -40,7 +42,9 @@ impl RecordKeys {
     }
 }
 
-/// Both gears, side by side.
+/// Both gears, side by side; the progress hears what is begun, and between the steps of the work it is asked whether the
+/// rest of it is still wanted. A gear that takes long is kept as soon as it is made: a run
+/// that is cut short need not make it again.
 ///
 /// # Errors
 /// [`AnalysisError`] when a mesh is not what the analysis needs.
@@ -49,35 +53,25 @@ pub fn elastic_gears(
     pair: &GearPair,
     options: &StaticOptions,
     meshes: &[SceneMesh; 2],
-    cache: &dyn GearCache,
-) -> Result<ElasticGears, AnalysisError> {
-    elastic_gears_while(scene, pair, options, meshes, cache, &|| true)
-}
-
-/// The same for who may lose interest: between the steps of the work `wanted` says whether the rest of it is.
-///
-/// # Errors
-/// As [`elastic_gears`], and [`AnalysisError::Cancelled`].
-pub(crate) fn elastic_gears_while(
-    scene: &Scene,
-    pair: &GearPair,
-    options: &StaticOptions,
-    meshes: &[SceneMesh; 2],
-    cache: &dyn GearCache,
-    wanted: Wanted<'_>,
+    waiting: (&dyn GearCache, &dyn Progress, Wanted<'_>),
 ) -> Result<ElasticGears, AnalysisError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
     let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
         let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
-        one(scene, pair, options, meshes, (cache, wanted), i)
+        one(scene, pair, options, meshes, waiting, i)
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));
     let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
     let warnings = said.into_iter().chain(also).collect();
     Ok(ElasticGears { gears: [pinion, wheel], keys: RecordKeys([first_key, second_key]), warnings })
 }
+
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+/// A gear that is foreseen to take longer is kept at once, s; others with all that a run has asked of them at its end.
+const LONG_S: f64 = 0.8;
 
 /// A gear, its key, and what is wrong with its file.
 type Built = (ElasticGear, Option<RecordKey>, Option<String>);
@@ -87,7 +81,7 @@ fn one(
     pair: &GearPair,
     options: ReductionOptions,
     meshes: &[SceneMesh; 2],
-    (cache, wanted): (&dyn GearCache, Wanted<'_>),
+    (cache, progress, wanted): (&dyn GearCache, &dyn Progress, Wanted<'_>),
     i: usize,
 ) -> Result<Built, AnalysisError> {
     let (mesh, material) = (&meshes[i], material(scene, i)?);
@@ -103,13 +97,28 @@ fn one(
         let (kept, said) = cache.load(key);
         (kept.and_then(|kept| kept.of(key)), said)
     });
-    let gear = match found {
-        Some(record) => GearReducer::from_record(mesh.gear.clone(), material, options, record),
-        None => GearReducer::new_while(mesh.gear.clone(), material, options, general, wanted),
+    let name = NAMES[i];
+    let tell = |stage: ReductionStage| progress.say(format!("{name} {stage}"));
+    let (gear, said) = match found {
+        Some(record) => {
+            progress.say(format!("{name} from the cache"));
+            (GearReducer::from_record(mesh.gear.clone(), material, options, record), None)
+        }
+        None => {
+            let watch = ReductionWatch { tell: &tell, wanted };
+            let made = GearReducer::watched(mesh.gear.clone(), material, options, general, watch);
+            let long = foreseen_gear_s(scene, mesh) >= LONG_S;
+            let kept = made.as_ref().ok().filter(|_| long).and_then(|gear| Some((key.as_ref()?, gear.record()?)));
+            let said = kept.and_then(|(key, record)| cache.save(key, &record));
+            (made, said)
+        }
     };
     match gear {
         Err(error) if error.is_unwanted() => Err(AnalysisError::Cancelled),
-        gear => Ok((gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?, key, warning)),
+        gear => {
+            let gear = gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?;
+            Ok((gear, key, warning.or(said)))
+        }
     }
 }
 
@@ -118,7 +127,7 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
         None => mesh.facts.source.clone(),
         Some(_) => format!("{}: built-in mesher", scene.file.display()),
     };
-    AnalysisError::Reduction { place, gear: ["pinion", "wheel"][i], source: Box::new(source) }
+    AnalysisError::Reduction { place, gear: NAMES[i], source: Box::new(source) }
 }
 
 /// Material of pinion (0) or wheel (1).
@@ -126,7 +135,7 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
 /// # Errors
 /// [`AnalysisError`] when it is none.
 pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
-    let (whose, m) = (["pinion", "wheel"][i], scene.gears()[i].material);
+    let (whose, m) = (NAMES[i], scene.gears()[i].material);
     Material::new(m.young_mpa, m.poisson, m.density()).map_err(|source| AnalysisError::Material {
         file: scene.file.display().to_string(),
         gear: whose,

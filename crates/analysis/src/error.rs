@@ -8,7 +8,7 @@ use mesh::MeshError;
 use scene::{Scene, SceneError};
 use study::calculix::CalculixError;
 
-use crate::motion::UnstableSteps;
+use crate::{motion::UnstableSteps, plausible::Implausible};
 
 /// Why a scene has no answer.
 #[derive(Debug, thiserror::Error)]
@@ -187,6 +187,9 @@ pub enum AnalysisError {
     /// The solver found no answer, or refused the question.
     #[error("{0}")]
     Solver(Box<SolverFailure>),
+    /// A scene that cannot be meant as it is written.
+    #[error("{0}")]
+    Implausible(Box<Implausible>),
     /// A certificate does not hold.
     #[error("{file}: the result does not hold: {missed}")]
     Certificate {
@@ -410,6 +413,7 @@ impl AnalysisError {
             }
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),
+            Self::Implausible(found) => Some(found.hint.clone()),
             Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
             Self::Calculix(e) => e.hint(),
             Self::NothingHolds { .. }
@@ -428,6 +432,7 @@ impl AnalysisError {
             Self::Scene(e) => e.excerpt(),
             Self::Mismatch(mismatch) => mismatch.excerpt.as_deref(),
             Self::Solver(failure) => failure.excerpt.as_deref(),
+            Self::Implausible(found) => found.excerpt.as_deref(),
             Self::UnstableSteps(steps) => steps.excerpt.as_deref(),
             Self::NothingToReduce { excerpt, .. } => excerpt.as_deref(),
             Self::AtValue { source, .. } => source.excerpt(),

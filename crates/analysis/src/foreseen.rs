@@ -1,29 +1,69 @@
-//! How long what is to come will take.
+//! How long what is to come will take, and how much memory.
 
 use scene::{Reduction, Scene};
 
-use crate::meshes::SceneMesh;
+use crate::{Observer, meshes::SceneMesh};
 
-/// About how long the reduction of both gears takes, s; for the progress bar only. On two cores of 2020 or so: a sector
-/// of 8 000 degrees of
-/// freedom 0.4 s, a whole gear of 86 000 degrees of freedom 4 s and of 338 000 35 s.
-pub fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
-    let of = |m: &SceneMesh| {
-        let gear = &m.gear;
-        let dof = 3 * gear.mesh().nodes.len();
-        let teeth = gear.tooth_count() as usize;
-        // Whether all teeth are the same is found out on the way; a mesh made tooth by tooth has as many nodes in each.
-        let whole = gear.is_whole_gear() && gear.mesh().nodes.len().is_multiple_of(teeth);
-        let cyclic = gear.is_periodic_sector() || (whole && scene.analysis.reduction != Some(Reduction::General));
-        match (cyclic, gear.is_periodic_sector()) {
-            (true, true) => sector_s(dof),
-            (true, false) => sector_s(dof / teeth) + 1e-6 * dof as f64,
-            (false, _) => 4.0 * (dof as f64 / 86e3).powf(1.6),
-        }
-    };
-    meshes.iter().map(of).fold(0.0, f64::max)
+/// From so many seconds on who waits is told before the work.
+const LONG_S: f64 = 20.0;
+
+/// Tells how long the reduction of both gears takes and how much memory, where that is long; hands the seconds on.
+/// `sides`: of the teeth, each of which takes a reduction.
+pub(crate) fn announced_s(observer: &mut dyn Observer, (scene, meshes): (&Scene, &[SceneMesh; 2]), sides: f64) -> f64 {
+    let seconds = sides * foreseen_s(scene, meshes);
+    if seconds >= LONG_S {
+        let time = if seconds < 120.0 { format!("{seconds:.0} s") } else { format!("{:.0} min", seconds / 60.0) };
+        let gb = meshes.iter().map(|mesh| factor_gb(scene, mesh)).sum::<f64>();
+        let memory = if gb >= 1.0 { format!(" and {gb:.0} GB of memory") } else { String::new() };
+        observer
+            .note(format!("reducing the gears takes some {time}{memory} on two cores, unless they are in the cache"));
+    }
+    seconds
 }
 
-fn sector_s(dof: usize) -> f64 {
-    0.4 * (dof as f64 / 8e3).powf(1.8)
+/// About what the factor of a whole gear takes, GB: of nested dissection in space it grows with the power 4/3, and
+/// 86 000 degrees of freedom take 0.5 GB. One sector takes little.
+fn factor_gb(scene: &Scene, mesh: &SceneMesh) -> f64 {
+    match size(scene, mesh) {
+        Size::Sector { .. } => 0.0,
+        Size::Whole { dof } => 0.5 * (dof / 86e3).powf(4.0 / 3.0),
+    }
+}
+
+/// About how long the reduction of both gears takes, s; for those who wait only. On two cores of 2020 or so: a sector
+/// of 8 000 degrees of freedom 0.4 s, a whole gear of 86 000 degrees of freedom 4 s and of 338 000 35 s.
+fn foreseen_s(scene: &Scene, meshes: &[SceneMesh; 2]) -> f64 {
+    meshes.iter().map(|mesh| foreseen_gear_s(scene, mesh)).fold(0.0, f64::max)
+}
+
+/// The same of one gear.
+pub(crate) fn foreseen_gear_s(scene: &Scene, mesh: &SceneMesh) -> f64 {
+    match size(scene, mesh) {
+        Size::Sector { dof, whole } => 0.4 * (dof / 8e3).powf(1.8) + 1e-6 * whole,
+        Size::Whole { dof } => 4.0 * (dof / 86e3).powf(1.6),
+    }
+}
+
+/// What is factored of a gear, degrees of freedom.
+enum Size {
+    /// One sector, of a mesh of so many in all.
+    Sector { dof: f64, whole: f64 },
+    /// All of it.
+    Whole { dof: f64 },
+}
+
+fn size(scene: &Scene, mesh: &SceneMesh) -> Size {
+    let gear = &mesh.gear;
+    let nodes = gear.mesh().nodes.len();
+    let (dof, teeth) = (3.0 * nodes as f64, gear.tooth_count() as usize);
+    if gear.is_periodic_sector() {
+        return Size::Sector { dof, whole: 0.0 };
+    }
+    // Whether all teeth are the same is found out on the way; a mesh made tooth by tooth has as many nodes in each.
+    let alike = gear.is_whole_gear() && nodes.is_multiple_of(teeth);
+    if alike && scene.analysis.reduction != Some(Reduction::General) {
+        Size::Sector { dof: dof / teeth as f64, whole: dof }
+    } else {
+        Size::Whole { dof }
+    }
 }

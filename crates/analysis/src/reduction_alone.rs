@@ -11,7 +11,8 @@ use serde::Serialize;
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
-    foreseen_s, meshes, options, run_phase, solver_error,
+    foreseen::announced_s,
+    meshes, options, run_phase, solver_error,
 };
 
 /// What the reduction of one gear came to.
@@ -59,9 +60,10 @@ pub fn reduce_scene(
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
     let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;
     let options = options(scene, &pair);
-    let work = PhaseWork::Seconds(foreseen_s(scene, &meshes));
-    let ElasticGears { gears, keys, mut warnings } =
-        run_phase(observer, "reduce", work, |_| elastic_gears(scene, &pair, &options, &meshes, cache))?;
+    let work = PhaseWork::Seconds(announced_s(observer, (scene, &meshes), 1.0));
+    let ElasticGears { gears, keys, mut warnings } = run_phase(observer, "reduce", work, |progress| {
+        elastic_gears(scene, &pair, &options, &meshes, (cache, progress, &|| true))
+    })?;
     let set_up = || StaticModel::new(pair.clone(), gears, options);
     let model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up());
     let model = model.map_err(|e| solver_error(scene, e))?;

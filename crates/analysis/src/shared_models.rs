@@ -23,13 +23,14 @@ use crate::{
     AnalysisError, Derivatives, GearCache, NoObserver,
     accuracy::{AccurateAnalysis, AccurateResult},
     alike::{kind, of_gears, shares},
-    elastic_gears::{ElasticGears, elastic_gears_while},
+    elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
     gears,
     inputs::{meshes_of, settled_scene},
     interest::Interest,
     meshes::SceneMesh,
     options::options,
+    plausible::refuse,
     resolution::resolution_warnings,
     static_certificate,
     statics::{SinkResult, StaticSink, wider_window},
@@ -174,7 +175,7 @@ impl<'a> SharedModels<'a> {
             return Ok((scene, history));
         }
         let (scene, history) = self.alone(scene, &|| true)?;
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         Ok((scene, history))
     }
 
@@ -194,7 +195,7 @@ impl<'a> SharedModels<'a> {
         let varied = VariedScene::by_keys(scene, &keys)?;
         let asked = Rates { of: &varied, of_unloaded: true };
         let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
@@ -238,7 +239,7 @@ impl<'a> SharedModels<'a> {
                 Err(error) if given_up(&error) => Ok(None),
                 Err(error) => Err(error),
                 Ok((scene, history)) => {
-                    static_certificate(&history.positions).verdict(&scene)?;
+                    static_certificate(&scene, &history.positions).verdict(&scene)?;
                     Ok(still().then_some((scene, history)))
                 }
             };
@@ -251,7 +252,7 @@ impl<'a> SharedModels<'a> {
         if lost.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        static_certificate(&history.positions).verdict(&scene)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
         let pair = scene.gear_pair()?;
         history.warnings.extend(gears::warnings(&pair));
         history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
@@ -276,7 +277,7 @@ impl<'a> SharedModels<'a> {
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
         let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&solved.history.positions).verdict(&solved.scene)?;
+        static_certificate(&solved.scene, &solved.history.positions).verdict(&solved.scene)?;
         Ok(solved)
     }
 
@@ -289,6 +290,7 @@ impl<'a> SharedModels<'a> {
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
+        refuse(&scene, &pair)?;
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);
@@ -365,7 +367,7 @@ impl<'a> SharedModels<'a> {
             None => {
                 let meshes = self.scene_meshes(scene, pair)?;
                 let ElasticGears { gears, keys, .. } =
-                    elastic_gears_while(scene, pair, &options, &meshes, &*self.cache, wanted)?;
+                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted))?;
                 let model = StaticModel::new(pair.clone(), gears, options)?;
                 if self.cache.is_on() {
                     keys.save(&*self.cache, model.gears());

@@ -2,7 +2,12 @@
 
 use ltca::StaticPosition;
 
-use crate::certificate::{Certificate, Check};
+use scene::Scene;
+
+use crate::{
+    certificate::{Certificate, Check},
+    plausible::{deflection_check, pressure_check},
+};
 
 /// Moment of the contact forces on the driven gear against the torque on it.
 const TORQUE: f64 = 1e-8;
@@ -17,8 +22,9 @@ const ROUND_OFF: f64 = 1e-2;
 
 const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
-/// The worst of all positions: torque balance, complementarity, action and reaction, digits that are left.
-pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
+/// The worst of all positions of a scene: torque balance, complementarity, action and reaction, digits that are left,
+/// deflection and pressure that linear elasticity holds for.
+pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Certificate {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
     let check = |name, value, bound| Check { name, value, bound, way_out: WAY_OUT };
     Certificate::new([
@@ -28,6 +34,15 @@ pub fn static_certificate(positions: &[StaticPosition]) -> Certificate {
         check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
         check("pose_residual", worst(|p| p.certificate.pose_residual), POSE),
     ])
+    .and(Certificate::new([
+        deflection_check(scene, worst(deflection)),
+        pressure_check(scene, worst(|p| p.max_pressure)),
+    ]))
+}
+
+/// Deflection along the line of action, mm: the transmission error without that of the unloaded flanks.
+fn deflection(position: &StaticPosition) -> f64 {
+    (position.transmission_error - position.kinematic_transmission_error).abs()
 }
 
 /// The larger; a NaN is the worst of all and is not lost, as it would be in `f64::max`.

@@ -15,11 +15,13 @@ use crate::{
     error::solver_error,
     facts::Facts,
     failure::Failure,
-    foreseen_s, gears,
+    foreseen::announced_s,
+    gears,
     inputs::{meshes_of, settled_scene},
     iso_model, iso_root,
     meshes::SceneMesh,
     options::options,
+    plausible::{refuse, remarks},
     resolution::resolution,
     run_phase,
     shared_models::{Base, SharedModels},
@@ -164,10 +166,16 @@ impl<'a> StaticAnalysis<'a> {
         }
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
+        refuse(scene, &pair)?;
+        let unlikely = remarks(scene, &pair);
+        if !self.slices_stand {
+            unlikely.iter().for_each(|said| observer.note(said.clone()));
+        }
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
             let (mut history, facts) = solved?;
             history.warnings.extend(gears::warnings(&pair));
+            history.warnings.extend(unlikely);
             return Ok(StaticResult { pair, history, facts, model: None });
         }
         let shared = self.shared.filter(|_| scene.analysis.model == Model::Reduced);
@@ -177,6 +185,7 @@ impl<'a> StaticAnalysis<'a> {
             None => meshes_of(scene, &pair, own).map(Arc::new),
         })?;
         let mut warnings = gears::warnings(&pair);
+        warnings.extend(unlikely);
         warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
         let options = options(scene, &pair);
         let (resolution, said) = resolution(scene, &pair, &options);
@@ -279,13 +288,14 @@ fn attempt(
 ) -> Result<(StaticModel, StaticHistory), Failure> {
     let Inputs { scene, cache, shared, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let work = PhaseWork::Seconds(foreseen_s(scene, meshes));
-    let (base, mut warnings) = run_phase(observer, name, work, |_| match shared {
+    let work = PhaseWork::Seconds(announced_s(observer, (scene, meshes), 1.0));
+    let (base, mut warnings) = run_phase(observer, name, work, |progress| match shared {
         Some(models) => {
             models.base(scene, pair, options.clone(), &|| true).map(|base| (GearsOf::Shared(base), Vec::new()))
         }
         None => {
-            let ElasticGears { gears, keys, warnings } = elastic_gears(scene, pair, options, meshes, cache)?;
+            let ElasticGears { gears, keys, warnings } =
+                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true))?;
             Ok((GearsOf::Own(Box::new(gears), keys), warnings))
         }
     })?;
@@ -294,6 +304,9 @@ fn attempt(
         GearsOf::Own(gears, keys) => Ok((StaticModel::new(pair.clone(), *gears, options.clone())?, Some(keys))),
     })
     .map_err(|e: StaticError| Failure::Static(e))?;
+    if options.root_stress {
+        run_phase(observer, "root stress", PhaseWork::Unknown, |_| model.prepare_root_stress())?;
+    }
     let per_cycle = scene.analysis.positions_per_cycle as usize;
     let cycles = scene.analysis.cycles as usize;
     sink.begin(scene);

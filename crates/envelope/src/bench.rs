@@ -42,7 +42,7 @@ impl Bench {
     pub(crate) fn at_rest<S: AsRef<str>>(&self, settings: &[S]) -> Result<StaticResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = StaticAnalysis::new(&scene).solve()?;
-        static_certificate(&result.history.positions).verdict(&scene)?;
+        static_certificate(&scene, &result.history.positions).verdict(&scene)?;
         Ok(result)
     }
 

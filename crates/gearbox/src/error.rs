@@ -30,6 +30,20 @@ pub enum GearboxError {
         /// How it can move.
         motion: &'static str,
     },
+    /// A shaft whose bearings all take thrust one way, and whose gears press it the other way.
+    #[error(
+        "nothing takes {direction} on shaft {shaft}: its gears press it there with {force_n:.0} N, and its bearings take thrust {taken} alone"
+    )]
+    OneWay {
+        /// Name of the shaft.
+        shaft: String,
+        /// `+z` or `-z`.
+        direction: &'static str,
+        /// The other one.
+        taken: &'static str,
+        /// Force of the gears along it, N.
+        force_n: f64,
+    },
     /// No rolling bearing can be made of what is stated.
     #[error("bearing {bearing}: {source}")]
     Bearing {
@@ -277,6 +291,11 @@ impl GearboxError {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about \
                  a load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
+            }
+            Self::OneWay { direction, .. } => {
+                return Some(format!(
+                    "turn one of its bearings about: `takes_thrust = \"{direction}\"`; two that face each other hold both ways"
+                ));
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",

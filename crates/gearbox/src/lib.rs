@@ -24,6 +24,7 @@ mod error;
 mod exact_mesh;
 mod loose;
 mod mesh_element;
+mod mesh_torques;
 mod modal_energy;
 pub mod motion;
 mod pliant;
@@ -44,6 +45,7 @@ pub use bearing::Bearing;
 pub use error::GearboxError;
 pub use exact_mesh::ExactMesh;
 pub use mesh_element::{LinearMesh, MeshElement, MeshReply, Vector12};
+pub use mesh_torques::mesh_torques;
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
 pub use static_gearbox::{Operation, StaticGearbox, Torque};
 pub use static_result::{

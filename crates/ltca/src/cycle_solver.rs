@@ -67,6 +67,11 @@ impl CycleSolver {
     }
 
     /// Stress in the fillets of both windows, when it is asked for.
+    /// Makes the maps to the root stress of the window as it stands.
+    pub(crate) fn prepare_root_stress(&self, inputs: &CycleInputs<'_>) -> Result<(), StaticError> {
+        inputs.root.map_or(Ok(()), |root| root.prepare(&self.windowed(inputs)))
+    }
+
     fn root_stress(
         &self,
         inputs: &CycleInputs<'_>,

@@ -148,6 +148,17 @@ impl StaticModel {
         self.solver.last.as_ref()
     }
 
+    /// Makes the maps to the root stress of the window as it stands, which the first position would make: most of the
+    /// time until it comes. Nothing without root stress.
+    ///
+    /// # Errors
+    /// [`StaticError`] as of the first position.
+    pub fn prepare_root_stress(&self) -> Result<(), StaticError> {
+        let Some(root) = &self.root else { return Ok(()) };
+        let inputs = CycleInputs { pair: &self.pair, gears: &self.gears, options: &self.options, root: Some(root) };
+        self.solver.prepare_root_stress(&inputs)
+    }
+
     /// Solves a station with the window as it stands.
     ///
     /// # Errors

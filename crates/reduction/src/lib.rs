@@ -34,6 +34,6 @@ pub use load::{FlankGrid, FlankGrids};
 pub use local_compliance::LocalCompliance;
 pub use modes::{GearModes, LowestFrequencies, ModeChoice};
 pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
-pub use reducer::{GearReducer, ReductionOptions, ReductionWay};
+pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

@@ -8,7 +8,7 @@ use std::mem::size_of;
 use analysis::lumped::{LumpedRow, is_lumped};
 use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
-use scene::{MotionScene, Place, Scene};
+use scene::{MesherScene, MotionScene, Place, Scene};
 
 use crate::{checkpoint::motion_column_names, columns::history_columns};
 
@@ -23,6 +23,10 @@ const LUMPED_ROW: usize = size_of::<LumpedRow>() + 24 * NUMBER;
 const WINDOW: usize = 3;
 /// Square matrices of all slices of a window that contact holds at a time.
 const MATRICES: f64 = 4.0;
+
+/// Square matrices of all flank nodes of a window that a reduction holds at a time: compliance, stiffness, and a copy
+/// on its way.
+const FLANK_MATRICES: f64 = 3.0;
 
 /// Numbers of something, and what each takes.
 #[derive(Debug, Clone, PartialEq)]
@@ -136,7 +140,34 @@ fn demands(scene: &Scene) -> Vec<Demand> {
             bytes_each: MATRICES * NUMBER as f64,
         });
     }
+    if scene.analysis.model.has_reduced_gears() {
+        all.extend(flanks(scene));
+    }
     all
+}
+
+/// Compliance between all nodes of the flanks of a window, of the gears that the built-in mesher makes.
+///
+/// ```text
+/// nodes of a flank = 3 p f with elements of order 2, p f with those of order 1;   three numbers a node
+/// ```
+fn flanks(scene: &Scene) -> impl Iterator<Item = Demand> {
+    let window = scene.analysis.window_teeth.map_or(WINDOW as f64, f64::from);
+    let of = move |(table, mesher): (&str, &MesherScene)| {
+        let nodes = if mesher.order == 2 { 3.0 } else { 1.0 };
+        let side = [
+            (format!("{table}.mesher.elements_profile"), f64::from(mesher.elements_profile)),
+            (format!("{table}.mesher.elements_face"), f64::from(mesher.elements_face)),
+        ];
+        Demand {
+            what: "pairs of flank elements",
+            factors: [&side[..], &side[..]].concat(),
+            bytes_each: FLANK_MATRICES * NUMBER as f64 * (3.0 * nodes * window).powi(2),
+        }
+    };
+    let meshers = [("pinion", &scene.pinion.mesher), ("wheel", &scene.wheel.mesher)];
+    let found: Vec<Demand> = meshers.into_iter().filter_map(|(table, own)| Some(of((table, own.as_ref()?)))).collect();
+    found.into_iter()
 }
 
 /// A solved position with its line of `history.csv`, bytes.

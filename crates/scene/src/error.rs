@@ -1,10 +1,13 @@
 //! What can be wrong with a scene, and where.
 
+use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use geometry::GeometryError;
 use geometry::modification::DataFileError;
+
+use crate::DocumentKind;
 
 /// Where a value was said.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -68,7 +71,7 @@ pub enum SceneError {
         /// What was expected.
         message: String,
         /// What may have been meant.
-        advice: Option<&'static str>,
+        advice: Option<Cow<'static, str>>,
     },
     /// A key that no table of this name has.
     #[error("{place}: unknown key `{key}`")]
@@ -108,6 +111,16 @@ pub enum SceneError {
         /// What may have been meant.
         advice: Option<String>,
     },
+    /// A file of another kind.
+    #[error("{}: this is {found}, and {wanted} is wanted", file.display())]
+    AnotherKind {
+        /// The file.
+        file: PathBuf,
+        /// What it is.
+        found: DocumentKind,
+        /// What was to be read.
+        wanted: DocumentKind,
+    },
     /// Keys without a default that are not there.
     #[error("{}: missing {}", file.display(), keys.join(", "))]
     Missing {
@@ -135,6 +148,16 @@ pub enum SceneError {
         label: String,
         /// What is wrong with it.
         what: String,
+    },
+    /// What a file, or words beside it, say two times.
+    #[error("{}: {what} twice", file.display())]
+    Twice {
+        /// The file.
+        file: PathBuf,
+        /// What is there twice.
+        what: String,
+        /// The way out.
+        advice: String,
     },
     /// What a scene made in code sets is no key.
     #[error("`{key}` is no key")]
@@ -181,6 +204,15 @@ fn at(place: Option<&Place>, file: &Path) -> String {
 }
 
 impl SceneError {
+    /// The complaint about the text of a file that was to be a `wanted` one: that it is another kind of file, where it is.
+    pub(crate) fn unless_another_kind(self, text: &str, file: &Path, wanted: DocumentKind) -> Self {
+        let of_keys = matches!(self, Self::UnknownKey { .. } | Self::WrongType { .. } | Self::Missing { .. });
+        match DocumentKind::of(text).filter(|found| of_keys && *found != wanted) {
+            Some(found) => Self::AnotherKind { file: file.to_owned(), found, wanted },
+            None => self,
+        }
+    }
+
     /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
     pub fn excerpt(&self) -> Option<&str> {
         self.place()?.excerpt()
@@ -190,6 +222,8 @@ impl SceneError {
     pub fn place(&self) -> Option<&Place> {
         match self {
             Self::Read { .. }
+            | Self::AnotherKind { .. }
+            | Self::Twice { .. }
             | Self::Missing { .. }
             | Self::Setting { .. }
             | Self::NoKey { .. }
@@ -218,7 +252,8 @@ impl SceneError {
             Self::Setting { label, .. } => Some(label),
             Self::Missing { keys, .. } => keys.first().map(|key| key.trim_matches('`')),
             Self::Geometry { table, .. } => Some(table),
-            Self::Read { .. } | Self::Syntax { .. } | Self::Conflict { .. } | Self::DataFile(_) => None,
+            Self::Read { .. } | Self::AnotherKind { .. } | Self::Twice { .. } | Self::Syntax { .. } => None,
+            Self::Conflict { .. } | Self::DataFile(_) => None,
         }
     }
 
@@ -230,12 +265,17 @@ impl SceneError {
             }
             Self::Read { .. } => Some("`ale-gear run SCENE.toml --out DIR` wants the path of a scene file".into()),
             Self::Syntax { advice, .. } => {
-                Some(advice.unwrap_or("a scene is a TOML file: `[table]` lines and `key = value` lines").into())
+                let plain = "a scene is a TOML file: `[table]` lines and `key = value` lines";
+                Some(advice.as_deref().unwrap_or(plain).to_owned())
             }
             Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } | Self::WrongType { advice, .. } => {
                 Some(advice.clone())
             }
             Self::OutOfRange { advice, .. } => advice.clone(),
+            Self::Twice { advice, .. } => Some(advice.clone()),
+            Self::AnotherKind { file, found, .. } => {
+                Some(format!("`ale-gear {} {} --out DIR` takes it", found.command(), file.display()))
+            }
             Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
             Self::Setting { label, .. } => Some(example(label).into()),
             Self::NoKey { .. } => Some("tables and key with dots between them, as `operation.torque_nm`".into()),

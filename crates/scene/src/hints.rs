@@ -1,6 +1,8 @@
 //! What someone who wrote a wrong value may do next.
 
-use std::ops::Range;
+use std::{borrow::Cow, ops::Range};
+
+use crate::units::{in_another_unit, plain};
 
 /// Of a number that is out of its range.
 pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String {
@@ -8,6 +10,20 @@ pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String 
         Some(about) => format!("`{key}` means: {about}"),
         None => format!("give `{key}` a number in {allowed}"),
     }
+}
+
+/// Of a number that is out of its range, in another unit within it, or of a negative number of teeth.
+pub(super) fn of_number(key: &str, value: f64, [low, high]: [f64; 2]) -> Option<String> {
+    let fits = |x: f64| (low..=high).contains(&x);
+    if key == "teeth" && value < 0.0 && fits(-value) {
+        return Some(format!(
+            "a negative number of teeth is an internal gear, and there are only external ones here: `teeth = {}` is \
+             an external gear",
+            -value
+        ));
+    }
+    let meant = in_another_unit(key, value, fits)?;
+    Some(format!("{}: write `{key} = {}`", meant.said, plain(meant.value)))
 }
 
 /// What stands there, in words of this program.
@@ -27,7 +43,10 @@ pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
         "a whole number" if found.starts_with("integer") => {
             "a number of so many digits is none of this program's".into()
         }
-        e if e.contains("number") => "write numbers without quotes and without a unit: the unit is in the key".into(),
+        e if e.contains("number") => match found.split('"').nth(1).and_then(|written| number_in(key, written)) {
+            Some(advice) => advice,
+            None => "write numbers without quotes and without a unit: the unit is in the key".into(),
+        },
         "a text in quotes" => format!("write `{key} = \"...\"`, the text between the quotes"),
         "true or false" => format!("write `{key} = true` or `{key} = false`, without quotes"),
         "a table" => format!("write `[{key}]` on a line of its own, and its keys on the lines below"),
@@ -36,8 +55,45 @@ pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
     }
 }
 
+/// Signs that text processors put in place of the minus sign of TOML.
+const MINUS: [char; 3] = ['\u{2212}', '\u{2013}', '\u{2014}'];
+
+/// How a number is written that stands there with another minus sign or with a unit; `None` where there is none.
+fn number_in(key: &str, written: &str) -> Option<String> {
+    let plain = written.trim().replace(MINUS, "-");
+    let is_number = |text: &str| text.parse::<f64>().is_ok_and(f64::is_finite);
+    if plain == written.trim() && is_number(&plain) {
+        return None;
+    }
+    if plain != written.trim() && is_number(&plain) {
+        return Some(format!("its minus sign is not the one of a keyboard: write `{key} = {plain}`"));
+    }
+    // The longest beginning that is a number; what is behind it is a unit.
+    let ends = plain.char_indices().map(|(at, _)| at).skip(1);
+    let number = ends.filter_map(|at| plain.get(..at)).filter(|text| is_number(text.trim_end())).last()?.trim_end();
+    let unit = plain.get(number.len()..)?.trim();
+    let is_unit =
+        unit.starts_with(|c: char| c.is_alphabetic() || matches!(c, '%' | '\u{b0}' | '\u{2032}' | '"' | '\''));
+    is_unit.then(|| format!("the unit is in the key: write `{key} = {number}`"))
+}
+
+/// What of a line stands behind its `=`, without a comment, and the key before it.
+fn value_of_line<'a>(text: &'a str, at: &Range<usize>) -> Option<(&'a str, &'a str)> {
+    let begin = text.get(..at.start)?.rfind('\n').map_or(0, |i| i + 1);
+    let line = text.get(begin..)?.lines().next()?;
+    let (key, value) = line.split_once('=')?;
+    let value = value.split('#').next()?.trim();
+    (!value.starts_with(['"', '\'', '[', '{'])).then_some((key.trim(), value))
+}
+
 /// Of text that is no TOML; `None` where nothing better is known than what a TOML file is.
-pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<&'static str> {
+pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<Cow<'static, str>> {
+    let of_number = value_of_line(text, at).and_then(|(key, value)| number_in(key, value));
+    of_number.map(Cow::Owned).or_else(|| of_toml(text, at, message).map(Cow::Borrowed))
+}
+
+/// Of the syntax alone.
+fn of_toml(text: &str, at: &Range<usize>, message: &str) -> Option<&'static str> {
     let begin = text.get(..at.start).unwrap_or_default();
     let after_digit = begin.ends_with(|c: char| c.is_ascii_digit());
     let comma = text.get(at.start..).is_some_and(|rest| rest.starts_with(','));

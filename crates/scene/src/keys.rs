@@ -24,11 +24,44 @@ pub(super) fn advice(tables: Tables, word: &str, here: &[&str]) -> String {
         (Some((table, _)), _) => format!("`{word}` belongs to [{table}]"),
         (None, Some(key)) => format!("did you mean `{key}`?"),
         // A key without its unit (`torque`) is shorter than the real one, so the likeness alone misses it.
-        (None, None) => match here.iter().find(|key| key.starts_with(word)) {
+        (None, None) => match here.iter().find(|key| key.starts_with(word)).copied().or_else(|| called(word, here)) {
             Some(key) => format!("did you mean `{key}`?"),
-            None => format!("known here: {}", here.join(", ")),
+            None => match tables().into_iter().skip(1).find_map(|(table, keys)| Some((called(word, &keys)?, table))) {
+                Some((key, table)) => format!("did you mean `{key}` in [{table}]?"),
+                None => format!("known here: {}", here.join(", ")),
+            },
         },
     }
+}
+
+/// What others call a key: symbols of ISO 21771 and names of other programs.
+const NAMES: &[(&str, &[&str])] = &[
+    ("teeth", &["z", "number_of_teeth", "num_teeth", "tooth_count"]),
+    ("normal_module_mm", &["m", "mn", "m_n", "modul"]),
+    ("helix_angle_deg", &["beta"]),
+    ("normal_pressure_angle_deg", &["alpha", "alpha_n"]),
+    ("face_width_mm", &["b", "width"]),
+    ("profile_shift", &["x", "addendum_modification"]),
+    ("centre_distance_mm", &["a", "axis_distance", "center_distance"]),
+    ("young_mpa", &["e", "youngs_modulus", "elastic_modulus", "e_modulus"]),
+    ("poisson", &["nu", "poisson_ratio"]),
+    ("density_kg_m3", &["rho"]),
+    ("torque_nm", &["t", "moment", "load_nm"]),
+    ("speed_rpm", &["n", "rpm", "omega"]),
+];
+
+/// The one key of `known` that `word` is another name or a part of: `module` of `normal_module_mm`.
+fn called<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
+    let small = word.to_lowercase();
+    let names = |key: &str| NAMES.iter().any(|(own, others)| *own == key && others.contains(&small.as_str()));
+    if let Some(key) = known.iter().find(|key| names(key)) {
+        return Some(key);
+    }
+    // Whole parts alone: `mod` is no module.
+    let framed = format!("_{small}_");
+    let mut parts = known.iter().filter(|key| small.len() > 2 && format!("_{key}_").contains(&framed));
+    let first = parts.next()?;
+    parts.next().is_none().then_some(first)
 }
 
 #[cfg(test)]
@@ -43,6 +76,13 @@ mod tests {
         assert_eq!(advice(tables, "teeth", &of("pair")), "`teeth` belongs to [pinion]");
         assert_eq!(advice(tables, "torque", &of("operation")), "did you mean `torque_nm`?");
         assert_eq!(advice(tables, "keeps", &of("pair")), "`keeps` belongs to [[pinion.shaft.discs]]");
+        for word in ["module", "module_mm", "m_n", "modul"] {
+            assert_eq!(advice(tables, word, &of("pair")), "did you mean `normal_module_mm`?", "{word}");
+            assert_eq!(advice(tables, word, &of("")), "did you mean `normal_module_mm` in [pair]?", "{word}");
+        }
+        assert_eq!(advice(tables, "rpm", &of("operation")), "did you mean `speed_rpm`?");
+        // A part of several keys stands for none of them.
+        assert!(advice(tables, "angle", &["helix_angle_deg", "pressure_angle_deg"]).starts_with("known here"));
         let long = "a".repeat(1 << 24);
         assert!(advice(tables, &long, &of("pair")).starts_with("known here"));
         assert!(advice(tables, "colour", &["poisson"]).starts_with("known here"));

@@ -13,6 +13,7 @@ mod builder;
 mod check;
 mod contact;
 mod design_key;
+mod document_kind;
 mod error;
 mod excerpt;
 mod gear;
@@ -43,6 +44,7 @@ mod source;
 mod spanned;
 mod starter;
 pub mod study;
+pub mod units;
 mod written;
 
 use std::f64::consts::PI;
@@ -55,6 +57,7 @@ pub use accuracy::{AccuracyScene, Quantity, Tolerance, ToleranceError};
 pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use builder::{SceneBuilder, Value};
 pub use contact::{ContactScene, Flanks, Gap, Method};
+pub use document_kind::DocumentKind;
 pub use error::{Line, Place, SceneError};
 pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
@@ -186,7 +189,8 @@ impl Scene {
         setting::few_enough(text, settings)?;
         let (all, ranges) = setting::below(text, settings);
         let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
-        let scene = check::scene(&source, raw::read(&source)?)?;
+        let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
+        let scene = checked.map_err(|e| e.unless_another_kind(text, file, DocumentKind::Scene))?;
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
     }
 

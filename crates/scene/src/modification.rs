@@ -197,6 +197,23 @@ impl FlankScene {
         *self == Self::default()
     }
 
+    /// The largest amount either way that is stated, um, with its key; `None` where a file says all, or nothing does.
+    pub fn largest_amount(&self) -> Option<(&'static str, f64)> {
+        let all = [
+            ("tip_relief_um", self.tip_relief_um),
+            ("root_relief_um", self.root_relief_um),
+            ("profile_crowning_um", self.profile_crowning_um),
+            ("profile_slope_um", self.profile_slope_um),
+            ("lead_crowning_um", self.lead_crowning_um),
+            ("lead_slope_um", self.lead_slope_um),
+            ("end_relief_lower_um", self.end_relief_lower_um),
+            ("end_relief_upper_um", self.end_relief_upper_um),
+            ("bias_um", self.bias_um),
+        ];
+        let stated = all.into_iter().filter_map(|(key, amount)| Some((key, amount?)));
+        stated.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a })
+    }
+
     /// The depths that are ground off, in mm and rad; files are read.
     pub(crate) fn in_geometry(&self, scene: &Scene) -> Result<FlankModification, DataFileError> {
         let mm = |um: Option<f64>| 1e-3 * um.unwrap_or(0.0);

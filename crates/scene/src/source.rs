@@ -26,6 +26,8 @@ pub struct Source<'a> {
     /// Where in the text.
     pub(crate) ranges: &'a [Range<usize>],
     tables: Tables,
+    /// Whether it is a scene.
+    is_scene: bool,
     /// Where files that it names are looked for.
     pub(crate) origin: Origin,
 }
@@ -33,7 +35,7 @@ pub struct Source<'a> {
 impl<'a> Source<'a> {
     /// The text of a scene with what was set beside it.
     pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        Self { file, text, settings, ranges, tables: schema::tables, origin: Origin::Disk }
+        Self { file, text, settings, ranges, tables: schema::tables, is_scene: true, origin: Origin::Disk }
     }
 
     /// The same, the files that it names being there.
@@ -43,7 +45,7 @@ impl<'a> Source<'a> {
 
     /// The text of a file with other tables.
     pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
-        Self { file, text, settings: &[], ranges: &[], tables, origin: Origin::Disk }
+        Self { file, text, settings: &[], ranges: &[], tables, is_scene: false, origin: Origin::Disk }
     }
 }
 
@@ -122,7 +124,7 @@ impl Source<'_> {
 
     /// The number of `key`, or `default`, within `low..=high`.
     pub fn number(&self, key: &str, value: &Number, default: f64, low: f64, high: f64) -> Result<f64, SceneError> {
-        self.within(key, value, default, [low, high], schema::meaning(key))
+        self.within(key, value, default, [low, high], self.meaning(key))
     }
 
     /// The same of a key that means `about`.
@@ -139,7 +141,8 @@ impl Source<'_> {
         if (low..=high).contains(&number) {
             return Ok(number);
         }
-        Err(self.out_of_range(key, value, format!("{low} .. {high}"), about))
+        let advice = hints::of_number(key, number, [low, high]);
+        Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), about))
     }
 
     /// The whole number of `key`, or `default`, within `low..=high`.
@@ -147,7 +150,10 @@ impl Source<'_> {
         let Some(value) = value else { return Ok(default) };
         match u32::try_from(*value.get_ref()) {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
-            _ => Err(self.out_of_range(key, value, format!("{low} .. {high}"), schema::meaning(key))),
+            _ => {
+                let advice = hints::of_number(key, *value.get_ref() as f64, [low, high].map(f64::from));
+                Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), self.meaning(key)))
+            }
         }
     }
 
@@ -160,7 +166,7 @@ impl Source<'_> {
     pub(crate) fn number_up_to(&self, table: &Table, key: &str, value: &Number, end: f64) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
         let finite = |x: f64| if x.is_finite() { x } else { end.copysign(x) };
-        let about = table.about(key).or(schema::meaning(key));
+        let about = table.about(key).or(self.meaning(key));
         self.within(key, value, default.unwrap_or(0.0), [finite(low), finite(high)], about)
     }
 
@@ -225,7 +231,7 @@ impl Source<'_> {
             allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or "),
             advice: match keys::nearest(written, &names) {
                 Some(name) => Some(format!("did you mean \"{name}\"?")),
-                None => schema::meaning(key).map(|about| format!("`{key}` means: {about}")),
+                None => self.meaning(key).map(|about| format!("`{key}` means: {about}")),
             },
         })
     }
@@ -234,16 +240,21 @@ impl Source<'_> {
         &self,
         key: &str,
         value: &Spanned<T>,
-        allowed: String,
+        (allowed, advice): (String, Option<String>),
         about: Option<&str>,
     ) -> SceneError {
         SceneError::OutOfRange {
             place: self.place(&value.span()),
             key: key.to_owned(),
             value: value.get_ref().to_string(),
-            advice: Some(hints::of_range(key, &allowed, about)),
+            advice: Some(advice.unwrap_or_else(|| hints::of_range(key, &allowed, about))),
             allowed,
         }
+    }
+
+    /// What a key means in a scene; in another file a key of that name means something else.
+    fn meaning(&self, key: &str) -> Option<&'static str> {
+        self.is_scene.then(|| schema::meaning(key)).flatten()
     }
 }
 

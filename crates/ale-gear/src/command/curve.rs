@@ -8,7 +8,7 @@ use crate::error::CommandError;
 /// Words of `ale-gear curve`.
 #[derive(Debug, clap::Args)]
 pub(super) struct CurveArgs {
-    /// Scene file of a motion with the model mapped, reduced, lumped8, lumped12 or shaft18
+    /// Scene file, taken as one of a motion, with the model mapped, reduced, lumped8, lumped12 or shaft18
     scene: PathBuf,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
@@ -35,6 +35,7 @@ impl CurveArgs {
     /// Follows the curve: a run of the scene as a continuation.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let words = [
+            "analysis.kind=dynamic".to_owned(),
             "motion.run=continuation".to_owned(),
             format!("motion.continuation.key={}", self.key),
             format!("motion.continuation.from={}", self.from),

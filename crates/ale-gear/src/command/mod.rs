@@ -35,7 +35,7 @@ use crate::{
     error::CommandError,
     printed,
     stop::on_stop,
-    talk::{Loudness, read_progress_after, set_loudness},
+    talk::{Loudness, read_progress_after, say, set_loudness},
 };
 
 /// Reduced finite-element contact of helical gears
@@ -215,11 +215,23 @@ fn with_a_way_out(mut error: clap::Error) -> clap::Error {
     error
 }
 
+/// Threads a core from which on a user hears of it.
+const OVER_CORES: usize = 4;
+
 /// More than any machine has cores for; a hundred thousand only make the system busy with starting them.
 const MOST_THREADS: usize = 1024;
 
 /// Threads of the whole process, all cores where nothing is said.
 fn use_threads(threads: Option<usize>) {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    if let Some(threads) = threads.filter(|n| *n > OVER_CORES * cores) {
+        say(Loudness::Bars, || {
+            format!(
+                "ale-gear: {threads} threads on {cores} cores: most of them only wait and take memory; leave `--threads` out \
+                 to use all cores"
+            )
+        });
+    }
     if let Some(threads) = threads {
         // Fails only when a pool is there already, which nobody has made before this line.
         let _ = rayon::ThreadPoolBuilder::new().num_threads(threads).build_global();

@@ -227,7 +227,7 @@ fn write_static(
 ) -> Result<Written, CommandError> {
     let Solved { scene, history, mut facts, derivatives, view } = run::solve(scene, phases, results, cache, in_space)?;
     let scene = &scene;
-    facts.certificate = run::certificate(&history.positions);
+    facts.certificate = run::certificate(scene, &history.positions);
     let pattern = phases.run("write", || write_static_rows(scene, &history, derivatives.as_ref(), results))?;
     let (cost, shown) = (phases.cost(), (pattern.as_deref(), view.as_ref()));
     let table = write_static_result(scene, &history, (&facts, &cost), shown, results)?;

@@ -257,3 +257,35 @@ fn universal(scratch: &Scratch) {
         }
     }
 }
+
+/// What can be told before any work is: torques in N mm, bearings that all take thrust one way, a gear that does nothing.
+#[test]
+fn mistakes_in_a_gearbox_are_told_at_once() {
+    let folder = repository().join("scenes/gearbox");
+    let text = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
+    let refused = |box_file: String, said: &str| {
+        let scratch = two_stages().file("box.toml", box_file);
+        let run = scratch.ale_gear(["gearbox", "box.toml", "--out", "o", "--no-cache"]);
+        assert_eq!(run.complaint(), said);
+        assert_eq!((run.code, run.stdout.as_str(), scratch.names().len()), (Some(2), "", 4));
+    };
+    let plain = text("two_stages.toml");
+    refused(
+        plain.replace("torque_nm = 740.0", "torque_nm = 740000.0"),
+        "ale-gear: box.toml: mesh first: 300 N m\nhint: \n",
+    );
+    refused(
+        text("rolling_bearings.toml").replace("takes_thrust = \"+z\"", "takes_thrust = \"-z\""),
+        "ale-gear: box.toml: nothing takes +z on shaft middle\nhint: \n",
+    );
+    refused(
+        plain.replacen("[[mesh]]", "[[gear]]\nname = \"5\"\nshaft = \"slow\"\nposition_mm = 100.0\n\n[[mesh]]", 1),
+        "ale-gear: box.toml:93: gear \"5\" meshes with nothing, and no mass of it is stated: it would do nothing\n\
+         hint: name it as `pinion` or `wheel` of a [[mesh]], give it a `mass_kg` as a flywheel, or leave it out\n",
+    );
+    refused(
+        plain.replace("from_rpm = 400.0", "from_rpm = 0.0"),
+        "ale-gear: box.toml:123: `from_rpm` is 0, allowed is 0.001 .. 1000000\n\
+         hint: give `from_rpm` a number in 0.001 .. 1000000\n",
+    );
+}

@@ -6,6 +6,7 @@ mod faults;
 mod folders;
 mod gearbox;
 mod messages;
+mod mistakes;
 mod resume;
 mod rolling_bearings;
 #[path = "../util/mod.rs"]

@@ -6,8 +6,8 @@ use scene::Scene;
 
 use super::Sample;
 use crate::{
-    AnalysisError, GearCache, elastic_gears::elastic_gears, failure::Failure, meshes, options, solver_error,
-    wider_window,
+    AnalysisError, GearCache, NoObserver, elastic_gears::elastic_gears, failure::Failure, meshes, options,
+    solver_error, wider_window,
 };
 
 /// A solved cycle with the gears that it was solved on: positions alone, no warnings and no tooth change at its end.
@@ -30,7 +30,7 @@ impl SolvedCycle {
         let with = |window| StaticOptions { window, ..asked.clone() };
         let attempt = |window| -> Result<Self, Failure> {
             let options = with(window);
-            let made = elastic_gears(scene, &pair, &options, &meshes, cache)?;
+            let made = elastic_gears(scene, &pair, &options, &meshes, (cache, &NoObserver, &|| true))?;
             let model = StaticModel::new(pair.clone(), made.gears, options).map_err(Failure::Static)?;
             let solved = Self { scene: scene.clone(), history: StaticHistory::default(), model }.run();
             if let (Ok(solved), true) = (&solved, cache.is_on()) {

@@ -16,7 +16,7 @@ use scene::{
 };
 
 use crate::{
-    AnalysisError, GearCache,
+    AnalysisError, GearCache, NoObserver, Progress,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     gears,
     inputs::{meshes_of, settled_scene},
@@ -26,7 +26,7 @@ use crate::{
 };
 
 /// The scene of a mesh with the axes where the shafts have them, and, once it is known, as the mesh runs.
-fn scene_of(file: &Gearbox, mesh: usize, meshing: Option<&Meshing>) -> Scene {
+pub(super) fn scene_of(file: &Gearbox, mesh: usize, meshing: Option<&Meshing>) -> Scene {
     let own = &file.meshes[mesh];
     let mut scene = own.scene.clone();
     let [a, b] = own.gears.map(|g| file.shafts[file.gears[g].shaft].origin);
@@ -106,12 +106,13 @@ impl ReducedMesh {
         i: usize,
         meshing: &Meshing,
         mesh: &Mesh,
-        cache: &dyn GearCache,
+        (cache, progress): (&dyn GearCache, &dyn Progress),
     ) -> Result<Self, AnalysisError> {
         let scene = scene_of(file, i, Some(meshing));
         let meshes = meshes_of(&scene, &mesh.pair, None)?;
         let options = options(&scene, &mesh.pair);
-        let ElasticGears { gears, keys, warnings } = elastic_gears(&scene, &mesh.pair, &options, &meshes, cache)?;
+        let ElasticGears { gears, keys, warnings } =
+            elastic_gears(&scene, &mesh.pair, &options, &meshes, (cache, progress, &|| true))?;
         let of_pair = gears::warnings(&mesh.pair).into_iter().chain(meshes.iter().flat_map(|m| m.warnings.clone()));
         let warnings = of_pair.chain(warnings).map(|said| format!("{}: {said}", mesh.name)).collect();
         Ok(Self { scene, options, meshes, gears: Arc::new(gears), keys, warnings })
@@ -190,7 +191,8 @@ impl ReducedMesh {
             return Ok(false);
         }
         self.options.window = Some(teeth);
-        let found = elastic_gears(&self.scene, &mesh.pair, &self.options, &self.meshes, cache)?;
+        let found =
+            elastic_gears(&self.scene, &mesh.pair, &self.options, &self.meshes, (cache, &NoObserver, &|| true))?;
         (self.gears, self.keys) = (Arc::new(found.gears), found.keys);
         Ok(true)
     }

@@ -9,6 +9,11 @@ const ENERGY: f64 = 1e-3;
 /// Error of the natural frequencies of reduced shafts.
 const FREQUENCIES: f64 = 0.03;
 
+/// Transmission error in modules, shafts and bearings that give way in it, and pressure over E*: what lies beyond is no
+/// small strain.
+const DEFLECTION: f64 = 1.0;
+const PRESSURE: f64 = 0.3;
+
 /// A certificate that was missed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Missed {
@@ -27,6 +32,26 @@ impl GearboxResult {
         if let Some(share) = self.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE) {
             let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
             say(format!("{share:.1e} of the load is left over"), hint);
+        }
+        for mesh in &self.meshes {
+            let [deflection, pressure] = mesh.over_limits;
+            let hint = "elasticity here is linear and holds for small deflections: are torques in N m, and bearings stiff \
+                        enough for them?";
+            if deflection.is_nan() || deflection > DEFLECTION {
+                say(
+                    format!(
+                        "mesh {}: the transmission error is {deflection:.2} modules, the bound is {DEFLECTION}",
+                        mesh.name
+                    ),
+                    hint,
+                );
+            }
+            if pressure.is_nan() || pressure > PRESSURE {
+                say(
+                    format!("mesh {}: the pressure is {pressure:.2} times E*, the bound is {PRESSURE}", mesh.name),
+                    hint,
+                );
+            }
         }
         let Some(motion) = &self.motion else { return all };
         let (left, beyond) = (motion.energy.relative_residual.abs(), motion.reach.iter().copied().fold(0.0, f64::max));

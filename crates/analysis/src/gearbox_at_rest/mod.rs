@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `parts`, `bearings` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `missed` | what does not hold |
 //! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
 //! | `result` | what is read off all positions |
@@ -12,6 +13,7 @@
 
 mod bearings;
 mod inertia;
+mod loads;
 mod meshes;
 mod missed;
 mod motion;
@@ -58,10 +60,15 @@ pub fn solve_gearbox(
     let train = Train::new(&structure, &rough, &keys, input, sense).map_err(failed)?;
     let operation = parts::operation(file, &train);
     let meshes = meshes::meshes(file, Some(&train))?;
+    let loaded = loads::Loaded { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
+    for said in loaded.judge()? {
+        observer.note(said.clone());
+        warnings.push(said);
+    }
     let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
         let one = |(i, mesh): (usize, &gearbox::Mesh)| {
             progress.say(mesh.name.clone());
-            let own = ReducedMesh::new(file, i, &train.meshing()[i], mesh, cache)?;
+            let own = ReducedMesh::new(file, i, &train.meshing()[i], mesh, (cache, progress))?;
             progress.tick();
             unless_cancelled(progress)?;
             Ok(own)

@@ -10,6 +10,7 @@ use super::{
     meshes::ReducedMesh,
     room::{deflections, room},
 };
+use crate::plausible::effective_modulus;
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -57,6 +58,8 @@ pub struct MeshResult {
     pub face_load_factor: Option<f64>,
     /// Largest pressure, MPa.
     pub max_pressure: f64,
+    /// The largest transmission error over the module, and the largest pressure over E*.
+    pub over_limits: [f64; 2],
     /// Turn by which gear 2 is set where the train closes a ring, rad.
     pub timing: f64,
     /// Angles of tooth 0 of gear 1 and gear 2 with the input at its start, rad from +x; they turn as their shafts do.
@@ -115,12 +118,17 @@ pub(super) fn result(
         let slices = reduced[i].options.contact.slices;
         let pressure = own().flat_map(|m| &m.slices).map(|s| s.pressure).fold(0.0, f64::max);
         let te = || own().map(|m| m.transmission_error);
+        let largest = te().map(f64::abs).fold(0.0, f64::max);
         MeshResult {
             name: meshes[i].name.clone(),
             slices,
             normal_force: mean(own().map(|m| m.normal_force)),
             transmission_error: [mean(te()), peak_to_peak(te())],
-            largest_transmission_error: te().map(f64::abs).fold(0.0, f64::max),
+            largest_transmission_error: largest,
+            over_limits: [
+                largest / meshes[i].pair.pinion.data().normal_module,
+                pressure / effective_modulus(&reduced[i].scene),
+            ],
             misalignment: [mean(own().map(|m| m.misalignment_in_plane)), mean(own().map(|m| m.misalignment_across))],
             face_load_factor: face_load_factor(all, i, slices),
             max_pressure: pressure,

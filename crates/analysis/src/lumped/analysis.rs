@@ -25,6 +25,7 @@ use crate::{
     gears,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
+    plausible::remarks,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled,
 };
@@ -146,6 +147,9 @@ impl<'a> LumpedAnalysis<'a> {
         let (mut facts, mut warnings) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.warnings));
         warnings.extend(gears::warnings(&inputs.pair));
         warnings.extend(no_backlash(&inputs));
+        if !scene.analysis.model.has_reduced_gears() {
+            warnings.extend(remarks(&scene, &inputs.pair));
+        }
         if let Some((resolution, remarks)) = slice_resolution(&inputs) {
             facts.resolution = Some(resolution);
             warnings.extend(remarks);
@@ -165,7 +169,7 @@ impl<'a> LumpedAnalysis<'a> {
         });
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
-        facts.certificate = certificate(&scene, &run).and(Certificate::new(system.model.checks()));
+        facts.certificate = certificate(&inputs, &run).and(Certificate::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
         let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
         let mut found = || {
@@ -284,7 +288,7 @@ pub(super) fn checked_run(
     let plan = RunPlan { scene, motion, frequencies, from };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
-    certificate(scene, &run).and(Certificate::new(model.checks())).verdict(scene)?;
+    certificate(inputs, &run).and(Certificate::new(model.checks())).verdict(scene)?;
     Ok(run)
 }
 
@@ -306,8 +310,9 @@ fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
     if rows.iter().all(LumpedRow::is_finite) { Ok(()) } else { Err(AnalysisError::OutOfBounds) }
 }
 
-/// What must hold of a run: energy closes, no flank of a slice pulls.
-fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
+/// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds.
+fn certificate(inputs: &LumpedInputs, run: &LumpedRun) -> Certificate {
+    let LumpedInputs { scene, pair, .. } = inputs;
     let driven = [scene.wheel.teeth, scene.pinion.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
     let turned = TAU * run.booked as f64 / f64::from(driven);
     let through = scene.operation.torque().abs() * turned;
@@ -315,6 +320,10 @@ fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
     if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
         let forces = run.rows.iter().flat_map(|r| [Some(r.normal_force), r.coast_normal_force]).flatten();
         all.push(motion::pulling_check(least, forces.fold(f64::NEG_INFINITY, f64::max)));
+    }
+    if scene.analysis.model.has_reduced_gears() {
+        let errors = run.rows.iter().map(|r| 1e-3 * r.transmission_error_um);
+        all.push(motion::deflection_check_in_motion(scene, pair, errors));
     }
     Certificate::new(all)
 }

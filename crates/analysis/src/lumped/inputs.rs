@@ -19,7 +19,7 @@ use super::{
     run_loop::MeshFrequencies,
     shafts,
 };
-use crate::AnalysisError;
+use crate::{AnalysisError, plausible::refuse};
 
 /// A scene with its pair and, where its model has a mesh stiffness, that stiffness over the cycle.
 pub(crate) struct LumpedInputs {
@@ -64,6 +64,10 @@ impl LumpedInputs {
         };
         let excitation = scene.mesh.as_ref().map(|mesh| source.of(scene, mesh, &pair, &plane)).transpose()?;
         let has_gears = scene.analysis.model.has_reduced_gears();
+        // Gears that are reduced are judged where they are made; a stiffness that is given bends as it says.
+        if scene.impact.is_some() {
+            refuse(scene, &pair)?;
+        }
         let elastic = has_gears.then(|| source.elastic_pair(scene)).transpose()?;
         Ok(Self { scene: scene.clone(), pair, excitation, elastic })
     }

@@ -4,7 +4,7 @@ use scene::{Model, MotionScene, Run};
 use study::Lyapunov;
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
-use crate::motion::NO_BACKLASH_UM;
+use crate::motion::{self, NO_BACKLASH_UM};
 
 /// Residual of the ledger over the turnover from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;
@@ -12,6 +12,9 @@ const OPEN_ENERGY: f64 = 1e-3;
 /// A mesh without backlash where the model has one: its flanks do not part.
 pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
     let LumpedInputs { scene, pair, .. } = inputs;
+    if scene.analysis.model.has_reduced_gears() {
+        return motion::no_backlash(scene, pair);
+    }
     let of_pair = 1e3 * pair.backlash();
     let backlash_um = match (scene.analysis.model, &scene.mesh) {
         (Model::Lumped8 | Model::Shaft18, Some(mesh)) => mesh.half_backlash_um.map_or(of_pair, |half| 2.0 * half),

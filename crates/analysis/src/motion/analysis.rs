@@ -218,7 +218,7 @@ pub(super) fn ready(
     let mut prepared = prepare(inputs, observer, sink, window)?;
     warnings::unstable(scene, &prepared)?;
     prepared.warnings.extend(warnings::coarse(scene, motion, &prepared));
-    prepared.warnings.extend(warnings::no_backlash(scene, &prepared));
+    prepared.warnings.extend(warnings::no_backlash(scene, prepared.system.pair()));
     let slow = warnings::slow(scene, motion, &prepared).or_else(|| warnings::long(scene, motion, &prepared));
     if let Some(slow) = slow {
         // Who waits should hear it before the end.
@@ -277,7 +277,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         warnings.extend(unresolved(&series.dte_um, headline.cycles, steps));
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
-    facts.certificate = facts.certificate.and(headline.checks());
+    facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, warnings })
 }

@@ -1,14 +1,20 @@
 //! What must hold of a motion.
 
 use dynamics::SweepPoint;
+use geometry::GearPair;
+use scene::Scene;
 
-use super::{MotionHeadline, energy_check, force_jump_check, pulling_check};
-use crate::certificate::Certificate;
+use super::{MotionHeadline, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
+use crate::{
+    certificate::{Certificate, Check},
+    plausible::pressure_check,
+};
 
 /// What must hold of one speed of a sweep: the same as of a motion alone.
-pub(super) fn checks_of_speed(point: &SweepPoint) -> Certificate {
+pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepPoint) -> Certificate {
     let force = point.extremes.largest_force.max(point.coast_force);
     Certificate::new([
+        deflection_check_in_motion(scene, pair, point.transmission_error.iter().copied()),
         energy_check(point.ledger.residual(), point.throughput, point.ledger.relative_residual()),
         pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
         force_jump_check(point.changes.jump, force),
@@ -16,14 +22,17 @@ pub(super) fn checks_of_speed(point: &SweepPoint) -> Certificate {
 }
 
 impl MotionHeadline {
-    /// Energy, flanks that pull, forces that tooth changes set off.
-    pub(super) fn checks(&self) -> Certificate {
+    /// Energy, flanks that pull, forces that tooth changes set off, deflection and pressure that linear elasticity holds for.
+    pub(super) fn checks(&self, scene: &Scene, pair: &GearPair) -> Certificate {
         let c = &self.certificate;
+        let errors = [self.min_dte_um, self.max_dte_um].map(|um| 1e-3 * um);
         let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
         Certificate::new([
             energy_check(c.ledger_residual_mj, c.work_through_pair_mj, c.ledger_residual_over_turnover),
             pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
             force_jump_check(c.force_jump_at_tooth_change_n, force),
+            deflection_check_in_motion(scene, pair, errors.into_iter()),
+            Check { name: "dynamic_pressure_over_modulus", ..pressure_check(scene, self.max_pressure_mpa) },
         ])
     }
 }
@@ -59,10 +68,12 @@ mod tests {
     /// drops a force, and what is no number.
     #[test]
     fn a_speed_is_held_to_what_a_motion_is_held_to() {
+        let scene = Scene::default_scene().unwrap();
+        let pair = scene.gear_pair().unwrap();
         let missed = |change: fn(&mut SweepPoint)| {
             let mut point = sound();
             change(&mut point);
-            checks_of_speed(&point).missed().map(|check| check.name).collect::<Vec<_>>()
+            checks_of_speed((&scene, &pair), &point).missed().map(|check| check.name).collect::<Vec<_>>()
         };
         assert_eq!(missed(|_| ()), [""; 0]);
         // 0.6 mJ of 50 mJ that go through the pair, and of 1 mJ that changed its motion.
@@ -71,5 +82,8 @@ mod tests {
         assert_eq!(missed(|p| p.ledger.kinetic = f64::NAN), ["energy_residual"]);
         assert_eq!(missed(|p| p.extremes.least_force = Some(-0.01)), ["pulling_force"]);
         assert_eq!(missed(|p| p.changes.jump = 0.02), ["force_jump"]);
+        // The bound is 0.3 modules of 3 mm.
+        assert_eq!(missed(|p| p.transmission_error[2] = 0.91), ["dynamic_deflection_over_module"]);
+        assert_eq!(missed(|p| p.transmission_error[2] = 0.89), [""; 0]);
     }
 }

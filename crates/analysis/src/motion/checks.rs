@@ -2,9 +2,14 @@
 
 use ale::AleError;
 use dynamics::PairMechanism;
+use geometry::GearPair;
 use ltca::StaticError;
+use scene::Scene;
 
-use crate::certificate::Check;
+use crate::{
+    certificate::Check,
+    plausible::{deflection_check, deflection_in_motion},
+};
 
 /// Energy that an integrator may add or take, over the work done.
 const ENERGY: f64 = 1e-2;
@@ -44,6 +49,16 @@ pub fn dropped_by(system: &PairMechanism, jump_n: f64, largest_n: f64) -> Option
     let window = system.options().statics.window_teeth(system.pair());
     let holds = force_jump_check(jump_n, largest_n).holds();
     (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))
+}
+
+/// What transmission errors (mm) of a motion say of the deflection of the teeth, over the module.
+pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl Iterator<Item = f64>) -> Check {
+    // A NaN is neither smaller nor larger, and not lost.
+    let ends = errors.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], e| {
+        if e.is_nan() { [e; 2] } else { [if e < least { e } else { least }, if e > largest { e } else { largest }] }
+    });
+    let deflection = deflection_in_motion(scene, pair, ends);
+    Check { name: "dynamic_deflection_over_module", ..deflection_check(scene, deflection) }
 }
 
 /// A force that should not be (N) over the largest normal force (N).

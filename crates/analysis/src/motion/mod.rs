@@ -31,7 +31,7 @@ mod sweep;
 mod warnings;
 
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
-pub use checks::{MOTION_WAY_OUT, energy_check, force_jump_check, pulling_check};
+pub use checks::{MOTION_WAY_OUT, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
 pub use headline::{MotionCertificate, MotionHeadline};
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, Passage, PassageCycle, PassageHeadline,
@@ -50,3 +50,4 @@ pub(crate) use step_estimate::{Pace, StepDemand};
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
 pub use warnings::NO_BACKLASH_UM;
 pub(crate) use warnings::coarse_steps;
+pub(crate) use warnings::no_backlash;

@@ -1,6 +1,7 @@
 //! What a user should hear of a motion.
 
 use dynamics::{Drive, PairMechanism, stable_step};
+use geometry::GearPair;
 use ltca::StaticError;
 use scene::{Flanks, MotionScene, Run, Scene};
 
@@ -120,8 +121,8 @@ pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
 }
 
 /// A pair without backlash in a motion in which flanks may part.
-pub(super) fn no_backlash(scene: &Scene, prepared: &PreparedMotion) -> Option<String> {
-    let backlash_um = 1e3 * prepared.system.pair().backlash();
+pub(crate) fn no_backlash(scene: &Scene, pair: &GearPair) -> Option<String> {
+    let backlash_um = 1e3 * pair.backlash();
     (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
         let what = match scene.contact.flanks {
             Flanks::Both => "where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",

@@ -7,6 +7,7 @@ mod gearbox;
 mod gearbox_of_pairs;
 mod held_pair;
 mod interest;
+mod kept_at_once;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;

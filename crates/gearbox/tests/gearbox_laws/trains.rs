@@ -2,10 +2,10 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearbox::{Disc, GearboxError, Mesh, Structure, Train};
+use gearbox::{Disc, GearboxError, Mesh, Structure, Torque, Train, mesh_torques};
 use geometry::{Driver, Sense};
 
-use crate::pairs::{pair, shaft, two_stages};
+use crate::pairs::{operation, pair, shaft, two_stages};
 
 /// A turn of the input by one pitch is one cycle of the first mesh, and 19/53 of one of the second: gear 3 turns with
 /// gear 2. A whole number of turns of the middle shaft brings both back.
@@ -138,4 +138,25 @@ fn axes_and_gears_in_wrong_places_are_refused() {
     let mut none = meshes.clone();
     none[1].discs[1] = 9;
     assert!(matches!(of(&structure, &none, &[0.0; 6]), Err(GearboxError::NoDisc { disc: 9, .. })));
+}
+
+/// Without friction a torque goes through a train by the numbers of teeth: what every mesh of two stages presses on both of
+/// its gears, and that a ring is left to stiffness.
+#[test]
+fn torques_of_meshes_go_by_the_teeth() {
+    let (structure, meshes) = two_stages();
+    let load = Torque { disc: 5, torque: -4e5 };
+    let found = mesh_torques(&structure, &meshes, &operation(&structure, 4, Sense::Ccw, vec![load])).unwrap();
+    let teeth = |mesh: &gearbox::Mesh| [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
+    let [first, second] = [teeth(&meshes[0]), teeth(&meshes[1])];
+    let wanted_second = [4e5 * second[0] / second[1], 4e5];
+    // The middle shaft passes on what it gets: its two gears press against each other.
+    let wanted_first = [-wanted_second[0] * first[0] / first[1], -wanted_second[0]];
+    for (found, wanted) in found.iter().zip([wanted_first, wanted_second]) {
+        for (a, b) in found.iter().zip(wanted) {
+            assert!((a / b - 1.0).abs() < 1e-14, "{a} for {b} N mm");
+        }
+    }
+    let ring = [meshes.clone(), vec![meshes[0].clone()]].concat();
+    assert_eq!(mesh_torques(&structure, &ring, &operation(&structure, 4, Sense::Ccw, vec![load])), None);
 }

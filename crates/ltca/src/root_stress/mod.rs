@@ -199,6 +199,14 @@ impl RootStress {
         Ok(both)
     }
 
+    /// Makes the maps of both windows, that no position waits for them.
+    pub(crate) fn prepare(&self, windowed: &WindowedPair) -> Result<(), StaticError> {
+        for (i, gear) in NAMES.into_iter().enumerate() {
+            self.window(windowed, i).map_err(|source| ContactError::Reduction { gear, source })?;
+        }
+        Ok(())
+    }
+
     fn window(&self, windowed: &WindowedPair, i: usize) -> Result<Arc<WindowRoots>, ReductionError> {
         let key = (i, windowed.set.first_teeth()[i], windowed.window.count());
         let mut windows = self.windows.lock().unwrap_or_else(PoisonError::into_inner);

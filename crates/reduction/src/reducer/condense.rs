@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use faer::Mat;
-use fem::{Material, Wanted, unless_unwanted};
+use fem::{Material, unless_unwanted};
 use mesh::{BoreCoupling, GearMesh};
 
-use super::{ReductionOptions, ReductionWay};
+use super::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 use crate::{
     ReducedGear, ReductionError,
     cyclic::{CyclicGear, PitchTurn, SectorMesh},
@@ -67,15 +67,14 @@ impl Condensed {
     }
 }
 
-/// Condenses a gear to its coordinates while that is `wanted`; `general`: by one factor of the whole gear, whatever the
-/// gear is.
+/// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is; `watch` hears
+/// what is begun and may lose interest.
 pub(super) fn condense<E: From<ReductionError>>(
     gear: GearMesh,
     material: &Material,
     options: &ReductionOptions,
-    general: bool,
+    (general, watch): (bool, ReductionWatch<'_>),
     coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
-    wanted: Wanted<'_>,
 ) -> Result<(Condensed, Method), E> {
     let mut turn = PitchTurn::of_gear(&gear);
     // The means of a bore join all sectors.
@@ -85,10 +84,11 @@ pub(super) fn condense<E: From<ReductionError>>(
         let seen = copies.as_ref().unwrap_or(&gear);
         let coordinates = coordinates(seen)?;
         let first = Opened::new(seen, &coordinates, options)?;
+        (watch.tell)(ReductionStage::Sector);
         let nodes = coordinates.are_nodes();
-        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, nodes, wanted)?;
+        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, nodes, watch.wanted)?;
         if let Some(cyclic) = cyclic {
-            unless_unwanted(wanted).map_err(ReductionError::from)?;
+            unless_unwanted(watch.wanted).map_err(ReductionError::from)?;
             let compliance = cyclic.compliance();
             let method = Method::Cyclic(Box::new(cyclic));
             let gear = copies.unwrap_or(gear);
@@ -106,8 +106,10 @@ pub(super) fn condense<E: From<ReductionError>>(
     let first = Opened::new(&gear, &coordinates, options)?;
     let (last, seen) =
         if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
-    let factor = GeneralGear::new(&gear, material, &options.elements, last, wanted)?;
-    let compliance = factor.compliance(seen, wanted)?;
+    (watch.tell)(ReductionStage::Factor { free_count: 3 * (gear.mesh().nodes.len() - gear.held_nodes().len()) });
+    let factor = GeneralGear::new(&gear, material, &options.elements, last, watch.wanted)?;
+    (watch.tell)(ReductionStage::Compliance);
+    let compliance = factor.compliance(seen, watch.wanted)?;
     let method = Method::General(Box::new(factor), turn);
     Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
 }

@@ -8,7 +8,7 @@ mod windows;
 
 use std::sync::{Arc, OnceLock};
 
-use fem::{DofMap, ElementOptions, Material, Wanted};
+use fem::{DofMap, ElementOptions, Material};
 use geometry::Side;
 use mesh::{Face, GearMesh};
 
@@ -16,7 +16,7 @@ use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load
 use asked::Asked;
 use condense::{Condensed, condense};
 
-pub use options::{ReductionOptions, ReductionWay};
+pub use options::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 
 pub(crate) use condense::{Method, Summary};
 
@@ -56,7 +56,7 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError`] when a flank is missing or the matrices are not what they must be.
     pub fn new(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::new_while(gear, material, options, false, &|| true)
+        Self::watched(gear, material, options, false, ReductionWatch::IDLE)
     }
 
     /// The same by one factor of the whole gear, whatever the gear is.
@@ -64,22 +64,21 @@ impl GearReducer {
     /// # Errors
     /// As [`GearReducer::new`].
     pub fn general(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
-        Self::new_while(gear, material, options, true, &|| true)
+        Self::watched(gear, material, options, true, ReductionWatch::IDLE)
     }
 
-    /// As [`GearReducer::new`], or where `general` as [`GearReducer::general`], for who may lose interest: between the
-    /// steps of the work `wanted` says whether the rest of it is.
+    /// As [`GearReducer::new`], or where `general` as [`GearReducer::general`], while somebody waits.
     ///
     /// # Errors
     /// As [`GearReducer::new`], and [`ReductionError::is_unwanted`].
-    pub fn new_while(
+    pub fn watched(
         gear: GearMesh,
         material: Material,
         options: ReductionOptions,
         general: bool,
-        wanted: Wanted<'_>,
+        watch: ReductionWatch<'_>,
     ) -> Result<Self, ReductionError> {
-        Self::build(gear, material, options, general, |_| Ok(Coordinates::FlankNodes), wanted)
+        Self::build(gear, material, options, (general, watch), |_| Ok(Coordinates::FlankNodes))
     }
 
     /// Condenses a gear to grids over its flanks; `grids` makes those of every flank that a window may hold, on the
@@ -94,18 +93,19 @@ impl GearReducer {
         general: bool,
         grids: impl Fn(&GearMesh) -> Result<FlankGrids, E>,
     ) -> Result<Self, E> {
-        Self::build(gear, material, options, general, |gear| Ok(Coordinates::Grids(grids(gear)?)), &|| true)
+        Self::build(gear, material, options, (general, ReductionWatch::IDLE), |gear| {
+            Ok(Coordinates::Grids(grids(gear)?))
+        })
     }
 
     fn build<E: From<ReductionError>>(
         gear: GearMesh,
         material: Material,
         options: ReductionOptions,
-        general: bool,
+        way: (bool, ReductionWatch<'_>),
         coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
-        wanted: Wanted<'_>,
     ) -> Result<Self, E> {
-        let (condensed, method) = condense(gear, &material, &options, general, coordinates, wanted)?;
+        let (condensed, method) = condense(gear, &material, &options, way, coordinates)?;
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
     }
 
@@ -141,7 +141,7 @@ impl GearReducer {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
             let nodes = |_: &GearMesh| Ok::<_, ReductionError>(Coordinates::FlankNodes);
-            Ok(condense(gear, &self.material, &self.options, general, nodes, &|| true)?.1)
+            Ok(condense(gear, &self.material, &self.options, (general, ReductionWatch::IDLE), nodes)?.1)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }

@@ -6,7 +6,7 @@ use fem::Material;
 use mesh::GearMesh;
 
 use super::{
-    GearReducer, ReductionOptions, ReductionWay,
+    GearReducer, ReductionOptions, ReductionWatch, ReductionWay,
     asked::Asked,
     condense::{Condensed, sectors},
 };
@@ -30,7 +30,7 @@ impl GearReducer {
         let mut others: BTreeMap<_, _> = by_first.collect();
         let general = summary.way == ReductionWay::General;
         let Some(base) = others.remove(&first) else {
-            return Self::new_while(gear, material, options, general, &|| true);
+            return Self::watched(gear, material, options, general, ReductionWatch::IDLE);
         };
         let seen = match (gear.is_periodic_sector(), general) {
             (false, _) => None,

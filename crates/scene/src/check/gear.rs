@@ -15,8 +15,10 @@ use crate::{
     spanned::Word,
 };
 
-/// Default bore over reference diameter.
+/// Default bore over reference diameter, and over the root diameter of a gear of few teeth, to which the first leaves no
+/// rim.
 const BORE_RATIO: f64 = 0.55;
+const BORE_OF_ROOT: f64 = 0.5;
 
 /// What a gear is of where nothing is said.
 pub(super) fn steel() -> Material {
@@ -127,6 +129,11 @@ pub(super) fn gear(
         _ => None,
     };
     let (pitch_errors_um, pitch_errors_file) = pitch_errors(s, raw, teeth)?;
+    let profile_shift = value!(s, GEAR, raw.profile_shift)?;
+    let shifted_root = root + 2.0 * pair.normal_module_mm * profile_shift;
+    let usual_bore = BORE_RATIO * reference;
+    let default_bore =
+        if usual_bore < shifted_root || shifted_root <= 0.0 { usual_bore } else { BORE_OF_ROOT * shifted_root };
     Ok(GearScene {
         teeth,
         helix_angle_deg,
@@ -134,11 +141,11 @@ pub(super) fn gear(
         bore_diameter_mm: s.number(
             "bore_diameter_mm",
             &raw.bore_diameter_mm,
-            bore_of_mesh.unwrap_or(BORE_RATIO * reference),
+            bore_of_mesh.unwrap_or(default_bore),
             1e-3,
             bore_limit,
         )?,
-        profile_shift: value!(s, GEAR, raw.profile_shift)?,
+        profile_shift,
         tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm: match raw.tip_diameter_mm {
             None => None,

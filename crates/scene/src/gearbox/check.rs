@@ -34,6 +34,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
     let meshes = all(&raw.mesh, |t| mesh(s, t, &gears))?;
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
+    in_mesh(s, &raw.gear, &gears, &meshes)?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
     if meshes.is_empty() {
         return nothing("a gearbox without meshes", "list them, each as [[mesh]] with `scene`, `pinion` and `wheel`");
@@ -172,6 +173,20 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
         None => format!("{}/{}", gears[pair[0]].name, gears[pair[1]].name),
     };
     Ok(GearboxMesh { name, gears: pair, scene })
+}
+
+/// That every gear meshes, or has a mass at least: of another one nothing would be read.
+fn in_mesh(s: &Source<'_>, tables: &[Spanned<RawGear>], gears: &[GearboxGear], meshes: &[GearboxMesh]) -> Checked<()> {
+    let alone = |(i, gear): &(usize, &GearboxGear)| {
+        gear.inertia.iter().all(Option::is_none) && !meshes.iter().any(|m| m.gears.contains(i))
+    };
+    // Without any mesh that is what is said.
+    let Some((i, gear)) = gears.iter().enumerate().find(alone).filter(|_| !meshes.is_empty()) else { return Ok(()) };
+    Err(s.conflict(
+        &tables[i].span(),
+        format!("gear \"{}\" meshes with nothing, and no mass of it is stated: it would do nothing", gear.name),
+        "name it as `pinion` or `wheel` of a [[mesh]], give it a `mass_kg` as a flywheel, or leave it out",
+    ))
 }
 
 /// Digits of a file by which a stated offset may differ from that of the positions, mm.

@@ -7,7 +7,7 @@ use super::{
     check::check,
     raw::{RawGearbox, tables},
 };
-use crate::{SceneError, Source, read_text};
+use crate::{DocumentKind, SceneError, Source, read_text};
 
 impl Gearbox {
     /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
@@ -34,7 +34,9 @@ impl Gearbox {
     /// As [`Gearbox::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
-        let raw: RawGearbox = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        let raw: RawGearbox = toml::from_str(text)
+            .map_err(|e| source.explain(e.message(), e.span()))
+            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Gearbox))?;
         check(&source, raw)
     }
 }

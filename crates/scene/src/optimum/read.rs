@@ -11,7 +11,7 @@ use super::{
     raw::{RawOptimisation, tables},
 };
 use crate::{
-    Scene, SceneError, Setting, Source,
+    DocumentKind, Scene, SceneError, Setting, Source,
     plan::{DESIGNS, SEED},
     read_text,
 };
@@ -51,7 +51,9 @@ impl Optimisation {
     /// As [`Optimisation::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
-        let raw: RawOptimisation = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        let raw: RawOptimisation = toml::from_str(text)
+            .map_err(|e| source.explain(e.message(), e.span()))
+            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Optimisation))?;
         check(&source, &raw)
     }
 

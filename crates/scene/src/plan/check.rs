@@ -89,17 +89,19 @@ pub(super) fn finish(plan: Plan) -> Checked<Plan> {
     let mut keys: Vec<&str> = plan.axes.iter().flat_map(|axis| &axis.keys).map(String::as_str).collect();
     keys.sort_unstable();
     if let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(SceneError::Setting {
-            label: plan.file.display().to_string(),
-            what: format!("varies `{}` twice", twice[0]),
+        return Err(SceneError::Twice {
+            file: plan.file,
+            what: format!("`{}` is varied", twice[0]),
+            advice: format!("name each key once, with all its values: `--vary {}=50,100,200`", twice[0]),
         });
     }
     let mut names: Vec<String> = plan.outputs.iter().map(PlanOutput::name).collect();
     names.sort_unstable();
     if let Some(twice) = names.windows(2).find(|pair| pair[0] == pair[1]) {
-        return Err(SceneError::Setting {
-            label: plan.file.display().to_string(),
-            what: format!("asks for `{}` twice", twice[0]),
+        return Err(SceneError::Twice {
+            file: plan.file,
+            what: format!("`{}` is asked for", twice[0]),
+            advice: "ask for each number once".to_owned(),
         });
     }
     // A key that is none, or a scene that is wrong in all cases, is told before any work; values may be wrong in some

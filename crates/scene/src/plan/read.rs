@@ -12,7 +12,7 @@ use super::{
     tolerance::is_pitch,
     word,
 };
-use crate::{Scene, SceneError, Setting, Source, nearest, read_text};
+use crate::{DocumentKind, Scene, SceneError, Setting, Source, nearest, read_text};
 
 /// What a command line says of a plan.
 #[derive(Debug, Clone, Default)]
@@ -45,7 +45,9 @@ impl Plan {
     /// As [`Plan::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
-        let raw: RawPlan = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        let raw: RawPlan = toml::from_str(text)
+            .map_err(|e| source.explain(e.message(), e.span()))
+            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Plan))?;
         check(&source, &raw)
     }
 

@@ -12,7 +12,7 @@ table! {
         teeth: bare_whole(5, 2000), "number of teeth";
         helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; the wheel's follows from the pinion's";
         face_width_mm: bare(0.01, 1e4), "face width, mm; default: `face_width_mm` in [pair]";
-        bore_diameter_mm: bare(1e-3, INF), "diameter of the rigid bore, mm, below the reference diameter; default: 55 % of that";
+        bore_diameter_mm: bare(1e-3, INF), "diameter of the rigid bore, mm, below the reference diameter; default: 55 % of that, of few teeth half the root diameter";
         profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient";
         tip_diameter_mm: bare(0.0, INF), "tip diameter, mm, 0.5 to 2 reference diameters; default: from addendum and profile shift";
         tip_edge_radius_mm: number(0.0, INF, 0.0), "radius of the arc that rounds the tip edges, mm, at most a quarter of the module; 0: sharp";

@@ -8,7 +8,7 @@ use super::{
     columns::ColumnsOf,
     raw::{RawStudy, tables},
 };
-use crate::{SceneError, Source, read_text};
+use crate::{DocumentKind, SceneError, Source, read_text};
 
 impl Study {
     /// Reads and checks a study file and the scenes that it names; `columns` tells which columns the rows of a scene
@@ -27,7 +27,9 @@ impl Study {
     /// As [`Study::read`].
     pub fn parse(text: &str, file: &Path, columns: ColumnsOf<'_>) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
-        let raw: RawStudy = toml::from_str(text).map_err(|e| source.explain(e.message(), e.span()))?;
+        let raw: RawStudy = toml::from_str(text)
+            .map_err(|e| source.explain(e.message(), e.span()))
+            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Study))?;
         check(&source, raw, columns)
     }
 }

@@ -171,7 +171,6 @@ fn use_paths(tree: &syn::UseTree, prefix: &[String], give: &mut impl FnMut(Modul
         syn::UseTree::Rename(rename) => give(with(&rename.ident)),
         syn::UseTree::Glob(_) => give([prefix, &["*".to_owned()]].concat()),
         syn::UseTree::Group(group) => group.items.iter().for_each(|tree| use_paths(tree, prefix, give)),
-        _ => {}
     }
 }
 

@@ -27,6 +27,8 @@ use crate::{
 const TOLERANCE: f64 = 1e-9;
 /// Phases for each harmonic.
 const SAMPLES_PER_HARMONIC: usize = 8;
+/// Share of the range that a branch may leave out.
+const LEFT_OUT: f64 = 1e-2;
 /// First step over the longest.
 const FIRST_STEP: f64 = 0.1;
 
@@ -119,7 +121,9 @@ impl<'a> ContinuationAnalysis<'a> {
             };
             chosen.iter().map(one).collect::<Result<Vec<TimePoint>, AnalysisError>>()
         })?;
-        facts.certificate = certificate(&points, &words).and(Certificate::new(family.now().0.checks()));
+        facts.certificate = certificate(&points, &words)
+            .and(Certificate::new([covered(&branch, &words)]))
+            .and(Certificate::new(family.now().0.checks()));
         let of = HeadlineInputs {
             words: &words,
             coordinates,
@@ -198,6 +202,22 @@ fn cut_short(branch: &Branch<AnalysisError>, words: &ContinuationScene) -> Optio
     let ended = last == words.from || last == words.to;
     (!ended && branch.motions.len() >= words.motions as usize)
         .then(|| format!("{} = {last:.6} is reached after all {} `motions`", words.key.word(), words.motions))
+}
+
+/// Share of the range that the branch has not reached when it broke off or had all its motions; nothing of one that has
+/// left the range at either end.
+fn covered(branch: &Branch<AnalysisError>, words: &ContinuationScene) -> Check {
+    let reached = branch.motions.iter().map(|motion| motion.parameter);
+    let [low, high] = reached.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    let unfinished = branch.broken.is_some() || cut_short(branch, words).is_some();
+    let left_out = 1.0 - ((high - low).max(0.0) / (words.to - words.from).abs()).min(1.0);
+    Check {
+        name: "range_left_out",
+        value: if unfinished { left_out } else { 0.0 },
+        bound: LEFT_OUT,
+        way_out: "give more `motions`, a larger `longest_step` or more damping in [motion.continuation] and [motion]; the warnings \
+                  say where the branch ended",
+    }
 }
 
 /// Motions to be integrated in time: stable ones, spread over the branch.

@@ -15,12 +15,14 @@ use crate::{
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     facts::Facts,
     failure::Failure,
-    foreseen_s, free_dofs, gears,
+    foreseen::announced_s,
+    free_dofs, gears,
     inputs::meshes_of,
     iso_root,
     meshes::SceneMesh,
     motion::MotionSink,
     options::options,
+    plausible::{refuse, remarks},
     reduced,
     resolution::resolution,
     run_phase, static_certificate, unless_cancelled, wider_window,
@@ -44,6 +46,8 @@ impl<'a> MotionInputs<'a> {
         observer: &mut dyn Observer,
     ) -> Result<Self, AnalysisError> {
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
+        refuse(scene, &pair)?;
+        remarks(scene, &pair).into_iter().for_each(|said| observer.note(said));
         let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory))?;
         Ok(Self { scene, motion, pair, meshes, cache })
     }
@@ -123,6 +127,9 @@ pub(crate) fn prepare(
     let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
     let positions = scene.analysis.positions_per_cycle;
     let steps = PhaseWork::Steps(u64::from(positions));
+    if contact.root_stress {
+        run_phase(observer, "root stress", PhaseWork::Unknown, |_| model.prepare_root_stress())?;
+    }
     let history = run_phase(observer, "quasi-static", steps, |progress| {
         let history = model.run_while(positions as usize, 1, |index, position, model| {
             progress.tick();
@@ -136,6 +143,7 @@ pub(crate) fn prepare(
     let (resolution, said) = resolution(scene, pair, &contact);
     warnings.extend(said);
     warnings.extend(gears::warnings(pair));
+    warnings.extend(remarks(scene, pair));
     warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
     warnings.extend(body_warnings(&model));
     warnings.extend(sink.quasi_static(&model, observer));
@@ -183,10 +191,11 @@ fn reduce(
     let MotionInputs { scene, pair, meshes, cache, .. } = inputs;
     let both = scene.contact.flanks == Flanks::Both;
     let sides = if both { 2.0 } else { 1.0 };
-    let work = PhaseWork::Seconds(sides * foreseen_s(scene, meshes));
-    run_phase(observer, "reduce", work, |_| {
-        let driving = elastic_gears(scene, pair, contact, meshes, *cache)?;
-        let backwards = || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, *cache);
+    let work = PhaseWork::Seconds(announced_s(observer, (scene, meshes), sides));
+    run_phase(observer, "reduce", work, |progress| {
+        let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true))?;
+        let backwards =
+            || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, (*cache, progress, &|| true));
         Ok(Flanked { driving, coast: both.then(backwards).transpose()? })
     })
 }
@@ -200,7 +209,7 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
         dof_after: dof_after(model, dof_before),
         window_teeth: Some(model.window().count() as u32),
         // The motion begins in it and is measured by it.
-        certificate: static_certificate(&history.positions),
+        certificate: static_certificate(inputs.scene, &history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect(),
         ..Facts::of_pair(inputs.scene, &inputs.pair)
     }

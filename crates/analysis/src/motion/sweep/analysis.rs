@@ -139,7 +139,7 @@ fn result(
     outcomes: &[SweepOutcome],
     wall_s: f64,
 ) -> Result<SweepResult, AnalysisError> {
-    let rows = rows::rows(scene, motion, &prepared.quasi_static, outcomes);
+    let rows = rows::rows((scene, prepared.system.pair()), motion, &prepared.quasi_static, outcomes);
     let teeth = scene.driver_teeth();
     let mesh_hz = mesh_range_hz(scene, motion, None);
     let campbell = campbell_diagram(&prepared, teeth, mesh_hz[1])?;

@@ -1,6 +1,7 @@
 //! One row a speed and way of a sweep.
 
 use dynamics::{SweepDirection, SweepMiss, SweepOutcome, SweepPoint};
+use geometry::GearPair;
 use scene::{MotionScene, Scene, SweepWay};
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};
@@ -64,7 +65,7 @@ fn way_of(way: SweepDirection) -> SweepWay {
 
 /// A row a way and speed: a speed without a motion has its reason.
 pub(super) fn rows(
-    scene: &Scene,
+    (scene, pair): (&Scene, &GearPair),
     motion: &MotionScene,
     quasi_static: &QuasiStatic,
     outcomes: &[SweepOutcome],
@@ -73,7 +74,7 @@ pub(super) fn rows(
     let teeth = f64::from(scene.driver_teeth());
     let cycles = scene.analysis.cycles as usize;
     let one = |outcome: &SweepOutcome| match outcome {
-        Ok(point) => match checks_of_speed(point).missed().next() {
+        Ok(point) => match checks_of_speed((scene, pair), point).missed().next() {
             Some(check) => {
                 let reason = format!("the result does not hold: {}", check.words());
                 missing((point.way, point.speed), teeth, reason)

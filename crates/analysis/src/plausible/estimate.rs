@@ -1,0 +1,49 @@
+//! Deflection and pressure of a pair under its torque in closed form.
+
+use geometry::GearPair;
+use scene::Scene;
+
+use super::limits::effective_modulus;
+use crate::{iso_model::iso_stiffness, iso_root::base_force, nominal_pressure::nominal_pressure};
+
+/// Stiffness where ISO 6336-1 has none, of steel: its own mean value, N/(mm um).
+const MEAN_STIFFNESS: f64 = 20.0;
+/// Young's modulus of that steel, MPa.
+const STEEL: f64 = 2.06e5;
+
+/// What closed forms say of a loaded pair.
+///
+/// ```text
+/// deflection = F_bt / (b c_gamma_alpha)   (ISO 6336-1, bodies left out),   pressure: Hertz at the pitch point
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LoadEstimate {
+    /// Mean deflection of the teeth along the line of action, over the normal module.
+    pub modules: f64,
+    /// The same, mm.
+    pub deflection_mm: f64,
+    /// Largest nominal Hertz pressure, MPa.
+    pub pressure_mpa: f64,
+    /// That pressure over the effective modulus E* of both materials; half the width of a Hertz band over the radius of
+    /// the flanks is twice this.
+    pub pressure_over_modulus: f64,
+}
+
+impl LoadEstimate {
+    /// Of the pair of a scene.
+    pub fn of(scene: &Scene, pair: &GearPair) -> Self {
+        let force = base_force(scene, pair);
+        let young = scene.gears().map(|g| g.material.young_mpa);
+        let mean = 2.0 * young[0] * young[1] / (young[0] + young[1]);
+        let stiffness = iso_stiffness(scene, pair).map_or(MEAN_STIFFNESS * mean / STEEL, |iso| iso.c_mesh);
+        let deflection_mm = if force > 0.0 { 1e-3 * force / (pair.face_width() * stiffness) } else { 0.0 };
+        let points = nominal_pressure(scene, pair).hertz;
+        let pressure_mpa = points.iter().map(|p| p.pressure_mpa).filter(|p| p.is_finite()).fold(0.0, f64::max);
+        Self {
+            modules: deflection_mm / scene.pair.normal_module_mm,
+            deflection_mm,
+            pressure_mpa,
+            pressure_over_modulus: pressure_mpa / effective_modulus(scene),
+        }
+    }
+}

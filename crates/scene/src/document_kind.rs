@@ -1,0 +1,77 @@
+//! Which kind of file a text is, for who gives one to a command that wants another.
+
+use std::fmt;
+
+use toml::de::DeTable;
+
+/// A kind of TOML file that the program reads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum DocumentKind {
+    /// A pair of gears.
+    Scene,
+    /// Shafts, bearings and meshes.
+    Gearbox,
+    /// Keys of a scene that are varied.
+    Plan,
+    /// Scenes side by side.
+    Study,
+    /// Keys of a scene whose best values are searched.
+    Optimisation,
+}
+
+/// Each kind with names that stand at the top of no other.
+const NAMES: [(DocumentKind, &[&str]); 5] = [
+    (DocumentKind::Scene, &["pinion", "wheel", "pair", "material", "operation", "contact", "drive", "load"]),
+    (DocumentKind::Gearbox, &["shaft", "bearing", "gear", "torque", "input", "housing", "vibration"]),
+    (DocumentKind::Plan, &["vary"]),
+    (DocumentKind::Study, &["case", "quantity", "over_time", "follow", "full"]),
+    (DocumentKind::Optimisation, &["torques_nm", "weights", "measure", "harmonics", "evaluations", "tolerance"]),
+];
+
+impl fmt::Display for DocumentKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Scene => "a scene",
+            Self::Gearbox => "a gearbox file",
+            Self::Plan => "a plan",
+            Self::Study => "a study",
+            Self::Optimisation => "an optimisation",
+        })
+    }
+}
+
+impl DocumentKind {
+    /// The subcommand that takes such a file.
+    pub fn command(self) -> &'static str {
+        match self {
+            Self::Scene => "run",
+            Self::Gearbox => "gearbox",
+            Self::Plan => "vary",
+            Self::Study => "study",
+            Self::Optimisation => "optimise",
+        }
+    }
+
+    /// The kind with most names of its own in the text; `None` where there is none, or the text is no TOML.
+    pub(crate) fn of(text: &str) -> Option<Self> {
+        let root = DeTable::parse(text).ok()?;
+        let count = |names: &[&str]| names.iter().filter(|name| root.get_ref().contains_key(**name)).count();
+        let counts = NAMES.iter().map(|(kind, names)| (count(names), *kind));
+        counts.filter(|(n, _)| *n > 0).reduce(|best, own| if own.0 > best.0 { own } else { best }).map(|(_, kind)| kind)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kinds_are_told_by_their_tables() {
+        let of = DocumentKind::of;
+        assert_eq!(of("[pinion]\n[wheel]\n[pair]\n[mesh]\n[analysis]\n"), Some(DocumentKind::Scene));
+        assert_eq!(of("name = \"x\"\n[[shaft]]\n[[mesh]]\n[input]\n[motion]\n"), Some(DocumentKind::Gearbox));
+        assert_eq!(of("scene = \"x\"\n[[vary]]\n[[output]]\n"), Some(DocumentKind::Plan));
+        assert_eq!(of("name = \"x\"\n"), None);
+        assert_eq!(of("[pinion"), None);
+    }
+}
