@@ -97,7 +97,9 @@ pub fn all() -> Vec<SmallScene> {
             moving(
                 "cycles = 3\n",
                 &format!("run = \"span\"\nmethod = \"generalised-alpha\"\n{free}{}", bearings(SPRINGS)),
-            ),
+            )
+            // With sixteen steps a mesh cycle the method takes a hundredth of the vibration's energy.
+            .replace("= 16", "= 32"),
         ),
         (
             "motion_explicit",

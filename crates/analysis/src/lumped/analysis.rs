@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use integrate::State;
-use scene::{Driver, Model, MotionScene, Scene};
+use scene::{Model, MotionScene, Scene};
 use study::{Lyapunov, Window};
 
 use super::{
@@ -165,7 +165,7 @@ impl<'a> LumpedAnalysis<'a> {
         });
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
-        facts.certificate = certificate(&scene, &run).and(Certificate::new(system.model.checks()));
+        facts.certificate = certificate(&run).and(Certificate::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
         let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
         let mut found = || {
@@ -284,7 +284,7 @@ pub(super) fn checked_run(
     let plan = RunPlan { scene, motion, frequencies, from };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
-    certificate(scene, &run).and(Certificate::new(model.checks())).verdict(scene)?;
+    certificate(&run).and(Certificate::new(model.checks())).verdict(scene)?;
     Ok(run)
 }
 
@@ -307,11 +307,8 @@ fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls.
-fn certificate(scene: &Scene, run: &LumpedRun) -> Certificate {
-    let driven = [scene.wheel.teeth, scene.pinion.teeth][usize::from(scene.operation.driver == Driver::Wheel)];
-    let turned = TAU * run.booked as f64 / f64::from(driven);
-    let through = scene.operation.torque().abs() * turned;
-    let mut all = vec![motion::energy_check(run.ledger.residual(), through, run.ledger.relative_residual())];
+fn certificate(run: &LumpedRun) -> Certificate {
+    let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
     if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
         let forces = run.rows.iter().flat_map(|r| [Some(r.normal_force), r.coast_normal_force]).flatten();
         all.push(motion::pulling_check(least, forces.fold(f64::NEG_INFINITY, f64::max)));
