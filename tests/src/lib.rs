@@ -16,6 +16,7 @@ pub mod random_scene;
 pub mod random_scenes;
 pub mod readers;
 pub mod recorded;
+pub mod scaled;
 pub mod small_scenes;
 
 use std::path::PathBuf;

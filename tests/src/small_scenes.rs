@@ -199,7 +199,7 @@ pub fn all() -> Vec<SmallDocument> {
 }
 
 /// Names and texts of the scenes.
-fn scenes() -> Vec<(&'static str, String)> {
+pub fn scenes() -> Vec<(&'static str, String)> {
     let relief = "[pinion.modification]\ntip_relief_um = 12.0\ntip_relief_start_roll_deg = 28.0\nlead_crowning_um = 4.0\n\
                   [pair.misalignment]\nin_plane_of_action_um = 6.0\n";
     let free = ["pinion", "wheel"].map(|g| format!("[{g}.body]\nfree = [\"x\", \"y\", \"z\"]\n")).concat();
@@ -229,7 +229,9 @@ fn scenes() -> Vec<(&'static str, String)> {
             moving(
                 "cycles = 3\n",
                 &format!("run = \"span\"\nmethod = \"generalised-alpha\"\n{free}{}", bearings(SPRINGS)),
-            ),
+            )
+            // With sixteen steps a mesh cycle the method takes a hundredth of the vibration's energy.
+            .replace("= 16", "= 32"),
         ),
         (
             "motion_explicit",

@@ -21,6 +21,9 @@ const MOST_TRIES: usize = 40;
 /// Mesh stiffness per width of face to begin with, N/(mm um), after ISO 6336-1.
 const FIRST_GUESS: f64 = 14.0;
 
+/// Way by which an approach without contact is deepened at the least, over the first guess of the largest approach.
+const CLOSEST: f64 = 1e-7;
+
 /// The nodes of a column, from no force to the largest, and how many contacts were solved.
 pub(crate) fn column<C: PhaseContact>(
     contact: &mut C,
@@ -33,10 +36,12 @@ pub(crate) fn column<C: PhaseContact>(
     let mut nodes = vec![Node::default(); intervals + 1];
     let mut solved = 0;
     let top = axis.force(intervals as f64);
-    let mut from = (touch + 1e-3 * top / (FIRST_GUESS * width), f64::NAN, f64::NAN);
+    let guess = 1e-3 * top / (FIRST_GUESS * width);
+    let mut from = (touch + guess, f64::NAN, f64::NAN);
     for i in (1..=intervals).rev() {
         let wanted = axis.force(i as f64);
-        let (approach, sample) = under(contact, (phase, tilt), wanted, touch, (&mut from, &mut solved))?;
+        let (approach, sample) =
+            under(contact, (phase, tilt), wanted, [touch, CLOSEST * guess], (&mut from, &mut solved))?;
         nodes[i] = node(approach, &sample.slices, shares);
     }
     // Lengths at no load at all are those of the least load; they multiply a force that is not there.
@@ -58,12 +63,13 @@ fn first_touch<C: PhaseContact>(contact: &mut C, tilt: f64) -> f64 {
     approach
 }
 
-/// Approach under a force, with the sample it was taken from; `from`: approach, force and stiffness of the last one.
+/// Approach under a force, with the sample it was taken from; `closest` (mm): what an approach without contact is
+/// deepened by at the least; `from`: approach, force and stiffness of the last one.
 fn under<C: PhaseContact>(
     contact: &mut C,
     (phase, tilt): (f64, f64),
     wanted: f64,
-    touch: f64,
+    [touch, closest]: [f64; 2],
     (from, solved): (&mut (f64, f64, f64), &mut usize),
 ) -> Result<(f64, ContactSample), MapError<C::Error>> {
     let mut force_n = 0.0;
@@ -83,7 +89,7 @@ fn under<C: PhaseContact>(
             *from = (next, sample.force, sample.stiffness);
         } else {
             // Apart yet: deeper by as much as it went beyond first touch.
-            *from = (next + 2.0 * (next - touch).abs().max(1e-9), f64::NAN, f64::NAN);
+            *from = (next + 2.0 * (next - touch).abs().max(closest), f64::NAN, f64::NAN);
             continue;
         }
         if (sample.force - wanted).abs() <= NEAR * wanted {

@@ -150,7 +150,7 @@ impl<'a> ModalBalance<'a> {
         }
     }
 
-    /// Adds what the contact of one side does; the power that friction takes from the modes.
+    /// Adds what the contact of one side does; the power of friction on the modes.
     pub fn add(&mut self, force: &SideForce, rate: &DVector<f64>) -> f64 {
         let Some(modal) = &force.modal else { return 0.0 };
         self.conservative += &modal.normal;
@@ -158,7 +158,7 @@ impl<'a> ModalBalance<'a> {
         if let Some(stiffness) = &modal.stiffness {
             self.stiffness += stiffness;
         }
-        -modal.friction.dot(rate)
+        modal.friction.dot(rate)
     }
 
     /// Adds the inertia of a nominal motion that is not steady, -L D a, which is returned.

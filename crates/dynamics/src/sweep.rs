@@ -82,8 +82,6 @@ pub struct SweepPoint {
     pub bearing_force: f64,
     /// Energy from the start of this speed on, its settling included.
     pub ledger: Ledger,
-    /// Work that went through the pair in the same time, N mm.
-    pub throughput: f64,
     /// Extremes over the same time.
     pub extremes: Extremes,
     /// Tooth changes in the same time.
@@ -210,7 +208,6 @@ fn steady_state_at(
         coast_force: 0.0,
         bearing_force: 0.0,
         ledger: Ledger::default(),
-        throughput: 0.0,
         extremes: Extremes::default(),
         changes: ToothChanges::default(),
     };
@@ -226,7 +223,6 @@ fn steady_state_at(
         motion.run_cycle(Some(&mut row))?;
     }
     point.ledger = motion.ledger().copied().unwrap_or_default();
-    point.throughput = motion.counts().throughput;
     (point.extremes, point.changes) = (*motion.system().extremes(), motion.system().changes());
     let end = motion.state().clone();
     Ok((point, end))

@@ -109,7 +109,7 @@ pub(crate) fn outside_of_window(result: &StaticResult, teeth: usize) -> f64 {
         let inside = first..first + teeth as i64;
         p.pairs.iter().filter(|q| !inside.contains(&q.pair)).map(|q| q.normal_force).sum::<f64>()
     };
-    result.history.positions.iter().map(outside).fold(0.0, f64::max)
+    largest(result.history.positions.iter().map(outside))
 }
 
 /// No settings.
@@ -118,6 +118,16 @@ pub(crate) const AS_IT_IS: [&str; 0] = [];
 /// Transmission error of all positions, um.
 pub(crate) fn errors_um(result: &StaticResult) -> Vec<f64> {
     result.history.positions.iter().map(|p| 1e3 * p.transmission_error).collect()
+}
+
+/// The largest; NaN of nothing, and where one is no number: neither is a bound kept.
+pub(crate) fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
+    values.into_iter().reduce(analysis::worse).unwrap_or(f64::NAN)
+}
+
+/// The least; NaN as of [`largest`].
+pub(crate) fn least(values: impl IntoIterator<Item = f64>) -> f64 {
+    -largest(values.into_iter().map(|x| -x))
 }
 
 /// Arithmetic mean; NaN of nothing.
@@ -131,10 +141,27 @@ pub(crate) fn peak_to_peak(values: &[f64]) -> f64 {
     if values.iter().any(|v| v.is_nan()) { f64::NAN } else { high - low }
 }
 
-/// Largest difference of two rows of equal length; infinite where they are not.
+/// Largest difference of two rows of equal length; infinite where they are not, NaN of none.
 pub(crate) fn farthest(a: &[f64], b: &[f64]) -> f64 {
     if a.len() != b.len() {
         return f64::INFINITY;
     }
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, |m, d| if d <= m { m } else { d })
+    largest(a.iter().zip(b).map(|(a, b)| (a - b).abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What is no number, and what is not there, keeps no bound.
+    #[test]
+    fn nothing_and_no_number_are_neither_large_nor_small() {
+        assert_eq!([largest([1.0, 3.0, 2.0]), least([1.0, -3.0, 2.0])], [3.0, -3.0]);
+        let none: [f64; 0] = [];
+        for lost in [largest(none), least(none), largest([f64::NAN, 1.0]), largest([1.0, f64::NAN]), farthest(&[], &[])]
+        {
+            assert!(lost.is_nan(), "{lost}");
+        }
+        assert_eq!(farthest(&[1.0], &[1.0, 2.0]), f64::INFINITY);
+    }
 }

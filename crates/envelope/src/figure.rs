@@ -16,9 +16,9 @@ pub enum Value {
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Asked {
-    /// A number not below this.
+    /// A finite number not below this.
     AtLeast(f64),
-    /// A number not above this; no number is above it.
+    /// A finite number not above this.
     AtMost(f64),
     /// Words that hold this.
     Says(&'static str),
@@ -63,11 +63,20 @@ impl Shown {
         Self::says(found.unwrap_or_else(|| "no such warning".to_owned()), words)
     }
 
+    /// Whether some value would not be what is asked: a bound beyond all numbers and words that every message holds ask
+    /// nothing.
+    pub fn asks(&self) -> bool {
+        match self.asked {
+            Asked::AtLeast(bound) | Asked::AtMost(bound) => bound.abs() < 1e12,
+            Asked::Says(words) => !words.is_empty(),
+        }
+    }
+
     /// Whether it is what is asked.
     pub fn holds(&self) -> bool {
         match (&self.value, self.asked) {
-            (Value::Number(x), Asked::AtLeast(least)) => *x >= least,
-            (Value::Number(x), Asked::AtMost(most)) => *x <= most,
+            (Value::Number(x), Asked::AtLeast(least)) => x.is_finite() && *x >= least,
+            (Value::Number(x), Asked::AtMost(most)) => x.is_finite() && *x <= most,
             (Value::Words(said), Asked::Says(words)) => said.contains(words),
             _ => false,
         }
@@ -97,8 +106,39 @@ impl Figure {
         Self { naive: Some(naive), ..self }
     }
 
-    /// Whether the naive way fails and the robust one does not.
+    /// Whether both ways are asked for something, the naive one fails and the robust one does not.
     pub fn holds(&self) -> bool {
-        self.robust.holds() && self.naive.as_ref().is_none_or(Shown::holds)
+        std::iter::once(&self.robust).chain(&self.naive).all(|shown| shown.asks() && shown.holds())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A figure fails with either way, with what is no number, and where nothing is asked.
+    #[test]
+    fn a_figure_that_asks_nothing_does_not_hold() {
+        let figure = |robust, naive| Figure::new("", robust).beside(naive);
+        let (fine, fails) = (Shown::at_most(1.0, 1.0), Shown::at_least(2.0, 2.0));
+        assert!(figure(fine.clone(), fails.clone()).holds());
+        for wrong in [
+            Shown::at_most(1.1, 1.0),
+            Shown::at_least(0.9, 1.0),
+            Shown::at_most(f64::NAN, 1.0),
+            Shown::at_least(f64::NAN, 1.0),
+            Shown::at_least(f64::INFINITY, 1.0),
+            Shown::at_most(f64::NEG_INFINITY, 1.0),
+            Shown::at_most(1.0, f64::INFINITY),
+            Shown::at_most(1.0, 1e30),
+            Shown::at_least(1.0, f64::NAN),
+            Shown::says("anything", ""),
+            Shown::says("solved", "refused"),
+            Shown::refused(&Ok::<(), String>(()), "cut"),
+            Shown::warned(&[], "cut"),
+        ] {
+            assert!(!figure(wrong.clone(), fails.clone()).holds(), "robust {wrong:?}");
+            assert!(!figure(fine.clone(), wrong.clone()).holds(), "naive {wrong:?}");
+        }
     }
 }

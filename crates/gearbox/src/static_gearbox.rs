@@ -285,7 +285,8 @@ pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vec
 fn guessed_force(meshes: &[Mesh], operation: &Operation) -> f64 {
     let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
     let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
-    if radius > 0.0 { (torque / radius).max(1.0) } else { 1.0 }
+    // Without a load any force will do.
+    if torque > 0.0 && radius > 0.0 { torque / radius } else { 1.0 }
 }
 
 /// Stiffness along the normal that the search begins with, N/mm.

@@ -77,6 +77,7 @@ impl Gear {
             roll: [self.profile.roll_form(), self.profile.roll_tip()],
             half_width: 0.5 * self.data.face_width,
             base_radius: self.base_radius(),
+            normal_module: self.data.normal_module,
         };
         let mut fields = [None, None];
         for (field, side) in fields.iter_mut().zip([Side::Left, Side::Right]) {

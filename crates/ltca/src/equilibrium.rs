@@ -50,6 +50,8 @@ pub struct Equilibrium {
     pub course: DeflectionCourse,
 }
 
+/// Reach that a search which found nothing begins with, over the normal module.
+const LEAST_REACH: f64 = 1e-9 / 3.0;
 /// Mean line stiffness taken to guess the first approach, N/(mm mm); c' of ISO 6336 is about 14 N/(mm um).
 pub const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
@@ -155,7 +157,7 @@ pub(crate) fn equilibrium(
                     }
                     return Err(fail(ContactError::NoCandidates { reach_mm: reach }));
                 }
-                reach = 4.0 * reach.max(1e-9);
+                reach = 4.0 * reach.max(LEAST_REACH * module_mm);
                 continue;
             }
             PoseStep::ReachExceeded(farthest) => {

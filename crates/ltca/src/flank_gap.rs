@@ -18,6 +18,8 @@ pub(crate) struct FlankGap<'a> {
     flanks: RigidFlanks<'a>,
     /// b/2 of both, mm.
     half_widths: [f64; 2],
+    /// Normal module, mm: what round-off is a part of.
+    module: f64,
     /// Where the last place was found.
     hint: Cell<SliceHint>,
     /// Where it dips along the face, the deepest first.
@@ -41,16 +43,16 @@ pub(crate) struct DipPlace {
 }
 
 impl<'a> FlankGap<'a> {
-    /// Not looked at yet.
-    pub fn unseen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2]) -> Self {
+    /// Not looked at yet; `module`: normal module, mm.
+    pub fn unseen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64) -> Self {
         let half_widths = flanks.each_ref().map(|flank| flank.range()[1][1]);
         let flanks = RigidFlanks::new(flanks.each_ref(), poses);
-        Self { flanks, half_widths, hint: Cell::default(), dips: Vec::new() }
+        Self { flanks, half_widths, module, hint: Cell::default(), dips: Vec::new() }
     }
 
     /// At the stations along the face.
-    pub fn new(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2]) -> Self {
-        let gap = Self::unseen(flanks, poses);
+    pub fn new(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64) -> Self {
+        let gap = Self::unseen(flanks, poses, module);
         gap.looked(&[Some([f64::NEG_INFINITY; 2]); STATIONS], 0.0)
     }
 
@@ -88,14 +90,14 @@ impl<'a> FlankGap<'a> {
     }
 
     /// Where an earlier look at nearly the same poses saw dips: deeper than any other place.
-    pub fn seen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], places: &[DipPlace]) -> Self {
+    pub fn seen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64, places: &[DipPlace]) -> Self {
         let dip = |&DipPlace { z, is_known }: &DipPlace| Dip {
             z,
             gap: f64::NEG_INFINITY,
             lowest: f64::NEG_INFINITY,
             is_known,
         };
-        Self { dips: places.iter().map(dip).collect(), ..Self::unseen(flanks, poses) }
+        Self { dips: places.iter().map(dip).collect(), ..Self::unseen(flanks, poses, module) }
     }
 
     /// Places of the dips that may fall to some gap; where stations foretell more than was found, that of `found`.
@@ -133,7 +135,7 @@ impl<'a> FlankGap<'a> {
     /// Least gap over the face and where on the pinion, where it is less than `enough`, mm: to round-off, or to a
     /// nanometre at the `first` look.
     pub fn nearest_below(&mut self, enough: f64, first: bool) -> Option<(f64, [f64; 2])> {
-        let round_off = if first { FIRST_ROUND_OFF } else { ROUND_OFF };
+        let round_off = self.module / if first { FIRST_ROUND_OFF } else { ROUND_OFF };
         let mut best: Option<(f64, [f64; 2])> = None;
         for i in 0..self.dips.len() {
             let dip = &self.dips[i];
@@ -202,10 +204,10 @@ const LEAST_STEPS: usize = 80;
 const PLACE: f64 = 1e-8;
 /// Part of a bracket by which an end is looked beside.
 const AT_END: f64 = 1e-6;
-/// Differences between gaps that are round-off, mm.
-const ROUND_OFF: f64 = 2e-15;
-/// The same at a first look, which another one follows.
-const FIRST_ROUND_OFF: f64 = 1e-7;
+/// Differences between gaps that are round-off, as one part in so many of the normal module: 2e-15 mm at 3 mm.
+const ROUND_OFF: f64 = 1.5e15;
+/// The same at a first look, which another one follows: a tenth of a nanometre at 3 mm.
+const FIRST_ROUND_OFF: f64 = 3e7;
 
 /// Place of the least value of `f` between two ends with known values, these included, from a place within: Brent's
 /// method (Algorithms for minimization without derivatives, 1973, chapter 5), parabolas where they serve, golden

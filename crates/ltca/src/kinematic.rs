@@ -20,10 +20,11 @@ const NEWTON_STEPS: usize = 10;
 const OTHER_LEVERS: f64 = 0.05;
 /// Heights between which a parabola tells where the gap is least, over half the face width.
 const POLISH: f64 = 0.001;
-/// Turn by which a difference tells how the gap follows the rotation, mm on the base circle.
-const TURN: f64 = 1e-4;
-/// Flanks nearer than this touch, mm: a nanometre.
-const TOUCHING: f64 = 1e-6;
+/// Turn by which a difference tells how the gap follows the rotation, on the base circle as one part in so many of the
+/// normal module.
+const TURN: f64 = 3e4;
+/// Flanks nearer than one part in so many of the normal module touch: a nanometre at 3 mm.
+const TOUCHING: f64 = 3e6;
 
 /// The gears of a station without load, in their own frames, teeth counted from the pair in the middle of the cycle.
 #[derive(Debug, Clone)]
@@ -180,27 +181,30 @@ impl<'a> Unloaded<'a> {
         let flanks: Vec<[FlankPatch; 2]> = teeth.iter().map(|&tooth| self.patches(tooth)).collect();
         let mut gaps: Vec<FlankGap<'_>> = match look {
             Look::All(_) => {
-                let unseen: Vec<FlankGap<'_>> = flanks.iter().map(|flanks| FlankGap::unseen(flanks, poses)).collect();
+                let unseen: Vec<FlankGap<'_>> =
+                    flanks.iter().map(|flanks| FlankGap::unseen(flanks, poses, self.module())).collect();
                 let foretold: Vec<_> = unseen.iter().map(FlankGap::foretold).collect();
                 // Whatever the least gap is, it is no larger than the least that may be.
                 let enough = foretold.iter().flatten().flatten().map(|[_, high]| *high).fold(f64::INFINITY, f64::min);
                 unseen.into_iter().zip(&foretold).map(|(gap, told)| gap.looked(told, enough)).collect()
             }
-            Look::At(places) => {
-                flanks.iter().zip(places).map(|(flanks, (_, at))| FlankGap::seen(flanks, poses, at)).collect()
-            }
+            Look::At(places) => flanks
+                .iter()
+                .zip(places)
+                .map(|(flanks, (_, at))| FlankGap::seen(flanks, poses, self.module(), at))
+                .collect(),
         };
         let mut best = nearest_of(&mut gaps, &teeth, first);
         if best.is_none() && first {
             // Flanks that the first order says nothing true of: every station counts.
-            gaps = flanks.iter().map(|flanks| FlankGap::new(flanks, poses)).collect();
+            gaps = flanks.iter().map(|flanks| FlankGap::new(flanks, poses, self.module())).collect();
             best = nearest_of(&mut gaps, &teeth, first);
         }
         let best = best?;
         if let Look::At(places) = look {
             return Some((best, Look::At(places.clone())));
         }
-        let reach = best.gap + OTHER_LEVERS * best.gap.abs() + TOUCHING;
+        let reach = best.gap + OTHER_LEVERS * best.gap.abs() + self.touching();
         let places = teeth.iter().zip(&gaps).map(|(&tooth, gap)| {
             let found = (tooth == best.tooth).then_some(best.at[1]);
             (tooth, gap.dips_below(reach, found))
@@ -228,7 +232,7 @@ impl<'a> Unloaded<'a> {
     pub fn error_by_gap(&self, touch: &Nearest, gap: f64) -> Option<f64> {
         let driven = self.options.driven();
         let base_radius = [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven];
-        let turn = TURN / base_radius;
+        let turn = self.module() / TURN / base_radius;
         let at = |turn: f64| Self { rotation: self.rotation + turn, ..self.clone() }.gap_at(touch);
         let lever = (at(turn)? - at(-turn)?) / (2.0 * turn);
         Some(-self.options.side().sign() * base_radius * gap / lever)
@@ -238,7 +242,7 @@ impl<'a> Unloaded<'a> {
     /// `None` where the flanks touch at the end of what they face of each other, which moves with the gears.
     pub fn polished(&self, touch: &Nearest) -> Option<Nearest> {
         let (flanks, poses) = (self.patches(touch.tooth), self.poses());
-        let gap = FlankGap::unseen(&flanks, &poses);
+        let gap = FlankGap::unseen(&flanks, &poses, self.module());
         let (z, half) = (touch.at[1], gap.half_width());
         if z.abs() == half {
             return Some(*touch);
@@ -256,7 +260,7 @@ impl<'a> Unloaded<'a> {
     /// Gap at the height at which another pair like this one touches, mm.
     pub fn gap_at(&self, touch: &Nearest) -> Option<f64> {
         let (flanks, poses) = (self.patches(touch.tooth), self.poses());
-        FlankGap::unseen(&flanks, &poses).at(touch.at[1]).map(|(_, gap)| gap)
+        FlankGap::unseen(&flanks, &poses, self.module()).at(touch.at[1]).map(|(_, gap)| gap)
     }
 
     /// A pair at a rotation of its driven gear, wherever its flanks are.
@@ -264,25 +268,36 @@ impl<'a> Unloaded<'a> {
         Self { pair, options, station, rotation, touch: None }
     }
 
+    /// Normal module, mm.
+    fn module(&self) -> f64 {
+        self.pair.pinion.data().normal_module
+    }
+
+    /// Gap up to which flanks touch, mm.
+    fn touching(&self) -> f64 {
+        self.module() / TOUCHING
+    }
+
     /// Length of the contact line (mm) of the pair of a running number: the stretch on which the flanks touch to a
-    /// nanometre, over cos b_b.
+    /// nanometre at a module of 3 mm, over cos b_b.
     pub fn line_length(&self, running: i64) -> f64 {
         let poses = self.poses();
         let flanks = self.patches(running - self.station.middle_pair(self.options.sense));
-        let mut gap = FlankGap::new(&flanks, &poses);
+        let mut gap = FlankGap::new(&flanks, &poses, self.module());
         let Some((least, [_, z])) = gap.nearest_below(f64::INFINITY, false) else { return 0.0 };
-        if least > TOUCHING {
+        let touching = self.touching();
+        if least > touching {
             return 0.0;
         }
         let touches = |z: f64| gap.at(z).map_or(f64::INFINITY, |g| g.1);
         let half = gap.half_width();
-        let mut intervals = contact_intervals(touches, [-half, half], STATIONS, TOUCHING);
+        let mut intervals = contact_intervals(touches, [-half, half], STATIONS, touching);
         if !intervals.iter().any(|i| (i[0]..=i[1]).contains(&z)) {
             // Touching between two stations only: from the place of least gap to the stations beside it.
             let step = 2.0 * half / (STATIONS - 1) as f64;
             let beside = [(z - step).max(-half), z, (z + step).min(half)];
-            let left = contact_intervals(touches, [beside[0], z], 2, TOUCHING);
-            let right = contact_intervals(touches, [z, beside[2]], 2, TOUCHING);
+            let left = contact_intervals(touches, [beside[0], z], 2, touching);
+            let right = contact_intervals(touches, [z, beside[2]], 2, touching);
             intervals = left.into_iter().chain(right).collect();
         }
         covered(&intervals, [-half, half]) / self.pair.base_helix_angle().cos()

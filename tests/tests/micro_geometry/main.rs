@@ -4,5 +4,6 @@ mod crowning;
 mod harris_map;
 mod kinematic;
 mod modified;
+mod scale;
 mod sensitivity;
 mod width_and_crowning;

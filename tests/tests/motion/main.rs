@@ -3,6 +3,7 @@
 mod both_free;
 mod fields;
 mod ladder;
+mod ledgers;
 mod mapped;
 mod modes_in_motion;
 mod motion_cells;
@@ -12,3 +13,4 @@ mod motion_order;
 mod motion_tooth_change;
 mod pair_course;
 mod pair_motion;
+mod scale;

@@ -31,7 +31,8 @@ impl EnvelopeArgs {
     /// Looks at all; the text is the closing table.
     pub(super) fn execute(self) -> Result<Answer, CommandError> {
         let (modes, maps) = chosen(&self.only, self.quick, self.maps).map_err(|word| {
-            let hint = format!("F1 .. F{}, or a map: a .. {}", MODES.len(), MAPS.last().map_or("", |m| m.key));
+            let [mode, map] = [MODES.last().map(FailureMode::label), MAPS.last().map(|m| m.key.to_owned())];
+            let hint = format!("F1 .. {}, or a map: a .. {}", mode.unwrap_or_default(), map.unwrap_or_default());
             CommandError::input(format_args!("`--only {word}`: there is no such case"), Some(hint))
         })?;
         let results = ResultDirectory::create(&self.out)?;

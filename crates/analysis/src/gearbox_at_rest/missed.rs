@@ -4,7 +4,7 @@ use super::GearboxResult;
 
 /// Share of loads that may be left over, and of forces on a body.
 const BALANCE: f64 = 1e-6;
-/// Energy that may come from nowhere, over the work of all.
+/// Energy that steps may add or take by themselves, over that of the vibration.
 const ENERGY: f64 = 1e-3;
 /// Error of the natural frequencies of reduced shafts.
 const FREQUENCIES: f64 = 0.03;
@@ -54,12 +54,12 @@ impl GearboxResult {
             }
         }
         let Some(motion) = &self.motion else { return all };
-        let (left, beyond) = (motion.energy.relative_residual.abs(), motion.reach.iter().copied().fold(0.0, f64::max));
+        let (left, beyond) = (motion.energy.open_over_vibration, motion.reach.iter().copied().fold(0.0, crate::worse));
         if left.is_nan() || left > ENERGY {
             let what = format!("{left:.1e} of the energy of the motion comes from nowhere");
             say(what, "take more `steps_per_cycle`, or `method = \"energy\"`");
         }
-        if beyond > 1.0 {
+        if beyond.is_nan() || beyond > 1.0 {
             let what = format!("the motion goes {beyond:.2} times as far as the maps or springs of the contact hold");
             say(what, "take `mesh = \"exact\"`, or let it run with more damping");
         }

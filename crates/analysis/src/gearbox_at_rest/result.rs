@@ -150,7 +150,7 @@ pub(super) fn result(
         let own = || all.iter().map(move |p| p.output_lags[i]);
         OutputResult { mean: mean(own()), peak_to_peak: peak_to_peak(own()) }
     };
-    let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, f64::max);
+    let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, crate::worse);
     let of_meshes: Vec<MeshResult> = (0..meshes.len()).map(mesh).collect();
     let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
     let mut warnings = warnings;

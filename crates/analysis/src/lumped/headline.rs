@@ -60,6 +60,7 @@ pub struct LumpedHeadline {
 pub struct LumpedCertificate {
     pub ledger_residual_mj: f64,
     pub ledger_residual_over_turnover: f64,
+    pub energy_open_over_vibration: f64,
     pub period_cycles: Option<usize>,
     pub periodicity: Option<f64>,
     /// Largest exponent of a motion that does not repeat itself, 1/s.
@@ -147,6 +148,7 @@ fn certificate(run: &LumpedRun, lyapunov: Option<Lyapunov>) -> LumpedCertificate
     LumpedCertificate {
         ledger_residual_mj: run.ledger.residual(),
         ledger_residual_over_turnover: run.ledger.relative_residual(),
+        energy_open_over_vibration: run.ledger.open_over_vibration(),
         period_cycles: run.periodicity.map(|p| p.period),
         periodicity: run.periodicity.map(|p| p.residual),
         lyapunov,

@@ -112,13 +112,13 @@ impl LumpedMechanism for MappedModel {
         vec![
             Check {
                 name: "map_error",
-                value: worst.fold(0.0, f64::max),
+                value: worst.fold(0.0, crate::worse),
                 bound: WORST_MAP,
                 way_out: "use `model = \"reduced\"`, which solves the contact itself",
             },
             Check {
                 name: "map_excess",
-                value: excess.force.max(excess.tilt),
+                value: crate::worse(excess.force, excess.tilt),
                 bound: 1.0,
                 way_out: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
             },

@@ -26,7 +26,7 @@ impl PeriodicityMonitor {
         let mut once = f64::INFINITY;
         let mut best = Periodicity { period: 1, residual: f64::INFINITY };
         for (i, before) in self.cycles.iter().rev().enumerate() {
-            let off = rows.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+            let off = rows.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, crate::worse);
             let residual = off / size;
             if i == 0 {
                 once = residual;

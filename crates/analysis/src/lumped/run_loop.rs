@@ -50,7 +50,7 @@ impl MeshFrequencies {
 pub(crate) struct LumpedRun {
     /// Row by row.
     pub rows: Vec<LumpedRow>,
-    /// Energy since the start of the run, row by row and at its end.
+    /// Energy since the start of the run, row by row.
     pub energy: Vec<EnergyRow>,
     /// Where it ends.
     pub end: State,
@@ -62,8 +62,6 @@ pub(crate) struct LumpedRun {
     pub judged: u64,
     /// Mesh cycles before them.
     pub warm_up: u64,
-    /// Mesh cycles of the ledger: all, or those since the motion was taken to its periodic state.
-    pub booked: u64,
     /// How nearly the motion repeated itself at last.
     pub periodicity: Option<Periodicity>,
     /// Energy from the start of the run on.
@@ -168,8 +166,6 @@ pub(super) fn stable_step(
 /// How a motion came to its periodic state.
 struct Settled {
     warm_up: u64,
-    /// Mesh cycles since the ledger was opened.
-    booked: u64,
     periodicity: Option<Periodicity>,
 }
 
@@ -200,7 +196,7 @@ impl RunPlan<'_> {
             None => model.start()?,
         };
         let mut integrator = integrator(model, motion, frequencies.step(motion));
-        let Settled { warm_up, booked, periodicity } = self.settle(model, &mut integrator, &mut state)?;
+        let Settled { warm_up, periodicity } = self.settle(model, &mut integrator, &mut state)?;
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
         let (mut rows, mut energy) = (Vec::new(), Vec::new());
         for k in 0..cycles * per_cycle {
@@ -211,7 +207,6 @@ impl RunPlan<'_> {
             advance(model, &mut integrator, &mut state, self.time(warm_up * per_cycle + k + 1))?;
         }
         let ledger = ledger(model, &integrator, &state)?;
-        energy.push(EnergyRow::of(state.time, &ledger));
         // Of a ramp the last speed is judged.
         let judged = match motion.ramp {
             Some(ramp) => ((ramp.after_s * frequencies.mesh_hz).floor() as u64).clamp(1, cycles),
@@ -225,7 +220,6 @@ impl RunPlan<'_> {
             cycles,
             judged,
             warm_up,
-            booked: booked + cycles,
             periodicity,
             ledger,
             steps: integrator.steps(),
@@ -245,14 +239,14 @@ impl RunPlan<'_> {
         let (per_cycle, most) = (u64::from(motion.steps_per_mesh_cycle), u64::from(motion.warm_up_cycles.unwrap_or(0)));
         let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
         let (mut monitor, mut periodicity) = (PeriodicityMonitor::default(), None);
-        let (mut warm_up, mut booked, mut next_shot) = (0, 0, FIRST_SHOT);
+        let (mut warm_up, mut next_shot) = (0, FIRST_SHOT);
         while motion.run == Run::Steady && warm_up < most {
             let mut errors = Vec::with_capacity(per_cycle as usize);
             for k in 0..per_cycle {
                 errors.push(model.transmission_error_um(state).map_err(ModelFailure::at(state.time))?);
                 advance(model, integrator, state, self.time(warm_up * per_cycle + k + 1))?;
             }
-            (warm_up, booked) = (warm_up + 1, booked + 1);
+            warm_up += 1;
             let found = monitor.judge(errors, tolerance);
             periodicity = Some(found);
             if found.residual <= tolerance {
@@ -265,11 +259,11 @@ impl RunPlan<'_> {
                     *state = there;
                     *integrator =
                         self::integrator(model, motion, self.frequencies.step(motion)).resumed(opened(model, state)?);
-                    (monitor, booked) = (PeriodicityMonitor::default(), 0);
+                    monitor = PeriodicityMonitor::default();
                 }
             }
         }
-        Ok(Settled { warm_up, booked, periodicity })
+        Ok(Settled { warm_up, periodicity })
     }
 
     /// The periodic state near a state: of one mesh cycle, else of as many as the motion looks like having.

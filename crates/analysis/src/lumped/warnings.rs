@@ -6,7 +6,7 @@ use study::Lyapunov;
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
 use crate::motion::{self, NO_BACKLASH_UM};
 
-/// Residual of the ledger over the turnover from which on a user should hear of it.
+/// Energy that steps add or take by themselves over that of the vibration, from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;
 
 /// A mesh without backlash where the model has one: its flanks do not part.
@@ -68,10 +68,11 @@ pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadli
             warnings.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
         }
     }
-    if c.ledger_residual_over_turnover.abs() > OPEN_ENERGY {
+    if c.energy_open_over_vibration > OPEN_ENERGY {
         warnings.push(format!(
-            "energy closes to {:.1e} of the work done only (asked: {OPEN_ENERGY:.0e}): take smaller steps or `method = \"energy\"`",
-            c.ledger_residual_over_turnover.abs()
+            "energy closes to {:.1e} of the energy of the vibration only (asked: {OPEN_ENERGY:.0e}): take smaller steps or \
+             `method = \"energy\"`",
+            c.energy_open_over_vibration
         ));
     }
     warnings

@@ -15,7 +15,7 @@ pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepP
     let force = point.extremes.largest_force.max(point.coast_force);
     Certificate::new([
         deflection_check_in_motion(scene, pair, point.transmission_error.iter().copied()),
-        energy_check(point.ledger.residual(), point.throughput, point.ledger.relative_residual()),
+        energy_check(point.ledger.open_over_vibration()),
         pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
         force_jump_check(point.changes.jump, force),
     ])
@@ -28,7 +28,7 @@ impl MotionHeadline {
         let errors = [self.min_dte_um, self.max_dte_um].map(|um| 1e-3 * um);
         let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
         Certificate::new([
-            energy_check(c.ledger_residual_mj, c.work_through_pair_mj, c.ledger_residual_over_turnover),
+            energy_check(c.energy_open_over_vibration),
             pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
             force_jump_check(c.force_jump_at_tooth_change_n, force),
             deflection_check_in_motion(scene, pair, errors.into_iter()),
@@ -57,8 +57,7 @@ mod tests {
             normal_force: vec![100.0; 4],
             coast_force: 0.0,
             bearing_force: 0.0,
-            ledger: Ledger { kinetic: 1.0, supplied: 1.0, turnover: 1.0, ..Ledger::default() },
-            throughput: 50.0,
+            ledger: Ledger { exchanged: 1.0, open: 1e-3, ..Ledger::default() },
             extremes: Extremes { least_force: Some(1.0), largest_force: 100.0, ..Extremes::default() },
             changes: ToothChanges { count: 10, jump: 1e-5 },
         }
@@ -76,10 +75,10 @@ mod tests {
             checks_of_speed((&scene, &pair), &point).missed().map(|check| check.name).collect::<Vec<_>>()
         };
         assert_eq!(missed(|_| ()), [""; 0]);
-        // 0.6 mJ of 50 mJ that go through the pair, and of 1 mJ that changed its motion.
-        assert_eq!(missed(|p| p.ledger.kinetic = 1.6), ["energy_residual"]);
-        assert_eq!(missed(|p| p.ledger.kinetic = 1.4), [""; 0]);
-        assert_eq!(missed(|p| p.ledger.kinetic = f64::NAN), ["energy_residual"]);
+        assert_eq!(missed(|p| p.ledger.open = 0.011), ["energy_residual"]);
+        assert_eq!(missed(|p| p.ledger.open = 0.009), [""; 0]);
+        assert_eq!(missed(|p| p.ledger.open = f64::NAN), ["energy_residual"]);
+        assert_eq!(missed(|p| p.ledger = Ledger { open: 1e-9, ..Ledger::default() }), ["energy_residual"]);
         assert_eq!(missed(|p| p.extremes.least_force = Some(-0.01)), ["pulling_force"]);
         assert_eq!(missed(|p| p.changes.jump = 0.02), ["force_jump"]);
         // The bound is 0.3 modules of 3 mm.

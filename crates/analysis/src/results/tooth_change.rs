@@ -22,7 +22,7 @@ impl ToothChangeHeadline {
     pub fn of(history: &StaticHistory) -> Option<Self> {
         let all = &history.tooth_changes;
         let first = all.first()?;
-        let largest = |jump: fn(&ToothChangeRecord) -> f64| all.iter().map(jump).fold(0.0, f64::max);
+        let largest = |jump: fn(&ToothChangeRecord) -> f64| all.iter().map(jump).fold(0.0, crate::worse);
         Some(Self {
             mesh_cycles: first.mesh_cycles,
             pinion_angle_deg: first.pinion_angle.to_degrees(),

@@ -61,10 +61,11 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn least_depth(&self) -> f64 {
         0.0
     }
+    /// Half of a usual band of contact, mm, as which curvatures of [`Surface::depth`] are seen; 0 without depth.
+    fn band(&self) -> f64 {
+        0.0
+    }
 }
-
-/// Half of a usual band of contact, mm.
-const BAND: f64 = 0.1;
 
 fn foot(f: geometry::FlankPoint) -> Foot {
     Foot { at: [f.roll, f.z], distance: f.distance }
@@ -127,15 +128,18 @@ impl Surface for geometry::ModifiedFlank {
         self.tangents(u, z)[0]
     }
 
-    /// That of the nominal flank and that of the depth, as a band of 0.1 mm either way sees it: where a relief starts
-    /// with a kink there is none to be had at a point.
+    /// That of the nominal flank and that of the depth, as a band of contact sees it ([`geometry::ModifiedFlank::band`]):
+    /// where a relief starts with a kink there is none to be had at a point.
     fn curvature(&self, [u, z]: [f64; 2]) -> f64 {
         let nominal = self.nominal();
+        let curvature = nominal.curvatures(u)[0];
+        if self.is_offset_helicoid() {
+            return curvature;
+        }
         let arc = nominal.base_radius * u.max(f64::MIN_POSITIVE);
-        let step = BAND / arc;
+        let step = self.band() / arc;
         let slope = |u: f64| geometry::ModifiedFlank::depth(self, u, z).by_roll;
         let added = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
-        let curvature = nominal.curvatures(u)[0];
         // A hollow is no Hertzian contact; a tenth of the convexity left keeps its band finite.
         curvature + added.max(-0.9 * curvature)
     }
@@ -174,6 +178,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn least_depth(&self) -> f64 {
         geometry::ModifiedFlank::least_depth(self)
+    }
+
+    fn band(&self) -> f64 {
+        geometry::ModifiedFlank::band(self)
     }
 }
 

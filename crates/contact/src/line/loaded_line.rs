@@ -14,8 +14,6 @@ pub struct LineStation {
 
 /// Ends are found to this share of the distance between stations.
 const RESOLUTION: f64 = 1e-9;
-/// What stands for the gap of flanks that do not face each other, mm.
-const FAR: f64 = 1.0;
 /// Stations that the deflection is interpolated from.
 const BASE: usize = 3;
 /// How many stations away they may lie.
@@ -127,10 +125,11 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
         (lowest < 0.0).then(|| [low, high].map(|to| self.zero_of(i, [dip, to], [lowest, gap_at(to)])))
     }
 
-    /// Gap under load at any height, without the local approach, mm.
+    /// Gap under load at any height, without the local approach, mm: of flanks that do not face each other as wide as the
+    /// stations are apart.
     fn under_load(&mut self, near: usize, z: f64) -> f64 {
         let gap = (self.gap)(near, z);
-        if gap.is_finite() { gap + self.opened(near, z) } else { FAR }
+        if gap.is_finite() { gap + self.opened(near, z) } else { self.step }
     }
 
     /// Deflection at height z by the parabola through the known stations next to it.

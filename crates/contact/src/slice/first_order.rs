@@ -8,8 +8,9 @@ use crate::{Pose, Surface, Vec3};
 
 /// Strides over the searched profile: dips that are nearer to each other are one.
 const STRIDES: f64 = 23.0;
-/// What the gap to first order may be off by: so much, mm, and this share of what the nominal flanks part by.
-const OFF_BY: (f64, f64) = (2e-3, 0.3);
+/// What the gap to first order may be off by: one part in so many of half a band of contact, and this share of what the
+/// nominal flanks part by.
+const OFF_BY: (f64, f64) = (50.0, 0.3);
 /// Part of a stride by which flanks may overlap or be apart, and to which their ends are known.
 const NEARLY: f64 = 0.25;
 /// Dips that are looked into at the most.
@@ -49,6 +50,8 @@ pub(super) struct FirstOrderGap {
     tilted: f64,
     /// Least sum of both depths, mm.
     shallowest: f64,
+    /// What the gap to first order may be off by whatever the nominal flanks part by, mm.
+    amount: f64,
 }
 
 /// Where the gap may be least at a height.
@@ -120,6 +123,7 @@ impl FirstOrderGap {
             apart,
             tilted,
             shallowest: surfaces.map(Surface::least_depth).iter().sum(),
+            amount: surfaces.map(Surface::band).into_iter().fold(0.0, f64::max) / OFF_BY.0,
         })
     }
 
@@ -166,7 +170,7 @@ impl FirstOrderGap {
         }
         let curvature = self.curvature(touch) * self.cos_base_helix;
         let parted = |s: f64| 0.5 * curvature * s * s;
-        let (amount, share) = OFF_BY;
+        let (amount, share) = (self.amount, OFF_BY.1);
         let nearest = 0f64.clamp(low, high);
         let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + self.shallowest - 2.0 * amount;
         if least > reach {

@@ -20,6 +20,9 @@ impl Mechanism for MappedPair {
         let external = self.system.external(t, &nominal);
         out.other.gemv(1.0, &self.loading, &external, 1.0);
         out.supplied += self.system.coordinates().power(&external, v);
+        // A driver that balances the load answers loads, dampers and gyroscopic moments: its work is theirs beyond what
+        // they do without the answer.
+        out.supplied += self.system.balancing_torque(&external) * self.system.driver_rate(v);
         if let Some(bearing) = &self.bearing {
             out.conservative.gemv(-1.0, bearing, q, 1.0);
             if out.tangents {
@@ -28,13 +31,16 @@ impl Mechanism for MappedPair {
         }
         if let Some(damping) = &self.damping {
             out.other.gemv(-1.0, damping, v, 1.0);
-            out.dissipated += power(damping, v);
+            let taken = power(&self.taken, v);
+            out.dissipated += taken;
+            out.supplied += taken - power(damping, v);
             if out.tangents {
                 out.damping += damping;
             }
         }
         if let Some(gyroscopic) = &self.gyroscopic {
             out.other.gemv(-nominal.velocity[0], gyroscopic, v, 1.0);
+            out.supplied -= nominal.velocity[0] * power(gyroscopic, v);
             if out.tangents {
                 out.damping.zip_apply(gyroscopic, |c, g| *c += nominal.velocity[0] * g);
             }
@@ -52,9 +58,11 @@ impl Mechanism for MappedPair {
             if let Some((i, per_turn)) = self.phase_of_driver {
                 out.conservative[i] -= per_turn * contact.phase_rate;
             }
-            for (damped, (force, rate)) in side.damped.iter().zip(damping.force.iter().zip(&rates)).take(used) {
+            let answers = side.damped.iter().zip(&side.answered);
+            for ((damped, answered), (force, rate)) in answers.zip(damping.force.iter().zip(&rates)).take(used) {
                 out.other.axpy(-force, damped, 1.0);
                 out.dissipated += force * rate;
+                out.supplied -= force * answered.dot(v);
             }
             if out.rates {
                 let speed = self.system.cycles_per_second(t);

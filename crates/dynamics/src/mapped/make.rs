@@ -142,6 +142,7 @@ impl MappedPair {
                 approach: map.tr_mul(&projection.approach),
                 tilt: map.tr_mul(&projection.tilt),
                 damped: [&projection.approach, &projection.tilt].map(|f| &loading * f),
+                answered: [&projection.approach, &projection.tilt].map(|f| &loading * f - map.tr_mul(f)),
                 projection,
             })
             .collect();
@@ -153,6 +154,7 @@ impl MappedPair {
         Self {
             mass: integrate::Mechanism::mass(&system).clone(),
             bearing: unless_zero(map.transpose() * bearing * &map),
+            taken: map.transpose() * damping * &map,
             damping: unless_zero(on_coordinates(&damping)),
             gyroscopic: unless_zero(on_coordinates(&system.gyroscopic_at_unit_speed())),
             loading: DMatrix::from_fn(n, 12, |i, j| loading[(i, j)]),

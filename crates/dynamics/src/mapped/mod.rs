@@ -29,6 +29,8 @@ pub struct MappedPair {
     bearing: Option<DMatrix<f64>>,
     /// T' P C_b T, P: with the torque of a driver that balances; likewise.
     damping: Option<DMatrix<f64>>,
+    /// T' C_b T: what the dampers of the bearings take.
+    taken: DMatrix<f64>,
     /// T' P G T at the unit speed of the pinion; none without gears that tilt.
     gyroscopic: Option<DMatrix<f64>>,
     /// T' P.
@@ -65,6 +67,8 @@ struct MappedSide {
     tilt: DVector<f64>,
     /// T' P a and T' P b: what damping along them does.
     damped: [DVector<f64>; 2],
+    /// T' (P - 1) a and T' (P - 1) b: what a driver that balances answers it with.
+    answered: [DVector<f64>; 2],
 }
 
 impl MappedSide {

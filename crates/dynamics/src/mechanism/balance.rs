@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::{PairMechanism, external::about_own_axis};
 use crate::{
-    COORDINATES, Displacement,
+    COORDINATES, Displacement, NominalState,
     elastic_displacement::ElasticDisplacement,
     mesh_side::{MeshSide, SideContacts},
     modal::{ModalBalance, expansion},
@@ -27,10 +27,10 @@ impl Mechanism for PairMechanism {
         let cycles = self.cycles(t);
         let mut normal = Displacement::zeros();
         let mut other = self.external(t, &nominal);
-        out.supplied = other.dot(&rate);
+        out.supplied += other.dot(&rate);
         let mut stiffness = self.bearing[0];
         let mut damping = self.bearing[1];
-        out.dissipated = rate.dot(&(self.bearing[1] * rate));
+        out.dissipated += rate.dot(&(self.bearing[1] * rate));
         let mut modal = self.modal.as_ref().map(|modal| ModalBalance::new(modal, &at.q, &moving.q));
         for (side, force) in [(Some(&self.drive_side), Some(&driving)), (self.coast_side.as_ref(), coast.as_ref())] {
             let (Some(side), Some(force)) = (side, force) else { continue };
@@ -41,12 +41,14 @@ impl Mechanism for PairMechanism {
             let (damped, power) = side.damping(&poses, &rate, self.damping, matrix);
             other += damped;
             out.dissipated += power;
-            // Friction takes its power from the nominal motion as well; in the ledger of deviations it is their part
-            // that counts.
-            out.dissipated -= force.friction.dot(&rate);
+            // Friction goes against the sliding of the turn, and takes its power there. What it does to the deviations,
+            // of either sign, comes from the turn as well.
+            let taken = -force.friction.dot(&self.turning(&nominal, v));
+            out.dissipated += taken;
+            out.supplied += taken + force.friction.dot(&rate);
             match &mut modal {
                 None => stiffness += force.stiffness,
-                Some(modal) => out.dissipated += modal.add(force, &moving.q),
+                Some(modal) => out.supplied += modal.add(force, &moving.q),
             }
         }
         if out.tangents && modal.is_none() {
@@ -173,6 +175,18 @@ impl Mechanism for PairMechanism {
 }
 
 impl PairMechanism {
+    /// Velocities of both gears that turn in the ratio of their teeth, at the driver's own speed.
+    fn turning(&self, nominal: &NominalState, v: &DVector<f64>) -> Displacement {
+        let mut all = Displacement::zeros();
+        for (g, velocity) in nominal.velocity.iter().enumerate() {
+            all[COORDINATES * (g + 1) - 1] = *velocity;
+        }
+        if let Some(i) = self.coordinates.driver_turn() {
+            all.axpy(v[i], &self.coordinates.map().column(i), 1.0);
+        }
+        all
+    }
+
     /// Energy of bearings and modes, N mm.
     fn bearing_and_modal_energy(&self, at: &ElasticDisplacement) -> f64 {
         let modes = self.modal.as_ref().map_or(0.0, |modal| at.q.dot(&modal.squares.component_mul(&at.q)));

@@ -1,6 +1,6 @@
 //! Forces that do not come from the teeth: loads, drives, gyroscopic moments.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{DVector, Matrix3, SMatrix, Vector3};
 
 use super::PairMechanism;
 use crate::{COORDINATES, Displacement, Drive, NominalState, RigidBody};
@@ -51,6 +51,12 @@ impl PairMechanism {
         let turn = |g: usize| other[COORDINATES * (g + 1) - 1];
         let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()].map(f64::from);
         teeth[1 - driven] / teeth[driven] * turn(driven) - turn(1 - driven)
+    }
+
+    /// Velocity of the driver's turn beside the nominal one, rad/s, from those of the free coordinates.
+    pub(crate) fn driver_rate(&self, v: &DVector<f64>) -> f64 {
+        let driver = 1 - self.options.statics.driven();
+        self.coordinates.map().row(COORDINATES * (driver + 1) - 1).tr_dot(&v.rows(0, self.coordinates.count()))
     }
 
     /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed. `mesh`: forces

@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{Bench, errors_um, mean},
+    bench::{Bench, errors_um, largest, mean},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -38,8 +38,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         let [coarse, fine] = solved;
         let (coarse, fine) = (coarse?, fine?);
         let error = mean(&errors_um(&coarse)) / mean(&errors_um(&fine)) - 1.0;
-        let pressure =
-            |r: &analysis::StaticResult| r.history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
+        let pressure = |r: &analysis::StaticResult| largest(r.history.positions.iter().map(|p| p.max_pressure));
         Ok::<_, EnvelopeError>([error, pressure(&coarse) / pressure(&fine) - 1.0].map(|x| 100.0 * x.abs()))
     };
     let [[error, pressure], [naive_error, _]] = [changes(false)?, changes(true)?];

@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench, outside_of_window},
+    bench::{AS_IT_IS, Bench, largest, outside_of_window},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -21,7 +21,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let fixed = bench.at_rest(&bench.naive(&[]));
     let result = bench.at_rest(&AS_IT_IS)?;
     let teeth = result.facts.window_teeth.unwrap_or(0) as usize;
-    let jump = result.history.tooth_changes.iter().map(|c| c.error_jump).fold(0.0, f64::max);
+    let jump = largest(result.history.tooth_changes.iter().map(|c| c.error_jump));
     Ok(vec![
         Figure::new(
             "what is said of a window of three teeth",

@@ -4,7 +4,10 @@ use geometry::Sense;
 use ltca::{StaticModel, StaticPosition};
 
 use super::FailureMode;
-use crate::{EnvelopeError, Figure, Shown, bench::Bench};
+use crate::{
+    EnvelopeError, Figure, Shown,
+    bench::{Bench, largest},
+};
 
 pub(super) const MODE: FailureMode = FailureMode {
     number: 4,
@@ -63,7 +66,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     // Lines between the mesh harmonics over whole turns are what changes alone could make.
     let rows: Vec<f64> = result.rows.iter().map(|r| r.dte_um).collect();
     let per_cycle = headline.rows_per_cycle as usize;
-    let repeats = rows.iter().zip(&rows[per_cycle..]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    let repeats = largest(rows.iter().zip(rows.iter().skip(per_cycle)).map(|(a, b)| (a - b).abs()));
     Ok(vec![
         Figure::new(
             "strain energy after a tooth change over that before, less 1; naive: the oncoming tooth from zero",

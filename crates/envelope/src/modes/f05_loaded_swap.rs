@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench, outside_of_window},
+    bench::{AS_IT_IS, Bench, largest, outside_of_window},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -25,7 +25,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let result = bench.at_rest(&AS_IT_IS)?;
     let dropped = outside_of_window(&result, BY_GEOMETRY);
     let changes = &result.history.tooth_changes;
-    let jump = changes.iter().map(|c| c.force_jump).fold(0.0, f64::max);
+    let jump = largest(changes.iter().map(|c| c.force_jump));
     Ok(vec![
         Figure::new(
             "force that a tooth change takes away, N; naive: on teeth outside of a window by geometry",

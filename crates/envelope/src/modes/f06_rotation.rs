@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use analysis::worse;
 use dynamics::rotation_share;
 use fem::{DofMap, ElementOptions, Material, assemble_mass};
 use geometry::{Gear, Side};
@@ -12,7 +13,7 @@ use reduction::{GearReducer, ModeChoice, ReductionOptions};
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, farthest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -100,11 +101,11 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let (mut at_a_tenth, mut over_bound) = (0.0, 0.0f64);
     for ratio in RATIOS {
         let rotation = ratio * lowest;
-        let moved = gear.frequencies(rotation).iter().zip(&still).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        over_bound = over_bound.max(moved / (rotation + 0.5 * rotation * rotation / lowest));
+        let moved = farthest(&gear.frequencies(rotation), &still);
+        over_bound = worse(over_bound, moved / (rotation + 0.5 * rotation * rotation / lowest));
         // Of a frequency near the lowest, a force of Coriolis's at that frequency is what the share says.
         let share = rotation_share(rotation / TAU, lowest / TAU, lowest / TAU);
-        over_bound = over_bound.max((gear.frequencies(rotation)[0] - lowest).abs() / lowest / share);
+        over_bound = worse(over_bound, (gear.frequencies(rotation)[0] - lowest).abs() / lowest / share);
         if ratio == 0.1 {
             at_a_tenth = 100.0 * moved / lowest;
         }

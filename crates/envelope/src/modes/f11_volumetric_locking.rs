@@ -1,5 +1,6 @@
 //! F11: nearly incompressible material.
 
+use analysis::worse;
 use fem::{ElementOptions, locks_from};
 use mesh::{ElementKind, Extent, GearMesh, GroupNames, StructuredOptions, generate};
 
@@ -53,9 +54,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     for kind in ElementKind::ALL {
         let lost = lost(kind, 0.499)?;
         match (kind, locks_from(kind)) {
-            (ElementKind::Hex8 | ElementKind::Hex20, _) => own = own.max(lost),
-            (_, None) => silent = silent.max(lost),
-            (_, Some(_)) => worst = worst.max(lost),
+            (ElementKind::Hex8 | ElementKind::Hex20, _) => own = worse(own, lost),
+            (_, None) => silent = worse(silent, lost),
+            (_, Some(_)) => worst = worse(worst, lost),
         }
     }
     let error = |poisson: &str, order: u32| {

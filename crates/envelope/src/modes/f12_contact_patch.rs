@@ -1,5 +1,6 @@
 //! F12: the contact patch test.
 
+use analysis::worse;
 use contact::Law;
 use mesh::ElementKind;
 
@@ -25,7 +26,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let worst = |per_edge, law| {
         let mut worst = 0.0f64;
         for kind in [ElementKind::Hex8, ElementKind::Hex20] {
-            worst = contact_patch_deviation(kind, per_edge, law)?.into_iter().fold(worst, f64::max);
+            worst = contact_patch_deviation(kind, per_edge, law)?.into_iter().fold(worst, worse);
         }
         Ok::<_, EnvelopeError>(100.0 * worst)
     };

@@ -1,5 +1,7 @@
 //! F14: tolerances that bear a length.
 
+use analysis::worse;
+
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
@@ -31,7 +33,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             format!("operation.torque_nm={:?}", 150.0 * size.powi(3)),
         ])?;
         let per_size: Vec<f64> = errors_um(&scaled).iter().map(|e| e / size).collect();
-        worst = worst.max(farthest(&per_size, &one) / mean(&one));
+        worst = worse(worst, farthest(&per_size, &one) / mean(&one));
     }
     let metres = bench.at_rest(&bench.naive(&[]));
     Ok(vec![

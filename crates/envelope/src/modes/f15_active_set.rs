@@ -1,12 +1,13 @@
 //! F15: an active set that goes round in circles.
 
+use analysis::worse;
 use contact::{Balance, DenseProblem, DenseSolver};
 use nalgebra::{DMatrix, DVector};
 
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, largest},
     pieces::active_set::naive_ends,
 };
 
@@ -72,15 +73,15 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             let begin =
                 |i: usize| if restart == 0 { 0.0 } else { f64::from(restart) * 400.0 * f64::from(u8::from(start[i])) };
             solver.solve(&held, |_, _| (0.0, 0.0), begin).map_err(EnvelopeError::of("active set"))?;
-            worst = worst.max(solver.residual());
+            worst = worse(worst, solver.residual());
             answers.push(solver.forces().to_vec());
         }
-        let size = answers[0].iter().copied().fold(0.0, f64::max);
+        let size = largest(answers[0].iter().copied());
         let differs = answers.iter().flat_map(|a| a.iter().zip(&answers[0])).map(|(a, b)| (a - b).abs() / size);
-        apart = differs.fold(apart, f64::max);
+        apart = differs.fold(apart, worse);
     }
     let pair = bench.at_rest(&AS_IT_IS)?;
-    let residual = pair.history.positions.iter().map(|p| p.certificate.complementarity_residual).fold(0.0, f64::max);
+    let residual = largest(pair.history.positions.iter().map(|p| p.certificate.complementarity_residual));
     Ok(vec![
         Figure::new(
             "400 problems, a third of equal gaps, three starts each: largest violation; naive: problems that go round in circles",

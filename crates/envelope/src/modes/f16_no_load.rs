@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{Bench, errors_um},
+    bench::{Bench, errors_um, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -12,12 +12,15 @@ pub(super) const MODE: FailureMode = FailureMode {
     file: "F16-no-load",
     scene: scene_text!("F16-no-load"),
     fails: "Without a load the position is free within the backlash, and the equations of the contact are singular.",
-    does: "The torque is a condition beside the contact's; at rest without load the flanks just touch. In motion both flanks may touch, and flight between them is a state of its own.",
+    does: "The torque is a condition beside the contact's; at rest without load the flanks just touch, and a load that round-off hides is told. In motion both flanks may touch, and flight between them is a state of its own.",
     naive: &[],
     look,
 };
 
-const TORQUES: [&str; 5] = ["0", "1e-9", "1e-6", "1e-3", "1"];
+/// None, and loads from which on the approach of the flanks stands above the round-off of their places.
+const TORQUES: [&str; 4] = ["0", "1e-6", "1e-3", "1"];
+/// A load whose approach is below that round-off, N m.
+const LOST: &str = "operation.torque_nm=1e-9";
 /// A load that turns back and forth through the backlash.
 const REVERSAL: [&str; 7] = [
     "analysis.kind=dynamic",
@@ -30,20 +33,23 @@ const REVERSAL: [&str; 7] = [
 ];
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
-    let mut largest = Vec::new();
+    let mut sizes = Vec::new();
     for torque in TORQUES {
         let result = bench.at_rest(&[format!("operation.torque_nm={torque}")])?;
-        largest.push(errors_um(&result).into_iter().map(f64::abs).fold(0.0, f64::max));
+        sizes.push(largest(errors_um(&result).into_iter().map(f64::abs)));
     }
-    let falls = largest.windows(2).all(|w| w[0] <= w[1]);
+    let falls = sizes.windows(2).filter(|w| w[0] < w[1]).count();
+    let lost = bench.at_rest(&[LOST]);
     let reversal = bench.in_motion(&REVERSAL)?;
     let certificate = &reversal.headline.certificate;
     Ok(vec![
-        Figure::new("largest transmission error without load, um", Shown::at_most(largest[0], 1e-9)),
+        Figure::new("largest transmission error without load, um", Shown::at_most(sizes[0], 1e-9)),
         Figure::new(
-            "torques of 0 to 1 N m in which the transmission error does not grow",
-            Shown::at_most(f64::from(u8::from(!falls)), 0.0),
+            "steps from 0 over 1e-6 and 1e-3 to 1 N m in which the transmission error grows, of three",
+            Shown::at_least(falls as f64, 3.0),
         ),
+        Figure::new("transmission error at 1e-6 N m over that at 1 N m", Shown::at_most(sizes[1] / sizes[3], 1e-4)),
+        Figure::new("what is said of 1e-9 N m, which round-off hides", Shown::refused(&lost, "round_off_share")),
         Figure::new(
             "load that reverses through the backlash: steps in which no flank touches",
             Shown::at_least(certificate.steps_without_contact as f64, 1.0),

@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{Bench, errors_um},
+    bench::{Bench, errors_um, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -20,7 +20,7 @@ pub(super) const MODE: FailureMode = FailureMode {
 /// Largest difference between neighbouring positions of a whole cycle, um.
 fn largest_step(errors: &[f64]) -> f64 {
     let next = errors.iter().cycle().skip(1);
-    errors.iter().zip(next).map(|(a, b)| (b - a).abs()).fold(0.0, f64::max)
+    largest(errors.iter().zip(next).map(|(a, b)| (b - a).abs()))
 }
 
 /// Four times as many positions make steps of a continuous curve four times smaller, and leave a jump as it is.

@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, DVector, dvector};
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -51,11 +51,11 @@ fn growth(scheme: Scheme, share: f64) -> Result<f64, EnvelopeError> {
     let limit = scheme.step_limit(&one, &one, &DMatrix::zeros(1, 1));
     let h = share * limit.ok_or_else(|| EnvelopeError::piece("oscillator", "the method has no limit"))?.step;
     let mut integrator = Integrator::new(scheme, StepControl::Fixed(h), dvector![1.0]);
-    let (mut state, mut largest) = (State::new(0.0, dvector![1.0], dvector![0.0]), 0.0f64);
+    let (mut state, mut sizes) = (State::new(0.0, dvector![1.0], dvector![0.0]), Vec::new());
     integrator
-        .advance(&mut Oscillator { mass: one }, &mut state, 400.0 * h, |_, p| largest = largest.max(p.state.q[0].abs()))
+        .advance(&mut Oscillator { mass: one }, &mut state, 400.0 * h, |_, p| sizes.push(p.state.q[0].abs()))
         .map_err(EnvelopeError::of("oscillator"))?;
-    Ok(largest)
+    Ok(largest(sizes))
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

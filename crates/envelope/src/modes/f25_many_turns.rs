@@ -10,7 +10,7 @@ use scene::Scene;
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench, mean},
+    bench::{AS_IT_IS, Bench, largest, mean},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -88,7 +88,7 @@ fn drifts(scene: &Scene) -> Result<[f64; 2], EnvelopeError> {
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let first = forces(bench, 0.0)?;
     let later = forces(bench, 30.0 * TURNS)?;
-    let off = first.iter().zip(&later).map(|(a, b)| (a / b - 1.0).abs()).fold(0.0, f64::max);
+    let off = largest(first.iter().zip(&later).map(|(a, b)| (a / b - 1.0).abs()));
     let [drift, summed] = drifts(&bench.scene(&AS_IT_IS)?)?;
     Ok(vec![
         Figure::new(

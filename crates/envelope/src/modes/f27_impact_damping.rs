@@ -22,7 +22,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let naive = rebound(Damper::KelvinVoigt)?;
     let robust = rebound(Damper::Impact)?;
     let result = bench.lumped(&AS_IT_IS)?;
-    let least = result.headline.least_slice_force_n.unwrap_or(0.0);
+    let least = result.headline.least_slice_force_n.unwrap_or(f64::NAN);
     let lost = result.headline.certificate.rows_without_contact;
     Ok(vec![
         Figure::new(

@@ -3,7 +3,7 @@
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -27,7 +27,7 @@ fn roughness(result: &analysis::StaticResult) -> f64 {
         let bends = inner.windows(3).map(|w| (w[0] - 2.0 * w[1] + w[2]).powi(2));
         (bends.sum::<f64>() / inner.len() as f64).sqrt() / mean
     };
-    pairs.filter(|pair| pair.slices.len() >= 12).map(|pair| rough(&pair.slices)).fold(0.0, f64::max)
+    largest(pairs.filter(|pair| pair.slices.len() >= 12).map(|pair| rough(&pair.slices)))
 }
 
 /// Largest pressure of a point at the first position, MPa: its force over its share of the face.
@@ -37,17 +37,17 @@ fn largest_of_points(bench: &Bench, per_edge: u32) -> Result<f64, EnvelopeError>
     bench.at_first_position(&settings, |_, model| {
         let found = model.last().map(|last| (&last.rows, &last.solution.forces));
         let rows = found.into_iter().flat_map(|(rows, forces)| rows.iter().zip(forces));
-        rows.filter(|(row, _)| row.area > 0.0).map(|(row, force)| force / row.area).fold(0.0, f64::max)
+        largest(rows.filter(|(row, _)| row.area > 0.0).map(|(row, force)| force / row.area))
     })
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let slices = bench.at_rest(&AS_IT_IS)?;
-    let largest = |count: &str| {
+    let with_slices = |count: &str| {
         let positions = bench.at_rest(&[format!("contact.slices={count}")])?.history.positions;
-        Ok::<_, EnvelopeError>(positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max))
+        Ok::<_, EnvelopeError>(largest(positions.iter().map(|p| p.max_pressure)))
     };
-    let of_slices = 100.0 * (largest("64")? / largest("128")? - 1.0).abs();
+    let of_slices = 100.0 * (with_slices("64")? / with_slices("128")? - 1.0).abs();
     let of_points = 100.0 * (largest_of_points(bench, 4)? / largest_of_points(bench, 8)? - 1.0).abs();
     Ok(vec![
         Figure::new(

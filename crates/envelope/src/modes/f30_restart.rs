@@ -8,7 +8,7 @@ use analysis::{
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -44,7 +44,7 @@ impl MotionSink for Kept {
 /// Rows that differ in any bit, and the largest difference of the transmission error over its peak to peak.
 fn apart(a: &MotionResult, b: &MotionResult) -> [f64; 2] {
     let differ = a.rows.iter().zip(&b.rows).filter(|(x, y)| x != y).count() + a.rows.len().abs_diff(b.rows.len());
-    let most = a.rows.iter().zip(&b.rows).map(|(x, y)| (x.dte_um - y.dte_um).abs()).fold(0.0, f64::max);
+    let most = largest(a.rows.iter().zip(&b.rows).map(|(x, y)| (x.dte_um - y.dte_um).abs()));
     [differ as f64, most / a.headline.peak_to_peak_dte_um]
 }
 

@@ -97,7 +97,12 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             format!("panics on {SCENES} damaged scenes, {} refused", of_scenes[1]),
             Shown::at_most(of_scenes[0], 0.0),
         ),
+        Figure::new("damaged scenes that are refused", Shown::at_least(of_scenes[1], 0.25 * SCENES as f64)),
         Figure::new("panics on damaged meshes in every format", Shown::at_most(of_meshes[0], 0.0)),
+        Figure::new(
+            "damaged meshes that are refused",
+            Shown::at_least(of_meshes[1], 0.25 * (MESHES * MshFormat::ALL.len() as u64) as f64),
+        ),
         Figure::new("longest reading, s", Shown::at_most(of_scenes[2].max(of_meshes[2]), 1.0)),
         Figure::new("a module that is no number", Shown::refused(&nan, "normal_module_mm")),
     ])

@@ -7,7 +7,7 @@ use study::{Window, spectrum};
 use super::FailureMode;
 use crate::{
     EnvelopeError, Figure, Shown,
-    bench::{AS_IT_IS, Bench},
+    bench::{AS_IT_IS, Bench, largest},
 };
 
 pub(super) const MODE: FailureMode = FailureMode {
@@ -58,7 +58,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let per_turn = TEETH * result.headline.rows_per_cycle as usize;
     let last: Vec<f64> = result.rows[result.rows.len().saturating_sub(per_turn)..].iter().map(|r| r.dte_um).collect();
     let shaft = order(&last, 1, 1);
-    let between = [7, 11, 13, 17, 19, 23].map(|k| order(&last, 1, k)).into_iter().fold(0.0, f64::max);
+    let between = largest([7, 11, 13, 17, 19, 23].map(|k| order(&last, 1, k)));
     Ok(vec![
         Figure::new(
             "floor beside the sidebands over the carrier, whole turns; naive: 8.37 turns",

@@ -42,7 +42,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             "other hand alone: axial force over that of this hand, plus 1; naive: from the angle without its sign",
             Shown::at_most((axial_force(&left) / axial_force(&right) + 1.0).abs(), 1e-3),
         )
-        .beside(Shown::at_least(axial_force(&left).abs() / axial_force(&right).abs() + 1.0, 1.0)),
+        .beside(Shown::at_least(axial_force(&left).abs() / axial_force(&right).abs() + 1.0, 1.9)),
         Figure::new(
             "axial force over torque / r_b tan beta_b, less 1",
             Shown::at_most((axial_force(&right).abs() / wanted - 1.0).abs(), 1e-3),

@@ -1,5 +1,6 @@
 //! F35: geometry that is wrong but valid.
 
+use analysis::worse;
 use geometry::{Gear, Side};
 
 use super::FailureMode;
@@ -75,7 +76,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         let measured = ball_centre_by_flanks(gear, ball);
         let right = ball_centre_by_formula(gear, ball, d.profile_shift * d.normal_module);
         let wrong = ball_centre_by_formula(gear, ball, d.profile_shift * gear.transverse_module());
-        worst = [worst[0].max((measured - right).abs()), worst[1].max((measured - wrong).abs())];
+        worst = [worse(worst[0], (measured - right).abs()), worse(worst[1], (measured - wrong).abs())];
     }
     // Normal backlash at the working centre distance, from the working tooth thicknesses.
     let [r1, r2] = pair.working_radii();

@@ -43,6 +43,9 @@ mod f32_silent_failure;
 mod f33_leakage;
 mod f34_signs;
 mod f35_geometry;
+mod f37_lengths;
+mod f38_certificate_scale;
+mod f41_idle_checks;
 
 /// All known failure modes, in the order of their numbers.
 pub const MODES: &[FailureMode] = &[
@@ -81,4 +84,7 @@ pub const MODES: &[FailureMode] = &[
     f33_leakage::MODE,
     f34_signs::MODE,
     f35_geometry::MODE,
+    f37_lengths::MODE,
+    f38_certificate_scale::MODE,
+    f41_idle_checks::MODE,
 ];

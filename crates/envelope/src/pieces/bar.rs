@@ -10,7 +10,7 @@ use std::convert::Infallible;
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use nalgebra::{DMatrix, DVector};
 
-use crate::EnvelopeError;
+use crate::{EnvelopeError, bench::largest};
 
 /// Whether the end that hits the wall has mass.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -108,7 +108,7 @@ pub(crate) fn impact(boundary: Boundary, scheme: Scheme) -> Result<Impact, Envel
         .map_err(EnvelopeError::of("bar"))?;
     let plateau: Vec<f64> = course.iter().filter(|(t, _)| (0.2..1.8).contains(t)).map(|(_, f)| f - 1.0).collect();
     let ringing = (plateau.iter().map(|d| d * d).sum::<f64>() / plateau.len() as f64).sqrt();
-    let largest = course.iter().map(|c| c.1).fold(0.0, f64::max);
+    let largest = largest(course.iter().map(|c| c.1));
     let energy = integrator.ledger().map_or(f64::NAN, |l| l.residual().abs() / 0.5);
     Ok(Impact { ringing, largest, energy })
 }

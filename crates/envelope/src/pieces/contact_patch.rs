@@ -13,7 +13,7 @@ use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
 use mesh::{ElementBlock, ElementKind, Face, Mesh};
 
-use crate::EnvelopeError;
+use crate::{EnvelopeError, bench::largest};
 
 const PIECE: &str = "contact patch";
 const SIZE: [f64; 3] = [2.0, 2.0, 1.0];
@@ -182,6 +182,6 @@ pub fn contact_patch_deviation(kind: ElementKind, per_edge: usize, law: Law) -> 
     Ok([0, 1].map(|b| {
         let sign = [-1.0, 1.0][b];
         let z = displacements[b].iter().skip(2).step_by(3);
-        z.map(|u| (u * sign / even - 1.0).abs()).fold(0.0, f64::max)
+        largest(z.map(|u| (u * sign / even - 1.0).abs()))
     }))
 }

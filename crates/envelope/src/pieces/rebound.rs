@@ -6,7 +6,10 @@ use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::impact::ImpactLaw;
 use nalgebra::{DMatrix, DVector, dvector};
 
-use crate::EnvelopeError;
+use crate::{
+    EnvelopeError,
+    bench::{largest, least},
+};
 
 /// How the contact is damped.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,14 +98,14 @@ pub(crate) fn rebound(damper: Damper) -> Result<Rebound, EnvelopeError> {
             dissipated = seen.ledger.dissipated;
         })
         .map_err(EnvelopeError::of("thrown mass"))?;
-    let largest = course.iter().copied().fold(0.0, f64::max);
-    let least = course.iter().copied().fold(f64::INFINITY, f64::min);
-    let first = course.iter().copied().find(|f| *f != 0.0).unwrap_or(0.0);
+    let most = largest(course.iter().copied());
+    let fewest = least(course.iter().copied());
+    let first = course.iter().copied().find(|f| *f != 0.0).unwrap_or(f64::NAN);
     let before = 0.5 * MASS_T * SPEED * SPEED;
     let after = 0.5 * MASS_T * state.v[0] * state.v[0];
     Ok(Rebound {
-        least_over_largest: least / largest,
-        first_over_largest: first.abs() / largest,
+        least_over_largest: fewest / most,
+        first_over_largest: first.abs() / most,
         energy_off: ((before - after - dissipated) / before).abs(),
     })
 }

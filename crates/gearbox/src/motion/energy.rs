@@ -30,6 +30,9 @@ pub struct GearboxEnergy {
     pub dissipated: f64,
     /// What does not close, over the sum of all work and of the kinetic energy at the start.
     pub relative_residual: f64,
+    /// What steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them, of the
+    /// deviations from the turn: the energy of the turn itself is no measure of a vibration.
+    pub open_over_vibration: f64,
 }
 
 impl GearboxMechanism {
@@ -59,6 +62,7 @@ impl GearboxMechanism {
             gained: ledger.kinetic + ledger.potential - ledger.initial - of_preload,
             dissipated: ledger.dissipated,
             relative_residual: 0.0,
+            open_over_vibration: ledger.open_over_vibration(),
         };
         let mut began = ledger.initial;
         if self.free.turn.is_none() {
@@ -83,7 +87,7 @@ impl GearboxMechanism {
         }
         let left = energy.gained - energy.input_work - energy.output_work + energy.dissipated;
         let turnover = energy.input_work.abs() + energy.output_work.abs() + energy.dissipated + began.abs();
-        energy.relative_residual = if turnover > 0.0 { left / turnover } else { 0.0 };
+        energy.relative_residual = if left == 0.0 { 0.0 } else { left / turnover };
         Ok(energy)
     }
 }

@@ -33,7 +33,11 @@ pub struct DepthField {
     along_lead: [Option<Ramp>; 2],
     grid: Option<Bicubic>,
     least: f64,
+    band: f64,
 }
+
+/// Half of a usual band of contact over the normal module.
+const BANDS_A_MODULE: f64 = 30.0;
 
 /// Places along the profile and along the face at which the least depth is looked for.
 const LEAST: [usize; 2] = [33, 17];
@@ -47,6 +51,8 @@ pub(crate) struct FlankSize {
     pub half_width: f64,
     /// r_b, mm.
     pub base_radius: f64,
+    /// m_n, mm.
+    pub normal_module: f64,
 }
 
 impl FlankSize {
@@ -149,6 +155,7 @@ impl DepthField {
             along_lead,
             grid: m.topography.as_ref().map(|t| grid(t, size)).transpose()?,
             least: 0.0,
+            band: size.normal_module / BANDS_A_MODULE,
         };
         let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
         let [along, across] = LEAST;
@@ -164,6 +171,13 @@ impl DepthField {
     /// 17 along the face.
     pub fn least(&self) -> f64 {
         self.least
+    }
+
+    /// Half of a usual band of contact, mm: curvatures of the depth are as it sees them, since where a relief starts with
+    /// a kink there is none to be had at a point. A thirtieth of the normal module: a gear of twice the size, under the
+    /// same stress, has twice the band.
+    pub fn band(&self) -> f64 {
+        self.band
     }
 
     /// Depth at roll angle `u` and height `z` (mm), with first derivatives.

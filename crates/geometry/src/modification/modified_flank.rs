@@ -47,6 +47,11 @@ impl ModifiedFlank {
         self.pitch + self.field.as_ref().map_or(0.0, |f| f.least())
     }
 
+    /// Half of a usual band of contact, mm: see [`DepthField::band`]; 0 of a flank that nothing is ground off.
+    pub fn band(&self) -> f64 {
+        self.field.as_ref().map_or(0.0, |f| f.band())
+    }
+
     /// Whether the flank is a plain helicoid, if one turned by a pitch error: nothing is ground off that varies along
     /// it.
     pub fn is_offset_helicoid(&self) -> bool {

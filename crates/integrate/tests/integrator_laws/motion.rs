@@ -451,3 +451,57 @@ fn a_step_without_a_solution_is_taken_in_halves() {
     println!("{halved} of 200 starts needed halves");
     assert!(halved > 0, "no start that needs halves: the test shows nothing");
 }
+
+/// A mass on a spring under a load that is ten thousand times what shakes it; `booked` of the load's work is in the ledger.
+struct Loaded {
+    mass: DMatrix<f64>,
+    booked: f64,
+}
+
+impl Mechanism for Loaded {
+    type Error = std::convert::Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error> {
+        let load = 1e4 + (0.7 * t).cos();
+        out.conservative[0] = -q[0];
+        out.other[0] = load - 0.1 * v[0];
+        out.stiffness[(0, 0)] = 1.0;
+        out.damping[(0, 0)] = 0.1;
+        out.supplied = self.booked * load * v[0];
+        out.dissipated = 0.1 * v[0] * v[0];
+        Ok(())
+    }
+
+    fn potential(&mut self, _: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+        Ok(0.5 * q[0] * q[0])
+    }
+}
+
+/// Half of the work left out is seen however light the vibration is beside its load, and however long it lasts: what
+/// steps make by themselves is measured by the energy that comes and goes. All of it booked, every method closes.
+#[test]
+fn a_ledger_off_by_half_is_seen_in_a_light_vibration() {
+    let open = |booked: f64, scheme: Scheme, periods: f64| {
+        let mut system = Loaded { mass: DMatrix::identity(1, 1), booked };
+        let mut state = State::new(0.0, dvector![1e4], dvector![0.0]);
+        let mut integrator = Integrator::new(scheme, StepControl::Fixed(TAU / 64.0), dvector![1e4]);
+        integrator.advance(&mut system, &mut state, periods * TAU, |_, _| ()).unwrap();
+        *integrator.ledger().unwrap()
+    };
+    for scheme in [Scheme::Energy, Scheme::Newmark, Scheme::RungeKutta4] {
+        for periods in [3.0, 300.0] {
+            let [whole, half] = [1.0, 0.5].map(|booked| open(booked, scheme, periods).open_over_vibration());
+            println!("{scheme:?}, {periods} periods: open by {whole:.1e}; half of the work booked: {half:.2}");
+            assert!(whole < 1e-3, "{scheme:?}: {whole:e} of the vibration is open");
+            assert!(half > 0.3, "{scheme:?}: half of the work is missing, and the ledger is open by {half:e}");
+        }
+    }
+    let mut lost = open(1.0, Scheme::Energy, 3.0);
+    lost.open = f64::NAN;
+    assert!(lost.open_over_vibration().is_nan());
+    assert_eq!(integrate::Ledger::default().open_over_vibration(), 0.0);
+}

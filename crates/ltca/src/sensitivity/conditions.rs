@@ -2,13 +2,16 @@
 
 use contact::{ContactSet, Friction, Pose, SameSlices, Site, TableWork};
 
-use super::variation::{Neighbour, SMALLEST, Variation, rates};
+use geometry::GearPair;
+
+use super::variation::{Neighbour, Variation, rates, smallest};
 use crate::{Equilibrium, WindowedPair, equilibrium::poses};
 
 /// Gap (mm) over the approach, and force over the largest one, below which a row is about to touch or to leave.
 const UNDECIDED: f64 = 1e-8;
-/// Turn of the driven gear by which differences are taken, mm on its base circle.
-const STEP: f64 = 1e-5;
+/// Turn of the driven gear by which differences are taken, on its base circle, as one part in so many of the normal
+/// module.
+const STEP: f64 = 3e5;
 /// Change of moments and pressures, over them, that is no kink's.
 const SMALLEST_SHARE: f64 = 1e-9;
 
@@ -81,9 +84,11 @@ impl Conditions {
         Some((found.distances(set, &self.forces, work), moment, pressure))
     }
 
-    fn rates(&self, samples: [&Sample; 3], steps: [f64; 2], [moment_more, load]: [f64; 2]) -> Rates {
+    /// `pair`: the one in the middle.
+    fn rates(&self, pair: &GearPair, samples: [&Sample; 3], steps: [f64; 2], [moment_more, load]: [f64; 2]) -> Rates {
+        let of_pair = smallest(pair);
         let [less, here, more] = samples;
-        let distance = |i: usize| rates([less.0[i], here.0[i], more.0[i]], steps, SMALLEST);
+        let distance = |i: usize| rates([less.0[i], here.0[i], more.0[i]], steps, of_pair);
         let moment = rates([less.1, here.1, more.1], steps, SMALLEST_SHARE * here.1.abs());
         Rates {
             distances: (0..here.0.len()).map(distance).collect(),
@@ -102,12 +107,14 @@ impl Conditions {
         work: &mut [TableWork],
     ) -> Option<Rates> {
         let WindowedPair { pair, set, options, .. } = *windowed;
-        let step = STEP / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
+        let step = pair.pinion.data().normal_module
+            / STEP
+            / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
         let mut at = |turn: f64| {
             let poses = poses(windowed, e.station, e.rotation + turn);
             self.sample(windowed, (set, &poses), friction, work)
         };
-        Some(self.rates([&at(-step)?, &at(0.0)?, &at(step)?], [step; 2], [0.0; 2]))
+        Some(self.rates(pair, [&at(-step)?, &at(0.0)?, &at(step)?], [step; 2], [0.0; 2]))
     }
 
     /// By a parameter, per unit.
@@ -134,6 +141,6 @@ impl Conditions {
         let torque = (torque(1) - torque(0)) / variation.steps.iter().sum::<f64>();
         let load = torque / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
         let moment = -options.side().sign() * torque;
-        Some(self.rates([&samples[0], &here, &samples[1]], variation.steps, [moment, load]))
+        Some(self.rates(pair, [&samples[0], &here, &samples[1]], variation.steps, [moment, load]))
     }
 }

@@ -23,7 +23,7 @@ pub struct Variation {
 
 impl Variation {
     /// The pair with the parameter less by `steps[0]` and more by `steps[1]`, both above 0 and equal but where a limit
-    /// is near. Steps that move flanks by 1e-5 mm serve best.
+    /// is near. Steps that move flanks by a 300 000th of the normal module serve best.
     pub fn new([down, up]: [(GearPair, StaticOptions); 2], steps: [f64; 2]) -> Self {
         let side = |(pair, options)| Neighbour { pair, options };
         Self { sides: [side(down), side(up)], steps }
@@ -49,7 +49,7 @@ impl Variation {
             let Neighbour { pair, options } = &self.sides[i];
             Unloaded::turned(pair, &options.contact, station, rotation).gap_at(&touch)
         };
-        let rates = self.rates([gap(0)?, here.gap_at(&touch)?, gap(1)?], SMALLEST);
+        let rates = self.rates([gap(0)?, here.gap_at(&touch)?, gap(1)?], smallest(windowed.pair));
         Some([here.error_by_gap(&touch, rates[0])?, here.error_by_gap(&touch, rates[1])?])
     }
 
@@ -60,12 +60,15 @@ impl Variation {
             let Neighbour { pair, options } = &self.sides[i];
             Some(Unloaded::new(pair, &options.contact, e.station).ok()?.transmission_error())
         };
-        Some(self.rates([error(0)?, e.kinematic_transmission_error, error(1)?], SMALLEST))
+        Some(self.rates([error(0)?, e.kinematic_transmission_error, error(1)?], smallest(&self.sides[0].pair)))
     }
 }
 
-/// Change of a gap that is no kink's, mm: what curvature makes of a step of 1e-5 mm.
-pub(super) const SMALLEST: f64 = 2e-9;
+/// Change of a gap that is no kink's, mm: what curvature makes of a step of a 300 000th of the normal module.
+pub(super) fn smallest(pair: &GearPair) -> f64 {
+    pair.pinion.data().normal_module / 1.5e9
+}
+
 /// Rates that differ by more than this share of them are those of a kink.
 const KINK: f64 = 1e-3;
 

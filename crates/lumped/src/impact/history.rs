@@ -66,11 +66,11 @@ impl ImpactMechanism {
         }
     }
 
-    /// What counts as a large motion of each coordinate, for an integrator: a tenth of a millimetre, or the turn that
-    /// moves a flank by as much.
+    /// What counts as a large motion of each coordinate, for an integrator: a thirtieth of the normal module, or the turn
+    /// that moves a flank by as much.
     pub fn scale(&self) -> DVector<f64> {
         let radius = self.pair().pinion.base_radius().max(self.pair().wheel.base_radius());
-        self.coordinates().scales(0.1, radius)
+        self.coordinates().scales(self.pair().pinion.data().normal_module / 30.0, radius)
     }
 
     /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt.

@@ -132,8 +132,7 @@ impl ImpactMechanism {
         let at = self.standing(t);
         let poses = self.poses(&at, d);
         let moment = self.moment(t);
-        let mut nominal = Displacement::zeros();
-        (nominal[COORDINATES - 1], nominal[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
+        let nominal = turning(&moment);
         let velocity = rate + nominal;
         let Self { pair, options, sides, share, .. } = self;
         let whole = pair.face_width() / pair.base_helix_angle().cos();
@@ -186,6 +185,13 @@ impl ImpactMechanism {
     }
 }
 
+/// Velocities of both gears in the nominal motion.
+fn turning(moment: &NominalState) -> Displacement {
+    let mut all = Displacement::zeros();
+    (all[COORDINATES - 1], all[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
+    all
+}
+
 impl Mechanism for ImpactMechanism {
     type Error = Infallible;
 
@@ -199,10 +205,13 @@ impl Mechanism for ImpactMechanism {
         let [driving, coast] = self.flank_forces(t, &d, &rate);
         let external = self.external(t, &moment);
         let gyroscopic = self.gyroscopic(&moment);
-        let lossy = driving.damping + driving.friction + coast.damping + coast.friction - self.bearing[1] * rate;
-        out.supplied = external.dot(&rate);
-        // Power against the deviations; what friction takes of the nominal motion the drive replaces.
-        out.dissipated = -lossy.dot(&rate);
+        let flanks = driving.damping + driving.friction + coast.damping + coast.friction;
+        let lossy = flanks - self.bearing[1] * rate;
+        // Dampers and friction go against the whole motion of the flanks; what they take of the nominal part of it the
+        // drive replaces.
+        let replaced = -flanks.dot(&turning(&moment));
+        out.supplied = external.dot(&rate) + replaced;
+        out.dissipated = replaced - lossy.dot(&rate);
         out.parametric = driving.parametric + coast.parametric;
         let conservative = driving.elastic + coast.elastic - self.bearing[0] * d;
         self.coordinates.add_force(&conservative, &mut out.conservative);

@@ -49,12 +49,13 @@ impl ShaftMechanism {
         })
     }
 
-    /// What counts as a large motion of each coordinate, for an integrator: a millimetre, or the turn that moves a
-    /// flank by one.
+    /// What counts as a large motion of each coordinate, for an integrator: a fiftieth of the largest base radius, or the
+    /// turn that moves a flank by as much; a millimetre where there is no mesh.
     pub fn scale(&self) -> DVector<f64> {
-        let radius = self.meshes.iter().flat_map(|m| m.line.base_radii).fold(1.0, f64::max);
+        let largest = self.meshes.iter().flat_map(|m| m.line.base_radii).reduce(f64::max);
+        let [length, radius] = largest.map_or([1.0; 2], |radius| [radius / 50.0, radius]);
         let all = self.coordinates();
-        DVector::from_fn(all.len(), |i, _| if all[i].2 < 3 { 1.0 } else { 1.0 / radius })
+        DVector::from_fn(all.len(), |i, _| if all[i].2 < 3 { length } else { length / radius })
     }
 
     /// Period of mesh `mesh`, s; infinite at rest, `None` where there is no such mesh.

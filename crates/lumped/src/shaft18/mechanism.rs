@@ -266,8 +266,9 @@ impl Mechanism for ShaftMechanism {
             let damped = mesh.damping * state.compression[1];
             out.conservative.axpy(-k * beyond.value, &mesh.lever, 1.0);
             out.other.axpy(-damped, &mesh.lever, 1.0);
-            // The teeth's error moves as well: in the ledger of deviations only what acts on them counts.
-            out.dissipated += damped * (state.compression[1] - state.error_rate);
+            // The teeth's error moves as well: what the damper takes of that comes from the drive.
+            out.dissipated += damped * state.compression[1];
+            out.supplied += damped * state.error_rate;
             out.parametric += k_rate * beyond.potential() + k * beyond.value * state.error_rate;
             if out.tangents {
                 out.stiffness.ger(k * beyond.slope, &mesh.lever, &mesh.lever, 1.0);

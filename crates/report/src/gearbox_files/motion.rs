@@ -102,6 +102,7 @@ pub(super) fn summary(file: &Gearbox, result: &GearboxResult) -> Value {
             "gained_mj": energy.gained,
             "dissipated_mj": energy.dissipated,
             "relative_residual": energy.relative_residual,
+            "open_over_vibration": energy.open_over_vibration,
         },
         "reduction": {
             "dof": reduction.coordinates[0],
@@ -142,7 +143,7 @@ pub(super) fn table(t: &mut String, file: &Gearbox, result: &GearboxResult) {
         t,
         "  {} steps; energy closes to {:.0e}; {} of {} coordinates, frequencies up to {} Hz to {:.0e}",
         motion.steps[0],
-        energy.relative_residual.abs(),
+        energy.open_over_vibration,
         reduction.coordinates[1],
         reduction.coordinates[0],
         fixed(reduction.limit / TAU, 0),

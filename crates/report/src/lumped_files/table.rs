@@ -34,7 +34,7 @@ pub fn lumped_table(
     t.number("dynamic factor", h.dynamic_factor, 4, "");
     t.number("mean axial force on the wheel", h.mean_wheel_force_n[2], 1, "N");
     t.cycles([c.warm_up_cycles, h.cycles], c.periodicity, c.period_cycles);
-    t.science("energy open, over all work", c.ledger_residual_over_turnover, "");
+    t.science("energy open, over that of the vibration", c.energy_open_over_vibration, "");
     t.text("rows without contact", c.rows_without_contact, "");
     t.text("steps", c.steps, "");
     t.framed(scene, cost, warnings)

@@ -60,7 +60,7 @@ pub fn motion_table(
     t.text("tooth changes", h.tooth_changes, "");
     t.resolution(scene, facts);
     t.text("contact lost, times", c.contact_losses, "");
-    t.science("energy open, over work through pair", c.ledger_residual_over_work, "");
+    t.science("energy open, over that of the vibration", c.energy_open_over_vibration, "");
     t.science("least force of a slice in contact", c.least_contact_force_n, "N");
     t.science("largest jump of the force at a tooth change", c.force_jump_at_tooth_change_n, "N");
     t.text("steps", c.steps, "");

@@ -229,7 +229,7 @@ fn stable_ones(points: &[BranchPoint], most: usize) -> Vec<usize> {
 }
 
 fn certificate(points: &[BranchPoint], words: &ContinuationScene) -> Certificate {
-    let largest = |of: fn(&BranchPoint) -> f64| points.iter().map(of).fold(0.0, f64::max);
+    let largest = |of: fn(&BranchPoint) -> f64| points.iter().map(of).fold(0.0, crate::worse);
     Certificate::new([
         Check {
             name: "harmonic_residual",

@@ -12,7 +12,7 @@ mod work;
 use ale::ToothWindow;
 use faer::MatRef;
 use geometry::GearPair;
-use pose_bin::LINEAR_RANGE;
+use pose_bin::BinSizes;
 use pose_cache::PoseCache;
 use pose_contact::PoseContact;
 use reduction::{ElasticGear, GearModes};
@@ -39,8 +39,8 @@ const SMALL_MOTION: f64 = 0.03;
 pub struct MeshContact {
     set: ContactSet,
     friction: Option<Friction>,
-    /// Tip radius of the larger gear, mm.
-    radius: f64,
+    /// Of the bins of poses.
+    sizes: BinSizes,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
     /// Pose of body 1 at the last search.
@@ -80,10 +80,9 @@ impl MeshContact {
         let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
         let friction = Friction::new(pair, options);
         let force = MeshForce::none(vec![0.0; pairs.len()]);
-        let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());
         Ok(Self {
             friction,
-            radius,
+            sizes: BinSizes::of(pair),
             hints: vec![SliceHint::default(); most],
             last_pose: None,
             last_forces: vec![0.0; most],
@@ -236,7 +235,7 @@ impl MeshContact {
         let before = self.contact.at?;
         let way = |g: usize| {
             let moved = poses[g].translation.vector - before[g].translation.vector;
-            moved.norm() + self.radius * (poses[g].rotation * before[g].rotation.inverse()).angle()
+            moved.norm() + self.sizes.radius * (poses[g].rotation * before[g].rotation.inverse()).angle()
         };
         let (gone, overlap) = (way(0) + way(1), self.deepest_overlap());
         // No row that was left out may come nearer than the deepest overlap.

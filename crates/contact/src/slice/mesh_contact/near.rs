@@ -6,7 +6,7 @@
 
 use crate::{Balance, ContactError, MeshForce, Pose};
 
-use super::{LINEAR_RANGE, MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
+use super::{MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
 
 /// How much an evaluation computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -55,11 +55,11 @@ impl MeshContact {
     /// there can close.
     pub fn gap_of_neighbours(&mut self, poses: &[Pose; 2], gap: impl FnOnce(&[Pose; 2]) -> f64) -> f64 {
         let motion =
-            self.contact.bin.as_ref().and_then(|_| self.contact.motion_to(poses, self.radius, self.modal.as_ref()));
+            self.contact.bin.as_ref().and_then(|_| self.contact.motion_to(poses, &self.sizes, self.modal.as_ref()));
         let (Some(motion), Some(at)) = (motion, self.contact.at) else { return gap(poses) };
         let way = |m: &[f64]| {
             let size = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
-            size(&m[..3]) + self.radius * size(&m[3..])
+            size(&m[..3]) + self.sizes.radius * size(&m[3..])
         };
         let gone = way(&motion[..6]) + way(&motion[6..]);
         *self.contact.neighbour_gap.get_or_insert_with(|| gap(&at)) - gone
@@ -88,9 +88,9 @@ impl MeshContact {
 
     /// Makes the rows current that serve `poses`; returns the motion from where they were found.
     fn select_rows(&mut self, poses: &[Pose; 2]) -> Result<[f64; 12], ContactError> {
-        let (radius, modal) = (self.radius, self.modal.as_ref());
+        let (sizes, modal) = (self.sizes, self.modal.as_ref());
         let motion_from =
-            |contact: &PoseContact| contact.bin.is_some().then(|| contact.motion_to(poses, radius, modal)).flatten();
+            |contact: &PoseContact| contact.bin.is_some().then(|| contact.motion_to(poses, &sizes, modal)).flatten();
         if let Some(motion) = motion_from(&self.contact) {
             return Ok(motion);
         }
@@ -99,7 +99,7 @@ impl MeshContact {
             self.solver.restore(&self.contact.saved);
             return Ok(motion);
         }
-        let bin = PoseBin::of(poses, radius, modal);
+        let bin = PoseBin::of(poses, &sizes, modal);
         if self.cache.recall(&bin, &mut self.contact) {
             self.solver.restore(&self.contact.saved);
         } else {
@@ -107,17 +107,17 @@ impl MeshContact {
             self.fill(bin)?;
         }
         // Every pose in a bin is within the linear range of its centre, unless it is no number.
-        Ok(self.contact.motion_to(poses, radius, self.modal.as_ref()).unwrap_or([f64::NAN; 12]))
+        Ok(self.contact.motion_to(poses, &self.sizes, self.modal.as_ref()).unwrap_or([f64::NAN; 12]))
     }
 
     /// Finds the rows of a bin and solves their contact at its centre.
     fn fill(&mut self, bin: PoseBin) -> Result<(), ContactError> {
-        let poses = bin.middle(self.radius);
+        let poses = bin.middle(&self.sizes);
         self.search_from_ends(&poses);
-        let reach = self.reach(bin.reach());
-        self.rows_within(&poses, reach + 2.0 * LINEAR_RANGE, Some(&bin));
+        let reach = self.reach(bin.reach(&self.sizes));
+        self.rows_within(&poses, reach + 2.0 * self.sizes.linear_range, Some(&bin));
         if let Some(modal) = &mut self.modal {
-            let amplitudes = bin.amplitudes(modal);
+            let amplitudes = bin.amplitudes(&self.sizes, modal);
             self.contact.follow(&[0.0; 12]);
             modal.bend_by(&self.contact.modal, &amplitudes, &mut self.contact.rows);
             self.gaps.clear();

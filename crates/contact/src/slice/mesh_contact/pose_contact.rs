@@ -1,6 +1,6 @@
 //! Contact rows at given poses, and their linearisation there.
 
-use super::pose_bin::{LINEAR_RANGE, PoseBin};
+use super::pose_bin::{BinSizes, PoseBin};
 use crate::{
     ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows, opening_by_motion,
 };
@@ -55,7 +55,7 @@ impl PoseContact {
 
     /// Displacements (mm) and small turns (rad) of both gears from here to `poses`. `None` where the motion is beyond
     /// the linear range, or where modes open gaps by more than was allowed for.
-    pub fn motion_to(&self, poses: &[Pose; 2], radius: f64, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
+    pub fn motion_to(&self, poses: &[Pose; 2], sizes: &BinSizes, modal: Option<&ModalFlanks>) -> Option<[f64; 12]> {
         let at = self.at.as_ref().filter(|_| modal.is_none_or(|modal| modal.largest() <= self.modal.largest))?;
         let mut motion = [0.0; 12];
         for g in 0..2 {
@@ -65,8 +65,8 @@ impl PoseContact {
             let turned = turned.w.signum() * turned.imag();
             motion[6 * g..6 * g + 3].copy_from_slice(moved.as_slice());
             motion[6 * g + 3..6 * g + 6].copy_from_slice(turned.as_slice());
-            let way = moved.norm() + radius * turned.norm();
-            if way > LINEAR_RANGE || way.is_nan() {
+            let way = moved.norm() + sizes.radius * turned.norm();
+            if way > sizes.linear_range || way.is_nan() {
                 return None;
             }
         }

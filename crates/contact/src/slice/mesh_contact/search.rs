@@ -2,7 +2,7 @@
 
 use crate::{FlankPair, Pose, SliceHint};
 
-use super::{LINEAR_RANGE, MeshContact, PoseContact, pose_bin::PoseBin};
+use super::{MeshContact, PoseContact, pose_bin::PoseBin};
 
 impl MeshContact {
     /// Deepest overlap of the flanks with the gears' frames at `poses`, mm; negative where they are apart. Teeth are
@@ -26,7 +26,7 @@ impl MeshContact {
     /// gap by up to `by_modes` (mm) and open the point of the deepest overlap by as much.
     pub(super) fn reach(&self, by_modes: f64) -> f64 {
         let deepest = self.deepest();
-        if self.modal.is_some() { deepest.abs() + 2.0 * (by_modes + LINEAR_RANGE) } else { deepest }
+        if self.modal.is_some() { deepest.abs() + 2.0 * (by_modes + self.sizes.linear_range) } else { deepest }
     }
 
     /// Finds the points of least gap from one end of the face to the other, each from its neighbours: along a contact
@@ -125,8 +125,8 @@ impl MeshContact {
         // How motion opens the rows is asked of bins alone.
         contact.update_openings(bin.is_some());
         let by_modes = match bin {
-            Some(bin) => bin.reach(),
-            None => self.modal.as_ref().map_or(0.0, |modal| modal.largest() + LINEAR_RANGE),
+            Some(bin) => bin.reach(&self.sizes),
+            None => self.modal.as_ref().map_or(0.0, |modal| modal.largest() + self.sizes.linear_range),
         };
         self.compliance(by_modes);
         self.add_modal_openings();
