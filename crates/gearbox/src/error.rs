@@ -30,9 +30,9 @@ pub enum GearboxError {
         /// How it can move.
         motion: &'static str,
     },
-    /// A shaft whose bearings all take thrust one way, and whose gears press it the other way.
+    /// A shaft whose bearings all take thrust one way, and that is pressed the other way.
     #[error(
-        "nothing takes {direction} on shaft {shaft}: its gears press it there with {force_n:.0} N, and its bearings take thrust {taken} alone"
+        "nothing takes {direction} on shaft {shaft}: {by} it there with {force_n:.0} N, and its bearings take thrust {taken} alone"
     )]
     OneWay {
         /// Name of the shaft.
@@ -41,7 +41,9 @@ pub enum GearboxError {
         direction: &'static str,
         /// The other one.
         taken: &'static str,
-        /// Force of the gears along it, N.
+        /// What presses it, with its verb.
+        by: &'static str,
+        /// Force along the direction that nothing takes, N.
         force_n: f64,
     },
     /// No rolling bearing can be made of what is stated.

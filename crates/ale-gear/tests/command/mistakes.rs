@@ -33,19 +33,19 @@ fn refused(scene: &str, text: &str, [wrong, right]: [&str; 2]) {
 fn loads_in_another_unit_are_refused_with_the_unit_that_was_meant() {
     refused(
         &with("torque_nm = 80.0", "torque_nm = 80000.0"),
-        "ale-gear: a.toml:10: 80000 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.244 times their \
+        "ale-gear: a.toml:10: 80000 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.168 times their \
          modulus (ISO 6336-1 and Hertz)\nhint: 80000 N mm are 80 N m: write `torque_nm = 80`\n",
         ["torque_nm = 80000.0", "torque_nm = 80"],
     );
     refused(
         &with("[analysis]", "[material]\nyoung_mpa = 206.0\n[analysis]"),
-        "ale-gear: a.toml:12: 80 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.244 times their \
+        "ale-gear: a.toml:12: 80 N m would bend the teeth by 5.12 mm, 2.05 modules, and press them with 0.168 times their \
          modulus (ISO 6336-1 and Hertz)\nhint: 206 GPa are 206000 MPa: write `young_mpa = 206000`\n",
         ["young_mpa = 206.0", "young_mpa = 206000"],
     );
     refused(
         &with("face_width_mm = 18.0", "face_width_mm = 0.018"),
-        "ale-gear: a.toml:8: 80 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.31 times their modulus \
+        "ale-gear: a.toml:8: 80 N m would bend the teeth by 4.9 mm, 1.96 modules, and press them with 0.191 times their modulus \
          (ISO 6336-1 and Hertz)\nhint: 0.018 m are 18 mm: write `face_width_mm = 18`\n",
         ["face_width_mm = 0.018", "face_width_mm = 18"],
     );
@@ -127,10 +127,10 @@ fn unlikely_values_are_remarked() {
     let light = with("torque_nm = 80.0", "torque_nm = 0.5");
     remarked(
         &light.replacen("[analysis]", "[material]\nyoung_mpa = 206.0\n[analysis]", 1),
-        "`young_mpa` of the pinion is 206, softer than plastics; 206 GPa are 206000 MPa",
+        "`young_mpa` of the gears is 206, softer than plastics; 206 GPa are 206000 MPa",
     );
     remarked(
-        &light.replacen("face_width_mm = 18.0", "face_width_mm = 0.1", 1),
+        &with("torque_nm = 80.0", "torque_nm = 0.01").replacen("face_width_mm = 18.0", "face_width_mm = 0.1", 1),
         "`face_width_mm` is 0.1, 0.04 times the module of 2.5 mm; 0.1 m are 100 mm",
     );
     remarked(
@@ -176,7 +176,7 @@ fn a_deflection_of_a_third_of_a_module_is_no_result() {
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}", run.stderr);
     assert!(
-        run.stderr.contains("the result does not hold: deflection_over_module is 4.4e-1, the bound is 3e-1"),
+        run.stderr.contains("the result does not hold: deflection_over_module is 5.6e-1, the bound is 3e-1"),
         "{}",
         run.stderr
     );
@@ -276,19 +276,14 @@ fn files_of_another_kind_name_their_subcommand() {
 /// Five teeth leave 55 % of the reference diameter no rim; their default bore does.
 #[test]
 fn few_teeth_have_a_bore_that_leaves_a_rim() {
-    let scene = with("teeth = 23", "teeth = 5").replacen(
-        "helix_angle_deg = 15.0",
-        "helix_angle_deg = 15.0\nprofile_shift = 0.5",
-        1,
-    );
+    let scene = with("teeth = 23", "teeth = 5");
     let scratch = Scratch::new().file("a.toml", scene);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o", "--json"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let summary: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     let bore = summary["inputs"]["pinion"]["bore_diameter_mm"].as_f64().unwrap();
-    let root = 2.5 * (5.0 / 15f64.to_radians().cos() - 2.5 + 1.0);
-    let usual = 0.55 * 2.5 * 5.0 / 15f64.to_radians().cos();
-    let wanted = if usual < root { usual } else { 0.5 * root };
+    // The root circle of 6.69 mm lies within the 7.12 mm of the usual bore.
+    let wanted = 0.5 * (2.5 * 5.0 / 15f64.to_radians().cos() - 2.5 * 2.5);
     assert!((bore / wanted - 1.0).abs() < 1e-12, "{bore} mm for {wanted} mm");
 }
 
@@ -323,4 +318,24 @@ fn meshes_beyond_all_memory_are_refused_at_once() {
     );
     assert!(run.stderr.contains("hint: lower `elements_face` or `elements_profile`: about "), "{}", run.stderr);
     assert_eq!((run.code, names.len()), (Some(2), 1));
+}
+
+/// A curve is one of motions, whatever the scene was written for; one that ends within its range is a failed result.
+#[test]
+fn a_curve_of_a_scene_at_rest_covers_its_range_or_fails() {
+    let mesher =
+        "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";
+    let scene = ISO_SCENE.replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}")).replace("[analysis]\nmodel = \"iso\"\n", "");
+    let scratch = Scratch::new().file("a.toml", scene);
+    let curve = |motions: &str| {
+        let words = ["curve", "a.toml", "--out", "o", "--from", "1500", "--to", "2000", "--set", "analysis.model=mapped"];
+        let set = ["--set", "motion.mesh_damping_ratio=0.2", "--set", "motion.continuation.time_points=0", "--set", motions];
+        scratch.command(&[&words[..], &set].concat())
+    };
+    let cut = curve("motion.continuation.motions=3");
+    assert_eq!(cut.code, Some(1), "{}", cut.stderr);
+    assert!(cut.stderr.contains("the result does not hold: range_left_out is "), "{}", cut.stderr);
+    assert!(cut.stderr.contains("\nhint: give more `motions`"), "{}", cut.stderr);
+    let whole = curve("motion.continuation.motions=1000");
+    assert_eq!((whole.code, whole.stderr.as_str()), (Some(0), ""), "the hint cures");
 }

@@ -4,6 +4,7 @@ use gearbox::{GearboxError, Mesh, Operation, Structure, Train, mesh_torques};
 use scene::{
     Driver,
     gearbox::{Gearbox, GearboxBearing, RollingKind},
+    units::{OtherUnit, in_another_unit},
 };
 
 use super::meshes::scene_of;
@@ -36,9 +37,12 @@ impl Loaded<'_> {
                 let driven = usize::from(scene.operation.driver == Driver::Pinion);
                 scene.operation.torque_nm = 1e-3 * all[i][driven].abs();
                 if let Some(found) = beyond(&scene, &mesh.pair) {
-                    let (at, said) =
-                        (self.file.file.display().to_string(), format!("mesh {}: {}", mesh.name, found.said));
-                    let hint = format!("{} in [[torque]] or the scene of the mesh", found.hint);
+                    let at = self.file.file.display().to_string();
+                    let hint = match self.in_n_m().filter(|_| found.in_n_mm) {
+                        Some(other) => format!("{}: write `torque_nm = {}` in [[torque]]", other.said, other.value),
+                        None => found.hint,
+                    };
+                    let said = format!("mesh {}: {}", mesh.name, found.said);
                     return Err(AnalysisError::Implausible(Box::new(Implausible { at, excerpt: None, said, hint })));
                 }
             }
@@ -53,42 +57,64 @@ impl Loaded<'_> {
         Ok(said)
     }
 
-    /// That the axial forces of the gears meet a bearing, shaft by shaft.
+    /// The largest torque of the file as if it were in N mm.
+    fn in_n_m(&self) -> Option<OtherUnit> {
+        let largest = self.file.torques.iter().map(|t| 1e-3 * t.torque).fold(0.0, f64::max);
+        in_another_unit("torque_nm", largest, |x| x > 0.0)
+    }
+
+    /// That the axial forces of the gears, and those of bearings that stand at an angle to their radial load, meet a bearing,
+    /// shaft by shaft.
     ///
     /// ```text
-    /// F_z = -T tan(beta) / r      of a gear: its flanks are the same after a turn along their helix
+    /// F_z = -T tan(beta) / r       of a gear: its flanks are the same after a turn along their helix
+    /// F_a >= F_r tan(alpha)        of a row with contact angle alpha under F_r, with a single element that carries
     /// ```
     fn thrust(&self, torques: &[[f64; 2]]) -> Result<(), GearboxError> {
         for (i, shaft) in self.file.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.held) {
-            let bearings = self.file.bearings.iter().filter(|b| b.shaft == i);
-            let [plus, minus] = bearings.map(takes_thrust).fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]]);
+            let bearings = || self.file.bearings.iter().filter(|b| b.shaft == i);
+            let [plus, minus] = bearings().map(takes_thrust).fold([false; 2], |a, b| [a[0] || b[0], a[1] || b[1]]);
             // Neither way: said where bearings are counted. Two meshes with one shaft may hold it by their helices.
             if plus == minus || self.has_double_mesh(i) {
                 continue;
             }
-            let force = self.axial_force(i, torques);
-            let (direction, taken) = if plus { ("-z", "+z") } else { ("+z", "-z") };
-            let against = if plus { -force } else { force };
-            if against > 0.0 {
-                let force_n = against;
-                return Err(GearboxError::OneWay { shaft: shaft.name.clone(), direction, taken, force_n });
+            let [x, y, z] = self.force(i, torques);
+            let least_angle = bearings().filter_map(contact_angle).fold(f64::INFINITY, f64::min);
+            // Where another bearing shares the radial load nobody knows how much of it is left for these.
+            let alone = bearings().all(|b| takes_thrust(b) != [false; 2]);
+            let from_rolling = if alone { x.hypot(y) * least_angle.tan() } else { 0.0 };
+            let (direction, taken, pressing) = if plus { ("-z", "+z", z) } else { ("+z", "-z", -z) };
+            let left = from_rolling - pressing;
+            if left > 0.0 {
+                let by =
+                    if pressing < 0.0 { "its gears press" } else { "its radial load on raceways at an angle presses" };
+                return Err(GearboxError::OneWay { shaft: shaft.name.clone(), direction, taken, by, force_n: left });
             }
         }
         Ok(())
     }
 
-    /// Axial force of all gears of a shaft, N.
-    fn axial_force(&self, shaft: usize, torques: &[[f64; 2]]) -> f64 {
-        let of = |(mesh, own): (&Mesh, &[f64; 2])| -> f64 {
+    /// Force of all gears on a shaft, N.
+    ///
+    /// ```text
+    /// T = r_w F_t,   F_r = |F_t| tan a_wt away from the mating gear,   F_z as above
+    /// ```
+    fn force(&self, shaft: usize, torques: &[[f64; 2]]) -> [f64; 3] {
+        let mut all = [0.0; 3];
+        for ((mesh, meshing), own) in self.meshes.iter().zip(self.train.meshing()).zip(torques) {
             let gears = [&mesh.pair.pinion, &mesh.pair.wheel];
-            let one = |end: usize| {
-                let on = self.structure.discs[mesh.discs[end]].shaft == shaft;
-                let lead = gears[end].data().helix_angle.tan() / gears[end].reference_radius();
-                if on { -own[end] * lead } else { 0.0 }
-            };
-            one(0) + one(1)
-        };
-        self.meshes.iter().zip(torques).map(of).sum()
+            for end in (0..2).filter(|end| self.structure.discs[mesh.discs[*end]].shaft == shaft) {
+                // From this gear's axis to the mating one's.
+                let (sin, cos) = meshing.direction.sin_cos();
+                let [ex, ey] = if end == 0 { [cos, sin] } else { [-cos, -sin] };
+                let tangential = own[end] / mesh.pair.working_radii()[end];
+                let radial = tangential.abs() * mesh.pair.working_pressure_angle().tan();
+                all[0] -= ey * tangential + ex * radial;
+                all[1] += ex * tangential - ey * radial;
+                all[2] -= own[end] * gears[end].data().helix_angle.tan() / gears[end].reference_radius();
+            }
+        }
+        all
     }
 
     /// Whether two meshes join a shaft to the same other one.
@@ -100,6 +126,11 @@ impl Loaded<'_> {
         let others: Vec<usize> = self.meshes.iter().filter_map(other).collect();
         others.iter().enumerate().any(|(i, one)| others[..i].contains(one))
     }
+}
+
+/// Contact angle of a bearing whose rows have one, rad.
+fn contact_angle(bearing: &GearboxBearing) -> Option<f64> {
+    bearing.rolling.as_ref().map(|own| own.contact_angle).filter(|angle| *angle > 0.0)
 }
 
 /// Whether a bearing takes thrust of its shaft towards +z, and towards -z.

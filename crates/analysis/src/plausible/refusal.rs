@@ -40,6 +40,8 @@ pub struct Beyond {
     pub said: String,
     /// What to write.
     pub hint: String,
+    /// Whether the torque is likely in N mm.
+    pub in_n_mm: bool,
 }
 
 /// Refuses a scene whose load bends teeth by their own size, or whose micro-geometry leaves no tooth.
@@ -83,7 +85,7 @@ fn above(scene: &Scene, pair: &GearPair, [modules, pressure]: [f64; 2]) -> Optio
     let causes = [modulus(scene), width(scene), torque(scene)];
     let cured = causes.into_iter().flatten().find(|cause| cause.cures());
     Some(match cured {
-        Some(Cause { keys, hint, .. }) => Beyond { keys, said, hint },
+        Some(Cause { keys, hint, in_n_mm, .. }) => Beyond { keys, said, hint, in_n_mm },
         None => {
             let fit = scene.operation.torque_nm * usual_share(&found);
             let hint = format!(
@@ -91,7 +93,7 @@ fn above(scene: &Scene, pair: &GearPair, [modules, pressure]: [f64; 2]) -> Optio
                  module, face width and `young_mpa`",
                 digits(fit)
             );
-            Beyond { keys: vec!["operation.torque_nm".to_owned()], said, hint }
+            Beyond { keys: vec!["operation.torque_nm".to_owned()], said, hint, in_n_mm: false }
         }
     })
 }
@@ -100,6 +102,7 @@ fn above(scene: &Scene, pair: &GearPair, [modules, pressure]: [f64; 2]) -> Optio
 struct Cause {
     keys: Vec<String>,
     hint: String,
+    in_n_mm: bool,
     /// The scene as it was meant.
     scene: Scene,
 }
@@ -130,7 +133,7 @@ fn modulus(scene: &Scene) -> Option<Cause> {
     let said = said?;
     keys.push("material.young_mpa".to_owned());
     let hint = format!("{}: write `young_mpa = {}`", said.said, said.value);
-    Some(Cause { keys, hint, scene: meant })
+    Some(Cause { keys, hint, in_n_mm: false, scene: meant })
 }
 
 /// A face width in m.
@@ -143,7 +146,8 @@ fn width(scene: &Scene) -> Option<Cause> {
         gear.face_width_mm = gear.face_width_mm.map(|_| other.value);
     }
     let keys = ["pair.face_width_mm", "pinion.face_width_mm", "wheel.face_width_mm"].map(str::to_owned).to_vec();
-    Some(Cause { keys, hint: format!("{}: write `face_width_mm = {}`", other.said, other.value), scene: meant })
+    let hint = format!("{}: write `face_width_mm = {}`", other.said, other.value);
+    Some(Cause { keys, hint, in_n_mm: false, scene: meant })
 }
 
 /// A torque in N mm.
@@ -152,7 +156,7 @@ fn torque(scene: &Scene) -> Option<Cause> {
     let other = in_another_unit("torque_nm", scene.operation.torque_nm, |x| x > 0.0)?;
     meant.operation.torque_nm = other.value;
     let hint = format!("{}: write `torque_nm = {}`", other.said, other.value);
-    Some(Cause { keys: vec!["operation.torque_nm".to_owned()], hint, scene: meant })
+    Some(Cause { keys: vec!["operation.torque_nm".to_owned()], hint, in_n_mm: true, scene: meant })
 }
 
 /// Share of the load that bends and presses the teeth as usual: pressure goes with its root.
@@ -173,6 +177,7 @@ fn no_tip(scene: &Scene, pair: &GearPair) -> Option<Beyond> {
         keys,
         said: format!("{} um off both flanks of the {table} leave nothing of its tips", digits(amount)),
         hint: format!("amounts are in um; some {} um are usual at this module", digits(usual)),
+        in_n_mm: false,
     })
 }
 

@@ -36,8 +36,10 @@ const ROUND_RPM: f64 = 50.0;
 /// What is unlikely in a scene, with the unit that may have been meant.
 pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<String> {
     let gears = [("pinion", &scene.pinion, &pair.pinion), ("wheel", &scene.wheel, &pair.wheel)];
+    let alike = scene.pinion.material == scene.wheel.material;
     let of_gears = gears.into_iter().flat_map(|(name, gear, exact)| {
-        let own = [material(name, gear), density(scene, name, gear), bore(name, gear, exact), thinning(name, gear)];
+        let of = if alike { "gears" } else { name };
+        let own = [material(of, gear), density(scene, of, gear), bore(name, gear, exact), thinning(name, gear)];
         own.into_iter().flatten().chain(flanks(scene, name, exact)).collect::<Vec<_>>()
     });
     let of_pair = [doubtful(scene, pair), helix(scene), width(scene), backlash(scene, pair), speed(scene)];
