@@ -51,7 +51,8 @@ impl ServeArgs {
             talk::note(format!("no browser was opened ({error}): open the address above in one"));
         }
         server.run(&text, &file, Limits { free_bytes: memory::available_bytes }, &self.cache.open());
-        drop(hold_still());
+        // For good: a reduction that goes on would begin a file of the cache that nobody ends.
+        std::mem::forget(hold_still());
         Ok(String::new())
     }
 
