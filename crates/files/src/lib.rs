@@ -13,6 +13,7 @@
 mod lock;
 pub mod most;
 mod partial;
+mod place;
 mod read;
 mod sync;
 mod work_folder;

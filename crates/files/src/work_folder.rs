@@ -22,8 +22,8 @@ use std::{
 
 use crate::{
     partial::{self, Partial},
+    place::{around, parent},
     sync,
-    write::around,
 };
 
 const MARK: &str = ".ale-gear-work";
@@ -211,10 +211,6 @@ fn aside(old: &Path, target: &Path, name: &str, note: &mut dyn FnMut(String)) ->
     let (into, now) = (target.display(), to.as_deref().unwrap_or(old).display());
     note(format!("`{name}`, which is no result file, came into {into} during the run: it goes to {now}"));
     to.is_some()
-}
-
-pub(crate) fn parent(target: &Path) -> &Path {
-    target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// Names of work folders of a target begin so; what follows are digits.

@@ -1,13 +1,12 @@
 //! One file, whole or as it was.
 
 use std::{
-    ffi::OsString,
     fs::{self, File},
     io::{self, ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
-use crate::{WorkFolder, regular, sync, work_folder::parent};
+use crate::{Kind, WorkFolder, place::parent, regular, sync};
 
 /// Writes a file, in place of one that is there; at no moment anything half written has its name.
 ///
@@ -59,7 +58,7 @@ fn through_work_folder(
     if target.file_name().is_none() {
         return Err(io::Error::new(ErrorKind::InvalidInput, "it is no name of a file"));
     }
-    let work = WorkFolder::beside(target, &crate::Kind::FILE)?;
+    let work = WorkFolder::beside(target, &Kind::FILE)?;
     let new = work.new_result();
     let mut file = File::options().write(true).create_new(true).open(&new)?;
     file.write_all(bytes)?;
@@ -83,14 +82,6 @@ pub fn behind_links(wanted: &Path) -> io::Result<PathBuf> {
         Ok(found) if found.is_symlink() => fs::canonicalize(&plain),
         _ => Ok(plain),
     }
-}
-
-/// A file name with something before and behind it.
-pub(crate) fn around(before: &str, path: &Path, behind: &str) -> OsString {
-    let mut name = OsString::from(before);
-    name.push(path.file_name().unwrap_or_default());
-    name.push(behind);
-    name
 }
 
 #[cfg(test)]

@@ -202,7 +202,7 @@ impl MeshError {
         let hint = match self {
             Self::Msh(error) => return error.hint(),
             Self::Read { .. } => "paths in a scene are relative to the scene file",
-            Self::Write { .. } => "is the folder there, and may it be written?",
+            Self::Write { .. } => "is the folder there, may it be written, or is the disk full?",
             Self::Inconsistent { .. } => "this is a fault of the program that made the mesh",
             Self::TagTooLarge { .. } => "write format 4.1, or renumber the mesh",
             Self::MissingGroup { .. } => {

@@ -114,6 +114,7 @@ fn a_run_without_a_checkpoint_yet_begins_anew() {
     assert_eq!(scratch.ale_gear(["run", "a.toml", "--out", "whole", "--no-cache"]).code, Some(0));
     fs::create_dir(scratch.path().join("o.checkpoint")).unwrap();
     fs::write(scratch.path().join("o.checkpoint/history.csv"), "time_s\n0.1,torn").unwrap();
+    fs::write(scratch.path().join("o.checkpoint/in_use"), "ale-gear keeps checkpoints here\n").unwrap();
     let run = resume(&scratch);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let remark = "ale-gear: o.checkpoint: the run was cut short before its first checkpoint and begins anew\n";

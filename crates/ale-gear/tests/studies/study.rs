@@ -364,6 +364,7 @@ fn a_killed_study_goes_on() {
     assert!(page.contains(r#""kind":"dots""#) && !page.contains(r#""kind":"lines""#), "two cases at every torque");
     // A folder of somebody else is left alone.
     std::fs::create_dir(&kept).unwrap();
+    std::fs::write(kept.join("thesis.tex"), "years of work").unwrap();
     let refused = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
     assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
 }

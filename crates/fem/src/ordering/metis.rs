@@ -1,7 +1,7 @@
 //! The one call into the METIS library.
 #![allow(unsafe_code)] // a C function; the lengths it relies on are checked right here
 
-use std::{ptr, sync::Mutex};
+use std::{collections::HashSet, ptr, sync::Mutex};
 
 use super::graph::Graph;
 use crate::FemError;
@@ -12,6 +12,27 @@ static ONE_AT_A_TIME: Mutex<()> = Mutex::new(());
 
 /// What METIS takes for an entry of the graph and for a node, bytes, with all coarser graphs and its work space.
 const BYTES: [usize; 2] = [24, 160];
+
+/// Nodes that METIS takes for one have the same neighbours, themselves included; where more than a third of the nodes go
+/// so, the common entry looks for two separators and takes the better one.
+const LOOKS: i32 = 2;
+
+/// Number of classes of nodes with the same neighbours, themselves included.
+fn classes(graph: &Graph) -> usize {
+    // A sum of well mixed numbers does not depend on the order in which neighbours are listed.
+    let mixed = |node: i32, salt: u64| {
+        let z = (node as u64 + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ salt;
+        let z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    };
+    let key = |node: usize| {
+        let around = &graph.neighbours[graph.starts[node] as usize..graph.starts[node + 1] as usize];
+        let all = around.iter().copied().chain([node as i32]);
+        all.fold([0u64; 2], |sum, k| [sum[0].wrapping_add(mixed(k, 0)), sum[1].wrapping_add(mixed(k, 0x5bd1_e995))])
+    };
+    (0..graph.group_count()).map(key).collect::<HashSet<_>>().len()
+}
 
 /// Fill-reducing order of the graph's groups, `order[new] = group`.
 ///
@@ -43,6 +64,9 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
     // less than twice the one part; `options` has the length METIS declares; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
+        if 2 * nodes > 3 * classes(graph) {
+            options[metis_sys::moptions_et_METIS_OPTION_NSEPS as usize] = LOOKS;
+        }
         metis_sys::METIS_NodeNDP(
             nodes as i32,
             starts.as_mut_ptr(),
