@@ -3,7 +3,9 @@
 use std::{path::PathBuf, time::Instant};
 
 use envelope::{FailureMode, MAPS, MODES, chosen};
-use report::envelope_files::{EnvelopeResult, envelope_table, replace_envelope_tables, write_envelope};
+use report::envelope_files::{
+    EnvelopeResult, envelope_table, find_envelope_tables, replace_envelope_tables, write_envelope,
+};
 
 use crate::{command::Answer, error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
@@ -35,6 +37,8 @@ impl EnvelopeArgs {
             let hint = format!("F1 .. {}, or a map: a .. {}", mode.unwrap_or_default(), map.unwrap_or_default());
             CommandError::input(format_args!("`--only {word}`: there is no such case"), Some(hint))
         })?;
+        let shown = [!modes.is_empty(), !maps.is_empty()];
+        self.into.iter().try_for_each(|file| find_envelope_tables(shown, file))?;
         let results = ResultDirectory::create(&self.out)?;
         let mut phases = Phases::with_bars();
         let examined = phases.run_steps("failure modes", modes.len() as u64, |progress| {

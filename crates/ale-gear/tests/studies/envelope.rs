@@ -29,4 +29,10 @@ fn words_of_the_envelope_are_checked() {
     assert!(run.stderr.contains("`--only F36`: there is no such case"), "{}", run.stderr);
     assert!(run.stderr.contains("F1 .. F41, or a map: a .. g"), "{}", run.stderr);
     assert_eq!(scratch.names(), [""; 0]);
+    // Before any case is looked at.
+    let scratch = scratch.file("page.md", "no marks\n");
+    let run = scratch.ale_gear(["envelope", "--only", "F14", "--out", "out", "--into", "page.md"]);
+    assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+    assert!(run.stderr.contains("no `<!-- chart failure modes -->`"), "{}", run.stderr);
+    assert_eq!(scratch.names(), ["page.md"]);
 }

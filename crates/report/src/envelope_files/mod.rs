@@ -8,7 +8,7 @@ mod write;
 pub use csv::{envelope_csv, maps_csv};
 pub use markdown::{maps_markdown, modes_markdown};
 pub use words::envelope_table;
-pub use write::{replace_envelope_tables, write_envelope};
+pub use write::{find_envelope_tables, replace_envelope_tables, write_envelope};
 
 use envelope::{DrawnMap, EnvelopeMap, Examined, FailureMode};
 

@@ -12,6 +12,10 @@ use super::{
 };
 use crate::{MarkedPlace, ReportError, ResultFiles, page::Rendered};
 
+/// Names of the places of both tables in a document.
+const MODES: &str = "failure modes";
+const MAPS: &str = "maps";
+
 /// `envelope.csv`, `maps.csv` where maps were drawn, and `report.html`.
 ///
 /// # Errors
@@ -76,6 +80,19 @@ fn map((map, drawn, seconds): &(envelope::EnvelopeMap, envelope::DrawnMap, f64))
     })
 }
 
+/// Whether a file has the places of the tables that [`replace_envelope_tables`] will replace: told before any work.
+///
+/// # Errors
+/// [`ReportError`] where a mark is missing, or the file cannot be read.
+pub fn find_envelope_tables([modes, maps]: [bool; 2], file: &Path) -> Result<(), ReportError> {
+    for (wanted, name) in [(modes, MODES), (maps, MAPS)] {
+        if wanted {
+            MarkedPlace::find(file, name)?;
+        }
+    }
+    Ok(())
+}
+
 /// Replaces the tables of a document between `<!-- chart failure modes -->` or `<!-- chart maps -->` and `<!-- end -->`
 /// by those that were found.
 ///
@@ -83,10 +100,10 @@ fn map((map, drawn, seconds): &(envelope::EnvelopeMap, envelope::DrawnMap, f64))
 /// When the file or its marks are not there, or the system refuses.
 pub fn replace_envelope_tables(of: &EnvelopeResult, file: &Path) -> Result<(), ReportError> {
     if !of.modes.is_empty() {
-        MarkedPlace::find(file, "failure modes")?.replace(&modes_markdown(of))?;
+        MarkedPlace::find(file, MODES)?.replace(&modes_markdown(of))?;
     }
     if !of.maps.is_empty() {
-        MarkedPlace::find(file, "maps")?.replace(&maps_markdown(of))?;
+        MarkedPlace::find(file, MAPS)?.replace(&maps_markdown(of))?;
     }
     Ok(())
 }

@@ -9,18 +9,25 @@ use crate::fault::Fault;
 /// Parts of a key at most; the deepest of a scene has four.
 const DEEPEST: usize = 8;
 
+/// Keys that are set beside a text at most; a scene has some hundred.
+const MOST: usize = 1000;
+
 /// A text with some keys set otherwise. Each key has dots (`operation.torque_nm`) and its value as it is typed: what is
 /// no TOML is a text, and so is all that `is_text` says of; nothing takes the key away.
 ///
 /// A text that is no TOML comes back as it is: reading it complains in the scene's own words.
 ///
 /// # Errors
-/// A key below something that is no table.
+/// A key below something that is no table, or of more parts than any scene has; more keys than that.
 pub(crate) fn changed(
     text: &str,
     changes: &BTreeMap<String, String>,
     is_text: impl Fn(&str) -> bool,
 ) -> Result<String, Fault> {
+    if changes.len() > MOST {
+        let message = format!("{} keys cannot be set beside the text of a scene, {MOST} at most", changes.len());
+        return Err(Fault::new(message, "change them in the text of the scene"));
+    }
     let Ok(mut document) = text.parse::<DocumentMut>() else { return Ok(text.to_owned()) };
     for (key, typed) in changes {
         let parts: Vec<&str> = key.split('.').collect();
@@ -143,6 +150,13 @@ mod tests {
             let fault = changed(TEXT, &changes, |_| false).unwrap_err();
             assert!(fault.message.contains(&parts.to_string()), "{}", fault.message);
         }
+    }
+
+    #[test]
+    fn more_keys_than_any_scene_has_are_refused() {
+        assert!(scene::all_keys().len() < MOST);
+        let changes = (0..=MOST).map(|i| (format!("k{i}"), "1".to_owned())).collect();
+        assert!(changed(TEXT, &changes, |_| false).unwrap_err().message.starts_with("1001 keys"));
     }
 
     #[test]
