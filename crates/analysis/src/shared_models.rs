@@ -20,6 +20,7 @@ use crate::{
     failure::Failure,
     gears,
     inputs::{meshes_of, settled_scene},
+    light_load,
     meshes::SceneMesh,
     options::options,
     resolution::resolution_warnings,
@@ -262,6 +263,7 @@ impl<'a> SharedModels<'a> {
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
+        light_load::check(&scene, &pair)?;
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);

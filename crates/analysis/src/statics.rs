@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     foreseen_s, gears,
     inputs::{meshes_of, settled_scene},
-    iso_model, iso_root,
+    iso_model, iso_root, light_load,
     meshes::SceneMesh,
     options::options,
     resolution::resolution,
@@ -164,6 +164,9 @@ impl<'a> StaticAnalysis<'a> {
         }
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
+        if scene.analysis.model != Model::Iso {
+            light_load::check(scene, &pair)?;
+        }
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
             let (mut history, facts) = solved?;

@@ -30,6 +30,16 @@ pub enum GearboxError {
         /// How it can move.
         motion: &'static str,
     },
+    /// A natural frequency that the digits of a computer do not hold beside the highest.
+    #[error(
+        "a natural frequency below {least_hz:.3} Hz cannot be told from round-off: the highest is {highest_hz:.2e} Hz"
+    )]
+    LostMode {
+        /// Frequency whose square is round-off of that of the highest, Hz.
+        least_hz: f64,
+        /// The highest, Hz.
+        highest_hz: f64,
+    },
     /// No rolling bearing can be made of what is stated.
     #[error("bearing {bearing}: {source}")]
     Bearing {
@@ -238,7 +248,7 @@ impl GearboxError {
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } => true,
+            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } | Self::LostMode { .. } => true,
             // What the contact is asked for a map is of the map's own choice.
             Self::Map(_) => true,
             Self::Motion(source) => match &**source {
@@ -277,6 +287,10 @@ impl GearboxError {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about \
                  a load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
+            }
+            Self::LostMode { .. } => {
+                "is some spring many decades softer or stiffer than the others (stiffnesses are N/mm), or does a bearing, \
+                 gear or section lie some nanometres beside another?"
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
