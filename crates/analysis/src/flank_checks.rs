@@ -130,7 +130,8 @@ impl NamedFlanks<'_> {
         })
     }
 
-    fn point(&self, node: u32) -> Vec3 {
+    /// Where a node of the mesh is, mm.
+    pub fn point(&self, node: u32) -> Vec3 {
         Vec3::from(self.found.mesh().nodes[node as usize])
     }
 

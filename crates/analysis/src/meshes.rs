@@ -97,6 +97,7 @@ pub fn checked_mesh(
     let flanks = NamedFlanks { file: &file, whose, found: &found, exact, names: &gear.groups };
     flanks.lie_on_the_gear()?;
     flanks.are_whole()?;
+    warnings.extend(flanks.reach(&scene.gear_pair()?)?);
     let (gear, facts) = to_compute(scene, gear, found, source).map_err(complain)?;
     Ok(SceneMesh { gear, facts, warnings })
 }

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
 
-use crate::options;
+use crate::{options, waves::unresolved_waves};
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -74,6 +74,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
         said.extend(few_slices(options.contact.slices, needed.count, &errors));
     }
     said.extend(few_elements(face_elements, would_do));
+    said.extend(unresolved_waves(scene, pair, options));
     let resolution = Resolution {
         slices: sliced.then_some(options.contact.slices),
         slices_chosen,
@@ -92,7 +93,9 @@ pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &Stat
         return resolution(scene, pair, options).1;
     }
     let (face_elements, would_do) = face_elements(scene);
-    few_elements(face_elements, would_do)
+    let mut said = few_elements(face_elements, would_do);
+    said.extend(unresolved_waves(scene, pair, options));
+    said
 }
 
 /// Elements along the face of pinion and wheel, and how many the program would choose.

@@ -28,6 +28,7 @@ use crate::{
     gears,
     inputs::{meshes_of, settled_scene},
     interest::Interest,
+    light_load,
     meshes::SceneMesh,
     options::options,
     plausible::refuse,
@@ -291,6 +292,7 @@ impl<'a> SharedModels<'a> {
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
         refuse(&scene, &pair)?;
+        light_load::check(&scene, &pair)?;
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);

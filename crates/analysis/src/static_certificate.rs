@@ -18,7 +18,7 @@ const ACTION_REACTION: f64 = 1e-8;
 /// What the pose is off by over the approach of the flanks: the solver's own bound where forces jump.
 const POSE: f64 = 2e-3;
 /// Round-off of places over the approach of the flanks.
-const ROUND_OFF: f64 = 1e-2;
+pub(crate) const ROUND_OFF: f64 = 1e-2;
 
 const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 

@@ -18,7 +18,7 @@ use crate::{
     foreseen::announced_s,
     gears,
     inputs::{meshes_of, settled_scene},
-    iso_model, iso_root,
+    iso_model, iso_root, light_load,
     meshes::SceneMesh,
     options::options,
     plausible::{refuse, remarks},
@@ -167,6 +167,9 @@ impl<'a> StaticAnalysis<'a> {
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
+        if scene.analysis.model != Model::Iso {
+            light_load::check(scene, &pair)?;
+        }
         let unlikely = remarks(scene, &pair);
         if !self.slices_stand {
             unlikely.iter().for_each(|said| observer.note(said.clone()));

@@ -142,6 +142,21 @@ impl Assembly {
     /// Stiffness of shafts, bearings, housing and mesh springs: N/mm, N, N mm.
     pub fn stiffness(&self) -> DMatrix<f64> {
         let mut k = self.stiffness_without_meshes();
+        self.add_meshes(&mut k);
+        k
+    }
+
+    /// What holds the shafts: bearings and housing, and meshes where they count; the shafts' own stiffness left out.
+    pub(crate) fn holding(&self, with_meshes: bool) -> DMatrix<f64> {
+        let mut k = DMatrix::zeros(self.size(), self.size());
+        self.add_supports(&mut k, &self.supports.stiffness);
+        if with_meshes {
+            self.add_meshes(&mut k);
+        }
+        k
+    }
+
+    fn add_meshes(&self, k: &mut DMatrix<f64>) {
         for spring in &self.structure.springs {
             let mut lever = DVector::zeros(self.size());
             for (disc, own) in spring.discs.iter().zip(&spring.levers) {
@@ -156,7 +171,6 @@ impl Assembly {
                 k[(at[i / 6] + i % 6, at[j / 6] + j % 6)] += 0.5 * (mesh.stiffness[(i, j)] + mesh.stiffness[(j, i)]);
             }
         }
-        k
     }
 
     /// Displacements of both gears of a mesh out of those of all nodes; nothing moves where a disc is not there.
@@ -191,6 +205,14 @@ impl Assembly {
     /// Positions of the nodes of a shaft, mm, and the first coordinate of the first of them.
     pub(crate) fn line(&self, shaft: usize) -> (usize, &BeamLine) {
         (self.first[shaft], &self.lines[shaft])
+    }
+
+    /// Height at which each node's coordinates are on a shaft, mm from its z = 0: that of its cross-section, or of the
+    /// disc's middle where that has a reach.
+    pub(crate) fn heights(&self, shaft: usize) -> Vec<f64> {
+        let (first, line) = self.line(shaft);
+        let reach = |at: usize| self.reaches.iter().find(|(node, _)| *node == at).map_or(0.0, |(_, reach)| *reach);
+        line.positions().iter().enumerate().map(|(i, z)| z + reach(first + NODE_COORDINATES * i)).collect()
     }
 
     /// First coordinate of a bearing's node.

@@ -46,6 +46,16 @@ pub enum GearboxError {
         /// Force along the direction that nothing takes, N.
         force_n: f64,
     },
+    /// A natural frequency that the digits of a computer do not hold beside the highest.
+    #[error(
+        "a natural frequency below {least_hz:.3} Hz cannot be told from round-off: the highest is {highest_hz:.2e} Hz"
+    )]
+    LostMode {
+        /// Frequency whose square is round-off of that of the highest, Hz.
+        least_hz: f64,
+        /// The highest, Hz.
+        highest_hz: f64,
+    },
     /// No rolling bearing can be made of what is stated.
     #[error("bearing {bearing}: {source}")]
     Bearing {
@@ -254,7 +264,7 @@ impl GearboxError {
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } => true,
+            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } | Self::LostMode { .. } => true,
             // What the contact is asked for a map is of the map's own choice.
             Self::Map(_) => true,
             Self::Motion(source) => match &**source {
@@ -298,6 +308,10 @@ impl GearboxError {
                 return Some(format!(
                     "turn one of its bearings about: `takes_thrust = \"{direction}\"`; two that face each other hold both ways"
                 ));
+            }
+            Self::LostMode { .. } => {
+                "is some spring many decades softer or stiffer than the others (stiffnesses are N/mm), or does a bearing, \
+                 gear or section lie some nanometres beside another?"
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",

@@ -29,6 +29,7 @@ mod modal_energy;
 pub mod motion;
 mod pliant;
 mod position;
+mod rigid_motions;
 pub mod rolling_bearing;
 mod search;
 mod seats;

@@ -1,5 +1,7 @@
 //! Natural frequencies and whirl modes of spinning shafts. Theory (78), (80).
 
+use std::ops::Range;
+
 use faer::{Mat, c64};
 use fem::{Modes, dense::general_eigen, natural_modes};
 use nalgebra::{Complex, DMatrix, DVector};
@@ -67,14 +69,26 @@ pub struct Held {
     pub turns: Vec<usize>,
 }
 
+impl Held {
+    /// Displacements (0 .. 2) and turns (3 .. 5) that a shaft has as a whole; one whose turn is held at a disc has none about
+    /// its axis.
+    fn axes(&self, assembly: &Assembly, shaft: usize) -> Range<usize> {
+        let structure = assembly.structure();
+        let turns = !self.turns.iter().any(|&disc| structure.discs.get(disc).is_some_and(|d| d.shaft == shaft));
+        let first = if self.shafts.contains(&shaft) { 5 } else { 0 };
+        first..if turns { 6 } else { 5 }
+    }
+}
+
 impl Rotors {
     /// Modes at rest, which all others are made of.
     ///
-    /// A frequency at rest whose square is below n eps times that of the highest, n coordinates, is round-off, and
-    /// counts as a rigid motion.
+    /// As many frequencies at rest are 0 as there are rigid motions that bearings and meshes do not resist; these are
+    /// counted by what joins the shafts, and not by the size of frequencies.
     ///
     /// # Errors
-    /// [`GearboxError::Matrix`] where a coordinate has no mass.
+    /// [`GearboxError::Matrix`] where a coordinate has no mass; [`GearboxError::LostMode`] where the square of the lowest
+    /// other frequency is below n eps times that of the highest, n coordinates: round-off.
     pub fn new(assembly: Assembly) -> Result<Self, GearboxError> {
         Self::holding(assembly, &Held::default())
     }
@@ -102,9 +116,9 @@ impl Rotors {
             let found = natural_modes(&of(&stiffness), &of(&mass))?;
             Modes { shapes: &basis * found.shapes, ..found }
         };
-        let highest = rest.frequencies.last().copied().unwrap_or(0.0);
-        let least = highest * (rest.frequencies.len() as f64 * f64::EPSILON).sqrt();
-        rest.frequencies.iter_mut().filter(|w| **w < least).for_each(|w| *w = 0.0);
+        let rigid = assembly.rigid_motions(|shaft| held.axes(&assembly, shaft), true);
+        told_from_round_off(&rest.frequencies, rigid)?;
+        rest.frequencies.iter_mut().take(rigid).for_each(|w| *w = 0.0);
         let damping = rest.shapes.transpose() * assembly.damping() * &rest.shapes;
         let unit_damping = DMatrix::from_diagonal(&DVector::from_iterator(
             rest.frequencies.len(),
@@ -201,6 +215,19 @@ impl Rotors {
             if *speed == 0.0 || across <= LATERAL || square == 0.0 { 0.0 } else { speed.signum() * area / square }
         };
         self.assembly.lines().zip(speeds).map(of_shaft).collect()
+    }
+}
+
+/// Whether natural frequencies (rad/s, ascending) beyond the `rigid` first are more than round-off of the highest.
+pub(crate) fn told_from_round_off(frequencies: &[f64], rigid: usize) -> Result<(), GearboxError> {
+    let highest = frequencies.last().copied().unwrap_or(0.0);
+    let least = highest * (frequencies.len() as f64 * f64::EPSILON).sqrt();
+    match frequencies.get(rigid) {
+        Some(&lowest) if lowest < least => {
+            let hz = |w: f64| w / std::f64::consts::TAU;
+            Err(GearboxError::LostMode { least_hz: hz(least), highest_hz: hz(highest) })
+        }
+        _ => Ok(()),
     }
 }
 

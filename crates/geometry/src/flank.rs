@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use crate::Vec3;
+use crate::{Vec3, profile::LAST_DIGITS};
 
 /// Side of a tooth, seen from +z with the tooth pointing up.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -167,7 +167,8 @@ impl Flank {
     /// d = r_b cos(b_b) [s (phi - c - k z_p) - sigma + W / r_b]
     /// z = z_p + s d sin(b_b),  r_b u = W - d cos(b_b)
     /// ```
-    /// `None` below the base cylinder, where the involute has no normal. Check `roll` and `z` against the bounds.
+    /// `None` below the base cylinder, where the involute has no normal; what lies below it by no more than a millionth of its
+    /// radius, the digits of a mesh file, counts as on it. Check `roll` and `z` against the bounds.
     pub fn locate(&self, p: &Vec3) -> Option<FlankPoint> {
         self.locate_with_directions(p).map(|(foot, _)| foot)
     }
@@ -182,11 +183,12 @@ impl Flank {
     pub(crate) fn locate_with_directions(&self, p: &Vec3) -> Option<(FlankPoint, Directions)> {
         let s = self.side.sign();
         let square = p.x * p.x + p.y * p.y;
-        let reach = square - self.base_radius * self.base_radius;
-        if reach < 0.0 {
+        let base = self.base_radius * self.base_radius;
+        let reach = square - base;
+        if reach < -2.0 * LAST_DIGITS * base {
             return None;
         }
-        let w = reach.sqrt();
+        let w = reach.max(0.0).sqrt();
         let [sin_b, cos_b] = self.base_helix();
         // R^2 exp(i phi) = (x + i y) (r_b - i s W)
         let [cos, sin] = [p.x * self.base_radius + s * w * p.y, p.y * self.base_radius - s * w * p.x];
@@ -196,7 +198,10 @@ impl Flank {
         let expected = self.centre_angle + self.twist * p.z + s * (self.base_half_angle - w / self.base_radius);
         let turn = wrap(phi - expected);
         let distance = self.base_radius * cos_b * s * turn;
-        let roll = (w - distance * cos_b) / self.base_radius;
+        let mut roll = (w - distance * cos_b) / self.base_radius;
+        if reach <= 0.0 {
+            roll = roll.max(0.0);
+        }
         Some((FlankPoint { roll, z: p.z + s * distance * sin_b, distance }, directions))
     }
 

@@ -77,7 +77,7 @@ fn half_angle(gear: &Gear, radius: f64) -> f64 {
         return -PI;
     }
     if radius >= gear.form_radius() {
-        let u = ((radius / gear.base_radius()).powi(2) - 1.0).max(0.0).sqrt();
+        let u = crate::profile::roll_angle(radius, gear.base_radius()).unwrap_or(0.0);
         return profile.half_angle(u);
     }
     let t = crate::profile::bisect(0.0, 1.0, |t| radius - profile.fillet(t).0);

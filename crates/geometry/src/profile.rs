@@ -60,6 +60,20 @@ impl RackTip {
     }
 }
 
+/// Share of the base radius by which a place may lie below the base circle and count as on it: the digits of files, some
+/// of which have seven.
+pub(crate) const LAST_DIGITS: f64 = 1e-6;
+/// Roll angle, rad, below zero down to which a rack that reaches too deep takes away half as much of the involute; where it
+/// is more their crossing is looked for.
+const SLIGHT_UNDERCUT: f64 = 1e-4;
+
+/// Roll angle at a radius of an involute, u = sqrt((r/r_b)^2 - 1), rad; 0 on the base circle and [`LAST_DIGITS`] below it,
+/// `None` where there is no involute.
+pub(crate) fn roll_angle(radius: f64, base_radius: f64) -> Option<f64> {
+    let square = (radius / base_radius).powi(2) - 1.0;
+    (square >= -2.0 * LAST_DIGITS).then(|| square.max(0.0).sqrt())
+}
+
 impl TransverseProfile {
     /// The section of a gear.
     ///
@@ -80,8 +94,7 @@ impl TransverseProfile {
             Some(d) => 0.5 * d,
             None => reference_radius + m * (data.addendum_coefficient + x),
         };
-        let roll_at = |r: f64| ((r / base_radius).powi(2) - 1.0).max(0.0).sqrt();
-        let roll_tip = roll_at(tip_radius);
+        let roll_tip = roll_angle(tip_radius, base_radius).unwrap_or(0.0);
         if tip_radius <= base_radius {
             return Err(GeometryError::OutOfRange {
                 name: "tip diameter",
@@ -126,12 +139,16 @@ impl TransverseProfile {
         let roll_end = alpha_t.tan() + y_end / (self.base_radius * alpha_t.sin());
         if roll_end >= 0.0 {
             self.roll_form = roll_end;
+        } else if roll_end > -SLIGHT_UNDERCUT {
+            // Both curves touch here rather than cross, and the involute that is lost is half of what the rack is too deep.
+            self.undercut = roll_end < -LAST_DIGITS;
+            self.roll_form = -0.5 * roll_end;
         } else {
             // Undercut: the rack's tip cuts into the involute; both curves cross at one radius above the base.
             self.undercut = true;
             let excess = |theta: f64| {
                 let (r, space) = self.rack.generated(theta, self.reference_radius);
-                let u = ((r / self.base_radius).powi(2) - 1.0).max(0.0).sqrt();
+                let u = roll_angle(r, self.base_radius).unwrap_or(0.0);
                 (r, space - (self.half_pitch - self.half_angle(u)))
             };
             // Only what the rack cuts above the base circle counts; a slight undercut ends close to it.
@@ -148,7 +165,7 @@ impl TransverseProfile {
                 expected: "small enough that the undercut leaves an involute",
             })?;
             let theta = bisect(at(crossing - 1), at(crossing), |t| excess(t).1);
-            self.roll_form = ((excess(theta).0 / self.base_radius).powi(2) - 1.0).max(0.0).sqrt();
+            self.roll_form = roll_angle(excess(theta).0, self.base_radius).unwrap_or(0.0);
             self.fillet_end = theta;
         }
         if self.roll_form >= self.roll_tip {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::{Gear, GearPair, involute};
+use crate::{Gear, GearPair, involute, profile::roll_angle};
 
 /// Everything that a geometry sheet says of a pair; units are in the names.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -223,7 +223,7 @@ fn gear_sheet(gear: &Gear, a_wt: f64, [low, high]: [f64; 2], single: Option<[f64
     let diameter = |xi: f64| 2.0 * base.hypot(xi);
     let roll = |xi: f64| (xi / base).to_degrees();
     let thickness = |radius: f64| {
-        let u = ((radius / base).powi(2) - 1.0).max(0.0).sqrt();
+        let u = roll_angle(radius, base).unwrap_or(0.0);
         // The helix angle grows with the radius.
         let helix = (data.helix_angle.tan() * radius / gear.reference_radius()).atan();
         2.0 * radius * profile.half_angle(u) * helix.cos()

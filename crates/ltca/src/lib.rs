@@ -29,6 +29,7 @@ pub use error::StaticError;
 pub use face_load::{envelope as load_envelope, face_load_factor};
 pub use kinematic::kinematic_transmission_error;
 pub use options::StaticOptions;
+pub use pose_steps::round_off_of_places;
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
 pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak};
 pub use sensitivity::{Neighbour, PositionRates, Sensitivities, Sensitivity, Variation};

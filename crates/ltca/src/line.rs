@@ -18,7 +18,7 @@ pub(crate) fn contact_line(windowed: &WindowedPair, e: &Equilibrium, k: usize) -
         let stations = of_pair.map(|((row, slice), (&o, state))| {
             (row.point, line_station(row.gap, o, state.local.approach, 0.0), *slice)
         });
-        return slice_line(set, &e.poses, (first, second), stations, face);
+        return slice_line(set, &e.poses, (first, second), stations, face, || e.displacements_on(set));
     }
     nodal_contact_line(set, &options.contact, &e.poses, &e.displacements, (first, second), (face, e.approach(pair)))
 }

@@ -19,7 +19,7 @@ const ROUND_OFF: f64 = 1e-9;
 const JUMP: f64 = 2e-3;
 
 /// Smallest step (mm) that the flanks of gears this far apart (mm) resolve.
-pub(crate) fn round_off_of_places(centre_distance: f64) -> f64 {
+pub fn round_off_of_places(centre_distance: f64) -> f64 {
     // An angle of a few radians resolves no smaller steps.
     16.0 * f64::EPSILON * centre_distance
 }

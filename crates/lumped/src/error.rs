@@ -113,6 +113,14 @@ pub enum LumpedError {
         /// Shaft, from 0.
         shaft: usize,
     },
+    /// A shaft that can move as a whole.
+    #[error("nothing holds shaft {shaft} {motion}")]
+    Loose {
+        /// Shaft, from 0.
+        shaft: usize,
+        /// How it can move.
+        motion: &'static str,
+    },
     /// Torques that would set freely turning shafts going.
     #[error("torques are not in balance: {torque} N mm are left over, seen from shaft 0")]
     NotBalanced {
@@ -150,6 +158,18 @@ impl LumpedError {
             Self::NotConnected { .. } => "add the mesh that drives it, or leave the shaft out".into(),
             Self::Ratios { .. } => "numbers of teeth around a closed train must agree".into(),
             Self::Free { .. } => "give the shaft two supports and a thrust bearing, or keep the coordinate".into(),
+            Self::Loose { motion, .. } => {
+                let needed = match *motion {
+                    "along x" => "a stiffness along x at two places",
+                    "along y" => "a stiffness along y at two places",
+                    "along z" => "a stiffness along z at one place: its helical teeth push",
+                    "tilting about x" => "a stiffness along y at a second place, or one about x",
+                    _ => "a stiffness along x at a second place, or one about y",
+                };
+                format!(
+                    "its supports need {needed} (shaft 0 is the pinion's, shaft 1 the wheel's: `[[pinion.shaft.supports]]`)"
+                )
+            }
             Self::NotBalanced { .. } => {
                 "torques times speed ratios must add up to zero, or one shaft must be held in turning".into()
             }

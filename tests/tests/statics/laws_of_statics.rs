@@ -12,24 +12,28 @@ fn small_case(beta_deg: f64) -> Case {
     generated(beta_deg, [4, 2, 2, 12, 2])
 }
 
-/// Total contact-line length as the torque goes to zero against the analytic value, 32 positions: within 1 %.
+/// Total contact-line length as the torque goes to zero against the analytic value L(s): within a thousandth at 128
+/// positions, whatever the slices, also where a line has come over an end face and to no slice.
 #[test]
 fn contact_line_length_tends_to_the_analytic_one() {
-    for beta in [0.0, 10.0, 20.0, 30.0] {
+    for beta in [0.0, 10.0, -20.0, 30.0] {
         let case = small_case(beta);
-        let mut options = case.options();
-        options.torque = 1e-3; // N mm: 150 N m over 1.5e8
-        let mut model = case.reduced(options);
-        let history = model.run(32, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("beta {beta}: {e}"));
-        let mut worst = (0.0f64, 0.0);
-        for p in &history.positions {
-            let off = p.contact_line_length / p.geometric_line_length - 1.0;
-            if off.abs() > worst.0.abs() {
-                worst = (off, p.mesh_phase);
+        for slices in [12, 32, 48] {
+            let mut options = case.options();
+            options.torque = 1e-2; // N mm: 150 N m over 1.5e7
+            options.contact.slices = slices;
+            let mut model = case.reduced(options);
+            let history = model.run(128, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("beta {beta}: {e}"));
+            let mut worst = (0.0f64, 0.0);
+            for p in &history.positions {
+                let off = p.contact_line_length / p.geometric_line_length - 1.0;
+                if off.abs() > worst.0.abs() {
+                    worst = (off, p.mesh_phase);
+                }
             }
+            println!("beta {beta} deg, {slices} slices: {:.4} % at phase {}", 100.0 * worst.0, worst.1);
+            assert!(worst.0.abs() < 1e-3, "beta {beta} deg, {slices} slices: {:.4} % at {}", 100.0 * worst.0, worst.1);
         }
-        println!("beta {beta} deg: worst deviation {:.3} % at phase {}", 100.0 * worst.0, worst.1);
-        assert!(worst.0.abs() < 0.01, "beta {beta} deg: {:.3} % at phase {}", 100.0 * worst.0, worst.1);
     }
 }
 

@@ -160,6 +160,103 @@ fn a_flank_in_part_is_refused() {
     refused(&mesh, &with_mesh.replace("face_width_mm = 20.0", "face_width_mm = 40.0"));
 }
 
+/// Named flanks that end before contact does: refused with the diameters or heights where more than a tenth of the path of
+/// contact or of the face has nothing to carry it, remarked on where it is less, for contact would be cut off there in
+/// silence.
+#[test]
+fn flanks_that_end_before_contact_does_are_told() {
+    let mesher = |profile: u32, face: u32| {
+        format!(
+            "[pinion.mesher]\norder = 1\nelements_profile = {profile}\nelements_fillet = 2\nelements_thickness = 2\n\
+             elements_face = {face}\nelements_rim = 1\nsector_teeth = 1\n[pair]"
+        )
+    };
+    let on_mesh = ISO_SCENE
+        .replacen("teeth = 30\n", "teeth = 30\nmesh = \"p.msh\"\n", 1)
+        .replace("model = \"iso\"\n", "positions_per_cycle = 1\n")
+        .replace("[pair]", &mesher(2, 2).replace("pinion", "wheel"));
+    // The faces of all flanks that lie between these radii and heights as a whole.
+    let run = |profile: u32, face: u32, [from, to]: [f64; 2], [low, high]: [f64; 2]| {
+        let scratch = Scratch::new().file("a.toml", ISO_SCENE.replace("[pair]", &mesher(profile, face)));
+        let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "p.msh"]);
+        assert_eq!(made.code, Some(0), "{}", made.stderr);
+        let mut mesh = mesh::Mesh::read(scratch.path().join("p.msh")).unwrap();
+        let nodes = mesh.nodes.clone();
+        let is_in = |&n: &u32| {
+            let [x, y, z] = nodes[n as usize];
+            (from..=to).contains(&x.hypot(y)) && (low..=high).contains(&z)
+        };
+        for group in mesh.surfaces.iter_mut().filter(|s| s.name.starts_with("flank")) {
+            group.faces.retain(|face| face.nodes().iter().all(is_in));
+        }
+        mesh.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+        let scratch = scratch.file("b.toml", &on_mesh);
+        scratch.ale_gear(["run", "b.toml", "--out", "o", "--no-cache"])
+    };
+    const ALL: [f64; 2] = [0.0, 1e3];
+    const WIDE: [f64; 2] = [-1e3, 1e3];
+    // d_Nf is 91.55, d_Na 101.77 mm, the face -10 .. 10 mm.
+    for (profile, face, radii, heights, end, hint) in [
+        (12, 2, [46.3, 1e3], WIDE, "begins at diameter 9", "from the root form diameter"),
+        (12, 2, [0.0, 49.9], WIDE, "ends at diameter 9", "`tip_diameter_mm = 9"),
+        (
+            2,
+            8,
+            ALL,
+            [-8.0, 1e3],
+            "begins at z = -7.500 mm, the common face at z = -10.000 mm: 12.5 %",
+            "`face_width_mm`",
+        ),
+        (2, 8, ALL, [-1e3, 8.0], "ends at z = 7.500 mm, the common face at z = 10.000 mm: 12.5 %", "`face_width_mm`"),
+    ] {
+        let told = run(profile, face, radii, heights);
+        assert_eq!(told.code, Some(2), "{end}: {}", told.stderr);
+        assert!(told.stderr.contains(end) && told.stderr.contains(hint), "{end}, {hint}: {}", told.stderr);
+    }
+    let remarked = run(2, 16, ALL, [-9.0, 1e3]);
+    assert_eq!(remarked.code, Some(0), "{}", remarked.stderr);
+    assert!(
+        remarked.stderr.contains("begins at z = -8.750 mm") && remarked.stderr.contains("6.2 %"),
+        "{}",
+        remarked.stderr
+    );
+    let whole = run(2, 2, ALL, WIDE);
+    assert!(whole.code == Some(0) && !whole.stderr.contains("has no face to carry it"), "{}", whole.stderr);
+}
+
+/// A flank that is drawn from the base circle, as CAD draws it, begins there to the last bit or to the last digit of a
+/// file; one that begins a tenth of a millimetre below it is another gear's.
+#[test]
+fn flanks_from_the_base_circle_are_the_gears() {
+    let gear = "[pinion]\nteeth = 17\nhelix_angle_deg = 0.0\n@[wheel]\nteeth = 40\n[pair]\nnormal_module_mm = 2.5\n\
+                face_width_mm = 10.0\n[operation]\ntorque_nm = 50.0\n";
+    let scratch = Scratch::new().file("a.toml", gear.replace('@', "mesher = { order = 1, sector_teeth = 1 }\n"));
+    let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "good.msh"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let good = mesh::Mesh::read(scratch.path().join("good.msh")).unwrap();
+    let base = 21.25 * 20f64.to_radians().cos();
+    let flank: Vec<u32> =
+        good.surfaces.iter().filter(|s| s.name.starts_with("flank")).flat_map(|s| s.nodes()).collect();
+    let radius = |p: &[f64; 3]| p[0].hypot(p[1]);
+    let lowest = flank.iter().map(|&n| radius(&good.nodes[n as usize])).fold(f64::INFINITY, f64::min);
+    assert!((lowest - base).abs() < 1e-3, "the involute begins at {lowest}, the base circle is at {base} mm");
+    for (off, code) in [(0.0, 0), (2e-16, 0), (-2e-16, 0), (-1e-12, 0), (-1e-7, 0), (-5e-3, 2)] {
+        let mut mesh = good.clone();
+        for &n in &flank {
+            let p = &mut mesh.nodes[n as usize];
+            let r = radius(p);
+            if r < lowest + 1e-3 {
+                let stretch = base / r * (1.0 + off);
+                (p[0], p[1]) = (p[0] * stretch, p[1] * stretch);
+            }
+        }
+        let scratch = Scratch::new().file("b.toml", gear.replace('@', "mesh = \"p.msh\"\n"));
+        mesh.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary41).unwrap();
+        let run = scratch.ale_gear(["mesh", "check", "p.msh", "--scene", "b.toml", "--gear", "pinion"]);
+        assert_eq!(run.code, Some(code), "{off}: {}", run.stderr);
+    }
+}
+
 /// A run of a scene on a mesh of the pinion with a bore of 60 mm; `pinion` are the words on its bore.
 fn on_a_mesh(model: &str, pinion: &str) -> (Scratch, crate::util::Run) {
     let scratch = Scratch::new().file("a.toml", scene(1, 1));

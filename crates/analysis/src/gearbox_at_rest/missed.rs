@@ -2,8 +2,10 @@
 
 use super::GearboxResult;
 
-/// Share of loads that may be left over, and of forces on a body.
-const BALANCE: f64 = 1e-6;
+/// Share of loads that may be left over before the last small step.
+const LEFT: f64 = 1e-6;
+/// Share of the largest force or moment on a shaft that may be left over.
+const BALANCE: f64 = 1e-8;
 /// Energy that steps may add or take by themselves, over that of the vibration.
 const ENERGY: f64 = 1e-3;
 /// Error of the natural frequencies of reduced shafts.
@@ -29,9 +31,13 @@ impl GearboxResult {
     pub fn missed(&self) -> Vec<Missed> {
         let mut all = Vec::new();
         let mut say = |what: String, hint| all.push(Missed { what, hint });
-        if let Some(share) = self.certificate.into_iter().find(|share| share.is_nan() || *share > BALANCE) {
-            let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
-            say(format!("{share:.1e} of the load is left over"), hint);
+        let hint = "are bearings and shafts many decades stiffer than the teeth? `held` is rigid";
+        let [left, body] = self.certificate;
+        if left.is_nan() || left > LEFT {
+            say(format!("{left:.1e} of the load is left over, allowed is {LEFT:.0e}"), hint);
+        }
+        if body.is_nan() || body > BALANCE {
+            say(format!("forces on a shaft leave {body:.1e} of the largest over, allowed is {BALANCE:.0e}"), hint);
         }
         for mesh in &self.meshes {
             let [deflection, pressure] = mesh.over_limits;

@@ -1,7 +1,7 @@
 //! What is read off all positions of a gearbox.
 
 use gearbox::{GearboxPosition, Mesh, Structure, Train, face_load_factor};
-use geometry::GearPair;
+use geometry::{GearPair, Side};
 use scene::gearbox::Gearbox;
 
 use super::{
@@ -10,7 +10,7 @@ use super::{
     meshes::ReducedMesh,
     room::{deflections, room},
 };
-use crate::plausible::effective_modulus;
+use crate::{plausible::effective_modulus, waves::waves_on};
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -161,6 +161,12 @@ pub(super) fn result(
             .extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, (load.tilt, r))));
     }
     warnings.extend(room(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
+    for (i, pair) in pairs.iter().enumerate() {
+        let slices = || all.iter().flat_map(move |p| &p.meshes[i].slices);
+        let widest = slices().map(|s| s.half_width).fold(0.0, f64::max);
+        let side = slices().next().map_or(Side::Left, |s| s.side);
+        warnings.extend(waves_on(pair, side, widest).into_iter().map(|said| format!("{}: {said}", of_meshes[i].name)));
+    }
     GearboxResult {
         ratios: train.ratios().to_vec(),
         meshes: of_meshes,

@@ -58,6 +58,9 @@ impl LumpedInputs {
     /// Those of a pair that is none, and of the reduced model where it feeds the mesh.
     pub fn gather(scene: &Scene, source: &mut ExcitationSource<'_>) -> Result<Self, AnalysisError> {
         let pair = scene.gear_pair()?;
+        if let Some(own) = &scene.shaft18 {
+            shafts::check_held(scene, own, &pair).map_err(|e| AnalysisError::lumped(scene, e))?;
+        }
         let plane = match scene.analysis.model {
             Model::Shaft18 => shafts::plane(scene, &pair),
             _ => lumped_pair::plane(scene, &pair),

@@ -77,6 +77,22 @@ pub(super) fn system(
     Ok((system, resonance))
 }
 
+/// Whether supports hold both shafts of a scene, before anything is computed.
+///
+/// # Errors
+/// [`LumpedError::Loose`].
+pub(super) fn check_held(scene: &Scene, own: &Shaft18Scene, pair: &GearPair) -> Result<(), LumpedError> {
+    let bodies = bodies(scene, pair);
+    let thrust = own.gravity_m_per_s2[2] != 0.0 || pair.base_helix_angle() != 0.0;
+    for (i, gear) in scene.gears().into_iter().enumerate() {
+        let motion = gear.shaft.as_ref().and_then(|stated| shaft(gear, stated, &bodies[i]).0.loose_motion(thrust));
+        if let Some(motion) = motion {
+            return Err(LumpedError::Loose { shaft: i, motion });
+        }
+    }
+    Ok(())
+}
+
 /// Torque on a gear's shaft about +z, N mm, for a pinion that turns counter-clockwise. The driver is pushed the way
 /// it turns, the driven gear held back; the gears turn against each other, so both torques have one sign.
 fn torque_about_z(scene: &Scene, gear: usize) -> f64 {
@@ -122,17 +138,22 @@ fn shaft(gear: &GearScene, stated: &ShaftScene, body: &RigidBody) -> (Shaft, usi
     let sits = Station { position: stated.gear_at_mm, kept: [true; 6], ..Station::default() }.bearing(body);
     let mut stations = vec![sits];
     stations.extend(stated.discs.iter().map(disc));
-    stations.extend(stated.nodes_mm.iter().map(|&position| Station { position, ..Station::default() }));
-    let near = |s: &Station| (s.position - stated.torque_at_mm).abs() < 1e-6;
-    let at = stations.iter().position(near).unwrap_or_else(|| {
-        stations.push(Station { position: stated.torque_at_mm, ..Station::default() });
-        stations.len() - 1
-    });
-    let shaft = Shaft {
+    let mut shaft = Shaft {
         segments: stated.segments_mm.iter().map(segment).collect(),
         stations,
         supports: stated.supports.iter().map(support).collect(),
     };
+    // Places that merely bear the shaft's own mass, or take a torque, are those of a gear or disc that is there.
+    let near = shaft.coincidence();
+    let mut place = |position: f64| {
+        let there = shaft.stations.iter().position(|s| (s.position - position).abs() <= near);
+        there.unwrap_or_else(|| {
+            shaft.stations.push(Station { position, ..Station::default() });
+            shaft.stations.len() - 1
+        })
+    };
+    stated.nodes_mm.iter().for_each(|&z| _ = place(z));
+    let at = place(stated.torque_at_mm);
     (shaft, at)
 }
 

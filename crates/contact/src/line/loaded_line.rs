@@ -28,7 +28,8 @@ const AROUND: usize = 4;
 /// z; infinite where they do not face each other); o: [`LineStation::opened`], a parabola through the next three
 /// stations. At the stations w is what the solution has, so the ends are those of the very line whose load the slices
 /// carry, and they move on smoothly while the stations stay. A line that has reached no station yet is found at an end
-/// face, or between three stations that are about to touch.
+/// face, or between three stations that are about to touch. Where no station near an end face was looked at, as under
+/// hardly any load, `unsolved(i, z)` tells o there.
 ///
 /// `stations` (mm) are evenly spaced, ascending, half a step inside of the ends `face` of the common face; `solved` has `None` for
 /// stations that are too far apart to have been looked at.
@@ -37,18 +38,21 @@ pub fn loaded_intervals(
     solved: &[Option<LineStation>],
     face: [f64; 2],
     gap: impl FnMut(usize, f64) -> f64,
+    unsolved: impl FnMut(usize, f64) -> f64,
 ) -> Vec<[f64; 2]> {
-    Line { stations, solved, step: (face[1] - face[0]) / stations.len().max(1) as f64, gap }.intervals(face)
+    let step = (face[1] - face[0]) / stations.len().max(1) as f64;
+    Line { stations, solved, step, gap, unsolved }.intervals(face)
 }
 
-struct Line<'a, G> {
+struct Line<'a, G, U> {
     stations: &'a [f64],
     solved: &'a [Option<LineStation>],
     step: f64,
     gap: G,
+    unsolved: U,
 }
 
-impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
+impl<G: FnMut(usize, f64) -> f64, U: FnMut(usize, f64) -> f64> Line<'_, G, U> {
     fn intervals(&mut self, face: [f64; 2]) -> Vec<[f64; 2]> {
         let count = self.stations.len();
         let mut all = Vec::new();
@@ -90,15 +94,20 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
     /// A part of the line that no station carries, beside station `i`, which is open: at an end face, or where the gap
     /// dips between stations.
     fn unreached(&mut self, i: usize, [low, high]: [f64; 2]) -> Option<[f64; 2]> {
-        let here = self.solved[i]?.gap;
         let z = self.stations[i];
         let count = self.stations.len();
         let face = [(0, low), (count - 1, high)].into_iter().find(|(end, _)| *end == i).map(|(_, face)| face);
         if let Some(face) = face {
             let there = self.under_load(i, face);
-            let end = (there < 0.0).then(|| self.zero_of(i, [face, z], [there, here]))?;
+            if there >= 0.0 {
+                return None;
+            }
+            // Under a light load the end station may be too far apart to have been looked at, beyond the end of the path.
+            let here = self.solved[i].map_or_else(|| self.under_load(i, z), |s| s.gap);
+            let end = if here < 0.0 { z } else { self.zero_of(i, [face, z], [there, here]) };
             return Some(if face < z { [face, end] } else { [end, face] });
         }
+        let here = self.solved[i]?.gap;
         let [before, after] = [self.solved[i - 1]?.gap, self.solved[i + 1]?.gap];
         if before < here || after <= here {
             return None;
@@ -133,7 +142,7 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
     }
 
     /// Deflection at height z by the parabola through the known stations next to it.
-    fn opened(&self, near: usize, z: f64) -> f64 {
+    fn opened(&mut self, near: usize, z: f64) -> f64 {
         let mut known = [(0.0, 0.0); BASE];
         let mut count = 0;
         // Outward from z, the nearer side first.
@@ -147,6 +156,9 @@ impl<G: FnMut(usize, f64) -> f64> Line<'_, G> {
             if count == BASE {
                 break;
             }
+        }
+        if count == 0 {
+            return (self.unsolved)(near, z);
         }
         let known = &known[..count];
         let weight = |i: usize| {

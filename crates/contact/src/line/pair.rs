@@ -99,13 +99,14 @@ pub fn nodal_contact_line(
 }
 
 /// The same from slices: `opened` is what of a row's gap under load is not the undeformed flanks' own
-/// ([`LineStation`]).
+/// ([`LineStation`]). `displacements` are those of both gears' boundary coordinates, mm, asked for where no row is near.
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],
     pair: (usize, usize),
     rows: impl Iterator<Item = (usize, LineStation, Slice)>,
     face: [f64; 2],
+    displacements: impl FnOnce() -> [Vec<f64>; 2],
 ) -> Vec<[f64; 2]> {
     let Some(slices) = set.slices() else { return Vec::new() };
     let flanks = FlankPair::new(slices.flanks([&set.patches()[0], &set.patches()[1]], pair), poses);
@@ -121,7 +122,23 @@ pub fn slice_line(
         let touches = found.filter(|f| slices.has_corner_contact() || !flanks.is_off_line(f));
         touches.map_or(f64::INFINITY, |f| flanks.gap(&f))
     };
-    loaded_intervals(stations, &solved, face, gap)
+    let mut asked = Some(displacements);
+    let mut known = [Vec::new(), Vec::new()];
+    let unsolved = |_: usize, z: f64| {
+        if let Some(displacements) = asked.take() {
+            known = displacements();
+        }
+        let mut hint = SliceHint::default();
+        let row = flanks.nearest_point(z, &mut hint).and_then(|near| {
+            let (mut row, slice) = flanks.slice(&near, pair, 0, 0.0)?;
+            flanks.support(&mut row, &slice, &mut hint).then_some(row)
+        });
+        let of = |row: ContactRow| {
+            (0..2).filter(|i| !known[*i].is_empty()).map(|i| opening(&row.supports[i], &known[i])).sum()
+        };
+        row.map_or(0.0, of)
+    };
+    loaded_intervals(stations, &solved, face, gap, unsolved)
 }
 
 /// State of a station whose row gapes by `gap` (mm) undeformed and is opened by `opening`, the local approach included,

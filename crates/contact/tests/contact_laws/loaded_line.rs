@@ -8,7 +8,7 @@ fn length(g: impl Fn(f64) -> f64, o: impl Fn(f64) -> f64, count: usize, reach: f
     let stations: Vec<f64> = (0..count).map(|i| 20.0 * ((i as f64 + 0.5) / count as f64 - 0.5)).collect();
     let known = |&z: &f64| (g(z) <= reach).then(|| LineStation { gap: g(z) + o(z), opened: o(z) });
     let solved: Vec<_> = stations.iter().map(known).collect();
-    covered(&loaded_intervals(&stations, &solved, [-10.0, 10.0], |_, z| g(z)), [-10.0, 10.0])
+    covered(&loaded_intervals(&stations, &solved, [-10.0, 10.0], |_, z| g(z), |_, z| o(z)), [-10.0, 10.0])
 }
 
 /// A crowned line that shrinks to nothing: from nine stations and from ninety, to a 10^4th, wherever its middle lies.
@@ -49,6 +49,20 @@ fn lines_that_end_at_edges_are_continuous() {
         // Next to the far face one station alone knows of a deflection that is not the same everywhere.
         let allowed = if wanted > 1.5 { 2e-6 } else { 2e-4 };
         assert!((found - wanted).abs() < allowed, "from {from}: {found}, not {wanted}");
+    }
+}
+
+/// A line that has come over an end face and to no station, with none of them near enough to be known: there as well, at
+/// either face.
+#[test]
+fn corner_pieces_beside_unknown_stations_are_found() {
+    for (piece, side) in [0.01, 0.1, 0.25, 0.3].into_iter().flat_map(|piece| [(piece, 1.0), (piece, -1.0)]) {
+        let from = 10.0 - piece;
+        let g = |z: f64| if side * z < from { 0.5 * (from - side * z) - 0.002 } else { -0.002 };
+        let o = |_: f64| 0.001;
+        // The overlap is made up within 2 um of the height.
+        let found = length(g, o, 32, 1e-4);
+        assert!((found - (piece + 0.002)).abs() < 1e-8, "{piece} at {side}: {found}");
     }
 }
 

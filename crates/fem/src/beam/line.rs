@@ -14,6 +14,46 @@ pub struct BeamPiece {
     pub section: BeamSection,
 }
 
+/// Places beyond the ends of a shaft by this share of its length are on it: digits of files.
+const FAR_OFF: f64 = 1e-9;
+/// Largest share of a shaft's length that two places may lie apart and count as one, however slender it is.
+const LARGEST_MERGED: f64 = 1e-4;
+
+/// Distance (mm) up to which two places on a shaft are one: where moving a part by it is as small an error as the
+/// round-off of an element so short.
+///
+/// ```text
+/// t = 10 sqrt(eps) L max(L/D, 1), at the most 1e-4 L      L: length of the shaft, D: its least outer diameter, mm
+/// ```
+/// An element of length t is stiffer in shear than the shaft in bending by some L^3/(t D^2), so that its round-off is
+/// eps L^3/(t D^2) of the shaft's own stiffness; moving a part by t changes that by t/L. Both are sqrt(eps) L/D without the
+/// factor, which gives more to the second: what it does to a result is smooth, and a resonance multiplies round-off. For
+/// usual shafts t/L is 1e-6. Lengths all twice as large make it twice as large.
+pub fn coincidence(length: f64, diameter: f64) -> f64 {
+    (10.0 * f64::EPSILON.sqrt() * (length / diameter).max(1.0)).min(LARGEST_MERGED) * length
+}
+
+/// Ends of the pieces (mm), and where nodes have to be beside z = 0, ascending: ends of pieces first, then places that
+/// no node is near.
+fn ends_and_nodes(pieces: &[BeamPiece], places: &[f64], near: f64) -> (Vec<f64>, Vec<f64>) {
+    let mut ends = Vec::with_capacity(pieces.len());
+    let mut end = 0.0;
+    for piece in pieces {
+        end += piece.length;
+        ends.push(end);
+    }
+    let is_new = |nodes: &[f64], z: f64| z > near && z < end - near && nodes.iter().all(|n| (n - z).abs() > near);
+    let mut nodes: Vec<f64> = Vec::new();
+    for &z in ends.iter().chain(places) {
+        if is_new(&nodes, z) {
+            nodes.push(z);
+        }
+    }
+    nodes.push(end);
+    nodes.sort_by(f64::total_cmp);
+    (ends, nodes)
+}
+
 /// A free stepped shaft from z = 0 on, cut into beam elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BeamLine {
@@ -28,7 +68,8 @@ pub struct BeamLine {
 
 impl BeamLine {
     /// Pieces one after the other, with nodes at their ends and at `places` (mm), elements no longer than `longest`
-    /// (mm).
+    /// (mm). What lies nearer together than [`coincidence`] shares a node: an element that short would cost more digits
+    /// than it moves.
     ///
     /// # Errors
     /// [`FemError::Length`] where a length is not positive or a place is not on the shaft.
@@ -38,35 +79,29 @@ impl BeamLine {
         if !(total > 0.0 && total.is_finite()) {
             return Err(bad(total));
         }
-        // Places nearer than this are one.
-        let near = 1e-9 * total;
+        if let Some(piece) = pieces.iter().find(|p| p.length.is_nan() || p.length <= 0.0) {
+            return Err(bad(piece.length));
+        }
+        let thinnest = pieces.iter().map(|p| p.section.outer()).fold(f64::INFINITY, f64::min);
+        let near = coincidence(total, thinnest);
         if longest.is_nan() || longest <= near {
             return Err(bad(longest));
         }
-        if let Some(&place) = places.iter().find(|p| !(-near..=total + near).contains(*p)) {
+        let off = FAR_OFF * total;
+        if let Some(&place) = places.iter().find(|p| !(-off..=total + off).contains(*p)) {
             return Err(bad(place));
         }
-        let (mut positions, mut elements, mut start) = (vec![0.0], Vec::new(), 0.0);
-        for piece in pieces {
-            if piece.length.is_nan() || piece.length <= near {
-                return Err(bad(piece.length));
+        let (ends, nodes) = ends_and_nodes(pieces, places, near);
+        let (mut positions, mut elements) = (vec![0.0], Vec::new());
+        for cut in nodes {
+            let from = positions[positions.len() - 1];
+            let middle = 0.5 * (from + cut);
+            let own = ends.iter().position(|end| *end > middle).unwrap_or(pieces.len() - 1);
+            let count = ((cut - from) / longest * (1.0 - 1e-9)).ceil().clamp(1.0, 1e4);
+            for i in 1..=count as u32 {
+                positions.push(from + (cut - from) * f64::from(i) / count);
+                elements.push(((cut - from) / count, pieces[own].section));
             }
-            let end = start + piece.length;
-            let mut cuts: Vec<f64> = places.iter().copied().filter(|&p| p > start + near && p < end - near).collect();
-            cuts.push(end);
-            cuts.sort_by(f64::total_cmp);
-            for cut in cuts {
-                let from = positions[positions.len() - 1];
-                if cut - from <= near {
-                    continue;
-                }
-                let count = ((cut - from) / longest * (1.0 - 1e-9)).ceil().clamp(1.0, 1e4);
-                for i in 1..=count as u32 {
-                    positions.push(from + (cut - from) * f64::from(i) / count);
-                    elements.push(((cut - from) / count, piece.section));
-                }
-            }
-            start = end;
         }
         let n = NODE_COORDINATES * positions.len();
         let [mut stiffness, mut mass, mut gyroscopic] = [0; 3].map(|_| DMatrix::zeros(n, n));

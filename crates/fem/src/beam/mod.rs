@@ -8,7 +8,7 @@ mod line;
 mod section;
 
 pub use element::{BeamTheory, beam_gyroscopic, beam_mass, beam_stiffness};
-pub use line::{BeamLine, BeamPiece};
+pub use line::{BeamLine, BeamPiece, coincidence};
 pub use section::BeamSection;
 
 /// Coordinates of a node.

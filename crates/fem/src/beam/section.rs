@@ -25,6 +25,11 @@ impl BeamSection {
         }
     }
 
+    /// Outer diameter, mm.
+    pub fn outer(&self) -> f64 {
+        self.outer
+    }
+
     /// Material.
     pub fn material(&self) -> &Material {
         &self.material

@@ -141,6 +141,49 @@ fn nodes_stand_where_they_are_wanted() {
     assert!(line.positions().windows(2).all(|w| w[1] - w[0] <= 20.0 && w[1] > w[0]), "{:?}", line.positions());
 }
 
+/// A section that is cut once more, or a place, beside another place moves no frequency of a pinned shaft by more than a
+/// cut of that size can, however near: from a tenth of the diameter down to less than the last digit. Sizes change nothing.
+#[test]
+fn what_nearly_coincides_changes_no_frequency() {
+    let frequencies = |size: f64, apart: f64, as_place: bool| {
+        let section = BeamSection::new(size * 20.0, 0.0, Material::STEEL).unwrap();
+        let piece = |length: f64| BeamPiece { length, section };
+        let (cut, mut places) = (size * (50.0 - apart), vec![size * 50.0]);
+        let pieces = if as_place {
+            places.push(cut);
+            vec![piece(size * 200.0)]
+        } else {
+            vec![piece(cut), piece(size * 200.0 - cut)]
+        };
+        let line = BeamLine::new(&pieces, &places, size * 27.0, BeamTheory::Timoshenko).unwrap();
+        let n = line.stiffness.nrows();
+        // Pinned at both ends, x and y, and held along and about the axis at the first.
+        let held = [0, 1, 2, 5, n - 6, n - 5];
+        let modes = natural_modes(&kept(&line.stiffness, &held), &kept(&line.mass, &held)).unwrap();
+        (line.positions().len(), modes.frequencies.iter().take(6).map(|w| w * size).collect::<Vec<f64>>())
+    };
+    for size in [1.0, 1e-2, 1e3] {
+        let (nodes, wanted) = frequencies(size, 0.0, false);
+        for as_place in [false, true] {
+            for power in 1..=14 {
+                let apart = 10f64.powi(-power);
+                let (found_nodes, found) = frequencies(size, apart, as_place);
+                // Without the cut the elements are those of before, but for its width.
+                assert!(found_nodes <= nodes + 1, "{found_nodes} nodes, {nodes} without the cut");
+                assert_eq!(
+                    found_nodes == nodes,
+                    apart < 1e-3,
+                    "{apart} mm at {size}: {found_nodes} nodes beside {nodes}"
+                );
+                for (a, b) in found.iter().zip(&wanted) {
+                    let off = (a / b - 1.0).abs();
+                    assert!(off < 1e-7 + 1e-3 * apart, "{apart} mm at {size}: {a} beside {b} rad/s, {off:e}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn nonsense_is_refused() {
     for (outer, inner) in [(0.0, 0.0), (10.0, 10.0), (10.0, -1.0), (f64::NAN, 0.0), (f64::INFINITY, 0.0)] {

@@ -3,7 +3,7 @@
 use fem::{Condensation, Modes, natural_modes};
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Assembly, GearboxError};
+use crate::{Assembly, GearboxError, whirl::told_from_round_off};
 
 /// Modes of shafts with their seats held are kept up to so many times the frequency that is asked for, at first: the usual
 /// rule, which says nothing of seats that carry gears.
@@ -126,9 +126,8 @@ impl ReducedBodies {
         let whole = frequencies(block(k, &all), block(m, &all))?;
         let few = frequencies(block(&self.stiffness, &own), block(&self.mass, &own))?;
         // Turns of the shafts are free; what is left of their squares is round-off of the highest. Both have them.
-        let highest = whole.last().copied().unwrap_or(0.0);
-        let least = highest * (whole.len() as f64 * f64::EPSILON).sqrt();
-        let rigid = whole.iter().take_while(|w| **w < least).count();
+        let rigid = assembly.rigid_motions(|shaft| if held[shaft] { 0..0 } else { 0..6 }, false);
+        told_from_round_off(&whole, rigid)?;
         let below = whole.iter().skip(rigid).take_while(|w| **w <= limit).count();
         let pairs = whole.iter().enumerate().skip(rigid).take(below);
         let errors = pairs.map(|(i, w)| few.get(i).map_or(1.0, |f| (f / w - 1.0).abs()));

@@ -3,10 +3,11 @@
 
 use std::f64::consts::PI;
 
+use fem::beam::BeamPiece;
 use gearbox::{Assembly, Component, GearboxError, MeshSpring, Rotors, Structure};
 use nalgebra::{DMatrix, Vector6};
 
-use crate::rotors::{friswell, overhung, piece, shaft};
+use crate::rotors::{friswell, overhung, piece, radial, shaft};
 
 fn rotors(structure: Structure) -> Rotors {
     Rotors::new(Assembly::new(structure).unwrap()).unwrap()
@@ -81,6 +82,46 @@ fn the_six_rigid_motions_of_a_free_shaft_are_zero() {
     let ratio = polar / (0.5 * polar + mass * length * length / 12.0);
     assert!((first.frequency / (100.0 * ratio) - 1.0).abs() < 1e-6, "{} of {}", first.frequency, 100.0 * ratio);
     assert!(first.energy.strain.is_empty() && (first.whirl[0] - 1.0).abs() < 1e-6, "{first:?}");
+}
+
+/// A rotor of less than a hertz on soft bearings, its shaft cut once more beside a disc: however near, the modes are
+/// those of the shaft that is not cut, and so is the number of rigid motions.
+#[test]
+fn a_cut_beside_a_seat_loses_no_mode() {
+    let soft = |apart: f64| {
+        let mut structure = friswell();
+        let whole = structure.shafts[0].pieces[0];
+        let piece = |length: f64| BeamPiece { length, ..whole };
+        structure.shafts[0].pieces = vec![piece(500.0 - apart), piece(1000.0 + apart)];
+        structure.bearings = [0.0, 1500.0].map(|z| radial(z, [1.0, 1.0, 0.0])).into();
+        structure
+    };
+    let wanted = rotors(soft(0.0)).whirl_modes(&[300.0]).unwrap();
+    assert!(wanted.zeros == 4 && wanted.modes[0].frequency < 10.0, "{} zeros", wanted.zeros);
+    for power in 2..=12 {
+        let apart = 10f64.powi(-power);
+        let found = rotors(soft(apart)).whirl_modes(&[300.0]).unwrap();
+        assert_eq!(found.zeros, wanted.zeros, "{apart} mm: {} modes beside {}", found.modes.len(), wanted.modes.len());
+        for (a, b) in found.modes.iter().zip(&wanted.modes).take(8) {
+            let off = (a.frequency / b.frequency - 1.0).abs();
+            assert!(off < 1e-5 + 1e-4 * apart, "{apart} mm: {} beside {} rad/s", a.frequency, b.frequency);
+        }
+    }
+}
+
+/// A bearing so soft that its mode cannot be told from round-off is refused, where it once counted as none; one that is
+/// not there at all is none.
+#[test]
+fn a_mode_that_round_off_hides_is_refused() {
+    let with = |stiffness: f64| {
+        let mut structure = friswell();
+        structure.bearings[0].stiffness[(2, 2)] = stiffness;
+        Rotors::new(Assembly::new(structure).unwrap())
+    };
+    let hidden = with(1e-9).unwrap_err();
+    assert!(matches!(hidden, GearboxError::LostMode { .. }) && hidden.hint().is_some(), "{hidden}");
+    let zeros = |rotor: Rotors| rotor.modes_at_rest().frequencies.iter().filter(|w| **w == 0.0).count();
+    assert_eq!([0.0, 1.0].map(|stiffness| zeros(with(stiffness).unwrap())), [2, 1]);
 }
 
 /// G' = -G to the last bit, and it grows with the spin.

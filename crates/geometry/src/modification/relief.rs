@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::profile::roll_angle;
+
 /// A place along the profile.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -17,7 +19,7 @@ impl ProfilePlace {
     pub fn roll(self, base_radius: f64) -> f64 {
         match self {
             Self::Roll(u) => u,
-            Self::Diameter(d) => ((0.5 * d / base_radius).powi(2) - 1.0).sqrt(),
+            Self::Diameter(d) => roll_angle(0.5 * d, base_radius).unwrap_or(f64::NAN),
         }
     }
 }

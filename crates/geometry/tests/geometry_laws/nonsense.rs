@@ -111,6 +111,16 @@ fn undercut_begins_at_its_limit() {
         assert!(!at(limit + 1e-6).profile().is_undercut(), "z {teeth}: undercut above {limit}");
         assert!(at(limit - 1e-3).profile().is_undercut(), "z {teeth}: no undercut below {limit}");
         assert!(at(limit + 1e-6).profile().roll_form() < 1e-4);
+        // However little the rack cuts away, round-off of the limit included: the involute is continuous there, and begins
+        // where half of what the rack is too deep is lost.
+        let too_deep =
+            at(limit).data().normal_module / (at(limit).base_radius() * at(limit).transverse_pressure_angle().sin());
+        for power in 3..=16 {
+            let below = 10f64.powi(-power);
+            let found = at(limit - below).profile().roll_form();
+            let wanted = 0.5 * too_deep * below;
+            assert!((found - wanted).abs() < 0.05 * wanted + 3e-8, "z {teeth}, {below} below: {found}, not {wanted}");
+        }
     }
     // 17 (1 - (1.25 - 0.38 (1 - sin 20 deg)) = 0.9999...) is the textbook's count of teeth.
     let spur = Gear::new(GearData { helix_angle: 0.0, ..data(17) }).unwrap();

@@ -108,7 +108,7 @@ impl LumpedShaft {
 
 impl Points {
     fn new(shaft: &Shaft, number: usize) -> Result<Self, LumpedError> {
-        let near = 1e-9 * shaft.length();
+        let near = shaft.coincidence();
         let mut at: Vec<f64> = shaft.stations.iter().map(|s| s.position).collect();
         at.extend(shaft.supports.iter().map(|s| s.position));
         at.sort_by(f64::total_cmp);

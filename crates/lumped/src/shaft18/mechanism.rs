@@ -152,6 +152,7 @@ impl ShaftMechanism {
     /// [`LumpedError`] when data have no meaning, do not fit together, or leave nothing to move.
     pub fn new(system: &ShaftSystem) -> Result<Self, LumpedError> {
         system.check()?;
+        system.check_held()?;
         let speeds = system.speeds()?;
         let mut shafts = Vec::new();
         for (number, shaft) in system.shafts.iter().enumerate() {

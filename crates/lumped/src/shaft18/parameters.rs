@@ -3,7 +3,7 @@
 use dynamics::RigidBody;
 use fem::{
     Material,
-    beam::{BeamPiece, BeamSection},
+    beam::{BeamPiece, BeamSection, coincidence},
 };
 use serde::{Deserialize, Serialize};
 
@@ -174,6 +174,39 @@ impl Shaft {
         self.segments.iter().map(|s| s.length).sum()
     }
 
+    /// Distance up to which two places on it are one, mm ([`coincidence`]).
+    pub fn coincidence(&self) -> f64 {
+        let thinnest = self.segments.iter().map(|s| s.outer_diameter).fold(f64::INFINITY, f64::min);
+        coincidence(self.length(), thinnest)
+    }
+
+    /// How the shaft can move as a whole, apart from its turn, against all that holds it; `None` where nothing is left.
+    /// Its supports are springs along and about the axes, so that the answer follows from where they are:
+    ///
+    /// ```text
+    /// x: some k_x;   tilt about y: some k_ry, or k_x at two places;   y and the tilt about x alike;   z: some k_z
+    /// ```
+    /// `thrust`: whether anything pushes along z; a shaft that nothing pushes needs nothing to hold it there.
+    pub fn loose_motion(&self, thrust: bool) -> Option<&'static str> {
+        let near = self.coincidence();
+        let holding = |axis: usize| self.supports.iter().filter(move |s| s.stiffness[axis] > 0.0);
+        let tilts = |shift: usize, turn: usize| {
+            let places = || holding(shift).map(|s| s.position);
+            let span = places().fold(f64::NEG_INFINITY, f64::max) - places().fold(f64::INFINITY, f64::min);
+            holding(turn).next().is_none() && !(span > near)
+        };
+        let free = |axis: usize| holding(axis).next().is_none();
+        [
+            (free(0), "along x"),
+            (free(1), "along y"),
+            (thrust && free(2), "along z"),
+            (tilts(1, 3), "tilting about x"),
+            (tilts(0, 4), "tilting about y"),
+        ]
+        .into_iter()
+        .find_map(|(is_free, motion)| is_free.then_some(motion))
+    }
+
     pub(super) fn check(&self) -> Result<(), LumpedError> {
         let length = self.length();
         positive("length of a shaft, mm", length)?;
@@ -257,6 +290,22 @@ impl ShaftSystem {
         not_negative("damping in proportion to mass, 1/s", self.mass_damping)?;
         not_negative("damping in proportion to stiffness, s", self.stiffness_damping)?;
         self.gravity.iter().try_for_each(|&g| finite("gravity, mm/s^2", g))
+    }
+
+    /// Whether supports hold every shaft against every motion as a whole but its turn; along z only where a helical mesh or
+    /// gravity pushes it. Meshes hold nothing: they open.
+    ///
+    /// # Errors
+    /// [`LumpedError::Loose`].
+    pub fn check_held(&self) -> Result<(), LumpedError> {
+        for (shaft, own) in self.shafts.iter().enumerate() {
+            let meshes = self.meshes.iter().filter(|m| m.gears.iter().any(|g| g.shaft == shaft));
+            let thrust = self.gravity[2] != 0.0 || meshes.into_iter().any(|m| m.geometry.helix_angle != 0.0);
+            if let Some(motion) = own.loose_motion(thrust) {
+                return Err(LumpedError::Loose { shaft, motion });
+            }
+        }
+        Ok(())
     }
 
     /// Speed of each shaft about +z, rad/s: by the teeth of the meshes, from shaft 0 on.

@@ -110,6 +110,24 @@ fn stiffness_is_that_of_beam_theory() {
     }
 }
 
+/// A support that stands beside a station, however near, holds the shaft as one at the station does.
+#[test]
+fn a_support_beside_a_station_changes_no_frequency() {
+    let modes = |apart: f64| {
+        let mut system = gearbox(100.0, 0.0);
+        system.shafts[0].supports[1].position -= apart;
+        system.shafts[1].supports[0].position += apart;
+        ShaftMechanism::new(&system).unwrap().modes().unwrap().frequencies
+    };
+    let wanted = modes(0.0);
+    for power in 2..=12 {
+        let apart = 10f64.powi(-power);
+        for (a, b) in modes(apart).iter().zip(&wanted).skip(1) {
+            assert!((a / b - 1.0).abs() < 1e-7 + 2e-2 * apart, "{apart} mm: {a} beside {b} rad/s");
+        }
+    }
+}
+
 /// Whatever is left out, mass stays: a rigid move of the shaft carries discs and shaft.
 #[test]
 fn lumping_keeps_mass_centre_and_inertia_about_the_axis() {
@@ -549,6 +567,37 @@ fn nonsense_is_refused() {
         change(&mut system);
         let refused = ShaftMechanism::new(&system).expect_err(name);
         assert!(!refused.to_string().is_empty() && refused.hint().is_none_or(|h| !h.is_empty()), "{name}");
+    }
+    let loose: [(&str, fn(&mut ShaftSystem)); 5] = [
+        ("tilting about x", |s| s.shafts[0].supports.truncate(1)),
+        ("along z", |s| s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[2] = 0.0)),
+        ("along x", |s| s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[0] = 0.0)),
+        ("tilting about y", |s| s.shafts[0].supports[1].stiffness[0] = 0.0),
+        // Two supports so near that they are one.
+        ("tilting about x", |s| s.shafts[0].supports[1].position = 1e-8),
+    ];
+    for (motion, change) in loose {
+        let mut system = gearbox(100.0, 0.0);
+        change(&mut system);
+        let refused = ShaftMechanism::new(&system).expect_err(motion);
+        assert!(matches!(refused, LumpedError::Loose { motion: found, .. } if found == motion), "{motion}: {refused}");
+    }
+    // One support that holds against tilting holds the shaft, and teeth without a helix push nothing along the axis.
+    let held: [fn(&mut ShaftSystem); 2] = [
+        |s| {
+            s.shafts[0].supports.pop();
+            s.shafts[0].supports[0].stiffness[3..5].fill(1e9);
+        },
+        |s| {
+            s.meshes[0].geometry.helix_angle = 0.0;
+            s.meshes[0].geometry.centre_distance *= 30f64.to_radians().cos();
+            s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[2] = 0.0);
+        },
+    ];
+    for change in held {
+        let mut system = gearbox(100.0, 0.0);
+        change(&mut system);
+        ShaftMechanism::new(&system).unwrap();
     }
     let mut system = gearbox(100.0, 0.0);
     system.torques[1].torque *= 1.01;

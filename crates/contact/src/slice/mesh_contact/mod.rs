@@ -403,7 +403,11 @@ impl MeshContact {
                 let station = line_station(rows[i].gap, openings[i], approach, self.modal_opening(i));
                 (rows[i].point, station, slices[i])
             });
-            length += covered(&slice_line(&self.set, poses, patches, stations, face), face);
+            let displacements = || {
+                let supported = self.set.supported_rows(poses, rows, slices, forces);
+                self.set.displacements_under(&supported, forces).unwrap_or_default()
+            };
+            length += covered(&slice_line(&self.set, poses, patches, stations, face, displacements), face);
             from = to;
         }
         length / pair.base_helix_angle().cos()

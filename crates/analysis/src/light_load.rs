@@ -1,0 +1,51 @@
+//! Loads too light for places of flanks to have digits: refused before the work.
+
+use contact::hertz;
+use geometry::GearPair;
+use ltca::{GUESSED_LINE_STIFFNESS, round_off_of_places};
+use scene::Scene;
+
+use crate::{AnalysisError, error::MeshMismatch, iso_root::base_force, static_certificate::ROUND_OFF};
+
+/// What the guessed stiffness may be off by.
+const GUESS: f64 = 3.0;
+/// Effective modulus of two steel flanks, MPa, which the guessed stiffness is of.
+const STEEL_MPA: f64 = 2.06e5 / (2.0 * (1.0 - 0.3 * 0.3));
+
+/// Refuses a torque under which teeth come nearer by less than places are known: the certificate of the result would not
+/// hold ([`ROUND_OFF`]). Without a torque there is nothing to lose.
+///
+/// ```text
+/// share = 16 eps a/(F_bt/(c' b)),   c' = 14 N/(mm um), in proportion to the modulus of the flanks
+/// ```
+///
+/// # Errors
+/// [`AnalysisError::Mismatch`] at the torque's place in the scene.
+pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
+    let force = base_force(scene, pair);
+    if force == 0.0 {
+        return Ok(());
+    }
+    let gears = scene.gears();
+    let modulus = hertz::effective_modulus(gears.map(|g| (g.material.young_mpa, g.material.poisson)));
+    let stiffness = GUESSED_LINE_STIFFNESS * modulus / STEEL_MPA * pair.face_width();
+    let (approach, places) = (force / stiffness, round_off_of_places(pair.centre_distance()));
+    let share = places / approach;
+    if share <= GUESS * ROUND_OFF {
+        return Ok(());
+    }
+    let torque = scene.operation.torque_nm;
+    let place = scene.place_of(&["operation.torque_nm"]);
+    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
+    // A digit that says so: twice what the guess may be off by.
+    let enough = torque * share / ROUND_OFF * 2.0 * GUESS;
+    Err(AnalysisError::Mismatch(Box::new(MeshMismatch {
+        said: format!(
+            "{at}: the torque of {torque:e} N m is too light to be told from none: teeth come nearer by some {approach:.0e} mm, and places \
+             of flanks {:.4} mm apart are known to {places:.0e} mm (round_off_share {share:.1e}, limit {ROUND_OFF:.0e})",
+            pair.centre_distance()
+        ),
+        hint: format!("take `torque_nm = {enough:.0e}` or more, or 0 for the unloaded pair"),
+        excerpt: place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned),
+    })))
+}
