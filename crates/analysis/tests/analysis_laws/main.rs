@@ -3,9 +3,11 @@
 mod accuracy;
 mod basins;
 mod continuation;
+mod exchanged;
 mod gearbox;
 mod gearbox_of_pairs;
 mod held_pair;
+mod jammed;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;
