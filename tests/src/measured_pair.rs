@@ -35,6 +35,11 @@ impl MeasuredPair {
         Some(Self { seed, index, scene, pair, samples: line.get("samples")?.clone() })
     }
 
+    /// Whether it was solved on finer meshes too, not on the coarsest rung alone.
+    pub fn has_meshes(&self) -> bool {
+        self.samples.get("mesh 4").is_some()
+    }
+
     /// A number of a sample.
     pub fn value(&self, sample: &str, quantity: Quantity) -> Option<f64> {
         self.samples[sample][quantity.key()].as_f64()

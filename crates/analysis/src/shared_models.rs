@@ -35,7 +35,7 @@ use crate::{
     resolution::resolution_warnings,
     static_certificate,
     statics::{SinkResult, StaticSink, wider_window},
-    warnings::{body_warnings, deflection_warnings},
+    warnings::{body_warnings, deflection_warnings, jammed_pair},
 };
 
 /// Models that are kept at the most; which of them goes first is the one that was made first.
@@ -257,7 +257,9 @@ impl<'a> SharedModels<'a> {
         let pair = scene.gear_pair()?;
         history.warnings.extend(gears::warnings(&pair));
         history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
-        history.warnings.extend(resolution_warnings(&scene, &pair, &options(&scene, &pair)));
+        let options = options(&scene, &pair);
+        history.warnings.extend(resolution_warnings(&scene, &pair, &options));
+        history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
         history.warnings.extend(base.of_bodies.get_or_init(|| body_warnings(&base.model)).iter().cloned());
         let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
         history.warnings.extend(deflection_warnings(&history.positions, module, distance));

@@ -26,7 +26,7 @@ use crate::{
     run_phase,
     shared_models::{Base, SharedModels},
     unless_cancelled,
-    warnings::{body_warnings, deflection_warnings},
+    warnings::{body_warnings, deflection_warnings, jammed_pair},
 };
 
 /// Gets the positions of a static analysis as they are solved.
@@ -213,6 +213,7 @@ impl<'a> StaticAnalysis<'a> {
         }
         warnings.extend(body_warnings(&model));
         warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
+        warnings.extend(jammed_pair(&history.positions, &pair, &options));
         history.warnings.extend(warnings);
         Ok(StaticResult { pair, history, facts, model: Some(model) })
     }

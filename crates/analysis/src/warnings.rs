@@ -1,7 +1,8 @@
 //! What a user should hear of a solution.
 
 use fem::locks_from;
-use ltca::{StaticModel, StaticPosition};
+use geometry::GearPair;
+use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::{BoreCoupling, ElementKind, Extent};
 use reduction::{ElasticGear, GearReducer};
 
@@ -97,6 +98,43 @@ pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<String> {
         )),
         (None, None) => None,
     }
+}
+
+/// Sum of the normal forces over what the torque asks for from which on flanks of both sides press at once. Levers of tips
+/// that meet early, and nothing else, change it by some per cent; friction by its coefficient.
+const JAMMED: f64 = 1.1;
+
+/// Normal forces of a mesh whose flanks may touch on both sides, position by position.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PressedMesh {
+    /// Sum of the normal forces, N.
+    pub sum: f64,
+    /// T / (r_b cos b_b): what the torque asks for, N.
+    pub needed: f64,
+}
+
+/// Gears that jam: driving and coast flanks press against each other, and the teeth carry many times their load.
+pub(crate) fn jam_warning(all: &[PressedMesh], friction: f64) -> Option<String> {
+    let jammed = |p: &&PressedMesh| p.sum > (JAMMED + friction) * p.needed;
+    let count = all.iter().filter(jammed).count();
+    let worst = all.iter().filter(jammed).max_by(|a, b| a.sum.total_cmp(&b.sum))?;
+    let times = if worst.needed > 0.0 { format!("{:.1} times", worst.sum / worst.needed) } else { "not".to_owned() };
+    Some(format!(
+        "driving and coast flanks press at once in {count} of {} positions, the gears jam: normal forces add up to {:.0} N, {times} the {:.0} N that the torque \
+         asks for; give more backlash (`thickness_allowance_mm` in [pinion] and [wheel], `centre_distance_mm` in [pair]) or less misalignment",
+        all.len(),
+        worst.sum,
+        worst.needed
+    ))
+}
+
+/// [`jam_warning`] of a pair at rest whose flanks may touch on both sides.
+pub(crate) fn jammed_pair(positions: &[StaticPosition], pair: &GearPair, options: &StaticOptions) -> Option<String> {
+    let driven = [&pair.pinion, &pair.wheel][options.driven()];
+    let needed = options.torque.abs() / (driven.base_radius() * pair.base_helix_angle().cos());
+    let of = |p: &StaticPosition| PressedMesh { sum: p.pairs.iter().map(|q| q.normal_force).sum(), needed };
+    let all: Vec<PressedMesh> = positions.iter().map(of).collect();
+    options.contact.both_flanks.then(|| jam_warning(&all, options.contact.friction)).flatten()
 }
 
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.

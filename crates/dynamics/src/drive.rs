@@ -111,6 +111,14 @@ pub enum Torque {
 }
 
 impl Torque {
+    /// Mean over time, N mm; `None` of a table, which has none of its own.
+    pub fn mean(&self) -> Option<f64> {
+        match self {
+            Self::Constant(mean) | Self::Harmonic { mean, .. } => Some(*mean),
+            Self::Table { .. } => None,
+        }
+    }
+
     /// Torque, N mm.
     pub fn at(&self, t: f64) -> f64 {
         match self {

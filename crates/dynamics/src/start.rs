@@ -107,6 +107,8 @@ pub(super) fn balance(
         }
         Ok::<_, PairMotionError>(r)
     };
+    // Sizes have no sign, whatever the places have that they are taken from.
+    let scale = &scale.abs();
     // Work of the residual over the coordinates' sizes: one number for forces and moments.
     let size = |r: &DVector<f64>| r.component_mul(scale).norm();
     // Against the load nothing but a flank resists: where a way back changes nothing, none does.

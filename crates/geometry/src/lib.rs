@@ -11,6 +11,7 @@
 mod contact_lines;
 mod data;
 mod error;
+mod even_loss;
 mod flank;
 mod gear;
 mod interference;

@@ -34,11 +34,10 @@ pub struct GeometrySheet {
     pub eps_gamma: f64,
     pub circumferential_backlash_mm: f64,
     pub normal_backlash_mm: f64,
+    /// Linear formula of ISO 21771.
     pub radial_backlash_mm: f64,
-    /// H_V, mean loss over the power for a coefficient of friction of 1, of a load that the pairs in mesh share evenly;
-    /// between one and two of them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tooth_loss_factor: Option<f64>,
+    /// [`GearPair::even_loss_factor`].
+    pub tooth_loss_factor: f64,
     pub pinion: GearSheet,
     pub wheel: GearSheet,
     /// A, B, C, D, E along the path of contact, from the start of contact of a driving pinion; B and D where between one
@@ -175,21 +174,11 @@ impl GearPair {
             circumferential_backlash_mm: backlash / a_wt.cos(),
             normal_backlash_mm: backlash * beta_b.cos(),
             radial_backlash_mm: backlash / (2.0 * a_wt.sin()),
-            tooth_loss_factor: one_pair.then(|| self.tooth_loss_factor([pitch_point - start, end - pitch_point])),
+            tooth_loss_factor: self.even_loss_factor(),
             pinion: gear_sheet(pinion, a_wt, of_pinion, inner),
             wheel: gear_sheet(wheel, a_wt, of_wheel, seen_by_wheel),
             points,
         }
-    }
-
-    /// ```text
-    /// H_V = pi (u + 1) / (z_1 u cos b_b) (1 - eps_alpha + eps_1^2 + eps_2^2),   u = z_2 / z_1
-    /// ```
-    /// eps_1 and eps_2 of recess and approach (mm), for eps_alpha 1 .. 2 (H. Ohlendorf; ISO/TR 14179-2).
-    fn tooth_loss_factor(&self, parts: [f64; 2]) -> f64 {
-        let squares: f64 = parts.iter().map(|part| (part / self.transverse_base_pitch()).powi(2)).sum();
-        let turns: f64 = [&self.pinion, &self.wheel].iter().map(|gear| 1.0 / f64::from(gear.teeth())).sum();
-        PI * turns / self.base_helix_angle().cos() * (1.0 - self.transverse_contact_ratio() + squares)
     }
 
     /// ```text

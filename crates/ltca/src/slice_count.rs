@@ -197,8 +197,10 @@ fn lines(pair: &GearPair, options: &StaticOptions, station: Station) -> Vec<Line
     let running = station.middle_pair(options.contact.sense);
     let [each, least, most] = PLACES;
     let places = (each as f64 * pair.face_width() / pair.pinion.data().normal_module) as usize;
-    let of_tooth =
-        |tooth: i64| line(pair, options, [tooth, running + tooth], &poses, theta1, places.clamp(least, most));
+    // An odd number: no station of an even number of slices then stands on the border of two places, where it would belong
+    // to the upper one, and the lower one of the mirrored pair.
+    let places = places.clamp(least, most) | 1;
+    let of_tooth = |tooth: i64| line(pair, options, [tooth, running + tooth], &poses, theta1, places);
     teeth.map(of_tooth).filter(|line| line.iter().any(|g| g.is_finite())).collect()
 }
 

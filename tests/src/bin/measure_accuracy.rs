@@ -1,7 +1,8 @@
 //! Headline numbers of random pairs on meshes refined alike in all directions, with more slices and more positions: what
 //! bounds are calibrated on. One line of JSON a pair, appended as it comes; pairs that are there are left out.
 //!
-//! `cargo run --release -p verification --bin measure_accuracy -- FILE SEED FIRST COUNT [FINEST]`
+//! `cargo run --release -p verification --bin measure_accuracy -- FILE SEED FIRST COUNT [FINEST | spur]`; with `spur` the
+//! spur pairs among them, numbers of positions on the coarsest rung alone.
 #![allow(clippy::print_stderr, reason = "the progress of hours")]
 
 use std::{collections::BTreeMap, error::Error, fs::OpenOptions, io::Write, time::Instant};
@@ -31,13 +32,17 @@ fn main() -> Result<(), Failure> {
         return Err("FILE SEED FIRST COUNT [FINEST] are wanted".into());
     };
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
-    let finest: Option<u32> = rest.first().map(|word| word.parse()).transpose()?;
+    let spur = rest.first().is_some_and(|word| word == "spur");
+    let finest: Option<u32> = rest.first().filter(|_| !spur).map(|word| word.parse()).transpose()?;
     let done = pairs_done(file, seed)?;
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
     // One after the other: a pair in work may be large, and a run of hours is cut off without warning.
     for index in (first..first + count).filter(|i| !done.contains(i)) {
+        if spur && random_scene(seed, index).pinion.helix_angle_deg != 0.0 {
+            continue;
+        }
         let start = Instant::now();
-        let line = measured(seed, index, finest);
+        let line = measured(seed, index, if spur { Measured::Positions } else { Measured::All(finest) });
         let failed = if line.get("error").is_some() { ", failed" } else { "" };
         eprintln!("pair {index}: {:.0} s{failed}", start.elapsed().as_secs_f64());
         writeln!(out, "{line}")?;
@@ -45,15 +50,27 @@ fn main() -> Result<(), Failure> {
     Ok(())
 }
 
+/// What is measured of a pair.
+#[derive(Debug, Clone, Copy)]
+enum Measured {
+    /// Meshes up to a rung, slices, positions.
+    All(Option<u32>),
+    /// Positions on the coarsest rung.
+    Positions,
+}
+
 /// The line of a pair; one that cannot be computed says why.
-fn measured(seed: u64, index: u64, finest: Option<u32>) -> Value {
+fn measured(seed: u64, index: u64, what: Measured) -> Value {
     let mut scene = random_scene(seed, index);
     // Stress of wide gears takes longer than all else.
     let narrow = scene.pair.face_width_mm < NARROW_MODULES * scene.pair.normal_module_mm;
     scene.output.root_stress = narrow;
-    let finest = finest.unwrap_or(if narrow { FINEST[0] } else { FINEST[1] });
+    let solve = |scene: &Scene| match what {
+        Measured::All(finest) => samples(scene, finest.unwrap_or(if narrow { FINEST[0] } else { FINEST[1] })),
+        Measured::Positions => position_samples(scene),
+    };
     let mut line = json!({ "seed": seed, "index": index });
-    match scene_facts(&scene).and_then(|facts| Ok((facts, samples(&scene, finest)?))) {
+    match scene_facts(&scene).and_then(|facts| Ok((facts, solve(&scene)?))) {
         Ok((facts, samples)) => {
             line["scene"] = facts;
             line["samples"] = json!(samples);
@@ -85,13 +102,31 @@ fn scene_facts(scene: &Scene) -> Result<Value, Failure> {
 
 type Samples = BTreeMap<String, Value>;
 
+/// The numbers of a sample.
+fn values(sample: &Sample) -> BTreeMap<&'static str, f64> {
+    Quantity::ALL.iter().filter_map(|q| Some((q.key(), sample.get(*q)?))).collect()
+}
+
+/// Numbers of positions on the coarsest rung, with as many slices as the program chooses.
+fn position_samples(scene: &Scene) -> Result<Samples, Failure> {
+    let mut scene = Rung::ALL[0].scene(scene);
+    scene.contact.slices = Some(StaticAnalysis::new(&scene).slices().unwrap_or(32));
+    scene.analysis.positions_per_cycle = FINE_POSITIONS;
+    let solved = SolvedCycle::new(&scene, &NoCache)?;
+    let mut all = Samples::new();
+    for stride in [1, 2, 4, 8] {
+        all.insert(format!("positions {}", FINE_POSITIONS / stride), json!(values(&solved.sample(stride as usize)?)));
+    }
+    all.insert(format!("mesh {}", Rung::ALL[0].elements_profile), all[&format!("positions {POSITIONS}")].clone());
+    Ok(all)
+}
+
 fn samples(scene: &Scene, finest: u32) -> Result<Samples, Failure> {
     let mut scene = scene.clone();
     scene.analysis.positions_per_cycle = POSITIONS;
     let mut all = Samples::new();
     let mut add = |name: String, sample: &Sample, seconds: f64| {
-        let mut values: BTreeMap<&str, f64> =
-            Quantity::ALL.iter().filter_map(|q| Some((q.key(), sample.get(*q)?))).collect();
+        let mut values = values(sample);
         values.insert("seconds", seconds);
         all.insert(name, json!(values));
     };

@@ -40,6 +40,17 @@ pub struct Term {
     pub amount: f64,
 }
 
+impl Term {
+    /// The same where the known part is not worth taking off: one that is no larger than what it may be off by may make
+    /// a value worse, and is a part of that.
+    fn offered(self) -> Self {
+        if self.amount < self.known.abs() {
+            return self;
+        }
+        Self { known: 0.0, amount: self.known.abs() + self.amount, ..self }
+    }
+}
+
 /// What a headline number is off by at the most, with the coverage of the calibration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Bound {
@@ -53,7 +64,7 @@ pub struct Bound {
     pub below: f64,
     /// The exact value is at most `value + above`.
     pub above: f64,
-    /// The value with the known part of its error taken off.
+    /// The value with those known parts of its error taken off that are larger than their own uncertainty.
     pub corrected: f64,
     /// The exact value is within this of the corrected one.
     pub corrected_within: f64,
@@ -68,17 +79,23 @@ pub struct Bound {
 }
 
 impl Bound {
-    /// Of a value, its corrected value, and what that may be off by.
-    pub fn new(quantity: Quantity, value: f64, corrected: f64, terms: Vec<Term>) -> Self {
+    /// Of a value and what its error is made of.
+    ///
+    /// `above` and `below` hold the whole known error and its uncertainty; the corrected value has those known parts
+    /// alone that are larger than their uncertainty, and the others count to what it may be off by.
+    pub fn new(quantity: Quantity, value: f64, terms: Vec<Term>) -> Self {
+        let sum = |terms: &[Term]| terms.iter().fold(value, |sum, t| sum + t.known);
         let within: f64 = terms.iter().map(|t| t.amount).sum();
+        let expected = sum(&terms);
+        let terms: Vec<Term> = terms.into_iter().map(Term::offered).collect();
         Self {
             quantity,
             unit: quantity.unit(),
             value,
-            below: worse(value - corrected + within, 0.0),
-            above: worse(corrected + within - value, 0.0),
-            corrected,
-            corrected_within: within,
+            below: worse(value - expected + within, 0.0),
+            above: worse(expected + within - value, 0.0),
+            corrected: sum(&terms),
+            corrected_within: terms.iter().map(|t| t.amount).sum(),
             terms,
             asked: None,
             met: None,
@@ -115,22 +132,44 @@ impl Bound {
 mod tests {
     use super::*;
 
-    /// Where the corrected value lies above, the bound is larger above; both together hold the corrected band.
+    /// Where the known error is above, the bound is larger above; both together hold the corrected band.
     #[test]
     fn bounds_hold_the_band_of_the_corrected_value() {
-        let term = |cause, amount| Term { cause, known: 0.0, amount };
-        let terms = || vec![term(Cause::Mesh, 0.02), term(Cause::Slices, 0.005)];
-        let b = Bound::new(Quantity::MeanSte, 9.37, 9.385, terms());
+        let terms = |known| {
+            let mesh = Term { cause: Cause::Mesh, known, amount: 0.02 };
+            vec![mesh, Term { cause: Cause::Slices, known: 0.0, amount: 0.005 }]
+        };
+        let b = Bound::new(Quantity::MeanSte, 9.37, terms(0.03));
+        assert!((b.value + b.above - 9.425).abs() < 1e-12 && b.below == 0.0, "{b:?}");
+        assert!((b.corrected - 9.40).abs() < 1e-12 && (b.corrected_within - 0.025).abs() < 1e-12, "{b:?}");
+        let b = Bound::new(Quantity::MeanSte, 9.37, terms(0.015));
         assert!((b.value + b.above - 9.41).abs() < 1e-12 && (b.value - b.below - 9.36).abs() < 1e-12, "{b:?}");
         assert_eq!(b.words(), "9.370 +0.040 -0.010 um");
         // A value that lies outside of the band is within its bounds all the same.
-        let far = Bound::new(Quantity::MeanSte, 9.0, 9.385, terms());
+        let far = Bound::new(Quantity::MeanSte, 9.0, terms(0.385));
         assert!(far.below == 0.0 && (far.above - 0.41).abs() < 1e-12, "{far:?}");
         let [loose, tight] = [0.05, 0.04].map(|share| far.clone().against(Some(Tolerance::Relative(share))).met);
         assert_eq!([loose, tight], [Some(true), Some(false)]);
-        assert_eq!(
-            Bound::new(Quantity::MeanSte, 9.0, f64::NAN, terms()).against(Some(Tolerance::Relative(1.0))).met,
-            Some(false)
+        let unknown = Bound::new(Quantity::MeanSte, 9.0, terms(f64::NAN));
+        assert_eq!(unknown.against(Some(Tolerance::Relative(1.0))).met, Some(false));
+    }
+
+    /// A known part that is smaller than its own uncertainty is not taken off: the value stays, the band around it holds
+    /// what it held before, and `above` and `below` stay as sharp as they were.
+    #[test]
+    fn what_is_known_worse_than_it_is_large_is_no_correction() {
+        let term = |cause, known, amount| Term { cause, known, amount };
+        let b = Bound::new(
+            Quantity::PeakToPeakSte,
+            0.16,
+            vec![term(Cause::Mesh, 0.01, 0.004), term(Cause::Positions, 0.05, 0.2)],
         );
+        assert!((b.corrected - 0.17).abs() < 1e-12, "the mesh alone is known: {b:?}");
+        assert!((b.corrected_within - (0.004 + 0.25)).abs() < 1e-12, "{b:?}");
+        assert!((b.above - (0.06 + 0.204)).abs() < 1e-12 && (b.below - (0.204 - 0.06)).abs() < 1e-12, "{b:?}");
+        let band = [b.corrected - b.corrected_within, b.corrected + b.corrected_within];
+        assert!(band[0] <= b.value - b.below && band[1] >= b.value + b.above - 1e-12, "{band:?} holds the bounds");
+        let sum: f64 = b.terms.iter().map(|t| t.amount).sum();
+        assert!((sum - b.corrected_within).abs() < 1e-15, "terms add up: {b:?}");
     }
 }

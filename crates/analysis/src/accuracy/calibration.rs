@@ -7,7 +7,10 @@ use std::sync::LazyLock;
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
 
-use super::{CalibratedMesh, Features, features::FEATURES};
+use super::{
+    CalibratedMesh, Features,
+    features::{FEATURES, is_spur},
+};
 
 /// How the error of a number goes with the features `x` of a run and a difference `d` that was seen. Theory (64).
 ///
@@ -75,6 +78,9 @@ pub struct PositionsLaw {
     pub positions: u32,
     /// From every second of them.
     pub law: PairLaw,
+    /// How many times its bound holds for spur pairs, 1 or more. Their load jumps from pair to pair, which few positions
+    /// miss; of all pairs they are too few to tell.
+    pub spur: f64,
     /// What error and bound together come to in three of five pairs, over the scale.
     pub usual: f64,
 }
@@ -113,6 +119,14 @@ impl Calibration {
     /// What is known of a quantity.
     pub fn of(&self, quantity: Quantity) -> Option<&QuantityLaws> {
         self.quantities.iter().find(|laws| laws.quantity == quantity.key())
+    }
+}
+
+impl PositionsLaw {
+    /// Known part of the error, and the bound of the rest, as [`PairLaw::of`]; a pair without overlap is a spur pair.
+    pub fn of(&self, x: &Features, difference: f64, scale: f64) -> [f64; 2] {
+        let [known, within] = self.law.of(x, difference, scale);
+        [known, if is_spur(x) { self.spur * within } else { within }]
     }
 }
 

@@ -168,7 +168,7 @@ impl Seen {
         let halved = self.halved.as_ref().and_then(|halved| Some(own - halved.get(q)?));
         // Without half of them only the law of the fewest goes without a difference.
         let law = laws.of_positions(if halved.is_some() { self.positions } else { 0 })?;
-        let mut positions = of(&law.law, halved.unwrap_or(0.0));
+        let mut positions = law.of(&self.features, halved.unwrap_or(0.0), scale);
         if let Some(companion) = &self.companion {
             let (sparse, beside) = (self.sparse.get(q)?, companion.sample.get(q)?);
             mesh[0] += beside - sparse;
@@ -186,13 +186,7 @@ impl Seen {
             (Cause::Interpolation, [0.0, self.interpolation * scale.abs()]),
             (Cause::Iteration, [0.0, self.iteration * scale.abs()]),
         ];
-        let corrected = own + mesh[0] + slices[0] + positions[0];
-        Some(Bound::new(
-            q,
-            own,
-            corrected,
-            terms.map(|(cause, [known, amount])| Term { cause, known, amount }).to_vec(),
-        ))
+        Some(Bound::new(q, own, terms.map(|(cause, [known, amount])| Term { cause, known, amount }).to_vec()))
     }
 }
 

@@ -66,6 +66,11 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     ]
 }
 
+/// Whether these are features of a spur pair: one without overlap.
+pub fn is_spur(x: &Features) -> bool {
+    x[8] == 0.0
+}
+
 /// The same before anything is solved: of what only a solved cycle knows, what many pairs have.
 pub(super) fn features_before(scene: &Scene, pair: &GearPair) -> Features {
     let mut all = features(scene, pair, &Sample::new(|_| None, 1.0));

@@ -57,8 +57,8 @@ mod tests {
     /// A value of 10 that may be 0.5 more and 0.1 less is off by -0.5 .. +0.1; 10.4 lies inside, 10.6 does not.
     #[test]
     fn the_error_has_the_other_sign_of_the_bound() {
-        let term = crate::accuracy::Term { cause: crate::accuracy::Cause::Mesh, known: 0.0, amount: 0.3 };
-        let bound = Bound::new(Quantity::MeanSte, 10.0, 10.2, vec![term]);
+        let term = crate::accuracy::Term { cause: crate::accuracy::Cause::Mesh, known: 0.2, amount: 0.3 };
+        let bound = Bound::new(Quantity::MeanSte, 10.0, vec![term]);
         let [inside, outside] = [10.4, 10.6].map(|exact| OwnBound::new(&bound, exact));
         let [least, most] = [-0.5, 0.1].map(|off| off / 10.4);
         assert!((inside.least - least).abs() < 1e-12 && (inside.most - most).abs() < 1e-12, "{inside:?}");

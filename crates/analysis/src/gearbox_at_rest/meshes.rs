@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use dynamics::RigidBody;
 use gearbox::{
-    ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Train,
+    ExactMesh, GearboxError, GearboxPosition, Mesh, MeshElement, MeshState, Meshing, Train,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
 use geometry::Sense;
@@ -23,6 +23,7 @@ use crate::{
     meshes::SceneMesh,
     motion::body,
     options::options,
+    warnings::{PressedMesh, jam_warning},
 };
 
 /// The scene of a mesh with the axes where the shafts have them, and, once it is known, as the mesh runs.
@@ -141,6 +142,19 @@ impl ReducedMesh {
             })
         };
         gears.filter_map(one).collect()
+    }
+
+    /// What is said of a mesh whose flanks press on both sides at once.
+    pub fn jammed(&self, i: usize, mesh: &Mesh, positions: &[GearboxPosition]) -> Option<String> {
+        let contact = &self.options.contact;
+        let lever = mesh.pair.wheel.base_radius() * mesh.pair.base_helix_angle().cos();
+        let of = |p: &GearboxPosition| {
+            let MeshState { normal_force, moment, .. } = &p.meshes[i];
+            PressedMesh { sum: *normal_force, needed: moment[1][2].abs() / lever }
+        };
+        let all: Vec<PressedMesh> = positions.iter().map(of).collect();
+        let said = contact.both_flanks.then(|| jam_warning(&all, contact.friction)).flatten()?;
+        Some(format!("{}: {said}", mesh.name))
     }
 
     /// Its contact.

@@ -100,6 +100,9 @@ pub fn solve_gearbox(
             Ok((positions, samples))
         })
     })?;
+    for (i, own) in reduced.iter().enumerate() {
+        warnings.extend(own.jammed(i, &meshes[i], &positions));
+    }
     // What swings and moves has springs in place of rolling elements, about where these stand.
     let linear = match (&file.vibration, &file.motion) {
         (None, None) => structure.clone(),

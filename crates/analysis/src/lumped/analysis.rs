@@ -16,7 +16,7 @@ use super::{
     inputs::{LumpedInputs, LumpedSystem},
     mechanism::BoxedMechanism,
     run_loop::{LumpedRun, MeshFrequencies, NoRunObserver, RunObserver, RunPlan, stable_step},
-    warnings::{certificate_warnings, no_backlash},
+    warnings::{backlash_um, certificate_warnings, no_backlash},
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
@@ -27,7 +27,7 @@ use crate::{
     options,
     plausible::remarks,
     resolution::{resolution, with_slices},
-    run_phase, unless_cancelled,
+    run_phase, unless_cancelled, worse,
 };
 
 /// Whether a scene's model is one with few coordinates.
@@ -169,7 +169,8 @@ impl<'a> LumpedAnalysis<'a> {
         });
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
-        facts.certificate = certificate(&inputs, &run).and(Certificate::new(system.model.checks()));
+        let at_rest = static_cycle.iter().flatten().map(|point| 1e3 * point.error);
+        facts.certificate = certificate(&inputs, &run, at_rest).and(Certificate::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
         let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
         let mut found = || {
@@ -288,7 +289,7 @@ pub(super) fn checked_run(
     let plan = RunPlan { scene, motion, frequencies, from };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
-    certificate(inputs, &run).and(Certificate::new(model.checks())).verdict(scene)?;
+    certificate(inputs, &run, std::iter::empty()).and(Certificate::new(model.checks())).verdict(scene)?;
     Ok(run)
 }
 
@@ -310,17 +311,23 @@ fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
     if rows.iter().all(LumpedRow::is_finite) { Ok(()) } else { Err(AnalysisError::OutOfBounds) }
 }
 
-/// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds.
-fn certificate(inputs: &LumpedInputs, run: &LumpedRun) -> Certificate {
+/// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,
+/// and rigid teeth stay in mesh, also `at_rest` (transmission errors, um).
+fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<Item = f64>) -> Certificate {
     let LumpedInputs { scene, pair, .. } = inputs;
     let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
     if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
         let forces = run.rows.iter().flat_map(|r| [Some(r.normal_force), r.coast_normal_force]).flatten();
         all.push(motion::pulling_check(least, forces.fold(f64::NEG_INFINITY, f64::max)));
     }
+    let errors = run.rows.iter().map(|row| row.transmission_error_um);
     if scene.analysis.model.has_reduced_gears() {
-        let errors = run.rows.iter().map(|r| 1e-3 * r.transmission_error_um);
-        all.push(motion::deflection_check_in_motion(scene, pair, errors));
+        all.push(motion::deflection_check_in_motion(scene, pair, errors.map(|um| 1e-3 * um)));
+    } else {
+        // Beyond the backlash the other flanks are in each other.
+        let backlash = backlash_um(inputs);
+        let beyond = |error_um: f64| 1e-3 * error_um.max(-error_um - backlash);
+        all.push(motion::excursion_check(errors.chain(at_rest).map(beyond).fold(0.0, worse), scene.pair.normal_module_mm));
     }
     Certificate::new(all)
 }

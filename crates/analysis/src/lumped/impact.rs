@@ -6,7 +6,7 @@ use ::lumped::{
 };
 use dynamics::{COORDINATES, Torque};
 use geometry::GearPair;
-use integrate::{Mechanism, State};
+use integrate::State;
 use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{ImpactScene, Scene, TorqueScene};
@@ -90,7 +90,7 @@ fn formula(scene: &Scene, own: &ImpactScene, gears: &GearPair) -> Result<(f64, V
 
 impl LumpedMechanism for Formulas<ImpactMechanism> {
     fn start(&mut self) -> Result<State, ModelFailure> {
-        Ok(at_rest(self.static_state()?))
+        Ok(at_rest(self.rolling_state()?))
     }
 
     /// Impacts make of a small difference a large one.
@@ -128,8 +128,8 @@ impl LumpedMechanism for Formulas<ImpactMechanism> {
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
         let at = |k: usize| {
             let mut there = self.beginning_at(k as f64 / phases as f64).ok()?;
-            let state = State::new(0.0, there.static_state().ok()?, DVector::zeros(self.mass().nrows()));
-            let row = there.row(0.0, &state.q, &state.v);
+            let q = there.static_state().ok()?;
+            let row = there.row(0.0, &q, &DVector::zeros(q.len()));
             Some(StaticPoint { error: 1e-3 * row.transmission_error_um, line_length: Some(row.contact_line_length) })
         };
         (0..phases).map(at).collect()

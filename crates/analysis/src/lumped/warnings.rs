@@ -9,18 +9,21 @@ use crate::motion::{self, NO_BACKLASH_UM};
 /// Energy that steps add or take by themselves over that of the vibration, from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;
 
+/// Backlash of the model along the line of action, um.
+pub(super) fn backlash_um(inputs: &LumpedInputs) -> f64 {
+    let given = inputs.scene.mesh.as_ref().and_then(|mesh| mesh.half_backlash_um);
+    given.map_or_else(|| 1e3 * inputs.pair.backlash(), |half| 2.0 * half)
+}
+
 /// A mesh without backlash where the model has one: its flanks do not part.
 pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
     let LumpedInputs { scene, pair, .. } = inputs;
-    if scene.analysis.model.has_reduced_gears() {
-        return motion::no_backlash(scene, pair);
-    }
-    let of_pair = 1e3 * pair.backlash();
-    let backlash_um = match (scene.analysis.model, &scene.mesh) {
-        (Model::Lumped8 | Model::Shaft18, Some(mesh)) => mesh.half_backlash_um.map_or(of_pair, |half| 2.0 * half),
-        (Model::Impact, _) => of_pair,
-        _ => return None,
+    let has_one = match scene.analysis.model {
+        model if model.has_reduced_gears() => return motion::no_backlash(scene, pair),
+        Model::Lumped8 | Model::Shaft18 => scene.mesh.is_some(),
+        model => model == Model::Impact,
     };
+    let backlash_um = has_one.then(|| backlash_um(inputs))?;
     let own = if scene.mesh.is_some() { "`half_backlash_um` in [mesh], or " } else { "" };
     (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
         format!(

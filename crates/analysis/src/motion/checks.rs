@@ -21,6 +21,8 @@ const CONTACT: f64 = 1e-6;
 /// The same of a jump at a tooth change, which is the difference of two forces found from different starts: up to some
 /// 1e-6 with long steps.
 const JUMP: f64 = 1e-4;
+const EXCURSION_WAY_OUT: &str = "the flanks are a module or more in each other or apart, as no teeth are: look at the units of torque, stiffnesses and masses, give \
+                                 bearings that hold the gears in mesh, or more damping";
 const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
 
 /// Energy that steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them
@@ -56,6 +58,10 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
     });
     let deflection = deflection_in_motion(scene, pair, ends);
     Check { name: "dynamic_deflection_over_module", ..deflection_check(scene, deflection) }
+/// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on
+/// teeth have passed each other, and no law of a mesh holds.
+pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {
+    Check { name: "flank_excursion", value: farthest_mm / module_mm, bound: 1.0, way_out: EXCURSION_WAY_OUT }
 }
 
 /// A force that should not be (N) over the largest normal force (N).

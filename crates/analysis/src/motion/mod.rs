@@ -31,7 +31,9 @@ mod sweep;
 mod warnings;
 
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
-pub use checks::{MOTION_WAY_OUT, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
+pub use checks::{
+    MOTION_WAY_OUT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
+};
 pub use headline::{MotionCertificate, MotionHeadline};
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, Passage, PassageCycle, PassageHeadline,

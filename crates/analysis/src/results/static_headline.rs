@@ -6,7 +6,7 @@ use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
 use super::{
-    PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, root_stress_headline,
+    PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, load_sharing_ratio, root_stress_headline,
     transverse_load_factor,
 };
 use crate::{with_keys::with_keys, worse};
@@ -43,6 +43,8 @@ pub struct StaticHeadline {
     pub face_load_factor: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub transverse_load_factor: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load_sharing_ratio: Option<f64>,
     pub max_pressure_mpa: f64,
     pub max_pressure_at: Option<PressurePlace>,
     pub root_stress: Option<RootStressHeadline>,
@@ -91,6 +93,7 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
         face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
         transverse_load_factor: transverse_load_factor(history),
+        load_sharing_ratio: load_sharing_ratio(history),
         max_pressure_mpa: worst(&|p| p.max_pressure),
         max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),

@@ -3,10 +3,12 @@
 mod accuracy;
 mod basins;
 mod continuation;
+mod exchanged;
 mod gearbox;
 mod gearbox_of_pairs;
 mod held_pair;
 mod interest;
+mod jammed;
 mod kept_at_once;
 mod mapped;
 mod motion_accuracy;

@@ -65,6 +65,24 @@ fn it_moves_as_the_reduced_model() {
     }
 }
 
+/// Flanks that stand out let the driven gear lead at rest: the lag of the driving flanks is below zero, which is a place
+/// and no size. The pair, whose coast flanks stand out as much, moves on its map as it does on the contact itself.
+#[test]
+fn a_pair_that_leads_at_rest_moves_on_its_map() {
+    let leading = |model: &str| {
+        let light = small(model).set("operation.torque_nm", 30.0).set("motion.warm_up_cycles", 50);
+        let sloped = ["pinion", "wheel"].map(|gear| format!("{gear}.modification.profile_slope_um"));
+        built(sloped.iter().fold(light, |scene, key| scene.set(key, -60.0)))
+    };
+    let exact = MotionAnalysis::new(&leading("reduced")).solve().unwrap_or_else(|e| panic!("{e}"));
+    let mapped = LumpedAnalysis::new(&leading("mapped")).solve().unwrap_or_else(|e| panic!("{e}"));
+    let at_rest = exact.headline.mean_ste_um;
+    assert!(at_rest < 0.0, "the driven gear lags by {at_rest} um at rest");
+    let [mean, range] = [exact.headline.mean_dte_um, exact.headline.peak_to_peak_dte_um];
+    let off = (mapped.headline.mean_dte_um - mean).abs();
+    assert!(off < 1e-2 * range, "mean {mean} um, on the map {} um", mapped.headline.mean_dte_um);
+}
+
 /// What a map does not hold is refused with a hint.
 #[test]
 fn it_has_no_friction() {

@@ -95,7 +95,7 @@ fn losses_of_an_even_load_are_the_closed_forms() {
     let spur = closed_form([25, 41], 0.0, 20.0);
     let (_, headline) = solved(&spur);
     let sheet = facts(&spur).geometry_sheet.unwrap();
-    let (wanted, found) = (sheet.tooth_loss_factor.unwrap(), headline.tooth_loss_factor.unwrap());
+    let (wanted, found) = (sheet.tooth_loss_factor, headline.tooth_loss_factor.unwrap());
     // The load jumps between one pair and two: 2000 positions are off by less than a two-thousandth.
     assert!((found / wanted - 1.0).abs() < 5e-4, "spur: H_VL {found}, not {wanted}");
     close("spur: K_Halpha", headline.transverse_load_factor.unwrap(), 1.0, 1e-12);
@@ -111,6 +111,7 @@ fn losses_of_an_even_load_are_the_closed_forms() {
     let wanted = teeth * (parts[0] + parts[1]) / sheet.eps_alpha / sheet.base_helix_angle_deg.to_radians().cos();
     let found = headline.tooth_loss_factor.unwrap();
     assert!((found / wanted - 1.0).abs() < 1e-6, "helical: H_VL {found}, not {wanted}");
+    close("helical: H_V of the sheet", sheet.tooth_loss_factor, wanted, 1e-12);
     close("helical: K_Halpha", headline.transverse_load_factor.unwrap(), 1.0, 1e-12);
 }
 
@@ -141,7 +142,8 @@ fn friction_takes_its_coefficient_times_the_loss_factor() {
     }
 }
 
-/// A tooth that stands ahead takes load from its neighbours: K_Halpha of a helical pair grows. Of a spur pair with a
+/// A tooth that stands ahead takes load from its neighbours: the load sharing ratio of a helical pair grows, and with it
+/// K_Halpha, which is 1 where the ratio is below. Of a spur pair with a
 /// single pair in contact it stays 1: no pair can carry more than all. One per cent is for tips of the next pair that
 /// press off the line of action, with a shorter lever and so more force, where one line touches nominally.
 #[test]
@@ -150,10 +152,14 @@ fn pitch_errors_raise_the_transverse_load_factor() {
         let mut errors = vec![0.0; 24];
         errors[0] = ahead_um;
         let scene = built(small(helix).set("pinion.pitch_errors_um", errors).set("analysis.cycles", 3));
-        solved(&scene).1.transverse_load_factor.unwrap()
+        let headline = solved(&scene).1;
+        let ratio = headline.load_sharing_ratio.unwrap();
+        assert_eq!(headline.transverse_load_factor, Some(ratio.max(1.0)), "K_Halpha is no less than 1");
+        ratio
     };
     let all: Vec<f64> = [0.0, 4.0, 8.0].map(|e| factor(25.0, e).max(factor(25.0, -e))).to_vec();
     assert!(all.windows(2).all(|w| w[1] > w[0]), "helical: {all:?}");
+    assert!(all[0] < 1.0, "soft ends of lines spread the load: {all:?}");
     for ahead in [0.0, 8.0] {
         let spur = factor(0.0, ahead);
         assert!((spur - 1.0).abs() < 0.01, "spur, {ahead} um: K_Halpha {spur}");

@@ -193,7 +193,7 @@ fn refuse(system: &PairMechanism) -> Result<(), PairMotionError> {
 
 /// Displacements of the pair at rest under its load, at phases of a mesh cycle.
 fn stands(system: &mut PairMechanism, lag: f64) -> Result<Vec<Displacement>, PairMotionError> {
-    let scale = system.coordinates().scales(lag, system.pair().pinion.base_radius());
+    let scale = system.coordinates().scales(system.motion_size(lag), system.pair().pinion.base_radius());
     let mut q: Option<DVector<f64>> = None;
     let mut all = Vec::new();
     for i in 0..STANDS {

@@ -169,6 +169,21 @@ impl PairMechanism {
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
 
+    /// Size of a displacement at the flanks that counts as large, mm: how far the driven gear lags at rest (`lag`, mm), or
+    /// as much as its load deflects the mesh where that is more.
+    ///
+    /// ```text
+    /// max(|lag|, T / (r_b k_m))
+    /// ```
+    /// A lag is a place, which misalignment and micro-geometry move through zero and below it; a deflection is a size.
+    pub fn motion_size(&self, lag: f64) -> f64 {
+        let statics = &self.options.statics;
+        let driven = [&self.pair.pinion, &self.pair.wheel][statics.driven()];
+        let deflection = statics.torque.abs() / (driven.base_radius() * self.means[0]);
+        // Gears without stiffness or load have no deflection.
+        if deflection.is_finite() { lag.abs().max(deflection) } else { lag.abs() }
+    }
+
     /// Map of the coordinates of a periodic motion from one mesh cycle to the next, n x n. Rigid coordinates repeat.
     /// Amplitudes of modes are in the gears' own frames: they become those of gears turned by a pitch. `None` where the
     /// modes of a gear are not mapped into each other; such a motion repeats after whole turns at best.
@@ -221,11 +236,8 @@ impl PairMechanism {
 
     /// Puts the mean of the load in its place; gives the load.
     pub(crate) fn hold_mean_load(&mut self) -> Torque {
-        let mean = match &self.options.load {
-            Torque::Constant(mean) | Torque::Harmonic { mean, .. } => *mean,
-            // A table has no mean of its own: the scene's torque is what scales are taken from.
-            Torque::Table { .. } => self.options.statics.torque,
-        };
+        // Of a table the scene's torque is what scales are taken from.
+        let mean = self.options.load.mean().unwrap_or(self.options.statics.torque);
         std::mem::replace(&mut self.options.load, Torque::Constant(mean))
     }
 

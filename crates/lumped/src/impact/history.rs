@@ -73,12 +73,25 @@ impl ImpactMechanism {
         self.coordinates().scales(self.pair().pinion.data().normal_module / 30.0, radius)
     }
 
-    /// Static equilibrium under the load at t = 0, in the order of the coordinates: where a run begins without a jolt.
-    /// A driver that a torque turns is held.
+    /// Static equilibrium under the mean load at the phase of t = 0, in the order of the coordinates: gears that stand still, so that
+    /// neither damping nor friction bears any load. A driver that a torque turns is held.
     ///
     /// # Errors
     /// [`LumpedError::NoEquilibrium`] when some coordinate has nothing to rest on.
-    pub fn static_state(&mut self) -> Result<DVector<f64>, LumpedError> {
+    pub fn static_state(&self) -> Result<DVector<f64>, LumpedError> {
+        self.standing_still()?.balance()
+    }
+
+    /// Coordinates at which forces balance in the nominal motion at t = 0: where a run begins without a jolt. Damping of
+    /// flanks that roll into contact, and friction, bear their part of the load.
+    ///
+    /// # Errors
+    /// As [`ImpactMechanism::static_state`].
+    pub fn rolling_state(&mut self) -> Result<DVector<f64>, LumpedError> {
+        self.balance()
+    }
+
+    fn balance(&mut self) -> Result<DVector<f64>, LumpedError> {
         let held: Vec<usize> = self.coordinates().driver_turn().into_iter().collect();
         let mut start = DVector::zeros(self.coordinates().count());
         start[self.coordinates().lag()] = self.guessed_lag();
@@ -87,12 +100,12 @@ impl ImpactMechanism {
         found.ok_or(LumpedError::NoEquilibrium)
     }
 
-    /// Runs from the static equilibrium.
+    /// Runs from the balance of the nominal motion.
     ///
     /// # Errors
-    /// Those of [`ImpactMechanism::static_state`], and [`LumpedError::Motion`].
+    /// Those of [`ImpactMechanism::rolling_state`], and [`LumpedError::Motion`].
     pub fn history(&mut self, plan: &Recording) -> Result<Recorded<ImpactRow>, LumpedError> {
-        let q = self.static_state()?;
+        let q = self.rolling_state()?;
         let n = q.len();
         let scale = self.scale();
         let start = State::new(0.0, q, DVector::zeros(n));

@@ -4,7 +4,7 @@ use std::convert::Infallible;
 
 use ale::Station;
 use contact::Pose;
-use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Nominal, NominalState, Speed};
+use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Nominal, NominalState, Speed, Torque};
 use geometry::GearPair;
 use integrate::{Forces, Mechanism};
 use ltca::StaticOptions;
@@ -79,6 +79,20 @@ impl ImpactMechanism {
     /// As of [`Self::new`].
     pub fn beginning_at(&self, cycles: f64) -> Result<Self, LumpedError> {
         Self::new(self.pair.clone(), ImpactOptions { start_cycles: cycles, ..self.options.clone() })
+    }
+
+    /// The same pair where it begins, its nominal motion stopped, under the mean of its load.
+    ///
+    /// # Errors
+    /// As of [`Self::new`].
+    pub(super) fn standing_still(&self) -> Result<Self, LumpedError> {
+        let drive = match &self.options.drive {
+            Drive::Speed(_) | Drive::Balanced(_) => Drive::Speed(Speed::Constant(0.0)),
+            Drive::Torque { torque, .. } => Drive::Torque { start: 0.0, torque: torque.clone() },
+        };
+        // A table has no mean: the torque that it begins with.
+        let load = Torque::Constant(self.options.load.mean().unwrap_or_else(|| self.options.load.at(0.0)));
+        Self::new(self.pair.clone(), ImpactOptions { drive, load, ..self.options.clone() })
     }
 
     /// The pair.

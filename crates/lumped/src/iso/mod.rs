@@ -8,6 +8,8 @@ mod body;
 mod flank;
 mod root;
 
+use std::cmp::Ordering;
+
 use serde::Serialize;
 
 pub use body::{axial_compliance, body_compliance};
@@ -26,7 +28,8 @@ const YOUNG_STEEL: f64 = 2.06e5;
 /// Line load below which single stiffness falls with its fourth root, N/mm.
 const LIGHT_LOAD: f64 = 100.0;
 
-/// What the standard needs to know of a pair of solid disc gears.
+/// What the standard needs to know of a pair of solid disc gears, in either order: its gear 1 is the one with fewer
+/// teeth, whichever the pair names first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IsoPair {
     /// Numbers of teeth.
@@ -70,6 +73,9 @@ pub struct IsoStiffness {
 /// c_ga  = c' (0.75 eps_alpha + 0.25),   c_gb = 0.85 c_ga
 /// ```
 ///
+/// Index 1 is the gear with fewer teeth (ISO 6336-1, "pinion"). For equal numbers of teeth and different profile shifts
+/// the standard names neither: q' is then the mean of both orders, so that names change nothing.
+///
 /// For different racks C_B is the mean of both; for different materials E = 2 E1 E2 / (E1 + E2).
 /// Source: ISO 6336-1:2019, clause 9.3. Below eps_alpha = 1.2 of a spur pair the standard asks to lower
 /// c' by up to 10 %; that is left to the user, as it gives no figure.
@@ -95,12 +101,15 @@ pub fn stiffness(pair: &IsoPair) -> Result<IsoStiffness, LumpedError> {
     let beta = pair.helix_angle.abs();
     let sin_beta_b = beta.sin() * pair.normal_pressure_angle.cos();
     let virtual_teeth = |z: u32| f64::from(z) / ((1.0 - sin_beta_b * sin_beta_b) * beta.cos());
-    let [zn1, zn2] = pair.teeth.map(virtual_teeth);
-    let [x1, x2] = pair.profile_shift;
-    let terms = [1.0, 1.0 / zn1, 1.0 / zn2, x1, x1 / zn1, x2, x2 / zn2, x1 * x1, x2 * x2];
-    let flexibility: f64 = SERIES.iter().zip(terms).map(|(c, t)| c * t).sum();
+    let gears = [0, 1].map(|i| (virtual_teeth(pair.teeth[i]), pair.profile_shift[i]));
+    let flexibility = match pair.teeth[0].cmp(&pair.teeth[1]) {
+        Ordering::Less => flexibility(gears),
+        Ordering::Greater => flexibility([gears[1], gears[0]]),
+        Ordering::Equal => 0.5 * (flexibility(gears) + flexibility([gears[1], gears[0]])),
+    };
     if flexibility <= 0.0 {
-        return Err(out_of_range("x1 + x2", x1 + x2, "profile shifts that leave the tooth some flexibility"));
+        let sum = pair.profile_shift[0] + pair.profile_shift[1];
+        return Err(out_of_range("x1 + x2", sum, "profile shifts that leave the tooth some flexibility"));
     }
     let c_theoretical = 1.0 / flexibility;
 
@@ -112,6 +121,12 @@ pub fn stiffness(pair: &IsoPair) -> Result<IsoStiffness, LumpedError> {
     let c_single = c_theoretical * C_M * c_b * beta.cos() * material * light;
     let c_mesh = c_single * (0.75 * pair.eps_alpha + 0.25);
     Ok(IsoStiffness { c_theoretical, c_single, c_mesh, c_mesh_beta: 0.85 * c_mesh })
+}
+
+/// q', (mm um)/N, of gear 1 and gear 2, each by the teeth of its virtual spur gear and its profile shift.
+fn flexibility([(zn1, x1), (zn2, x2)]: [(f64, f64); 2]) -> f64 {
+    let terms = [1.0, 1.0 / zn1, 1.0 / zn2, x1, x1 / zn1, x2, x2 / zn2, x1 * x1, x2 * x2];
+    SERIES.iter().zip(terms).map(|(c, t)| c * t).sum()
 }
 
 /// Mean static transmission error, um: `F_bt / (b c_gamma_alpha)`.

@@ -413,3 +413,31 @@ fn lines_are_those_of_geometry_as_the_load_vanishes() {
     // One slice of 33 is 11 mm; eight phases of its coming and going leave 2 %.
     assert!((last / 581.1 - 1.0).abs() < 0.02, "{last} mm, 581.1 mm by geometry");
 }
+
+/// The static transmission error is that of gears at rest: neither damping nor friction, nor the speed, has a part in it.
+/// The balance of the rolling gears, where a run begins, goes with damping.
+#[test]
+fn gears_at_rest_know_no_damping() {
+    let at = |damping: f64, speed: f64| {
+        let mut model = model(|o| {
+            o.slices = 9;
+            o.law.damping = damping;
+            o.drive = Drive::Speed(Speed::Constant(speed));
+            if damping == 0.0 {
+                o.friction = None;
+            }
+        });
+        let lag = model.coordinates().lag();
+        [model.static_state().unwrap()[lag], model.rolling_state().unwrap()[lag]]
+    };
+    let [still, _] = at(0.0, mill::SPEED);
+    for (damping, speed) in [(50.0, mill::SPEED), (1e5, mill::SPEED), (1e5, 0.1 * mill::SPEED)] {
+        let [found, _] = at(damping, speed);
+        assert!((found / still - 1.0).abs() < 1e-12, "damping {damping}, {speed} rad/s: {found} mm, not {still}");
+    }
+    let [_, rolling] = at(1e5, mill::SPEED);
+    assert!(
+        (rolling / still - 1.0).abs() > 1e-2,
+        "flanks that roll into contact are damped: {rolling} mm, {still} at rest"
+    );
+}

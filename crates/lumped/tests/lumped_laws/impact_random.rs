@@ -113,7 +113,7 @@ fn stands_and_moves(seed: u64, phases: u32, schemes: &[Scheme]) -> Result<bool, 
     let Some((model, cycle)) = scene(seed) else { return Ok(false) };
     for phase in 0..phases {
         let mut there = model.beginning_at(f64::from(phase) / f64::from(phases)).unwrap();
-        let q = there.static_state().map_err(|e| format!("seed {seed}, phase {phase}/{phases}: {e}"))?;
+        let q = there.rolling_state().map_err(|e| format!("seed {seed}, phase {phase}/{phases}: {e}"))?;
         let mut forces = Forces::zeros(q.len());
         let Ok(()) = there.forces(0.0, &q, &(0.0 * &q), &mut forces);
         let scale = there.scale();
@@ -232,7 +232,7 @@ fn light_load_on_crowned_flanks_finds_its_balance() {
     let model = ImpactMechanism::new(pair, options).unwrap();
     for phase in 0..16 {
         let mut there = model.beginning_at(f64::from(phase) / 16.0).unwrap();
-        let q = there.static_state().unwrap_or_else(|e| panic!("phase {phase}/16: {e}"));
+        let q = there.rolling_state().unwrap_or_else(|e| panic!("phase {phase}/16: {e}"));
         let found = there.row(0.0, &q, &(0.0 * &q)).normal_force[0];
         // Tips that meet early push at other levers.
         assert!((found / normal - 1.0).abs() < 0.01, "phase {phase}/16: {found} N, not {normal} N");

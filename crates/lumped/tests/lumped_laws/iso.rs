@@ -77,3 +77,19 @@ fn inputs_outside_of_the_standard_are_named() {
     let nothing = IsoPair { line_load: f64::NAN, ..example_1() };
     assert!(matches!(stiffness(&nothing), Err(LumpedError::OutOfRange { quantity: "line load in N/mm", .. })));
 }
+
+/// Index 1 of ISO 6336-1 is the smaller gear, whatever a scene calls pinion: exchanged names leave every bit, also where
+/// both gears have as many teeth and different profile shifts.
+#[test]
+fn names_of_the_gears_change_nothing() {
+    for (teeth, shift) in
+        [([17, 103], [0.145, 0.0]), ([36, 18], [0.0, 0.0]), ([25, 25], [0.4, -0.2]), ([60, 20], [-0.1, 0.5])]
+    {
+        let pair = IsoPair { teeth, profile_shift: shift, ..example_1() };
+        let other = IsoPair { teeth: [teeth[1], teeth[0]], profile_shift: [shift[1], shift[0]], ..pair };
+        assert_eq!(stiffness(&pair).unwrap(), stiffness(&other).unwrap(), "{teeth:?}");
+    }
+    // Of the order of the standard's example, which is named as it should be.
+    let wrong = IsoPair { teeth: [103, 17], ..example_1() };
+    assert!((stiffness(&wrong).unwrap().c_mesh / stiffness(&example_1()).unwrap().c_mesh - 1.0).abs() > 1e-3);
+}

@@ -101,10 +101,8 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     row("total contact ratio", &[sheet.eps_gamma], 4, "");
     row("backlash, circumferential at the pitch circles", &[sheet.circumferential_backlash_mm], 4, "mm");
     row("backlash, normal", &[sheet.normal_backlash_mm], 4, "mm");
-    row("backlash, radial", &[sheet.radial_backlash_mm], 4, "mm");
-    if let Some(factor) = sheet.tooth_loss_factor {
-        row("tooth loss factor H_V, load shared evenly", &[factor], 4, "");
-    }
+    row("backlash, radial (linear, ISO 21771)", &[sheet.radial_backlash_mm], 4, "mm");
+    row("tooth loss factor H_V, even line load", &[sheet.tooth_loss_factor], 4, "");
     let both = [&sheet.pinion, &sheet.wheel];
     let _ = writeln!(t, "\n  {:<44}{:>14}{:>14}", "", "pinion", "wheel");
     let mut pair = |what: &str, of: &dyn Fn(&GearSheet) -> Option<f64>, digits: usize, unit: &str| {

@@ -37,6 +37,7 @@ pub fn closing_table(
     for (what, value) in [
         ("tooth loss factor H_VL", h.tooth_loss_factor),
         ("transverse load factor K_Halpha", h.transverse_load_factor),
+        ("load sharing ratio", h.load_sharing_ratio),
         ("face load factor K_Hbeta", h.face_load_factor),
     ] {
         if let Some(value) = value {

@@ -47,9 +47,8 @@ impl Seen<'_> {
             terms.push((Cause::Model, laws.lumped12_at(self.rest)?.of(own - still, own)));
         }
         terms.push((Cause::Settling, [0.0, self.settling(own)]));
-        let corrected = own + terms.iter().map(|(_, [known, _])| known).sum::<f64>();
         let term = |(cause, [known, amount]): (Cause, [f64; 2])| Term { cause, known, amount };
-        Some(Bound::new(q, own, corrected, terms.into_iter().map(term).collect()))
+        Some(Bound::new(q, own, terms.into_iter().map(term).collect()))
     }
 
     /// What is left of a transient: a difference from cycle to cycle that shrinks as the resonance decays, summed to its

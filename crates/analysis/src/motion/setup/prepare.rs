@@ -223,7 +223,7 @@ fn settings(
     quasi_static: &QuasiStatic,
 ) -> MotionSettings {
     let driven = [&pair.pinion, &pair.wheel][system.options().statics.driven()];
-    let length = quasi_static.mean_error().abs().max(1e-6);
+    let length = system.motion_size(quasi_static.mean_error()).max(1e-6);
     MotionSettings {
         scheme: scheme(motion),
         rows: motion.steps_per_mesh_cycle as usize,
