@@ -28,12 +28,14 @@ pub struct Source<'a> {
     tables: Tables,
     /// Where files that it names are looked for.
     pub(crate) origin: Origin,
+    /// Names and texts of files beside it that are not written yet.
+    pub(crate) beside: &'a [(String, String)],
 }
 
 impl<'a> Source<'a> {
     /// The text of a scene with what was set beside it.
     pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        Self { file, text, settings, ranges, tables: schema::tables, origin: Origin::Disk }
+        Self { file, text, settings, ranges, tables: schema::tables, origin: Origin::Disk, beside: &[] }
     }
 
     /// The same, the files that it names being there.
@@ -41,9 +43,14 @@ impl<'a> Source<'a> {
         Self { origin, ..self }
     }
 
+    /// The same with names and texts of files beside it that are not written yet.
+    pub(crate) fn with_beside(self, beside: &'a [(String, String)]) -> Self {
+        Self { beside, ..self }
+    }
+
     /// The text of a file with other tables.
     pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
-        Self { file, text, settings: &[], ranges: &[], tables, origin: Origin::Disk }
+        Self { file, text, settings: &[], ranges: &[], tables, origin: Origin::Disk, beside: &[] }
     }
 }
 

@@ -7,6 +7,7 @@ mod folders;
 mod gearbox;
 mod messages;
 mod resume;
+mod rexs;
 mod rolling_bearings;
 #[path = "../util/mod.rs"]
 mod util;
