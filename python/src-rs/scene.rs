@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ::scene::{SceneError, Setting, Starter, all_keys, json_schema, read_pair, read_text};
+use ::scene::{SceneError, Setting, Starter, all_keys, json_schema, read_pair, read_rexs, read_text};
 use analysis::{gears, resolution::with_slices};
 use pyo3::{
     prelude::*,
@@ -135,12 +135,10 @@ impl Scene {
     fn from_rexs(file: &Bound<'_, PyAny>, stage: Given<'_, '_>, set: Given<'_, '_>) -> Result<Self, Complaint> {
         let file = path("file", file)?;
         let stage = stage.map_or(Ok(1), |any| whole("stage", any, 1))? as usize;
-        let text = read_text(&file).map_err(|e| {
-            let hint = Some("is the path right, as seen from here?".into());
-            Complaint::new(Kind::Input, format_args!("{}: cannot be read: {e}", file.display()), hint).about(&file)
-        })?;
-        let starter = read_pair(&text, stage, &Starter::default())
-            .map_err(|e| Complaint::new(Kind::Input, format_args!("{}: {e}", file.display()), e.hint()).about(&file))?;
+        let wrong =
+            |e: ::scene::RexsError| Complaint::new(Kind::Input, format_args!("{}: {e}", file.display()), e.hint()).about(&file);
+        let text = read_rexs(&file).map_err(wrong)?;
+        let starter = read_pair(&text, stage, 1, &Starter::default()).map_err(wrong)?.starter;
         let name = file.with_extension("toml");
         Self::checked(Written::Text(starter.text(&name.display().to_string()), name), set_of(set)?)
     }

@@ -156,7 +156,42 @@ impl NamedFlanks<'_> {
         };
         let unknown = "is it the mesh of this gear (teeth, helix angle and its hand, profile shift, thinning), axis on z, \
                        tooth 0 on +x?";
-        self.mistakes().iter().find(|m| fits(m)).map_or_else(|| unknown.to_owned(), |m| m.hint.clone())
+        let known = self.mistakes().iter().find(|m| fits(m)).map(|m| m.hint.clone());
+        known.or_else(|| self.other_numbers(allowed)).unwrap_or_else(|| unknown.to_owned())
+    }
+
+    /// Where all groups are flanks of this gear under other numbers, as those of a mesher that counts all its surfaces:
+    /// what each of the first ones is.
+    fn other_numbers(&self, allowed: f64) -> Option<String> {
+        let teeth = i64::from(self.exact.teeth());
+        let mut groups: Vec<((u32, Side), Vec<Vec3>)> = Vec::new();
+        for (tooth, side, node) in self.nodes() {
+            if groups.last().is_none_or(|(own, _)| *own != (tooth, side)) {
+                groups.push(((tooth, side), Vec::new()));
+            }
+            if let Some((_, points)) = groups.last_mut() {
+                points.push(self.point(node));
+            }
+        }
+        let lies = |points: &[Vec3]| {
+            let places = (0..teeth).flat_map(|tooth| [(tooth, Side::Left), (tooth, Side::Right)]);
+            let on = |(tooth, side): &(i64, Side)| points.iter().all(|p| self.distance(*side, *tooth, *p) <= allowed);
+            places.into_iter().find(on)
+        };
+        let found: Vec<((u32, Side), (i64, Side))> =
+            groups.iter().map(|(own, points)| Some((*own, lies(points)?))).collect::<Option<_>>()?;
+        let told = found.iter().filter(|((tooth, side), (k, s))| (i64::from(*tooth), *side) != (*k, *s)).take(3);
+        let told = told.map(|((tooth, side), (k, s))| {
+            let group = self.names.flank_of(*side, i64::from(*tooth));
+            format!("`{group}` is the {} flank of tooth {k}", s.name())
+        });
+        let told = told.collect::<Vec<_>>().join(", ");
+        Some(format!(
+            "the groups are flanks of this gear under other numbers: {told}. {{k}} is the number of the tooth, 0 on +x, \
+             counter-clockwise: rename the groups, or name a pattern that no group has in [{}.groups] \
+             (`flank_left = \"none_{{k}}\"`, `flank_right = \"none_{{k}}\"`), and flanks are found by their shape",
+            self.whose
+        ))
     }
 
     /// The commonest ones.

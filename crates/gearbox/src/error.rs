@@ -301,8 +301,8 @@ impl GearboxError {
             Self::Shaft { source, .. } => return source.hint(),
             Self::Loose { .. } => {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
-                 `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Cylindrical rollers hold no thrust, and about \
-                 a load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
+                 `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Along z two meshes of opposite hands \
+                 hold a shaft as well. Cylindrical rollers and rings that float hold no thrust, and about a load rolling bearings that carry nothing hold nothing: less clearance, or a preload"
             }
             Self::OneWay { direction, .. } => {
                 return Some(format!(

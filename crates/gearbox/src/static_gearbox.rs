@@ -80,7 +80,7 @@ impl StaticGearbox {
         check(&structure, &train, &operation)?;
         let mut held = vec![false; structure.shafts.len()];
         operation.held.iter().for_each(|&shaft| held[shaft] = true);
-        check_held(&structure, &held)?;
+        check_held(&structure, &held, (&meshes, &train), operation.input)?;
         let assembly = Assembly::new(structure)?;
         let mut discs: Vec<usize> = meshes.iter().flat_map(|m| m.discs).collect();
         discs.extend(operation.torques.iter().map(|t| t.disc).chain([operation.input]));

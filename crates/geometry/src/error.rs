@@ -1,5 +1,16 @@
 //! What can be wrong with the data of a gear or a pair.
 
+/// A gear that lost flank to the tip of its rack.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Undercut {
+    /// `pinion` or `wheel`.
+    pub gear: &'static str,
+    /// Profile shift coefficients of pinion and wheel with which the teeth meet enough; none where none do.
+    pub cure: Option<[f64; 2]>,
+    /// Whether they need the centre distance that follows from them, in place of a given one.
+    pub moves_axes: bool,
+}
+
 /// Gear data from which no gear, or no running pair, can be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -119,6 +130,8 @@ pub enum GeometryError {
     ContactRatio {
         /// eps_gamma.
         contact_ratio: f64,
+        /// The gear whose flank the rack undercuts; none where neither is.
+        undercut: Option<Undercut>,
     },
     /// A place along the profile where there is no flank.
     #[error("{name}: {value:.4} {unit} is not on the flank, which reaches from {low:.4} to {high:.4}")]
@@ -181,6 +194,17 @@ impl GeometryError {
                 let widths = 0.5 * (pinion_mm[1] - pinion_mm[0] + wheel_mm[1] - wheel_mm[0]);
                 format!("the offset of the mid-faces must be less than half of both face widths, {widths:.4} mm")
             }
+            Self::ContactRatio { undercut: Some(Undercut { gear, cure, moves_axes }), .. } => match cure {
+                Some([pinion, wheel]) => format!(
+                    "the rack undercuts the {gear}, which takes away its flank: set `profile_shift` of the pinion to \
+                     {pinion} and of the wheel to {wheel}{}",
+                    if *moves_axes { ", and leave `centre_distance_mm` out" } else { "" }
+                ),
+                None => format!(
+                    "the rack undercuts the {gear}, which takes away its flank, and no profile shift gives it back: more \
+                     teeth, or a larger pressure angle"
+                ),
+            },
             Self::ContactRatio { .. } => {
                 "lower the centre distance, or raise addendum, helix angle or face width".into()
             }

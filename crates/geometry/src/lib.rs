@@ -24,7 +24,7 @@ mod sheet;
 
 pub use contact_lines::ContactLine;
 pub use data::GearData;
-pub use error::GeometryError;
+pub use error::{GeometryError, Undercut};
 pub use flank::{Flank, FlankPoint, Side};
 pub use gear::Gear;
 pub use iso1328::{FlankTolerances, TOLERANCE_CLASSES};

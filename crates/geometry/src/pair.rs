@@ -4,10 +4,12 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::{Gear, GeometryError, Side};
+use crate::{Gear, GearData, GeometryError, Side, error::Undercut};
 
 /// Depth over the module from which on a tip in a fillet is more than rounded data.
 const INTERFERENCE_MODULES: f64 = 1e-3;
+/// Profile shifts that are tried against undercut, in steps of a tenth.
+const MOST_TENTHS: i32 = 20;
 
 /// A running pair: pinion at the origin, wheel at (a, 0, o), o the offset of its mid-face.
 ///
@@ -76,6 +78,12 @@ impl GearPair {
     }
 
     fn check(&self) -> Result<(), GeometryError> {
+        self.check_fit()?;
+        self.check_contact_ratio()
+    }
+
+    /// All that is needed but enough contact.
+    fn check_fit(&self) -> Result<(), GeometryError> {
         let a = self.pinion.data();
         let least = self.pinion.base_radius() + self.wheel.base_radius();
         if !self.centre_distance.is_finite() || self.centre_distance <= least {
@@ -110,12 +118,50 @@ impl GearPair {
         if self.path_length() <= 0.0 {
             return Err(GeometryError::NoContact { overlap_mm: self.path_length() });
         }
-        self.check_contact_ratio()
+        Ok(())
     }
 
     fn check_contact_ratio(&self) -> Result<(), GeometryError> {
         let contact_ratio = self.total_contact_ratio();
-        if contact_ratio < 1.0 { Err(GeometryError::ContactRatio { contact_ratio }) } else { Ok(()) }
+        if contact_ratio >= 1.0 {
+            return Ok(());
+        }
+        Err(GeometryError::ContactRatio { contact_ratio, undercut: self.undercut() })
+    }
+
+    /// The gear that the rack undercuts most, and the profile shifts with which the pair has contact enough.
+    fn undercut(&self) -> Option<Undercut> {
+        let gears = [&self.pinion, &self.wheel];
+        let lacks = gears.map(|gear| gear.undercut_limit() - gear.data().profile_shift);
+        let own = usize::from(lacks[1] > lacks[0]);
+        if lacks[own] <= 0.0 {
+            return None;
+        }
+        let nominal = nominal_centre_distance(&self.pinion, &self.wheel);
+        let is_nominal = (self.centre_distance - nominal).abs() <= 1e-9 * nominal;
+        let before = gears.map(|gear| gear.data().profile_shift);
+        let tried = |step: i32, is_nominal: bool| {
+            let shift = (10.0 * before[own]).floor() / 10.0 + f64::from(step) / 10.0;
+            // At a given centre distance the mating gear gives way.
+            let mate = if is_nominal { before[1 - own] } else { before[1 - own] + before[own] - shift };
+            let shifts = if own == 0 { [shift, mate] } else { [mate, shift] };
+            let [pinion, wheel] = [0, 1].map(|i| {
+                let data = GearData { profile_shift: shifts[i], ..gears[i].data().clone() };
+                Gear::new(data).ok()
+            });
+            let (pinion, wheel) = (pinion?, wheel?);
+            let centre_distance =
+                if is_nominal { nominal_centre_distance(&pinion, &wheel) } else { self.centre_distance };
+            let pair = Self { pinion, wheel, centre_distance, mid_face_offset: self.mid_face_offset };
+            let runs = pair.check_fit().is_ok() && pair.total_contact_ratio() >= 1.0;
+            let rounded = |x: f64| (1e4 * x).round() / 1e4;
+            runs.then_some(shifts.map(rounded))
+        };
+        let at = |is_nominal: bool| (1..=MOST_TENTHS).find_map(|step| tried(step, is_nominal));
+        let kept = at(is_nominal);
+        let moved = if is_nominal { None } else { at(true) };
+        let moves_axes = kept.is_none() && moved.is_some();
+        Some(Undercut { gear: ["pinion", "wheel"][own], cure: kept.or(moved), moves_axes })
     }
 
     /// Working centre distance a, mm.

@@ -275,7 +275,7 @@ fn classify(mesh: &Mesh, boundary: &[Face], gear: &Gear, phase: f64, sides: &[Si
 }
 
 /// Centre of the corners and vector area of a face, mm and mm^2.
-fn centre_and_area(mesh: &Mesh, face: &Face) -> (Vec3, Vec3) {
+pub(crate) fn centre_and_area(mesh: &Mesh, face: &Face) -> (Vec3, Vec3) {
     let corners = face.corners();
     let centre = corners.iter().map(|&n| at(mesh, n)).sum::<Vec3>() / corners.len() as f64;
     let around = corners.iter().zip(corners.iter().cycle().skip(1));

@@ -4,6 +4,7 @@
 
 mod block;
 mod bore;
+mod bore_fit;
 mod check;
 pub mod element;
 pub mod error;

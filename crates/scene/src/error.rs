@@ -213,6 +213,13 @@ impl SceneError {
         }
     }
 
+    /// The complaint alone, without the place that stands before it.
+    pub fn without_place(&self) -> String {
+        let whole = self.to_string();
+        let place = self.place().map(|place| format!("{place}: "));
+        place.and_then(|p| whole.strip_prefix(&p).map(str::to_owned)).unwrap_or(whole)
+    }
+
     /// The line that is complained of, with a mark; `None` where it is about the whole file or about no file.
     pub fn excerpt(&self) -> Option<&str> {
         self.place()?.excerpt()

@@ -56,6 +56,9 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
             pair("dedendum_coefficient"),
             of(root, "profile_shift"),
         ],
+        GeometryError::ContactRatio { undercut: Some(own), .. } => {
+            vec![of(own.gear, "profile_shift"), of(own.gear, "teeth")]
+        }
         GeometryError::NoContact { .. } | GeometryError::ContactRatio { .. } => {
             let tips = both("tip_diameter_mm");
             let widths = both("face_width_mm");

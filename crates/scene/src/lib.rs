@@ -34,10 +34,6 @@ mod output;
 pub mod plan;
 mod raw;
 mod rexs;
-mod rexs_document;
-mod rexs_error;
-mod rexs_out;
-mod rexs_shaft;
 mod schema;
 mod setting;
 mod source;
@@ -73,10 +69,7 @@ pub use motion::{
 pub use operation::{Driver, Rotation};
 use origin::Origin;
 pub use output::{FieldName, OutputScene};
-pub use rexs::read_pair;
-pub use rexs_error::RexsError;
-pub use rexs_out::rexs_of;
-pub use rexs_shaft::{RexsShaft, read_shaft};
+pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
     BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
     all_keys, json_schema,
@@ -84,7 +77,7 @@ pub use schema::{
 pub use setting::Setting;
 pub use source::Source;
 pub use spanned::{Number, Whole, Word};
-pub use starter::Starter;
+pub use starter::{Starter, Steel};
 pub use written::Written;
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.

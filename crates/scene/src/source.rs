@@ -30,12 +30,15 @@ pub struct Source<'a> {
     is_scene: bool,
     /// Where files that it names are looked for.
     pub(crate) origin: Origin,
+    /// Names and texts of files beside it that are not written yet.
+    pub(crate) beside: &'a [(String, String)],
 }
 
 impl<'a> Source<'a> {
     /// The text of a scene with what was set beside it.
     pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        Self { file, text, settings, ranges, tables: schema::tables, is_scene: true, origin: Origin::Disk }
+        let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
+        Self { file, text, settings, ranges, tables: schema::tables, is_scene: true, origin, beside }
     }
 
     /// The same, the files that it names being there.
@@ -43,9 +46,15 @@ impl<'a> Source<'a> {
         Self { origin, ..self }
     }
 
+    /// The same with names and texts of files beside it that are not written yet.
+    pub(crate) fn with_beside(self, beside: &'a [(String, String)]) -> Self {
+        Self { beside, ..self }
+    }
+
     /// The text of a file with other tables.
     pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
-        Self { file, text, settings: &[], ranges: &[], tables, is_scene: false, origin: Origin::Disk }
+        let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
+        Self { file, text, settings: &[], ranges: &[], tables, is_scene: false, origin, beside }
     }
 }
 

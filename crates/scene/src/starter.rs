@@ -2,7 +2,18 @@
 
 use std::fmt::Write;
 
-use crate::Kind;
+use crate::{Driver, Kind, Rotation};
+
+/// What a gear is made of, where it is stated.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Steel {
+    /// Young's modulus, MPa.
+    pub young_mpa: Option<f64>,
+    /// Poisson's ratio.
+    pub poisson: Option<f64>,
+    /// Density, kg/m^3.
+    pub density_kg_m3: Option<f64>,
+}
 
 /// The few numbers that a pair begins with; the rest of the scene has defaults.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +44,20 @@ pub struct Starter {
     pub pressure_angle_deg: Option<f64>,
     /// Tip diameters of pinion and wheel, mm; `None`: from addendum and profile shift.
     pub tip_diameter_mm: [Option<f64>; 2],
+    /// Bores of pinion and wheel, mm; `None`: 55 % of the reference diameters.
+    pub bore_diameter_mm: [Option<f64>; 2],
+    /// Thinning of each tooth of pinion and wheel, mm; `None`: 1.5 % of the module.
+    pub thickness_allowance_mm: [Option<f64>; 2],
+    /// What pinion and wheel are made of.
+    pub steel: [Steel; 2],
+    /// Dedendum of the basic rack over the module; `None`: 1.25.
+    pub dedendum_coefficient: Option<f64>,
+    /// Tip radius of the basic rack over the module; `None`: 0.38.
+    pub root_radius_coefficient: Option<f64>,
+    /// The gear that drives.
+    pub driver: Driver,
+    /// Sense of rotation of the pinion, seen from +z.
+    pub rotation: Rotation,
     /// Equilibrium at every position, or motion in time.
     pub kind: Kind,
 }
@@ -54,6 +79,13 @@ impl Default for Starter {
             centre_distance_mm: None,
             pressure_angle_deg: None,
             tip_diameter_mm: [None, None],
+            bore_diameter_mm: [None, None],
+            thickness_allowance_mm: [None, None],
+            steel: [Steel::default(); 2],
+            dedendum_coefficient: None,
+            root_radius_coefficient: None,
+            driver: Driver::Pinion,
+            rotation: Rotation::Ccw,
             kind: Kind::Static,
         }
     }
@@ -105,11 +137,18 @@ impl Starter {
             let _ = write!(
                 t,
                 "profile_shift = {:?}\n\
-                 thickness_allowance_mm = {thinning:?}   # thinning of each tooth, which makes the backlash\n\
-                 # bore_diameter_mm = {:?}         # default: 55 % of the reference diameter\n",
+                 thickness_allowance_mm = {:?}   # thinning of each tooth, which makes the backlash\n",
                 self.profile_shift[i],
-                self.bore(i)
+                self.thickness_allowance_mm[i].unwrap_or(thinning)
             );
+            let _ = match self.bore_diameter_mm[i] {
+                Some(bore) => writeln!(t, "bore_diameter_mm = {bore:?}"),
+                None => writeln!(
+                    t,
+                    "# bore_diameter_mm = {:?}         # default: 55 % of the reference diameter",
+                    self.bore(i)
+                ),
+            };
             if let Some(width) = self.own_face_width_mm[i] {
                 let _ = writeln!(t, "face_width_mm = {width:?}");
             }
@@ -120,7 +159,19 @@ impl Starter {
                 t.push_str("# mesh = \"pinion.msh\"             # a Gmsh mesh instead of the built-in mesher\n");
                 t.push_str(MODIFICATION);
             }
+            self.material(t, table, i);
             t.push('\n');
+        }
+    }
+
+    fn material(&self, t: &mut String, table: &str, i: usize) {
+        let Steel { young_mpa, poisson, density_kg_m3 } = self.steel[i];
+        let stated = [("young_mpa", young_mpa), ("poisson", poisson), ("density_kg_m3", density_kg_m3)];
+        if stated.iter().any(|(_, value)| value.is_some()) {
+            let _ = writeln!(t, "[{table}.material]");
+        }
+        for (key, value) in stated.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+            let _ = writeln!(t, "{key} = {value:?}");
         }
     }
 
@@ -150,12 +201,25 @@ impl Starter {
                 )
             }
         };
+        let rack = [
+            ("dedendum_coefficient", self.dedendum_coefficient),
+            ("root_radius_coefficient", self.root_radius_coefficient),
+        ];
+        for (key, value) in rack.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+            let _ = writeln!(t, "{key} = {value:?}");
+        }
+        t.push_str("\n[operation]\n");
+        t.push_str(match self.driver {
+            Driver::Pinion => "# driver = \"pinion\"               # or \"wheel\"\n",
+            Driver::Wheel => "driver = \"wheel\"\n",
+        });
+        t.push_str(match self.rotation {
+            Rotation::Ccw => "# rotation = \"ccw\"                # of the pinion, seen from +z; or \"cw\"\n",
+            Rotation::Cw => "rotation = \"cw\"                  # of the pinion, seen from +z\n",
+        });
         let _ = write!(
             t,
-            "\n[operation]\n\
-             # driver = \"pinion\"               # or \"wheel\"\n\
-             # rotation = \"ccw\"                # of the pinion, seen from +z; or \"cw\"\n\
-             torque_nm = {:?}                # on the driven gear\n\
+            "torque_nm = {:?}                # on the driven gear\n\
              speed_rpm = {:?}               # of the driver\n\n",
             self.torque_nm, self.speed_rpm
         );
@@ -225,6 +289,13 @@ mod tests {
                 centre_distance_mm: Some(84.0),
                 pressure_angle_deg: Some(20.0),
                 tip_diameter_mm: [None, Some(111.9)],
+                bore_diameter_mm: [Some(25.0), None],
+                thickness_allowance_mm: [None, Some(0.05)],
+                steel: [Steel::default(), Steel { poisson: Some(0.29), ..Steel::default() }],
+                dedendum_coefficient: Some(1.2),
+                root_radius_coefficient: Some(0.3),
+                driver: Driver::Wheel,
+                rotation: Rotation::Cw,
                 own_face_width_mm: [Some(20.0), None],
                 mid_face_offset_mm: Some(0.5),
                 kind,
@@ -238,6 +309,10 @@ mod tests {
             assert_eq!((scene.face_widths_mm(), scene.pair.mid_face_offset_mm), ([20.0, 18.0], Some(0.5)));
             assert_eq!((scene.pair.centre_distance_mm, scene.operation.torque_nm), (Some(84.0), 80.0));
             assert_eq!(scene.operation.speed_rpm, 1500.0);
+            assert_eq!((scene.operation.driver, scene.operation.rotation), (Driver::Wheel, Rotation::Cw));
+            assert_eq!((scene.pinion.bore_diameter_mm, scene.wheel.thickness_allowance_mm), (25.0, 0.05));
+            assert_eq!((scene.wheel.material.poisson, scene.pinion.material.poisson), (0.29, 0.3));
+            assert_eq!((scene.pair.dedendum_coefficient, scene.pair.root_radius_coefficient), (1.2, 0.3));
             assert!(scene.gear_pair().is_ok());
         }
     }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use scene::{
     SceneError,
-    gearbox::{AxialPlay, Gearbox, RollingKind, RollingSize},
+    gearbox::{AxialPlay, Gearbox, RollingKind, RollingSize, ThrustSeat},
 };
 
 fn folder() -> PathBuf {
@@ -54,6 +54,27 @@ fn rolling_bearings_are_read_as_they_are_written() {
     let between = text().replace("pitch_diameter_mm = 38.5", "bore_mm = 25.0\nouter_diameter_mm = 52.0");
     let own = read(&between).unwrap().bearings[0].rolling.clone().unwrap();
     assert!(matches!(own.size, RollingSize::Elements { pitch_diameter: 38.5, .. }), "{own:?}");
+}
+
+/// A seat that floats, or has a shoulder on one side, is said of every type that takes thrust both ways.
+#[test]
+fn seats_take_the_thrust_that_the_file_says() {
+    let deep = "type = \"deep-groove-ball\"\nelements";
+    let back = "arrangement = \"back-to-back\"";
+    let cases = [
+        (deep, "type = \"deep-groove-ball\"\ntakes_thrust = \"none\"\nelements", 0, ThrustSeat::Floating),
+        (deep, "type = \"deep-groove-ball\"\ntakes_thrust = \"-z\"\nelements", 0, ThrustSeat::Shoulder(-1.0)),
+        (deep, "type = \"deep-groove-ball\"\ntakes_thrust = \"both\"\nelements", 0, ThrustSeat::Held),
+        ("static_rating_kn = 27.0", "static_rating_kn = 27.0\ntakes_thrust = \"none\"", 1, ThrustSeat::Held),
+        ("name", "name", 2, ThrustSeat::Held),
+        (back, "arrangement = \"back-to-back\"\ntakes_thrust = \"+z\"", 4, ThrustSeat::Shoulder(1.0)),
+        (back, "arrangement = \"back-to-back\"\ntakes_thrust = \"none\"", 4, ThrustSeat::Floating),
+    ];
+    for (from, to, i, seat) in cases {
+        assert!(text().contains(from), "{from}");
+        let own = read(&text().replacen(from, to, 1)).unwrap_or_else(|e| panic!("{to}: {e}"));
+        assert_eq!(own.bearings[i].rolling.as_ref().map(|r| r.seat), Some(seat), "{to}");
+    }
 }
 
 /// A mistake is told with its line, what is wrong, and what to do.
@@ -107,6 +128,9 @@ fn mistakes_in_rolling_bearings_are_told_with_their_place() {
         ("row_distance_mm = 15.0\n", "", "has no `row_distance_mm`", ""),
         ("arrangement = \"back-to-back\"\n", "", "has no `arrangement`", "face-to-face"),
         ("arrangement = \"back-to-back\"", "arrangement = \"tandem\"", "has no `takes_thrust`", ""),
+        (deep, "type = \"deep-groove-ball\"\ntakes_thrust = \"left\"\nelements", "\"left\"", "none"),
+        (cones, "takes_thrust = \"none\"\n", "\"none\"", "+z"),
+        ("static_rating_kn = 27.0", "static_rating_kn = 27.0\ntakes_thrust = \"both\"", "take thrust", "ribs"),
         ("rows = 2", "rows = 3", "rows", "1 .. 2"),
         ("preload_n = 250.0", "preload_n = -1.0", "preload_n", ""),
     ];

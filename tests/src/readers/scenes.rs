@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use scene::{Scene, SceneError, Setting, Starter, gearbox::Gearbox, read_pair, read_shaft, study::Study};
+use scene::{Scene, SceneError, Setting, Starter, gearbox::Gearbox, read_gearbox, read_pair, read_shaft, study::Study};
 
 /// A scene that runs as it is, for what is set beside it.
 const SMALL: &str = "[pinion]\nteeth = 23\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 41\n\
@@ -55,14 +55,23 @@ pub fn gearbox(bytes: &[u8]) {
     }
 }
 
-/// The first pair of a REXS file, the scene of it, and the file's only shaft.
+/// The first pair of a REXS file, the scene of it, the whole gearbox, and the file's only shaft.
 pub fn rexs(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
     if let Err(e) = read_shaft(text, None) {
         drop((e.to_string(), e.hint()));
     }
-    match read_pair(text, 1, &Starter::default()) {
-        Ok(starter) => go_on(Scene::parse(&starter.text("fuzz.toml"), &beside_scenes("fuzz.toml"))),
+    match read_pair(text, 1, 1, &Starter::default()) {
+        Ok(pair) => go_on(Scene::parse(&pair.starter.text("fuzz.toml"), &beside_scenes("fuzz.toml"))),
+        Err(e) => drop((e.to_string(), e.hint())),
+    }
+    match read_gearbox(text, "fuzz", 1) {
+        Ok(Some(own)) => {
+            if let Err(e) = own.check(&beside_scenes("fuzz.toml")) {
+                drop((own.blamed(&e).map(|e| (e.to_string(), e.hint())), e.to_string(), e.hint()));
+            }
+        }
+        Ok(None) => {}
         Err(e) => drop((e.to_string(), e.hint())),
     }
 }

@@ -9,12 +9,12 @@ use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 use files::{write_file, write_new_file};
 
-use scene::{Starter, read_pair};
+use scene::{RexsGearbox, RexsPair, Starter, read_gearbox, read_pair, read_rexs};
 
 use crate::{
     error::CommandError,
     scene::{Kind, Scene},
-    talk::complain,
+    talk::{Loudness, colours_on_stderr, complain, note, say},
 };
 
 /// Words of `ale-gear init`.
@@ -22,18 +22,21 @@ use crate::{
 /// Without any of them, and with somebody at a terminal, it asks.
 #[derive(Debug, Default, clap::Args)]
 pub(super) struct InitArgs {
-    /// Scene file to write; `-` is stdout
-    #[arg(default_value = "scene.toml")]
-    file: PathBuf,
+    /// File to write [default: scene.toml, of a whole gearbox gearbox.toml]; `-` is stdout
+    file: Option<PathBuf>,
     #[command(flatten)]
     pair: PairArgs,
-    /// Take the pair from a REXS file (XML); the words on the pair go before it
+    /// Take a REXS file (XML): a gearbox file with the scenes of its pairs where stages are on shafts, else the first pair;
+    /// the words on the pair go before it
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
-    /// Which cylindrical stage of the REXS file
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "rexs")]
-    stage: usize,
-    /// Replace a file that is there
+    /// Take a cylindrical stage of the REXS file alone, as a pair
+    #[arg(long, value_name = "N", requires = "rexs")]
+    stage: Option<usize>,
+    /// Load case of the REXS file's load spectrum [default: 1]
+    #[arg(long, value_name = "N", requires = "rexs")]
+    load_case: Option<usize>,
+    /// Replace files that are there
     #[arg(long)]
     force: bool,
 }
@@ -82,40 +85,145 @@ enum KindWord {
 }
 
 impl InitArgs {
-    /// Writes the scene; the text says what to do next.
+    /// Writes the scene, or the gearbox; the text says what to do next.
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
-        let to_stdout = self.file.as_os_str() == "-";
         let nothing_said = self.pair == PairArgs::default() && self.rexs.is_none();
+        let read = match &self.rexs {
+            Some(file) => Some(self.of_rexs(file)?),
+            None => None,
+        };
+        let pair = match read {
+            Some(OfRexs::Gearbox(gearbox)) => return self.write_gearbox(*gearbox, quiet),
+            Some(OfRexs::Pair(pair)) => Some(*pair),
+            None => None,
+        };
+        let file = self.file.clone().unwrap_or_else(|| "scene.toml".into());
+        let to_stdout = file.as_os_str() == "-";
         let asked = nothing_said && !to_stdout && std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
         if !to_stdout && !asked && !self.force {
-            absent(&self.file)?;
+            absent(&file)?;
         }
-        let shown = if to_stdout { "scene.toml".into() } else { self.file.display().to_string() };
-        let text =
-            if asked { asked_until_it_can_be(&shown)? } else { checked(&self.pair.over(self.of_file()?)?, &shown)? };
+        let shown = if to_stdout { "scene.toml".into() } else { file.display().to_string() };
+        let text = if asked { asked_until_it_can_be(&shown)? } else { self.checked_pair(pair.as_ref(), &shown)? };
+        if let Some(pair) = &pair {
+            self.say_remarks(&pair.remarks);
+        }
         if to_stdout {
             return Ok(text);
         }
-        if asked && !self.force && self.file.exists() && !replace(&self.file)? {
+        if asked && !self.force && file.exists() && !replace(&file)? {
             return Ok(format!("{shown}: left as it was\n"));
         }
-        write_new(&self.file, &text, self.force || asked)?;
+        write_new(&file, &text, self.force || asked)?;
         Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
     }
 }
 
+/// What a REXS file becomes.
+enum OfRexs {
+    Pair(Box<RexsPair>),
+    Gearbox(Box<RexsGearbox>),
+}
+
 impl InitArgs {
-    /// The pair of the REXS file, or the default one.
-    fn of_file(&self) -> Result<Starter, CommandError> {
-        let default = Starter::default();
-        let Some(file) = &self.rexs else { return Ok(default) };
-        let text = crate::scene::read_text(file).map_err(|e| {
-            let hint = Some("is the path right, as seen from here?".into());
-            CommandError::input(format_args!("{}: cannot be read: {e}", file.display()), hint)
-        })?;
-        read_pair(&text, self.stage, &default)
-            .map_err(|e| CommandError::input(format_args!("{}: {e}", file.display()), e.hint()))
+    /// The gearbox of the REXS file, or the pair of a stage.
+    fn of_rexs(&self, file: &Path) -> Result<OfRexs, CommandError> {
+        let wrong = |e: scene::RexsError| CommandError::input(format_args!("{}: {e}", file.display()), e.hint());
+        let text = read_rexs(file).map_err(wrong)?;
+        let case = self.load_case.unwrap_or(1);
+        if self.stage.is_none() {
+            let stem = self.gearbox_file().file_stem().map(|s| s.to_string_lossy().into_owned());
+            let whole = read_gearbox(&text, &stem.unwrap_or_default(), case).map_err(wrong)?;
+            if let Some(gearbox) = whole {
+                return Ok(OfRexs::Gearbox(Box::new(gearbox)));
+            }
+        }
+        let pair = read_pair(&text, self.stage.unwrap_or(1), case, &Starter::default()).map_err(wrong)?;
+        Ok(OfRexs::Pair(Box::new(pair)))
     }
+
+    fn gearbox_file(&self) -> PathBuf {
+        self.file.clone().unwrap_or_else(|| "gearbox.toml".into())
+    }
+
+    /// The pair of the file with the words over it, or the default one; what is wrong with a value of the file is told of
+    /// that.
+    fn checked_pair(&self, of_file: Option<&RexsPair>, shown: &str) -> Result<String, CommandError> {
+        let starter = self.pair.over(of_file.map_or_else(Starter::default, |pair| pair.starter.clone()))?;
+        let (Some(pair), Some(file)) = (of_file, &self.rexs) else { return checked(&starter, shown) };
+        let text = starter.text(shown);
+        match Scene::parse(&text, Path::new(shown)).and_then(|scene| scene.gear_pair()) {
+            Ok(_) => Ok(text),
+            Err(error) => Err(match pair.blamed(&text, &error).filter(|_| self.pair == PairArgs::default()) {
+                Some(own) => CommandError::input(format_args!("{}: {own}", file.display()), own.hint()),
+                None => error.into(),
+            }),
+        }
+    }
+
+    fn say_remarks(&self, remarks: &[String]) {
+        let Some(file) = &self.rexs else { return };
+        for remark in remarks {
+            note(format!("{}: {remark}", file.display()));
+        }
+    }
+
+    /// Writes the gearbox file and the scenes beside it: all of them, or none.
+    fn write_gearbox(&self, gearbox: RexsGearbox, quiet: bool) -> Result<String, CommandError> {
+        let Some(rexs) = &self.rexs else { return Ok(String::new()) };
+        if self.pair != PairArgs::default() {
+            let hint = "leave them out, or take one of its pairs with `--stage N`".to_owned();
+            return Err(CommandError::input(
+                format_args!("{}: is a whole gearbox, and the flags are words on a pair", rexs.display()),
+                Some(hint),
+            ));
+        }
+        let file = self.gearbox_file();
+        if file.as_os_str() == "-" {
+            let hint = "give the name of the gearbox file, or take one pair with `--stage N`".to_owned();
+            let what = format_args!("{}: is a whole gearbox, which is several files", rexs.display());
+            return Err(CommandError::input(what, Some(hint)));
+        }
+        let folder = file.parent().unwrap_or(Path::new(""));
+        let scenes = gearbox.scenes.iter().map(|(name, text, _)| (folder.join(name), text.as_str()));
+        let all: Vec<(PathBuf, &str)> = scenes.chain([(file.clone(), gearbox.text.as_str())]).collect();
+        if !self.force {
+            all.iter().try_for_each(|(path, _)| absent(path))?;
+        }
+        gearbox.check(&file).map_err(|e| match gearbox.blamed(&e) {
+            Some(own) => CommandError::input(format_args!("{}: {own}", rexs.display()), own.hint()),
+            None => e.into(),
+        })?;
+        self.say_remarks(&gearbox.remarks);
+        write_together(&all, self.force)?;
+        let shown = file.display();
+        let scenes: String = all.iter().rev().skip(1).rev().map(|(p, _)| format!("{}, ", p.display())).collect();
+        Ok(if quiet {
+            String::new()
+        } else {
+            format!("{scenes}{shown}: written; next\n  ale-gear gearbox {shown} --out out\n")
+        })
+    }
+}
+
+/// Writes several files; where one of them cannot be, all are as they were.
+fn write_together(all: &[(PathBuf, &str)], replace: bool) -> Result<(), CommandError> {
+    let mut done: Vec<(&Path, Option<String>)> = Vec::new();
+    for (path, text) in all {
+        let before = std::fs::read_to_string(path).ok();
+        if let Err(e) = write_new(path, text, replace) {
+            for (path, before) in done {
+                // What cannot be put back is told by the first failure.
+                let _ = match before {
+                    Some(text) => write_new(path, &text, true),
+                    None => std::fs::remove_file(path).map_err(|e| CommandError::write(path, &e)),
+                };
+            }
+            return Err(e);
+        }
+        done.push((path, before));
+    }
+    Ok(())
 }
 
 fn there(file: &Path) -> CommandError {
@@ -168,6 +276,13 @@ impl PairArgs {
             centre_distance_mm: self.centre_distance_mm.or(d.centre_distance_mm),
             pressure_angle_deg: d.pressure_angle_deg,
             tip_diameter_mm: d.tip_diameter_mm,
+            bore_diameter_mm: d.bore_diameter_mm,
+            thickness_allowance_mm: d.thickness_allowance_mm,
+            steel: d.steel,
+            dedendum_coefficient: d.dedendum_coefficient,
+            root_radius_coefficient: d.root_radius_coefficient,
+            driver: d.driver,
+            rotation: d.rotation,
             kind: match self.kind {
                 None => d.kind,
                 Some(KindWord::Static) => Kind::Static,

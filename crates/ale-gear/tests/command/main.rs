@@ -8,6 +8,7 @@ mod gearbox;
 mod messages;
 mod mistakes;
 mod resume;
+mod rexs;
 mod rolling_bearings;
 #[path = "../util/mod.rs"]
 mod util;

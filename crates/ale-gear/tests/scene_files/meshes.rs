@@ -45,6 +45,37 @@ fn a_format_that_is_not_written_is_named() {
     assert_eq!(scratch.names(), ["a.toml"]);
 }
 
+/// The bore of a mesh without named groups is found, and not 55 % of the reference diameter; the run says what it found.
+#[test]
+fn the_bore_of_a_mesh_without_names_is_found() {
+    let scratch =
+        Scratch::new().file("a.toml", scene(2, 0).replacen("bore_diameter_mm = 60.0", "bore_diameter_mm = 44.0", 1));
+    let made = scratch.ale_gear(["mesh", "generate", "a.toml", "--gear", "pinion", "-o", "named.msh"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let mut mesh = mesh::Mesh::read(scratch.path().join("named.msh")).unwrap();
+    let [low, high] = mesh.bore_radii().unwrap();
+    assert!((low - 22.0).abs() < 1e-9 && (high - 22.0).abs() < 1e-9, "{low} .. {high}");
+    mesh.surfaces.iter_mut().enumerate().for_each(|(i, s)| s.name = (i + 2).to_string());
+    mesh.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary22).unwrap();
+    let with_mesh =
+        ISO_SCENE.replacen("bore_diameter_mm = 60.0", "mesh = \"p.msh\"", 1).replace("model = \"iso\"\n", "");
+    let scratch = scratch.file("b.toml", &with_mesh);
+    let run = scratch.ale_gear(["mesh", "check", "p.msh", "--scene", "b.toml", "--gear", "pinion"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    // The way out of groups under other numbers: patterns that no group has.
+    let mut odd = mesh::Mesh::read(scratch.path().join("named.msh")).unwrap();
+    for group in &mut odd.surfaces {
+        if let Some((of, n)) = group.name.rsplit_once('_').and_then(|(of, n)| Some((of, n.parse::<i64>().ok()?))) {
+            group.name = format!("{of}_{}", 2 * n + 3);
+        }
+    }
+    odd.write(scratch.path().join("p.msh"), mesh::MshFormat::Binary22).unwrap();
+    let groups = "[pinion.groups]\nflank_left = \"none_{k}\"\nflank_right = \"none_{k}\"\n[wheel]";
+    let scratch = scratch.file("b.toml", with_mesh.replacen("[wheel]", groups, 1));
+    let run = scratch.ale_gear(["mesh", "check", "p.msh", "--scene", "b.toml", "--gear", "pinion"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+}
+
 /// Files that are no mesh: one message that names the file, exit status 2, no panic.
 #[test]
 fn what_is_no_mesh_is_refused() {
@@ -393,6 +424,12 @@ fn the_commonest_mistakes_are_named() {
         false => name.replace("right", "left"),
     };
     check(&renamed(&swapped), "left and right are swapped");
+    // As a mesher numbers all its surfaces: 3, 5, 7.
+    let odd = |name: &str| match name.rsplit_once('_').and_then(|(of, n)| Some((of, n.parse::<i64>().ok()?))) {
+        Some((of, n)) if of.starts_with("flank") => format!("{of}_{}", 2 * n + 5),
+        _ => name.to_owned(),
+    };
+    check(&renamed(&odd), "flanks of this gear under other numbers: `flank_");
     check(&moved(&|[x, y, z]| [x, y, z + 10.0]), "move the mesh by -10.0000 mm along z");
     check(&moved(&|[x, y, z]| [-y, x, z]), "turned by 90 deg: its tooth 0 lies on +y");
     check(&moved(&|[x, y, z]| [y, -x, z]), "turned by -90 deg");

@@ -3,12 +3,12 @@
 use gearbox::{
     Bearing, GearboxError, GearboxPosition,
     rolling_bearing::{
-        AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing,
+        AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing,
         RollingBearingError, RollingElements, RollingState, Row,
     },
 };
 use nalgebra::Matrix6;
-use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize};
+use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat};
 
 /// Pressures from which on balls and rollers leave dents (ISO 76), MPa.
 const BALLS_DENT: f64 = 4200.0;
@@ -60,7 +60,12 @@ fn law(own: &GearboxRolling) -> Result<RollingBearing, RollingBearingError> {
         AxialPlay::Clearance(way) => AxialSetting::Clearance(way),
         AxialPlay::Preload(force) => AxialSetting::Preload(force),
     };
-    RollingBearing::new(elements(own)?, &rows, own.radial_clearance, axial)
+    let seat = match own.seat {
+        ThrustSeat::Held => AxialSeat::Held,
+        ThrustSeat::Floating => AxialSeat::Floating,
+        ThrustSeat::Shoulder(way) => AxialSeat::Shoulder(way),
+    };
+    Ok(RollingBearing::new(elements(own)?, &rows, own.radial_clearance, axial)?.in_seat(seat))
 }
 
 fn elements(own: &GearboxRolling) -> Result<RollingElements, RollingBearingError> {

@@ -107,7 +107,8 @@ pub fn solve_gearbox(
     let linear = match (&file.vibration, &file.motion) {
         (None, None) => structure.clone(),
         _ => {
-            structure.about(&positions).and_then(|own| own.check_held(&operation.held).map(|()| own)).map_err(failed)?
+            let held = |own: &gearbox::Structure| own.check_held(&operation.held, (&meshes, &train), operation.input);
+            structure.about(&positions).and_then(|own| held(&own).map(|()| own)).map_err(failed)?
         }
     };
     let vibration = match &file.vibration {

@@ -327,7 +327,10 @@ fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<It
         // Beyond the backlash the other flanks are in each other.
         let backlash = backlash_um(inputs);
         let beyond = |error_um: f64| 1e-3 * error_um.max(-error_um - backlash);
-        all.push(motion::excursion_check(errors.chain(at_rest).map(beyond).fold(0.0, worse), scene.pair.normal_module_mm));
+        all.push(motion::excursion_check(
+            errors.chain(at_rest).map(beyond).fold(0.0, worse),
+            scene.pair.normal_module_mm,
+        ));
     }
     Certificate::new(all)
 }

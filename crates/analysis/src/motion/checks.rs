@@ -58,6 +58,8 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
     });
     let deflection = deflection_in_motion(scene, pair, ends);
     Check { name: "dynamic_deflection_over_module", ..deflection_check(scene, deflection) }
+}
+
 /// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on
 /// teeth have passed each other, and no law of a mesh holds.
 pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {

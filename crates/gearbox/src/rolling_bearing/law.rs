@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
 
-use super::{AxialSetting, RollingBearingError, RollingElements, Row, ball::BallRow, roller::RollerRow};
+use super::{AxialSeat, AxialSetting, RollingBearingError, RollingElements, Row, ball::BallRow, roller::RollerRow};
 
 /// What a bearing does at some displacements of its inner ring against the outer one: x, y, z (mm) and the turns about
 /// x and y (rad); it rolls about z without a moment.
@@ -80,6 +80,7 @@ impl LoadedRow {
 pub struct RollingBearing {
     elements: RollingElements,
     rows: Vec<LoadedRow>,
+    seat: AxialSeat,
 }
 
 /// Contact angle that deep grooves are taken to have where nothing is known of their load, rad.
@@ -122,7 +123,13 @@ impl RollingBearing {
             LoadedRow::new(elements, *row, radial_clearance, way)
         };
         let rows = rows.iter().map(one).collect::<Result<Vec<_>, _>>()?;
-        Ok(Self { elements, rows })
+        Ok(Self { elements, rows, seat: AxialSeat::Held })
+    }
+
+    /// The same in another seat along the axis.
+    #[must_use]
+    pub fn in_seat(self, seat: AxialSeat) -> Self {
+        Self { seat, ..self }
     }
 
     /// What rolls in it.
@@ -139,11 +146,13 @@ impl RollingBearing {
         a_row * self.rows.len()
     }
 
-    /// Force and tangent at displacements of the inner ring against the outer one.
+    /// Force and tangent at displacements of the inner ring against the seat of the outer one.
     pub fn evaluate(&self, displacements: &Vector5<f64>) -> RollingReply {
-        let mut reply = RollingReply::nothing();
-        self.rows.iter().for_each(|row| row.add(displacements, &mut reply));
-        reply
+        self.seat.reply(displacements, |place| {
+            let mut reply = RollingReply::nothing();
+            self.rows.iter().for_each(|row| row.add(place, &mut reply));
+            reply
+        })
     }
 
     /// Stiffness of its size before anything is known of its load: all elements pressed evenly by their share of a
@@ -157,7 +166,7 @@ impl RollingBearing {
                 LoadedRow::Rollers(own) => own.pressed(share, &mut reply),
             }
         }
-        with_turn(&reply.stiffness)
+        with_turn(&self.seat.of(&reply.stiffness))
     }
 }
 

@@ -7,6 +7,7 @@
 //! | `catalogue` | the same estimated from bore, outer diameter and static load rating |
 //! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
 //! | `law` | all rows together: [`RollingBearing`] |
+//! | `seat` | which thrust its seat takes: rings that float |
 //! | `state` | what is told of it, and the linear bearing that stands for it |
 //! | `error` | what is refused |
 //!
@@ -19,6 +20,7 @@ mod geometry;
 mod hertz;
 mod law;
 mod roller;
+mod seat;
 mod state;
 
 pub use catalogue::{Catalogue, Filling};
@@ -26,6 +28,7 @@ pub use error::RollingBearingError;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
 pub use law::{RollingBearing, RollingReply};
+pub use seat::AxialSeat;
 pub use state::RollingState;
 pub(crate) use state::Tangent;
 

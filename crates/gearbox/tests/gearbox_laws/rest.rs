@@ -1,6 +1,6 @@
 //! Gearboxes at rest with meshes as springs: balance, closed forms, and the whole system solved at once.
 
-use gearbox::{Assembly, GearboxError, MeshSpring, Operation, StaticGearbox, Structure, Torque};
+use gearbox::{Assembly, Disc, GearboxError, MeshSpring, Operation, StaticGearbox, Structure, Torque};
 use geometry::Sense;
 use lumped::shaft18::MeshGeometry;
 use nalgebra::{DMatrix, DVector};
@@ -193,6 +193,43 @@ fn what_cannot_stand_is_refused() {
     far.held = vec![7];
     let found = StaticGearbox::new(structure, meshes, far, springs);
     assert!(matches!(found.err(), Some(GearboxError::NoShaft { shaft: 7, .. })));
+}
+
+/// Two meshes of opposite hands hold a shaft along its axis that no bearing holds there, with the same thrust on both; a
+/// weak spring beside them changes nothing, and with like hands it slides.
+#[test]
+fn opposite_helices_hold_a_shaft_along_its_axis() {
+    let solved = |hands: [f64; 2], spring: f64| {
+        let pairs = hands.map(|helix| pair([21, 40], helix));
+        let mut structure = single(&pairs[0], 0.0);
+        let twin = |disc: usize, name: &str| Disc {
+            name: name.into(),
+            position: structure.discs[disc].position + 20.0,
+            ..structure.discs[disc].clone()
+        };
+        let twins = [twin(0, "pinion, right"), twin(1, "wheel, right")];
+        let discs = [structure.discs.len(), structure.discs.len() + 1];
+        structure.discs.extend(twins);
+        let free = structure.discs[1].shaft;
+        let own = structure.bearings.iter_mut().filter(|b| b.shaft == free);
+        own.enumerate().for_each(|(i, b)| b.stiffness[(2, 2)] = if i == 0 { spring } else { 0.0 });
+        let [left, right] = pairs;
+        let meshes = vec![
+            gearbox::Mesh { name: "left".into(), discs: [0, 1], pair: left },
+            gearbox::Mesh { name: "right".into(), discs, pair: right },
+        ];
+        let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: 2e5 }]);
+        StaticGearbox::new(structure, meshes, run, springs).and_then(|mut g| g.solve(0.1))
+    };
+    let forces = |spring: f64| {
+        let found = solved([18.0, -18.0], spring).unwrap_or_else(|e| panic!("{spring} N/mm: {e}"));
+        [0, 1].map(|i| found.meshes[i].normal_force)
+    };
+    let (alone, with) = (forces(0.0), forces(1e-3));
+    assert!((alone[0] / alone[1] - 1.0).abs() < 1e-9, "the thrusts are {alone:?}");
+    assert!((0..2).all(|i| (alone[i] / with[i] - 1.0).abs() < 1e-6), "{alone:?} beside {with:?}");
+    let slides = solved([18.0, 18.0], 0.0).err();
+    assert!(matches!(&slides, Some(GearboxError::Loose { motion: "along z", .. })), "{slides:?}");
 }
 
 /// Flanks that stand far apart for their load meet: the linear guess reaches a millionth of the way, and the gears turn by

@@ -1,8 +1,8 @@
 //! Rolling bearings alone: contact, load distribution, energy, force and tangent, and what a catalogue says.
 
 use gearbox::rolling_bearing::{
-    AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing, RollingBearingError,
-    RollingElements, Row,
+    AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing,
+    RollingBearingError, RollingElements, Row,
 };
 use nalgebra::{Matrix5, SymmetricEigen, Vector5};
 
@@ -45,7 +45,40 @@ fn all_kinds() -> Vec<(&'static str, RollingBearing)> {
         ("cylindrical, straight", made(cones(rollers(0.0, straight)), &two, 0.0, PLAYLESS)),
         ("tapered", made(cones(rollers(14.0, log)), &MIDDLE, 0.0, AxialSetting::Preload(300.0))),
         ("tapered, to -z", made(cones(rollers(14.0, log)), &[Row { position: 0.0, thrust: -1.0 }], 0.0, PLAYLESS)),
+        ("deep groove, floating", floating()),
+        (
+            "deep groove on a shoulder",
+            made(balls(balls_209()), &MIDDLE, 0.012, PLAYLESS).in_seat(AxialSeat::Shoulder(1.0)),
+        ),
+        (
+            "back to back, floating",
+            made(balls(balls_218()), &back_to_back, 0.0, AxialSetting::Preload(800.0)).in_seat(AxialSeat::Floating),
+        ),
     ]
+}
+
+fn floating() -> RollingBearing {
+    made(RollingElements::Balls(balls_209()), &MIDDLE, 0.012, PLAYLESS).in_seat(AxialSeat::Floating)
+}
+
+/// A ring that floats takes no thrust wherever the shaft goes, and radially what it takes in its own middle; one on a
+/// shoulder takes that towards it alone.
+#[test]
+fn floating_rings_take_no_thrust_and_shoulders_one_way() {
+    let held = made(RollingElements::Balls(balls_209()), &MIDDLE, 0.012, PLAYLESS);
+    let (floating, shoulder) = (floating(), held.clone().in_seat(AxialSeat::Shoulder(1.0)));
+    for way in [0.08, -0.08] {
+        let (place, middle) = (Vector5::new(0.03, 0.01, way, 0.0, 0.0), Vector5::new(0.03, 0.01, 0.0, 0.0, 0.0));
+        let thrust = held.evaluate(&place).force[2];
+        assert!(thrust * way < 0.0 && thrust.abs() > 300.0, "held: {thrust} N");
+        let reply = floating.evaluate(&place);
+        assert_eq!((reply.force[2], reply.stiffness[(2, 2)]), (0.0, 0.0));
+        let own = held.evaluate(&middle);
+        let off = (reply.force - own.force).amax() / own.force.amax();
+        assert!(off < 1e-9, "radially off by {off}");
+        let taken = shoulder.evaluate(&place).force[2];
+        assert_eq!(taken, if way > 0.0 { thrust } else { 0.0 });
+    }
 }
 
 /// Displacements of some hundredths of a millimetre and of a milliradian, the same on every machine.

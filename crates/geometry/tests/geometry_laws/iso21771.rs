@@ -244,6 +244,40 @@ fn impossible_gears_are_refused() {
     ));
 }
 
+/// Too little contact by undercut is told with the gear and with profile shifts that cure it, at the distance that follows
+/// from them and at a given one; a pair without undercut has no such hint.
+#[test]
+fn undercut_is_told_with_a_cure() {
+    let gear = |teeth: u32, profile_shift: f64| {
+        let (normal_module, face_width, helix_angle) = (3.0, 5.0, 0.0);
+        let normal_pressure_angle = 14.5f64.to_radians();
+        let bore_diameter = 5.0;
+        let data = GearData {
+            teeth,
+            normal_module,
+            face_width,
+            helix_angle,
+            normal_pressure_angle,
+            bore_diameter,
+            profile_shift,
+            ..GearData::default()
+        };
+        Gear::new(data).unwrap()
+    };
+    for distance in [None, Some(42.05)] {
+        let error = GearPair::new(gear(8, 0.0), gear(20, 0.0), distance).unwrap_err();
+        let GeometryError::ContactRatio { undercut: Some(found), .. } = &error else { panic!("{error}") };
+        assert_eq!(found.gear, "pinion");
+        let hint = error.hint().unwrap();
+        assert!(hint.contains("undercuts the pinion") && hint.contains("profile_shift"), "{hint}");
+        let [pinion, wheel] = found.cure.unwrap_or_else(|| panic!("no cure at {distance:?}"));
+        assert_eq!(found.moves_axes, hint.contains("leave `centre_distance_mm` out"), "{hint}");
+        let distance = distance.filter(|_| !found.moves_axes);
+        let cured = GearPair::new(gear(8, pinion), gear(20, wheel), distance);
+        assert!(cured.is_ok_and(|pair| pair.total_contact_ratio() >= 1.0), "{hint}");
+    }
+}
+
 /// The fillet's tangent is the derivative of its points, from the root land (square to the centre line of the space) to
 /// the form circle, for helical, spur and undercut gears.
 #[test]

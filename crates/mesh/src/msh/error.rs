@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use super::OtherFormat;
+
 /// A place in a mesh file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilePosition {
@@ -38,7 +40,10 @@ pub struct MshError {
 impl MshError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
-        self.problem.hint()
+        match &self.problem {
+            MshProblem::Other { kind } => Some(kind.way_to_a_mesh(&self.path)),
+            other => other.hint(),
+        }
     }
 }
 
@@ -46,6 +51,12 @@ impl MshError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MshProblem {
+    /// A file of another format.
+    #[error("is {}, and no Gmsh mesh", kind.name())]
+    Other {
+        /// Which.
+        kind: OtherFormat,
+    },
     /// Something else stands where the format asks for `expected`.
     #[error("expected {expected}, found {found}")]
     Syntax {
@@ -155,6 +166,8 @@ impl MshProblem {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         let hint = match self {
+            // Told with the file's name by the error.
+            Self::Other { .. } => "mesh or convert it with Gmsh, and give the `.msh` file",
             Self::Syntax { .. } => "the file is damaged or cut short; write it again from the mesher",
             Self::TooMany { .. } | Self::WrongTotal { .. } => {
                 "the file is cut short or its header is damaged; write it again from the mesher"

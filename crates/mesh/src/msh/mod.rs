@@ -3,6 +3,7 @@
 mod build;
 mod cursor;
 mod error;
+mod other;
 mod parse;
 mod raw;
 mod unique;
@@ -11,6 +12,7 @@ mod v4;
 mod write;
 
 pub use error::{FilePosition, MshError, MshProblem};
+pub use other::OtherFormat;
 pub use write::MshFormat;
 
 use std::path::Path;
@@ -41,6 +43,11 @@ impl Mesh {
     /// # Errors
     /// [`MeshError::Msh`] with section and line or byte.
     pub fn parse(bytes: &[u8], path: impl AsRef<Path>) -> Result<Self, MeshError> {
+        if let Some(kind) = OtherFormat::of(bytes) {
+            let problem = MshProblem::Other { kind };
+            let (section, place) = ("start of file".to_owned(), FilePosition::Line(1));
+            return Err(MshError { path: path.as_ref().to_owned(), section, place, problem }.into());
+        }
         let (raw, mut cursor) = parse::parse(bytes, path.as_ref())?;
         Ok(build::build(&raw, &mut cursor)?)
     }

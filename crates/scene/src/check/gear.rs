@@ -85,11 +85,14 @@ fn fitting_root_radius(pair: &PairScene) -> f64 {
     if largest > 0.0 { pair.root_radius_coefficient.min(largest) } else { pair.root_radius_coefficient }
 }
 
-/// Diameter (mm) of the bore that a mesh names; `None` where it names none or cannot be read, which is told where the
-/// mesh is needed.
+/// Diameter (mm) of the bore of a mesh: of the group that has its name, or of the innermost cylinder where no group has;
+/// `None` where there is none or the mesh cannot be read, which is told where it is needed.
 fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
     let mesh = Mesh::parse(content, file).ok()?;
-    let [low, high] = mesh.radii(&mesh.surface(&names.bore)?.nodes());
+    let [low, high] = match mesh.surface(&names.bore) {
+        Some(bore) => mesh.radii(&bore.nodes()),
+        None => mesh.bore_radii()?,
+    };
     Some(low + high).filter(|d| d.is_finite() && *d > 0.0)
 }
 

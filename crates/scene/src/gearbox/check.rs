@@ -145,7 +145,12 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
         return Err(s.conflict(&own.span(), said, "change the scene of the pair instead"));
     }
     let settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
-    let scene = Scene::read_with(&path, &settings).map_err(|e| match e {
+    let unwritten = s.beside.iter().find(|(name, _)| name == word.get_ref());
+    let read = match unwritten {
+        Some((_, text)) => Scene::parse_with(text, &path, &settings),
+        None => Scene::read_with(&path, &settings),
+    };
+    let scene = read.map_err(|e| match e {
         SceneError::Read { file, source } => {
             let said = format!("{} cannot be read: {source}", file.display());
             s.conflict(&word.span(), said, "paths are relative to the gearbox file")

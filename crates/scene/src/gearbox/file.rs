@@ -118,6 +118,19 @@ pub struct GearboxRolling {
     pub axial: AxialPlay,
     /// Place of each row beside the middle, mm, and +1 or -1 for the thrust of the shaft that it takes.
     pub rows: Vec<[f64; 2]>,
+    /// Thrust that its seat takes.
+    pub seat: ThrustSeat,
+}
+
+/// Thrust of the shaft that the seat of a bearing takes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum ThrustSeat {
+    /// As its rows do.
+    Held,
+    /// None: the outer ring floats.
+    Floating,
+    /// Towards +z (+1) or -z (-1) alone.
+    Shoulder(f64),
 }
 
 /// Kind of a rolling bearing.

@@ -24,6 +24,6 @@ mod vibration;
 
 pub use file::{
     AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRolling, GearboxSection,
-    GearboxShaft, GearboxTorque, GearboxVibration, RollingKind, RollingSize,
+    GearboxShaft, GearboxTorque, GearboxVibration, RollingKind, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxDrive, GearboxMotion, MeshModel};

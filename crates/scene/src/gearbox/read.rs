@@ -33,7 +33,12 @@ impl Gearbox {
     /// # Errors
     /// As [`Gearbox::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, tables);
+        Self::parse_beside(text, file, &[])
+    }
+
+    /// The same with the scenes of some names as texts: before they are written.
+    pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
+        let source = Source::of(file, text, tables).with_beside(beside);
         let raw: RawGearbox = toml::from_str(text)
             .map_err(|e| source.explain(e.message(), e.span()))
             .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Gearbox))?;

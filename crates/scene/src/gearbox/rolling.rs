@@ -5,7 +5,7 @@ use std::ops::Range;
 use toml::Spanned;
 
 use super::{
-    file::{AxialPlay, GearboxRolling, RollingKind, RollingSize},
+    file::{AxialPlay, GearboxRolling, RollingKind, RollingSize, ThrustSeat},
     raw::RawBearing,
     values::{Checked, missing, needed_number},
 };
@@ -72,9 +72,7 @@ impl RollingKind {
         match key {
             "inner_conformity" | "outer_conformity" => self.has_balls(),
             "element_length_mm" | "profile" => !self.has_balls(),
-            "contact_angle_deg" | "axial_clearance_um" | "preload_n" | "takes_thrust" | "arrangement" => {
-                self.has_angle()
-            }
+            "contact_angle_deg" | "axial_clearance_um" | "preload_n" | "arrangement" => self.has_angle(),
             "radial_clearance_um" => !self.has_angle(),
             _ => true,
         }
@@ -116,6 +114,7 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
         radial_clearance: 1e-3 * s.number("radial_clearance_um", &raw.radial_clearance_um, 0.0, -1e3, 1e4)?,
         axial: axial(s, raw)?,
         rows: rows(s, table, kind)?,
+        seat: seat(s, raw, kind)?,
     })
 }
 
@@ -129,7 +128,7 @@ fn advice(key: &str) -> &'static str {
         "contact_angle_deg" => {
             "deep grooves get theirs from clearance and load, cylindrical rollers have none: leave it out"
         }
-        "takes_thrust" | "arrangement" => "deep grooves take thrust both ways, cylindrical rollers none: leave it out",
+        "arrangement" => "rows without a contact angle have none: leave it out",
         _ => "leave it out",
     }
 }
@@ -200,6 +199,29 @@ fn axial(s: &Source<'_>, raw: &RawBearing) -> Checked<AxialPlay> {
     Ok(AxialPlay::Preload(s.number("preload_n", &raw.preload_n, 0.0, 0.0, 1e9)?))
 }
 
+/// Words of `takes_thrust`.
+const THRUSTS: &[(&str, ThrustSeat)] = &[
+    ("both", ThrustSeat::Held),
+    ("none", ThrustSeat::Floating),
+    ("+z", ThrustSeat::Shoulder(1.0)),
+    ("-z", ThrustSeat::Shoulder(-1.0)),
+];
+
+/// Thrust that the seat of a bearing takes. Rows that take it one way alone say so with the same key, and are held.
+fn seat(s: &Source<'_>, raw: &RawBearing, kind: RollingKind) -> Checked<ThrustSeat> {
+    let one_way = kind.has_angle() && raw.arrangement.as_ref().is_none_or(|word| word.get_ref() == "tandem");
+    let Some(word) = raw.takes_thrust.as_ref().filter(|_| !one_way) else { return Ok(ThrustSeat::Held) };
+    let found = s.one_of("takes_thrust", word, THRUSTS)?;
+    if kind == RollingKind::CylindricalRoller {
+        if found == ThrustSeat::Floating {
+            return Ok(ThrustSeat::Held);
+        }
+        let said = "cylindrical rollers that take thrust";
+        return Err(s.conflict(&word.span(), said, "their ribs are not in it: say \"none\", or leave it out"));
+    }
+    Ok(found)
+}
+
 /// Place of each row beside the middle (mm), and which way it takes thrust.
 fn rows(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Checked<Vec<[f64; 2]>> {
     let raw = table.get_ref();
@@ -227,11 +249,7 @@ fn rows(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
         (Some(word), true) => {
             let known = [("back-to-back", Some([1.0, -1.0])), ("face-to-face", Some([-1.0, 1.0])), ("tandem", None)];
             match (s.one_of("arrangement", word, &known)?, &raw.takes_thrust) {
-                (Some(_), Some(way)) => {
-                    let said = "rows that take thrust both ways";
-                    return Err(s.conflict(&way.span(), said, "leave `takes_thrust` out, or say \"tandem\""));
-                }
-                (Some(ways), None) => ways,
+                (Some(ways), _) => ways,
                 (None, _) => [thrust()?; 2],
             }
         }

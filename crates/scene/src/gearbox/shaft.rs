@@ -10,7 +10,7 @@ use super::{
     raw::{RawSection, RawShaft},
     values::{Checked, missing, needed_number, needed_word, numbers},
 };
-use crate::{RexsShaft, Source, read_shaft, read_text};
+use crate::{RexsShaft, Source, read_rexs, read_shaft};
 
 /// Lengths and positions at the most, mm.
 const FAR: f64 = 1e6;
@@ -60,8 +60,13 @@ pub(super) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<Gearbo
 fn rexs(s: &Source<'_>, table: &Spanned<RawShaft>, word: &Spanned<String>) -> Checked<RexsShaft> {
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     let at = |what: String, advice: String| s.conflict(&word.span(), format!("{} {what}", path.display()), advice);
-    let text = read_text(&path)
-        .map_err(|e| at(format!("cannot be read: {e}"), "paths are relative to the gearbox file".into()))?;
+    let text = read_rexs(&path).map_err(|e| {
+        let hint = match &e {
+            crate::RexsError::Read(_) => "paths are relative to the gearbox file".into(),
+            other => other.hint().unwrap_or_default(),
+        };
+        at(e.to_string(), hint)
+    })?;
     let which = table.get_ref().rexs_shaft.as_ref().map(|w| w.get_ref().as_str());
     let found = read_shaft(&text, which).map_err(|e| {
         let hint = match &e {

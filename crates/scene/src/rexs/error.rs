@@ -1,11 +1,20 @@
 //! What is refused of a REXS file.
 
-use crate::rexs_document::ATTRIBUTES;
+use super::document::ATTRIBUTES;
 
 /// Why no pair or shaft comes out of a REXS file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum RexsError {
+    /// The file cannot be read.
+    #[error("cannot be read: {0}")]
+    Read(#[from] std::io::Error),
+    /// A packed file (`.rexsz`).
+    #[error("is packed REXS (a zip archive, `.rexsz`)")]
+    Packed,
+    /// REXS as JSON (`.rexsj`).
+    #[error("is JSON (`.rexsj`), wanted is REXS in XML (`.rexs`)")]
+    Json,
     /// It is no XML.
     #[error("is no XML: {0}")]
     Xml(#[from] roxmltree::Error),
@@ -36,6 +45,32 @@ pub enum RexsError {
         stage: usize,
         /// `gear_1` or `gear_2`.
         role: &'static str,
+    },
+    /// It has no such load case.
+    #[error("has {found} load cases, load case {asked} is wanted")]
+    Case {
+        /// Load cases that it has.
+        found: usize,
+        /// Counted from 1.
+        asked: usize,
+    },
+    /// A gear with teeth inside.
+    #[error("{part} {why}: internal gears cannot be run")]
+    Internal {
+        /// Its kind and the number of its component.
+        part: String,
+        /// What says so.
+        why: String,
+    },
+    /// A part that the file says something of that cannot be taken as it is.
+    #[error("{part} {what}")]
+    Unfit {
+        /// Its kind and the number of its component; the whole file where it is of no part.
+        part: String,
+        /// What cannot be taken.
+        what: String,
+        /// What to do about it.
+        way_out: String,
     },
     /// A number that every part of its kind has.
     #[error("{part} has no `{attribute}`")]
@@ -109,11 +144,20 @@ impl RexsError {
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         Some(match self {
-            Self::Xml(_) | Self::Crowded { .. } | Self::Root { .. } => {
+            Self::Read(e) if e.kind() == std::io::ErrorKind::InvalidData => {
+                "REXS files are XML in UTF-8: export it so, or convert it (`iconv -f UTF-16 -t UTF-8`)".into()
+            }
+            Self::Read(_) => "is the path right, as seen from here?".into(),
+            Self::Packed => "unpack it first (`unzip FILE.rexsz`), and give the `.rexs` file that is in it".into(),
+            Self::Json | Self::Xml(_) | Self::Crowded { .. } | Self::Root { .. } => {
                 "export the model as REXS in XML (`.rexs`), not packed (`.rexsz`) and not as JSON".into()
             }
             Self::Stage { found: 0, .. } => "only stages of cylindrical gears can be run".into(),
             Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
+            Self::Case { found: 0, .. } => "leave `--load-case` out: the file has no load spectrum".into(),
+            Self::Case { found, .. } => format!("give `--load-case` 1 to {found}"),
+            Self::Internal { .. } => "give `--stage` of a stage of two external gears".into(),
+            Self::Unfit { way_out, .. } => way_out.clone(),
             Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
             Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
             Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),
@@ -121,7 +165,7 @@ impl RexsError {
             Self::Sections { .. } => {
                 "sections follow on each other from 0 on, hollow or solid, straight or conical".into()
             }
-            Self::Pair { .. } => "only external pairs of one module can be run".into(),
+            Self::Pair { .. } => "only external pairs of one module, pressure angle and helix angle can be run".into(),
         })
     }
 }

@@ -9,9 +9,9 @@
 //!
 //! Where the shaft stands, what sits on it and what loads it is left alone.
 
-use crate::{
+use super::{
     RexsError,
-    rexs_document::{Model, Part, parsed, reference, refers},
+    document::{Model, Part, parsed, reference},
 };
 
 /// A shaft of a REXS file.
@@ -53,10 +53,7 @@ struct Section {
 pub fn read_shaft(text: &str, which: Option<&str>) -> Result<RexsShaft, RexsError> {
     let document = parsed(text)?;
     let model = Model::of(&document)?;
-    let all: Vec<(&str, &str)> = model
-        .components("shaft")
-        .filter_map(|n| Some((n.attribute("id")?, n.attribute("name").unwrap_or_default())))
-        .collect();
+    let all: Vec<(&str, &str)> = model.parts("shaft", "shaft").map(|s| (s.id, s.name().unwrap_or_default())).collect();
     let matching: Vec<&str> =
         all.iter().filter(|(id, name)| which.is_none_or(|w| w == *id || w == *name)).map(|s| s.0).collect();
     let [shaft] = matching[..] else {
@@ -65,32 +62,29 @@ pub fn read_shaft(text: &str, which: Option<&str>) -> Result<RexsShaft, RexsErro
         let found = if all.is_empty() { "none".into() } else { all.iter().map(named).collect::<Vec<_>>().join(", ") };
         return Err(RexsError::Shaft { asked, found });
     };
-    let mut sections = sections(&model, shaft)?;
-    in_order(shaft, &mut sections)?;
-    let steps = sections.iter().map(|own| stepped(shaft, own)).collect::<Result<Vec<_>, _>>()?;
-    let material = material(&model, shaft);
-    let of = |attribute, unit| match &material {
-        Some(part) => part.number(attribute, unit),
-        None => Ok(None),
-    };
-    Ok(RexsShaft {
-        sections: steps.concat(),
-        young_mpa: of("elastic_modulus", "N / mm^2")?,
-        poisson: of("poisson_ratio", "")?,
-        density_kg_m3: of("density", "kg / dm^3")?.map(|rho| 1e3 * rho),
-    })
+    shaft_of(&model, shaft)
 }
 
-fn sections(model: &Model<'_, '_>, shaft: &str) -> Result<Vec<Section>, RexsError> {
-    let relations = model.relations("assembly").chain(model.relations("ordered_assembly"));
-    let own = relations.filter(|r| reference(*r, "assembly") == Some(shaft) && refers(*r, "part", "shaft_section"));
+/// The shaft of a number.
+pub(super) fn shaft_of(model: &Model<'_>, shaft: &str) -> Result<RexsShaft, RexsError> {
+    let mut sections = sections(model, shaft)?;
+    in_order(shaft, &mut sections)?;
+    let steps = sections.iter().map(|own| stepped(shaft, own)).collect::<Result<Vec<_>, _>>()?;
+    let [young_mpa, poisson, density_kg_m3] = material(model, shaft)?;
+    Ok(RexsShaft { sections: steps.concat(), young_mpa, poisson, density_kg_m3 })
+}
+
+fn sections(model: &Model<'_>, shaft: &str) -> Result<Vec<Section>, RexsError> {
+    let is_own = |r: &roxmltree::Node<'_, '_>| {
+        reference(*r, "assembly") == Some(shaft) && model.refers(*r, "part", "shaft_section")
+    };
+    let own = model.assemblies().filter(is_own);
     let one = |relation: roxmltree::Node<'_, '_>| {
         let id = reference(relation, "part").unwrap_or_default().to_owned();
-        let Some(node) = model.component(&id) else {
+        let Some(part) = model.part("shaft section", &id) else {
             let what = format!("has a section {id} that is no component");
             return Err(RexsError::Sections { shaft: shaft.to_owned(), what });
         };
-        let part = Part { kind: "shaft section", id: &id, node };
         let both = |begin, end, default: Option<f64>| -> Result<[f64; 2], RexsError> {
             let first = match default {
                 Some(usual) => part.number(begin, "mm")?.unwrap_or(usual),
@@ -160,11 +154,15 @@ fn stepped(shaft: &str, own: &Section) -> Result<Vec<[f64; 3]>, RexsError> {
     Ok((0..steps).map(step).collect())
 }
 
-fn material<'a>(model: &Model<'a, 'a>, shaft: &str) -> Option<Part<'a, 'a>> {
-    let mut all = model.relations("reference");
-    let own = all.find(|r| reference(*r, "origin") == Some(shaft) && refers(*r, "referenced", "material"))?;
-    let id = reference(own, "referenced")?;
-    Some(Part { kind: "material", id, node: model.component(id)? })
+/// Young's modulus (MPa), Poisson's ratio and density (kg/m^3) of the material that a component refers to.
+pub(super) fn material(model: &Model<'_>, id: &str) -> Result<[Option<f64>; 3], RexsError> {
+    let is_own =
+        |r: &roxmltree::Node<'_, '_>| reference(*r, "origin") == Some(id) && model.refers(*r, "referenced", "material");
+    let own = model.relations("reference").find(is_own).and_then(|r| reference(r, "referenced"));
+    let Some(part) = own.and_then(|id| model.part("material", id)) else { return Ok([None; 3]) };
+    let of = |attribute, unit| Part::number(&part, attribute, unit);
+    let density = of("density", "kg / dm^3")?.map(|rho| 1e3 * rho);
+    Ok([of("elastic_modulus", "N / mm^2")?, of("poisson_ratio", "")?, density])
 }
 
 #[cfg(test)]

@@ -38,7 +38,9 @@ pub fn rexs_of(pair: &GearPair) -> String {
     let _ = writeln!(
         t,
         "  <component id=\"{stage}\" type=\"cylindrical_stage\">\
-         <attribute id=\"common_face_width\" unit=\"mm\">{width}</attribute></component>"
+         <attribute id=\"center_distance\" unit=\"mm\">{}</attribute>\
+         <attribute id=\"common_face_width\" unit=\"mm\">{width}</attribute></component>",
+        pair.centre_distance()
     );
     for (i, gear) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
         component(&mut t, gear, i, [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][i]);
@@ -93,10 +95,10 @@ mod tests {
         };
         let wheel = GearData { teeth: 103, profile_shift: 0.0, helix_angle: -data.helix_angle, ..data.clone() };
         let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), Some(187.5)).unwrap();
-        let read = read_pair(&rexs_of(&pair), 1, &Starter::default()).unwrap();
+        let read = read_pair(&rexs_of(&pair), 1, 1, &Starter::default()).unwrap().starter;
         assert_eq!((read.teeth, read.module_mm, read.face_width_mm), ([17, 103], 3.0, 20.0));
         assert!((read.helix_deg - 15.8).abs() < 1e-12 && read.profile_shift == [0.145, 0.0]);
-        assert!((read.centre_distance_mm.unwrap() - 187.5).abs() < 1e-9);
+        assert_eq!(read.centre_distance_mm, Some(187.5));
         let tips = [&pair.pinion, &pair.wheel].map(|gear| Some(2.0 * gear.tip_radius()));
         assert_eq!(read.tip_diameter_mm, tips);
         assert_eq!((read.own_face_width_mm, read.mid_face_offset_mm), ([None, None], None));
@@ -109,7 +111,7 @@ mod tests {
         let wheel = GearData { face_width: 24.0, helix_angle: -data.helix_angle, ..data.clone() };
         let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
         let pair = pair.with_mid_face_offset(-0.75).unwrap();
-        let read = read_pair(&rexs_of(&pair), 1, &Starter::default()).unwrap();
+        let read = read_pair(&rexs_of(&pair), 1, 1, &Starter::default()).unwrap().starter;
         assert_eq!((read.own_face_width_mm, read.mid_face_offset_mm), ([Some(26.0), Some(24.0)], Some(-0.75)));
         let text = read.text("a.toml");
         let scene = crate::Scene::parse(&text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));

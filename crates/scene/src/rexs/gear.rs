@@ -1,0 +1,136 @@
+//! What a REXS file states of a gear and its flanks.
+
+use super::{
+    RexsError,
+    document::{Model, Part, reference},
+    shaft::material,
+};
+
+/// A gear as a scene takes it.
+pub(super) struct GearData<'m, 'a> {
+    pub part: Part<'m, 'a>,
+    pub teeth: u32,
+    /// mm.
+    pub module: f64,
+    /// Degrees.
+    pub helix: f64,
+    /// mm.
+    pub width: f64,
+    /// Tip diameter and bore, mm.
+    pub tip: Option<f64>,
+    pub bore: Option<f64>,
+    /// Normal pressure angle, degrees.
+    pub angle: Option<f64>,
+    pub shift: f64,
+    /// Thinning of each tooth in the normal section, mm.
+    pub thinning: Option<f64>,
+    /// Young's modulus (MPa), Poisson's ratio, density (kg/m^3).
+    pub steel: [Option<f64>; 3],
+    /// Component of its flanks.
+    pub flank: Option<&'a str>,
+}
+
+impl<'m, 'a> GearData<'m, 'a> {
+    /// Of an external cylindrical gear.
+    pub(super) fn of(model: &'m Model<'a>, part: Part<'m, 'a>) -> Result<Self, RexsError> {
+        let teeth = external_teeth(&part)?;
+        let module = part.needed("normal_module", "mm")?;
+        let flanks = flanks(model, part.id);
+        let same = |attribute, unit| alike(&part, &flanks, attribute, unit);
+        let shift = match same("addendum_modification_coefficient", "")? {
+            Some(x) => Some(x),
+            None => same("addendum_modification", "mm")?.map(|shift| shift / module),
+        };
+        let (shift, angle) = (shift.unwrap_or(0.0), same("normal_pressure_angle", "deg")?);
+        Ok(Self {
+            teeth,
+            module,
+            // Spur gears may leave it out.
+            helix: part.number("helix_angle_reference_diameter", "deg")?.unwrap_or(0.0),
+            width: part.needed("face_width", "mm")?,
+            tip: part.number("tip_diameter", "mm")?,
+            bore: part.number("inner_diameter", "mm")?.filter(|d| *d != 0.0),
+            thinning: thinning(&part, &flanks, (module, angle, shift))?,
+            angle,
+            shift,
+            steel: material(model, part.id)?,
+            flank: flanks.first().map(|f| f.id),
+            part,
+        })
+    }
+}
+
+/// Teeth of a gear, which has to be an external cylindrical one.
+pub(super) fn external_teeth(part: &Part<'_, '_>) -> Result<u32, RexsError> {
+    let internal = |why: String| Err(RexsError::Internal { part: part.named(), why });
+    let value = part.needed("number_of_teeth", "")?;
+    match part.component() {
+        "ring_gear" => return internal("is a ring gear".into()),
+        "cylindrical_gear" => {}
+        other => {
+            let what = format!("is a `{other}`");
+            let way_out = "only pairs of external cylindrical gears can be run".into();
+            return Err(RexsError::Unfit { part: part.named(), what, way_out });
+        }
+    }
+    if value < 0.0 {
+        return internal(format!("has {value} teeth, as ring gears have"));
+    }
+    let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
+    if whole { Ok(value as u32) } else { Err(RexsError::Teeth { part: part.named(), value }) }
+}
+
+/// Left and right flank of a gear, as far as the file has them.
+fn flanks<'m, 'a>(model: &'m Model<'a>, gear: &str) -> Vec<Part<'m, 'a>> {
+    let Some(relation) = model.relations("flank").find(|r| reference(*r, "gear") == Some(gear)) else {
+        return Vec::new();
+    };
+    let ids = ["left", "right"].into_iter().filter_map(|role| reference(relation, role));
+    ids.filter_map(|id| model.part("flank", id)).collect()
+}
+
+/// A number that both flanks have alike.
+fn alike(
+    gear: &Part<'_, '_>,
+    flanks: &[Part<'_, '_>],
+    attribute: &'static str,
+    unit: &'static str,
+) -> Result<Option<f64>, RexsError> {
+    let values = flanks.iter().map(|f| f.number(attribute, unit)).collect::<Result<Vec<_>, _>>()?;
+    let mut stated = values.into_iter().flatten();
+    let first = stated.next();
+    match (first, stated.next()) {
+        (Some(left), Some(right)) if (left - right).abs() > 1e-9 * left.abs().max(1.0) => Err(RexsError::Unfit {
+            part: gear.named(),
+            what: format!("has a `{attribute}` of {left} on its left flanks and of {right} on its right ones"),
+            way_out: "only teeth of two like flanks can be run".into(),
+        }),
+        _ => Ok(first),
+    }
+}
+
+/// Thinning of each tooth in the normal section, mm; the middle of a tolerance.
+///
+/// ```text
+/// A_sn = A_W / cos alpha_n          deviations of the base tangent length
+/// A_sn = 2 (x_E - x) m_n tan alpha_n     generated profile shift
+/// ```
+fn thinning(
+    part: &Part<'_, '_>,
+    flanks: &[Part<'_, '_>],
+    (module, angle, shift): (f64, Option<f64>, f64),
+) -> Result<Option<f64>, RexsError> {
+    let angle = angle.unwrap_or(20.0).to_radians();
+    let of = |attribute| part.number(attribute, "mum");
+    let spans =
+        [of("upper_backlash_allowance_referenced_to_span")?, of("lower_backlash_allowance_referenced_to_span")?];
+    let chords = ["chordal_tooth_thickness_upper_deviation", "chordal_tooth_thickness_lower_deviation"];
+    let chords = [part.number(chords[0], "mm")?, part.number(chords[1], "mm")?];
+    let finished = alike(part, flanks, "addendum_modification_coefficient_after_finishing", "")?;
+    Ok(match (chords, spans, finished) {
+        ([Some(upper), Some(lower)], ..) => Some(-0.5 * (upper + lower)),
+        (_, [Some(upper), Some(lower)], _) => Some(-0.5e-3 * (upper + lower) / angle.cos()),
+        (.., Some(x)) => Some(2.0 * (shift - x) * module * angle.tan()),
+        _ => None,
+    })
+}

@@ -1,0 +1,127 @@
+//! A whole REXS file as a gearbox file with the scenes of its pairs: shafts, bearings, gears, stages and a load case.
+
+use std::{collections::BTreeMap, path::Path};
+
+use super::{
+    RexsError, RexsPair,
+    document::{Model, parsed, reference},
+    frame::placed,
+    left::left,
+    pair::{case_remark, stages},
+    shaft::shaft_of,
+    train::{Train, sides},
+    writer::{FROM, Writer},
+};
+use crate::{SceneError, gearbox::Gearbox};
+
+/// A gearbox out of a REXS file: the text of the gearbox file, and the scenes that it names.
+#[derive(Debug, Clone)]
+pub struct RexsGearbox {
+    /// The gearbox file.
+    pub text: String,
+    /// File name and text of the scene of each stage, and the pair that it was made of.
+    pub scenes: Vec<(String, String, RexsPair)>,
+    /// What the user should know of it.
+    pub remarks: Vec<String>,
+}
+
+/// Parts of a kind at the most, as in a gearbox file.
+const PARTS: usize = 100;
+
+/// The gearbox of a REXS file under load case `case`, counted from 1; scenes are named after `stem`. `None` where no stage
+/// of the file is on shafts: it has pairs alone.
+///
+/// # Errors
+/// [`RexsError`]: where a part cannot be taken, for what is wrong would be another gearbox.
+pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGearbox>, RexsError> {
+    let document = parsed(text)?;
+    let model = Model::of(&document)?;
+    model.choose(case)?;
+    let mut train = Train::of(&model)?;
+    if train.stages.is_empty() {
+        return Ok(None);
+    }
+    whole(&model, &train)?;
+    train.balance();
+    let shafts = train.shafts.iter().map(|s| shaft_of(&model, s.id)).collect::<Result<Vec<_>, _>>()?;
+    let lengths: Vec<f64> = shafts.iter().map(|s| s.sections.iter().map(|x| x[0]).sum()).collect();
+    let places = placed(&model, &train, &lengths)?;
+    let mut writer = Writer { model: &model, train, shafts, places, names: BTreeMap::new(), text: String::new() };
+    let mut remarks: Vec<String> = case_remark(&model).into_iter().collect();
+    writer.head();
+    writer.shafts();
+    remarks.extend(writer.bearings()?);
+    writer.gears()?;
+    let scenes = writer.meshes(stem)?;
+    remarks.extend(writer.loads()?);
+    let untaken = left(&model);
+    if !untaken.is_empty() {
+        remarks.push(format!("not taken of the file:\n  {}", untaken.join("\n  ")));
+    }
+    Ok(Some(RexsGearbox { text: writer.text, scenes, remarks }))
+}
+
+/// That the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
+fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
+    let way_out = || "take a pair alone with `--stage N`".to_owned();
+    let bearings = model.relations("side").count();
+    let most = [train.shafts.len(), train.stages.len(), train.loads.len(), bearings].into_iter().max().unwrap_or(0);
+    if most > PARTS {
+        let what =
+            format!("has {most} shafts, bearings, stages or loads: a gearbox file has {PARTS} of a kind at the most");
+        return Err(RexsError::Unfit { part: "the file".into(), what, way_out: way_out() });
+    }
+    for kind in ["bevel_stage", "worm_stage", "planetary_stage"] {
+        if let Some(part) = model.parts(kind, "stage").next() {
+            let what = format!("is a `{kind}`: a gearbox file has stages of cylindrical gears");
+            return Err(RexsError::Unfit { part: part.named(), what, way_out: way_out() });
+        }
+    }
+    for relation in model.relations("side") {
+        let is_coupling = ["coupling", "switchable_coupling"].iter().any(|k| model.refers(relation, "assembly", k));
+        let sides = sides(relation, train);
+        let own = reference(relation, "assembly").and_then(|id| model.part("coupling", id));
+        if let Some(part) = own.filter(|_| is_coupling && !sides.is_empty()) {
+            let what = "is a coupling on a shaft with gears: a gearbox file has none".into();
+            return Err(RexsError::Unfit { part: part.named(), what, way_out: way_out() });
+        }
+    }
+    for (i, relation) in stages(model).into_iter().enumerate() {
+        for role in ["gear_1", "gear_2"] {
+            let id = reference(relation, role).ok_or(RexsError::Gear { stage: i + 1, role })?;
+            let part = model.part("gear", id).ok_or(RexsError::Gear { stage: i + 1, role })?;
+            if !train.gears.contains_key(id) {
+                return Err(RexsError::Unfit { part: part.named(), what: "is on no shaft".into(), way_out: way_out() });
+            }
+        }
+    }
+    Ok(())
+}
+
+impl RexsGearbox {
+    /// The gearbox of these texts, as it will be read from `file`.
+    ///
+    /// # Errors
+    /// [`SceneError`], of which [`RexsGearbox::blamed`] says what it is in the REXS file.
+    pub fn check(&self, file: &Path) -> Result<Gearbox, SceneError> {
+        let beside: Vec<_> = self.scenes.iter().map(|(name, text, _)| (name.clone(), text.clone())).collect();
+        let whole = Gearbox::parse_beside(&self.text, file, &beside)?;
+        whole.meshes.iter().try_for_each(|mesh| mesh.scene.gear_pair().map(|_| ()))?;
+        Ok(whole)
+    }
+
+    /// What a complaint about the gearbox file or a scene of it says of the REXS file; `None` where it is about none of its
+    /// values.
+    pub fn blamed(&self, error: &SceneError) -> Option<RexsError> {
+        let crate::Place::Line(line) = error.place()? else { return None };
+        let name = line.file.file_name()?.to_str()?;
+        if let Some((_, text, pair)) = self.scenes.iter().find(|(file, ..)| file == name) {
+            return pair.blamed(text, error);
+        }
+        let lines: Vec<&str> = self.text.lines().take(line.number).collect();
+        let part = lines.iter().rev().find_map(|l| l.strip_prefix(FROM))?;
+        let way_out = error.hint().map_or_else(String::new, |hint| format!(": {hint}"));
+        let way_out = format!("correct it in the file, or take it out{way_out}");
+        Some(RexsError::Unfit { part: format!("{part}:"), what: error.without_place(), way_out })
+    }
+}

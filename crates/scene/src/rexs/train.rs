@@ -1,0 +1,221 @@
+//! Shafts, stages and loads of a REXS file: speeds, and the torque that a stage carries. No losses.
+
+use std::collections::BTreeMap;
+
+use super::{
+    RexsError,
+    document::{Model, Part, reference},
+};
+
+/// Shafts, stages and loads at the most.
+const MOST: usize = 1000;
+
+/// Shafts with gears, the stages between them and their loads.
+pub(super) struct Train<'m, 'a> {
+    pub shafts: Vec<Part<'m, 'a>>,
+    /// Shaft of each gear.
+    pub gears: BTreeMap<&'a str, usize>,
+    pub stages: Vec<Link<'a>>,
+    pub loads: Vec<Load<'m, 'a>>,
+    /// Speed of each shaft about the u axis of the first one, 1/min.
+    pub speeds: Vec<Option<f64>>,
+    /// +1 or -1: whether the u axis of each shaft points as that of the first one.
+    pub signs: Vec<f64>,
+}
+
+/// A cylindrical stage between two shafts.
+pub(super) struct Link<'a> {
+    /// Number of the stage's component, where it has one.
+    pub stage: Option<&'a str>,
+    pub gears: [&'a str; 2],
+    pub shafts: [usize; 2],
+    /// omega_2 / omega_1.
+    ratio: f64,
+}
+
+/// A load that passes on torque.
+pub(super) struct Load<'m, 'a> {
+    pub part: Part<'m, 'a>,
+    pub shaft: usize,
+    /// About the u axis of the first shaft, N m; `None`: it follows from the others.
+    pub torque: Option<f64>,
+}
+
+/// What a stage carries.
+pub(super) struct StageLoad {
+    /// Which of its gears drives, 0 or 1.
+    pub driver: usize,
+    /// On the driven gear, N m.
+    pub torque: f64,
+    /// Of the gear that drives, 1/min, with its sign about the u axis of the first shaft.
+    pub driver_speed: f64,
+}
+
+impl<'m, 'a> Train<'m, 'a> {
+    pub(super) fn of(model: &'m Model<'a>) -> Result<Self, RexsError> {
+        let mut shafts: Vec<Part<'m, 'a>> = Vec::new();
+        let mut numbers: BTreeMap<&str, usize> = BTreeMap::new();
+        let mut gears = BTreeMap::new();
+        for relation in model.assemblies().filter(|r| model.refers(*r, "assembly", "shaft")) {
+            let is_gear = ["cylindrical_gear", "ring_gear"].iter().any(|kind| model.refers(relation, "part", kind));
+            let (Some(id), Some(gear)) = (reference(relation, "assembly"), reference(relation, "part")) else {
+                continue;
+            };
+            if let Some(shaft) = model.part("shaft", id).filter(|_| is_gear) {
+                let number = *numbers.entry(shaft.id).or_insert_with(|| {
+                    shafts.push(shaft);
+                    shafts.len() - 1
+                });
+                if let Some(part) = model.part("gear", gear) {
+                    gears.entry(part.id).or_insert(number);
+                }
+            }
+        }
+        let signs = signs(&shafts)?;
+        let stages = model.relations("stage").filter(|r| model.refers(*r, "stage", "cylindrical_stage"));
+        let stages: Vec<Link<'a>> = stages.filter_map(|r| link(model, r, &gears)).collect();
+        let loads = loads(model, &numbers, &signs)?;
+        let most = [shafts.len(), stages.len(), loads.len()].into_iter().max().unwrap_or(0);
+        if most > MOST {
+            let (part, what) = ("the file".into(), format!("has {most} shafts, stages or loads"));
+            return Err(RexsError::Unfit { part, what, way_out: format!("export {MOST} of a kind at the most") });
+        }
+        let mut train = Self { speeds: vec![None; shafts.len()], shafts, gears, stages, loads, signs };
+        train.find_speeds()?;
+        Ok(train)
+    }
+
+    /// Speeds of all shafts from that of the one that defines it.
+    fn find_speeds(&mut self) -> Result<(), RexsError> {
+        let mut stated = Vec::new();
+        for (i, shaft) in self.shafts.iter().enumerate() {
+            if let Some(speed) = shaft.number("rotational_speed", "1 / min")?.filter(|n| *n != 0.0) {
+                stated.push((shaft.text("defines_speed") != Some("true"), i, self.signs[i] * speed));
+            }
+        }
+        let Some(&(_, first, speed)) = stated.iter().min_by_key(|s| (s.0, s.1)) else { return Ok(()) };
+        self.speeds[first] = Some(speed);
+        for i in self.beyond(first, None) {
+            for link in &self.stages {
+                let [a, b] = link.shafts;
+                match (self.speeds[a], self.speeds[b]) {
+                    (Some(own), None) if a == i => self.speeds[b] = Some(own * link.ratio),
+                    (None, Some(own)) if b == i => self.speeds[a] = Some(own / link.ratio),
+                    _ => {}
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Shafts that are reached from one, itself first, by all stages but one.
+    fn beyond(&self, from: usize, without: Option<usize>) -> Vec<usize> {
+        let mut reached = vec![false; self.shafts.len()];
+        let mut all = vec![from];
+        reached[from] = true;
+        let mut at = 0;
+        while let Some(&shaft) = all.get(at) {
+            for link in self.stages.iter().enumerate().filter(|(k, _)| Some(*k) != without).map(|(_, link)| link) {
+                let [a, b] = link.shafts;
+                for (from, to) in [(a, b), (b, a)] {
+                    if from == shaft && !reached[to] {
+                        reached[to] = true;
+                        all.push(to);
+                    }
+                }
+            }
+            at += 1;
+        }
+        all
+    }
+
+    /// Power of all loads of some shafts, N m/min; `None` where one of them is unknown or there are none.
+    fn power(&self, shafts: &[usize]) -> Option<f64> {
+        let own: Vec<_> = self.loads.iter().filter(|l| shafts.contains(&l.shaft)).collect();
+        let each = own.iter().map(|l| Some(l.torque? * self.speeds[l.shaft]?)).collect::<Option<Vec<f64>>>()?;
+        Some(each.iter().sum::<f64>()).filter(|p| *p != 0.0)
+    }
+
+    /// What a stage carries, where loads on one of its sides are known.
+    pub(super) fn carried(&self, stage: usize) -> Option<StageLoad> {
+        let link = self.stages.get(stage)?;
+        let [first, second] = link.shafts.map(|s| self.beyond(s, Some(stage)));
+        if second.contains(&link.shafts[0]) {
+            return None;
+        }
+        // What goes from gear 1 to gear 2.
+        let power = self.power(&second).map(|p| -p).or_else(|| self.power(&first))?;
+        let driver = usize::from(power < 0.0);
+        let driven_speed = self.speeds[link.shafts[1 - driver]]?;
+        let driver_speed = self.speeds[link.shafts[driver]]?;
+        Some(StageLoad { driver, torque: (power / driven_speed).abs(), driver_speed })
+    }
+
+    /// Fills in the one load that follows from all others.
+    pub(super) fn balance(&mut self) {
+        let open: Vec<usize> = (0..self.loads.len()).filter(|&i| self.loads[i].torque.is_none()).collect();
+        let [one] = open[..] else { return };
+        let power = |l: &Load<'_, '_>| Some(l.torque? * self.speeds[l.shaft]?);
+        let known = self.loads.iter().enumerate().filter(|(i, _)| *i != one).map(|(_, l)| power(l));
+        let sum = known.collect::<Option<Vec<f64>>>().map(|all| all.iter().sum::<f64>());
+        let own = sum.zip(self.speeds[self.loads[one].shaft]).map(|(sum, speed)| -sum / speed);
+        self.loads[one].torque = own;
+    }
+}
+
+/// Whether each shaft's u axis points as that of the first one; those that state none are taken to.
+fn signs(shafts: &[Part<'_, '_>]) -> Result<Vec<f64>, RexsError> {
+    let axes = shafts.iter().map(|s| s.vector("u_axis_vector")).collect::<Result<Vec<_>, _>>()?;
+    let first = axes.iter().flatten().next().copied();
+    let along = |axis: &Option<[f64; 3]>| {
+        let dot = axis.zip(first).map_or(1.0, |(a, b)| (0..3).map(|k| a[k] * b[k]).sum::<f64>());
+        if dot < 0.0 { -1.0 } else { 1.0 }
+    };
+    Ok(axes.iter().map(along).collect())
+}
+
+fn link<'a>(
+    model: &Model<'a>,
+    relation: roxmltree::Node<'a, 'a>,
+    gears: &BTreeMap<&'a str, usize>,
+) -> Option<Link<'a>> {
+    let ids = [reference(relation, "gear_1")?, reference(relation, "gear_2")?];
+    let shafts = [*gears.get(ids[0])?, *gears.get(ids[1])?];
+    let teeth = ids.map(|id| {
+        let gear = model.part("gear", id)?;
+        let value = gear.number("number_of_teeth", "").ok().flatten().filter(|z| *z != 0.0)?;
+        Some(if gear.component() == "ring_gear" { -value.abs() } else { value })
+    });
+    let ratio = -teeth[0]? / teeth[1]?;
+    Some(Link { stage: reference(relation, "stage"), gears: ids, shafts, ratio })
+}
+
+/// Loads on the shafts that pass on torque.
+fn loads<'m, 'a>(
+    model: &'m Model<'a>,
+    shafts: &BTreeMap<&str, usize>,
+    signs: &[f64],
+) -> Result<Vec<Load<'m, 'a>>, RexsError> {
+    let mut all = Vec::new();
+    for relation in model.assemblies().filter(|r| model.refers(*r, "part", "external_load")) {
+        let shaft = reference(relation, "assembly").and_then(|id| shafts.get(id));
+        let part = reference(relation, "part").and_then(|id| model.part("load", id));
+        let (Some(&shaft), Some(part)) = (shaft, part) else { continue };
+        let transmits = part.text("transmits_torque");
+        let is_given = part.text("defines_torque") == Some("true");
+        // Programs write 0 for what they have not computed yet.
+        let stated = part.number("torque_around_u_axis", "N m")?.filter(|t| *t != 0.0 || is_given);
+        let torque = stated.map(|t| signs[shaft] * t);
+        if torque.is_some() || transmits == Some("true") {
+            all.push(Load { part, shaft, torque });
+        }
+    }
+    Ok(all)
+}
+
+/// Shafts of the train that a relation stands between.
+pub(super) fn sides(relation: roxmltree::Node<'_, '_>, train: &Train<'_, '_>) -> Vec<usize> {
+    let roles = ["inner_part", "outer_part", "side_1", "side_2"];
+    let ids = roles.iter().filter_map(|role| reference(relation, role));
+    ids.filter_map(|id| train.shafts.iter().position(|s| s.id == id)).collect()
+}
