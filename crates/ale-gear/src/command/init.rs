@@ -14,7 +14,7 @@ use scene::{RexsGearbox, RexsPair, Starter, read_gearbox, read_pair, read_rexs};
 use crate::{
     error::CommandError,
     scene::{Kind, Scene},
-    talk::{Loudness, colours_on_stderr, complain, note, say},
+    talk::{complain, note},
 };
 
 /// Words of `ale-gear init`.
