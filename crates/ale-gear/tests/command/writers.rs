@@ -335,7 +335,7 @@ fn a_command_that_is_stopped_leaves_nothing_half_written() {
     let mut stopped = 0;
     for line in lines {
         for wait_ms in [20, 120, 400, 900] {
-            let mut child =
+            let child =
                 scratch.program().args(words(line)).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
             std::thread::sleep(Duration::from_millis(wait_ms));
             let kill = format!("kill -TERM {}", child.id());
