@@ -79,7 +79,13 @@ impl StudyArgs {
         });
         let records: Vec<_> = runs.iter().map(|r| r.as_ref().map(|r| &r.record).map_err(|m| &m.failure)).collect();
         let folders: Vec<String> = (0..study.cases.len()).map(|i| study.folder(i)).collect();
-        let findings = findings(&study, &records)?;
+        let findings = match findings(&study, &records) {
+            Ok(findings) => findings,
+            Err(e) => {
+                kept.remove_if_empty();
+                return Err(e.into());
+            }
+        };
         let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
             warnings.push(said);

@@ -60,7 +60,7 @@ fn everything_that_is_carried_is_named_with_its_licence() {
     for (package, licence) in linked {
         assert!(list.lines().any(|line| line == format!("{package}: {licence}")), "{package}, {licence}: {AGAIN}");
         let named = |line: &&str| line[3..line.len() - 1].split(", ").any(|name| name == package);
-        assert!(of.iter().any(|line| named(line)), "no text of {package}: {AGAIN}");
+        assert!(of.iter().any(named), "no text of {package}: {AGAIN}");
     }
     let known = [locked("Cargo.lock"), locked("python/Cargo.lock")].concat();
     let lines = list.lines().filter(|line| !line.ends_with("in the pages of reports"));

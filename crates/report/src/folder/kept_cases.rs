@@ -87,6 +87,15 @@ impl KeptCases {
         self.path.join(name)
     }
 
+    /// Takes the folder away where no case is done.
+    pub fn remove_if_empty(self) {
+        take_away_left_overs(&self.path, &RESULT);
+        if names(&self.path).is_ok_and(|all| all == [MARK]) {
+            // It is nobody's loss if it stays.
+            let _ = self.mark.remove().and_then(|()| fs::remove_dir(&self.path));
+        }
+    }
+
     /// Moves the cases that are done to where they stay, and takes the folder away if nothing else is in it.
     ///
     /// # Errors
@@ -102,6 +111,7 @@ impl KeptCases {
         moved().map_err(|cause| ReportError::Write { file: self.path.clone(), cause })?;
         let Self { path, mark } = self;
         mark.remove().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
+        take_away_left_overs(&path, &RESULT);
         // What is not ours stays, and the folder with it.
         let _ = fs::remove_dir(path);
         Ok(())
