@@ -2,7 +2,7 @@
 
 use scene::{ContactScene, Method, Model, ModificationScene, Scene};
 
-/// What scenes have in common that stand on the same reduced gears ([`crate::SharedModels`]).
+/// What scenes have in common that stand on the same reduced gears (`SharedModels`).
 #[derive(Debug, Clone, PartialEq)]
 pub struct SharedGears(Scene);
 

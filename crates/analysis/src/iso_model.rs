@@ -7,12 +7,17 @@ use geometry::{ContactLine, GearPair, Vec3};
 use ltca::{Certificate, PairResult, StaticHistory, StaticPosition};
 use lumped::{
     LumpedError,
-    iso::{IsoPair, IsoStiffness, body_compliance, mean_transmission_error_um, stiffness},
+    iso::{IsoStiffness, body_compliance, mean_transmission_error_um},
 };
 
 use scene::{Driver, Scene};
 
-use crate::{AnalysisError, facts::Facts, iso_root};
+use crate::{
+    AnalysisError,
+    facts::Facts,
+    iso_root,
+    nominal_load::{base_force, iso_stiffness},
+};
 
 /// Solves the scene in closed form.
 ///
@@ -24,7 +29,7 @@ use crate::{AnalysisError, facts::Facts, iso_root};
 /// # Errors
 /// [`AnalysisError::Iso`] where ISO 6336-1 does not hold.
 pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
-    let base_force = iso_root::base_force(scene, pair);
+    let base_force = base_force(scene, pair);
     let fail =
         |source: LumpedError| AnalysisError::Iso { file: scene.file.display().to_string(), source: Box::new(source) };
     let iso = iso_stiffness(scene, pair).map_err(fail)?;
@@ -102,24 +107,6 @@ struct Mesh {
     c_mesh: f64,
     /// Of both bodies along the line of action, mm/N.
     bodies: f64,
-}
-
-/// Stiffness of the pair after ISO 6336-1.
-///
-/// # Errors
-/// [`LumpedError`] where the standard does not hold.
-pub fn iso_stiffness(scene: &Scene, pair: &GearPair) -> Result<IsoStiffness, LumpedError> {
-    let tangential = iso_root::base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
-    stiffness(&IsoPair {
-        teeth: [scene.pinion.teeth, scene.wheel.teeth],
-        profile_shift: [scene.pinion.profile_shift, scene.wheel.profile_shift],
-        helix_angle: scene.pinion.helix_angle(),
-        normal_pressure_angle: scene.pair.normal_pressure_angle(),
-        dedendum_coefficient: [scene.pair.dedendum_coefficient; 2],
-        young: [scene.pinion.material.young_mpa, scene.wheel.material.young_mpa],
-        eps_alpha: pair.transverse_contact_ratio(),
-        line_load: tangential / pair.face_width(),
-    })
 }
 
 fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) -> StaticPosition {

@@ -5,9 +5,12 @@ use lumped::{
     LumpedError,
     iso::{IsoRoot, IsoRootPair},
 };
-use scene::{Driver, Scene};
+use scene::Scene;
 
-use crate::facts::{IsoGearRoot, IsoRootStress};
+use crate::{
+    facts::{IsoGearRoot, IsoRootStress},
+    nominal_load::base_force,
+};
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
@@ -41,13 +44,4 @@ pub fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, Lump
         })
     };
     Ok(IsoRootStress { method: METHOD, pinion: one(&pair.pinion)?, wheel: one(&pair.wheel)? })
-}
-
-/// F_bt, N: torque on the driven gear over its base radius.
-pub fn base_force(scene: &Scene, pair: &GearPair) -> f64 {
-    let driven = match scene.operation.driver {
-        Driver::Pinion => &pair.wheel,
-        Driver::Wheel => &pair.pinion,
-    };
-    scene.operation.torque() / driven.base_radius()
 }

@@ -52,6 +52,7 @@ mod light_load;
 pub mod lumped;
 pub mod meshes;
 pub mod motion;
+mod nominal_load;
 pub mod nominal_pressure;
 mod observer;
 pub mod optimum;

@@ -5,7 +5,7 @@ use geometry::GearPair;
 use ltca::{GUESSED_LINE_STIFFNESS, round_off_of_places};
 use scene::Scene;
 
-use crate::{AnalysisError, error::MeshMismatch, iso_root::base_force, static_certificate::ROUND_OFF};
+use crate::{AnalysisError, error::MeshMismatch, nominal_load::base_force, static_certificate::ROUND_OFF};
 
 /// What the guessed stiffness may be off by.
 const GUESS: f64 = 3.0;

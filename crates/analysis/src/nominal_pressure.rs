@@ -7,7 +7,7 @@ use lumped::iso::IsoFlank;
 use scene::Scene;
 use serde::Serialize;
 
-use crate::iso_root::base_force;
+use crate::nominal_load::base_force;
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "Hertz pressure of nominal involutes under the torque of the scene, spread evenly over the contact lines of the position \

@@ -21,6 +21,7 @@ mod bearing;
 mod campbell;
 mod equilibrium;
 mod error;
+mod even_mesh;
 mod exact_mesh;
 mod loose;
 mod mesh_element;

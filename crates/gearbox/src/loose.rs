@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, Matrix5, SMatrix, SymmetricEigen, Vector6};
 
 use crate::{
     GearboxError, Mesh, Structure, Train,
-    static_gearbox::{guessed_lever, guessed_stiffness, turn},
+    even_mesh::{guessed_lever, guessed_stiffness, turn},
 };
 
 /// Share of a scaled stiffness that is round-off.

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 use crate::{
     Assembly, GearboxError, GearboxPosition, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
     equilibrium::Norms,
+    even_mesh::{guessed_lever, guessed_stiffness, turn},
     loose::check_held,
     pliant::PliantBearing,
     position::{Solved, position},
@@ -253,32 +254,11 @@ pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation)
     Ok(())
 }
 
-/// Turn of vectors from a mesh's axes to the common ones.
-pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
-    // Along an axis exactly: a pair alone stays the pair it is.
-    let (sin, cos) = if direction == 0.0 { (0.0, 1.0) } else { direction.sin_cos() };
-    let mut all = SMatrix::identity();
-    for at in [0, 3, 6, 9] {
-        all[(at, at)] = cos;
-        all[(at, at + 1)] = -sin;
-        all[(at + 1, at)] = sin;
-        all[(at + 1, at + 1)] = cos;
-    }
-    all
-}
-
 /// Twelve values put where both gears are among the seats.
 pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<f64> {
     let mut all = DVector::zeros(size);
     (0..12).for_each(|k| all[at[k / 6] + k % 6] += values[k]);
     all
-}
-
-/// What displacements of both gears compress an evenly loaded mesh by, own axes.
-pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
-    let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
-    let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
-    Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))
 }
 
 /// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
@@ -287,9 +267,4 @@ fn guessed_force(meshes: &[Mesh], operation: &Operation) -> f64 {
     let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
     // Without a load any force will do.
     if torque > 0.0 && radius > 0.0 { torque / radius } else { 1.0 }
-}
-
-/// Stiffness along the normal that the search begins with, N/mm.
-pub(crate) fn guessed_stiffness(pair: &GearPair) -> f64 {
-    ltca::GUESSED_LINE_STIFFNESS * pair.face_width() / pair.base_helix_angle().cos().powi(2)
 }

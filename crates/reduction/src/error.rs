@@ -98,7 +98,7 @@ impl From<mesh::MeshError> for ReductionError {
 }
 
 impl ReductionError {
-    /// Whether the work ended because nobody waits for it any more ([`crate::GearReducer::new_while`]).
+    /// Whether the work ended because nobody waits for it any more.
     pub fn is_unwanted(&self) -> bool {
         matches!(self, Self::Fem(fem::FemError::Unwanted))
     }

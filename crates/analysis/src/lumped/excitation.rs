@@ -14,7 +14,7 @@ use scene::{
 };
 
 use super::elastic_pair::{ElasticPair, without_speed};
-use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, static_certificate};
+use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, nominal_load, static_certificate};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
 #[derive(Debug, Clone)]
@@ -67,7 +67,7 @@ impl<'a> ExcitationSource<'a> {
                 Ok(MeshExcitation { cycle: MeshCycle::new(stiffness, error), warnings: Vec::new() })
             }
             StiffnessFrom::Iso => {
-                let iso = iso_model::iso_stiffness(scene, pair).map_err(complain)?;
+                let iso = nominal_load::iso_stiffness(scene, pair).map_err(complain)?;
                 let bodies: f64 = iso_model::bodies(scene, pair).iter().sum();
                 let mean = 1.0 / (1.0 / (1e3 * iso.c_mesh * pair.face_width()) + bodies);
                 let own = MeshCycle::by_contact_lines(plane, mean).map_err(complain)?;

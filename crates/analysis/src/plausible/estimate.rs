@@ -4,7 +4,10 @@ use geometry::GearPair;
 use scene::Scene;
 
 use super::limits::effective_modulus;
-use crate::{iso_model::iso_stiffness, iso_root::base_force, nominal_pressure::nominal_pressure};
+use crate::{
+    nominal_load::{base_force, iso_stiffness},
+    nominal_pressure::nominal_pressure,
+};
 
 /// Stiffness where ISO 6336-1 has none, of steel: its own mean value, N/(mm um).
 const MEAN_STIFFNESS: f64 = 20.0;

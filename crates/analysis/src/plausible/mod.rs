@@ -12,11 +12,13 @@
 
 mod estimate;
 mod flanks;
+mod implausible;
 mod limits;
 mod refusal;
 mod remarks;
 
 pub use estimate::LoadEstimate;
+pub use implausible::Implausible;
 pub use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};
-pub use refusal::{Implausible, beyond, refuse};
+pub use refusal::{beyond, refuse};
 pub use remarks::remarks;

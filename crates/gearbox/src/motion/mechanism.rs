@@ -6,7 +6,8 @@ use nalgebra::{DMatrix, DVector};
 use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
 use crate::{
     Assembly, GearboxError, Mesh, Meshing, Operation, Structure, Train, Vector12,
-    static_gearbox::{at_mesh, check, turn},
+    even_mesh::turn,
+    static_gearbox::{at_mesh, check},
 };
 
 /// Shafts, bearings and meshes that move: any number of each, every mesh at its own phase.

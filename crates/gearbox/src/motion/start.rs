@@ -8,7 +8,7 @@ use super::GearboxMechanism;
 use crate::{
     GearboxError,
     equilibrium::{Left, Norms, equilibrium},
-    static_gearbox::{guessed_lever, guessed_stiffness},
+    even_mesh::{guessed_lever, guessed_stiffness},
 };
 
 /// Share of a cycle of the fastest mesh either way over which velocities are taken.

@@ -6,6 +6,7 @@
 //! | `geometry` | what is in a bearing, as drawings have it, and whether it fits |
 //! | `catalogue` | the same estimated from bore, outer diameter and static load rating |
 //! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
+//! | `reply` | force, moment and tangent of a bearing |
 //! | `law` | all rows together: [`RollingBearing`] |
 //! | `seat` | which thrust its seat takes: rings that float |
 //! | `state` | what is told of it, and the linear bearing that stands for it |
@@ -19,6 +20,7 @@ mod error;
 mod geometry;
 mod hertz;
 mod law;
+mod reply;
 mod roller;
 mod seat;
 mod state;
@@ -27,7 +29,8 @@ pub use catalogue::{Catalogue, Filling};
 pub use error::RollingBearingError;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
-pub use law::{RollingBearing, RollingReply};
+pub use law::RollingBearing;
+pub use reply::RollingReply;
 pub use seat::AxialSeat;
 pub use state::RollingState;
 pub(crate) use state::Tangent;

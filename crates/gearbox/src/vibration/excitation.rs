@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
-use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, static_gearbox::guessed_lever};
+use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, even_mesh::guessed_lever};
 
 /// A mesh at one place of its cycle, in its own axes.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ use nalgebra::{Complex, DMatrix, DVector, SMatrix};
 use super::{MeshExcitation, response::Spinning};
 use crate::{
     Assembly, ElasticMesh, GearboxError, Held, Mesh, Rotors, Structure, Train, Vector12,
-    static_gearbox::{guessed_lever, turn},
+    even_mesh::{guessed_lever, turn},
 };
 
 /// A gearbox with mass that swings about its equilibrium, its meshes linear.
