@@ -8,7 +8,7 @@ use mesh::MeshError;
 use scene::{Scene, SceneError};
 use study::calculix::CalculixError;
 
-use crate::{motion::UnstableSteps, plausible::Implausible};
+use crate::{motion::UnstableSteps, plausible::implausible::Implausible};
 
 /// Why a scene has no answer.
 #[derive(Debug, thiserror::Error)]

@@ -325,11 +325,15 @@ fn meshes_beyond_all_memory_are_refused_at_once() {
 fn a_curve_of_a_scene_at_rest_covers_its_range_or_fails() {
     let mesher =
         "mesher = { order = 1, elements_profile = 2, elements_thickness = 2, elements_face = 2, elements_rim = 1 }\n";
-    let scene = ISO_SCENE.replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}")).replace("[analysis]\nmodel = \"iso\"\n", "");
+    let scene = ISO_SCENE
+        .replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}"))
+        .replace("[analysis]\nmodel = \"iso\"\n", "");
     let scratch = Scratch::new().file("a.toml", scene);
     let curve = |motions: &str| {
-        let words = ["curve", "a.toml", "--out", "o", "--from", "1500", "--to", "2000", "--set", "analysis.model=mapped"];
-        let set = ["--set", "motion.mesh_damping_ratio=0.2", "--set", "motion.continuation.time_points=0", "--set", motions];
+        let words =
+            ["curve", "a.toml", "--out", "o", "--from", "1500", "--to", "2000", "--set", "analysis.model=mapped"];
+        let set =
+            ["--set", "motion.mesh_damping_ratio=0.2", "--set", "motion.continuation.time_points=0", "--set", motions];
         scratch.command(&[&words[..], &set].concat())
     };
     let cut = curve("motion.continuation.motions=3");

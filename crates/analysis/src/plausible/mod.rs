@@ -6,17 +6,20 @@
 //! | module | what it does |
 //! |---|---|
 //! | `estimate` | deflection and pressure by ISO 6336-1 and Hertz |
+//! | `implausible` | what is said of them |
 //! | `refusal` | refuses what no gear does, with the unit that was meant |
 //! | `remarks` | tells what is unlikely |
 //! | `limits` | checks of the result |
 
 mod estimate;
 mod flanks;
+pub(crate) mod implausible;
 mod limits;
 mod refusal;
 mod remarks;
 
 pub use estimate::LoadEstimate;
+pub use implausible::Implausible;
 pub use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};
-pub use refusal::{Implausible, beyond, refuse};
+pub use refusal::{beyond, refuse};
 pub use remarks::remarks;

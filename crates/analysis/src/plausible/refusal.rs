@@ -4,8 +4,9 @@ use geometry::GearPair;
 use scene::{Place, Scene, units::in_another_unit};
 
 use super::{
-    LoadEstimate,
+    estimate::LoadEstimate,
     flanks::tip_left,
+    implausible::Implausible,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},
 };
 use crate::AnalysisError;
@@ -16,20 +17,6 @@ const MODULES: f64 = 1.0;
 const PRESSURE: f64 = 0.5;
 /// Deflection in modules, and pressure over E*, of a scene that makes sense.
 const USUAL: [f64; 2] = [0.1, 0.05];
-
-/// A scene that cannot be meant.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{at}: {said}")]
-pub struct Implausible {
-    /// The scene, with the line of the key that is likely wrong.
-    pub at: String,
-    /// That line, with a mark below it.
-    pub excerpt: Option<String>,
-    /// What it would mean.
-    pub said: String,
-    /// What to write.
-    pub hint: String,
-}
 
 /// What a scene would mean that cannot be meant, and its likely cause.
 #[derive(Debug, Clone, PartialEq)]
