@@ -169,7 +169,10 @@ impl Phases {
         let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
         let foreseen_s = if let PhaseWork::Seconds(seconds) = work { Some(seconds) } else { None };
         let progress = BarProgress { bar: bar.clone(), due, pace, foreseen_s };
-        let watch = Watch::begin(&progress);
+        let watch = progress.due.clone().and_then(|due| {
+            let (bar, own) = (progress.bar.clone(), progress.clone());
+            Watch::begin(Arc::clone(&due), move || bar.elapsed(), move || own.log(&due))
+        });
         self.open.push(OpenPhase { name: name.to_owned(), bar, start: Instant::now(), own_peak, watch });
         progress
     }

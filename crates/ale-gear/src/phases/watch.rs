@@ -1,12 +1,13 @@
 //! Lines of text for a log while a phase has no steps, or none yet.
 
 use std::{
-    sync::{Arc, Condvar, Mutex, PoisonError, atomic::Ordering},
+    sync::{
+        Arc, Condvar, Mutex, PoisonError,
+        atomic::{AtomicU64, Ordering},
+    },
     thread::JoinHandle,
     time::Duration,
 };
-
-use super::BarProgress;
 
 /// A thread that says how far a phase is whenever a line is due; it ends with this.
 #[derive(Debug)]
@@ -16,10 +17,14 @@ pub(super) struct Watch {
 }
 
 impl Watch {
-    /// Of a phase that says lines at all; `None` of others, and where the system gives no thread.
-    pub(super) fn begin(progress: &BarProgress) -> Option<Self> {
-        let due = progress.due.clone()?;
-        let (over, progress) = (Arc::new((Mutex::new(false), Condvar::new())), progress.clone());
+    /// `log` says a line and moves on the second of the phase at which the next one is `due`; `None` where the system
+    /// gives no thread.
+    pub(super) fn begin(
+        due: Arc<AtomicU64>,
+        elapsed: impl Fn() -> Duration + Send + 'static,
+        log: impl Fn() + Send + 'static,
+    ) -> Option<Self> {
+        let over = Arc::new((Mutex::new(false), Condvar::new()));
         let own = Arc::clone(&over);
         let work = move || {
             let (flag, woken) = &*own;
@@ -27,9 +32,9 @@ impl Watch {
             while !*ended {
                 // A moment later, when the seconds that are due are whole.
                 let at = Duration::from_secs(due.load(Ordering::Relaxed)) + Duration::from_millis(1);
-                let wait = at.saturating_sub(progress.bar.elapsed());
+                let wait = at.saturating_sub(elapsed());
                 if wait.is_zero() {
-                    progress.log(&due);
+                    log();
                 } else {
                     ended = woken.wait_timeout(ended, wait).unwrap_or_else(PoisonError::into_inner).0;
                 }

@@ -283,7 +283,7 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
     );
     refused(
         plain.replacen("[[mesh]]", "[[gear]]\nname = \"5\"\nshaft = \"slow\"\nposition_mm = 100.0\n\n[[mesh]]", 1),
-        "ale-gear: box.toml:93: gear \"5\" meshes with nothing, and no mass of it is stated: it would do nothing\n\
+        "ale-gear: box.toml:94: gear \"5\" meshes with nothing, and no mass of it is stated: it would do nothing\n\
          hint: name it as `pinion` or `wheel` of a [[mesh]], give it a `mass_kg` as a flywheel, or leave it out\n",
     );
     refused(

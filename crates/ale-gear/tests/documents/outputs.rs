@@ -84,7 +84,7 @@ fn every_kind() -> Scratch {
         "10",
     ];
     run(&[&["sweep", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
-    let curve = ["--from", "900", "--to", "1000", "--set", "motion.continuation.motions=3"];
+    let curve = ["--from", "900", "--to", "1000", "--set", "motion.continuation.longest_step=1"];
     let lightly = ["--set", "motion.continuation.time_points=1"];
     run(&[&["curve", &seed("004"), "--out", "out-curve"], &curve[..], &lightly].concat());
     let plane = [("from_um", -1), ("to_um", 1), ("from_mm_s", 0), ("to_mm_s", 0), ("columns", 2), ("rows", 1)];

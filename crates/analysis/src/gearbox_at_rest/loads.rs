@@ -13,6 +13,9 @@ use crate::{
     plausible::{Implausible, beyond, remarks},
 };
 
+/// Slope of balls under a radial load over that of their nominal contact angle, at the least.
+const BALLS: f64 = 0.5;
+
 /// The parts of a gearbox that is driven and loaded.
 #[derive(Clone, Copy)]
 pub(super) struct Loaded<'a> {
@@ -68,7 +71,7 @@ impl Loaded<'_> {
     ///
     /// ```text
     /// F_z = -T tan(beta) / r       of a gear: its flanks are the same after a turn along their helix
-    /// F_a >= F_r tan(alpha)        of a row with contact angle alpha under F_r, with a single element that carries
+    /// F_a >= F_r tan(alpha)        of rollers at the contact angle alpha under F_r; balls may stand at a lesser one
     /// ```
     fn thrust(&self, torques: &[[f64; 2]]) -> Result<(), GearboxError> {
         for (i, shaft) in self.file.shafts.iter().enumerate().filter(|(_, shaft)| !shaft.held) {
@@ -79,10 +82,10 @@ impl Loaded<'_> {
                 continue;
             }
             let [x, y, z] = self.force(i, torques);
-            let least_angle = bearings().filter_map(contact_angle).fold(f64::INFINITY, f64::min);
+            let slope = bearings().filter_map(least_slope).fold(f64::INFINITY, f64::min);
             // Where another bearing shares the radial load nobody knows how much of it is left for these.
             let alone = bearings().all(|b| takes_thrust(b) != [false; 2]);
-            let from_rolling = if alone { x.hypot(y) * least_angle.tan() } else { 0.0 };
+            let from_rolling = if alone { x.hypot(y) * slope } else { 0.0 };
             let (direction, taken, pressing) = if plus { ("-z", "+z", z) } else { ("+z", "-z", -z) };
             let left = from_rolling - pressing;
             if left > 0.0 {
@@ -128,9 +131,14 @@ impl Loaded<'_> {
     }
 }
 
-/// Contact angle of a bearing whose rows have one, rad.
-fn contact_angle(bearing: &GearboxBearing) -> Option<f64> {
-    bearing.rolling.as_ref().map(|own| own.contact_angle).filter(|angle| *angle > 0.0)
+/// Axial over radial force of a bearing whose rows stand at an angle, at the least; `None` of others.
+fn least_slope(bearing: &GearboxBearing) -> Option<f64> {
+    let own = bearing.rolling.as_ref()?;
+    match own.kind {
+        RollingKind::TaperedRoller => Some(own.contact_angle.tan()),
+        RollingKind::AngularContactBall => Some(BALLS * own.contact_angle.tan()),
+        RollingKind::DeepGrooveBall | RollingKind::CylindricalRoller => None,
+    }
 }
 
 /// Whether a bearing takes thrust of its shaft towards +z, and towards -z.

@@ -6,6 +6,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `estimate` | deflection and pressure by ISO 6336-1 and Hertz |
+//! | `implausible` | what is said of them |
 //! | `refusal` | refuses what no gear does, with the unit that was meant |
 //! | `remarks` | tells what is unlikely |
 //! | `limits` | checks of the result |

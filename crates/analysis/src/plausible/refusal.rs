@@ -4,8 +4,9 @@ use geometry::GearPair;
 use scene::{Place, Scene, units::in_another_unit};
 
 use super::{
-    Implausible, LoadEstimate,
+    estimate::LoadEstimate,
     flanks::tip_left,
+    implausible::Implausible,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},
 };
 use crate::AnalysisError;

@@ -34,7 +34,6 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
     let meshes = all(&raw.mesh, |t| mesh(s, t, &gears))?;
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
-    in_mesh(s, &raw.gear, &gears, &meshes)?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
     if meshes.is_empty() {
         return nothing("a gearbox without meshes", "list them, each as [[mesh]] with `scene`, `pinion` and `wheel`");
@@ -47,6 +46,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     apart(s, &raw.mesh, &meshes)?;
     meshes.iter().zip(&raw.mesh).try_for_each(|(mesh, table)| facing(s, table, mesh, (&shafts, &gears)))?;
     loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
+    in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let name = raw.name.unwrap_or_else(|| {
@@ -185,8 +185,7 @@ fn in_mesh(s: &Source<'_>, tables: &[Spanned<RawGear>], gears: &[GearboxGear], m
     let alone = |(i, gear): &(usize, &GearboxGear)| {
         gear.inertia.iter().all(Option::is_none) && !meshes.iter().any(|m| m.gears.contains(i))
     };
-    // Without any mesh that is what is said.
-    let Some((i, gear)) = gears.iter().enumerate().find(alone).filter(|_| !meshes.is_empty()) else { return Ok(()) };
+    let Some((i, gear)) = gears.iter().enumerate().find(alone) else { return Ok(()) };
     Err(s.conflict(
         &tables[i].span(),
         format!("gear \"{}\" meshes with nothing, and no mass of it is stated: it would do nothing", gear.name),

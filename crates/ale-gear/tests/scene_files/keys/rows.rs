@@ -150,10 +150,10 @@ const GEAR: &[Row] = &[
 const RAMP: &str = "motion.run=ramp; motion.ramp.from_rpm=3000; motion.ramp.to_rpm=4000; motion.ramp.duration_s=0.004; motion.ramp.waterfall_cycles=4";
 const SWEEP: &str = "motion.run=sweep; motion.sweep.from_rpm=2000; motion.sweep.to_rpm=3000; motion.sweep.speeds=2; motion.sweep.ways=[\"up\"]; motion.warm_up_cycles=3";
 
-const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=4; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.tail=0.01";
+const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=3200; motion.continuation.longest_step=1.0; motion.continuation.motions=12; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.tail=0.01";
 
 /// The same with so few harmonics that more are wanted.
-const MORE: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=4000; motion.continuation.motions=2; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.harmonics=2; motion.continuation.tail=1e-3";
+const MORE: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=3200; motion.continuation.longest_step=1.0; motion.continuation.motions=12; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.harmonics=2; motion.continuation.tail=1e-3";
 
 /// A plane of four starts.
 const BASINS: &str = "motion.run=basins; motion.basins.from_um=-1; motion.basins.to_um=2; motion.basins.from_mm_s=-1; motion.basins.to_mm_s=2; motion.basins.columns=2; motion.basins.rows=2; motion.warm_up_cycles=3";
