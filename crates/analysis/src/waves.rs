@@ -96,10 +96,8 @@ impl Waves {
         let (base, profile) = (gear.base_radius(), gear.profile());
         let [from, to] = [profile.roll_form(), profile.roll_tip()].map(|u| 0.5 * base * u * u);
         let step = (to - from) / places as f64;
-        let table: Vec<[f64; 2]> = (0..places)
-            .map(|i| (TAU * i as f64 / places as f64).sin_cos())
-            .map(|(sin, cos)| [cos, sin])
-            .collect();
+        let table: Vec<[f64; 2]> =
+            (0..places).map(|i| (TAU * i as f64 / places as f64).sin_cos()).map(|(sin, cos)| [cos, sin]).collect();
         let [mut whole, mut high, mut bent] = [0.0; 3];
         let mut powers = vec![0.0; places / 2];
         for line in 0..HEIGHTS {

@@ -166,7 +166,9 @@ impl LumpedError {
                     "tilting about x" => "a stiffness along y at a second place, or one about x",
                     _ => "a stiffness along x at a second place, or one about y",
                 };
-                format!("its supports need {needed} (shaft 0 is the pinion's, shaft 1 the wheel's: `[[pinion.shaft.supports]]`)")
+                format!(
+                    "its supports need {needed} (shaft 0 is the pinion's, shaft 1 the wheel's: `[[pinion.shaft.supports]]`)"
+                )
             }
             Self::NotBalanced { .. } => {
                 "torques times speed ratios must add up to zero, or one shaft must be held in turning".into()

@@ -133,7 +133,9 @@ pub fn slice_line(
             let (mut row, slice) = flanks.slice(&near, pair, 0, 0.0)?;
             flanks.support(&mut row, &slice, &mut hint).then_some(row)
         });
-        let of = |row: ContactRow| (0..2).filter(|i| !known[*i].is_empty()).map(|i| opening(&row.supports[i], &known[i])).sum();
+        let of = |row: ContactRow| {
+            (0..2).filter(|i| !known[*i].is_empty()).map(|i| opening(&row.supports[i], &known[i])).sum()
+        };
         row.map_or(0.0, of)
     };
     loaded_intervals(stations, &solved, face, gap, unsolved)

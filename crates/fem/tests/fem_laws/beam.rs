@@ -170,7 +170,11 @@ fn what_nearly_coincides_changes_no_frequency() {
                 let (found_nodes, found) = frequencies(size, apart, as_place);
                 // Without the cut the elements are those of before, but for its width.
                 assert!(found_nodes <= nodes + 1, "{found_nodes} nodes, {nodes} without the cut");
-                assert_eq!(found_nodes == nodes, apart < 1e-3, "{apart} mm at {size}: {found_nodes} nodes beside {nodes}");
+                assert_eq!(
+                    found_nodes == nodes,
+                    apart < 1e-3,
+                    "{apart} mm at {size}: {found_nodes} nodes beside {nodes}"
+                );
                 for (a, b) in found.iter().zip(&wanted) {
                     let off = (a / b - 1.0).abs();
                     assert!(off < 1e-7 + 1e-3 * apart, "{apart} mm at {size}: {a} beside {b} rad/s, {off:e}");

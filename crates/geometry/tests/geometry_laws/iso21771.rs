@@ -156,7 +156,12 @@ fn flanks_are_conjugate() {
 #[test]
 fn the_flank_begins_on_its_base_circle() {
     for helix_deg in [0.0f64, 25.0] {
-        let gear = Gear::new(GearData { teeth: 17, helix_angle: helix_deg.to_radians(), bore_diameter: 20.0, ..GearData::default() });
+        let gear = Gear::new(GearData {
+            teeth: 17,
+            helix_angle: helix_deg.to_radians(),
+            bore_diameter: 20.0,
+            ..GearData::default()
+        });
         let gear = gear.unwrap();
         for (side, tooth) in [(Side::Left, 0), (Side::Right, 5), (Side::Left, -3)] {
             let flank = gear.flank_of(side, tooth);
@@ -165,7 +170,10 @@ fn the_flank_begins_on_its_base_circle() {
                 for off in [0.0, 1e-16, -1e-16, 3e-16, -3e-16, 1e-12, -1e-12, -1e-9, -1e-7, 1e-7] {
                     let p = Vec3::new(start.x * (1.0 + off), start.y * (1.0 + off), z);
                     let foot = flank.locate(&p).unwrap_or_else(|| panic!("{side:?} {tooth}, off by {off}"));
-                    assert!(foot.distance.abs() < 1e-6 && foot.roll.abs() < 1e-3 && foot.roll >= 0.0, "{off}: {foot:?}");
+                    assert!(
+                        foot.distance.abs() < 1e-6 && foot.roll.abs() < 1e-3 && foot.roll >= 0.0,
+                        "{off}: {foot:?}"
+                    );
                 }
                 assert!(flank.locate(&Vec3::new(start.x * 0.999, start.y * 0.999, z)).is_none());
             }

@@ -113,7 +113,8 @@ fn undercut_begins_at_its_limit() {
         assert!(at(limit + 1e-6).profile().roll_form() < 1e-4);
         // However little the rack cuts away, round-off of the limit included: the involute is continuous there, and begins
         // where half of what the rack is too deep is lost.
-        let too_deep = at(limit).data().normal_module / (at(limit).base_radius() * at(limit).transverse_pressure_angle().sin());
+        let too_deep =
+            at(limit).data().normal_module / (at(limit).base_radius() * at(limit).transverse_pressure_angle().sin());
         for power in 3..=16 {
             let below = 10f64.powi(-power);
             let found = at(limit - below).profile().roll_form();
