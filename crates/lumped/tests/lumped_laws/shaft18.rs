@@ -568,7 +568,6 @@ fn nonsense_is_refused() {
         let refused = ShaftMechanism::new(&system).expect_err(name);
         assert!(!refused.to_string().is_empty() && refused.hint().is_none_or(|h| !h.is_empty()), "{name}");
     }
-    type Change = fn(&mut ShaftSystem);
     let loose: [(&str, Change); 5] = [
         ("tilting about x", |s| s.shafts[0].supports.truncate(1)),
         ("along z", |s| s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[2] = 0.0)),
