@@ -198,7 +198,7 @@ fn flanks_that_end_before_contact_does_are_told() {
     // d_Nf is 91.55, d_Na 101.77 mm, the face -10 .. 10 mm.
     for (profile, face, radii, heights, end, hint) in [
         (12, 2, [46.3, 1e3], WIDE, "begins at diameter 9", "from the root form diameter"),
-        (12, 2, [0.0, 50.2], WIDE, "ends at diameter 9", "`tip_diameter_mm = 9"),
+        (12, 2, [0.0, 50.2], WIDE, "ends at diameter 100.076 mm", "`tip_diameter_mm = 100.076`"),
         (
             2,
             8,
