@@ -7,3 +7,4 @@ mod scene;
 mod settings;
 #[path = "../util/mod.rs"]
 mod util;
+mod waves;

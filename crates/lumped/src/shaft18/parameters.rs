@@ -193,7 +193,7 @@ impl Shaft {
         let tilts = |shift: usize, turn: usize| {
             let places = || holding(shift).map(|s| s.position);
             let span = places().fold(f64::NEG_INFINITY, f64::max) - places().fold(f64::INFINITY, f64::min);
-            holding(turn).next().is_none() && !(span > near)
+            holding(turn).next().is_none() && span <= near
         };
         let free = |axis: usize| holding(axis).next().is_none();
         [

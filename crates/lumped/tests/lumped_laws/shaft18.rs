@@ -568,7 +568,7 @@ fn nonsense_is_refused() {
         let refused = ShaftMechanism::new(&system).expect_err(name);
         assert!(!refused.to_string().is_empty() && refused.hint().is_none_or(|h| !h.is_empty()), "{name}");
     }
-    let loose: [(&str, fn(&mut ShaftSystem)); 5] = [
+    let loose: [(&str, Change); 5] = [
         ("tilting about x", |s| s.shafts[0].supports.truncate(1)),
         ("along z", |s| s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[2] = 0.0)),
         ("along x", |s| s.shafts[1].supports.iter_mut().for_each(|b| b.stiffness[0] = 0.0)),
@@ -583,7 +583,7 @@ fn nonsense_is_refused() {
         assert!(matches!(refused, LumpedError::Loose { motion: found, .. } if found == motion), "{motion}: {refused}");
     }
     // One support that holds against tilting holds the shaft, and teeth without a helix push nothing along the axis.
-    let held: [fn(&mut ShaftSystem); 2] = [
+    let held: [Change; 2] = [
         |s| {
             s.shafts[0].supports.pop();
             s.shafts[0].supports[0].stiffness[3..5].fill(1e9);
