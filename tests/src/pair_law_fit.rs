@@ -28,23 +28,13 @@ const LEAST_ERROR: f64 = 1e-6;
 /// Share of the cases that lies within a single bound.
 const TERM_COVERAGE: f64 = 0.9;
 
-/// What a law is made with.
-#[derive(Debug, Clone, Copy)]
-pub struct Parts {
-    /// A known part of the error. Errors that come from where positions happen to lie have none for most numbers: what a
-    /// regression finds there makes most pairs worse.
-    pub known: bool,
-    /// A power of the difference that was seen.
-    pub difference: bool,
-}
-
 /// The law that holds for nine in ten cases when it is made without them.
-pub fn fit(cases: &[PairCase], parts: Parts) -> Fitted {
+pub fn fit(cases: &[PairCase], by_difference: bool) -> Fitted {
     let mut held_out = vec![[0.0; 2]; cases.len()];
     for fold in 0..FOLDS {
         let others: Vec<PairCase> =
             cases.iter().enumerate().filter(|(i, _)| i % FOLDS != fold).map(|(_, c)| *c).collect();
-        let law = regressed(&others, parts);
+        let law = regressed(&others, by_difference);
         for (i, case) in cases.iter().enumerate().filter(|(i, _)| i % FOLDS == fold) {
             held_out[i] = law.of(&case.features, case.difference, case.scale);
         }
@@ -52,7 +42,7 @@ pub fn fit(cases: &[PairCase], parts: Parts) -> Fitted {
     let ratios = cases.iter().zip(&held_out).map(|(c, [known, within])| (c.error - known).abs() / within);
     let factor = conformal(ratios.collect(), TERM_COVERAGE);
     held_out.iter_mut().for_each(|[_, within]| *within *= factor);
-    let law = regressed(cases, parts);
+    let law = regressed(cases, by_difference);
     Fitted { law: PairLaw { factor, ..law }, held_out }
 }
 
@@ -64,11 +54,8 @@ pub fn conformal(mut ratios: Vec<f64>, coverage: f64) -> f64 {
 }
 
 /// Least squares of the errors, then of the logarithms of what is left.
-fn regressed(cases: &[PairCase], parts: Parts) -> PairLaw {
-    let known = match parts.known {
-        true => ridge(cases.iter().map(|c| (c.features.to_vec(), c.error / c.scale)).collect()),
-        false => vec![0.0; FEATURES],
-    };
+fn regressed(cases: &[PairCase], by_difference: bool) -> PairLaw {
+    let known = ridge(cases.iter().map(|c| (c.features.to_vec(), c.error / c.scale)).collect());
     let left = |c: &PairCase| {
         let shift: f64 = known.iter().zip(&c.features).map(|(a, x)| a * x).sum();
         ((c.error / c.scale - shift).abs() + LEAST_ERROR).ln()
@@ -76,11 +63,11 @@ fn regressed(cases: &[PairCase], parts: Parts) -> PairLaw {
     let seen = |c: &PairCase| (c.difference.abs() / c.scale + LEAST_DIFFERENCE).ln();
     let row = |c: &PairCase| {
         let mut row = c.features.to_vec();
-        row.extend(parts.difference.then(|| seen(c)));
+        row.extend(by_difference.then(|| seen(c)));
         (row, left(c))
     };
     let mut spread = ridge(cases.iter().map(row).collect());
-    let power = if parts.difference { spread.pop().unwrap_or(0.0) } else { 0.0 };
+    let power = if by_difference { spread.pop().unwrap_or(0.0) } else { 0.0 };
     PairLaw { known, spread, power, factor: 1.0 }
 }
 

@@ -9,15 +9,13 @@ use analysis::accuracy::{CalibratedMesh, Calibration, MeshLaw, PairLaw, Position
 use serde_json::Value;
 use verification::{
     measured_pair::{MeasuredPair, POSITIONS, RUNGS},
-    pair_law_fit::{Fitted, PairCase, Parts, conformal, fit},
+    pair_law_fit::{Fitted, PairCase, conformal, fit},
 };
 
 /// Share of the pairs that all bounds of a quantity together hold for.
 const COVERAGE: f64 = 0.96;
 /// Numbers of positions.
 const OF_POSITIONS: [u32; 3] = [8, 16, 32];
-/// Of meshes and slices, whose errors have a sign.
-const BY_FEATURES: Parts = Parts { known: true, difference: false };
 /// Pairs that laws are made of, at least.
 const LEAST_PAIRS: usize = 20;
 
@@ -58,7 +56,7 @@ fn cause(
     pairs: &[&MeasuredPair],
     q: Quantity,
     mesh: CalibratedMesh,
-    parts: Parts,
+    by_difference: bool,
     of: impl Fn(&MeasuredPair) -> Option<[f64; 2]>,
 ) -> Option<Cause> {
     let case = |pair: &&MeasuredPair| {
@@ -67,7 +65,7 @@ fn cause(
         Some(PairCase { features: pair.features(mesh)?, difference, error, scale })
     };
     let cases: Vec<PairCase> = pairs.iter().filter_map(case).collect();
-    (cases.len() == pairs.len()).then(|| Cause { fitted: fit(&cases, parts), cases })
+    (cases.len() == pairs.len()).then(|| Cause { fitted: fit(&cases, by_difference), cases })
 }
 
 fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<QuantityLaws> {
@@ -77,15 +75,11 @@ fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<Qu
         return None;
     }
     let coarsest = CalibratedMesh::Rung(RUNGS[0]);
-    let slices = cause(&pairs, q, coarsest, BY_FEATURES, |p| Some([0.0, p.slices_error(q)?]))?;
-    let of_mesh = |mesh| Some((mesh, cause(&pairs, q, mesh, BY_FEATURES, |p| Some([0.0, p.mesh_error(mesh, q)?]))?));
+    let slices = cause(&pairs, q, coarsest, false, |p| Some([0.0, p.slices_error(q)?]))?;
+    let of_mesh = |mesh| Some((mesh, cause(&pairs, q, mesh, false, |p| Some([0.0, p.mesh_error(mesh, q)?]))?));
     let of_positions = |n: u32| {
         let of = |p: &MeasuredPair| Some([p.halved_difference(n, q)?, p.positions_error(n, q)?]);
-        let with = |known: bool| cause(&pairs, q, coarsest, Parts { known, difference: n > POSITIONS }, of);
-        // Where positions happen to lie has a sign for some numbers alone: the largest is missed, never exceeded.
-        let width = |c: &Cause| median(c.fitted.held_out.iter().zip(&c.cases).map(|(h, c)| h[1] / c.scale).collect());
-        let [plain, known] = [with(false)?, with(true)?];
-        Some((n, if width(&known) < width(&plain) { known } else { plain }))
+        Some((n, cause(&pairs, q, coarsest, n > POSITIONS, of)?))
     };
     let mesh: Vec<(CalibratedMesh, Cause)> = meshes().into_iter().map(of_mesh).collect::<Option<_>>()?;
     let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<_>>()?;

@@ -3,3 +3,4 @@
 
 mod adversarial;
 mod references;
+mod spur_positions;

@@ -42,9 +42,10 @@ pub struct Term {
 
 impl Term {
     /// The same where the known part is not worth taking off: one that is no larger than what it may be off by may make
-    /// a value worse, and is a part of that.
+    /// a value worse, and is a part of that. What positions happen to miss has a mean and no known part: of 70 pairs that
+    /// took no part in the calibration, taking it off made ten of ten numbers worse.
     fn offered(self) -> Self {
-        if self.amount < self.known.abs() {
+        if self.amount < self.known.abs() && self.cause != Cause::Positions {
             return self;
         }
         Self { known: 0.0, amount: self.known.abs() + self.amount, ..self }
