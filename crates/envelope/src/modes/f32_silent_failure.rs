@@ -19,7 +19,10 @@ const MUST_FAIL: [(&[&str], &str); 6] = [
     (&["operation.torque_nm=1e7"], "would bend the teeth"),
     (&["contact.method=nodal", "contact.penalty_mpa_per_mm=1", "operation.torque_nm=1e4"], "would bend the teeth"),
     (&["analysis.window_teeth=1"], "outside the window of 1 teeth"),
-    (&["pair.face_width_mm=1.0", "pinion.profile_shift=0.6", "pair.centre_distance_mm=99.5"], "the teeth lose each other"),
+    (
+        &["pair.face_width_mm=1.0", "pinion.profile_shift=0.6", "pair.centre_distance_mm=99.5"],
+        "the teeth lose each other",
+    ),
     (
         &[
             "analysis.kind=dynamic",
