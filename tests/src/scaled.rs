@@ -9,8 +9,11 @@ use std::path::Path;
 
 use scene::Scene;
 
+/// What flanks bear: a name, keys that are lengths, and other words.
+pub type Flanks = (&'static str, &'static [(&'static str, f64)], &'static str);
+
 /// What the flanks of the pinion bear.
-pub const FLANKS: [(&str, &[(&str, f64)], &str); 5] = [
+pub const FLANKS: [Flanks; 5] = [
     ("nominal", &[], ""),
     ("linear tip relief", &[("tip_relief_um", 20.0)], "tip_relief_start_roll_deg = 24.0\n"),
     (
@@ -32,7 +35,7 @@ pub const FLANKS: [(&str, &[(&str, f64)], &str); 5] = [
 ];
 
 /// The text of a pair of so many times the size, with some of [`FLANKS`], and `rest` behind it.
-pub fn text(size: f64, (_, lengths, words): (&str, &[(&str, f64)], &str), rest: &str) -> String {
+pub fn text(size: f64, (_, lengths, words): Flanks, rest: &str) -> String {
     let mesher = "order = 1\nelements_profile = 2\nelements_fillet = 2\nelements_thickness = 2\nelements_face = 4\n\
                   elements_rim = 1\n";
     let lengths: String = lengths.iter().map(|(key, value)| format!("{key} = {:?}\n", size * value)).collect();
@@ -51,7 +54,7 @@ pub fn text(size: f64, (_, lengths, words): (&str, &[(&str, f64)], &str), rest: 
 }
 
 /// The scene of [`text`].
-pub fn scene(size: f64, flanks: (&str, &[(&str, f64)], &str), rest: &str) -> Scene {
+pub fn scene(size: f64, flanks: Flanks, rest: &str) -> Scene {
     let text = text(size, flanks, rest);
     Scene::parse(&text, Path::new("scaled.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }

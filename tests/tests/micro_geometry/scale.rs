@@ -4,7 +4,7 @@
 
 use analysis::{StaticAnalysis, StaticResult};
 use ltca::StaticPosition;
-use verification::scaled::{FLANKS, SIZES, apart, largest, scene};
+use verification::scaled::{FLANKS, Flanks, SIZES, apart, largest, scene};
 
 /// Quantities and the power of the size that they go with.
 type Quantity = (&'static str, i32, fn(&StaticPosition) -> f64);
@@ -21,7 +21,7 @@ const QUANTITIES: [Quantity; 8] = [
     ("tilting moment", 3, |p| p.wrench[0].moment[1]),
 ];
 
-fn solved(size: f64, flanks: (&str, &[(&str, f64)], &str), contact: &str) -> StaticResult {
+fn solved(size: f64, flanks: Flanks, contact: &str) -> StaticResult {
     let scene = scene(size, flanks, &format!("[analysis]\npositions_per_cycle = 8\n[contact]\n{contact}"));
     StaticAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("size {size}, {}: {e}", flanks.0))
 }

@@ -25,7 +25,7 @@ fn told(name: &str, text: &str) -> Told {
         let found = MotionAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{name}: {e}"));
         Told {
             rows: found.rows.len(),
-            energy: found.rows.iter().map(|r| r.energy.clone()).collect(),
+            energy: found.rows.iter().map(|r| r.energy).collect(),
             open_over_vibration: found.headline.certificate.energy_open_over_vibration,
             held: found.facts.certificate.verdict(&scene).is_ok(),
         }

@@ -3,10 +3,10 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use analysis::{lumped::LumpedAnalysis, motion::MotionAnalysis};
-use verification::scaled::{FLANKS, SIZES, apart, largest, scene};
+use verification::scaled::{FLANKS, Flanks, SIZES, apart, largest, scene};
 
 /// Transmission error (um), normal force (N) and kinetic energy (mJ) row by row, over what they go with.
-fn moved(size: f64, flanks: (&str, &[(&str, f64)], &str), model: &str) -> [Vec<f64>; 3] {
+fn moved(size: f64, flanks: Flanks, model: &str) -> [Vec<f64>; 3] {
     let springs = ["pinion", "wheel"].map(|g| {
         format!("[{g}.body]\nfree = [\"x\", \"y\"]\n[{g}.bearing]\nstiffness_x_n_per_mm = {k:?}\nstiffness_y_n_per_mm = {k:?}\n", k = 2e5 * size)
     });

@@ -143,3 +143,26 @@ fn teeth_that_pass_through_each_other_end_the_run_there() {
     assert_eq!(run.code, Some(1), "{}{}", run.stdout, run.stderr);
     assert!(run.stderr.contains("teeth have passed through each other"), "{}", run.stderr);
 }
+
+/// Bounds of checks are those that the document says.
+#[test]
+fn bounds_are_those_of_the_document() {
+    let document = std::fs::read_to_string(crate::util::repository().join("docs/outputs.md")).unwrap();
+    let (_, section) = document.split_once("### Certificate").expect("a section of certificates");
+    let scratch = Scratch::new().file("a.toml", motion_scene(2, "run = \"span\"\n")).file("b.toml", ISO_SCENE);
+    let mut seen = std::collections::BTreeSet::new();
+    for (file, model) in [("a.toml", "reduced"), ("a.toml", "mapped"), ("b.toml", "iso")] {
+        let set = format!("analysis.model=\"{model}\"");
+        let run = scratch.ale_gear(["run", file, "--out", "o", "--json", "--set", &set]);
+        assert_eq!(run.code, Some(0), "{model}: {}", run.stderr);
+        for (name, check) in json(&run.stdout)["certificate_checks"].as_object().unwrap() {
+            let row = section.lines().find(|line| line.starts_with(&format!("| `{name}` |")));
+            let told = row.unwrap_or_else(|| panic!("{name} has no row")).split('|').nth(2).unwrap().trim();
+            assert_eq!(check["bound"].as_f64(), told.parse().ok(), "{name}: the document says {told}");
+            seen.insert(name.clone());
+        }
+    }
+    for name in ["energy_residual", "map_error", "map_excess", "pulling_force", "force_jump", "torque_residual"] {
+        assert!(seen.contains(name), "no model has {name}: {seen:?}");
+    }
+}

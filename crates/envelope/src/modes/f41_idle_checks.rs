@@ -35,7 +35,7 @@ const SPOILT: [f64; 3] = [0.1, f64::INFINITY, f64::NAN];
 
 /// Largest measure of positions as it is often written: what is no number is passed over.
 fn largest_but_nan(positions: &[StaticPosition], measure: Measure) -> f64 {
-    positions.iter().map(|p| *measure(&mut p.certificate.clone())).fold(0.0, f64::max)
+    positions.iter().map(|p| *measure(&mut { p.certificate })).fold(0.0, f64::max)
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

@@ -18,10 +18,14 @@ columns!(EnergyRows, ALL, |(), _| true, {
     TIME = "time_s" ["s"] "as in `history.csv`", |(), row, _| row.time_s;
     KINETIC = "kinetic_mj" ["mJ"] "kinetic energy", |(), row, _| row.kinetic_mj;
     ELASTIC = "elastic_mj" ["mJ"] "elastic energy of teeth, bearings and modes", |(), row, _| row.elastic_mj;
-    SUPPLIED = "supplied_mj" ["mJ"] "work of drive and load", |(), row, _| row.supplied_mj;
+    SUPPLIED = "supplied_mj" ["mJ"]
+        "work of drive and load on the vibration, and what friction and the dampers of `impact` and `shaft18` take of the nominal turn and of the teeth's errors",
+        |(), row, _| row.supplied_mj;
     PARAMETRIC = "parametric_mj" ["mJ"] "what the turning of the teeth under load does to their elastic energy",
         |(), row, _| row.parametric_mj;
-    DISSIPATED = "dissipated_mj" ["mJ"] "in dampers and by friction", |(), row, _| row.dissipated_mj;
+    DISSIPATED = "dissipated_mj" ["mJ"]
+        "in dampers and by friction, never falling; friction of `lumped8` and `lumped12` is a load, in `supplied_mj`",
+        |(), row, _| row.dissipated_mj;
     RESIDUAL = "residual_mj" ["mJ"] "what the integrator adds or takes", |(), row, _| row.residual_mj;
 });
 
