@@ -7,7 +7,7 @@ use geometry::{ContactLine, GearPair, Vec3};
 use ltca::{Certificate, PairResult, StaticHistory, StaticPosition};
 use lumped::{
     LumpedError,
-    iso::{IsoStiffness, body_compliance, mean_transmission_error_um},
+    iso::{body_compliance, mean_transmission_error_um},
 };
 
 use scene::{Driver, Scene};

@@ -1,8 +1,7 @@
 //! Where shafts, bearings and gears stand under torques. Theory (81), (83), (84).
 
 use contact::SliceResult;
-use geometry::{GearPair, Sense};
-use lumped::shaft18::MeshGeometry;
+use geometry::Sense;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use crate::{

@@ -14,7 +14,7 @@ use scene::{
 };
 
 use super::elastic_pair::{ElasticPair, without_speed};
-use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, nominal_load, static_certificate};
+use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, nominal_load, static_certificate};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
 #[derive(Debug, Clone)]

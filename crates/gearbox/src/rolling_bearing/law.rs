@@ -1,6 +1,6 @@
 //! All rows of a bearing as one law: forces are the gradient of a convex energy. Theory (97) to (100).
 
-use nalgebra::{Matrix5, Matrix6, Vector5, Vector6};
+use nalgebra::{Matrix6, Vector5};
 
 use super::{
     AxialSeat, AxialSetting, RollingBearingError, RollingElements, RollingReply, Row, ball::BallRow, reply::with_turn,
