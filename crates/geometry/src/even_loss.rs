@@ -59,7 +59,8 @@ mod tests {
     use crate::{Gear, GearData, GearPair, Side};
 
     fn pair(teeth: [u32; 2], helix_deg: f64, face_width: f64) -> GearPair {
-        let data = GearData { teeth: teeth[0], helix_angle: helix_deg.to_radians(), face_width, ..GearData::default() };
+        let (helix_angle, bore_diameter) = (helix_deg.to_radians(), 10.0);
+        let data = GearData { teeth: teeth[0], helix_angle, face_width, bore_diameter, ..GearData::default() };
         let wheel = GearData { teeth: teeth[1], helix_angle: -data.helix_angle, ..data.clone() };
         GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap()
     }

@@ -76,6 +76,9 @@ fn words(line: &str) -> Vec<&str> {
     line.split(' ').collect()
 }
 
+/// What makes a folder foreign, how it comes about, and the file that is then named.
+type Foreign<'a> = (&'a str, &'a dyn Fn(&Path), &'a str);
+
 /// A folder is a result by a summary of this program, and only files that it lists are replaced: all else, whatever its
 /// names are, makes every command refuse before it does anything.
 #[test]
@@ -90,7 +93,7 @@ fn only_files_of_a_result_are_replaced() {
             fs::write(to.join(path.file_name().unwrap()), content).unwrap();
         }
     };
-    let foreign: [(&str, &dyn Fn(&Path), &str); 8] = [
+    let foreign: [Foreign; 8] = [
         ("names of results alone", &|o| fs::write(o.join("history.csv"), "years of work").unwrap(), "history.csv"),
         (
             "a folder of such a name",

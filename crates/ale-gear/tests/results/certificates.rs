@@ -76,25 +76,24 @@ fn cheaper_models_know_their_limit() {
     assert_eq!(fine.code, Some(0), "{enough} steps: {}", fine.stderr);
 }
 
-/// A torque so small that its balance is lost in round-off: files are there and say that they do not hold, wherever one
-/// looks.
+/// A torque that bends the teeth by half a module: files are there and say that they do not hold, wherever one looks.
 #[test]
 fn a_result_that_does_not_hold_says_so_everywhere() {
     let failing = motion_scene(0, "")
         .split("kind = \"dynamic\"")
         .next()
         .unwrap()
-        .replace("torque_nm = 150.0", "torque_nm = 1e-16");
+        .replace("torque_nm = 150.0", "torque_nm = 30000.0");
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("the result does not hold: round_off_share is "), "{}", run.stderr);
-    assert!(run.stderr.contains(", the bound is 1e-2"), "{}", run.stderr);
+    assert!(run.stderr.contains("the result does not hold: deflection_over_module is "), "{}", run.stderr);
+    assert!(run.stderr.contains(", the bound is 3e-1"), "{}", run.stderr);
     assert!(run.stdout.contains("THE RESULT DOES NOT HOLD"), "{}", run.stdout);
     let summary = json(&scratch.read("o/summary.json"));
     assert_eq!(summary["certificate"], "failed");
-    let check = &summary["certificate_checks"]["round_off_share"];
-    assert!(check["bound"] == 1e-2 && check["value"].as_f64().is_none_or(|v| v > 1e-2), "{check}");
+    let check = &summary["certificate_checks"]["deflection_over_module"];
+    assert!(check["bound"] == 0.3 && check["value"].as_f64().is_none_or(|v| v > 0.3), "{check}");
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 
     let fine = scratch.ale_gear(["run", "b.toml", "--out", "p"]);
@@ -103,10 +102,10 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     assert!(!scratch.read("p/report.html").contains("does not hold"));
 
     let compared = scratch.ale_gear(["compare", "p", "o", "--out", "c"]);
-    assert!(compared.stdout.contains("DOES NOT HOLD: round_off_share"), "{}", compared.stdout);
+    assert!(compared.stdout.contains("DOES NOT HOLD: deflection_over_module"), "{}", compared.stdout);
     assert!(scratch.read("c/compare.html").contains("<b>does not hold</b>"));
     let again = scratch.ale_gear(["report", "o"]);
-    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: round_off_share"), "{}", again.stdout);
+    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: deflection_over_module"), "{}", again.stdout);
     assert!(scratch.read("o/report.html").contains("This result does not hold."));
 }
 

@@ -8,7 +8,7 @@ samples = 50
 [[vary]]
 key = "operation.torque_nm"
 from = 50
-to = 1e9
+to = 1e3
 [[output]]
 headline = "mean_ste_um"
 "#;

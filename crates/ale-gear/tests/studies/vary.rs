@@ -184,8 +184,8 @@ fn words_of_a_plan_are_checked_first() {
         (format!("scene = \"a.toml\"\nsampels = 3\n{vary}{output}"), "did you mean `samples`"),
         (format!("scene = \"a.toml\"\ndesign = \"sobo\"\n{vary}{output}"), "did you mean \"sobol\""),
         (format!("scene = \"a.toml\"\n{vary}from = 1\n{output}"), "in one way what values there are"),
-        (format!("scene = \"a.toml\"\n{vary}{vary}{output}"), "varies `operation.torque_nm` twice"),
-        (format!("scene = \"a.toml\"\n{vary}{output}{output}"), "asks for `mean_ste_um` twice"),
+        (format!("scene = \"a.toml\"\n{vary}{vary}{output}"), "`operation.torque_nm` is varied twice"),
+        (format!("scene = \"a.toml\"\n{vary}{output}{output}"), "`mean_ste_um` is asked for twice"),
         (format!("scene = \"a.toml\"\n{}{output}", vary.replace("torque_nm", "torqe_nm")), "torqe_nm"),
         (format!("scene = \"a.toml\"\n{}{output}", vary.replace("values = [1, 2]", "values = []")), "no values"),
         (
