@@ -278,7 +278,9 @@ impl SceneError {
             Self::UnknownKey { advice, .. } | Self::Conflict { advice, .. } | Self::WrongType { advice, .. } => {
                 Some(advice.clone())
             }
-            Self::OutOfRange { advice, .. } => advice.clone(),
+            Self::OutOfRange { advice, key, .. } => {
+                Some(advice.clone().unwrap_or_else(|| format!("give `{key}` a value that is allowed")))
+            }
             Self::Twice { advice, .. } => Some(advice.clone()),
             Self::AnotherKind { file, found, .. } => {
                 Some(format!("`ale-gear {} {} --out DIR` takes it", found.command(), file.display()))
