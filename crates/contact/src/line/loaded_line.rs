@@ -99,7 +99,7 @@ impl<G: FnMut(usize, f64) -> f64, U: FnMut(usize, f64) -> f64> Line<'_, G, U> {
         let face = [(0, low), (count - 1, high)].into_iter().find(|(end, _)| *end == i).map(|(_, face)| face);
         if let Some(face) = face {
             // Load opens flanks there: where the undeformed ones are apart there is no line, and nothing is recovered.
-            if self.solved[i].is_none() && !((self.gap)(i, face) < 0.0) {
+            if self.solved[i].is_none() && (self.gap)(i, face) >= 0.0 {
                 return None;
             }
             let there = self.under_load(i, face);
