@@ -197,7 +197,8 @@ fn wrong_studies_are_told_with_line_and_hint() {
     says(
         "\"peak_to_peak\"",
         "\"peak\"",
-        "s.toml:17: `take` is \"peak\", allowed is \"mean\" or \"peak_to_peak\" or \"least\" or \"largest\"",
+        "s.toml:17: `take` is \"peak\", allowed is \"mean\" or \"peak_to_peak\" or \"least\" or \"largest\"\n\
+         hint: give `take` a value that is allowed",
     );
     says(
         "column = \"ste_um\"",
