@@ -131,7 +131,7 @@ pub enum AnalysisError {
         /// Why it has no motion.
         reason: String,
         /// What to do.
-        way_out: &'static str,
+        hint: &'static str,
     },
     /// A record that no statistics can be made of.
     #[error(transparent)]
@@ -198,7 +198,7 @@ pub enum AnalysisError {
         /// The first check that is missed, and how many more.
         missed: String,
         /// What to do.
-        way_out: &'static str,
+        hint: &'static str,
     },
     /// A cheaper model cannot be made of the scene, or finds no motion.
     #[error("{file}: {source}")]
@@ -397,7 +397,7 @@ impl AnalysisError {
             Self::Shared(source) => source.hint(),
             Self::Motion { source, .. } => Some(source.hint()),
             Self::Modes { source, .. } => source.hint(),
-            Self::NoSpeed { way_out, .. } => Some((*way_out).to_owned()),
+            Self::NoSpeed { hint, .. } => Some((*hint).to_owned()),
             Self::Statistics(e) => e.hint(),
             Self::OtherAnalysis { .. } => {
                 Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
@@ -414,7 +414,7 @@ impl AnalysisError {
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),
             Self::Implausible(found) => Some(found.hint.clone()),
-            Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
+            Self::Certificate { hint, .. } => Some((*hint).to_owned()),
             Self::Calculix(e) => e.hint(),
             Self::NothingHolds { .. }
             | Self::Window(_)

@@ -9,7 +9,7 @@ use scene::Scene;
 use crate::{
     AnalysisError,
     accuracy::Accuracy,
-    certificate::Certificate,
+    certificate::{self, Checks},
     gears, iso_root,
     nominal_pressure::{NominalPressure, nominal_pressure},
 };
@@ -51,7 +51,7 @@ pub struct Facts {
     pub accuracy: Option<Accuracy>,
     /// What must hold of the result.
     #[serde(flatten)]
-    pub certificate: Certificate,
+    pub certificate: Checks,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,
@@ -74,7 +74,7 @@ impl Facts {
     /// # Errors
     /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`].
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
-        self.certificate.verdict(scene)?;
+        certificate::verdict(&self.certificate, scene)?;
         let missed = self.accuracy.iter().flat_map(Accuracy::missed);
         let missed: Vec<String> = missed.map(|b| format!("{} is {}", b.quantity.key(), b.words())).collect();
         if missed.is_empty() {

@@ -176,7 +176,7 @@ impl<'a> SharedModels<'a> {
             return Ok((scene, history));
         }
         let (scene, history) = self.alone(scene, &|| true)?;
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        crate::certificate::verdict(&static_certificate(&scene, &history.positions), &scene)?;
         Ok((scene, history))
     }
 
@@ -196,7 +196,7 @@ impl<'a> SharedModels<'a> {
         let varied = VariedScene::by_keys(scene, &keys)?;
         let asked = Rates { of: &varied, of_unloaded: true };
         let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        crate::certificate::verdict(&static_certificate(&scene, &history.positions), &scene)?;
         Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
@@ -240,7 +240,7 @@ impl<'a> SharedModels<'a> {
                 Err(error) if given_up(&error) => Ok(None),
                 Err(error) => Err(error),
                 Ok((scene, history)) => {
-                    static_certificate(&scene, &history.positions).verdict(&scene)?;
+                    crate::certificate::verdict(&static_certificate(&scene, &history.positions), &scene)?;
                     Ok(still().then_some((scene, history)))
                 }
             };
@@ -253,7 +253,7 @@ impl<'a> SharedModels<'a> {
         if lost.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        crate::certificate::verdict(&static_certificate(&scene, &history.positions), &scene)?;
         let pair = scene.gear_pair()?;
         history.warnings.extend(gears::warnings(&pair));
         history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
@@ -280,7 +280,7 @@ impl<'a> SharedModels<'a> {
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
         let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&solved.scene, &solved.history.positions).verdict(&solved.scene)?;
+        crate::certificate::verdict(&static_certificate(&solved.scene, &solved.history.positions), &solved.scene)?;
         Ok(solved)
     }
 

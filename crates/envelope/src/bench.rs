@@ -42,7 +42,7 @@ impl Bench {
     pub(crate) fn at_rest<S: AsRef<str>>(&self, settings: &[S]) -> Result<StaticResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = StaticAnalysis::new(&scene).solve()?;
-        static_certificate(&scene, &result.history.positions).verdict(&scene)?;
+        analysis::certificate::verdict(&static_certificate(&scene, &result.history.positions), &scene)?;
         Ok(result)
     }
 
@@ -62,7 +62,7 @@ impl Bench {
     pub(crate) fn in_motion<S: AsRef<str>>(&self, settings: &[S]) -> Result<MotionResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = MotionAnalysis::new(&scene).solve()?;
-        result.facts.certificate.verdict(&scene)?;
+        analysis::certificate::verdict(&result.facts.certificate, &scene)?;
         Ok(result)
     }
 
@@ -75,7 +75,7 @@ impl Bench {
     pub(crate) fn lumped<S: AsRef<str>>(&self, settings: &[S]) -> Result<LumpedResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = LumpedAnalysis::new(&scene).solve()?;
-        result.certificate().verdict(&scene)?;
+        analysis::certificate::verdict(result.certificate(), &scene)?;
         Ok(result)
     }
 }

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use analysis::gearbox_at_rest::{Missed, solve_gearbox};
-use report::gearbox_files::{gearbox_table, write_gearbox};
+use analysis::gearbox_at_rest::solve_gearbox;
+use report::gearbox_files::write_gearbox;
 use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs};
@@ -34,13 +34,9 @@ impl GearboxArgs {
         let mut phases = Phases::with_bars();
         let results = ResultDirectory::create(&self.out)?;
         let result = solve_gearbox(&file, &self.cache.open(), &mut phases)?;
-        let cost = phases.cost();
-        write_gearbox(&file, &result, &cost, &results)?;
+        let table = write_gearbox(&file, &result, phases.cost(), &results)?;
         results.finish(talk::note)?;
-        let table = gearbox_table(&file, &result, &cost);
-        let failure = result.missed().into_iter().next().map(|Missed { what, hint }| {
-            CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint.to_owned()))
-        });
+        let failure = result.verdict(&file).err().map(CommandError::from);
         let text = if quiet { String::new() } else { format!("{table}\nresults: {}\n", self.out.display()) };
         Ok(Answer { text, failure })
     }

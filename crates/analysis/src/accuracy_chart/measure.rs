@@ -46,7 +46,7 @@ pub(super) fn measure(
 fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults>) -> Result<Measured, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
     let solved = StaticAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
-    static_certificate(&point.scene, &solved.history.positions).verdict(&point.scene)?;
+    crate::certificate::verdict(&static_certificate(&point.scene, &solved.history.positions), &point.scene)?;
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
     let peak_memory_mb = phases.peak_mb();
     let (offline_s, run_s) = (phases.wall_s(|name| name != SOLVE), phases.wall_s(|name| name == SOLVE));

@@ -111,16 +111,16 @@ impl LumpedMechanism for MappedModel {
         let worst = self.pair.maps().map(|m| m.certificate()).map(|c| c.rms_error_mm / c.deflection_mm);
         vec![
             Check {
-                name: "map_error",
+                name: "map_error".into(),
                 value: worst.fold(0.0, crate::worse),
                 bound: WORST_MAP,
-                way_out: "use `model = \"reduced\"`, which solves the contact itself",
+                hint: "use `model = \"reduced\"`, which solves the contact itself",
             },
             Check {
-                name: "map_excess",
+                name: "map_excess".into(),
                 value: crate::worse(excess.force, excess.tilt),
                 bound: 1.0,
-                way_out: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
+                hint: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
             },
         ]
     }
