@@ -8,7 +8,12 @@ use minijinja::{context, value::Serde};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use super::{motion_page::motion, space::BoxInSpace, summary, vibration_page::vibration};
+use super::{
+    motion_page::motion,
+    space::BoxInSpace,
+    summary::{self, norm},
+    vibration_page::vibration,
+};
 use crate::{
     Cost, ReportError,
     charts::{Curve, embedded, line_chart},
@@ -48,10 +53,6 @@ pub(super) fn gearbox_page(
             cost => Serde(serde_json::to_value(cost).unwrap_or_default()),
         },
     )
-}
-
-pub(super) fn norm(force: [f64; 3]) -> f64 {
-    force[0].hypot(force[1]).hypot(force[2])
 }
 
 fn meshes(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {

@@ -8,7 +8,6 @@ use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use serde_json::{Value, json};
 
-use super::page::norm;
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 use crate::{Cost, SUMMARY_SCHEMA};
 
@@ -80,6 +79,11 @@ fn headline(result: &GearboxResult) -> Value {
         "peak_to_peak_lag_urad": result.outputs.iter().map(|o| 1e6 * o.peak_to_peak).collect::<Vec<_>>(),
         "mean_bearing_force_n": result.bearings.iter().map(|b| norm(b.force)).collect::<Vec<_>>(),
     })
+}
+
+/// Size of a force.
+pub(super) fn norm(force: [f64; 3]) -> f64 {
+    force[0].hypot(force[1]).hypot(force[2])
 }
 
 /// What is known of a rolling bearing: the page tells the same.
