@@ -7,8 +7,8 @@ use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{CaseTable, Column, DoneCases, KnownCases, page, spread::Spread};
-use crate::{Cost, ReportError, checkpoint::InputDigests, folder::ResultDirectory, study_files::CASES};
+use super::{CaseTable, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
+use crate::{Cost, ReportError, checkpoint::InputDigests, folder::ResultDirectory};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -36,20 +36,6 @@ pub fn plan_digest(plan: &Plan) -> Result<String, ReportError> {
         ));
     }
     Ok(hasher.finalize().to_hex().to_string())
-}
-
-/// What a report of a plan says beside its numbers.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct PageWords<'a> {
-    /// The command that makes it again.
-    pub again: &'a str,
-    /// Cases that have a report of their own, in the folder [`report_folder`].
-    pub reports: &'a [usize],
-}
-
-/// Folder of the report of a case, below that of the plan.
-pub fn report_folder(case: usize) -> String {
-    format!("{CASES}/{case}")
 }
 
 /// Writes the files of a plan whose cases are done; what comes back is the closing table.
