@@ -4,18 +4,19 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{Station, solve_widening};
 use geometry::GearPair;
-use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
+use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 use mesh::Mesh;
 use reduction::{ElasticGear, GearReducer};
 use scene::{Analysis, Model, Scene};
 
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork,
+    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, PhaseWork, StaticSink,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     error::solver_error,
     facts::Facts,
     failure::Failure,
     foreseen::announced_s,
+    gear_dofs::{dof_after, free_dofs, reduced},
     gears,
     inputs::{meshes_of, settled_scene},
     iso_model, iso_root, light_load,
@@ -27,45 +28,8 @@ use crate::{
     shared_models::{Base, SharedModels},
     unless_cancelled,
     warnings::{body_warnings, deflection_warnings, jammed_pair},
+    window::wider_window,
 };
-
-/// Gets the positions of a static analysis as they are solved.
-pub trait StaticSink {
-    /// The analysis of a scene as it is solved begins, again where a wider window or a finer rung is needed: what came
-    /// before does not count.
-    fn begin(&mut self, scene: &Scene);
-
-    /// A position, in order; the model is where it was found.
-    ///
-    /// # Errors
-    /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
-    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult;
-
-    /// All positions have come.
-    ///
-    /// # Errors
-    /// As [`StaticSink::position`].
-    fn finish(&mut self) -> SinkResult;
-}
-
-/// What a sink says.
-pub type SinkResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
-
-/// Takes nothing: the result holds all positions.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoSink;
-
-impl StaticSink for NoSink {
-    fn begin(&mut self, _: &Scene) {}
-
-    fn position(&mut self, _: usize, _: &StaticPosition, _: &StaticModel) -> SinkResult {
-        Ok(())
-    }
-
-    fn finish(&mut self) -> SinkResult {
-        Ok(())
-    }
-}
 
 /// The answer to a scene at rest.
 #[derive(Debug)]
@@ -250,23 +214,6 @@ pub fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, Analysis
     Ok(start.elapsed().as_secs_f64())
 }
 
-/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the
-/// teeth.
-pub fn wider_window(
-    scene: &Scene,
-    pair: &GearPair,
-    meshes: &[SceneMesh; 2],
-    options: &StaticOptions,
-    error: &StaticError,
-) -> Option<usize> {
-    let teeth = options.window_teeth(pair) + 1;
-    let available = |m: &SceneMesh| {
-        if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
-    };
-    let room = meshes.iter().all(|m| teeth < available(m));
-    (error.is_starved() && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
-}
-
 /// What all attempts share.
 #[derive(Clone, Copy)]
 struct Inputs<'a> {
@@ -346,30 +293,6 @@ fn attempt(
     }
     history.warnings.extend(warnings);
     Ok((model, history))
-}
-
-/// The reducer of a gear; `None` for one with all its degrees of freedom.
-pub fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
-    match gear {
-        ElasticGear::Reduced(r) => Some(r),
-        ElasticGear::Full(_) => None,
-    }
-}
-
-/// Free degrees of freedom of a gear's mesh.
-pub fn free_dofs(gear: &ElasticGear) -> usize {
-    match gear {
-        ElasticGear::Reduced(r) => r.free_count(),
-        ElasticGear::Full(f) => f.dofs.free_count(),
-    }
-}
-
-/// Degrees of freedom that the analysis carries; `before` where nothing is reduced.
-pub fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
-    match model.contact_set().windows() {
-        Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
-        None => before,
-    }
 }
 
 #[cfg(test)]
