@@ -12,7 +12,7 @@ pub fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
 }
 
 /// Free degrees of freedom of a gear's mesh.
-pub fn free_dofs(gear: &ElasticGear) -> usize {
+pub(crate) fn free_dofs(gear: &ElasticGear) -> usize {
     match gear {
         ElasticGear::Reduced(r) => r.free_count(),
         ElasticGear::Full(f) => f.dofs.free_count(),
@@ -20,7 +20,7 @@ pub fn free_dofs(gear: &ElasticGear) -> usize {
 }
 
 /// Degrees of freedom that the analysis carries; `before` where nothing is reduced.
-pub fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
+pub(crate) fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
     match model.contact_set().windows() {
         Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
         None => before,

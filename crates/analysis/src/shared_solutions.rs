@@ -62,7 +62,7 @@ impl SharedModels<'_> {
             return Ok((scene, history));
         }
         let (scene, history) = self.alone(scene, &|| true)?;
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        hold(&scene, &history)?;
         Ok((scene, history))
     }
 
@@ -82,7 +82,7 @@ impl SharedModels<'_> {
         let varied = VariedScene::by_keys(scene, &keys)?;
         let asked = Rates { of: &varied, of_unloaded: true };
         let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        hold(&scene, &history)?;
         Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
@@ -126,7 +126,7 @@ impl SharedModels<'_> {
                 Err(error) if given_up(&error) => Ok(None),
                 Err(error) => Err(error),
                 Ok((scene, history)) => {
-                    static_certificate(&scene, &history.positions).verdict(&scene)?;
+                    hold(&scene, &history)?;
                     Ok(still().then_some((scene, history)))
                 }
             };
@@ -139,7 +139,7 @@ impl SharedModels<'_> {
         if lost.load(Ordering::Relaxed) {
             return Ok(None);
         }
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        hold(&scene, &history)?;
         let pair = scene.gear_pair()?;
         history.warnings.extend(gears::warnings(&pair));
         history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
@@ -166,7 +166,7 @@ impl SharedModels<'_> {
     pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
         let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&solved.scene, &solved.history.positions).verdict(&solved.scene)?;
+        hold(&solved.scene, &solved.history)?;
         Ok(solved)
     }
 
@@ -216,6 +216,14 @@ impl SharedModels<'_> {
         let (history, rates, base) = solved.map_err(|failure: Failure| failure.into_error(&scene))?;
         Ok((SolvedWithRates { scene, history, rates }, base))
     }
+}
+
+/// Whether positions hold.
+///
+/// # Errors
+/// [`AnalysisError::Certificate`].
+fn hold(scene: &Scene, history: &StaticHistory) -> Result<(), AnalysisError> {
+    static_certificate(scene, &history.positions).verdict(scene)
 }
 
 /// Ends an analysis after the first position that is not wanted.

@@ -8,7 +8,7 @@ use crate::meshes::SceneMesh;
 
 /// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the
 /// teeth.
-pub fn wider_window(
+pub(crate) fn wider_window(
     scene: &Scene,
     pair: &GearPair,
     meshes: &[SceneMesh; 2],

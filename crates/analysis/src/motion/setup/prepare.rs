@@ -11,21 +11,22 @@ use scene::{Flanks, MotionScene, Scene};
 
 use super::{Elasticity, QuasiStatic, motion_options, scheme};
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, body_warnings, dof_after,
+    AnalysisError, GearCache, Observer, PhaseWork, body_warnings,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     facts::Facts,
     failure::Failure,
     foreseen::announced_s,
-    free_dofs, gears,
+    gear_dofs::{dof_after, free_dofs, reduced},
+    gears,
     inputs::meshes_of,
     iso_root,
     meshes::SceneMesh,
     motion::{MotionSink, step_estimate::fastest_hz},
     options::options,
     plausible::{refuse, remarks},
-    reduced,
     resolution::resolution,
-    run_phase, static_certificate, unless_cancelled, wider_window,
+    run_phase, static_certificate, unless_cancelled,
+    window::wider_window,
 };
 
 /// Gears, geometry and window of a run.
