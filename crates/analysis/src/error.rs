@@ -8,7 +8,7 @@ use mesh::MeshError;
 use scene::{Scene, SceneError};
 use study::calculix::CalculixError;
 
-use crate::{motion::UnstableSteps, plausible::Implausible};
+use crate::{plausible::Implausible, unstable_steps::UnstableSteps};
 
 /// Why a scene has no answer.
 #[derive(Debug, thiserror::Error)]
@@ -270,7 +270,7 @@ pub enum AnalysisError {
         /// Why, on the coarsest mesh.
         why: String,
     },
-    /// Who waits has given up ([`crate::Progress::is_cancelled`]).
+    /// Who waits has given up, as `Progress::is_cancelled` says.
     #[error("stopped before the end")]
     Cancelled,
     /// The caller's sink has ended the analysis.
@@ -305,6 +305,11 @@ impl std::fmt::Display for MeshMismatch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.said)
     }
+}
+
+/// A mesh that disagrees with its gear, and what to do.
+pub(crate) fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
+    AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
 }
 
 /// Errors of reading name the file themselves, errors about what was read do not.

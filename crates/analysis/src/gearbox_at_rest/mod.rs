@@ -7,8 +7,8 @@
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `checks` | what must hold |
 //! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
-//! | `result` | what is read off all positions |
-//! | `room` | what is said of parts that have no room, and of large deflections |
+//! | `result` | what is read off all positions, and what is said of large deflections |
+//! | `room` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
 mod bearings;

@@ -14,8 +14,9 @@ use super::{
     free_turn::FreeTurn,
     headline::{HeadlineInputs, LumpedHeadline, headline},
     inputs::{LumpedInputs, LumpedSystem},
+    integration::{MeshFrequencies, stable_step},
     mechanism::BoxedMechanism,
-    run_loop::{LumpedRun, MeshFrequencies, NoRunObserver, RunObserver, RunPlan, stable_step},
+    run_loop::{LumpedRun, NoRunObserver, RunObserver, RunPlan},
     warnings::{backlash_um, certificate_warnings, no_backlash},
 };
 use crate::{
@@ -23,6 +24,7 @@ use crate::{
     certificate::Checks,
     facts::{Facts, Resolution},
     gears,
+    inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
     plausible::remarks,
@@ -255,11 +257,6 @@ impl RunObserver for RowsOnward<'_> {
         }
         self.sink.row(row)
     }
-}
-
-/// The motion that a scene asks for.
-pub(super) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
-    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
 }
 
 /// Rows of a run to the steady state alone, and the mesh cycles that it took in all: for comparing models.

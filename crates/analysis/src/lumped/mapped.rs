@@ -8,13 +8,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
-    elastic_pair::{ElasticFrame, WORST_MAP},
+    elastic_frame::ElasticFrame,
     mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::certificate::Check;
 
 /// Part of a mesh cycle either way over which the velocities of a start are taken.
 const SPAN: f64 = 1e-3;
+
+/// Error of a map over the mean approach of the flanks, root mean square, that is the most.
+pub(super) const WORST_MAP: f64 = 3e-4;
 
 /// A pair on its map, as the run of a cheaper model asks for it.
 pub(super) struct MappedModel {
