@@ -14,6 +14,7 @@ mod check;
 mod contact;
 mod design_key;
 mod document_kind;
+mod document_text;
 mod error;
 mod excerpt;
 mod gear;
@@ -54,6 +55,7 @@ pub use analysis::{Analysis, Kind, Model, Reduction};
 pub use builder::{SceneBuilder, Value};
 pub use contact::{ContactScene, Flanks, Gap, Method};
 pub use document_kind::DocumentKind;
+pub use document_text::DocumentText;
 pub use error::{Line, Place, SceneError};
 pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
@@ -181,7 +183,7 @@ impl Scene {
     fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
         setting::few_enough(text, settings)?;
         let (all, ranges) = setting::below(text, settings);
-        let source = source::Source::scene(file, &all, settings, &ranges).standing(origin);
+        let source = source::Source::scene(file, &all).with_settings(settings, &ranges).standing(origin);
         let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
         let scene = checked.map_err(|e| e.unless_another_kind(text, file, DocumentKind::Scene))?;
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })

@@ -35,10 +35,14 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The text of a scene with what was set beside it.
-    pub(super) fn scene(file: &'a Path, text: &'a str, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
-        let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
-        Self { file, text, settings, ranges, tables: schema::tables, is_scene: true, origin, beside }
+    /// The text of a scene.
+    pub(super) fn scene(file: &'a Path, text: &'a str) -> Self {
+        Self { is_scene: true, ..Self::of(file, text, schema::tables) }
+    }
+
+    /// The same with what was set beside the file: the text has a line for each setting below it, at `ranges`.
+    pub(crate) fn with_settings(self, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
+        Self { settings, ranges, ..self }
     }
 
     /// The same, the files that it names being there.

@@ -32,6 +32,7 @@ pub(super) fn gearbox_page(
             name => &file.name,
             version => env!("CARGO_PKG_VERSION"),
             file => file.file.display().to_string(),
+            set => &file.set,
             failed => failed,
             warnings => &result.warnings,
             view => embedded("gearbox", &BoxInSpace::new(file, result)),
