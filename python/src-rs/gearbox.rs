@@ -70,7 +70,7 @@ impl Gearbox {
         self.file.meshes.iter().map(|own| own.name.as_str()).collect()
     }
 
-    /// Solves it as its file asks: `ale-gear gearbox`. Rows are those of `positions.csv`; `read` has all other files.
+    /// Solves it as its file asks: `ale-gear run`. Rows are those of `positions.csv`; `read` has all other files.
     #[pyo3(signature = (*, cache = None, threads = None, progress = None))]
     fn run(
         &self,

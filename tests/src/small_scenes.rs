@@ -149,7 +149,7 @@ fn gearbox() -> SmallDocument {
     SmallDocument {
         name: "gearbox",
         files: vec![("box.toml", parts.concat()), ("pair.toml", pair)],
-        words: vec!["gearbox", "box.toml"],
+        words: vec!["run", "box.toml"],
     }
 }
 

@@ -4,7 +4,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`command`] | the subcommands |
-//! | [`run`], `motion`, `lumped` | a scene at rest, in time, and of a cheaper model, into a result folder |
+//! | [`run`], `motion`, `lumped`, `gearbox` | a scene at rest, in time, of a cheaper model, and a gearbox, into a result folder |
 //! | `study_cases`, `kept_cases` | runs the scenes of a study; those that are done before the study is |
 //! | `chart` | what a chart takes from this process |
 //! | [`output`] | what of `analysis` and `report` the command names |
@@ -20,6 +20,7 @@ mod chart;
 pub mod command;
 pub mod error;
 pub mod facts;
+mod gearbox;
 pub mod memory;
 mod motion;
 pub mod output;

@@ -44,8 +44,7 @@ impl DocumentKind {
     /// The subcommand that takes such a file.
     pub fn command(self) -> &'static str {
         match self {
-            Self::Scene => "run",
-            Self::Gearbox => "gearbox",
+            Self::Scene | Self::Gearbox => "run",
             Self::Plan => "vary",
             Self::Study => "study",
             Self::Optimisation => "optimise",

@@ -29,11 +29,11 @@ pub(super) fn read(source: &Source<'_>) -> Result<RawScene, SceneError> {
     with_tables(source, |root| RawScene::deserialize(toml::Deserializer::from(root)).map_err(explain))
 }
 
-/// Hands on the file's tables with what was set beside it put in; places are those of the source's text.
+/// Hands on the tables of a file with what was set beside it put in; places are those of the source's text.
 ///
 /// # Errors
 /// Syntax, with its line, and what `work` complains of.
-pub(super) fn with_tables<T>(
+pub(crate) fn with_tables<T>(
     source: &Source<'_>,
     work: impl FnOnce(Spanned<DeTable<'_>>) -> Result<T, SceneError>,
 ) -> Result<T, SceneError> {

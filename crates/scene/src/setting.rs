@@ -1,4 +1,4 @@
-//! Keys that are set beside the file: `--set key=value`, and studies that vary a key.
+//! Keys that are set beside a file: `--set key=value`, and studies that vary a key.
 
 use std::ops::Range;
 
@@ -9,10 +9,11 @@ use toml::{
 
 use super::SceneError;
 
-/// A key of the scene with the value that takes the place of the file's.
+/// A key of a scene or a gearbox file with the value that takes the place of the file's.
 ///
-/// The key is written with dots from the top of the scene (`operation.torque_nm`, `pinion.modification.tip_relief_um`);
-/// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`). The
+/// The key is written with dots from the top of the file (`operation.torque_nm`, `pinion.modification.tip_relief_um`);
+/// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`,
+/// `gear.0.position_mm`). The
 /// value is TOML; what is no TOML is a text (`contact.method=slice`).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Setting {
@@ -127,11 +128,11 @@ fn toml_value(written: &str) -> Option<String> {
         .then(|| format!("\"{}\"", written.replace('\\', "\\\\")))
 }
 
-/// What the settings of a scene take at the most, bytes: each is read as far from the beginning as its line is.
+/// What the settings of a file take at the most, bytes: each is read as far from the beginning as its line is.
 const MOST: usize = 256 << 20;
 
-/// Refuses more settings than any scene has keys, which would take memory without bound.
-pub(super) fn few_enough(text: &str, settings: &[Setting]) -> Result<(), SceneError> {
+/// Refuses more settings than any file has keys, which would take memory without bound.
+pub(crate) fn few_enough(text: &str, settings: &[Setting]) -> Result<(), SceneError> {
     let length = settings.iter().fold(text.len(), |sum, s| sum.saturating_add(s.key.len() + s.value.len() + 4));
     match settings.last() {
         Some(last) if length.saturating_mul(settings.len()) > MOST => {
@@ -143,7 +144,7 @@ pub(super) fn few_enough(text: &str, settings: &[Setting]) -> Result<(), SceneEr
 }
 
 /// The file's text, and below it a line for each setting, so that every place in either has an offset of its own.
-pub(super) fn below(text: &str, settings: &[Setting]) -> (String, Vec<Range<usize>>) {
+pub(crate) fn below(text: &str, settings: &[Setting]) -> (String, Vec<Range<usize>>) {
     let mut all = text.to_owned();
     let mut ranges = Vec::with_capacity(settings.len());
     for setting in settings {

@@ -201,7 +201,7 @@ impl InitArgs {
         Ok(if quiet {
             String::new()
         } else {
-            format!("{scenes}{shown}: written; next\n  ale-gear gearbox {shown} --out out\n")
+            format!("{scenes}{shown}: written; next\n  ale-gear run {shown} --out out\n")
         })
     }
 }

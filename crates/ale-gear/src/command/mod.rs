@@ -7,7 +7,6 @@ mod chart;
 mod compare;
 mod curve;
 mod envelope;
-mod gearbox;
 mod geometry;
 mod init;
 mod mesh;
@@ -23,7 +22,7 @@ mod study;
 mod sweep;
 mod vary;
 
-use std::io::Write;
+use std::{ffi::OsString, io::Write};
 
 use clap::{
     ArgAction, Args, Parser, Subcommand,
@@ -35,7 +34,7 @@ use crate::{
     error::CommandError,
     printed,
     stop::on_stop,
-    talk::{Loudness, read_progress_after, say, set_loudness},
+    talk::{Loudness, colours_on_stderr, read_progress_after, say, set_loudness},
 };
 
 /// Reduced finite-element contact of helical gears
@@ -68,7 +67,7 @@ struct Everywhere {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a scene and write its result folder
+    /// Run a scene of a pair, or a gearbox file, and write its result folder
     Run(run::RunArgs),
     /// Write a commented scene to begin with, from flags or from a few questions
     Init(init::InitArgs),
@@ -90,8 +89,6 @@ enum Command {
     Optimise(optimise::OptimiseArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
-    /// Shafts, bearings and several meshes at rest: how they stand under load, and what that does to the teeth
-    Gearbox(gearbox::GearboxArgs),
     /// Geometry sheet of a scene's pair on stdout: diameters, roll angles, span, balls, backlash, sliding
     Geometry(geometry::GeometryArgs),
     /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
@@ -141,6 +138,10 @@ impl Cli {
     /// The command line of this process; a wrong one, and `--help`, end the process here.
     pub fn of_process() -> Self {
         Self::try_parse().unwrap_or_else(|error| {
+            if let Some(said) = of_an_old_word(&error, std::env::args_os()) {
+                let _ = std::io::stderr().lock().write_all(said.text(colours_on_stderr()).as_bytes());
+                std::process::exit(said.status.into());
+            }
             let error = with_a_way_out(error);
             let said = error.render().to_string();
             let shown = printed::message(&said);
@@ -180,7 +181,6 @@ impl Cli {
             Some(Command::Run(args)) => return args.execute(quiet),
             Some(Command::Envelope(args)) => return args.execute(),
             Some(Command::Curve(args)) => return args.execute(quiet),
-            Some(Command::Gearbox(args)) => return args.execute(quiet),
             Some(Command::Optimise(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
             Some(Command::Study(args)) => args.execute().map(told),
@@ -204,13 +204,25 @@ impl Cli {
     }
 }
 
+/// Subcommands that are gone, and what does their work now; `{}` stands for the file.
+const OLD_WORDS: [(&str, &str); 1] = [("gearbox", "`ale-gear run {} --out DIR` takes it")];
+
+/// What is said of a subcommand that is gone; `None` of any other mistake. `typed`: the whole command line.
+fn of_an_old_word(error: &clap::Error, mut typed: impl Iterator<Item = OsString>) -> Option<CommandError> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidSubcommand) else { return None };
+    let (_, now) = OLD_WORDS.iter().find(|(old, _)| old == word)?;
+    let file = typed.find_map(|word| word.into_string().ok().filter(|word| word.ends_with(".toml")));
+    let hint = now.replace("{}", file.as_deref().unwrap_or("FILE.toml"));
+    Some(CommandError::input(format_args!("the subcommand `{word}` is gone"), Some(hint)))
+}
+
 /// Who gives a scene where a subcommand is wanted is told which one takes it.
 fn with_a_way_out(mut error: clap::Error) -> clap::Error {
     let word = match error.get(ContextKind::InvalidSubcommand) {
         Some(ContextValue::String(word)) if word.ends_with(".toml") => word.clone(),
         _ => return error,
     };
-    let tip = format!("to run a scene: ale-gear run {word} --out DIR");
+    let tip = format!("to run it: ale-gear run {word} --out DIR");
     error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
     error
 }

@@ -1,4 +1,4 @@
-//! Words that set keys of the scene beside its file.
+//! Words that set keys beside the file of a scene or a gearbox.
 
 use std::path::Path;
 
@@ -7,10 +7,10 @@ use crate::{
     scene::{Scene, SceneError, Setting},
 };
 
-/// Keys of the scene, instead of the file's.
+/// Keys that stand in place of the file's.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub(super) struct Overrides {
-    /// Set a key of the scene, as `operation.torque_nm=200`; may be given again
+    /// Set a key of the file, as `operation.torque_nm=200` or `gear.0.position_mm=50`; may be given again
     #[arg(long = "set", value_name = "KEY=VALUE", help_heading = "Overrides")]
     set: Vec<String>,
     /// Torque on the driven gear: short for `--set operation.torque_nm=NM`
@@ -36,6 +36,16 @@ impl Overrides {
             all.push(Setting::number("operation.torque_nm", torque)?.called("--torque-nm"));
         }
         Ok(all)
+    }
+
+    /// Whether a torque is set by a word of its own.
+    pub fn has_torque(&self) -> bool {
+        self.torque_nm.is_some()
+    }
+
+    /// Whether an accuracy is asked for.
+    pub fn has_accuracy(&self) -> bool {
+        !self.accuracy.is_empty()
     }
 
     /// These behind other words.

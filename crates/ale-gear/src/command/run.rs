@@ -1,8 +1,9 @@
-//! `ale-gear run`: a scene in, a result folder out.
+//! `ale-gear run`: a document in, the scene of a pair or a gearbox file; a result folder out.
 
 use std::path::PathBuf;
 
 use analysis::lumped::is_lumped;
+use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
 use report::{check_memory, write_static_result, write_static_rows};
@@ -13,21 +14,30 @@ use crate::{
     certificate::Written,
     error::CommandError,
     facts::Solved,
+    gearbox::write_gearbox_result,
     memory,
     motion::{self, Progression},
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
     run::{self, InSpace},
-    scene::{Kind, Model, Run, Scene},
+    scene::{DocumentKind, DocumentText, Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
+
+/// What was asked, checked.
+enum Document {
+    /// A pair.
+    Pair(Box<Scene>),
+    /// Shafts, bearings and meshes.
+    Gearbox(Box<Gearbox>),
+}
 
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
 pub(super) struct RunArgs {
-    /// Scene file
-    scene: PathBuf,
+    /// Scene of a pair, or gearbox file
+    file: PathBuf,
     /// Whether it is the scene of the program instead.
     #[arg(skip)]
     default_scene: bool,
@@ -61,10 +71,10 @@ pub(super) struct RunArgs {
 
 impl RunArgs {
     /// A scene file into a folder.
-    pub(super) fn of_file([scene, out]: [PathBuf; 2], (overrides, cache): (Overrides, CacheArgs), json: bool) -> Self {
+    pub(super) fn of_file([file, out]: [PathBuf; 2], (overrides, cache): (Overrides, CacheArgs), json: bool) -> Self {
         let (default_scene, derivatives, vtu, no_view, resume, stop_after_cycles) =
             (false, Vec::new(), false, false, false, None);
-        Self { scene, default_scene, out, cache, overrides, json, derivatives, vtu, no_view, resume, stop_after_cycles }
+        Self { file, default_scene, out, cache, overrides, json, derivatives, vtu, no_view, resume, stop_after_cycles }
     }
 
     /// The default scene of the program into `out/default`.
@@ -73,9 +83,10 @@ impl RunArgs {
         Self { default_scene: true, ..Self::of_file(files, Default::default(), false) }
     }
 
-    /// Every complaint about the words is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<Scene, CommandError> {
-        let mut scene = if self.default_scene {
+    /// The document with what is set beside it. Every complaint about the words is made here, before any work starts or
+    /// any file is written.
+    fn document(&self) -> Result<Document, CommandError> {
+        if self.default_scene {
             talk::say(Loudness::Bars, || {
                 format!(
                     "ale-gear: no scene given: runs the default pair, which is in the program, into {}; \
@@ -83,25 +94,52 @@ impl RunArgs {
                     self.out.display()
                 )
             });
-            with_slices(Scene::default_scene()?)
-        } else {
-            let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
-            let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
-            self.overrides.clone().behind(asked).read(&self.scene)?
-        };
+            return Ok(Document::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
+        }
+        let text = DocumentText::read(&self.file)?;
+        if text.kind() == Some(DocumentKind::Gearbox) {
+            self.fits_a_gearbox()?;
+            return Ok(Document::Gearbox(Box::new(text.gearbox(&self.overrides.settings()?)?)));
+        }
+        let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
+        let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
+        let scene = text.scene(&self.overrides.clone().behind(asked).settings()?)?;
+        Ok(Document::Pair(Box::new(self.plan(scene)?)))
+    }
+
+    /// Refuses words that only a pair has a use for.
+    fn fits_a_gearbox(&self) -> Result<(), CommandError> {
+        let torque = "`--set torque.0.torque_nm=NM` sets the first torque of a gearbox";
+        let words = [
+            (self.overrides.has_torque(), "--torque-nm", torque),
+            (self.overrides.has_accuracy(), "--accuracy", "leave it out: a gearbox has no bounds of its accuracy"),
+            (!self.derivatives.is_empty(), "--derivatives", "leave it out, or run the scene of one of its pairs"),
+            (self.vtu, "--vtu", "leave it out: the page shows the gearbox in space"),
+            (self.no_view, "--no-view", "leave it out: nothing is saved by it"),
+            (self.resume, "--resume", "leave it out: a gearbox has no checkpoints"),
+            (self.stop_after_cycles.is_some(), "--stop-after-cycles", "leave it out: a gearbox has no checkpoints"),
+        ];
+        let Some((_, word, hint)) = words.into_iter().find(|(given, ..)| *given) else { return Ok(()) };
+        let said = format_args!("{}: `{word}` is for pairs, and this is a gearbox file", self.file.display());
+        Err(CommandError::input(said, Some(hint.to_owned())))
+    }
+
+    /// The scene with what the words ask of it.
+    fn plan(&self, scene: Scene) -> Result<Scene, CommandError> {
+        let mut scene = with_slices(scene);
         scene.output.vtu |= self.vtu;
         if scene.output.vtu && scene.analysis.model == Model::Iso {
             return Err(CommandError::input(
                 format_args!(
                     "{}: the model \"iso\" has no mesh, so there is nothing for ParaView",
-                    self.scene.display()
+                    self.file.display()
                 ),
                 Some("leave `vtu` out, or use `model = \"reduced\"`".into()),
             ));
         }
         if self.no_view && (scene.motion.is_some() || scene.analysis.model == Model::Iso) {
             return Err(CommandError::input(
-                format_args!("{}: `--no-view` is for pairs with meshes at rest", self.scene.display()),
+                format_args!("{}: `--no-view` is for pairs with meshes at rest", self.file.display()),
                 Some("leave it out: beside a motion the fields of one mesh cycle cost little".into()),
             ));
         }
@@ -113,7 +151,7 @@ impl RunArgs {
     /// What only motions can do, and what they cannot.
     fn plan_motion(&self, scene: &Scene) -> Result<(), CommandError> {
         let refuse = |what: &str, hint: &str| {
-            Err(CommandError::input(format_args!("{}: {what}", self.scene.display()), Some(hint.into())))
+            Err(CommandError::input(format_args!("{}: {what}", self.file.display()), Some(hint.into())))
         };
         let full = !is_lumped(scene) && scene.accuracy.is_none();
         let checkpoints =
@@ -150,7 +188,7 @@ impl RunArgs {
             }
             motion::Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
-                self.scene.display(),
+                self.file.display(),
                 self.out.display()
             )
             .into()),
@@ -175,10 +213,21 @@ impl RunArgs {
         Ok(Answer { text, failure: verdict.err() })
     }
 
-    /// Runs the scene; the text is the closing table.
+    /// Runs a gearbox; the text is the closing table.
+    fn solve_gearbox(&self, file: &Gearbox, mut phases: Phases, quiet: bool) -> Result<Answer, CommandError> {
+        let results = ResultDirectory::create(&self.out)?;
+        let written = write_gearbox_result(file, &mut phases, &results, &self.cache.open())?;
+        results.finish(talk::note)?;
+        self.answer(written, quiet)
+    }
+
+    /// Runs the document; the text is the closing table.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let mut phases = Phases::with_bars();
-        let scene = self.plan()?;
+        let scene = match self.document()? {
+            Document::Pair(scene) => *scene,
+            Document::Gearbox(file) => return self.solve_gearbox(&file, phases, quiet),
+        };
         let results = ResultDirectory::create(&self.out)?;
         if let (Some(words), false) = (&scene.motion, is_lumped(&scene)) {
             return self.move_pair(&scene, words, phases, results, quiet);

@@ -1,4 +1,4 @@
-//! `ale-gear gearbox` as a user meets it.
+//! `ale-gear run` as a user meets it.
 
 use std::path::Path;
 
@@ -22,7 +22,7 @@ fn column(csv: &str, name: &str) -> Vec<f64> {
 #[test]
 fn a_gearbox_is_solved_into_its_folder() {
     let scratch = two_stages();
-    let run = scratch.ale_gear(["gearbox", "two_stages.toml", "--out", "o", "--no-cache"]);
+    let run = scratch.ale_gear(["run", "two_stages.toml", "--out", "o", "--no-cache"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for word in ["first", "second", "slow, loose", "K_Hbeta", "output 1 lags", "results: o"] {
         assert!(run.stdout.contains(word), "{word} is not in\n{}", run.stdout);
@@ -56,7 +56,7 @@ fn a_gearbox_is_solved_into_its_folder() {
     let hertz = |mesh: usize| told["meshes"][mesh]["mesh_hz"].as_f64().unwrap();
     assert!((hertz(0) - 17.0 * 25.0).abs() < 1e-6 && (hertz(1) - 17.0 * 25.0 * 19.0 / 53.0).abs() < 1e-6);
     // Again into the same folder, quietly, on one thread.
-    let again = scratch.ale_gear(["gearbox", "two_stages.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
+    let again = scratch.ale_gear(["run", "two_stages.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
     assert_eq!((again.code, again.stdout.as_str()), (Some(0), ""), "{}", again.stderr);
     assert!(scratch.read("o/positions.csv") == positions, "bits go with the number of threads");
     for (name, first) in of_vibration {
@@ -81,7 +81,7 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     // The speed is given, as by a machine of any inertia.
     let before = before.replace("input = \"free\"", "input = \"held\"");
     let scratch = scratch.file("run_up.toml", before + motion);
-    let run = scratch.ale_gear(["gearbox", "run_up.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "run_up.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let rows = scratch.read("o/motion.csv");
     let speed = column(&rows, "input_speed_rpm");
@@ -116,7 +116,7 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     assert!(beside.stdout.contains("peak_to_peak_ste_um[1]"), "{}", beside.stdout);
     let wrong = scratch.read("run_up.toml").replace("to_speed_rpm", "drive = \"torque\"\nto_speed_rpm");
     let scratch = scratch.file("wrong.toml", wrong);
-    let run = scratch.ale_gear(["gearbox", "wrong.toml", "--out", "w"]);
+    let run = scratch.ale_gear(["run", "wrong.toml", "--out", "w"]);
     assert!(run.code == Some(2) && run.stderr.contains("a result where a torque drives"), "{}", run.stderr);
 }
 
@@ -139,7 +139,7 @@ fn every_key_is_in_a_scene_that_runs() {
     let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
     assert!(left.is_empty(), "in no scene: {left:?}");
     for name in ["run_up.toml", "in_housing.toml"] {
-        let run = scratch.ale_gear(["gearbox", name, "--out", name.trim_end_matches(".toml")]);
+        let run = scratch.ale_gear(["run", name, "--out", name.trim_end_matches(".toml")]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
     }
     let speeds = column(&scratch.read("run_up/motion.csv"), "input_speed_rpm");
@@ -155,17 +155,79 @@ fn mistakes_in_a_gearbox_are_told_with_their_line() {
     let scratch = two_stages();
     let text = scratch.read("two_stages.toml").replace("pinion = \"3\"", "pinion = \"33\"");
     let scratch = scratch.file("wrong.toml", text);
-    let run = scratch.ale_gear(["gearbox", "wrong.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "wrong.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("wrong.toml:") && run.stderr.contains("pinion"), "{}", run.stderr);
     let far = scratch.read("two_stages.toml").replace("[91.0, 118.5, 0.0]", "[91.0, 119.5, 0.0]");
     let scratch = scratch.file("far.toml", far);
-    let run = scratch.ale_gear(["gearbox", "far.toml", "--out", "o", "--no-cache"]);
+    let run = scratch.ale_gear(["run", "far.toml", "--out", "o", "--no-cache"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("mesh second") && run.stderr.contains("hint: "), "{}", run.stderr);
-    let run = scratch.ale_gear(["gearbox", "none.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "none.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(!Path::new(&scratch.path().join("o")).exists());
+}
+
+/// Keys set beside a gearbox file are as if the file said so, the summary stands on stdout, and the page has the command
+/// that makes the same again.
+#[test]
+fn a_gearbox_is_set_and_told_as_a_pair_is() {
+    let scratch = two_stages();
+    let text = scratch.read("two_stages.toml");
+    let at_rest = text.split_once("[vibration]").unwrap().0.to_owned();
+    let changed = at_rest
+        .replace("[91.0, 118.5, 0.0]", "[91.0, 118.5, 0.5]")
+        .replace("positions_per_cycle = 8", "positions_per_cycle = 2");
+    assert_eq!(changed.matches("118.5, 0.5]\n").count() + changed.matches("cycle = 2\n").count(), 2, "{changed}");
+    let scratch = scratch.file("plain.toml", at_rest).file("changed.toml", changed);
+    let said = scratch.ale_gear(["run", "changed.toml", "--out", "c", "--json", "-q"]);
+    assert_eq!(
+        (said.code, said.stdout.as_str()),
+        (Some(0), scratch.read("c/summary.json").as_str()),
+        "{}",
+        said.stderr
+    );
+    let set = ["--set", "shaft.2.origin_mm=[91.0, 118.5, 0.5]", "--set", "analysis.positions_per_cycle=2"];
+    let run = scratch.command(&[&["run", "plain.toml", "--out", "s", "-q"], &set[..]].concat());
+    assert_eq!((run.code, run.stdout.as_str()), (Some(0), ""), "{}", run.stderr);
+    for name in ["positions.csv", "shafts.csv", "line_load.csv"] {
+        assert!(scratch.read(&format!("s/{name}")) == scratch.read(&format!("c/{name}")), "{name}");
+    }
+    let page = scratch.read("s/report.html");
+    assert!(page.contains("ale-gear run plain.toml --out DIR") && page.contains("analysis.positions_per_cycle=2"));
+}
+
+/// Words for pairs alone are refused with what takes their place, and leave nothing behind.
+#[test]
+fn words_for_pairs_are_refused_of_a_gearbox() {
+    let scratch = two_stages();
+    let before = scratch.names();
+    for (words, said) in [
+        (
+            &["--vtu"][..],
+            "`--vtu` is for pairs, and this is a gearbox file\nhint: leave it out: the page shows the gearbox in space\n",
+        ),
+        (
+            &["--no-view"],
+            "`--no-view` is for pairs, and this is a gearbox file\nhint: leave it out: nothing is saved by it\n",
+        ),
+        (
+            &["--torque-nm", "3"],
+            "`--torque-nm` is for pairs, and this is a gearbox file\nhint: `--set torque.0.torque_nm=NM` sets the first torque of a gearbox\n",
+        ),
+        (
+            &["--accuracy", "1%"],
+            "`--accuracy` is for pairs, and this is a gearbox file\nhint: leave it out: a gearbox has no bounds of its accuracy\n",
+        ),
+        (
+            &["--derivatives", "a.b"],
+            "`--derivatives` is for pairs, and this is a gearbox file\nhint: leave it out, or run the scene of one of its pairs\n",
+        ),
+    ] {
+        let run = scratch.command(&[&["run", "two_stages.toml", "--out", "o"], words].concat());
+        assert_eq!((run.stderr, run.code), (format!("ale-gear: two_stages.toml: {said}"), Some(2)), "{words:?}");
+    }
+    assert_eq!(scratch.names(), before);
 }
 
 /// What the files of a vibration say of each other.
@@ -265,7 +327,7 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
     let text = |name: &str| std::fs::read_to_string(folder.join(name)).unwrap();
     let refused = |box_file: String, said: &str| {
         let scratch = two_stages().file("box.toml", box_file);
-        let run = scratch.ale_gear(["gearbox", "box.toml", "--out", "o", "--no-cache"]);
+        let run = scratch.ale_gear(["run", "box.toml", "--out", "o", "--no-cache"]);
         assert_eq!(run.complaint(), said);
         assert_eq!((run.code, run.stdout.as_str(), scratch.names().len()), (Some(2), "", 4));
     };

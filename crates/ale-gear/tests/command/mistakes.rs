@@ -232,19 +232,22 @@ fn files_of_another_kind_name_their_subcommand() {
     let copy = |scratch: Scratch, name: &str| scratch.file(name, std::fs::read(folder.join(name)).unwrap());
     let files = ["two_stages.toml", "first_stage.toml", "second_stage.toml"];
     let scratch = files.into_iter().fold(Scratch::new().file("a.toml", SCENE), copy);
+    let scratch =
+        scratch.file("plan.toml", "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nvalues = [50.0]\n");
     for (words, text) in [
         (
-            &["run", "two_stages.toml", "--out", "o"][..],
-            "two_stages.toml: this is a gearbox file, and a scene is wanted\nhint: `ale-gear gearbox two_stages.toml --out DIR` takes it\n",
+            &["geometry", "two_stages.toml"][..],
+            "two_stages.toml: this is a gearbox file, and a scene is wanted\nhint: `ale-gear run two_stages.toml --out DIR` takes it\n",
         ),
         (
-            &["geometry", "two_stages.toml"],
-            "two_stages.toml: this is a gearbox file, and a scene is wanted\nhint: `ale-gear gearbox two_stages.toml --out DIR` takes it\n",
+            &["run", "plan.toml", "--out", "o"],
+            "plan.toml: this is a plan, and a scene is wanted\nhint: `ale-gear vary plan.toml --out DIR` takes it\n",
         ),
         (
-            &["gearbox", "a.toml", "--out", "o"],
-            "a.toml: this is a scene, and a gearbox file is wanted\nhint: `ale-gear run a.toml --out DIR` takes it\n",
+            &["gearbox", "two_stages.toml", "--out", "o"],
+            "the subcommand `gearbox` is gone\nhint: `ale-gear run two_stages.toml --out DIR` takes it\n",
         ),
+        (&["-q", "gearbox"], "the subcommand `gearbox` is gone\nhint: `ale-gear run FILE.toml --out DIR` takes it\n"),
         (
             &["study", "a.toml", "--out", "o"],
             "a.toml: this is a scene, and a study is wanted\nhint: `ale-gear run a.toml --out DIR` takes it\n",
@@ -270,7 +273,7 @@ fn files_of_another_kind_name_their_subcommand() {
         assert_eq!(run.stderr, format!("ale-gear: {text}"), "{words:?}");
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{words:?}");
     }
-    assert_eq!(scratch.names().len(), 4, "something was left behind");
+    assert_eq!(scratch.names().len(), 5, "something was left behind");
 }
 
 /// Five teeth leave 55 % of the reference diameter no rim; their default bore does.

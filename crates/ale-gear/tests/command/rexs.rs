@@ -275,7 +275,7 @@ fn a_rexs_gearbox_runs_as_the_one_by_hand() {
     let text = coarse(&scratch.read("made.toml"));
     let scratch = scratch.file("coarse.toml", text);
     for name in ["coarse", "hand"] {
-        let run = scratch.command(&["gearbox", &format!("{name}.toml"), "--out", name, "--no-cache", "-q"]);
+        let run = scratch.command(&["run", &format!("{name}.toml"), "--out", name, "--no-cache", "-q"]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
     }
     assert_eq!(scratch.read("coarse/positions.csv"), scratch.read("hand/positions.csv"));

@@ -1,4 +1,4 @@
-//! `ale-gear gearbox` on rolling bearings, as a user and as its harshest user meets it.
+//! `ale-gear run` on rolling bearings, as a user and as its harshest user meets it.
 
 use crate::util::{Scratch, repository};
 
@@ -36,7 +36,7 @@ fn column(csv: &str, name: &str) -> Vec<f64> {
 #[test]
 fn a_gearbox_on_rolling_bearings_is_solved() {
     let scratch = scene();
-    let run = scratch.ale_gear(["gearbox", "rolling_bearings.toml", "--out", "o", "--no-cache"]);
+    let run = scratch.ale_gear(["run", "rolling_bearings.toml", "--out", "o", "--no-cache"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for word in ["element N", "loaded", "13 rollers of", "10 balls of", "estimated from bore"] {
         assert!(run.stdout.contains(word), "{word} is not in\n{}", run.stdout);
@@ -68,7 +68,7 @@ fn a_gearbox_on_rolling_bearings_is_solved() {
         assert!((moved - mean).abs() < 0.05 * 4000.0, "{name}: {moved} beside {mean} N");
     }
     assert!(scratch.read("o/report.html").contains("loaded elements"));
-    let again = scratch.ale_gear(["gearbox", "rolling_bearings.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
+    let again = scratch.ale_gear(["run", "rolling_bearings.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
     assert_eq!(again.code, Some(0), "{}", again.stderr);
     assert!(scratch.read("o/positions.csv") == positions, "bits go with the number of threads");
     assert!(scratch.read("o/motion.csv") == motion, "bits of the motion go with the number of threads");
@@ -107,7 +107,7 @@ fn impossible_bearings_are_told() {
     ];
     for (changes, code, said) in cases {
         let scratch = changed(changes);
-        let run = scratch.ale_gear(["gearbox", "box.toml", "--out", "o", "--no-cache"]);
+        let run = scratch.ale_gear(["run", "box.toml", "--out", "o", "--no-cache"]);
         assert_eq!(run.code, Some(code), "{changes:?}: {}\n{}", run.stderr, run.stdout);
         assert!(run.stderr.contains(said) && run.stderr.contains("hint: "), "{changes:?}: {}", run.stderr);
         assert!(!scratch.path().join("o").exists(), "{changes:?} left a folder");
@@ -132,7 +132,7 @@ fn odd_bearings_are_solved_and_said() {
     ];
     for (changes, said) in cases {
         let scratch = changed(changes);
-        let run = scratch.ale_gear(["gearbox", "box.toml", "--out", "o", "--no-cache"]);
+        let run = scratch.ale_gear(["run", "box.toml", "--out", "o", "--no-cache"]);
         assert_eq!(run.code, Some(0), "{changes:?}: {}\n{}", run.stderr, run.stdout);
         assert!(run.stdout.contains(said), "{changes:?}: {}", run.stdout);
         let balance = column(&scratch.read("o/positions.csv"), "body_balance");

@@ -102,9 +102,9 @@ fn every_kind() -> Scratch {
     run(&[&["optimise", "rest.toml", "--out", "out-optimise"], &words[..]].concat());
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
-    run(&["gearbox", &stages, "--out", "out-gearbox"]);
+    run(&["run", &stages, "--out", "out-gearbox"]);
     let rolling = repository().join("scenes/gearbox/rolling_bearings.toml").display().to_string();
-    run(&["gearbox", &rolling, "--out", "out-rolling"]);
+    run(&["run", &rolling, "--out", "out-rolling"]);
     run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
     scratch
 }

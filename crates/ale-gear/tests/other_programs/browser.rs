@@ -136,7 +136,7 @@ fn quantities(seen: &Value) -> Vec<String> {
 pub fn gearbox(browser: PathBuf) {
     let scratch = Scratch::new();
     let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
-    let done = scratch.ale_gear(["gearbox", &stages, "--out", "o"]);
+    let done = scratch.ale_gear(["run", &stages, "--out", "o"]);
     assert_eq!(done.code, Some(0), "{}", done.stderr);
     for size in [DESK, PHONE] {
         let seen = look(&scratch, &browser, "o/report.html", "gearbox", size);

@@ -47,7 +47,7 @@ pub fn gmsh_and_meshio(_: ()) {
 pub fn pyuff(_: ()) {
     let scratch = Scratch::new();
     let file = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
-    let run = scratch.ale_gear(["gearbox", file.as_str(), "--out", "o"]);
+    let run = scratch.ale_gear(["run", file.as_str(), "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let found = read(&scratch, ["uff", "o"]);
     // Two meshes of three orders, six bearings of six components.

@@ -3,7 +3,10 @@
 use std::path::Path;
 
 use crate::util::{ISO_SCENE, Scratch};
-use ale_gear::scene::{Scene, SceneError, Setting};
+use ale_gear::scene::{
+    Scene, SceneError, Setting,
+    gearbox::{Gearbox, MeshModel},
+};
 
 fn with(words: &[&str]) -> Result<Scene, SceneError> {
     let settings = words.iter().map(|w| Setting::parse(w)).collect::<Result<Vec<_>, _>>()?;
@@ -84,6 +87,64 @@ fn complaints_name_the_setting() {
     let setting = Setting::parse("operation.torque_nm=3").unwrap();
     let error = Scene::parse_with(&wrong, Path::new("a.toml"), &[setting]).unwrap_err();
     assert!(error.to_string().starts_with("a.toml:12: "), "{error}");
+}
+
+/// A gearbox file with some keys set otherwise.
+fn gearbox_with(words: &[&str]) -> Result<Gearbox, SceneError> {
+    let file = crate::util::repository().join("scenes/gearbox/two_stages.toml");
+    let settings = words.iter().map(|w| Setting::parse(w)).collect::<Result<Vec<_>, _>>()?;
+    Gearbox::parse_with(&std::fs::read_to_string(&file).unwrap(), &file, &settings)
+}
+
+/// Every table of a gearbox file is set as one of a scene: entries of lists by their number, keys and tables that the
+/// file has or has not, lists, words; and the settings of the pair of a mesh.
+#[test]
+fn a_gearbox_is_set_as_a_scene_is() {
+    let set = |word: &str| gearbox_with(&[word]).unwrap_or_else(|e| panic!("{word}: {e}"));
+    assert_eq!(set("shaft.1.young_mpa=2.0e5").shafts[1].young_mpa, 2e5);
+    assert_eq!(set("shaft.0.section.0.outer_diameter_mm=26").shafts[0].sections[0].outer, 26.0);
+    assert_eq!(set("gear.2.position_mm=141.5").gears[2].position, 141.5);
+    assert_eq!(set("bearing.0.stiffness_n_per_mm=[1e5, 2e5, 3e5]").bearings[0].stiffness[1][1], 2e5);
+    assert_eq!(set("torque.0.torque_nm=700").torques[0].torque, 7e5);
+    assert_eq!(set("name=set beside").name, "set beside");
+    assert_eq!(set("vibration.speeds=7").vibration.unwrap().speeds, 7);
+    assert_eq!(set("motion.mesh=spring").motion.unwrap().mesh, MeshModel::Spring);
+    assert_eq!(set("analysis.cycles=3").cycles, 3);
+    let pair = set("mesh.1.set=[\"contact.slices=9\"]");
+    assert_eq!(pair.meshes[1].scene.contact.slices, Some(9));
+    let all = gearbox_with(&["motion.cycles=3", "motion.cycles=4"]).unwrap();
+    assert_eq!((all.motion.unwrap().cycles, all.set.len()), (4, 2), "the last one holds");
+}
+
+/// The messages are those of scenes.
+#[test]
+fn complaints_about_a_gearbox_name_the_setting() {
+    for (word, text) in [
+        ("gear.0.positoin_mm=3", "--set gear.0.positoin_mm: unknown key `positoin_mm`|did you mean `position_mm`?"),
+        ("geer.0.position_mm=3", "--set geer.0.position_mm: unknown key `geer`|did you mean `gear`?"),
+        ("gear.0.torque_nm=3", "--set gear.0.torque_nm: unknown key `torque_nm`|`torque_nm` belongs to [[torque]]"),
+        (
+            "motion.cycles=0",
+            "--set motion.cycles: `cycles` is 0, allowed is 1 .. 1000000|give `cycles` a number in 1 .. 1000000",
+        ),
+        (
+            "motion.mesh=maped",
+            "--set motion.mesh: `mesh` is \"maped\", allowed is \"mapped\" or \"spring\" or \"exact\"|did you mean \"mapped\"?",
+        ),
+        (
+            "vibration.speeds=many",
+            "--set vibration.speeds: `vibration.speeds` must be a whole number, found string \"many\"|write numbers without quotes and \
+             without a unit: the unit is in the key",
+        ),
+    ] {
+        let error = gearbox_with(&[word]).expect_err(word);
+        assert_eq!(format!("{error}|{}", error.hint().unwrap_or_default()), text);
+    }
+    let beyond = gearbox_with(&["gear.9.position_mm=3"]).unwrap_err().to_string();
+    assert!(beyond.starts_with("--set gear.9.position_mm: "), "{beyond}");
+    // The gear that it names is none.
+    let other = gearbox_with(&["mesh.0.pinion=7"]).unwrap_err().to_string();
+    assert!(other.starts_with("--set mesh.0.pinion: "), "{other}");
 }
 
 /// On the command line, and in the results.

@@ -51,7 +51,8 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
          in their bores and sit on a section of the shaft.",
     ));
     page.push(cost_part(&answer.cost));
-    page.push(again(&format!("ale-gear gearbox {} --out DIR", file.file.display())));
+    let run = format!("ale-gear run {} --out DIR", file.file.display());
+    page.push(again(&std::iter::once(run).chain(file.set.iter().cloned()).collect::<Vec<_>>().join(" ")));
     Ok(page)
 }
 

@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::{
-    check::place,
     file::GearboxBearing,
+    parts::place,
     raw::RawBearing,
     rolling::{TYPED, rolling},
     values::{Checked, missing, numbers, square},

@@ -9,14 +9,15 @@ use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft,
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
+use super::parts::{all, distinct, few, place, place_of_gear};
 use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque};
 use super::shaft::{length, shaft};
 use super::values::{Checked, missing, needed_number, needed_word};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, Number, PairScene, Rotation, Scene, SceneError, Source, Word, study::setting};
+use crate::{
+    Kind, Method, Model, Number, PairScene, Rotation, Scene, SceneError, Setting, Source, Word, study::setting,
+};
 
-/// Parts of a kind at the most: the matrices are dense.
-const PARTS: usize = 100;
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
 
@@ -55,6 +56,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     Ok(Gearbox {
         name,
         file: s.file.to_owned(),
+        set: s.settings.iter().map(Setting::word).collect(),
         shafts,
         bearings,
         gears,
@@ -67,38 +69,6 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
         vibration: raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?,
         motion: raw.motion.as_ref().map(|table| motion(s, table)).transpose()?,
     })
-}
-
-pub(super) fn all<R, T>(tables: &[Spanned<R>], of: impl Fn(&Spanned<R>) -> Checked<T>) -> Checked<Vec<T>> {
-    tables.iter().map(of).collect()
-}
-
-pub(super) fn few<R>(s: &Source<'_>, what: &str, tables: &[Spanned<R>]) -> Checked<()> {
-    match tables.get(PARTS) {
-        Some(table) => {
-            let said = format!("a gearbox of {} {what}", tables.len());
-            Err(s.conflict(&table.span(), said, format!("list {PARTS} at the most")))
-        }
-        None => Ok(()),
-    }
-}
-
-/// No two of a kind with one name.
-fn distinct<'a, R>(
-    s: &Source<'_>,
-    what: &str,
-    tables: &[Spanned<R>],
-    names: impl Iterator<Item = &'a str>,
-) -> Checked<()> {
-    let mut seen: Vec<&str> = Vec::new();
-    for (name, table) in names.zip(tables) {
-        if seen.contains(&name) {
-            let said = format!("there are two {what} with the name \"{name}\"");
-            return Err(s.conflict(&table.span(), said, "give each a `name` of its own"));
-        }
-        seen.push(name);
-    }
-    Ok(())
 }
 
 fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> Checked<GearboxGear> {
@@ -243,43 +213,4 @@ fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) 
 /// Inertia of a machine at a coupling, t mm^2.
 fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
     Ok(1e3 * s.number("inertia_kg_m2", value, 0.0, 0.0, 1e12)?)
-}
-
-/// Shaft and place of a part on it.
-pub(super) fn place<R>(
-    s: &Source<'_>,
-    table: &Spanned<R>,
-    name: &str,
-    (shaft, position): (&Word, &Number),
-    shafts: &[(String, f64)],
-) -> Checked<(usize, f64)> {
-    let on = shaft_of(s, table, name, shaft, shafts)?;
-    let end = shafts[on].1;
-    // Lengths add up to the last digit but a few, as those of a cone's steps: its end is still on the shaft.
-    let said = (1e9 * end).round() / 1e9;
-    Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, said)?.min(end)))
-}
-
-/// The same of a gear whose mid-plane may be beyond an end.
-fn place_of_gear<R>(
-    s: &Source<'_>,
-    table: &Spanned<R>,
-    name: &str,
-    (shaft, position): (&Word, &Number),
-    shafts: &[(String, f64)],
-) -> Checked<(usize, f64)> {
-    let on = shaft_of(s, table, name, shaft, shafts)?;
-    Ok((on, needed_number(s, table, name, "position_mm", position, -1e6, 1e6)?))
-}
-
-fn shaft_of<R>(
-    s: &Source<'_>,
-    table: &Spanned<R>,
-    name: &str,
-    shaft: &Word,
-    shafts: &[(String, f64)],
-) -> Checked<usize> {
-    let known: Vec<(&str, usize)> = shafts.iter().enumerate().map(|(i, x)| (x.0.as_str(), i)).collect();
-    let Some(word) = shaft else { return Err(missing(s, table, name, "shaft", "the name of a shaft")) };
-    s.one_of("shaft", word, &known)
 }

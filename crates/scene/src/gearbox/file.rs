@@ -12,6 +12,8 @@ pub struct Gearbox {
     pub name: String,
     /// Where the file stands; paths in it are relative to its folder.
     pub file: PathBuf,
+    /// Words of a command line that set keys beside the file.
+    pub set: Vec<String>,
     /// Shafts.
     pub shafts: Vec<GearboxShaft>,
     /// Bearings.

@@ -7,7 +7,7 @@
 //! | `vibration`, `motion` | how it swings, and how it runs in time |
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
-//! | `raw`, `check`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
+//! | `raw`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
 mod bearing;
 mod check;
@@ -15,6 +15,7 @@ mod file;
 mod housing;
 mod loads;
 mod motion;
+mod parts;
 mod raw;
 mod read;
 mod rolling;

@@ -2,12 +2,19 @@
 
 use std::path::Path;
 
+use serde::Deserialize;
+
 use super::{
     Gearbox,
     check::check,
     raw::{RawGearbox, tables},
 };
-use crate::{DocumentKind, SceneError, Source, read_text};
+use crate::{
+    DocumentKind, SceneError, Setting, Source,
+    raw::with_tables,
+    read_text,
+    setting::{below, few_enough},
+};
 
 impl Gearbox {
     /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
@@ -33,15 +40,31 @@ impl Gearbox {
     /// # Errors
     /// As [`Gearbox::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        Self::parse_beside(text, file, &[])
+        Self::parse_with(text, file, &[])
+    }
+
+    /// The same with some of its keys set otherwise: `gear.0.position_mm`, `vibration.speeds`. Of two settings of a key
+    /// the last one holds.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
+        Self::parse_beside(text, file, settings, &[])
     }
 
     /// The same with the scenes of some names as texts: before they are written.
-    pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, tables).with_beside(beside);
-        let raw: RawGearbox = toml::from_str(text)
-            .map_err(|e| source.explain(e.message(), e.span()))
-            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Gearbox))?;
-        check(&source, raw)
+    pub(crate) fn parse_beside(
+        text: &str,
+        file: &Path,
+        settings: &[Setting],
+        beside: &[(String, String)],
+    ) -> Result<Self, SceneError> {
+        few_enough(text, settings)?;
+        let (all, ranges) = below(text, settings);
+        let source = Source::of(file, &all, tables).with_settings(settings, &ranges).with_beside(beside);
+        let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
+        with_tables(&source, |root| RawGearbox::deserialize(toml::Deserializer::from(root)).map_err(explain))
+            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Gearbox))
+            .and_then(|raw| check(&source, raw))
     }
 }

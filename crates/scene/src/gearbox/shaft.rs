@@ -5,8 +5,8 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::{
-    check::{all, few},
     file::{GearboxSection, GearboxShaft},
+    parts::{all, few},
     raw::{RawSection, RawShaft},
     values::{Checked, missing, needed_number, needed_word, numbers},
 };

@@ -66,7 +66,7 @@ impl<'a> Writer<'_, 'a> {
         let program = self.model.program().map_or_else(String::new, |p| format!(" of {p}"));
         let name = quoted(&format!("REXS model{program}"));
         self.text.push_str(
-            "# Written by `ale-gear init` from a REXS file. Run it: `ale-gear gearbox FILE --out out`. All keys: docs/scene.md.\n",
+            "# Written by `ale-gear init` from a REXS file. Run it: `ale-gear run FILE --out out`. All keys: docs/scene.md.\n",
         );
         self.line("name", name);
     }
