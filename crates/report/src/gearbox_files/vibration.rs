@@ -48,7 +48,7 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &GearboxSw
     let forces = format!("Root mean square of all orders of all meshes, damping ratio {:.3}.", asked.damping_ratio);
     let head = ["mode", "Hz", "strain energy in", "kinetic energy in"];
     // A terminal has no room for where the kinetic energy is.
-    let narrow = Grid::new(&head[..3]).rows(rows.iter().take(LISTED).map(|row| row[..3].to_vec()));
+    let narrow = Grid::new(head[..3].iter().copied()).rows(rows.iter().take(LISTED).map(|row| row[..3].to_vec()));
     vec![
         Part::new("Natural frequencies").closing().words(words).grid(narrow),
         Part::more().grid(Grid::new(head).rows(rows)).figures(charts.into_iter().flatten()),
