@@ -31,12 +31,10 @@ mod slice;
 mod window;
 
 pub use bracketing::last_inside;
-pub use complementarity::{
-    Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, SavedSolution, Solution,
-};
-pub use compliance::{
-    BulkCompliance, BulkTable, Condensed, FullContact, ModalFlanks, ModalForces, TablePoint, TableWork, opening,
-};
+pub(crate) use complementarity::SavedSolution;
+pub use complementarity::{Balance, DenseProblem, DenseSolver, Equality, Law, LinearContact, Problem, Solution};
+pub(crate) use compliance::{BulkCompliance, FullContact, TablePoint};
+pub use compliance::{BulkTable, Condensed, ModalFlanks, ModalForces, TableWork, opening};
 pub use elastic_contact::{CandidateRows, ElasticContact, WarmStart, warm_start};
 pub use error::ContactError;
 pub use flank::{
@@ -54,12 +52,14 @@ pub use nodal::{ContactRow, LinePoints, Scene, Support, closest_points, contact_
 pub use offset::{Misalignment, Offset};
 pub use options::{Bulk, ContactOptions, Method};
 pub use pose::{check_offsets, displaced, frames, gear_centre, gear_pose, own_turns, reference_angle};
-pub use result::{MeshForce, Site, SliceResult, SliceState, Wrench, opening_by_motion, slice_result, wrenches};
+pub(crate) use result::opening_by_motion;
+pub use result::{MeshForce, Site, SliceResult, SliceState, Wrench, slice_result, wrenches};
 pub use set::ContactSet;
 pub use slice::{
-    ContactWork, EvaluationLevel, FlankPair, MeshContact, NearestPoint, RigidFlanks, SameSlices, Slice, SliceFlank,
-    SliceHint, SlicePoint, SliceSet, ToothLayer, slice,
+    ContactWork, EvaluationLevel, MeshContact, NearestPoint, RigidFlanks, SameSlices, Slice, SliceFlank, SliceHint,
+    SliceSet, ToothLayer, slice,
 };
+pub(crate) use slice::{FlankPair, SlicePoint};
 
 pub use window::WindowContact;
 

@@ -174,7 +174,7 @@ fn site(slice: &Slice, half_width: f64) -> Site {
 
 /// Derivative of a contact point's position along `direction` by displacements and small turns of both gears about
 /// their `centres`. Along the normal it is the derivative of the gap.
-pub fn opening_by_motion(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
+pub(crate) fn opening_by_motion(row: &ContactRow, direction: &Vec3, centres: &[Vec3; 2]) -> [f64; 12] {
     let mut j = [0.0; 12];
     for (body, sign) in [1.0, -1.0].into_iter().enumerate() {
         let force = sign * direction;

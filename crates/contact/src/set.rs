@@ -208,7 +208,7 @@ impl ContactSet {
 
     /// Whether a patch of the pinion and one of the wheel face each other. Any others stay whole tooth
     /// thicknesses apart, yet their smooth surfaces, which go on behind the teeth, may look like deep penetration.
-    pub fn partners(&self, (first, second): (usize, usize)) -> bool {
+    pub(crate) fn partners(&self, (first, second): (usize, usize)) -> bool {
         self.partner_of(first) == Some(second)
     }
 
@@ -283,7 +283,7 @@ impl ContactSet {
     }
 
     /// S between rows, mm/N, column by column, from the matrices as they are.
-    pub fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
+    pub(crate) fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
         out.clear();
         if let Some([a, b]) = &self.windows {
             let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];

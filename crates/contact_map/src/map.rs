@@ -147,7 +147,7 @@ impl ContactMap {
     }
 
     /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory.
-    pub fn move_place(&self, place: &mut CutPlace, [phase, tilt]: [f64; 2]) {
+    pub(crate) fn move_place(&self, place: &mut CutPlace, [phase, tilt]: [f64; 2]) {
         let tilt_place = if self.tilts == 0 { 0.0 } else { (tilt - self.tilt[0]) * self.per_tilt() };
         let p = Axis::Periodic(self.phases).splines_at((phase - phase.floor()) * self.phases as f64);
         let t = self.tilt_axis().splines_at(tilt_place);

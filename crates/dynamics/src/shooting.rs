@@ -4,7 +4,7 @@
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
 //! P is the motion over a period, with the gears' own frames turned back by as many pitches: amplitudes of modes are in
-//! those frames ([`PairMechanism::over_a_pitch`](crate::PairMechanism::over_a_pitch)). With generalised-alpha the
+//! those frames (`PairMechanism::over_a_pitch`). With generalised-alpha the
 //! integrator's own acceleration is a third part of x, because it is carried from step to step. dP/dx comes from finite
 //! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
 //! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.

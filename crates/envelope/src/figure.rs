@@ -35,12 +35,12 @@ pub struct Shown {
 
 impl Shown {
     /// A number that must not be above `most`.
-    pub fn at_most(value: f64, most: f64) -> Self {
+    pub(crate) fn at_most(value: f64, most: f64) -> Self {
         Self { value: Value::Number(value), asked: Asked::AtMost(most) }
     }
 
     /// A number that must not be below `least`.
-    pub fn at_least(value: f64, least: f64) -> Self {
+    pub(crate) fn at_least(value: f64, least: f64) -> Self {
         Self { value: Value::Number(value), asked: Asked::AtLeast(least) }
     }
 

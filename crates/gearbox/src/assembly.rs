@@ -109,7 +109,7 @@ impl Assembly {
     }
 
     /// Displacements at the bearings out of those of all nodes, six a bearing, and those of open seats.
-    pub fn at_bearings(&self, q: &DVector<f64>) -> DVector<f64> {
+    pub(crate) fn at_bearings(&self, q: &DVector<f64>) -> DVector<f64> {
         DVector::from_fn(self.supports.stiffness.nrows(), |i, _| q[self.of_support(i)])
     }
 
@@ -183,7 +183,7 @@ impl Assembly {
     }
 
     /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
-    pub fn stiffness_without_meshes(&self) -> DMatrix<f64> {
+    pub(crate) fn stiffness_without_meshes(&self) -> DMatrix<f64> {
         let mut k = self.of_shafts(|line| &line.stiffness);
         self.to_coordinates(&mut k);
         self.add_supports(&mut k, &self.supports.stiffness);

@@ -129,7 +129,7 @@ impl Disc {
     }
 
     /// Where its cross-section is, mm from the shaft's z = 0.
-    pub fn seat_position(&self) -> f64 {
+    pub(crate) fn seat_position(&self) -> f64 {
         self.position - self.reach
     }
 }

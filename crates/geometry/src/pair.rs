@@ -237,7 +237,7 @@ impl GearPair {
     }
 
     /// Length of the path of contact g_alpha, mm.
-    pub fn path_length(&self) -> f64 {
+    pub(crate) fn path_length(&self) -> f64 {
         let [start, end] = self.path_of_contact();
         end - start
     }

@@ -62,7 +62,7 @@ impl Scheme {
 
     /// Coefficients of the stability polynomial, ascending; `None` for implicit methods, which are stable with any
     /// step.
-    pub fn stability_polynomial(&self) -> Option<Vec<f64>> {
+    pub(crate) fn stability_polynomial(&self) -> Option<Vec<f64>> {
         with_stepper!(self, stepper => stepper.stability_polynomial())
     }
 

@@ -87,7 +87,7 @@ impl Equilibrium {
     }
 
     /// Transmission error that is due to load, mm.
-    pub fn elastic_error(&self) -> f64 {
+    pub(crate) fn elastic_error(&self) -> f64 {
         self.transmission_error - self.kinematic_transmission_error
     }
 

@@ -32,7 +32,7 @@ pub use options::StaticOptions;
 pub use pose_steps::round_off_of_places;
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
 pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak};
-pub use sensitivity::{Neighbour, PositionRates, Sensitivities, Sensitivity, Variation};
+pub use sensitivity::{PositionRates, Sensitivities, Sensitivity, Variation};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};
 pub use statics::StaticModel;
 pub use windowed_pair::WindowedPair;

@@ -45,7 +45,7 @@ impl MeshFrame {
     }
 
     /// Orientation angle psi, rad.
-    pub fn psi(&self) -> f64 {
+    pub(crate) fn psi(&self) -> f64 {
         match self.sense {
             Sense::Ccw => self.orientation - self.pressure_angle,
             Sense::Cw => self.orientation + self.pressure_angle - PI,

@@ -44,7 +44,7 @@ impl FaceOwner {
     }
 
     /// The file's tag of the element.
-    pub fn element_tag(&self, mesh: &Mesh) -> u64 {
+    pub(crate) fn element_tag(&self, mesh: &Mesh) -> u64 {
         mesh.blocks[usize::from(self.block)].tags[self.element as usize]
     }
 }

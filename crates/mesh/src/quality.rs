@@ -87,7 +87,7 @@ pub(crate) fn positions<'a>(mesh: &Mesh, element: &[u32], into: &'a mut [[f64; 3
 }
 
 /// Least det J over integration points and corners, mm^3; an element where it is not above 0 is inverted.
-pub fn min_det_j(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
+pub(crate) fn min_det_j(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
     samples(kind).gradients.iter().map(|dn| det_j(dn, positions)).fold(f64::INFINITY, f64::min)
 }
 
@@ -108,7 +108,7 @@ pub fn scaled_jacobian(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
 }
 
 /// Volume of an element by quadrature, mm^3.
-pub fn element_volume(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
+pub(crate) fn element_volume(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
     let rule = kind.quadrature(QuadratureRule::Stiffness);
     rule.iter().zip(&samples(kind).gradients).map(|(q, dn)| q.weight * det_j(dn, positions)).sum()
 }

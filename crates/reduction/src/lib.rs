@@ -26,7 +26,6 @@ mod reducer;
 mod stress_modes;
 mod window;
 
-pub use cyclic::pitch_permutation;
 pub use elastic::{ElasticGear, FullGear};
 pub use error::ReductionError;
 pub use layer_profile::LayerProfile;

@@ -43,11 +43,6 @@ impl Window {
         terms.map(|(k, a)| if k % 2 == 0 { 1.0 } else { -1.0 } * a * (TAU * k as f64 * x).cos()).sum()
     }
 
-    /// Mean of w, by which a windowed sine reads too little.
-    pub fn coherent_gain(self) -> f64 {
-        self.terms()[0]
-    }
-
     /// Equivalent noise bandwidth in bins, mean of w^2 over the square of its mean: power of noise in a band is the sum
     /// of amplitude^2 / 2 over this.
     pub fn noise_bandwidth(self) -> f64 {
@@ -56,7 +51,7 @@ impl Window {
     }
 
     /// Half width of the main lobe, bins: two sines closer than this are one peak.
-    pub fn half_lobe(self) -> f64 {
+    pub(crate) fn half_lobe(self) -> f64 {
         self.terms().len() as f64
     }
 }

@@ -22,10 +22,10 @@ mod tangent;
 use crate::{ContactError, ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
-pub use near::SavedSolution;
+pub(crate) use near::SavedSolution;
 pub(crate) use proximal::LAST_COMPLIANCE;
 pub use proximal::solve;
-pub use slices::solve_slices;
+pub(crate) use slices::solve_slices;
 
 /// How a point resists penetration.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -12,7 +12,7 @@ use crate::ContactError;
 
 /// A solution and the factor of its tangent, saved for later.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct SavedSolution {
+pub(crate) struct SavedSolution {
     forces: Vec<f64>,
     openings: Vec<f64>,
     approach: Vec<f64>,
@@ -31,11 +31,6 @@ const STIFFNESS_ACCURACY: f64 = 1e-9;
 const SLOW: f64 = 0.25;
 
 impl SavedSolution {
-    /// Whether nothing has been saved.
-    pub fn is_empty(&self) -> bool {
-        self.forces.is_empty()
-    }
-
     /// Size, bytes.
     pub fn bytes(&self) -> usize {
         let doubles = [&self.forces, &self.openings, &self.approach, &self.slopes, &self.factor];
@@ -45,7 +40,7 @@ impl SavedSolution {
 
 impl DenseSolver {
     /// Saves the last solution with its factor.
-    pub fn save(&mut self, saved: &mut SavedSolution) {
+    pub(crate) fn save(&mut self, saved: &mut SavedSolution) {
         saved.forces.clone_from(&self.forces);
         saved.openings.clone_from(&self.openings);
         saved.approach.clone_from(&self.approach);
@@ -58,7 +53,7 @@ impl DenseSolver {
     }
 
     /// Restores a saved solution, as if it had just been computed.
-    pub fn restore(&mut self, saved: &SavedSolution) {
+    pub(crate) fn restore(&mut self, saved: &SavedSolution) {
         self.forces.clone_from(&saved.forces);
         self.openings.clone_from(&saved.openings);
         self.approach.clone_from(&saved.approach);
@@ -79,7 +74,7 @@ impl DenseSolver {
     ///
     /// # Errors
     /// As [`DenseSolver::solve`].
-    pub fn solve_near(
+    pub(crate) fn solve_near(
         &mut self,
         problem: &DenseProblem<'_>,
         local: impl Fn(usize, f64) -> (f64, f64),
@@ -232,7 +227,7 @@ impl DenseSolver {
     }
 
     /// Whether the factor is that of a saved or restored solution: the set of active rows has not changed since.
-    pub fn has_saved_factor(&self) -> bool {
+    pub(crate) fn has_saved_factor(&self) -> bool {
         self.saved
     }
 }

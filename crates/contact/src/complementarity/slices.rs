@@ -18,7 +18,7 @@ const SLICE_STEPS: usize = 60;
 ///
 /// # Errors
 /// [`ContactError::NotConverged`], [`ContactError::NoLever`].
-pub fn solve_slices(
+pub(crate) fn solve_slices(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],
     body: usize,

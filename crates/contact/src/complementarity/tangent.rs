@@ -7,8 +7,11 @@ use super::{DenseSolver, dense::RIGID};
 impl DenseSolver {
     /// How forces and moments on two rigid bodies follow their motion, active rows alone.
     ///
+    /// ```text
+    /// T = -J_t' (S + diag delta')^-1 J
+    /// ```
     /// `row(i)`: J, how the twelve coordinates open gap i, and J_t, what a unit normal force does along them (equal
-    /// without friction). See [`DenseSolver::tangent_of`].
+    /// without friction).
     pub fn tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
         let mut flat = [0.0; RIGID * RIGID];
         let fill = |i: usize, opening: &mut [f64], load: &mut [f64]| {
@@ -23,7 +26,7 @@ impl DenseSolver {
     /// How weighted sums of the normal forces follow the motion of two rigid bodies, -W' (S + diag delta')^-1 J.
     ///
     /// `row(i)`: J and W, what the sums along the twelve coordinates hold of normal force i.
-    pub fn weighted_tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
+    pub(crate) fn weighted_tangent(&mut self, row: impl Fn(usize) -> [[f64; RIGID]; 2]) -> [[f64; RIGID]; RIGID] {
         let m = self.active.len();
         let mut all = [[0.0; RIGID]; RIGID];
         if m == 0 {
@@ -43,15 +46,16 @@ impl DenseSolver {
         all
     }
 
-    /// How generalised forces of any number of coordinates follow these, active rows alone, row by row into `tangent`
-    /// (n x n).
+    /// [`DenseSolver::tangent`] of any number n of coordinates, row by row into `tangent` (n x n).
     ///
-    /// ```text
-    /// T = -J_t' (S + diag delta')^-1 J
-    /// ```
     /// `row(i, J_i, J_t,i)` fills what the coordinates do to gap i and what a unit normal force does along them, n
     /// each; `memory` has room for both, 2n.
-    pub fn tangent_of(&mut self, memory: &mut [f64], row: impl Fn(usize, &mut [f64], &mut [f64]), tangent: &mut [f64]) {
+    pub(crate) fn tangent_of(
+        &mut self,
+        memory: &mut [f64],
+        row: impl Fn(usize, &mut [f64], &mut [f64]),
+        tangent: &mut [f64],
+    ) {
         let (m, n) = (self.active.len(), memory.len() / 2);
         tangent.fill(0.0);
         if m == 0 || n == 0 {

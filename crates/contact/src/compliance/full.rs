@@ -17,7 +17,7 @@ use reduction::FullGear;
 /// Bodies that stand still have neither the last row nor the last column. K stiffness of both gears, A openings of the
 /// active rows, D their own compliance and correction, l their levers.
 #[derive(Debug)]
-pub struct FullContact<'a> {
+pub(crate) struct FullContact<'a> {
     rows: &'a [ContactRow],
     gears: [&'a FullGear; 2],
     displacements: [Vec<f64>; 2],

@@ -7,8 +7,9 @@ mod condensed;
 mod full;
 mod modal;
 
-pub use bulk_table::{BulkCompliance, BulkTable, TablePoint, TableWork};
+pub(crate) use bulk_table::{BulkCompliance, TablePoint};
+pub use bulk_table::{BulkTable, TableWork};
 pub use condensed::{Condensed, opening};
-pub use full::FullContact;
+pub(crate) use full::FullContact;
 pub(crate) use modal::ModalRows;
 pub use modal::{ModalFlanks, ModalForces};

@@ -235,7 +235,7 @@ impl ModalFlanks {
     }
 
     /// Takes tangents that `ModalFlanks::find_tangent` once found.
-    pub fn take_tangent(&mut self, tangent: &[f64]) {
+    pub(crate) fn take_tangent(&mut self, tangent: &[f64]) {
         self.forces.tangent.clear();
         self.forces.tangent.extend_from_slice(tangent);
     }

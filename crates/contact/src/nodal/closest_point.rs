@@ -242,7 +242,7 @@ impl ContactRow {
     }
 
     /// Whether friction acts.
-    pub fn has_friction(&self) -> bool {
+    pub(crate) fn has_friction(&self) -> bool {
         self.traction != self.normal
     }
 }

@@ -30,7 +30,7 @@ pub struct Slice {
 
 /// Two flanks at the poses of their bodies, ready to be cut into slices.
 #[derive(Debug, Clone, Copy)]
-pub struct FlankPair<'a> {
+pub(crate) struct FlankPair<'a> {
     flanks: [SliceFlank<'a>; 2],
     poses: &'a [Pose; 2],
     profiles: ProfilePair<'a>,
@@ -38,7 +38,7 @@ pub struct FlankPair<'a> {
 
 /// Place of a slice before anything is made of it.
 #[derive(Debug, Clone, Copy)]
-pub struct SlicePoint {
+pub(crate) struct SlicePoint {
     point: LeastGapPoint,
     sample: GapSample,
     z: f64,
@@ -91,12 +91,12 @@ impl<'a> FlankPair<'a> {
     }
 
     /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.
-    pub fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePoint> {
+    pub(crate) fn nearest_point(&self, z: f64, hint: &mut SliceHint) -> Option<SlicePoint> {
         self.nearest_within(z, hint, f64::INFINITY)
     }
 
     /// The same, if the gap there is at most `reach` (mm): of one that is wider the place is not always looked for.
-    pub fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<SlicePoint> {
+    pub(crate) fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<SlicePoint> {
         let (point, sample) = self.profiles.nearest_within(z, hint, reach)?;
         Some(SlicePoint { point, sample, z })
     }
@@ -120,7 +120,7 @@ impl<'a> FlankPair<'a> {
     }
 
     /// Whether an edge presses at a place, off the line of action.
-    pub fn is_off_line(&self, nearest: &SlicePoint) -> bool {
+    pub(crate) fn is_off_line(&self, nearest: &SlicePoint) -> bool {
         let SlicePoint { point, sample, .. } = *nearest;
         match point {
             LeastGapPoint::Inside(_) | LeastGapPoint::OtherKink(_) => false,

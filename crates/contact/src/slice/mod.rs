@@ -11,7 +11,8 @@ mod set;
 mod supported;
 mod tooth_layer;
 
-pub use flank_pair::{FlankPair, Slice, SliceFlank, SlicePoint, slice};
+pub(crate) use flank_pair::{FlankPair, SlicePoint};
+pub use flank_pair::{Slice, SliceFlank, slice};
 pub use hint::SliceHint;
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};
 pub use rigid::{NearestPoint, RigidFlanks};

@@ -23,7 +23,7 @@ pub struct NearestPoint {
 
 /// Two rigid flanks with their bodies at given poses.
 ///
-/// Search and edges are those of [`crate::FlankPair`]; nothing is known of what stands behind the flanks, so edges are
+/// Search and edges are those of two deformable flanks; nothing is known of what stands behind the flanks, so edges are
 /// sharp.
 #[derive(Debug, Clone, Copy)]
 pub struct RigidFlanks<'a> {

@@ -187,7 +187,7 @@ impl PairMechanism {
     /// Map of the coordinates of a periodic motion from one mesh cycle to the next, n x n. Rigid coordinates repeat.
     /// Amplitudes of modes are in the gears' own frames: they become those of gears turned by a pitch. `None` where the
     /// modes of a gear are not mapped into each other; such a motion repeats after whole turns at best.
-    pub fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
+    pub(crate) fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);
         if let Some(modal) = &self.modal {

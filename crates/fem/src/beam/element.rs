@@ -43,7 +43,7 @@ fn shear_ratio(section: &BeamSection, length: f64, theory: BeamTheory) -> f64 {
 /// axial     E A / l [1, -1; -1, 1],   torsion   G I_p / l [1, -1; -1, 1]
 /// ```
 /// Exact for loads at the nodes. Source: J. S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, section 5.6.
-pub fn beam_stiffness(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
+pub(crate) fn beam_stiffness(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
     let (l, phi) = (length, shear_ratio(section, length, theory));
     let scale = section.bending_stiffness() / ((1.0 + phi) * l.powi(3));
     let (a, b) = ((4.0 + phi) * l * l, (2.0 - phi) * l * l);
@@ -76,7 +76,7 @@ pub fn beam_stiffness(section: &BeamSection, length: f64, theory: BeamTheory) ->
 /// axial and torsion: rho A l / 6, rho I_p l / 6 times [2, 1; 1, 2]
 /// ```
 /// Source: Z. Friedman, J. B. Kosmatka, Comput. Struct. 47 (1993) 473.
-pub fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
+pub(crate) fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
     let (l, phi) = (length, shear_ratio(section, length, theory));
     let rotary = match theory {
         BeamTheory::Timoshenko => section.inertia_per_length(),
@@ -112,7 +112,7 @@ pub fn beam_mass(section: &BeamSection, length: f64, theory: BeamTheory) -> SMat
 /// ```
 /// Skew-symmetric: it does no work. Small turns. None without rotary inertia ([`BeamTheory::Euler`]). Source: H. D.
 /// Nelson, J. Mech. Des. 102 (1980) 793.
-pub fn beam_gyroscopic(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
+pub(crate) fn beam_gyroscopic(section: &BeamSection, length: f64, theory: BeamTheory) -> SMatrix<f64, SIZE, SIZE> {
     let mut g = SMatrix::zeros();
     if theory == BeamTheory::Euler {
         return g;

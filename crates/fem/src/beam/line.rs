@@ -62,7 +62,7 @@ pub struct BeamLine {
     pub stiffness: DMatrix<f64>,
     /// Consistent mass of the same.
     pub mass: DMatrix<f64>,
-    /// Gyroscopic matrix of the same for a spin of 1 rad/s about +z ([`beam_gyroscopic`]).
+    /// Gyroscopic matrix of the same for a spin of 1 rad/s about +z (`beam_gyroscopic`).
     pub gyroscopic: DMatrix<f64>,
 }
 

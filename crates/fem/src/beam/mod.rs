@@ -7,7 +7,8 @@ mod element;
 mod line;
 mod section;
 
-pub use element::{BeamTheory, beam_gyroscopic, beam_mass, beam_stiffness};
+pub use element::BeamTheory;
+use element::{beam_gyroscopic, beam_mass, beam_stiffness};
 pub use line::{BeamLine, BeamPiece, coincidence};
 pub use section::BeamSection;
 

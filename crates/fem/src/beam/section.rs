@@ -41,12 +41,12 @@ impl BeamSection {
     }
 
     /// I = pi (D^4 - d^4) / 64, mm^4.
-    pub fn second_moment(&self) -> f64 {
+    pub(crate) fn second_moment(&self) -> f64 {
         PI / 64.0 * (self.outer.powi(4) - self.inner.powi(4))
     }
 
     /// I_p = 2 I, mm^4.
-    pub fn polar_moment(&self) -> f64 {
+    pub(crate) fn polar_moment(&self) -> f64 {
         2.0 * self.second_moment()
     }
 

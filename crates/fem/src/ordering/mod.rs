@@ -59,14 +59,6 @@ impl Ordering {
         Ok(Self { forward, inverse, interior: n - last.len() })
     }
 
-    /// Doubles that the factor of the matrix takes in this order, what supernodes add to fill themselves included.
-    ///
-    /// # Errors
-    /// [`FemError::OutOfMemory`].
-    pub fn factor_doubles(&self, matrix: &SymmetricMatrix) -> Result<usize, FemError> {
-        Ok(self.symbolic(matrix)?.len_val())
-    }
-
     /// Symbolic supernodal factor of the matrix in this order.
     pub(crate) fn symbolic(&self, matrix: &SymmetricMatrix) -> Result<SymbolicCholesky<usize>, FemError> {
         let params = CholeskySymbolicParams {

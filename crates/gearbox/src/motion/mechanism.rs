@@ -139,7 +139,7 @@ impl GearboxMechanism {
     }
 
     /// Nominal speed of the input at the start, rad/s about +z.
-    pub fn input_speed(&self) -> f64 {
+    pub(crate) fn input_speed(&self) -> f64 {
         self.operation.sense.sign() as f64 * self.drive.start()
     }
 

@@ -77,7 +77,7 @@ impl SpringMesh {
     /// With flanks that are thicker than nominal ones, mm along the normal over the phase, 2 pi a mesh cycle: the static
     /// transmission error is in it.
     #[must_use]
-    pub fn with_excess(self, excess: Fourier) -> Self {
+    pub(crate) fn with_excess(self, excess: Fourier) -> Self {
         Self { excess, ..self }
     }
 
@@ -110,11 +110,6 @@ impl SpringMesh {
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, ..self }
-    }
-
-    /// Mean stiffness along the normal, N/mm.
-    pub fn mean_stiffness(&self) -> f64 {
-        self.stiffness.mean
     }
 
     fn flanks(&self) -> impl Iterator<Item = &Flanks> {

@@ -35,12 +35,12 @@ impl RollingReply {
     }
 
     /// The force with a moment about z, which is zero.
-    pub fn force6(&self) -> Vector6<f64> {
+    pub(crate) fn force6(&self) -> Vector6<f64> {
         Vector6::from_fn(|i, _| if i < 5 { self.force[i] } else { 0.0 })
     }
 
     /// The tangent with the turn about z, which meets nothing.
-    pub fn stiffness6(&self) -> Matrix6<f64> {
+    pub(crate) fn stiffness6(&self) -> Matrix6<f64> {
         with_turn(&self.stiffness)
     }
 }

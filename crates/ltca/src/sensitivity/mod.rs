@@ -17,7 +17,7 @@ use crate::{Equilibrium, StaticError, StaticModel, WindowedPair};
 
 use conditions::{Conditions, Rates};
 use direction::Directions;
-pub use variation::{Neighbour, Variation};
+pub use variation::Variation;
 
 /// Derivatives of a position by one parameter, per unit of it.
 #[derive(Debug, Clone, Default, PartialEq)]

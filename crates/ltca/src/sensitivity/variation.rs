@@ -6,7 +6,7 @@ use crate::{Equilibrium, StaticOptions, WindowedPair, kinematic::Unloaded};
 
 /// A pair with its options: torque, friction, offsets.
 #[derive(Debug, Clone)]
-pub struct Neighbour {
+pub(crate) struct Neighbour {
     /// The pair.
     pub pair: GearPair,
     /// The options.

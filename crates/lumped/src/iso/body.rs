@@ -18,7 +18,7 @@ const SHEAR_ORDERS: u32 = 2000;
 /// c_i = tan^2(b_b) w_i / F_a,   te = F_bt [1/(b c_gamma_alpha) + c_1 + c_2]
 /// ```
 /// F_a = F_bt tan b_b lifts the rim where the teeth mesh by w, and a tooth that gives way by w along the axis gives way
-/// by w tan b_b along the line of action. The body is a plate of the face width b ([`axial_compliance`]), held rigidly
+/// by w tan b_b along the line of action. The body is a plate of the face width b (`axial_compliance`), held rigidly
 /// at the bore and loaded over the arc that the path of contact and half a pitch take of the working circle. Zero for
 /// spur gears.
 ///
@@ -47,7 +47,7 @@ pub fn body_compliance(pair: &GearPair, young: [f64; 2], poisson: [f64; 2]) -> [
 /// Bending by Kirchhoff's plate and shear are added, order by order; the solutions are powers of r (and logarithms for
 /// n = 0, 1). Teeth do not stiffen the plate. `young` E (MPa), `poisson` nu. Source: S. Timoshenko, S.
 /// Woinowsky-Krieger, Theory of Plates and Shells, 1959, articles 62 and 64 (general solution and edge conditions).
-pub fn axial_compliance(gear: &Gear, radius: f64, half_arc: f64, young: f64, poisson: f64) -> f64 {
+pub(crate) fn axial_compliance(gear: &Gear, radius: f64, half_arc: f64, young: f64, poisson: f64) -> f64 {
     let (edge, width) = (gear.root_radius(), gear.face_width());
     let rigidity = young * width.powi(3) / (12.0 * (1.0 - poisson * poisson));
     let shear = SHEAR * young * width / (2.0 * (1.0 + poisson));

@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 
 use serde::Serialize;
 
-pub use body::{axial_compliance, body_compliance};
+pub use body::body_compliance;
 pub use flank::IsoFlank;
 pub use root::{IsoRoot, IsoRootPair, rim_ratio};
 

@@ -7,7 +7,7 @@ use crate::{LumpedPair, history::places};
 
 /// Influence vectors at one phase, in the order of the coordinates; force entries 1, moment entries mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MeshVectors {
+pub(crate) struct MeshVectors {
     /// a_m: normal approach of the flanks at the centre of the lines for a unit of each coordinate.
     pub normal: SVector<f64, 12>,
     /// a_t: relative tilt about the direction across the plane of action (rad).

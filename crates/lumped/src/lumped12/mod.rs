@@ -27,5 +27,5 @@ mod mesh_vectors;
 mod parameters;
 
 pub use mechanism::Motion12;
-pub use mesh_vectors::MeshVectors;
+use mesh_vectors::MeshVectors;
 pub use parameters::{Lumped12, Support12};

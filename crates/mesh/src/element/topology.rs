@@ -56,7 +56,7 @@ impl ElementKind {
     }
 
     /// The kind of that Gmsh number, if it is a volume element known here.
-    pub fn from_gmsh_type(number: i32) -> Option<Self> {
+    pub(crate) fn from_gmsh_type(number: i32) -> Option<Self> {
         Self::ALL.into_iter().find(|k| k.gmsh_type() == number)
     }
 
@@ -162,13 +162,8 @@ impl FaceKind {
     }
 
     /// The kind of that Gmsh number, if it is a face known here.
-    pub fn from_gmsh_type(number: i32) -> Option<Self> {
+    pub(crate) fn from_gmsh_type(number: i32) -> Option<Self> {
         Self::ALL.into_iter().find(|k| k.gmsh_type() == number)
-    }
-
-    /// The kind with that many nodes; the count alone tells them apart.
-    pub fn from_node_count(count: usize) -> Option<Self> {
-        Self::ALL.into_iter().find(|k| k.node_count() == count)
     }
 
     /// Short name for messages and tables, for instance `quad8`.

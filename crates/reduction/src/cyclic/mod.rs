@@ -30,7 +30,6 @@ use chain::Chain;
 use placement::{Placed, arc, placed};
 use sector::Sector;
 pub(crate) use sector_mesh::SectorMesh;
-pub use turn::pitch_permutation;
 pub(crate) use turn::{PitchTurn, face_nodes};
 pub(crate) use vibration::VibratingSector;
 

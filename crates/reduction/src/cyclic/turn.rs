@@ -34,6 +34,8 @@ impl PitchTurn {
         (same_bore && same_flanks).then_some(turn)
     }
 
+    /// By `pitch` (rad) about z; `None` unless every node (within `tolerance` mm) and every element has an image: then the
+    /// gear is cyclic and all windows have the same matrices, each in its own frame.
     fn new(mesh: &Mesh, pitch: f64, tolerance: f64) -> Option<Self> {
         let nodes = node_images(&mesh.nodes, pitch, tolerance)?;
         let mut elements = Vec::with_capacity(mesh.blocks.len());
@@ -51,14 +53,6 @@ impl PitchTurn {
         }
         Some(Self { nodes, elements })
     }
-}
-
-/// Permutation that a turn by `pitch` (rad) about z makes of the mesh: node i goes where node `p[i]` is.
-///
-/// `None` unless every node (within `tolerance` mm) and every element has an image: then the gear is cyclic and
-/// all windows have the same matrices, each in its own frame.
-pub fn pitch_permutation(mesh: &Mesh, pitch: f64, tolerance: f64) -> Option<Vec<u32>> {
-    PitchTurn::new(mesh, pitch, tolerance).map(|turn| turn.nodes)
 }
 
 /// Nodes of some faces, ascending, each once.

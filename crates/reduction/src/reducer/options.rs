@@ -51,7 +51,7 @@ pub struct ReductionWatch<'a> {
 
 impl ReductionWatch<'_> {
     /// Hears nothing and wants all.
-    pub const IDLE: ReductionWatch<'static> = ReductionWatch { tell: &|_| (), wanted: &|| true };
+    pub(crate) const IDLE: ReductionWatch<'static> = ReductionWatch { tell: &|_| (), wanted: &|| true };
 }
 
 impl std::fmt::Debug for ReductionWatch<'_> {

@@ -16,7 +16,7 @@ pub use rows::TableWork;
 
 /// One body's compliance, and what is to be taken away of it.
 #[derive(Debug, Clone)]
-pub struct BulkCompliance<'a> {
+pub(crate) struct BulkCompliance<'a> {
     /// W, mm/N, 3n x 3n, node by node x, y, z.
     pub whole: MatRef<'a, f64>,
     /// W_c of each patch with the numbers its nodes have in W, ascending.
@@ -48,7 +48,7 @@ pub struct BulkTable {
 /// Points and weights of one row in a table: runs of points that follow each other along the profile, three of them for
 /// each direction that it is loaded along.
 #[derive(Debug, Clone, Copy)]
-pub struct TablePoint {
+pub(crate) struct TablePoint {
     /// First point of each run.
     runs: [u32; DIRECTIONS * RUNS],
     weights: [[f64; RUN]; DIRECTIONS * RUNS],
@@ -148,7 +148,7 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
 impl BulkTable {
     /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
     /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
-    pub fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+    pub(crate) fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
         let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
         let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
         let small = |lines: &Vec<FlankGridLines>| {
@@ -222,7 +222,7 @@ impl BulkTable {
     /// ```
     /// Interpolated like the compliance itself, so that taking a' Phi Phi' a away from it leaves what the table would
     /// have of the rest.
-    pub fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
+    pub(crate) fn sample(&self, patches: &[FlankPatch], displacements: &[&[f64]]) -> Vec<Vec<f64>> {
         let supports = grid_supports(&self.lines, patches);
         let along = |k: usize| supports.iter().map(move |s| s.as_ref().map(|s| &s[k]));
         let of_one = |u: &&[f64]| {
@@ -238,18 +238,19 @@ impl BulkTable {
     }
 
     /// Number of points, all directions.
-    pub fn points(&self) -> usize {
+    pub(crate) fn points(&self) -> usize {
         DIRECTIONS * self.first.last().copied().unwrap_or(0)
-    }
-
-    /// Size of the table, bytes.
-    pub fn bytes(&self) -> usize {
-        self.table.len() * size_of::<f64>()
     }
 
     /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's
     /// normal if `None`).
-    pub fn at(&self, flank: &FlankPatch, patch: usize, at: [f64; 2], direction: Option<&Vec3>) -> Option<TablePoint> {
+    pub(crate) fn at(
+        &self,
+        flank: &FlankPatch,
+        patch: usize,
+        at: [f64; 2],
+        direction: Option<&Vec3>,
+    ) -> Option<TablePoint> {
         let (runs, weights) = self.lines.get(patch)?.weights(at);
         let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
         let mut place = TablePoint { runs: [0; DIRECTIONS * RUNS], weights: [[0.0; RUN]; DIRECTIONS * RUNS], count: 0 };
@@ -265,7 +266,7 @@ impl BulkTable {
     }
 
     /// S between two places, mm/N.
-    pub fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
+    pub(crate) fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
         let column = |q: u32| &self.table[q as usize * self.points()..];
         second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
     }
@@ -273,12 +274,12 @@ impl BulkTable {
 
 impl TablePoint {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
-    pub fn points(&self) -> usize {
+    pub(crate) fn points(&self) -> usize {
         RUN * self.count
     }
 
     /// Opening (mm) at this place by a displacement sampled at the table's points.
-    pub fn read(&self, samples: &[f64]) -> f64 {
+    pub(crate) fn read(&self, samples: &[f64]) -> f64 {
         self.each().map(|(p, w)| w * samples[p as usize]).sum()
     }
 

@@ -10,7 +10,7 @@ const NOWHERE: Range<usize> = Range { start: usize::MAX, end: 0 };
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
     /// loads are the openings, and the lower triangle is enough.
-    pub fn add(
+    pub(crate) fn add(
         &self,
         openings: &[TablePoint],
         loads: &[TablePoint],
@@ -161,7 +161,7 @@ pub struct TableWork {
 
 impl TableWork {
     /// Memory for `rows` rows on a table, for use with this table until [`TableWork::enter`] says otherwise.
-    pub fn new(table: &BulkTable, rows: usize) -> Self {
+    pub(crate) fn new(table: &BulkTable, rows: usize) -> Self {
         // A line of points along a profile has a run for every three of them.
         let runs = table.points().div_ceil(RUN - 1).min(rows * DIRECTIONS * RUNS);
         let most = RUN * runs;
@@ -179,19 +179,19 @@ impl TableWork {
     }
 
     /// Makes it ready for another table.
-    pub fn enter(&mut self, table: &BulkTable) {
+    pub(crate) fn enter(&mut self, table: &BulkTable) {
         self.used.clear();
         self.rank.clear();
         self.rank.resize(table.points(), u32::MAX);
     }
 
     /// Points of the table that the rows of the last call touched.
-    pub fn touched(&self) -> usize {
+    pub(crate) fn touched(&self) -> usize {
         RUN * self.used.len()
     }
 
     /// Takes the part of the table that rows touch: where these open, and where their loads stand if these are others.
-    pub fn stand_on(&mut self, table: &BulkTable, openings: &[TablePoint], loads: &[TablePoint]) {
+    pub(crate) fn stand_on(&mut self, table: &BulkTable, openings: &[TablePoint], loads: &[TablePoint]) {
         self.collect(table, openings.iter().chain(loads));
         for (to, from) in self.places.iter_mut().zip([openings, loads]) {
             to.clear();
@@ -204,7 +204,7 @@ impl TableWork {
     }
 
     /// Adds S F to `out`: openings of all rows (mm) by forces (N) along their loads, of the rows that it stands on.
-    pub fn add_openings(&mut self, forces: &[f64], out: &mut [f64]) {
+    pub(crate) fn add_openings(&mut self, forces: &[f64], out: &mut [f64]) {
         let Self { part, column, loaded, places: [openings, loads], arch, .. } = self;
         let loads = if loads.is_empty() { &*openings } else { &*loads };
         arch.dispatch(Product { part, column, loaded, openings, loads, forces, out });

@@ -5,7 +5,7 @@ use crate::{GapSource, contact_points};
 
 impl FlankPatch {
     /// Boundary nodes and the area each stands for, mm^2: the integral of |N_i|, every entry positive.
-    pub fn nodal_areas(&self) -> Vec<(u32, f64)> {
+    pub(crate) fn nodal_areas(&self) -> Vec<(u32, f64)> {
         let mut areas: Vec<(u32, f64)> = self.nodes.iter().map(|n| (n.boundary, 0.0)).collect();
         for point in contact_points(self, 3, GapSource::Smooth) {
             let face = &self.faces[point.at.face];

@@ -8,7 +8,7 @@ impl FlankPatch {
     /// The face point with the given surface coordinates; `None` outside the patch.
     ///
     /// Newton on the isoparametric map of surface coordinates, in the faces that cover the spot.
-    pub fn face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
+    pub(crate) fn face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
         self.bins.around(at)?.iter().find_map(|&face| {
             let xi = self.invert(face as usize, at)?;
             inside(self.faces[face as usize].kind, xi).then_some(FacePoint { face: face as usize, xi })
@@ -17,7 +17,7 @@ impl FlankPatch {
 
     /// The face point with the given surface coordinates, or with the nearest ones that the faces reach: a smooth flank
     /// may be a hair longer than the mesh of it.
-    pub fn nearest_face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
+    pub(crate) fn nearest_face_at(&self, at: [f64; 2]) -> Option<FacePoint> {
         let [low, high] = self.range();
         let inset = [0, 1].map(|k| 1e-9 * (high[k] - low[k]));
         let clamped = [0, 1].map(|k| at[k].clamp(low[k] + inset[k], high[k] - inset[k]));
@@ -31,7 +31,7 @@ impl FlankPatch {
     }
 
     /// The same as [`FlankPatch::nearest_face_at`], tried first from a face point found before for coordinates nearby.
-    pub fn nearest_face_from(&self, at: [f64; 2], before: Option<FacePoint>) -> Option<FacePoint> {
+    pub(crate) fn nearest_face_from(&self, at: [f64; 2], before: Option<FacePoint>) -> Option<FacePoint> {
         let near = before.and_then(|p| {
             let xi = self.invert_from(p.face, at, p.xi)?;
             inside(self.faces.get(p.face)?.kind, xi).then_some(FacePoint { face: p.face, xi })
@@ -40,7 +40,7 @@ impl FlankPatch {
     }
 
     /// Whether the surface coordinates lie on the faces.
-    pub fn covers(&self, at: [f64; 2]) -> bool {
+    pub(crate) fn covers(&self, at: [f64; 2]) -> bool {
         self.face_at(at).is_some()
     }
 

@@ -15,7 +15,7 @@ use face::{PatchFace, PatchNode, range};
 
 /// Faces of one flank, and where their nodes sit on its smooth nominal surface.
 ///
-/// Patches of one flank with other micro-geometry share their faces ([`FlankPatch::with_surface`]).
+/// Patches of one flank with other micro-geometry share their faces (`with_surface`).
 #[derive(Debug)]
 pub struct FlankPatch {
     /// Tooth (or any other number) the flank belongs to.
@@ -105,7 +105,7 @@ impl FlankPatch {
 
     /// The same faces on a surface that differs in its micro-geometry alone.
     #[must_use]
-    pub fn with_surface(&self, surface: Box<dyn Surface>) -> Self {
+    pub(crate) fn with_surface(&self, surface: Box<dyn Surface>) -> Self {
         let Self { tooth, range, .. } = *self;
         let (faces, nodes, bins) = (Arc::clone(&self.faces), Arc::clone(&self.nodes), Arc::clone(&self.bins));
         let profile_length = profile_length(&*surface, range);
@@ -130,7 +130,7 @@ impl FlankPatch {
     }
 
     /// Kind of a face.
-    pub fn face_kind(&self, face: usize) -> FaceKind {
+    pub(crate) fn face_kind(&self, face: usize) -> FaceKind {
         self.faces[face].kind
     }
 
@@ -153,7 +153,7 @@ impl FlankPatch {
     }
 
     /// Boundary nodes at a face point and their shape functions.
-    pub fn node_weights(&self, at: FacePoint) -> Vec<(u32, f64)> {
+    pub(crate) fn node_weights(&self, at: FacePoint) -> Vec<(u32, f64)> {
         let i = self.interpolation(at);
         i.nodes[..i.count].iter().copied().zip(i.weights).collect()
     }
@@ -169,14 +169,14 @@ impl FlankPatch {
     }
 
     /// Point on the finite-element face itself (a facet of the gear), mm.
-    pub fn facet_point(&self, at: FacePoint) -> Vec3 {
+    pub(crate) fn facet_point(&self, at: FacePoint) -> Vec3 {
         let mut sum = Vec3::zeros();
         self.interpolate(at, |node, w| sum += w * node.position);
         sum
     }
 
     /// Area of the face per unit of reference area at a face point, mm^2.
-    pub fn area_ratio(&self, at: FacePoint) -> f64 {
+    pub(crate) fn area_ratio(&self, at: FacePoint) -> f64 {
         let f = &self.faces[at.face];
         let count = f.kind.node_count();
         let mut slopes = [[0.0; 2]; 9];
@@ -204,7 +204,7 @@ impl FlankPatch {
     ///
     /// Sampled at the nodes and a 4 x 4 grid of surface coordinates; a surface that bulges between the samples does so
     /// by less than a twentieth of the face's diagonal as long as a face spans less than about 0.8 rad of normal.
-    pub fn face_box(&self, face: usize) -> [Vec3; 2] {
+    pub(crate) fn face_box(&self, face: usize) -> [Vec3; 2] {
         let (mut low, mut high) = (Vec3::repeat(f64::INFINITY), Vec3::repeat(f64::NEG_INFINITY));
         let mut take = |p: Vec3| {
             low = low.inf(&p);
@@ -236,18 +236,18 @@ impl FlankPatch {
     }
 
     /// Length of the profile at the lower end of the width, by two chords, mm.
-    pub fn profile_length(&self) -> f64 {
+    pub(crate) fn profile_length(&self) -> f64 {
         self.profile_length
     }
 
     /// Surface coordinates of a boundary node of the patch.
-    pub fn node_coordinates(&self, boundary: u32) -> Option<[f64; 2]> {
+    pub(crate) fn node_coordinates(&self, boundary: u32) -> Option<[f64; 2]> {
         // Boundary nodes are numbered in the order of the mesh's nodes, which is the order here.
         self.nodes.binary_search_by_key(&boundary, |n| n.boundary).ok().map(|i| self.nodes[i].at)
     }
 
     /// Mean size of a face in each surface coordinate.
-    pub fn mean_face_size(&self) -> [f64; 2] {
+    pub(crate) fn mean_face_size(&self) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for face in 0..self.faces.len() {
             let [low, high] = self.face_range(face);

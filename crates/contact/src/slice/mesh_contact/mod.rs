@@ -327,7 +327,7 @@ impl MeshContact {
     }
 
     /// Gap opening of a row by the kept modes, mm; it is part of the row's gap.
-    pub fn modal_opening(&self, row: usize) -> f64 {
+    pub(crate) fn modal_opening(&self, row: usize) -> f64 {
         self.modal.as_ref().map_or(0.0, |modal| modal.shift(&self.contact.modal, row))
     }
 
