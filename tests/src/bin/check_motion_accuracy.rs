@@ -12,7 +12,7 @@ use analysis::{
     NoCache, NoObserver,
     accuracy::{
         KeptGears, Rung,
-        motion::{AccurateMotion, MotionAnswer, MotionModel, MotionSample, PairAtRest, solve_at_rest},
+        motion::{AccurateMotion, MotionAnswer, MotionModel, MotionSample, PairAtRest},
     },
 };
 use scene::{AccuracyScene, Model, Quantity, Tolerance};
@@ -124,7 +124,7 @@ fn reference(
     kept: &KeptGears<'_>,
 ) -> Result<(MotionSample, scene::Scene), Failure> {
     let still = rung.scene(&pair.scene);
-    let rest = PairAtRest::new(&still, &solve_at_rest(&still, kept, &mut NoObserver)?)?;
+    let rest = PairAtRest::solve(&still, kept)?;
     let rest = PairAtRest { mesh_hz: speed * rest.resonance.hz, ..rest };
     let scene = pair.at(rest.mesh_hz);
     let mut fine = rung.scene(&scene);

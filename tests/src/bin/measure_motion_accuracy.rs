@@ -10,7 +10,7 @@ use analysis::{
     NoObserver,
     accuracy::{
         KeptGears, Rung,
-        motion::{MotionAnswer, MotionModel, PairAtRest, solve_at_rest},
+        motion::{MotionAnswer, MotionModel, PairAtRest},
     },
 };
 use serde_json::{Value, json};
@@ -54,8 +54,7 @@ fn main() -> Result<(), Failure> {
 fn measured(pair: &RandomMotion, index: u64, rung: Rung) -> Vec<Result<Value, Failure>> {
     let kept = KeptGears::new(&analysis::NoCache);
     let scene = rung.scene(&pair.scene);
-    let rest = solve_at_rest(&scene, &kept, &mut NoObserver).and_then(|solved| PairAtRest::new(&scene, &solved));
-    match rest {
+    match PairAtRest::solve(&scene, &kept) {
         Ok(rest) => {
             let compared = index as usize % pair.speeds.len();
             let one = |(i, speed): (usize, &f64)| at_speed(pair, rung, &rest, (*speed, i == compared), &kept);

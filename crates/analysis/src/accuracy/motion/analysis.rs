@@ -4,7 +4,6 @@ use scene::{AccuracyScene, Method, Quantity, Run, Scene, Tolerance};
 
 use super::{
     MotionAnswer, MotionCalibration, MotionModel, MotionSample, MotionTold, PairAtRest, TriedModel,
-    at_rest::at_rest,
     estimate::{Seen, not_covered},
     mesh_bound,
 };
@@ -14,7 +13,7 @@ use crate::{
         Accuracy, AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung,
     },
     facts::Facts,
-    lumped::NoLumpedSink,
+    lumped::{NoLumpedSink, static_scene},
     motion::NoMotionSink,
 };
 
@@ -168,7 +167,7 @@ impl<'a> AccurateMotion<'a> {
 
     /// The pair at rest, with bounds.
     fn base(&self, scene: Scene, kept: &KeptGears<'_>, observer: &mut dyn Observer) -> Result<Base, AnalysisError> {
-        let mut still = at_rest(&scene);
+        let mut still = static_scene(&scene);
         let whole = Tolerance::Relative(1.0);
         still.accuracy =
             AccuracyScene::new([(Quantity::PeakToPeakSte, whole), (Quantity::MeshStiffnessTangent, whole)]);

@@ -8,8 +8,8 @@ use scene::{DriveBy, Driver, Quantity, Scene};
 use study::{cycle_statistics, mesh_harmonics, root_mean_square};
 
 use crate::{
-    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, StaticResult, lumped::static_scene, meshes,
-    motion::motion_options, options, reduced,
+    AnalysisError, GearCache, StaticAnalysis, StaticResult, lumped::static_scene, meshes, motion::motion_options,
+    options, reduced,
 };
 
 /// A pair at rest, as far as its motion is told from it.
@@ -34,7 +34,7 @@ impl PairAtRest {
     ///
     /// # Errors
     /// [`AnalysisError`] where a gear has no mass or no frequency.
-    pub fn new(scene: &Scene, at_rest: &StaticResult) -> Result<Self, AnalysisError> {
+    pub(super) fn new(scene: &Scene, at_rest: &StaticResult) -> Result<Self, AnalysisError> {
         let pair = &at_rest.pair;
         let meshes = meshes::pair_meshes(scene, pair)?;
         let options = motion_options(scene, pair, &meshes, options(scene, pair))?;
@@ -72,6 +72,16 @@ impl PairAtRest {
         })
     }
 
+    /// Of a scene in motion, its pair solved at rest under its load without friction.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve(scene: &Scene, cache: &dyn GearCache) -> Result<Self, AnalysisError> {
+        let still = static_scene(scene);
+        let analysis = StaticAnalysis::new(&still).with_slices_of_scene().with_cache(cache);
+        Self::new(scene, &analysis.solve()?)
+    }
+
     /// Mesh frequency over the resonance.
     pub fn speed_ratio(&self) -> f64 {
         self.mesh_hz / self.resonance.hz
@@ -102,21 +112,4 @@ impl PairAtRest {
         let rho = harmonic as f64 * self.speed_ratio() / resonance;
         1.0 / (1.0 - rho * rho).hypot(2.0 * self.resonance.damping * rho).max(f64::MIN_POSITIVE)
     }
-}
-
-/// A scene in motion as one at rest: the same pair and load, without friction.
-pub(super) fn at_rest(scene: &Scene) -> Scene {
-    static_scene(scene)
-}
-
-/// Solves the pair of a scene in motion at rest, under its load.
-///
-/// # Errors
-/// [`AnalysisError`].
-pub fn solve_at_rest(
-    scene: &Scene,
-    cache: &dyn GearCache,
-    observer: &mut dyn Observer,
-) -> Result<StaticResult, AnalysisError> {
-    StaticAnalysis::new(&at_rest(scene)).with_slices_of_scene().with_cache(cache).solve_into(observer, &mut NoSink)
 }

@@ -26,7 +26,7 @@ mod run;
 
 pub use super::exactness::TriedModel;
 pub use analysis::{AccurateMotion, AccurateMotionResult};
-pub use at_rest::{PairAtRest, solve_at_rest};
+pub use at_rest::PairAtRest;
 pub use calibration::{MotionCalibration, MotionLaws, SpeedLaw, UsualBound};
 pub use model::MotionModel;
 pub use response::mesh_bound;
