@@ -23,9 +23,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] in time, [`lumped::LumpedAnalysis`] by a
-//! model with few coordinates, [`lumped::KeySweep`] such a model at many values of a key;
-//! [`accuracy_chart::AccuracyChart`] compares them all.
+//! [`solve`] solves a scene of any kind in memory. [`StaticAnalysis`] solves the pair at rest, [`in_time::TimeAnalysis`] in
+//! time: [`motion::MotionAnalysis`] with all of its teeth, [`lumped::LumpedAnalysis`] by a model with few coordinates,
+//! [`lumped::KeySweep`] such a model at many values of a key. [`accuracy_chart::AccuracyChart`] compares them all.
 
 pub mod accuracy;
 pub mod accuracy_chart;
@@ -44,6 +44,7 @@ mod foreseen;
 pub mod gearbox_at_rest;
 pub mod gears;
 mod headline_keys;
+pub mod in_time;
 mod inputs;
 mod interest;
 pub mod iso_model;
@@ -64,6 +65,7 @@ pub mod resolution;
 pub mod results;
 mod shared_models;
 mod side_by_side;
+mod solved;
 mod static_certificate;
 mod statics;
 mod warnings;
@@ -79,8 +81,9 @@ pub use interest::Interest;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_cancelled};
 pub use options::options;
 pub use plausible::{Implausible, LoadEstimate};
-pub use shared_models::{SharedModels, SolvedWithRates, VariedScene};
+pub use shared_models::{SharedModels, SolvedWithRates, VariedScene, WarningsAtRest};
 pub use side_by_side::side_by_side;
+pub use solved::{Solved, SolvedAtRest, solve, solve_at_rest};
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{
     NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, time_again,

@@ -76,6 +76,16 @@ pub struct VariedScene {
     pub steps: [f64; 2],
 }
 
+/// Whether it is found out what a user should hear of pair, meshes and bodies at rest, which takes a twentieth of the time
+/// of a quick case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WarningsAtRest {
+    /// The history has all warnings that a run by itself has.
+    Told,
+    /// The history has the warnings of its own positions alone.
+    Left,
+}
+
 /// What is asked for beside the positions: derivatives by some parameters, of the unloaded pair too or not.
 #[derive(Clone, Copy, Default)]
 struct Rates<'a> {
@@ -114,6 +124,22 @@ impl std::fmt::Debug for SharedModels<'_> {
     }
 }
 
+impl Base {
+    /// Adds what a user should hear of pair, meshes and bodies, as a run by itself says it.
+    fn warn(&self, scene: &Scene, history: &mut StaticHistory) -> Result<(), AnalysisError> {
+        let pair = scene.gear_pair()?;
+        history.warnings.extend(gears::warnings(&pair));
+        history.warnings.extend(self.meshes.iter().flat_map(|m| m.warnings.clone()));
+        let options = options(scene, &pair);
+        history.warnings.extend(resolution_warnings(scene, &pair, &options));
+        history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
+        history.warnings.extend(self.of_bodies.get_or_init(|| body_warnings(&self.model)).iter().cloned());
+        let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
+        history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+        Ok(())
+    }
+}
+
 impl<'a> SharedModels<'a> {
     /// None yet; reduced gears come from a cache and go there.
     pub fn new(cache: &'a dyn GearCache) -> Self {
@@ -129,6 +155,11 @@ impl<'a> SharedModels<'a> {
     #[must_use]
     pub fn with_meshes(self, meshes: [Mesh; 2]) -> Self {
         Self { meshes: Some(meshes), ..self }
+    }
+
+    /// Where reduced gears come from and go to.
+    pub(crate) fn cache(&self) -> &dyn GearCache {
+        &*self.cache
     }
 
     /// Meshes of pinion and wheel that the caller has given.
@@ -180,26 +211,6 @@ impl<'a> SharedModels<'a> {
         Ok((scene, history))
     }
 
-    /// The same with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks for none.
-    ///
-    /// # Errors
-    /// As of [`SharedModels::solve`], and where there are no derivatives.
-    pub fn solve_with_derivatives(
-        &self,
-        scene: &Scene,
-    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
-        let keys = scene.output.derivatives.clone();
-        if keys.is_empty() {
-            let (scene, history) = self.solve(scene)?;
-            return Ok((scene, history, None));
-        }
-        let varied = VariedScene::by_keys(scene, &keys)?;
-        let asked = Rates { of: &varied, of_unloaded: true };
-        let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
-        static_certificate(&scene, &history.positions).verdict(&scene)?;
-        Ok((scene, history, Some(Derivatives { keys, rates })))
-    }
-
     /// As [`SharedModels::solve`], and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
     ///
     /// # Errors
@@ -209,6 +220,34 @@ impl<'a> SharedModels<'a> {
             Some(told) => Ok(told),
             None => self.solve(scene),
         }
+    }
+
+    /// As [`SharedModels::solve`], with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks
+    /// for none.
+    ///
+    /// # Errors
+    /// As of [`SharedModels::solve`], and where there are no derivatives.
+    pub fn solve_with_derivatives(
+        &self,
+        scene: &Scene,
+        warnings: WarningsAtRest,
+    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
+        let keys = scene.output.derivatives.clone();
+        if keys.is_empty() {
+            let (scene, history) = match warnings {
+                WarningsAtRest::Told => self.solve_told(scene)?,
+                WarningsAtRest::Left => self.solve(scene)?,
+            };
+            return Ok((scene, history, None));
+        }
+        let varied = VariedScene::by_keys(scene, &keys)?;
+        let asked = Rates { of: &varied, of_unloaded: true };
+        let (SolvedWithRates { scene, mut history, rates }, base) = self.positions(scene, asked, Interest::LASTING)?;
+        static_certificate(&scene, &history.positions).verdict(&scene)?;
+        if warnings == WarningsAtRest::Told {
+            base.warn(&scene, &mut history)?;
+        }
+        Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
     /// As [`SharedModels::solve`], with all that a user should hear in the history's warnings, for who may lose
@@ -254,15 +293,7 @@ impl<'a> SharedModels<'a> {
             return Ok(None);
         }
         static_certificate(&scene, &history.positions).verdict(&scene)?;
-        let pair = scene.gear_pair()?;
-        history.warnings.extend(gears::warnings(&pair));
-        history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
-        let options = options(&scene, &pair);
-        history.warnings.extend(resolution_warnings(&scene, &pair, &options));
-        history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
-        history.warnings.extend(base.of_bodies.get_or_init(|| body_warnings(&base.model)).iter().cloned());
-        let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
-        history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+        base.warn(&scene, &mut history)?;
         Ok(Some((scene, history)))
     }
 

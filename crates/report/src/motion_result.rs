@@ -1,7 +1,7 @@
 //! All files of a motion, or of motions at many values, but the rows of reduced gears; the table at their end.
 
 use analysis::{
-    accuracy::motion::MotionAnswer,
+    in_time::{SolvedInTime, TimeAnswer},
     lumped::{BasinResult, BifurcationAnalysis, ContinuationResult, LumpedResult, SweepOptions},
     motion::{MotionResult, SweepResult},
 };
@@ -21,10 +21,7 @@ use crate::{
 };
 
 /// Of reduced gears, whose rows are written as they come.
-///
-/// # Errors
-/// When the system refuses, or a page does not come out.
-pub fn write_motion_result(
+fn write_motion_result(
     scene: &Scene,
     result: &MotionResult,
     cost: &Cost,
@@ -38,10 +35,7 @@ pub fn write_motion_result(
 }
 
 /// Of steady states of reduced gears over speed.
-///
-/// # Errors
-/// When the system refuses, or a page does not come out.
-pub fn write_sweep_result(
+fn write_sweep_result(
     scene: &Scene,
     result: &SweepResult,
     cost: &Cost,
@@ -74,10 +68,7 @@ pub fn write_key_sweep_result(
 }
 
 /// Of periodic motions along a key.
-///
-/// # Errors
-/// When the system refuses, or a page does not come out.
-pub fn write_continuation_result(
+fn write_continuation_result(
     scene: &Scene,
     found: &ContinuationResult,
     cost: &Cost,
@@ -90,10 +81,7 @@ pub fn write_continuation_result(
 }
 
 /// Of basins of attraction.
-///
-/// # Errors
-/// When the system refuses, or a page does not come out.
-pub fn write_basin_result(
+fn write_basin_result(
     scene: &Scene,
     found: &BasinResult,
     cost: &Cost,
@@ -106,10 +94,7 @@ pub fn write_basin_result(
 }
 
 /// Of a cheaper model, its rows among them.
-///
-/// # Errors
-/// When the system refuses, or a page does not come out.
-pub fn write_lumped_result(
+fn write_lumped_result(
     scene: &Scene,
     result: &LumpedResult,
     cost: &Cost,
@@ -121,19 +106,23 @@ pub fn write_lumped_result(
     Ok(lumped_table(scene, facts, cost, headline, warnings))
 }
 
-/// Of whichever model was taken.
+/// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_answer(
-    scene: &Scene,
-    answer: &MotionAnswer,
+pub fn write_in_time(
+    solved: &SolvedInTime,
     cost: &Cost,
     view: Option<&View>,
     results: &ResultDirectory,
 ) -> Result<String, ReportError> {
+    let SolvedInTime { scene, answer } = solved;
     match answer {
-        MotionAnswer::Lumped(result) => write_lumped_result(scene, result, cost, results),
-        MotionAnswer::Reduced(result) => write_motion_result(scene, result, cost, view, results),
+        TimeAnswer::Motion(result) => write_motion_result(scene, result, cost, view, results),
+        TimeAnswer::Lumped(result) => write_lumped_result(scene, result, cost, results),
+        TimeAnswer::Speeds(result) => write_sweep_result(scene, result, cost, view, results),
+        TimeAnswer::LumpedSpeeds { options, found } => write_key_sweep_result(options, found, None, cost, results),
+        TimeAnswer::Branch(result) => write_continuation_result(scene, result, cost, results),
+        TimeAnswer::Basins(result) => write_basin_result(scene, result, cost, results),
     }
 }

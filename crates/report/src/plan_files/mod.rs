@@ -29,6 +29,6 @@ pub use known::{Column, KnownCases};
 pub use outputs::{OutputError, check_outputs};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseRow, CaseTable, DoneCases};
-pub use solve::{InTime, solve_cases};
-pub use values::{case_values, static_case_values};
+pub use solve::{CaseObserver, solve_cases};
+pub use values::case_values;
 pub use write::{PageWords, plan_digest, report_folder, write_cases};
