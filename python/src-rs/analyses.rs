@@ -1,23 +1,21 @@
 //! What a pair is asked beside one load at rest: in time, along a key, over many cases, at its optimum. Each is written
 //! into a folder that goes with the result, by the functions that the command has.
 
-use std::{ops::ControlFlow, path::Path};
+use std::ops::ControlFlow;
 
 use ::mesh::Mesh;
 use ::scene::{Scene, optimum::Optimisation, plan::Plan};
 use analysis::{
     AnalysisError, GearCache, Observer, PhaseWork, SharedModels,
     optimum::{optimise, told},
-    resolution::with_slices,
 };
 use report::{
-    Recorder,
+    Recorder, WrittenInTime,
     folder::ResultDirectory,
     optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum},
     plan_files::{DoneCases, PageWords, solve_cases, write_cases},
-    read_columns, solve_in_time,
+    solve_in_time,
 };
-use study::Columns;
 use tempfile::TempDir;
 
 use crate::{
@@ -43,9 +41,10 @@ pub struct Held<'a> {
 pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let (_, verdict) = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
+    let WrittenInTime { solved, .. } = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
     results.finish(drop)?;
-    Result::written(("dynamic", &scene.name), folder, verdict.err().map(Complaint::from))
+    let failure = solved.verdict().err().map(Complaint::from);
+    Result::in_time(&scene.name, solved, folder, failure)
 }
 
 /// Many cases of a scene, a row a case; `again`: the call that makes it again.
@@ -53,33 +52,15 @@ pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answ
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let done = DoneCases::in_memory(Default::default());
-    let one_in_time = |case: usize, scene: &Scene| {
-        let own = folder.path().join(case.to_string());
-        rows_in_time(&with_slices(scene.clone()), &own, held).map_err(|e| e.message)
-    };
     let count = plan.cases.count();
     let progress = watch.begin("cases", PhaseWork::Steps(count as u64));
-    solve_cases((plan, 0..count), held.models, &one_in_time, &done, &*progress)?;
+    let beside = watch.beside();
+    solve_cases((plan, 0..count), held.models, &|| Box::new(beside.beside()), &done, &*progress)?;
     watch.end();
     analysis::unless_cancelled(&*progress)?;
     write_cases((plan, &done), PageWords { again, ..PageWords::default() }, &watch.cost(), &results)?;
     results.finish(drop)?;
     Result::written(("plan", &plan.name), folder, None)
-}
-
-/// Rows and headline of one case in time; its files are gone afterwards.
-fn rows_in_time(
-    scene: &Scene,
-    folder: &Path,
-    held: Held<'_>,
-) -> std::result::Result<(Columns, serde_json::Value), Complaint> {
-    let results = ResultDirectory::create(folder)?;
-    let (_, verdict) = solve_in_time(scene, held.meshes, &mut Watch::alone(), &results, held.cache)?;
-    verdict?;
-    let rows = read_columns(&results.path("history.csv"))?;
-    let summary = std::fs::read_to_string(results.path("summary.json"))?;
-    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap_or_default();
-    Ok((rows, summary["headline"].clone()))
 }
 
 /// The quietest micro-geometry; `again`: words of the command that make it again.

@@ -8,7 +8,7 @@ use ::scene::{
     optimum::{Optimisation, OptimisationWords},
     plan::{Plan, PlanWords},
 };
-use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, lumped::is_lumped};
+use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, in_time::TimeAnalysis};
 use pyo3::{
     prelude::*,
     types::{PyBool, PyList, PyString},
@@ -84,9 +84,10 @@ impl Pair {
     fn asked(&self, more: Vec<Setting>) -> Answer<::scene::Scene> {
         let scene = self.scene.with(more)?.ready();
         check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
-        if self.held.meshes.is_some() && (!scene.accuracy.is_none() || is_lumped(&scene)) {
+        let many = scene.motion.is_some() && !TimeAnalysis::is_one_motion(&scene);
+        if self.held.meshes.is_some() && (!scene.accuracy.is_none() || many) {
             let hint = "write the meshes into files (`Mesh.save`) and name these in the scene";
-            let what = "meshes in memory go with reduced gears alone, not with [accuracy] or a cheaper model";
+            let what = "meshes in memory go with one load or motion of reduced gears alone, not with [accuracy], a cheaper model or a sweep";
             return Err(Complaint::new(Kind::Input, what, Some(hint.into())));
         }
         Ok(scene)

@@ -6,13 +6,14 @@ use std::{
     sync::OnceLock,
 };
 
+use analysis::{Solved, in_time::SolvedInTime};
 use numpy::{PyArray1, ndarray::ArrayView1};
 use pyo3::{
     exceptions::PyKeyError,
     prelude::*,
     types::{PyDict, PyList},
 };
-use report::{charts::stills, folder::ResultDirectory};
+use report::{charts::stills, columns::solved_rows, folder::ResultDirectory};
 use tempfile::TempDir;
 
 use crate::{
@@ -131,6 +132,30 @@ impl Result {
             warnings: solved.warnings().to_vec(),
             failure: solved.verdict().err().map(Complaint::from),
             files: Files::Held(Box::new(solved), OnceLock::new()),
+        })
+    }
+
+    /// Of a scene in time whose files are written, in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
+    pub fn in_time(
+        name: &str,
+        solved: Box<SolvedInTime>,
+        folder: TempDir,
+        failure: Option<Complaint>,
+    ) -> std::result::Result<Self, Complaint> {
+        let solved = Solved::InTime(solved);
+        let rows = solved_rows(&solved);
+        if rows.is_empty() {
+            // Of many motions the files have tables of their own.
+            return Self::written(("dynamic", name), folder, failure);
+        }
+        Ok(Self {
+            kind: "dynamic",
+            name: name.to_owned(),
+            table: Table::of(&rows),
+            headline: solved.headline()?.to_string(),
+            warnings: solved.warnings().to_vec(),
+            files: Files::Written(folder),
+            failure,
         })
     }
 

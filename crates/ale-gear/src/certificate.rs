@@ -1,5 +1,9 @@
 //! What the command ends with where a result does not hold.
 
+use analysis::Solved;
+use report::Cost;
+use report::WrittenInTime;
+
 use crate::error::CommandError;
 
 /// A result whose files stand, and whether it holds.
@@ -9,11 +13,14 @@ pub(crate) struct Written {
     pub table: String,
     /// Status 1 where its certificate does not hold.
     pub verdict: Result<(), CommandError>,
+    /// The answer itself.
+    pub solved: Solved,
+    /// What it took, as `summary.json` has it.
+    pub cost: Cost,
 }
 
-impl Written {
-    /// Of a closing table and what the certificate says.
-    pub fn of((table, verdict): report::Told) -> Self {
-        Self { table, verdict: verdict.map_err(CommandError::from) }
+impl From<WrittenInTime> for Written {
+    fn from(WrittenInTime { solved, cost, table }: WrittenInTime) -> Self {
+        Self { table, verdict: solved.verdict().map_err(CommandError::from), solved: Solved::InTime(solved), cost }
     }
 }

@@ -5,9 +5,10 @@ use analysis::gearbox_at_rest::solve_gearbox;
 use report::{folder::Cache, gearbox_files::write_gearbox};
 use scene::gearbox::Gearbox;
 
-use crate::{certificate::Written, error::CommandError, output::ResultDirectory, phases::Phases};
+use crate::{error::CommandError, output::ResultDirectory, phases::Phases};
 
-/// Solves a gearbox as its file asks and writes all files of the result, also of one that does not hold.
+/// Solves a gearbox as its file asks and writes all files of the result, also of one that does not hold: closing table,
+/// and whether it holds.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no result comes out.
@@ -16,8 +17,8 @@ pub(crate) fn write_gearbox_result(
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
-) -> Result<Written, CommandError> {
+) -> Result<(String, Result<(), CommandError>), CommandError> {
     let result = solve_gearbox(file, cache, phases)?;
     let table = write_gearbox(file, &result, phases.cost(), results)?;
-    Ok(Written { table, verdict: result.verdict(file).map_err(CommandError::from) })
+    Ok((table, result.verdict(file).map_err(CommandError::from)))
 }

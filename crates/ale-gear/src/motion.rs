@@ -1,16 +1,17 @@
-//! Motions of reduced gears, from a checked scene to a result folder: what is computed stands in [`analysis::motion`],
-//! what is written in [`report::motion_files`] and [`report::checkpoint`].
+//! Scenes in time, from a checked scene to a result folder: what is computed stands in [`analysis::in_time`], what is
+//! written in [`report::solve_in_time`]. What is added here are the checkpoints of one motion.
 
 use std::path::Path;
 
 use analysis::{
-    AnalysisError,
-    motion::{MotionAnalysis, MotionLayout, MotionOutcome},
+    in_time::{TimeAnalysis, TimeOutcome},
+    motion::MotionLayout,
 };
 use report::{
+    WrittenInTime,
     checkpoint::{CheckpointFolder, Checkpoints, ENERGY_FILE, HISTORY, InputDigests, Stored, read_rows},
     motion_files::MotionFileSink,
-    write_motion_result,
+    solve_in_time, write_in_time,
 };
 
 use report::folder::Cache;
@@ -20,7 +21,7 @@ use crate::{
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
-    scene::{MotionScene, Scene},
+    scene::Scene,
     talk::{self, Loudness},
 };
 
@@ -33,15 +34,12 @@ pub(crate) struct Progression {
 }
 
 impl Progression {
-    /// Checkpoints beside `out`, where scene or command ask for some.
-    pub fn new(motion: &MotionScene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
-        let wanted = motion.checkpoint_every_cycles.is_some_and(|every| every > 0) || resume || stop_after.is_some();
+    /// Checkpoints beside `out`, where scene or command ask for some of one motion.
+    pub fn new(scene: &Scene, out: &Path, resume: bool, stop_after: Option<u64>) -> Self {
+        let every = scene.motion.as_ref().and_then(|m| m.checkpoint_every_cycles);
+        let asked = every.is_some_and(|every| every > 0) || resume || stop_after.is_some();
+        let wanted = asked && TimeAnalysis::is_one_motion(scene);
         Self { folder: wanted.then(|| CheckpointFolder::beside(out)), resume, stop_after }
-    }
-
-    /// A run in one piece, without checkpoints.
-    pub fn uncut() -> Self {
-        Self { folder: None, resume: false, stop_after: None }
     }
 
     /// The results are whole: nothing is to be gone on from.
@@ -53,7 +51,7 @@ impl Progression {
 /// How a run ended.
 pub(crate) enum Outcome {
     /// All files are written.
-    Finished(Written),
+    Finished(Box<Written>),
     /// The user asked to stop after so many mesh cycles.
     Stopped {
         /// Mesh cycles done.
@@ -61,29 +59,19 @@ pub(crate) enum Outcome {
     },
 }
 
-/// Runs the motion of a scene and writes all files of the result.
+/// Runs a scene in time and writes all files of the result.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no motion comes out.
 pub(crate) fn solve(
     scene: &Scene,
-    motion: &MotionScene,
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
-    if motion.continuation.is_some() || motion.basins.is_some() {
-        return finished(report::solve_many_motions(scene, motion, phases, results, cache));
-    }
-    if motion.sweep.is_some() {
-        return finished(report::solve_sweep(scene, phases, results, cache));
-    }
-    if !scene.accuracy.is_none() {
-        return finished(report::solve_accurate(scene, phases, results, cache));
-    }
     let Some(folder) = &progression.folder else {
-        return one_motion(scene, phases, (results, cache), None, None);
+        return Ok(finished(solve_in_time(scene, None, phases, results, cache)?));
     };
     if progression.resume && !folder.path().is_dir() {
         folder.read(scene)?;
@@ -96,7 +84,7 @@ pub(crate) fn solve(
     };
     let solved = begin().and_then(|(inputs, from)| {
         let checkpoints = Checkpoints { folder, inputs: &inputs };
-        one_motion(scene, phases, (results, cache), Some((checkpoints, from)), progression.stop_after)
+        with_checkpoints(scene, phases, (results, cache), (checkpoints, from), progression.stop_after)
     });
     if solved.is_err() {
         folder.remove_if_empty();
@@ -105,8 +93,8 @@ pub(crate) fn solve(
     solved
 }
 
-fn finished(told: Result<report::Told, AnalysisError>) -> Result<Outcome, CommandError> {
-    Ok(Outcome::Finished(Written::of(told?)))
+fn finished(written: WrittenInTime) -> Outcome {
+    Outcome::Finished(Box::new(written.into()))
 }
 
 /// The state to go on from; `None` where an earlier run was cut short before its first checkpoint.
@@ -125,35 +113,32 @@ fn going_on(folder: &CheckpointFolder, scene: &Scene, inputs: &InputDigests) -> 
     Ok(Some(stored))
 }
 
-/// One motion, from a state where there is one.
-fn one_motion(
+/// One motion with checkpoints, from a state where there is one.
+fn with_checkpoints(
     scene: &Scene,
     phases: &mut Phases,
     (results, cache): (&ResultDirectory, &Cache),
-    kept: Option<(Checkpoints<'_>, Option<Stored>)>,
+    (checkpoints, from): (Checkpoints<'_>, Option<Stored>),
     stop_after: Option<u64>,
 ) -> Result<Outcome, CommandError> {
-    let (checkpoints, from) = kept.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
-    let folder = checkpoints.map_or(results.folder(), |c| c.folder.path());
-    let mut analysis = MotionAnalysis::new(scene).with_cache(cache).stop_after(stop_after);
+    let folder = checkpoints.folder.path();
+    let mut analysis = TimeAnalysis::new(scene).with_cache(cache).stop_after(stop_after);
     if let Some(stored) = &from {
         let checkpoint = stored.checkpoint();
         let layout = MotionLayout::of(scene, checkpoint.window);
         let rows = read_rows(&layout, folder, &stored.rows)?;
         analysis = analysis.resume(checkpoint, rows);
     }
-    let mut sink = MotionFileSink::new(scene, folder, checkpoints, from.as_ref()).with_fields(results);
+    let mut sink = MotionFileSink::new(scene, folder, Some(checkpoints), from.as_ref()).with_fields(results);
     match analysis.solve_into(phases, &mut sink)? {
-        MotionOutcome::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
-        MotionOutcome::Finished(result) => {
-            let view = sink.view.take();
-            if checkpoints.is_some() {
-                for file in [HISTORY, ENERGY_FILE] {
-                    results.copy(&folder.join(file), file)?;
-                }
+        TimeOutcome::Stopped { cycles } => Ok(Outcome::Stopped { cycles }),
+        TimeOutcome::Finished(solved) => {
+            for file in [HISTORY, ENERGY_FILE] {
+                results.copy(&folder.join(file), file)?;
             }
-            let table = write_motion_result(scene, &result, &phases.cost(), view.as_ref(), results)?;
-            Ok(Outcome::Finished(Written { table, verdict: result.facts.verdict(scene).map_err(CommandError::from) }))
+            let cost = phases.cost();
+            let table = write_in_time(&solved, &cost, sink.view.as_ref(), results)?;
+            Ok(finished(WrittenInTime { solved, cost, table }))
         }
     }
 }

@@ -1,7 +1,7 @@
 //! A scene at rest, with what goes into files on the way: fields for ParaView and the gears in space.
 
-use analysis::StaticResult;
 use analysis::accuracy::{AccurateAnalysis, AccurateResult};
+use analysis::{SolvedAtRest, StaticResult};
 use report::{StaticFileSink, view::View};
 
 pub(crate) use analysis::static_certificate as certificate;
@@ -10,7 +10,7 @@ use report::folder::Cache;
 
 use crate::{
     error::CommandError,
-    facts::Solved,
+    facts::ForFiles,
     output::{self, ResultDirectory},
     phases::Phases,
     scene::Scene,
@@ -36,7 +36,7 @@ pub fn solve(
     results: &ResultDirectory,
     cache: &Cache,
     in_space: InSpace,
-) -> Result<Solved, CommandError> {
+) -> Result<ForFiles, CommandError> {
     let mut sink = StaticFileSink::new(scene, results, phases.start());
     if in_space == InSpace::Bands {
         sink = sink.without_view();
@@ -45,7 +45,9 @@ pub fn solve(
     let AccurateResult { scene, result } = analysis.solve_into(phases, &mut sink)?;
     let StaticResult { pair, mut history, mut facts, model } = result;
     let derivatives = sink.take_derivatives();
-    let Some(model) = model else { return Ok(Solved { scene, history, facts, derivatives, view: None }) };
+    let Some(model) = model else {
+        return Ok(ForFiles { solved: SolvedAtRest { scene, history, derivatives }, facts, view: None });
+    };
     facts.first_result_s = sink.first_result_s;
     let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
     let mut warnings: Vec<String> = root.into_iter().flat_map(output::root_stress_warnings).collect();
@@ -54,5 +56,5 @@ pub fn solve(
         InSpace::Bands => Some(View::of_history(&scene, &pair, &history)),
     };
     history.warnings.extend(warnings);
-    Ok(Solved { scene, history, facts, derivatives, view })
+    Ok(ForFiles { solved: SolvedAtRest { scene, history, derivatives }, facts, view })
 }

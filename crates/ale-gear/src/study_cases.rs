@@ -3,28 +3,25 @@
 use std::path::Path;
 
 use analysis::{
-    SharedModels,
-    facts::Facts,
+    SharedModels, Solved, WarningsAtRest,
     parameter_study::{CaseFailure, CaseRecord},
-    side_by_side, static_certificate,
+    side_by_side, solve_at_rest,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{checkpoint::HISTORY, folder::KeptCases, read_columns, write_static_rows};
+use report::{Cost, checkpoint::HISTORY, columns::solved_rows, folder::KeptCases, read_columns, write_static_rows};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},
 };
 
 use files::{most, read_regular_text};
-use study::Columns;
 
 use crate::{
     certificate::Written, error::CommandError, gears, output::ResultDirectory, phases::Phases, scene::Scene, talk,
 };
 
-/// Runs a scene and writes every file of its result; inside, whether it holds.
-pub(crate) type Solve<'a> =
-    &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Result<(), CommandError>, CommandError> + Sync);
+/// Runs a scene and writes every file of its result, also of one that does not hold.
+pub(crate) type Solve<'a> = &'a (dyn Fn(&Scene, &ResultDirectory) -> Result<Written, CommandError> + Sync);
 
 /// How the cases of a study are run.
 #[derive(Clone, Copy)]
@@ -78,35 +75,50 @@ fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Res
         return Ok(Ok(found));
     }
     let own = ResultDirectory::create(&folder)?;
-    let verdict = if shares(scene) && !runner.reports {
-        write_rows(scene, runner.models, &own)?;
-        Ok(())
+    let (solved, cost) = if shares(scene) && !runner.reports {
+        write_rows(scene, runner.models, &own)?
     } else {
-        (runner.alone)(scene, &own)?
+        let Written { solved, cost, verdict, .. } = (runner.alone)(scene, &own)?;
+        if let Err(error) = verdict {
+            own.finish(talk::note)?;
+            return Ok(Err(miss(error, true)));
+        }
+        (solved, cost)
     };
     own.finish(talk::note)?;
-    if let Err(error) = verdict {
-        return Ok(Err(miss(error, true)));
-    }
-    let failed = || CommandError::failed(format_args!("{}: is no result", folder.display()), None);
-    Ok(Ok(of_folder(scene, &folder)?.ok_or_else(failed)?))
+    Ok(Ok(CaseRun {
+        record: CaseRecord { rows: solved_rows(&solved), geometry: gears::geometry_facts(&scene.gear_pair()?) },
+        cost,
+        steps: steps(&solved.headline()?),
+        has_report: has_report(&folder),
+        warnings: solved.warnings().to_vec(),
+    }))
 }
 
 /// Solves a scene at rest and writes its rows and its summary: no report, no view.
-fn write_rows(scene: &Scene, models: &SharedModels<'_>, results: &ResultDirectory) -> Result<(), CommandError> {
+fn write_rows(
+    scene: &Scene,
+    models: &SharedModels<'_>,
+    results: &ResultDirectory,
+) -> Result<(Solved, Cost), CommandError> {
     let mut phases = Phases::quiet();
-    let (scene, history) = phases.run("solve", || models.solve_told(scene))?;
-    let pair = scene.gear_pair()?;
-    let facts = Facts {
-        geometry: gears::geometry_facts(&pair),
-        geometry_sheet: Some(pair.sheet()),
-        certificate: static_certificate(&scene, &history.positions),
-        ..Facts::default()
-    };
-    Ok(write_static_rows(&scene, &history, (&facts, &phases.cost()), results)?)
+    let solved = solve_at_rest(scene, models, WarningsAtRest::Told, &mut phases)?;
+    let (facts, cost) = (solved.facts()?, phases.cost());
+    let rows = (&solved.history, solved.derivatives.as_ref());
+    write_static_rows(&solved.scene, rows, (&facts, &cost), results)?;
+    Ok((Solved::AtRest(Box::new(solved)), cost))
 }
 
-/// The case that a folder holds; `None` where its result does not hold.
+/// Steps in time that a headline tells of; `None` at rest.
+fn steps(headline: &serde_json::Value) -> Option<u64> {
+    headline["certificate"]["steps"].as_u64()
+}
+
+fn has_report(folder: &Path) -> bool {
+    folder.join("report.html").is_file()
+}
+
+/// The case that a folder holds which an earlier run has left; `None` where its result does not hold.
 fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandError> {
     let summary = summary(folder)?;
     if summary["certificate"] == "failed" {
@@ -117,13 +129,13 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
     Ok(Some(CaseRun {
         record: CaseRecord { rows, geometry: gears::geometry_facts(&scene.gear_pair()?) },
         cost: serde_json::from_value(summary["cost"].clone()).unwrap_or_default(),
-        steps: summary["headline"]["certificate"]["steps"].as_u64(),
-        has_report: folder.join("report.html").is_file(),
+        steps: steps(&summary["headline"]),
+        has_report: has_report(folder),
         warnings: warnings.iter().filter_map(|w| Some(w.as_str()?.to_owned())).collect(),
     }))
 }
 
-/// The summary that the case has just written.
+/// The summary of a case.
 fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
     let path = folder.join("summary.json");
     let text = read_regular_text(&path, most::SUMMARY).map_err(|e| CommandError::write(&path, &e))?;
@@ -131,17 +143,4 @@ fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
         let hint = Some("does another program write into the folder?".into());
         CommandError::failed(format_args!("{}: {e}", path.display()), hint)
     })
-}
-
-/// Rows and headline of a scene that is run into a folder that nobody looks at.
-///
-/// # Errors
-/// Those of the run; that of its certificate among them.
-pub(crate) fn numbers(
-    folder: &Path,
-    solve: impl FnOnce(&ResultDirectory) -> Result<Written, CommandError>,
-) -> Result<(Columns, serde_json::Value), CommandError> {
-    let own = ResultDirectory::create(folder)?;
-    solve(&own)?.verdict?;
-    Ok((read_columns(&own.path(HISTORY))?, summary(own.folder())?["headline"].take()))
 }

@@ -23,9 +23,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] in time, [`lumped::LumpedAnalysis`] by a
-//! model with few coordinates, [`lumped::KeySweep`] such a model at many values of a key;
-//! [`accuracy_chart::AccuracyChart`] compares them all.
+//! [`solve`] solves a scene of any kind in memory. [`StaticAnalysis`] solves the pair at rest, [`in_time::TimeAnalysis`] in
+//! time: [`motion::MotionAnalysis`] with all of its teeth, [`lumped::LumpedAnalysis`] by a model with few coordinates,
+//! [`lumped::KeySweep`] such a model at many values of a key. [`accuracy_chart::AccuracyChart`] compares them all.
 
 pub mod accuracy;
 pub mod accuracy_chart;
@@ -45,6 +45,7 @@ mod gear_dofs;
 pub mod gearbox_at_rest;
 pub mod gears;
 mod headline_keys;
+pub mod in_time;
 mod inputs;
 mod interest;
 pub mod iso_model;
@@ -67,6 +68,7 @@ mod shared_models;
 mod shared_solutions;
 mod side_by_side;
 mod sink;
+mod solved;
 mod static_certificate;
 mod static_cycle;
 mod statics;
@@ -88,9 +90,10 @@ pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_
 pub use options::options;
 pub use plausible::{Implausible, LoadEstimate};
 pub use shared_models::SharedModels;
-pub use shared_solutions::SolvedWithRates;
+pub use shared_solutions::{SolvedWithRates, WarningsAtRest};
 pub use side_by_side::side_by_side;
 pub use sink::{NoSink, SinkResult, StaticSink};
+pub use solved::{Solved, SolvedAtRest, solve, solve_at_rest};
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{StaticAnalysis, StaticResult};
 pub use varied_scene::VariedScene;

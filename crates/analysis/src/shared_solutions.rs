@@ -33,6 +33,16 @@ use crate::{
     window::wider_window,
 };
 
+/// Whether it is found out what a user should hear of pair, meshes and bodies at rest, which takes a twentieth of the time
+/// of a quick case.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum WarningsAtRest {
+    /// The history has all warnings that a run by itself has.
+    Told,
+    /// The history has the warnings of its own positions alone.
+    Left,
+}
+
 /// What is asked for beside the positions: derivatives by some parameters, of the unloaded pair too or not.
 #[derive(Clone, Copy, Default)]
 struct Rates<'a> {
@@ -66,26 +76,6 @@ impl SharedModels<'_> {
         Ok((scene, history))
     }
 
-    /// The same with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks for none.
-    ///
-    /// # Errors
-    /// As of [`SharedModels::solve`], and where there are no derivatives.
-    pub fn solve_with_derivatives(
-        &self,
-        scene: &Scene,
-    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
-        let keys = scene.output.derivatives.clone();
-        if keys.is_empty() {
-            let (scene, history) = self.solve(scene)?;
-            return Ok((scene, history, None));
-        }
-        let varied = VariedScene::by_keys(scene, &keys)?;
-        let asked = Rates { of: &varied, of_unloaded: true };
-        let (SolvedWithRates { scene, history, rates }, _) = self.positions(scene, asked, Interest::LASTING)?;
-        hold(&scene, &history)?;
-        Ok((scene, history, Some(Derivatives { keys, rates })))
-    }
-
     /// As [`SharedModels::solve`], and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
     ///
     /// # Errors
@@ -95,6 +85,34 @@ impl SharedModels<'_> {
             Some(told) => Ok(told),
             None => self.solve(scene),
         }
+    }
+
+    /// As [`SharedModels::solve`], with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks
+    /// for none.
+    ///
+    /// # Errors
+    /// As of [`SharedModels::solve`], and where there are no derivatives.
+    pub fn solve_with_derivatives(
+        &self,
+        scene: &Scene,
+        warnings: WarningsAtRest,
+    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
+        let keys = scene.output.derivatives.clone();
+        if keys.is_empty() {
+            let (scene, history) = match warnings {
+                WarningsAtRest::Told => self.solve_told(scene)?,
+                WarningsAtRest::Left => self.solve(scene)?,
+            };
+            return Ok((scene, history, None));
+        }
+        let varied = VariedScene::by_keys(scene, &keys)?;
+        let asked = Rates { of: &varied, of_unloaded: true };
+        let (SolvedWithRates { scene, mut history, rates }, base) = self.positions(scene, asked, Interest::LASTING)?;
+        hold(&scene, &history)?;
+        if warnings == WarningsAtRest::Told {
+            warn(&base, &scene, &mut history)?;
+        }
+        Ok((scene, history, Some(Derivatives { keys, rates })))
     }
 
     /// As [`SharedModels::solve`], with all that a user should hear in the history's warnings, for who may lose
@@ -140,15 +158,7 @@ impl SharedModels<'_> {
             return Ok(None);
         }
         hold(&scene, &history)?;
-        let pair = scene.gear_pair()?;
-        history.warnings.extend(gears::warnings(&pair));
-        history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
-        let options = options(&scene, &pair);
-        history.warnings.extend(resolution_warnings(&scene, &pair, &options));
-        history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
-        history.warnings.extend(base.body_warnings().iter().cloned());
-        let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
-        history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+        warn(&base, &scene, &mut history)?;
         Ok(Some((scene, history)))
     }
 
@@ -224,6 +234,20 @@ impl SharedModels<'_> {
 /// [`AnalysisError::Certificate`].
 fn hold(scene: &Scene, history: &StaticHistory) -> Result<(), AnalysisError> {
     crate::certificate::verdict(&static_certificate(scene, &history.positions), scene)
+}
+
+/// Adds what a user should hear of pair, meshes and bodies, as a run by itself says it.
+fn warn(base: &Base, scene: &Scene, history: &mut StaticHistory) -> Result<(), AnalysisError> {
+    let pair = scene.gear_pair()?;
+    history.warnings.extend(gears::warnings(&pair));
+    history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
+    let options = options(scene, &pair);
+    history.warnings.extend(resolution_warnings(scene, &pair, &options));
+    history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
+    history.warnings.extend(base.body_warnings().iter().cloned());
+    let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
+    history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+    Ok(())
 }
 
 /// Ends an analysis after the first position that is not wanted.

@@ -22,7 +22,7 @@
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
-//! | [`solve_in_time`] | a motion, from its scene to the files of its result |
+//! | [`solve_in_time`], [`write_in_time`] | a scene in time, from its answer to the files of its result |
 //! | [`Cost`], [`write_result`] | what a run cost; an answer into a result folder |
 //! | [`ResultFiles`] | where files go |
 
@@ -58,14 +58,11 @@ pub mod view;
 pub use answer::{Cost, Phase, csv};
 pub use answer_files::{write_result, write_rows};
 pub use error::ReportError;
-pub use in_time::{Recorder, Told, solve_accurate, solve_in_time, solve_lumped, solve_many_motions, solve_sweep};
+pub use in_time::{Recorder, WrittenInTime, solve_in_time};
 pub use marked_place::MarkedPlace;
 pub use memory_available::{available_bytes, available_mb};
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
-pub use pair_files::{
-    static_charts, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
-    write_motion_result, write_static_result, write_static_rows, write_sweep_result,
-};
+pub use pair_files::{static_charts, write_in_time, write_key_sweep_result, write_static_result, write_static_rows};
 pub use result_files::ResultFiles;
 pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;

@@ -2,18 +2,18 @@
 
 use std::path::PathBuf;
 
-use analysis::lumped::is_lumped;
+use analysis::{Solved, SolvedAtRest, lumped::is_lumped};
 use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
-use report::{check_memory, write_static_result};
+use report::{check_memory, solve_in_time, write_static_result};
 
 use report::folder::Cache;
 
 use crate::{
     certificate::Written,
     error::CommandError,
-    facts::Solved,
+    facts::ForFiles,
     gearbox::write_gearbox_result,
     memory,
     motion::{self, Progression},
@@ -176,13 +176,12 @@ impl RunArgs {
     fn move_pair(
         &self,
         scene: &Scene,
-        words: &crate::scene::MotionScene,
         mut phases: Phases,
         results: ResultDirectory,
         quiet: bool,
     ) -> Result<Answer, CommandError> {
-        let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
-        match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
+        let progression = Progression::new(scene, &self.out, self.resume, self.stop_after_cycles);
+        match motion::solve(scene, &mut phases, &results, &self.cache.open(), &progression)? {
             motion::Outcome::Stopped { cycles } if self.json => {
                 Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into())
             }
@@ -195,14 +194,17 @@ impl RunArgs {
             motion::Outcome::Finished(written) => {
                 results.finish(talk::note)?;
                 progression.done()?;
-                self.answer(written, quiet)
+                self.answer((written.table, written.verdict), quiet)
             }
         }
     }
 
     /// What stands on stdout at the end: the summary, nothing, or the closing table.
-    fn answer(&self, written: Written, quiet: bool) -> Result<Answer, CommandError> {
-        let Written { table, verdict } = written;
+    fn answer(
+        &self,
+        (table, verdict): (String, Result<(), CommandError>),
+        quiet: bool,
+    ) -> Result<Answer, CommandError> {
         let summary = self.out.join("summary.json");
         let text = match (self.json, quiet) {
             (true, _) => files::read_regular_text(&summary, files::most::SUMMARY)
@@ -216,9 +218,9 @@ impl RunArgs {
     /// Runs a gearbox; the text is the closing table.
     fn solve_gearbox(&self, file: &Gearbox, mut phases: Phases, quiet: bool) -> Result<Answer, CommandError> {
         let results = ResultDirectory::create(&self.out)?;
-        let written = write_gearbox_result(file, &mut phases, &results, &self.cache.open())?;
+        let (table, verdict) = write_gearbox_result(file, &mut phases, &results, &self.cache.open())?;
         results.finish(talk::note)?;
-        self.answer(written, quiet)
+        self.answer((table, verdict), quiet)
     }
 
     /// Runs the document; the text is the closing table.
@@ -229,16 +231,13 @@ impl RunArgs {
             Document::Gearbox(file) => return self.solve_gearbox(&file, phases, quiet),
         };
         let results = ResultDirectory::create(&self.out)?;
-        if let (Some(words), false) = (&scene.motion, is_lumped(&scene)) {
-            return self.move_pair(&scene, words, phases, results, quiet);
+        if scene.motion.is_some() {
+            return self.move_pair(&scene, phases, results, quiet);
         }
-        let cache = self.cache.open();
-        let written = match &scene.motion {
-            None if self.no_view => write_static(&scene, &mut phases, &results, &cache, InSpace::Bands)?,
-            _ => write_result(&scene, &mut phases, &results, &cache)?,
-        };
+        let in_space = if self.no_view { InSpace::Bands } else { InSpace::Fields };
+        let written = write_static(&scene, &mut phases, &results, &self.cache.open(), in_space)?;
         results.finish(talk::note)?;
-        self.answer(written, quiet)
+        self.answer((written.table, written.verdict), quiet)
     }
 }
 
@@ -253,17 +252,10 @@ pub(super) fn write_result(
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<Written, CommandError> {
-    match &scene.motion {
-        Some(words) if is_lumped(scene) => Ok(Written::of(report::solve_lumped(scene, words, phases, results, cache)?)),
-        Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
-            motion::Outcome::Finished(written) => Ok(written),
-            // Nobody asked it to.
-            motion::Outcome::Stopped { cycles } => {
-                Err(CommandError::failed(format_args!("{}: stopped after {cycles} cycles", scene.file.display()), None))
-            }
-        },
-        None => write_static(scene, phases, results, cache, InSpace::Fields),
+    if scene.motion.is_none() {
+        return write_static(scene, phases, results, cache, InSpace::Fields);
     }
+    Ok(solve_in_time(scene, None, phases, results, cache)?.into())
 }
 
 /// As [`write_result`], for positions at rest.
@@ -274,11 +266,11 @@ fn write_static(
     cache: &Cache,
     in_space: InSpace,
 ) -> Result<Written, CommandError> {
-    let Solved { scene, history, mut facts, derivatives, view } = run::solve(scene, phases, results, cache, in_space)?;
-    let scene = &scene;
+    let ForFiles { solved, mut facts, view } = run::solve(scene, phases, results, cache, in_space)?;
+    let SolvedAtRest { scene, history, derivatives } = &solved;
     facts.certificate = run::certificate(scene, &history.positions);
-    let cost = phases.cost();
-    let rows = (&history, derivatives.as_ref());
+    let (cost, rows) = (phases.cost(), (history, derivatives.as_ref()));
     let table = write_static_result(scene, rows, (&facts, &cost), view.as_ref(), results)?;
-    Ok(Written { table, verdict: facts.verdict(scene).map_err(CommandError::from) })
+    let verdict = facts.verdict(scene).map_err(CommandError::from);
+    Ok(Written { table, verdict, solved: Solved::AtRest(Box::new(solved)), cost })
 }

@@ -14,7 +14,7 @@ use report::study_files::{
 };
 use scene::study::Study;
 
-use super::{cache_args::CacheArgs, run::write_result};
+use super::{cache_args::CacheArgs, overrides::Overrides, run::write_result};
 use report::{check_memory, folder::KeptCases};
 
 use crate::{
@@ -40,13 +40,16 @@ pub(super) struct StudyArgs {
     #[arg(long)]
     reports: bool,
     #[command(flatten)]
+    overrides: Overrides,
+    #[command(flatten)]
     cache: CacheArgs,
 }
 
 impl StudyArgs {
     /// Every complaint about the words and about all files is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Study, CommandError> {
-        let mut study = Study::read(&self.study, &columns_of).map_err(|e| match &e {
+        let settings = self.overrides.settings()?;
+        let mut study = Study::read(&self.study, &settings, &columns_of).map_err(|e| match &e {
             SceneError::Read { .. } => CommandError::input(
                 &e,
                 Some("`ale-gear study STUDY.toml --out DIR` wants the path of a study file".into()),
@@ -70,7 +73,7 @@ impl StudyArgs {
         let kept = KeptCases::beside(&self.out, &study_digest(&study, self.reports)?)?;
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let models = SharedModels::new(&cache);
-            let alone = |scene: &_, own: &_| Ok(write_result(scene, &mut Phases::quiet(), own, &cache)?.verdict);
+            let alone = |scene: &_, own: &_| write_result(scene, &mut Phases::quiet(), own, &cache);
             let runner = CaseRunner { models: &models, alone: &alone, reports: self.reports };
             run_cases(&study, &kept, runner, &|case| {
                 progress.say(case.label.clone());

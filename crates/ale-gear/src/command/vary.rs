@@ -3,20 +3,23 @@
 use std::{
     ops::Range,
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
-use analysis::SharedModels;
-use files::Scratch;
+use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
 use report::{
     folder::{Cache, beside_results},
     plan_files::{CaseTable, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
 
-use super::{cache_args::CacheArgs, case_reports::CaseReports, overrides::Overrides, run::write_result};
+use super::{cache_args::CacheArgs, case_reports::CaseReports, overrides::Overrides};
 use crate::{
-    error::CommandError, output::ResultDirectory, phases::Phases, resolution::with_slices, scene::Scene, study_cases,
-    talk,
+    error::CommandError,
+    output::ResultDirectory,
+    phases::Phases,
+    scene::Scene,
+    talk::{self, Loudness},
 };
 
 /// Words of `ale-gear vary`.
@@ -164,14 +167,23 @@ pub(super) fn solve_range(
     cache: &Cache,
     done: &DoneCases,
 ) -> std::io::Result<()> {
-    let scratch = Scratch::make("ale-gear-cases")?;
-    let in_time = |case: usize, scene: &_| {
-        let folder = scratch.path().join(case.to_string());
-        let solve = |own: &_| write_result(&with_slices(Clone::clone(scene)), &mut Phases::quiet(), own, cache);
-        study_cases::numbers(&folder, solve).map_err(|e| e.message)
-    };
     let open = range.clone().filter(|&case| !done.has(case)).count();
     phases.run_steps("cases", open as u64, |progress| {
-        solve_cases((plan, range), &SharedModels::new(cache), &in_time, done, progress)
+        solve_cases((plan, range), &SharedModels::new(cache), &|| Box::new(Notes), done, progress)
     })
+}
+
+/// Says what those who wait for a case should hear before its end.
+struct Notes;
+
+impl Observer for Notes {
+    fn begin(&mut self, _: &str, _: PhaseWork) -> Arc<dyn Progress> {
+        Arc::new(NoObserver)
+    }
+
+    fn end(&mut self) {}
+
+    fn note(&mut self, message: String) {
+        talk::say(Loudness::Bars, || format!("ale-gear: {message}"));
+    }
 }

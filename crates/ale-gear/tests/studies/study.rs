@@ -1,5 +1,8 @@
 //! `ale-gear study` end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
+use ale_gear::scene::{Setting, study::Study};
+use report::study_files::{columns_of, study_digest};
+
 use crate::util::{ISO_SCENE, Scratch, column, motion_scene, tiny_at_rest};
 
 /// Three pairs without meshes that differ in the helix angle.
@@ -368,4 +371,63 @@ fn a_killed_study_goes_on() {
     std::fs::write(kept.join("thesis.tex"), "years of work").unwrap();
     let refused = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
     assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
+}
+
+/// `--set` holds for the scene of every case, and what a case sets itself before it: the numbers are those of a study whose
+/// scenes say so. What no case would follow is refused, and wrong words are refused as `run` refuses them.
+#[test]
+fn keys_are_set_in_every_case() {
+    let own = ISO_STUDY.replacen("value = 15\n", "value = 15\nset = [\"operation.torque_nm=70\"]\n", 1);
+    let scratch = iso_cases().file("s.toml", &own);
+    let run = |words: &[&str]| scratch.command(&[&["study", "s.toml", "--out", "o"][..], words].concat());
+    let set = run(&["--set", "operation.torque_nm=90", "--set", "analysis.cycles=2"]);
+    assert_eq!((set.code, set.stderr.as_str()), (Some(0), ""), "{}", set.stdout);
+    for (folder, torque) in [("01-10-deg", 90.0), ("02-15-deg", 70.0), ("03-20-deg", 90.0)] {
+        let text = scratch.read(&format!("o/cases/{folder}/summary.json"));
+        let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let inputs = &summary["inputs"];
+        assert_eq!(inputs["operation"]["torque_nm"].as_f64(), Some(torque), "{folder}");
+        assert_eq!(summary["headline"]["cycles"].as_u64(), Some(2), "{folder}");
+    }
+    let written = [10, 15, 20].map(|degrees: u32| {
+        let torque = if degrees == 15 { 70 } else { 90 };
+        let scene = ISO_SCENE.replace("helix_angle_deg = 20.0", &format!("helix_angle_deg = {degrees}"));
+        scene.replace("torque_nm = 150.0", &format!("torque_nm = {torque}")) + "cycles = 2\n"
+    });
+    let [a, b, c] = written;
+    let by_hand = Scratch::new().file("a.toml", a).file("b.toml", b).file("c.toml", c).file("s.toml", ISO_STUDY);
+    assert_eq!(by_hand.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(scratch.read("o/study.csv"), by_hand.read("o/study.csv"));
+    let wrong = |words: &[&str]| {
+        let refused = run(words);
+        assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+        refused.complaint()
+    };
+    for word in ["operation.torqe_nm=3", "operation.torque_nm=-3", "operation", "operation.torque_nm=[3"] {
+        let single = scratch.ale_gear(["run", "a.toml", "--out", "r", "--set", word]);
+        assert_eq!(wrong(&["--set", word]), single.complaint(), "{word}");
+    }
+    let all = |torque: u32| format!("set = [\"operation.torque_nm={torque}\"]\nvalue = ");
+    let scratch = iso_cases().file("s.toml", ISO_STUDY.replace("value = ", &all(70)));
+    let refused = scratch.ale_gear(["study", "s.toml", "--out", "o", "--torque-nm", "90"]);
+    assert_eq!(
+        refused.complaint(),
+        "ale-gear: --torque-nm: every case of the study sets `operation.torque_nm` itself\n\
+         hint: leave it out, or change `set` of the cases\n"
+    );
+    assert_eq!((refused.code, scratch.names().len()), (Some(2), 4));
+}
+
+/// Cases that are done are taken up again by a study of the same keys alone, mesh cycles included.
+#[test]
+fn kept_cases_are_those_of_the_same_keys() {
+    let scratch = iso_cases().file("s.toml", ISO_STUDY);
+    let digest = |word: &str| {
+        let settings = [Setting::parse(word).unwrap()];
+        let study = Study::read(&scratch.path().join("s.toml"), &settings, &columns_of).unwrap();
+        study_digest(&study, false).unwrap()
+    };
+    let all = ["analysis.cycles=1", "analysis.cycles=2", "operation.torque_nm=90"].map(digest);
+    assert_eq!(digest("analysis.cycles=2"), all[1]);
+    assert!(all[0] != all[1] && all[0] != all[2] && all[1] != all[2], "{all:?}");
 }

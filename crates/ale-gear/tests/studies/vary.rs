@@ -147,21 +147,56 @@ fn a_killed_run_goes_on() {
     assert_eq!(scratch.names(), ["a.toml", "cut", "whole"]);
 }
 
-/// Cases in time are runs too.
+/// A pair on springs whose mesh needs no finite elements, for two mesh cycles.
+fn lumped_scene() -> String {
+    let spring = |gear: &str| {
+        format!(
+            "[{gear}.bearing]\nstiffness_x_n_per_mm = 2e5\nstiffness_y_n_per_mm = 2e5\nstiffness_z_n_per_mm = 1e5\n"
+        )
+    };
+    let scene = ISO_SCENE.replace("model = \"iso\"", "model = \"lumped8\"\ncycles = 2");
+    format!(
+        "{scene}{}{}[mesh]\nstiffness_from = \"iso\"\n[motion]\nsteps_per_mesh_cycle = 64\nrun = \"span\"\n",
+        spring("pinion"),
+        spring("wheel")
+    )
+}
+
+/// Cases in time have the numbers of runs of any model to the bit. Nothing is written for them on the way: there is no
+/// place where temporary files could go.
 #[test]
 fn motions_are_cases_as_well() {
     let plan = "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.speed_rpm\"\nvalues = [900, 1100]\n\
-                [[output]]\ncolumn = \"dte_um\"\ntake = \"peak_to_peak\"\n";
-    let scene = motion_scene(1, "run = \"span\"\n");
-    let scratch = Scratch::new().file("a.toml", scene).file("plan.toml", plan);
-    let run = scratch.ale_gear(["vary", "plan.toml", "--out", "o"]);
-    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
-    let single = scratch.ale_gear(["run", "a.toml", "--out", "r", "--set", "operation.speed_rpm=1100"]);
-    assert_eq!(single.code, Some(0), "{}", single.stderr);
-    let dte = column(&scratch.read("r/history.csv"), "dte_um");
-    let [low, high] = dte.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| [a.min(x), b.max(x)]);
-    let found = column(&scratch.read("o/cases.csv"), "peak_to_peak_dte_um");
-    assert_eq!(found[1], high - low);
+                [[output]]\ncolumn = \"dte_um\"\ntake = \"peak_to_peak\"\n\
+                [[output]]\nheadline = \"rms_dte_um\"\n[[output]]\nheadline = \"mean_wheel_force_n.2\"\n";
+    let reduced = motion_scene(1, "run = \"span\"\n");
+    let mapped = reduced.replace("kind = \"dynamic\"", "kind = \"dynamic\"\nmodel = \"mapped\"");
+    for scene in [reduced, mapped, lumped_scene()] {
+        let scratch = Scratch::new().file("a.toml", &scene).file("plan.toml", plan);
+        let mut program = scratch.program();
+        let nowhere = scratch.path().join("nowhere");
+        let run = Scratch::done(program.args(["vary", "plan.toml", "--out", "o"]).env("TMPDIR", &nowhere));
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+        assert_eq!(scratch.names(), ["a.toml", "o", "plan.toml"]);
+        let cases = scratch.read("o/cases.csv");
+        for (case, speed) in ["900", "1100"].into_iter().enumerate() {
+            let (out, speed) = (format!("r{case}"), format!("operation.speed_rpm={speed}"));
+            let single = scratch.command(&["run", "a.toml", "--out", &out, "--set", &speed]);
+            assert_eq!(single.code, Some(0), "{}", single.stderr);
+            let dte = column(&scratch.read(&format!("{out}/history.csv")), "dte_um");
+            let [low, high] = dte.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], &x| [a.min(x), b.max(x)]);
+            let text = scratch.read(&format!("{out}/summary.json"));
+            let summary: serde_json::Value = serde_json::from_str(&text).unwrap();
+            let headline = &summary["headline"];
+            let expected = [
+                high - low,
+                headline["rms_dte_um"].as_f64().unwrap(),
+                headline["mean_wheel_force_n"][2].as_f64().unwrap(),
+            ];
+            let names = ["peak_to_peak_dte_um", "rms_dte_um", "mean_wheel_force_n.2"];
+            assert_eq!(names.map(|name| column(&cases, name)[case]), expected, "{speed}: {scene}");
+        }
+    }
 }
 
 /// Every complaint comes before any work, and names what it is about.

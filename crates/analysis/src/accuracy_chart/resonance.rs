@@ -225,7 +225,7 @@ fn curve(scene: &Scene, sweep: &SweepScene) -> Result<ResonanceCurve, AnalysisEr
         };
         found.rows.iter().map(of).collect()
     } else {
-        let of_row = LumpedQuantity::new("dte_um", |row| row.transmission_error_um);
+        let of_row = LumpedQuantity::transmission_error();
         let (scenes, options) = SweepOptions::over_speed(scene, sweep, of_row);
         let found = KeySweep::new(&scenes, &options).solve_with(&mut phases)?;
         crate::certificate::verdict(&found.facts.certificate, scene)?;

@@ -35,7 +35,7 @@ fn spur(model: &str) -> SceneBuilder {
 }
 
 /// Two gears on springs, nothing holds their common turn; backlash, light load.
-fn lumped8() -> SceneBuilder {
+pub fn lumped8() -> SceneBuilder {
     let base = Scene::builder().pinion(17, 12.0).wheel(23).normal_module_mm(2.5).face_width_mm(14.0).torque_nm(60.0);
     let axes = [("x", 2e5), ("y", 2e5), ("z", 1e5)];
     let sprung = ["pinion", "wheel"].iter().fold(base, |scene, gear| {

@@ -15,3 +15,4 @@ mod motion_accuracy;
 mod motion_in_memory;
 mod nominal_load;
 mod overhung;
+mod solved;

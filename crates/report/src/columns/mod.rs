@@ -9,6 +9,7 @@ pub mod energy;
 pub mod lumped_history;
 pub mod motion_history;
 mod motion_rows;
+mod solved;
 pub mod static_history;
 mod table;
 
@@ -16,6 +17,7 @@ pub use energy::{ENERGY, EnergyRows, energy_columns};
 pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_quantity};
 pub use motion_history::{MOTION_HISTORY, MotionRows};
 pub use motion_rows::motion_rows;
+pub use solved::solved_rows;
 pub use static_history::{
     STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, history_rows, history_table,
 };

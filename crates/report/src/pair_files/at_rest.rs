@@ -76,11 +76,11 @@ pub fn write_static_result(
 /// When the system refuses.
 pub fn write_static_rows(
     scene: &Scene,
-    history: &StaticHistory,
+    (history, derivatives): (&StaticHistory, Option<&Derivatives>),
     (facts, cost): (&Facts, &Cost),
     results: &ResultDirectory,
 ) -> Result<(), ReportError> {
-    let tables = vec![history_table(scene, history, None)];
+    let tables = vec![history_table(scene, history, derivatives)];
     let headline = static_headline(scene, history)?;
     write_rows(&pair_answer(scene, (facts, cost), &headline, &history.warnings, tables), results)
 }

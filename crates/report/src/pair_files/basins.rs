@@ -23,7 +23,7 @@ const Y: &str = "initial rate of the DTE [mm/s]";
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_basin_result(
+pub(super) fn write_basin_result(
     scene: &Scene,
     found: &BasinResult,
     cost: &Cost,

@@ -26,7 +26,7 @@ const LOOSE: usize = 4;
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_continuation_result(
+pub(super) fn write_continuation_result(
     scene: &Scene,
     found: &ContinuationResult,
     cost: &Cost,

@@ -36,7 +36,7 @@ const PORTRAITS: [(&str, &str); 6] = [
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_lumped_result(
+pub(super) fn write_lumped_result(
     scene: &Scene,
     result: &LumpedResult,
     cost: &Cost,

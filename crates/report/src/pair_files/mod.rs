@@ -6,12 +6,14 @@
 //! | `rows` | rows beside the histories as tables |
 //! | `at_rest` | positions at rest |
 //! | `motion` | a motion of reduced gears, and steady states over speed |
+//! | `in_time` | any of those that follow |
 //! | `lumped` | a motion of a reduced-order model |
 //! | `key_sweep`, `branch`, `basins` | many motions |
 
 mod at_rest;
 mod basins;
 mod branch;
+mod in_time;
 mod key_sweep;
 mod lumped;
 mod motion;
@@ -19,8 +21,5 @@ mod parts;
 mod rows;
 
 pub use at_rest::{static_charts, write_static_result, write_static_rows};
-pub use basins::write_basin_result;
-pub use branch::write_continuation_result;
+pub use in_time::write_in_time;
 pub use key_sweep::write_key_sweep_result;
-pub use lumped::write_lumped_result;
-pub use motion::{write_motion_result, write_sweep_result};

@@ -29,7 +29,7 @@ use crate::{
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_motion_result(
+pub(super) fn write_motion_result(
     scene: &Scene,
     result: &MotionResult,
     cost: &Cost,
@@ -189,7 +189,7 @@ fn solved(h: &MotionHeadline) -> Vec<Line> {
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.
-pub fn write_sweep_result(
+pub(super) fn write_sweep_result(
     scene: &Scene,
     result: &SweepResult,
     cost: &Cost,

@@ -30,6 +30,6 @@ pub use outputs::{OutputError, check_outputs};
 pub use page::{PageWords, report_folder};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseRow, CaseTable, DoneCases};
-pub use solve::{InTime, solve_cases};
-pub use values::{case_values, static_case_values};
+pub use solve::{CaseObserver, solve_cases};
+pub use values::case_values;
 pub use write::{plan_digest, write_cases};

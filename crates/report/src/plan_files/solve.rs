@@ -6,18 +6,17 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::{Progress, SharedModels, side_by_side};
-use scene::{Kind, Scene, plan::Plan};
-use serde_json::Value;
-use study::Columns;
+use analysis::{Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
+use scene::plan::Plan;
 
-use super::{CaseRow, CaseTable, DoneCases, case_values, static_case_values};
+use super::{CaseRow, CaseTable, DoneCases, case_values};
 
-/// Rows and headline of a scene in time, or why there are none.
-pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), String> + Sync);
+/// Makes who hears of one case while it is solved.
+pub type CaseObserver<'a> = &'a (dyn Fn() -> Box<dyn Observer> + Sync);
 
-/// Solves the cases of a plan, in a range of their numbers, that are not done yet, each on a thread of its own; `done` gets each as it comes, and
-/// `progress` hears of it. Cases that have not begun when it is cancelled are not done.
+/// Solves the cases of a plan, in a range of their numbers, that are not done yet, each on a thread of its own; `done`
+/// gets each as it comes, and `progress` hears of it. Cases that have not begun when it is cancelled are not done, nor are
+/// those that end without a result then.
 ///
 /// A case without a result takes nothing from the others: its row says why.
 ///
@@ -26,7 +25,7 @@ pub type InTime<'a> = &'a (dyn Fn(usize, &Scene) -> Result<(Columns, Value), Str
 pub fn solve_cases(
     (plan, range): (&Plan, Range<usize>),
     models: &SharedModels<'_>,
-    in_time: InTime<'_>,
+    observer: CaseObserver<'_>,
     done: &DoneCases,
     progress: &dyn Progress,
 ) -> io::Result<()> {
@@ -38,7 +37,11 @@ pub fn solve_cases(
             return;
         }
         let case = open[i];
-        let row = CaseRow { case, values: plan.values(case), outcome: solve(plan, models, in_time, case) };
+        let outcome = numbers(plan, models, &mut *observer(), case);
+        if outcome.is_err() && progress.is_cancelled() {
+            return;
+        }
+        let row = CaseRow { case, values: plan.values(case), outcome };
         if let Err(e) = done.add(case, table.line(&row)) {
             *failure() = Some(e);
         }
@@ -47,15 +50,17 @@ pub fn solve_cases(
     failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
-/// The numbers of a case, or why there are none.
-fn solve(plan: &Plan, models: &SharedModels<'_>, in_time: InTime<'_>, case: usize) -> Result<Vec<f64>, String> {
+/// The numbers of a case, or why there are none. Its rows are gone when they are taken.
+fn numbers(
+    plan: &Plan,
+    models: &SharedModels<'_>,
+    observer: &mut dyn Observer,
+    case: usize,
+) -> Result<Vec<f64>, String> {
     let mut scene = plan.scene(case).map_err(|e| e.to_string())?;
     // Nobody looks at these.
     (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
-    if scene.analysis.kind == Kind::Static {
-        let (scene, history, derivatives) = models.solve_with_derivatives(&scene).map_err(|e| e.to_string())?;
-        return static_case_values(&plan.outputs, (&scene, &history, derivatives.as_ref()));
-    }
-    let (rows, headline) = in_time(case, &scene)?;
-    case_values(&plan.outputs, &rows, &headline, scene.analysis.cycles)
+    let solved = solve(&scene, models, WarningsAtRest::Left, observer).map_err(|e| e.to_string())?;
+    solved.verdict().map_err(|e| e.to_string())?;
+    case_values(&plan.outputs, &solved)
 }

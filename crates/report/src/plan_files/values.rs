@@ -1,46 +1,29 @@
 //! The numbers that a plan wants of a case, read off its rows and its headline.
 
-use analysis::{Derivatives, results::static_headline};
-use ltca::StaticHistory;
+use analysis::Solved;
 use scene::{
-    Scene,
     plan::{PlanOutput, PlanTake},
     study::Take,
 };
 use serde_json::Value;
 use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
 
-use crate::columns::history_rows;
+use crate::columns::solved_rows;
 
-/// Of a case at rest, with the derivatives that it asks for.
+/// Of a solved case over whole mesh cycles.
 ///
 /// # Errors
 /// Why there is none: a name that stands for no number, a headline without value.
-pub fn static_case_values(
-    outputs: &[PlanOutput],
-    (scene, history, derivatives): (&Scene, &StaticHistory, Option<&Derivatives>),
-) -> Result<Vec<f64>, String> {
+pub fn case_values(outputs: &[PlanOutput], solved: &Solved) -> Result<Vec<f64>, String> {
     let needs = |headline: bool| outputs.iter().any(|o| matches!(o, PlanOutput::Headline(_)) == headline);
-    let rows = if needs(false) { history_rows(scene, history, derivatives) } else { Columns::default() };
-    let headline = if needs(true) {
-        let headline = static_headline(scene, history).map_err(|e| e.to_string())?;
-        serde_json::to_value(headline).map_err(|e| e.to_string())?
-    } else {
-        Value::Null
-    };
-    case_values(outputs, &rows, &headline, scene.analysis.cycles)
-}
-
-/// Of the rows of a case over whole mesh cycles and the headline of its summary.
-///
-/// # Errors
-/// Why there is none.
-pub fn case_values(outputs: &[PlanOutput], rows: &Columns, headline: &Value, cycles: u32) -> Result<Vec<f64>, String> {
+    let rows = if needs(false) { solved_rows(solved) } else { Columns::default() };
+    let headline = if needs(true) { solved.headline().map_err(|e| e.to_string())? } else { Value::Null };
+    let cycles = solved.scene().analysis.cycles as usize;
     let one = |output: &PlanOutput| match output {
-        PlanOutput::Headline(key) => of_headline(headline, key),
+        PlanOutput::Headline(key) => of_headline(&headline, key),
         PlanOutput::Column { column, take } => {
             let series = rows.series(column).map_err(|e| e.to_string())?;
-            of_column(series, *take, cycles as usize).map_err(|what| format!("{column}: {what}"))
+            of_column(series, *take, cycles).map_err(|what| format!("{column}: {what}"))
         }
     };
     outputs.iter().map(one).collect()

@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::columns::{self, ColumnsOf};
 use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
 use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
-use crate::{Run, Scene, SceneError, Setting, Source, Whole, Word};
+use crate::{Place, Run, Scene, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
 /// The cases so far, and which columns their rows will have.
@@ -20,20 +20,21 @@ const SETTINGS: usize = 1000;
 /// Mesh cycles of a figure at the most.
 const CYCLES: u32 = 100_000_000;
 
-pub(super) fn check(s: &Source<'_>, raw: RawStudy, columns: ColumnsOf<'_>) -> Checked<Study> {
+pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns: ColumnsOf<'_>) -> Checked<Study> {
     if let Some(table) = raw.case.get(CASES) {
         let what = format!("a study of {} cases", raw.case.len());
         return Err(s.conflict(&table.span(), what, format!("list {CASES} at the most")));
     }
     let mut cases: Vec<StudyCase> = Vec::new();
     for table in &raw.case {
-        let new = case(s, table)?;
+        let new = case(s, table, settings)?;
         if cases.iter().any(|c| c.label == new.label) {
             let what = format!("there are two cases with the label \"{}\"", new.label);
             return Err(s.conflict(&table.span(), what, "give each a `label` of its own"));
         }
         cases.push(new);
     }
+    has_effect(&raw.case, settings)?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
     if cases.is_empty() {
         return nothing("a study without cases", "list scenes, each as [[case]] with `scene` and `value`");
@@ -57,7 +58,21 @@ pub(super) fn check(s: &Source<'_>, raw: RawStudy, columns: ColumnsOf<'_>) -> Ch
     Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
 }
 
-fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
+/// Refuses a setting of all scenes that no scene follows, since every case sets its key itself.
+fn has_effect(cases: &[Spanned<RawCase>], settings: &[Setting]) -> Checked<()> {
+    let sets = |case: &Spanned<RawCase>, key: &str| {
+        let own = case.get_ref().set.iter().filter_map(|word| Setting::parse(word.get_ref()).ok());
+        own.into_iter().any(|own| own.key() == key)
+    };
+    let idle = |setting: &&Setting| !cases.is_empty() && cases.iter().all(|case| sets(case, setting.key()));
+    settings.iter().find(idle).map_or(Ok(()), |setting| {
+        let place = Place::Setting { label: setting.label().into() };
+        let what = format!("every case of the study sets `{}` itself", setting.key());
+        Err(SceneError::Conflict { place, what, advice: "leave it out, or change `set` of the cases".into() })
+    })
+}
+
+fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Checked<StudyCase> {
     let raw = table.get_ref();
     let word = raw.scene.as_ref().ok_or_else(|| missing(s, table, "[[case]]", "scene", "the path of a scene file"))?;
     if raw.value.is_none() {
@@ -69,7 +84,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
         let what = format!("a case sets {} keys", raw.set.len());
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
-    let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let own = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     let told = |e: SceneError| match e {
         SceneError::Read { file, source } => {
             let what = format!("{} cannot be read: {source}", file.display());
@@ -77,11 +92,11 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>) -> Checked<StudyCase> {
         }
         other => other,
     };
-    let (scene, refused) = match Scene::read_with(&path, &settings) {
+    let (scene, refused) = match Scene::read_with(&path, &[settings, &own].concat()) {
         Ok(scene) => (scene, None),
         // A value may be wrong in one case alone; a scene that is wrong without it is wrong in all.
-        Err(e @ (SceneError::OutOfRange { .. } | SceneError::Geometry { .. })) if !settings.is_empty() => {
-            (Scene::read(&path).map_err(told)?, Some(refusal(&e)))
+        Err(e @ (SceneError::OutOfRange { .. } | SceneError::Geometry { .. })) if !own.is_empty() => {
+            (Scene::read_with(&path, settings).map_err(told)?, Some(refusal(&e)))
         }
         Err(e) => return Err(told(e)),
     };

@@ -28,6 +28,11 @@ impl LumpedQuantity {
         Self { name: name.into(), value: Arc::new(value) }
     }
 
+    /// The dynamic transmission error, um, as the column `dte_um` has it.
+    pub fn transmission_error() -> Self {
+        Self::new("dte_um", |row| row.transmission_error_um)
+    }
+
     /// Its number in a row.
     pub fn of(&self, row: &LumpedRow) -> f64 {
         (self.value)(row)
