@@ -14,11 +14,10 @@ use crate::{
     certificate::Written,
     error::CommandError,
     facts::Solved,
-    gearbox::write_gearbox_result,
-    memory,
-    motion::{self, Progression},
+    gearbox, memory, motion,
     output::ResultDirectory,
     phases::Phases,
+    progression::{Outcome, Progression},
     resolution::with_slices,
     run::{self, InSpace},
     scene::{DocumentKind, DocumentText, Kind, Model, Run, Scene},
@@ -99,7 +98,13 @@ impl RunArgs {
         let text = DocumentText::read(&self.file)?;
         if text.kind() == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
-            return Ok(Document::Gearbox(Box::new(text.gearbox(&self.overrides.settings()?)?)));
+            let file = text.gearbox(&self.overrides.settings()?)?;
+            if file.motion.is_none() && (self.resume || self.stop_after_cycles.is_some()) {
+                let said = format_args!("{}: this analysis has no checkpoints", self.file.display());
+                let hint = "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]".to_owned();
+                return Err(CommandError::input(said, Some(hint)));
+            }
+            return Ok(Document::Gearbox(Box::new(file)));
         }
         let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
         let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
@@ -116,8 +121,6 @@ impl RunArgs {
             (!self.derivatives.is_empty(), "--derivatives", "leave it out, or run the scene of one of its pairs"),
             (self.vtu, "--vtu", "leave it out: the page shows the gearbox in space"),
             (self.no_view, "--no-view", "leave it out: nothing is saved by it"),
-            (self.resume, "--resume", "leave it out: a gearbox has no checkpoints"),
-            (self.stop_after_cycles.is_some(), "--stop-after-cycles", "leave it out: a gearbox has no checkpoints"),
         ];
         let Some((_, word, hint)) = words.into_iter().find(|(given, ..)| *given) else { return Ok(()) };
         let said = format_args!("{}: `{word}` is for pairs, and this is a gearbox file", self.file.display());
@@ -172,27 +175,22 @@ impl RunArgs {
         Ok(())
     }
 
-    /// Runs a motion; the text is the closing table, or how to go on.
-    fn move_pair(
+    /// What is said of a motion: the closing table, or how to go on.
+    fn ended(
         &self,
-        scene: &Scene,
-        words: &crate::scene::MotionScene,
-        mut phases: Phases,
-        results: ResultDirectory,
+        outcome: Outcome,
+        (progression, results): (&Progression, ResultDirectory),
         quiet: bool,
     ) -> Result<Answer, CommandError> {
-        let progression = Progression::new(words, &self.out, self.resume, self.stop_after_cycles);
-        match motion::solve(scene, words, &mut phases, &results, &self.cache.open(), &progression)? {
-            motion::Outcome::Stopped { cycles } if self.json => {
-                Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into())
-            }
-            motion::Outcome::Stopped { cycles } => Ok(format!(
+        match outcome {
+            Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into()),
+            Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.file.display(),
                 self.out.display()
             )
             .into()),
-            motion::Outcome::Finished(written) => {
+            Outcome::Finished(written) => {
                 results.finish(talk::note)?;
                 progression.done()?;
                 self.answer(written, quiet)
@@ -213,12 +211,13 @@ impl RunArgs {
         Ok(Answer { text, failure: verdict.err() })
     }
 
-    /// Runs a gearbox; the text is the closing table.
+    /// Runs a gearbox; the text is the closing table, or how to go on.
     fn solve_gearbox(&self, file: &Gearbox, mut phases: Phases, quiet: bool) -> Result<Answer, CommandError> {
         let results = ResultDirectory::create(&self.out)?;
-        let written = write_gearbox_result(file, &mut phases, &results, &self.cache.open())?;
-        results.finish(talk::note)?;
-        self.answer(written, quiet)
+        let every = file.motion.map(|motion| motion.checkpoint_every_cycles);
+        let progression = Progression::new(every, &self.out, self.resume, self.stop_after_cycles);
+        let outcome = gearbox::solve(file, &mut phases, &results, &self.cache.open(), &progression)?;
+        self.ended(outcome, (&progression, results), quiet)
     }
 
     /// Runs the document; the text is the closing table.
@@ -230,7 +229,10 @@ impl RunArgs {
         };
         let results = ResultDirectory::create(&self.out)?;
         if let (Some(words), false) = (&scene.motion, is_lumped(&scene)) {
-            return self.move_pair(&scene, words, phases, results, quiet);
+            let every = words.checkpoint_every_cycles;
+            let progression = Progression::new(every, &self.out, self.resume, self.stop_after_cycles);
+            let outcome = motion::solve(&scene, words, &mut phases, &results, &self.cache.open(), &progression)?;
+            return self.ended(outcome, (&progression, results), quiet);
         }
         let cache = self.cache.open();
         let written = match &scene.motion {
@@ -256,9 +258,9 @@ pub(super) fn write_result(
     match &scene.motion {
         Some(words) if is_lumped(scene) => Ok(Written::of(report::solve_lumped(scene, words, phases, results, cache)?)),
         Some(words) => match motion::solve(scene, words, phases, results, cache, &Progression::uncut())? {
-            motion::Outcome::Finished(written) => Ok(written),
+            Outcome::Finished(written) => Ok(written),
             // Nobody asked it to.
-            motion::Outcome::Stopped { cycles } => {
+            Outcome::Stopped { cycles } => {
                 Err(CommandError::failed(format_args!("{}: stopped after {cycles} cycles", scene.file.display()), None))
             }
         },

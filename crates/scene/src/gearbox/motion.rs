@@ -42,6 +42,8 @@ pub struct GearboxMotion {
     pub highest_frequency_hz: Option<f64>,
     /// Error of maps that is aimed at, over the mean approach.
     pub map_tolerance: f64,
+    /// Cycles of the fastest mesh from one checkpoint to the next; 0: none.
+    pub checkpoint_every_cycles: u32,
 }
 
 /// What turns the input.
@@ -80,6 +82,7 @@ pub(super) const KEYS: &[&str] = &[
     "modal_damping_ratio",
     "highest_frequency_hz",
     "map_tolerance",
+    "checkpoint_every_cycles",
 ];
 
 #[derive(Debug, Default, Deserialize)]
@@ -99,6 +102,7 @@ pub(super) struct RawMotion {
     pub modal_damping_ratio: Number,
     pub highest_frequency_hz: Number,
     pub map_tolerance: Number,
+    pub checkpoint_every_cycles: Whole,
 }
 
 pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
@@ -151,5 +155,6 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
         modal_damping_ratio: s.number("modal_damping_ratio", &raw.modal_damping_ratio, 0.02, 0.0, 1.0)?,
         highest_frequency_hz: given("highest_frequency_hz", &raw.highest_frequency_hz, 1.0, 1e7)?,
         map_tolerance: s.number("map_tolerance", &raw.map_tolerance, 2e-3, 1e-6, 0.5)?,
+        checkpoint_every_cycles: s.whole("checkpoint_every_cycles", &raw.checkpoint_every_cycles, 0, 0, 1_000_000)?,
     })
 }
