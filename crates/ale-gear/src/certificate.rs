@@ -1,7 +1,5 @@
 //! What the command ends with where a result does not hold.
 
-pub use analysis::certificate::*;
-
 use crate::error::CommandError;
 
 /// A result whose files stand, and whether it holds.

@@ -1,11 +1,11 @@
 //! A gearbox, from a checked gearbox file to a result folder: what is computed stands in
 //! [`analysis::gearbox_at_rest`], what is written in [`report::gearbox_files`].
 
-use analysis::gearbox_at_rest::{GearboxAnalysis, GearboxOutcome, GearboxSink, Missed, NoGearboxSink};
+use analysis::gearbox_at_rest::{GearboxAnalysis, GearboxOutcome, GearboxSink, NoGearboxSink};
 use report::{
     checkpoint::{GearboxFileSink, GearboxState},
     folder::Cache,
-    gearbox_files::{gearbox_table, write_gearbox},
+    gearbox_files::write_gearbox,
 };
 use scene::gearbox::Gearbox;
 
@@ -44,13 +44,8 @@ pub(crate) fn solve(
             GearboxOutcome::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
             GearboxOutcome::Finished(result) => result,
         };
-        let cost = phases.cost();
-        write_gearbox(file, &result, &cost, results)?;
-        let table = gearbox_table(file, &result, &cost);
-        let failed = |Missed { what, hint }| {
-            CommandError::failed(format_args!("the result does not hold: {what}"), Some(hint.to_owned()))
-        };
-        let verdict = result.missed().into_iter().next().map_or(Ok(()), |missed| Err(failed(missed)));
+        let table = write_gearbox(file, &result, phases.cost(), results)?;
+        let verdict = result.verdict(file).map_err(CommandError::from);
         Ok(Outcome::Finished(Written { table, verdict }))
     })
 }

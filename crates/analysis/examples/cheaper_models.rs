@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let scene = lumped8.set("motion.mesh_damping_ratio", 0.05).build()?;
     let result = LumpedAnalysis::new(&scene).solve()?;
-    result.certificate().verdict(&scene)?;
+    analysis::certificate::verdict(result.certificate(), &scene)?;
     println!("lumped8  peak-to-peak DTE {:.3} um", result.headline.peak_to_peak_dte_um);
     Ok(())
 }

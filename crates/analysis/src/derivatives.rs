@@ -3,7 +3,7 @@
 use ltca::{Sensitivities, Sensitivity, StaticModel};
 use scene::Scene;
 
-use crate::{AnalysisError, VariedScene, error::solver_error};
+use crate::{AnalysisError, error::solver_error, varied_scene::VariedScene};
 
 /// Derivatives of positions by keys.
 #[derive(Debug, Clone, Default)]
@@ -21,27 +21,6 @@ pub struct DerivativeRecorder {
     varied: Vec<VariedScene>,
     sensitivities: Option<Sensitivities>,
     found: Derivatives,
-}
-
-impl VariedScene {
-    /// The neighbours of a scene along a key.
-    ///
-    /// # Errors
-    /// [`AnalysisError`]: a value beside that of the scene is none.
-    pub fn by_key(scene: &Scene, key: &str) -> Result<Self, AnalysisError> {
-        let value = scene.number_at(key).ok_or(AnalysisError::NoValues)?;
-        let step = Scene::design_step(key);
-        let at = |by: f64| scene.with_number(key, value + by);
-        Ok(Self { sides: [at(-step)?, at(step)?], steps: [step; 2] })
-    }
-
-    /// The same of some keys.
-    ///
-    /// # Errors
-    /// As of [`VariedScene::by_key`].
-    pub fn by_keys(scene: &Scene, keys: &[String]) -> Result<Vec<Self>, AnalysisError> {
-        keys.iter().map(|key| Self::by_key(scene, key)).collect()
-    }
 }
 
 impl DerivativeRecorder {

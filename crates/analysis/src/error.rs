@@ -8,7 +8,7 @@ use mesh::MeshError;
 use scene::{Scene, SceneError};
 use study::calculix::CalculixError;
 
-use crate::{motion::UnstableSteps, plausible::Implausible};
+use crate::{plausible::Implausible, unstable_steps::UnstableSteps};
 
 /// Why a scene has no answer.
 #[derive(Debug, thiserror::Error)]
@@ -131,7 +131,7 @@ pub enum AnalysisError {
         /// Why it has no motion.
         reason: String,
         /// What to do.
-        way_out: &'static str,
+        hint: &'static str,
     },
     /// A record that no statistics can be made of.
     #[error(transparent)]
@@ -198,7 +198,7 @@ pub enum AnalysisError {
         /// The first check that is missed, and how many more.
         missed: String,
         /// What to do.
-        way_out: &'static str,
+        hint: &'static str,
     },
     /// A cheaper model cannot be made of the scene, or finds no motion.
     #[error("{file}: {source}")]
@@ -270,7 +270,7 @@ pub enum AnalysisError {
         /// Why, on the coarsest mesh.
         why: String,
     },
-    /// Who waits has given up ([`crate::Progress::is_cancelled`]).
+    /// Who waits has given up, as `Progress::is_cancelled` says.
     #[error("stopped before the end")]
     Cancelled,
     /// The caller's sink has ended the analysis.
@@ -305,6 +305,11 @@ impl std::fmt::Display for MeshMismatch {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.said)
     }
+}
+
+/// A mesh that disagrees with its gear, and what to do.
+pub(crate) fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
+    AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
 }
 
 /// Errors of reading name the file themselves, errors about what was read do not.
@@ -397,7 +402,7 @@ impl AnalysisError {
             Self::Shared(source) => source.hint(),
             Self::Motion { source, .. } => Some(source.hint()),
             Self::Modes { source, .. } => source.hint(),
-            Self::NoSpeed { way_out, .. } => Some((*way_out).to_owned()),
+            Self::NoSpeed { hint, .. } => Some((*hint).to_owned()),
             Self::Statistics(e) => e.hint(),
             Self::OtherAnalysis { .. } => {
                 Some("`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what".into())
@@ -414,7 +419,7 @@ impl AnalysisError {
             Self::ResumedRows { .. } => Some("give all rows that the run before handed out, and no more".into()),
             Self::Solver(failure) => failure.source.hint(),
             Self::Implausible(found) => Some(found.hint.clone()),
-            Self::Certificate { way_out, .. } => Some((*way_out).to_owned()),
+            Self::Certificate { hint, .. } => Some((*hint).to_owned()),
             Self::Calculix(e) => e.hint(),
             Self::NothingHolds { .. }
             | Self::Window(_)

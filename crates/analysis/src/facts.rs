@@ -1,17 +1,20 @@
 //! What the writers need to know of a run beside its scene and its history.
 
 use geometry::{GearPair, GeometrySheet};
-use serde::Serialize;
-
-pub use crate::resolution::Resolution;
 use scene::Scene;
+use serde::Serialize;
 
 use crate::{
     AnalysisError,
     accuracy::Accuracy,
-    certificate::Certificate,
+    certificate::{self, Checks},
     gears, iso_root,
     nominal_pressure::{NominalPressure, nominal_pressure},
+};
+pub use crate::{
+    gears::GeometryFacts,
+    iso_root::{IsoGearRoot, IsoRootStress},
+    resolution::Resolution,
 };
 
 /// What a run was made of and what it cost.
@@ -51,7 +54,7 @@ pub struct Facts {
     pub accuracy: Option<Accuracy>,
     /// What must hold of the result.
     #[serde(flatten)]
-    pub certificate: Certificate,
+    pub certificate: Checks,
     /// What only one model knows, by key with unit.
     #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
     pub model: serde_json::Map<String, serde_json::Value>,
@@ -74,7 +77,7 @@ impl Facts {
     /// # Errors
     /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`].
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
-        self.certificate.verdict(scene)?;
+        certificate::verdict(&self.certificate, scene)?;
         let missed = self.accuracy.iter().flat_map(Accuracy::missed);
         let missed: Vec<String> = missed.map(|b| format!("{} is {}", b.quantity.key(), b.words())).collect();
         if missed.is_empty() {
@@ -95,58 +98,4 @@ pub struct MeshFacts {
     pub elements: usize,
     /// Kinds of elements with their numbers, as `hex8 1200`.
     pub kinds: Vec<String>,
-}
-
-/// Derived geometry of the pair.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct GeometryFacts {
-    /// Working centre distance, mm.
-    pub centre_distance_mm: f64,
-    /// Transverse pressure angle, degrees.
-    pub transverse_pressure_angle_deg: f64,
-    /// Working transverse pressure angle, degrees.
-    pub working_pressure_angle_deg: f64,
-    /// Base helix angle, degrees.
-    pub base_helix_angle_deg: f64,
-    /// Base radii, mm.
-    pub base_radius_mm: [f64; 2],
-    /// Transverse base pitch, mm.
-    pub base_pitch_mm: f64,
-    /// Transverse contact ratio.
-    pub eps_alpha: f64,
-    /// Overlap ratio.
-    pub eps_beta: f64,
-    /// Total contact ratio.
-    pub eps_gamma: f64,
-    /// Mean of the analytic total contact-line length, mm.
-    pub mean_line_length_mm: f64,
-    /// Backlash on the transverse line of action, mm.
-    pub backlash_mm: f64,
-}
-
-/// Nominal root stresses of pinion and wheel; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct IsoRootStress {
-    /// Standard and what is left out.
-    pub method: &'static str,
-    /// Gear 1.
-    pub pinion: IsoGearRoot,
-    /// Gear 2.
-    pub wheel: IsoGearRoot,
-}
-
-/// Nominal root stress of one gear and what it is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct IsoGearRoot {
-    pub nominal_root_stress_mpa: f64,
-    pub form_factor: f64,
-    pub stress_correction_factor: f64,
-    pub helix_factor: f64,
-    pub rim_thickness_factor: f64,
-    pub deep_tooth_factor: f64,
-    pub root_chord_mm: f64,
-    pub bending_lever_mm: f64,
-    pub fillet_radius_mm: f64,
-    pub rim_over_tooth_height: f64,
 }

@@ -6,7 +6,7 @@ use geometry::{Gear, Side, Vec3};
 use mesh::{DEFAULT_TOLERANCE_MODULES, GearMesh, GroupNames};
 use nalgebra::Rotation3;
 
-use crate::{AnalysisError, meshes::mismatch};
+use crate::{AnalysisError, error::mismatch};
 
 /// The flanks of a mesh beside those of its gear.
 pub(crate) struct NamedFlanks<'a> {

@@ -3,7 +3,7 @@
 use geometry::{GearPair, Side};
 use mesh::DEFAULT_TOLERANCE_MODULES;
 
-use crate::{AnalysisError, flank_checks::NamedFlanks, meshes::mismatch};
+use crate::{AnalysisError, error::mismatch, flank_checks::NamedFlanks};
 
 /// Share of the path of contact, or of the common face, that a flank may lack with a remark alone: chamfers and roundings.
 const LARGEST_LACK: f64 = 0.1;

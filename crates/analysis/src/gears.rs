@@ -1,8 +1,34 @@
 //! What a user hears of the exact pair of a scene: warnings and derived geometry.
 
 use geometry::GearPair;
+use serde::Serialize;
 
-use crate::facts::GeometryFacts;
+/// Derived geometry of the pair.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+pub struct GeometryFacts {
+    /// Working centre distance, mm.
+    pub centre_distance_mm: f64,
+    /// Transverse pressure angle, degrees.
+    pub transverse_pressure_angle_deg: f64,
+    /// Working transverse pressure angle, degrees.
+    pub working_pressure_angle_deg: f64,
+    /// Base helix angle, degrees.
+    pub base_helix_angle_deg: f64,
+    /// Base radii, mm.
+    pub base_radius_mm: [f64; 2],
+    /// Transverse base pitch, mm.
+    pub base_pitch_mm: f64,
+    /// Transverse contact ratio.
+    pub eps_alpha: f64,
+    /// Overlap ratio.
+    pub eps_beta: f64,
+    /// Total contact ratio.
+    pub eps_gamma: f64,
+    /// Mean of the analytic total contact-line length, mm.
+    pub mean_line_length_mm: f64,
+    /// Backlash on the transverse line of action, mm.
+    pub backlash_mm: f64,
+}
 
 /// What a user should know of a pair that runs.
 pub fn warnings(pair: &GearPair) -> Vec<String> {

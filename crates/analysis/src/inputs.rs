@@ -1,8 +1,8 @@
-//! What every analysis with meshes begins with.
+//! What every analysis begins with: the scene as it is solved, its motion, its meshes.
 
 use geometry::GearPair;
 use mesh::Mesh;
-use scene::Scene;
+use scene::{MotionScene, Scene};
 
 use crate::{
     AnalysisError,
@@ -19,6 +19,11 @@ pub(crate) fn settled_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
         (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
     }
     scene
+}
+
+/// The motion that a scene asks for.
+pub(crate) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
+    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
 }
 
 /// Meshes of pinion and wheel: those that the caller holds, checked as files are, else those of the scene.

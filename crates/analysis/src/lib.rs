@@ -41,6 +41,7 @@ mod failure;
 mod flank_checks;
 mod flank_reach;
 mod foreseen;
+mod gear_dofs;
 pub mod gearbox_at_rest;
 pub mod gears;
 mod headline_keys;
@@ -63,28 +64,35 @@ pub mod reduction_alone;
 pub mod resolution;
 pub mod results;
 mod shared_models;
+mod shared_solutions;
 mod side_by_side;
+mod sink;
 mod static_certificate;
+mod static_cycle;
 mod statics;
+mod unstable_steps;
+mod varied_scene;
 mod warnings;
 mod waves;
+mod window;
 mod with_keys;
 
 pub use alike::SharedGears;
 pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache};
 pub use derivatives::{DerivativeRecorder, Derivatives};
 pub use error::{AnalysisError, MeshMismatch, SolverFailure, solver_error};
+pub use gear_dofs::reduced;
 pub use headline_keys::headline_keys;
 pub use interest::Interest;
 pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_cancelled};
 pub use options::options;
 pub use plausible::{Implausible, LoadEstimate};
-pub use shared_models::{SharedModels, SolvedWithRates, VariedScene};
+pub use shared_models::SharedModels;
+pub use shared_solutions::SolvedWithRates;
 pub use side_by_side::side_by_side;
+pub use sink::{NoSink, SinkResult, StaticSink};
 pub use static_certificate::{static_certificate, worse};
-pub use statics::{
-    NoSink, SinkResult, StaticAnalysis, StaticResult, StaticSink, dof_after, free_dofs, reduced, time_again,
-    wider_window,
-};
+pub use statics::{StaticAnalysis, StaticResult};
+pub use varied_scene::VariedScene;
 pub use warnings::{body_warnings, locking_warning};
 pub use with_keys::HeadlineKey;

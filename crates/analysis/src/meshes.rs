@@ -8,7 +8,12 @@ use mesh::{
 
 use scene::{Coupling, GearScene, MesherScene, Reduction, Scene};
 
-use crate::{AnalysisError, error::MeshMismatch, facts::MeshFacts, flank_checks::NamedFlanks};
+use crate::{
+    AnalysisError,
+    error::{MeshMismatch, mismatch},
+    facts::MeshFacts,
+    flank_checks::NamedFlanks,
+};
 
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
@@ -168,10 +173,6 @@ fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<()
             None => "coordinates must be in mm (not m or inch), the gear's axis on z".into(),
         },
     ))
-}
-
-pub(crate) fn mismatch(said: String, hint: impl Into<String>) -> AnalysisError {
-    AnalysisError::Mismatch(Box::new(MeshMismatch { said, hint: hint.into(), excerpt: None }))
 }
 
 /// The unit that a mesh is in by its size over the gear's, within a tenth; and mm in that unit.

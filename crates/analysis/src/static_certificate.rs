@@ -5,7 +5,7 @@ use ltca::StaticPosition;
 use scene::Scene;
 
 use crate::{
-    certificate::{Certificate, Check},
+    certificate::{Check, Checks},
     plausible::{deflection_check, pressure_check},
 };
 
@@ -24,20 +24,17 @@ const WAY_OUT: &str = "the contact solver has not found what it was asked for: i
 
 /// The worst of all positions of a scene: torque balance, complementarity, action and reaction, digits that are left,
 /// deflection and pressure that linear elasticity holds for.
-pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Certificate {
+pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Checks {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
-    let check = |name, value, bound| Check { name, value, bound, way_out: WAY_OUT };
-    Certificate::new([
+    let check = |name: &'static str, value, bound| Check::new(name, value, bound, WAY_OUT);
+    Checks::new([
         check("torque_residual", worst(|p| p.certificate.torque_residual), TORQUE),
         check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),
         check("action_reaction_residual", worst(|p| p.certificate.action_reaction_residual), ACTION_REACTION),
         check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
         check("pose_residual", worst(|p| p.certificate.pose_residual), POSE),
     ])
-    .and(Certificate::new([
-        deflection_check(scene, worst(deflection)),
-        pressure_check(scene, worst(|p| p.max_pressure)),
-    ]))
+    .and(Checks::new([deflection_check(scene, worst(deflection)), pressure_check(scene, worst(|p| p.max_pressure))]))
 }
 
 /// Deflection along the line of action, mm: the transmission error without that of the unloaded flanks.

@@ -1,21 +1,17 @@
 //! The loaded pair of a scene at rest, through its mesh cycles.
 
-use std::{ops::ControlFlow, sync::Arc};
+use std::sync::Arc;
 
-use ale::{Station, solve_widening};
 use geometry::GearPair;
-use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions, StaticPosition};
+use ltca::{StaticHistory, StaticModel};
 use mesh::Mesh;
-use reduction::{ElasticGear, GearReducer};
-use scene::{Analysis, Model, Scene};
+use reduction::GearReducer;
+use scene::{Model, Scene};
 
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork,
-    elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
-    error::solver_error,
+    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, PhaseWork, StaticSink,
     facts::Facts,
-    failure::Failure,
-    foreseen::announced_s,
+    gear_dofs::{dof_after, free_dofs, reduced},
     gears,
     inputs::{meshes_of, settled_scene},
     iso_model, iso_root, light_load,
@@ -24,48 +20,10 @@ use crate::{
     plausible::{refuse, remarks},
     resolution::resolution,
     run_phase,
-    shared_models::{Base, SharedModels},
-    unless_cancelled,
+    shared_models::SharedModels,
+    static_cycle::{CycleInputs, SolvedStaticCycle},
     warnings::{body_warnings, deflection_warnings, jammed_pair},
 };
-
-/// Gets the positions of a static analysis as they are solved.
-pub trait StaticSink {
-    /// The analysis of a scene as it is solved begins, again where a wider window or a finer rung is needed: what came
-    /// before does not count.
-    fn begin(&mut self, scene: &Scene);
-
-    /// A position, in order; the model is where it was found.
-    ///
-    /// # Errors
-    /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
-    fn position(&mut self, index: usize, position: &StaticPosition, model: &StaticModel) -> SinkResult;
-
-    /// All positions have come.
-    ///
-    /// # Errors
-    /// As [`StaticSink::position`].
-    fn finish(&mut self) -> SinkResult;
-}
-
-/// What a sink says.
-pub type SinkResult = Result<(), Box<dyn std::error::Error + Send + Sync>>;
-
-/// Takes nothing: the result holds all positions.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct NoSink;
-
-impl StaticSink for NoSink {
-    fn begin(&mut self, _: &Scene) {}
-
-    fn position(&mut self, _: usize, _: &StaticPosition, _: &StaticModel) -> SinkResult {
-        Ok(())
-    }
-
-    fn finish(&mut self) -> SinkResult {
-        Ok(())
-    }
-}
 
 /// The answer to a scene at rest.
 #[derive(Debug)]
@@ -193,19 +151,9 @@ impl<'a> StaticAnalysis<'a> {
         let options = options(scene, &pair);
         let (resolution, said) = resolution(scene, &pair, &options);
         warnings.extend(said);
-        let inputs = Inputs { scene, cache, shared, pair: &pair, meshes: &meshes };
-        let with = |window| StaticOptions { window, ..options.clone() };
-        let solved = solve_widening(
-            options.window,
-            |window| attempt(inputs, observer, sink, &with(window)),
-            |window, failure| {
-                let Failure::Static(e) = failure else { return None };
-                let teeth = wider_window(scene, &pair, &meshes, &with(window), e)?;
-                warnings.push(format!("{e}; the window was widened to {teeth} teeth"));
-                Some(teeth)
-            },
-        );
-        let (model, mut history) = solved.map_err(|failure| failure.into_error(scene))?;
+        let inputs = CycleInputs { scene, cache, shared, pair: &pair, meshes: &meshes };
+        let SolvedStaticCycle { model, mut history, widened } = inputs.solve(&options, observer, sink)?;
+        warnings.extend(widened);
         let mut facts = facts_of(scene, &model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
@@ -236,140 +184,6 @@ fn facts_of(scene: &Scene, model: &StaticModel, meshes: &[SceneMesh; 2]) -> Fact
     facts.model.insert("gears_from_cache".into(), stored.into());
     facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     facts
-}
-
-/// Wall time (s) of the scene's positions once more on gears that are reduced already.
-///
-/// # Errors
-/// [`AnalysisError::Solver`].
-pub fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisError> {
-    let start = std::time::Instant::now();
-    let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
-    let run = model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ());
-    run.map_err(|e| solver_error(scene, e))?;
-    Ok(start.elapsed().as_secs_f64())
-}
-
-/// One more tooth, when a pair beside the window would touch, the user has not fixed the width, and the meshes have the
-/// teeth.
-pub fn wider_window(
-    scene: &Scene,
-    pair: &GearPair,
-    meshes: &[SceneMesh; 2],
-    options: &StaticOptions,
-    error: &StaticError,
-) -> Option<usize> {
-    let teeth = options.window_teeth(pair) + 1;
-    let available = |m: &SceneMesh| {
-        if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() }
-    };
-    let room = meshes.iter().all(|m| teeth < available(m));
-    (error.is_starved() && scene.analysis.window_teeth.is_none() && room).then_some(teeth)
-}
-
-/// What all attempts share.
-#[derive(Clone, Copy)]
-struct Inputs<'a> {
-    scene: &'a Scene,
-    cache: &'a dyn GearCache,
-    shared: Option<&'a SharedModels<'a>>,
-    pair: &'a GearPair,
-    meshes: &'a [SceneMesh; 2],
-}
-
-/// Reduced gears of this scene, or a model of them that others have used.
-enum GearsOf {
-    Own(Box<[ElasticGear; 2]>, RecordKeys),
-    Shared(Arc<Base>),
-}
-
-/// Reduction and run with one width of the window.
-fn attempt(
-    inputs: Inputs<'_>,
-    observer: &mut dyn Observer,
-    sink: &mut dyn StaticSink,
-    options: &StaticOptions,
-) -> Result<(StaticModel, StaticHistory), Failure> {
-    let Inputs { scene, cache, shared, pair, meshes } = inputs;
-    let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let work = PhaseWork::Seconds(announced_s(observer, (scene, meshes), 1.0));
-    let (base, mut warnings) = run_phase(observer, name, work, |progress| match shared {
-        Some(models) => {
-            models.base(scene, pair, options.clone(), &|| true).map(|base| (GearsOf::Shared(base), Vec::new()))
-        }
-        None => {
-            let ElasticGears { gears, keys, warnings } =
-                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true))?;
-            Ok((GearsOf::Own(Box::new(gears), keys), warnings))
-        }
-    })?;
-    let (mut model, keys) = run_phase(observer, "contact", PhaseWork::Unknown, |_| match base {
-        GearsOf::Shared(base) => Ok((base.model.modified(pair.clone(), options.clone())?, None)),
-        GearsOf::Own(gears, keys) => Ok((StaticModel::new(pair.clone(), *gears, options.clone())?, Some(keys))),
-    })
-    .map_err(|e: StaticError| Failure::Static(e))?;
-    if options.root_stress {
-        run_phase(observer, "root stress", PhaseWork::Unknown, |_| model.prepare_root_stress())?;
-    }
-    let per_cycle = scene.analysis.positions_per_cycle as usize;
-    let cycles = scene.analysis.cycles as usize;
-    sink.begin(scene);
-    let mut history = run_phase(observer, "solve", PhaseWork::Steps((per_cycle * cycles) as u64), |progress| {
-        let mut refused = None;
-        let history = model.run_while(per_cycle, cycles, |index, position, model| {
-            progress.tick();
-            progress.say(format!("STE {:.3} um", 1e3 * position.transmission_error));
-            let taken = sink.position(index, position, model).map_err(AnalysisError::Sink);
-            match taken.and_then(|()| unless_cancelled(progress)) {
-                Ok(()) => ControlFlow::Continue(()),
-                Err(error) => {
-                    refused = Some(error);
-                    ControlFlow::Break(())
-                }
-            }
-        });
-        match refused {
-            Some(error) => Err(error.into()),
-            None => history.map_err(Failure::Static),
-        }
-    })?;
-    sink.finish().map_err(AnalysisError::Sink)?;
-    // Where a window of an odd number of teeth changes, the cycle ends. Whole gears have no window that could slide.
-    if model.contact_set().windows().is_some() {
-        let end = Station { cycle: cycles as i64, phase: 0.0 };
-        let closing = run_phase(observer, "change", PhaseWork::Unknown, |_| model.tooth_changes_at(end))?;
-        history.tooth_changes.extend(closing);
-    }
-    if let (Some(keys), true) = (keys, cache.is_on()) {
-        // After the run, when every window and half tooth that it took is known.
-        warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
-    }
-    history.warnings.extend(warnings);
-    Ok((model, history))
-}
-
-/// The reducer of a gear; `None` for one with all its degrees of freedom.
-pub fn reduced(gear: &ElasticGear) -> Option<&GearReducer> {
-    match gear {
-        ElasticGear::Reduced(r) => Some(r),
-        ElasticGear::Full(_) => None,
-    }
-}
-
-/// Free degrees of freedom of a gear's mesh.
-pub fn free_dofs(gear: &ElasticGear) -> usize {
-    match gear {
-        ElasticGear::Reduced(r) => r.free_count(),
-        ElasticGear::Full(f) => f.dofs.free_count(),
-    }
-}
-
-/// Degrees of freedom that the analysis carries; `before` where nothing is reduced.
-pub fn dof_after(model: &StaticModel, before: [usize; 2]) -> [usize; 2] {
-    match model.contact_set().windows() {
-        Some(windows) => [0, 1].map(|i| windows[i].reduced.coordinates()),
-        None => before,
-    }
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::{BoreCoupling, ElementKind, Extent};
 use reduction::{ElasticGear, GearReducer};
 
-use crate::{coarse::Coarse, reduced};
+use crate::{coarse::Coarse, gear_dofs::reduced};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::{
     ContactMap, MapError, PhaseContact,
     column::{Node, column},
-    damping::DampingTable,
+    damping_table::DampingTable,
     load_axis::LoadAxis,
     map::{MapCertificate, Wanted},
     spline::Axis,

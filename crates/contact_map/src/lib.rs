@@ -4,6 +4,7 @@
 mod build;
 mod column;
 mod damping;
+mod damping_table;
 mod error;
 mod kept_places;
 mod load_axis;

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    damping::DampingTable,
+    damping_table::DampingTable,
     load_axis::{LoadAxis, LoadCurve},
     spline::{Axis, Splines},
 };

@@ -13,36 +13,37 @@ use geometry::Sense;
 use ltca::{StaticModel, StaticPosition};
 use scene::{Scene, SceneError, Setting};
 
-use crate::{EnvelopeError, FailureMode};
+use crate::EnvelopeError;
 
-/// Solves scenes of one failure mode.
+/// Solves the scene of one failure mode, as it stands and with keys set otherwise.
 #[derive(Debug)]
 pub(crate) struct Bench {
-    mode: FailureMode,
+    /// File of the scene in `scenes/envelope`, without its ending.
+    pub(crate) file: &'static str,
+    /// Text of the scene.
+    pub(crate) scene: &'static str,
+    /// Settings with which the scene shows the failure.
+    pub(crate) naive: &'static [&'static str],
 }
 
 impl Bench {
-    pub(crate) fn new(mode: &FailureMode) -> Self {
-        Self { mode: *mode }
-    }
-
     /// The settings that show the failure, and these beside them.
     pub(crate) fn naive(&self, more: &[&str]) -> Vec<String> {
-        self.mode.naive.iter().chain(more).map(|s| (*s).to_owned()).collect()
+        self.naive.iter().chain(more).map(|s| (*s).to_owned()).collect()
     }
 
     /// The scene with some of its keys set otherwise, `key=value` each.
     pub(crate) fn scene<S: AsRef<str>>(&self, settings: &[S]) -> Result<Scene, SceneError> {
         let settings = settings.iter().map(|s| Setting::parse(s.as_ref())).collect::<Result<Vec<_>, _>>()?;
-        let file = PathBuf::from(format!("scenes/envelope/{}.toml", self.mode.file));
-        Scene::parse_with(self.mode.scene, &file, &settings)
+        let file = PathBuf::from(format!("scenes/envelope/{}.toml", self.file));
+        Scene::parse_with(self.scene, &file, &settings)
     }
 
     /// Solved at rest, its certificate held.
     pub(crate) fn at_rest<S: AsRef<str>>(&self, settings: &[S]) -> Result<StaticResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = StaticAnalysis::new(&scene).solve()?;
-        static_certificate(&scene, &result.history.positions).verdict(&scene)?;
+        analysis::certificate::verdict(&static_certificate(&scene, &result.history.positions), &scene)?;
         Ok(result)
     }
 
@@ -62,7 +63,7 @@ impl Bench {
     pub(crate) fn in_motion<S: AsRef<str>>(&self, settings: &[S]) -> Result<MotionResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = MotionAnalysis::new(&scene).solve()?;
-        result.facts.certificate.verdict(&scene)?;
+        analysis::certificate::verdict(&result.facts.certificate, &scene)?;
         Ok(result)
     }
 
@@ -75,7 +76,7 @@ impl Bench {
     pub(crate) fn lumped<S: AsRef<str>>(&self, settings: &[S]) -> Result<LumpedResult, AnalysisError> {
         let scene = self.scene(settings)?;
         let result = LumpedAnalysis::new(&scene).solve()?;
-        result.certificate().verdict(&scene)?;
+        analysis::certificate::verdict(result.certificate(), &scene)?;
         Ok(result)
     }
 }

@@ -64,7 +64,7 @@ impl FailureMode {
     /// Runs its scene, the naive way and the robust one.
     pub fn examine(&self) -> Examined {
         let start = Instant::now();
-        let figures = (self.look)(&Bench::new(self));
+        let figures = (self.look)(&Bench { file: self.file, scene: self.scene, naive: self.naive });
         Examined { figures, seconds: start.elapsed().as_secs_f64() }
     }
 

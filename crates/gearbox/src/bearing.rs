@@ -4,10 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix6, Vector6};
 
-use crate::{
-    GearboxError, GearboxPosition, Structure,
-    rolling_bearing::{RollingBearing, RollingState, Tangent},
-};
+use crate::rolling_bearing::RollingBearing;
 
 /// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one; at
 /// rest also rolling elements.
@@ -24,7 +21,7 @@ pub struct Bearing {
     pub stiffness: Matrix6<f64>,
     /// Damping of the same, symmetric: N s/mm, N s, N mm s.
     pub damping: Matrix6<f64>,
-    /// Rolling elements beside that stiffness; at rest alone ([`Structure::about`]).
+    /// Rolling elements beside that stiffness; at rest alone: a vibration and a motion have springs in their place.
     pub law: Option<Arc<RollingBearing>>,
     /// Force (N) and moment (N mm) on the shaft with nothing displaced: of a spring about a loaded state.
     pub preload: Vector6<f64>,
@@ -53,37 +50,5 @@ impl Bearing {
     /// Stiffness of its size, before anything is known of its load but a force (N).
     pub(crate) fn rough_stiffness(&self, force: f64) -> Matrix6<f64> {
         self.law.as_ref().map_or(self.stiffness, |law| self.stiffness + law.rough_stiffness(force))
-    }
-}
-
-impl Structure {
-    /// The same with springs in place of rolling elements: about their mean over some positions of it at rest, each
-    /// with the mean of its tangents. What swings and moves is made of it.
-    ///
-    /// # Errors
-    /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.
-    pub fn about(&self, positions: &[GearboxPosition]) -> Result<Self, GearboxError> {
-        let mut linear = self.clone();
-        for (i, bearing) in linear.bearings.iter_mut().enumerate() {
-            if bearing.law.take().is_none() {
-                continue;
-            }
-            let states: Vec<RollingState> =
-                positions.iter().filter_map(|p| p.rolling.get(i).copied().flatten()).collect();
-            let missing = GearboxError::Count { what: "states of a bearing", found: states.len(), wanted: 1 };
-            let own = Tangent::about(&states).ok_or(missing)?;
-            bearing.stiffness += own.stiffness;
-            bearing.preload += own.preload;
-            bearing.stored += own.stored;
-        }
-        Ok(linear)
-    }
-
-    /// That all bearings are springs.
-    pub(crate) fn check_linear(&self) -> Result<(), GearboxError> {
-        match self.bearings.iter().find(|b| b.law.is_some()) {
-            Some(own) => Err(GearboxError::NotLinear { bearing: own.name.clone() }),
-            None => Ok(()),
-        }
     }
 }

@@ -10,7 +10,7 @@ use nalgebra::{Rotation3, Vector3};
 use crate::{
     DeflectionCourse, StaticError, WindowedPair,
     kinematic::{Nearest, Unloaded},
-    pose_solver::{PoseSolution, PoseSolver, PoseStep},
+    pose_solver::{NEIGHBOURS_CLOSE, PoseSolution, PoseSolver, PoseStep},
     pose_steps::PoseSteps,
 };
 
@@ -56,8 +56,6 @@ const LEAST_REACH: f64 = 1e-9 / 3.0;
 pub const GUESSED_LINE_STIFFNESS: f64 = 1.4e4;
 /// Pose steps before giving up.
 const POSE_STEPS: usize = 80;
-/// Gap over the approach up to which rows are candidates: what loads on other teeth may close.
-pub(crate) const NEIGHBOURS_CLOSE: f64 = 0.25;
 /// Deflection over the module from which on the load parts the flanks: teeth are some two modules high.
 const TOO_FAR: f64 = 0.25;
 /// Estimated deflection of steel teeth over the module beyond which no search is begun.

@@ -5,7 +5,7 @@ use contact::{
     Solution, WarmStart,
 };
 
-use crate::{WindowedPair, equilibrium::NEIGHBOURS_CLOSE};
+use crate::WindowedPair;
 
 /// Contact at one pose.
 pub(crate) struct PoseSolution {
@@ -16,6 +16,8 @@ pub(crate) struct PoseSolution {
     pub displacements: [Vec<f64>; 2],
 }
 
+/// Gap over the approach up to which rows are candidates: what loads on other teeth may close.
+pub(crate) const NEIGHBOURS_CLOSE: f64 = 0.25;
 /// Violation of the conditions, relative to the approach, with which the contact of a station's first pose is solved: the
 /// next pose makes up for it.
 const FIRST_POSE: f64 = 1e-8;

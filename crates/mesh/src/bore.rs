@@ -1,35 +1,10 @@
-//! How a gear's bore is held by its shaft, and on which part of its width.
+//! The bore of a gear: the part of its width that is held, nodes that do not move, weights of its means.
 
 use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::{Face, GearMesh, MeshError, SurfaceGroup};
-
-/// How the bore follows the shaft, by the names that finite-element programs have for it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum BoreCoupling {
-    /// Every node of the bore moves with the shaft's cross-section: a rigid bore.
-    #[default]
-    Kinematic,
-    /// The bore is free to deform; its area-weighted mean displacement and mean turn are those of the shaft.
-    ///
-    /// ```text
-    /// integral of u dA = 0,   integral of (x - c) x u dA = 0      in the gear's frame; c: centroid of the held faces
-    /// ```
-    /// What holds it is then spread over the bore as t = a + b x (x - c): six numbers, no local reaction.
-    Distributing,
-}
-
-impl BoreCoupling {
-    /// As scenes spell it.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Kinematic => "kinematic",
-            Self::Distributing => "distributing",
-        }
-    }
-}
+use crate::{BoreCoupling, Face, GearMesh, MeshError, SurfaceGroup};
 
 impl GearMesh {
     /// The same gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a

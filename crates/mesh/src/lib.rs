@@ -4,6 +4,7 @@
 
 mod block;
 mod bore;
+mod bore_coupling;
 mod bore_fit;
 mod check;
 pub mod element;
@@ -22,7 +23,7 @@ mod root_fillets;
 mod sector;
 pub mod structured;
 
-pub use bore::BoreCoupling;
+pub use bore_coupling::BoreCoupling;
 pub use check::{BAD_SHAPE, Finding, FindingKind, MeshReport, SHOWN, Severity};
 pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;

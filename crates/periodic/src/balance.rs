@@ -9,7 +9,6 @@ use crate::{
     FourierSeries, PeriodicError, PeriodicFamily,
     product::{SeriesTransform, Wave},
     series::Basis,
-    solution::Point,
 };
 
 /// Forces and tangents over a period, and what is left of the equations of motion. Theory (69).
@@ -91,12 +90,12 @@ pub(crate) fn balance<S: PeriodicFamily>(
 /// only leads the steps.
 pub(crate) fn frequency_derivative<S: PeriodicFamily>(
     system: &S,
-    point: &Point,
+    motion: &FourierSeries,
     basis: &Basis,
     at: &Balance,
 ) -> DMatrix<f64> {
     let frequency = TAU / system.period();
-    let coefficients = point.series.coefficients();
+    let coefficients = motion.coefficients();
     let rates = basis.rates() * coefficients.transpose();
     let mut damped = DMatrix::zeros(rates.nrows(), rates.ncols());
     for (i, damping) in at.damping.iter().enumerate() {

@@ -146,7 +146,7 @@ impl<S: PeriodicFamily> Equations<'_, S> {
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (m, m)).copy_from(&inner);
         let slope = match self.system.frequency_slope() {
-            Some(slope) => frequency_derivative(self.system, point, self.basis, at) * (slope * self.unit),
+            Some(slope) => frequency_derivative(self.system, &point.series, self.basis, at) * (slope * self.unit),
             None => {
                 let mut beside = x.clone();
                 beside[m] += DIFFERENCE;

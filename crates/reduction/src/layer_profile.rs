@@ -11,8 +11,8 @@ use crate::{
 
 /// Constant c of a half tooth under a line load, along the profile.
 ///
-/// When everything but the half between the loaded flank and the tooth's centre surface is clamped (as in
-/// [`crate::LocalCompliance`]), a Hertzian line load q with half-width a dents the flank by
+/// When everything but the half between the loaded flank and the tooth's centre surface is clamped, a Hertzian line load
+/// q with half-width a dents the flank by
 ///
 /// ```text
 /// delta = K q [ln(2 t / a) + 1/2 + c(u) + eta ln(t / d)],   K = 2 (1 - nu^2) / (pi E)

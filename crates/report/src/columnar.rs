@@ -5,12 +5,10 @@ use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::sync::Arc;
 
-use parquet::basic::{Compression, Encoding, Repetition, Type as Physical};
+use answer::{properties, schema};
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
-use parquet::schema::types::Type;
 
 use crate::ReportError;
 
@@ -31,8 +29,9 @@ pub fn write_parquet(folder: &Path) -> Result<(), ReportError> {
 fn convert(from: &Path, to: &Path) -> Result<(), ParquetError> {
     let mut lines = BufReader::new(File::open(from)?).lines();
     let header = lines.next().transpose()?.unwrap_or_default();
-    let names: Vec<&str> = header.split(',').collect();
-    let mut writer = SerializedFileWriter::new(File::create(to)?, schema("history", &names)?, Arc::new(properties()))?;
+    let names: Vec<(&str, bool)> = header.split(',').map(|name| (name, false)).collect();
+    let mut writer =
+        SerializedFileWriter::new(File::create(to)?, schema("history", &names)?, Arc::new(properties(&names)))?;
     let mut columns = vec![Vec::new(); names.len()];
     for line in lines {
         push(&mut columns, &line?)?;
@@ -45,45 +44,6 @@ fn convert(from: &Path, to: &Path) -> Result<(), ParquetError> {
     }
     writer.close()?;
     Ok(())
-}
-
-/// Columns of doubles as a file in memory; its rows are called `name`.
-///
-/// # Errors
-/// When a name is none that the format takes.
-pub(crate) fn parquet_of(name: &'static str, names: &[&str], columns: &[Vec<f64>]) -> Result<Vec<u8>, ReportError> {
-    let written = || -> Result<Vec<u8>, ParquetError> {
-        let mut bytes = Vec::new();
-        let mut writer = SerializedFileWriter::new(&mut bytes, schema(name, names)?, Arc::new(properties()))?;
-        let mut group = writer.next_row_group()?;
-        for column in columns {
-            let Some(mut to) = group.next_column()? else { break };
-            to.typed::<DoubleType>().write_batch(column, None, None)?;
-            to.close()?;
-        }
-        group.close()?;
-        writer.close()?;
-        Ok(bytes)
-    };
-    written().map_err(|cause| ReportError::Parquet { file: name, cause })
-}
-
-fn properties() -> WriterProperties {
-    let properties = WriterProperties::builder()
-        .set_compression(Compression::SNAPPY)
-        .set_dictionary_enabled(false)
-        // Bytes of like weight beside each other: neighbours of a curve share the leading ones.
-        .set_encoding(Encoding::BYTE_STREAM_SPLIT);
-    properties.build()
-}
-
-fn schema(rows: &str, names: &[&str]) -> Result<Arc<Type>, ParquetError> {
-    let column = |name: &&str| {
-        let of = Type::primitive_type_builder(name, Physical::DOUBLE).with_repetition(Repetition::REQUIRED);
-        of.build().map(Arc::new)
-    };
-    let fields = names.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-    Ok(Arc::new(Type::group_type_builder(rows).with_fields(fields).build()?))
 }
 
 fn push(columns: &mut [Vec<f64>], line: &str) -> Result<(), ParquetError> {

@@ -21,6 +21,9 @@ pub enum ReportError {
         /// What the system says.
         cause: io::Error,
     },
+    /// A table does not become a file.
+    #[error(transparent)]
+    Table(#[from] answer::TableError),
     /// The system refuses to read a file of this result back.
     #[error("{}: cannot be read: {cause}", file.display())]
     Read {
@@ -112,6 +115,7 @@ impl ReportError {
             Self::NoMarks { marks, .. } => Some(format!("put the two lines {marks} where the tables shall stand")),
             Self::NoResult { hint, .. } | Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Page { .. } | Self::NoWindow => None,
+            Self::Table(e) => Some(e.hint().to_owned()),
             Self::Checkpoint(e) => e.hint(),
             Self::Scene(e) => e.hint(),
             Self::Study(e) => e.hint(),

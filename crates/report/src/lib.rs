@@ -27,14 +27,13 @@
 //! | [`ResultFiles`] | where files go |
 
 pub mod accuracy_chart;
+mod answer_files;
 pub mod charts;
 pub mod checkpoint;
 mod columnar;
 pub mod columns;
 pub mod compare;
 pub mod contact_files;
-mod cost;
-pub mod csv;
 pub mod envelope_files;
 mod error;
 pub mod folder;
@@ -60,8 +59,9 @@ pub mod tables;
 pub mod universal;
 pub mod view;
 
+pub use answer::{Cost, Phase, csv};
+pub use answer_files::write_result;
 pub use columnar::write_parquet;
-pub use cost::{Cost, Phase};
 pub use error::ReportError;
 pub use in_time::{Recorder, Told, solve_accurate, solve_in_time, solve_lumped, solve_many_motions, solve_sweep};
 pub use marked_place::MarkedPlace;

@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::schema::{Kind, Model, Reduction};
+
 fn is_zero(value: &u32) -> bool {
     *value == 0
 }
@@ -24,52 +26,6 @@ pub struct Analysis {
     /// Teeth in the window; `None`: floor(eps_gamma) + 1, at least 3.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub window_teeth: Option<u32>,
-}
-
-choices! {
-    /// Which way gears are condensed.
-    pub enum Reduction {
-        /// One sector where the gear is cyclic, else the whole gear.
-        Auto = "auto",
-        /// The whole gear in one factor.
-        General = "general",
-    }
-}
-
-choices! {
-    /// Quasi-static or in time.
-    pub enum Kind {
-        /// Equilibrium at every position.
-        Static = "static",
-        /// Motion in time.
-        Dynamic = "dynamic",
-    }
-}
-
-choices! {
-    /// A model of the pair.
-    pub enum Model {
-        /// Flanks of the tooth window.
-        Reduced = "reduced",
-        /// The cheapest that is as exact as `[accuracy]` asks.
-        Auto = "auto",
-        /// The same with normal modes of both gears, in time.
-        ReducedModes = "reduced+modes",
-        /// A map of the contact of the reduced gears, in time.
-        Mapped = "mapped",
-        /// Every degree of freedom of both meshes.
-        Full = "full",
-        /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
-        Iso = "iso",
-        /// Eight coordinates, mesh stiffness, backlash and friction.
-        Lumped8 = "lumped8",
-        /// Twelve coordinates.
-        Lumped12 = "lumped12",
-        /// Two lumped shafts with the mesh between them.
-        Shaft18 = "shaft18",
-        /// Rigid gears, force by overlap of their true flanks.
-        Impact = "impact",
-    }
 }
 
 impl Model {

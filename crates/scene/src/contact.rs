@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::schema::{Flanks, Gap, Method};
+
 /// How flanks press on each other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ContactScene {
@@ -26,34 +28,4 @@ pub struct ContactScene {
     pub points_per_face_edge: Option<u32>,
     /// Which flanks may touch.
     pub flanks: Flanks,
-}
-
-choices! {
-    /// Where the contact unknowns sit.
-    pub enum Method {
-        /// One line load an axial slice.
-        Slice = "slice",
-        /// Quadrature points of the flank mesh.
-        Nodal = "nodal",
-    }
-}
-
-choices! {
-    /// Which surface gives the gaps.
-    pub enum Gap {
-        /// The exact involute helicoid.
-        Smooth = "smooth",
-        /// The faces of the mesh: for showing what facets do to the transmission error, not for engineering.
-        Facet = "facet",
-    }
-}
-
-choices! {
-    /// Which flanks may touch.
-    pub enum Flanks {
-        /// Those that the torque presses together.
-        Driving = "driving",
-        /// Both sides.
-        Both = "both",
-    }
 }

@@ -5,7 +5,10 @@ use std::path::PathBuf;
 use mesh::{FaceResolution, GroupNames};
 use serde::Serialize;
 
-use super::{BearingScene, BodyScene, MisalignmentScene, ModificationScene, ShaftScene};
+use crate::ladder::ShaftScene;
+use crate::modification::ModificationScene;
+use crate::motion::{BearingScene, BodyScene};
+use crate::schema::{Coupling, MisalignmentScene};
 
 /// One gear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -59,16 +62,6 @@ pub struct GearScene {
     /// The shaft it sits on; set exactly for the model of shafts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaft: Option<ShaftScene>,
-}
-
-choices! {
-    /// How a bore follows its shaft.
-    pub enum Coupling {
-        /// As a rigid body, node by node.
-        Kinematic = "kinematic",
-        /// By its area-weighted mean displacement and mean turn.
-        Distributing = "distributing",
-    }
 }
 
 /// How a shaft holds a bore.

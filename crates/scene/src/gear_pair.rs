@@ -48,8 +48,8 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
 
 /// Micro-geometry of a gear: the driving flanks are on the same side of both gears.
 fn modifications(scene: &Scene, gear: &GearScene) -> Result<GearModifications, DataFileError> {
-    let drive = gear.modification.drive.in_geometry(scene)?;
-    let coast = gear.modification.coast.in_geometry(scene)?;
+    let drive = gear.modification.drive.in_geometry(&scene.file)?;
+    let coast = gear.modification.coast.in_geometry(&scene.file)?;
     let (left, right) = if scene.side() == Side::Left { (drive, coast) } else { (coast, drive) };
     let pitch_errors = match &gear.pitch_errors_file {
         Some(file) => read_pitch_errors(&scene.resolve(file))?,

@@ -3,6 +3,16 @@
 //! Two steps, so that every complaint can name file, line, key, value and allowed range:
 //! typed words as they stand in the file (`raw`), then the checked [`Scene`] with every default filled in.
 //! Values keep the units of their keys; the methods hand them on in mm, N, MPa, t, s, rad.
+//!
+//! Files know those of their own row and of the rows above alone:
+//!
+//! | layer | files |
+//! |---|---|
+//! | words | `units`, `hints`, `keys`, `spanned`, `excerpt`, `error`, `table` (what a row of keys is) |
+//! | text | `setting`, `source` (places and complaints), `inputs` (files that a text names) |
+//! | schema | `schema` (every key with its type, range, default and choices), `raw` (what is read) |
+//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ... |
+//! | scene | [`Scene`], `check`, `written`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
 mod macros;
@@ -12,6 +22,7 @@ mod analysis;
 mod builder;
 mod check;
 mod contact;
+mod default_scene;
 mod design_key;
 mod document_kind;
 mod document_text;
@@ -41,6 +52,7 @@ mod source;
 mod spanned;
 mod starter;
 pub mod study;
+mod table;
 pub mod units;
 mod written;
 
@@ -50,31 +62,27 @@ use std::path::{Path, PathBuf};
 use geometry::Side;
 use serde::Serialize;
 
-pub use accuracy::{AccuracyScene, Quantity, Tolerance, ToleranceError};
-pub use analysis::{Analysis, Kind, Model, Reduction};
+pub use accuracy::{AccuracyScene, Tolerance, ToleranceError};
+pub use analysis::Analysis;
 pub use builder::{SceneBuilder, Value};
-pub use contact::{ContactScene, Flanks, Gap, Method};
+pub use contact::ContactScene;
 pub use document_kind::DocumentKind;
 pub use document_text::DocumentText;
 pub use error::{Line, Place, SceneError};
-pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, PairScene};
+pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene};
 pub use input_text::read_text;
 pub use keys::{Tables, nearest};
-pub use ladder::{
-    DiscScene, Law, Lumped8Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene, Sharing, StiffnessFrom,
-};
-pub use modification::{FlankScene, ModificationScene, Shape};
-pub use motion::{
-    Axis, BearingScene, BodyScene, Boundary, ContinuationKey, DriveBy, DriveScene, Integration, ModesScene,
-    MotionScene, Run, SteadyBy, SweepScene, SweepWay, TorqueScene,
-};
-pub use operation::{Driver, Rotation};
+pub use ladder::{DiscScene, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene};
+pub use modification::ModificationScene;
+pub use motion::{BearingScene, BodyScene, DriveScene, ModesScene, MotionScene, SweepScene, TorqueScene};
 use origin::Origin;
-pub use output::{FieldName, OutputScene};
+pub use output::OutputScene;
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    BasinScene, ContinuationScene, ImpactScene, Lumped12Scene, MisalignmentScene, Operation, RampScene, SupportScene,
-    all_keys, json_schema,
+    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, Driver, FieldName, FlankScene,
+    Flanks, Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation,
+    Quantity, RampScene, Reduction, Rotation, Run, ShaftCoordinate, Shape, Sharing, SteadyBy, StiffnessFrom,
+    SupportScene, SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use source::Source;
@@ -183,7 +191,7 @@ impl Scene {
     fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
         setting::few_enough(text, settings)?;
         let (all, ranges) = setting::below(text, settings);
-        let source = source::Source::scene(file, &all).with_settings(settings, &ranges).standing(origin);
+        let source = raw::source(file, &all, settings, &ranges).standing(origin);
         let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
         let scene = checked.map_err(|e| e.unless_another_kind(text, file, DocumentKind::Scene))?;
         Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })

@@ -1,7 +1,7 @@
 //! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the
 //! value, a field of what is checked.
 
-/// A table of the scene file: its rows make the [`Table`](super::Table) and the struct of what is written. With `=>
+/// A table of the scene file: its rows make the [`Table`](crate::table::Table) and the struct of what is written. With `=>
 /// Checked` they make the struct of what is meant as well, and `read`, which takes it from what is written.
 ///
 /// ```text
@@ -22,7 +22,7 @@ macro_rules! static_table {
     ($(#[$meta:meta])* $table:ident: $about:literal [$($needed:literal),*]
         { $($name:ident: $kind:ident($($args:tt)*) $(, $meaning:literal)?;)* }) => {
         $(#[$meta])*
-        pub(crate) static $table: $crate::schema::Table = $crate::schema::Table {
+        pub(crate) static $table: $crate::table::Table = $crate::table::Table {
             about: $about,
             keys: &[$(key!($name $kind ($($args)*) $($meaning)?)),*],
             needed: &[$($needed),*],
@@ -48,7 +48,7 @@ macro_rules! checked_table {
         pub struct $checked {
             $(
                 #[doc = concat!($meaning, ".")]
-                #[serde(skip_serializing_if = "crate::schema::Field::is_absent")]
+                #[serde(skip_serializing_if = "crate::table::Field::is_absent")]
                 pub $name: checked!($kind ($($args)*)),
             )*
         }
@@ -68,20 +68,20 @@ macro_rules! checked_table {
 
 /// The key of a row.
 macro_rules! key {
-    ($name:ident table ($of:ident: $raw:ident)) => { $crate::schema::table(stringify!($name), &$of) };
-    ($name:ident always ($of:ident: $raw:ident)) => { $crate::schema::table(stringify!($name), &$of) };
-    ($name:ident list ($of:ident: $raw:ident)) => { $crate::schema::list(stringify!($name), &$of) };
+    ($name:ident table ($of:ident: $raw:ident)) => { $crate::table::table(stringify!($name), &$of) };
+    ($name:ident always ($of:ident: $raw:ident)) => { $crate::table::table(stringify!($name), &$of) };
+    ($name:ident list ($of:ident: $raw:ident)) => { $crate::table::list(stringify!($name), &$of) };
     ($name:ident word ($choice:ident) $about:literal) => {
-        $crate::schema::word(stringify!($name), $choice::WORDS, $about)
+        $crate::table::word(stringify!($name), $choice::WORDS, $about)
     };
     ($name:ident bare_word ($choice:ident) $about:literal) => {
-        $crate::schema::bare_word(stringify!($name), $choice::WORDS, $about)
+        $crate::table::bare_word(stringify!($name), $choice::WORDS, $about)
     };
     ($name:ident words ($choice:ident) $about:literal) => {
-        $crate::schema::words(stringify!($name), $choice::WORDS, $about)
+        $crate::table::words(stringify!($name), $choice::WORDS, $about)
     };
     ($name:ident $kind:ident ($($args:expr),*) $about:literal) => {
-        $crate::schema::$kind(stringify!($name), $($args,)* $about)
+        $crate::table::$kind(stringify!($name), $($args,)* $about)
     };
 }
 
@@ -170,10 +170,10 @@ macro_rules! choices {
             }
         }
 
-        impl $crate::schema::Choice for $name {
+        impl $crate::table::Choice for $name {
             const CHOICES: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),*];
         }
 
-        impl $crate::schema::Field for $name {}
+        impl $crate::table::Field for $name {}
     };
 }

@@ -1,26 +1,6 @@
 //! Load and sense of rotation.
 
-use crate::Operation;
-
-choices! {
-    /// The gear that drives.
-    pub enum Driver {
-        /// Gear 1.
-        Pinion = "pinion",
-        /// Gear 2.
-        Wheel = "wheel",
-    }
-}
-
-choices! {
-    /// Sense of rotation seen from +z.
-    pub enum Rotation {
-        /// Counter-clockwise.
-        Ccw = "ccw",
-        /// Clockwise.
-        Cw = "cw",
-    }
-}
+use crate::schema::{Operation, Rotation};
 
 impl Rotation {
     /// +1 counter-clockwise, -1 clockwise.

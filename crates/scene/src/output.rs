@@ -2,7 +2,8 @@
 
 use serde::Serialize;
 
-use crate::{Model, Run, Scene};
+use crate::Scene;
+use crate::schema::{FieldName, Model, Run};
 
 fn is_false(value: &bool) -> bool {
     !value
@@ -27,18 +28,6 @@ pub struct OutputScene {
     /// Keys by which the history of a pair at rest is differentiated.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub derivatives: Vec<String>,
-}
-
-choices! {
-    /// A field of the ParaView files.
-    pub enum FieldName {
-        /// Displacement of every node, mm.
-        Displacement = "displacement",
-        /// Contact pressure at flank nodes, MPa.
-        Pressure = "pressure",
-        /// Stress tensor and von Mises stress, MPa.
-        Stress = "stress",
-    }
 }
 
 impl Scene {

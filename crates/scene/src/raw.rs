@@ -1,12 +1,24 @@
 //! The words of a scene file with their types and places, nothing checked yet.
 
+use std::{ops::Range, path::Path};
+
 use serde::Deserialize;
 use toml::{Spanned, de::DeTable};
 
 use super::SceneError;
-use super::schema::RawScene;
-use super::setting;
+use super::schema::{RawScene, meaning, tables};
+use super::setting::{self, Setting};
 use super::source::Source;
+
+/// The text of a scene with what was set beside it.
+pub(super) fn source<'a>(
+    file: &'a Path,
+    text: &'a str,
+    settings: &'a [Setting],
+    ranges: &'a [Range<usize>],
+) -> Source<'a> {
+    Source::of(file, text, tables).with_meanings(meaning).with_settings(settings, ranges)
+}
 
 /// The words of a scene file.
 ///

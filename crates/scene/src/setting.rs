@@ -57,18 +57,7 @@ impl Setting {
         }
     }
 
-    /// `1%` of the mean static transmission error, or `max_pressure=5%`: that key of `[accuracy]`, and the model left to
-    /// the program. Messages name it `--accuracy`.
-    ///
-    /// # Errors
-    /// [`SceneError::NoKey`] where what stands before `=` is none.
-    pub fn accuracy(written: &str) -> Result<[Self; 2], SceneError> {
-        let (key, amount) = written.split_once('=').unwrap_or((crate::Quantity::MeanSte.key(), written));
-        let asked = Self::of(&format!("accuracy.{}", key.trim()), &amount.trim().into())?;
-        Ok([asked, Self::of("analysis.model", &"auto".into())?].map(|setting| setting.called("--accuracy")))
-    }
-
-    /// The same, named otherwise in messages: by a word of its own, as `--torque-nm`.
+    /// The same setting, named otherwise in messages: by a word of its own, as `--torque-nm`.
     pub fn called(self, label: &str) -> Self {
         Self { label: label.to_owned(), ..self }
     }

@@ -11,9 +11,9 @@ use super::excerpt::excerpt;
 use super::hints;
 use super::keys::{self, Tables};
 use super::origin::Origin;
-use super::schema::{self, Choice, Table};
 use super::setting::Setting;
 use super::spanned::{Number, Switch, Whole, Word, Words};
+use super::table::{Choice, Table};
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
 pub struct Source<'a> {
@@ -26,8 +26,8 @@ pub struct Source<'a> {
     /// Where in the text.
     pub(crate) ranges: &'a [Range<usize>],
     tables: Tables,
-    /// Whether it is a scene.
-    is_scene: bool,
+    /// What a key means.
+    meaning: fn(&str) -> Option<&'static str>,
     /// Where files that it names are looked for.
     pub(crate) origin: Origin,
     /// Names and texts of files beside it that are not written yet.
@@ -35,30 +35,30 @@ pub struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The text of a scene.
-    pub(super) fn scene(file: &'a Path, text: &'a str) -> Self {
-        Self { is_scene: true, ..Self::of(file, text, schema::tables) }
+    /// The text of a file of these tables. Hints tell no meanings: a key of a scene that has its name means something else.
+    pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
+        let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
+        Self { file, text, settings: &[], ranges: &[], tables, meaning: |_| None, origin, beside }
     }
 
-    /// The same with what was set beside the file: the text has a line for each setting below it, at `ranges`.
+    /// The same file with what its keys mean.
+    pub(crate) fn with_meanings(self, meaning: fn(&str) -> Option<&'static str>) -> Self {
+        Self { meaning, ..self }
+    }
+
+    /// The same file with what was set beside it: a line of the text each, at these ranges.
     pub(crate) fn with_settings(self, settings: &'a [Setting], ranges: &'a [Range<usize>]) -> Self {
         Self { settings, ranges, ..self }
     }
 
-    /// The same, the files that it names being there.
+    /// The same file, those that it names being looked for there.
     pub(super) fn standing(self, origin: Origin) -> Self {
         Self { origin, ..self }
     }
 
-    /// The same with names and texts of files beside it that are not written yet.
+    /// The same file with names and texts of files beside it that are not written yet.
     pub(crate) fn with_beside(self, beside: &'a [(String, String)]) -> Self {
         Self { beside, ..self }
-    }
-
-    /// The text of a file with other tables.
-    pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
-        let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
-        Self { file, text, settings: &[], ranges: &[], tables, is_scene: false, origin, beside }
     }
 }
 
@@ -137,7 +137,7 @@ impl Source<'_> {
 
     /// The number of `key`, or `default`, within `low..=high`.
     pub fn number(&self, key: &str, value: &Number, default: f64, low: f64, high: f64) -> Result<f64, SceneError> {
-        self.within(key, value, default, [low, high], self.meaning(key))
+        self.within(key, value, default, [low, high], (self.meaning)(key))
     }
 
     /// The same of a key that means `about`.
@@ -165,7 +165,7 @@ impl Source<'_> {
             Ok(number) if (low..=high).contains(&number) => Ok(number),
             _ => {
                 let advice = hints::of_number(key, *value.get_ref() as f64, [low, high].map(f64::from));
-                Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), self.meaning(key)))
+                Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), (self.meaning)(key)))
             }
         }
     }
@@ -179,7 +179,7 @@ impl Source<'_> {
     pub(crate) fn number_up_to(&self, table: &Table, key: &str, value: &Number, end: f64) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
         let finite = |x: f64| if x.is_finite() { x } else { end.copysign(x) };
-        let about = table.about(key).or(self.meaning(key));
+        let about = table.about(key).or((self.meaning)(key));
         self.within(key, value, default.unwrap_or(0.0), [finite(low), finite(high)], about)
     }
 
@@ -244,7 +244,7 @@ impl Source<'_> {
             allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or "),
             advice: match keys::nearest(written, &names) {
                 Some(name) => Some(format!("did you mean \"{name}\"?")),
-                None => self.meaning(key).map(|about| format!("`{key}` means: {about}")),
+                None => (self.meaning)(key).map(|about| format!("`{key}` means: {about}")),
             },
         })
     }
@@ -263,11 +263,6 @@ impl Source<'_> {
             advice: Some(advice.unwrap_or_else(|| hints::of_range(key, &allowed, about))),
             allowed,
         }
-    }
-
-    /// What a key means in a scene; in another file a key of that name means something else.
-    fn meaning(&self, key: &str) -> Option<&'static str> {
-        self.is_scene.then(|| schema::meaning(key)).flatten()
     }
 }
 

@@ -39,7 +39,7 @@ impl Written {
     }
 
     fn source<'a>(&'a self, file: &'a Path) -> Source<'a> {
-        Source::scene(file, &self.0.all).with_settings(&self.0.settings, &self.0.ranges)
+        raw::source(file, &self.0.all, &self.0.settings, &self.0.ranges)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Forces, moments and energy of a result, put together again from its columns.
 
-use super::{Csv, csv::largest, judge::Case};
+use super::{Csv, case::Case, csv::largest};
 
 /// Sum of forces, of moments about one point and of torques, over the largest of them.
 const BALANCE: f64 = 1e-6;

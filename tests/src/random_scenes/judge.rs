@@ -7,6 +7,7 @@ use serde_json::Value as Json;
 use super::{
     Csv,
     balance::{equilibrium, ledger, pull, torque},
+    case::Case,
 };
 
 /// Tables of runs that have no history.
@@ -59,28 +60,6 @@ pub struct Judged {
     pub warnings: usize,
     /// What does not hold.
     pub wrong: Vec<String>,
-}
-
-/// A result with the scene as it was solved.
-pub struct Case<'a> {
-    /// The scene with every default.
-    pub inputs: &'a Json,
-    /// Facts of the pair.
-    pub summary: &'a Json,
-    /// Rows, with columns.
-    pub history: &'a Csv,
-}
-
-impl Case<'_> {
-    /// Word of a key of the scene.
-    pub fn word(&self, table: &str, key: &str) -> &str {
-        self.inputs[table][key].as_str().unwrap_or_default()
-    }
-
-    /// Whether the pair stands still.
-    pub fn is_static(&self) -> bool {
-        self.word("analysis", "kind") == "static"
-    }
 }
 
 /// Judges a folder of results.

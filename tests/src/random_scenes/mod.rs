@@ -11,13 +11,15 @@
 //! | `motion`, `cheaper` | motion in time; the models with few coordinates |
 //! | `whole_range` | any key of the schema over its whole range |
 //! | `mirror` | the same scene in a mirror, and what must stay the same |
-//! | `attempt` | one scene run in a process of its own, within limits of time and memory |
-//! | `judge`, `balance`, `csv` | what must hold of the files of a result |
+//! | `attempt` | the program run on one scene in a process of its own, within limits of time and memory |
+//! | `trial` | a scene solved and judged, and compared with its mirror image |
+//! | `judge`, `balance`, `case`, `csv` | what must hold of the files of a result |
 //! | `refusals` | which reasons of refusals are known, and whether they are true |
 //! | `verdict` | what became of a scene, as a line of JSON, and the table of all |
 
 mod attempt;
 mod balance;
+mod case;
 mod cheaper;
 mod csv;
 mod draft;
@@ -30,13 +32,15 @@ mod model;
 mod motion;
 mod question;
 mod refusals;
+mod trial;
 mod verdict;
 mod whole_range;
 
-pub use attempt::{Attempt, Limits, try_scene};
+pub use attempt::{Attempt, Limits};
 pub use csv::Csv;
 pub use draft::Draft;
 pub use refusals::{Refusals, matches};
+pub use trial::try_scene;
 pub use verdict::{Outcome, Tally, Verdict};
 pub use whole_range::keys_of_schema;
 

@@ -27,13 +27,13 @@ fn told(name: &str, text: &str) -> Told {
             rows: found.rows.len(),
             energy: found.rows.iter().map(|r| r.energy).collect(),
             open_over_vibration: found.headline.certificate.energy_open_over_vibration,
-            held: found.facts.certificate.verdict(&scene).is_ok(),
+            held: analysis::certificate::verdict(&found.facts.certificate, &scene).is_ok(),
         }
     } else {
         let found = LumpedAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{name}: {e}"));
         Told {
             rows: found.rows.len(),
-            held: found.certificate().verdict(&scene).is_ok(),
+            held: analysis::certificate::verdict(found.certificate(), &scene).is_ok(),
             open_over_vibration: found.headline.certificate.energy_open_over_vibration,
             energy: found.energy,
         }

@@ -2,10 +2,9 @@
 
 use geometry::GearPair;
 use scene::{Model, Quantity, Scene, Tolerance};
-use serde::Serialize;
 
 use super::{
-    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Features, Rung, Sample,
+    Accuracy, Bound, CalibratedMesh, Calibration, Cause, Features, Rung, Sample, TriedRung,
     companion::Companions,
     estimate::{estimate, free_estimate},
     features,
@@ -17,21 +16,6 @@ use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, SharedModels, StaticAnalysis, StaticResult,
     StaticSink,
 };
-
-/// A rung that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TriedRung {
-    /// Elements along the profile, as many in proportion in all other directions; `None` for meshes of the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_profile: Option<u32>,
-    /// Slices over the face width.
-    pub slices: Option<u32>,
-    /// Positions of the mesh cycle.
-    pub positions_per_cycle: u32,
-    /// Why it was left; `None` for the one that was taken.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_because: Option<String>,
-}
 
 /// The answer to a scene at rest, with bounds.
 #[derive(Debug)]

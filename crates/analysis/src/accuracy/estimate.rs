@@ -1,48 +1,14 @@
 //! Bounds of the headline numbers of a solved cycle.
 
 use scene::{Quantity, Scene};
-use serde::Serialize;
 
 use super::{
-    Bound, Calibration, Cause, Features, PairLaw, Sample, Term,
+    Accuracy, Bound, Calibration, Cause, Features, PairLaw, Sample, Term,
     companion::{Companion, Companions, Standing, stride},
     coverage::{beyond_calibration, not_covered},
     features::features,
 };
 use crate::{AnalysisError, GearCache, Observer, PhaseWork, StaticResult, results::static_headline, run_phase};
-
-/// How exact a result is, and how that is known.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Accuracy {
-    /// Share of the pairs of the calibration that lie within their bounds, by cause.
-    pub coverage: f64,
-    /// Pairs that the calibration was made of.
-    pub calibrated_on_pairs: usize,
-    /// What the run was held against.
-    pub held_against: String,
-    /// Bounds of all headline numbers that the run has.
-    pub bounds: Vec<Bound>,
-    /// Rungs of the ladder that were tried, in their order; empty where the scene says what is taken.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub rungs: Vec<super::TriedRung>,
-    /// Models of a motion that were tried, in their order; empty where the scene says what is taken, and at rest.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub models: Vec<super::motion::TriedModel>,
-    /// What the bounds do not cover.
-    pub not_covered: Vec<String>,
-}
-
-impl Accuracy {
-    /// Whether everything that is asked is kept.
-    pub fn is_met(&self) -> bool {
-        self.bounds.iter().all(|b| b.met != Some(false))
-    }
-
-    /// What is asked and not kept.
-    pub fn missed(&self) -> impl Iterator<Item = &Bound> {
-        self.bounds.iter().filter(|b| b.met == Some(false))
-    }
-}
 
 /// Bounds of a solved cycle: of a scene like those of the calibration on a mesh that it knows from its laws, which takes
 /// no time; of any other from a companion on a rung of the ladder as well.

@@ -10,6 +10,7 @@
 //! | `analysis` | which rung is exact enough? |
 //! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
+//! | `exactness` | what is said of a run's error in the end? |
 //! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration`, `calibrated_mesh`, `features`, `law` | how does the error go with what is known of a run? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
@@ -24,6 +25,7 @@ mod companion;
 mod coverage;
 mod coverage_flanks;
 mod estimate;
+mod exactness;
 mod features;
 mod kept_gears;
 mod law;
@@ -33,11 +35,11 @@ mod quantity;
 mod rung;
 mod solved_cycle;
 
-pub use analysis::{AccurateAnalysis, AccurateResult, TriedRung};
+pub use analysis::{AccurateAnalysis, AccurateResult};
 pub use bound::{Bound, Cause, Term};
 pub use calibrated_mesh::CalibratedMesh;
 pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
-pub use estimate::Accuracy;
+pub use exactness::{Accuracy, TriedRung};
 pub use features::{FEATURES, Features, features};
 pub use kept_gears::KeptGears;
 pub use law::Law;

@@ -1,6 +1,7 @@
 //! Runs one point and says what it took.
 
-use scene::Scene;
+use ltca::StaticModel;
+use scene::{Analysis, Scene};
 use study::{Answer, Work};
 
 use super::{
@@ -10,7 +11,7 @@ use super::{
     plan::Engine,
 };
 use crate::{
-    AnalysisError, NoSink, StaticAnalysis, StaticResult, accuracy::BoundsOfResults, static_certificate, time_again,
+    AnalysisError, NoSink, StaticAnalysis, StaticResult, accuracy::BoundsOfResults, solver_error, static_certificate,
 };
 
 /// Phase of the positions.
@@ -46,7 +47,7 @@ pub(super) fn measure(
 fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults>) -> Result<Measured, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
     let solved = StaticAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
-    static_certificate(&point.scene, &solved.history.positions).verdict(&point.scene)?;
+    crate::certificate::verdict(&static_certificate(&point.scene, &solved.history.positions), &point.scene)?;
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
     let peak_memory_mb = phases.peak_mb();
     let (offline_s, run_s) = (phases.wall_s(|name| name != SOLVE), phases.wall_s(|name| name == SOLVE));
@@ -77,6 +78,18 @@ fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults
     };
     let widened = history.warnings.iter().find(|w| w.contains("the window was widened"));
     Ok(Measured { work, answer, note: widened.cloned().unwrap_or_default(), accuracy })
+}
+
+/// Wall time (s) of the scene's positions once more on gears that are reduced already.
+///
+/// # Errors
+/// [`AnalysisError::Solver`].
+fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisError> {
+    let start = std::time::Instant::now();
+    let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
+    let run = model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ());
+    run.map_err(|e| solver_error(scene, e))?;
+    Ok(start.elapsed().as_secs_f64())
 }
 
 /// Seconds of one cycle of a model without meshes, a mean of many.

@@ -90,7 +90,7 @@ fn elastic(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, Analysis
         // Nobody asked it to stop.
         return Err(AnalysisError::other_analysis(scene, "motion"));
     };
-    result.facts.certificate.verdict(scene)?;
+    crate::certificate::verdict(&result.facts.certificate, scene)?;
     let dte: Vec<f64> = result.rows.iter().map(|row| row.dte_um).collect();
     let offline_s = phases.wall_s(|name| !matches!(name, "settle" | "solve"));
     Ok(MotionPoint::of(&dte, 1, offline_s, phases.wall_s(|name| name == "solve") / f64::from(CYCLES)))

@@ -228,7 +228,7 @@ fn curve(scene: &Scene, sweep: &SweepScene) -> Result<ResonanceCurve, AnalysisEr
         let of_row = LumpedQuantity::new("dte_um", |row| row.transmission_error_um);
         let (scenes, options) = SweepOptions::over_speed(scene, sweep, of_row);
         let found = KeySweep::new(&scenes, &options).solve_with(&mut phases)?;
-        found.facts.certificate.verdict(scene)?;
+        crate::certificate::verdict(&found.facts.certificate, scene)?;
         let of = |point: &SweepPoint| SpeedPoint {
             way: point.way,
             speed_rpm: point.value,

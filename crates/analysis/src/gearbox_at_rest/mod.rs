@@ -5,17 +5,17 @@
 //! | `parts`, `bearings` | shafts, discs and bearings of the file |
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
-//! | `missed` | what does not hold |
+//! | `checks` | what must hold |
 //! | `motion`, `orders`, `sink` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints |
-//! | `result` | what is read off all positions |
-//! | `room` | what is said of parts that have no room, and of large deflections |
+//! | `result` | what is read off all positions, and what is said of large deflections |
+//! | `room` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
 mod bearings;
+mod checks;
 mod inertia;
 mod loads;
 mod meshes;
-mod missed;
 mod motion;
 mod orders;
 mod parts;
@@ -36,7 +36,6 @@ use scene::gearbox::Gearbox;
 use crate::{AnalysisError, GearCache, NoCache, Observer, PhaseWork, run_phase, unless_cancelled};
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
-pub use missed::Missed;
 pub use motion::GearboxMotionResult;
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};

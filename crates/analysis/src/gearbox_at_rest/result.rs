@@ -4,13 +4,11 @@ use gearbox::{GearboxPosition, Mesh, Structure, Train, face_load_factor};
 use geometry::{GearPair, Side};
 use scene::gearbox::Gearbox;
 
-use super::{
-    GearboxMotionResult, GearboxSwings, RollingLoad,
-    bearings::rolling_load,
-    meshes::ReducedMesh,
-    room::{deflections, room},
-};
-use crate::{plausible::effective_modulus, waves::waves_on};
+use super::{GearboxMotionResult, GearboxSwings, RollingLoad, bearings::rolling_load, meshes::ReducedMesh, room::room};
+use crate::{plausible::effective_modulus, warnings::large_error, waves::waves_on};
+
+/// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
+const LARGE: f64 = 0.2;
 
 /// A gearbox at rest, solved.
 #[derive(Debug, Clone)]
@@ -102,6 +100,15 @@ fn mean(values: impl Iterator<Item = f64>) -> f64 {
 fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     if low <= high { high - low } else { 0.0 }
+}
+
+/// Transmission errors that are too large for linear elasticity.
+fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<String> {
+    let one = |(mesh, pair): (&MeshResult, &GearPair)| {
+        let said = large_error(mesh.largest_transmission_error, (LARGE, pair.pinion.data().normal_module));
+        said.map(|said| format!("{}: {said}", mesh.name))
+    };
+    meshes.iter().zip(pairs).filter_map(one).collect()
 }
 
 pub(super) fn result(

@@ -3,12 +3,6 @@
 use geometry::{Gear, GearPair};
 use scene::gearbox::{Gearbox, GearboxGear};
 
-use super::result::MeshResult;
-use crate::warnings::large_error;
-
-/// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
-const LARGE: f64 = 0.2;
-
 /// What stands on a shaft: from and to along z of the common axes, and its radius, mm.
 struct Body<'a> {
     name: &'a str,
@@ -41,15 +35,6 @@ pub(super) fn room(file: &Gearbox, pairs: &[GearPair]) -> Vec<String> {
         }
     }
     said
-}
-
-/// Transmission errors that are too large for linear elasticity.
-pub(super) fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<String> {
-    let one = |(mesh, pair): (&MeshResult, &GearPair)| {
-        let said = large_error(mesh.largest_transmission_error, (LARGE, pair.pinion.data().normal_module));
-        said.map(|said| format!("{}: {said}", mesh.name))
-    };
-    meshes.iter().zip(pairs).filter_map(one).collect()
 }
 
 /// A gear as the first pair that it is in knows it.

@@ -14,15 +14,17 @@ use super::{
     free_turn::FreeTurn,
     headline::{HeadlineInputs, LumpedHeadline, headline},
     inputs::{LumpedInputs, LumpedSystem},
+    integration::{MeshFrequencies, stable_step},
     mechanism::BoxedMechanism,
-    run_loop::{LumpedRun, MeshFrequencies, NoRunObserver, RunObserver, RunPlan, stable_step},
+    run_loop::{LumpedRun, NoRunObserver, RunObserver, RunPlan},
     warnings::{backlash_um, certificate_warnings, no_backlash},
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
-    certificate::Certificate,
+    certificate::Checks,
     facts::{Facts, Resolution},
     gears,
+    inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
     plausible::remarks,
@@ -89,7 +91,7 @@ impl LumpedResult {
     }
 
     /// What must hold of it.
-    pub fn certificate(&self) -> &Certificate {
+    pub fn certificate(&self) -> &Checks {
         &self.facts.certificate
     }
 }
@@ -128,7 +130,7 @@ impl<'a> LumpedAnalysis<'a> {
     }
 
     /// Runs it; rows go into `sink` as they come. A result whose certificate does not hold is a result all the same:
-    /// [`Certificate::verdict`] says so.
+    /// [`Facts::verdict`] says so.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -170,7 +172,7 @@ impl<'a> LumpedAnalysis<'a> {
         let run = run.map_err(|e| e.of(&scene))?;
         within_bounds(&run.rows)?;
         let at_rest = static_cycle.iter().flatten().map(|point| 1e3 * point.error);
-        facts.certificate = certificate(&inputs, &run, at_rest).and(Certificate::new(system.model.checks()));
+        facts.certificate = certificate(&inputs, &run, at_rest).and(Checks::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
         let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
         let mut found = || {
@@ -257,11 +259,6 @@ impl RunObserver for RowsOnward<'_> {
     }
 }
 
-/// The motion that a scene asks for.
-pub(super) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
-    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
-}
-
 /// Rows of a run to the steady state alone, and the mesh cycles that it took in all: for comparing models.
 ///
 /// # Errors
@@ -289,7 +286,8 @@ pub(super) fn checked_run(
     let plan = RunPlan { scene, motion, frequencies, from };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
-    certificate(inputs, &run, std::iter::empty()).and(Certificate::new(model.checks())).verdict(scene)?;
+    let checks = certificate(inputs, &run, std::iter::empty()).and(Checks::new(model.checks()));
+    crate::certificate::verdict(&checks, scene)?;
     Ok(run)
 }
 
@@ -313,7 +311,7 @@ fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
 
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,
 /// and rigid teeth stay in mesh, also `at_rest` (transmission errors, um).
-fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<Item = f64>) -> Certificate {
+fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<Item = f64>) -> Checks {
     let LumpedInputs { scene, pair, .. } = inputs;
     let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
     if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
@@ -332,7 +330,7 @@ fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<It
             scene.pair.normal_module_mm,
         ));
     }
-    Certificate::new(all)
+    Checks::new(all)
 }
 
 /// Geometry, and coordinates as degrees of freedom.

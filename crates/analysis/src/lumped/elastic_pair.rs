@@ -4,13 +4,12 @@ use std::{path::PathBuf, time::Instant};
 
 use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
 use geometry::GearPair;
-use nalgebra::DVector;
 use scene::{Model, MotionScene, Operation, Scene};
 
 use super::{
     LumpedHeadline,
-    analysis::motion_of,
-    mapped::MappedModel,
+    elastic_frame::ElasticFrame,
+    mapped::{MappedModel, WORST_MAP},
     mechanism::BoxedMechanism,
     reduced::ReducedModel,
     row::{GearCoordinate, axis_number, gear_coordinates},
@@ -18,6 +17,7 @@ use super::{
 use crate::{
     AnalysisError, GearCache, MapKey, Observer, PhaseWork,
     failure::Failure,
+    inputs::motion_of,
     motion::{
         Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
         prepare,
@@ -30,8 +30,6 @@ const OVERLOAD: f64 = 6.0;
 /// Error of a map over the mean approach of the flanks, root mean square, that is aimed at: at rest the approach of a
 /// smooth pair swings by a few per cent of its mean, and a hundredth of that is to be seen.
 const MAP_TOLERANCE: f64 = 3e-5;
-/// The same that is the most.
-pub(super) const WORST_MAP: f64 = 3e-4;
 /// Contacts that a step of the model "reduced" solves.
 const CONTACTS_OF_A_STEP: f64 = 3.0;
 
@@ -50,19 +48,6 @@ pub(crate) struct ElasticPair {
 enum PairContact {
     Solved(Box<PairMechanism>),
     Mapped(Box<MappedPair>),
-}
-
-/// Sizes and places of coordinates.
-#[derive(Debug, Clone)]
-pub(super) struct ElasticFrame {
-    /// Lag of the driven gear at rest, mm: the mean of a mesh cycle.
-    pub lag: f64,
-    /// What counts as a large motion of each coordinate.
-    pub scale: DVector<f64>,
-    /// Places of the free coordinates among the twelve of both gears.
-    pub free: Vec<usize>,
-    /// Transmission error of the mesh cycle at rest, mm.
-    pub at_rest: Vec<f64>,
 }
 
 /// The scene as far as the gears depend on it: all but the speed. Mesh damping, which [motion] has, is the pair's.

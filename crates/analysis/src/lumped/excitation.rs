@@ -102,7 +102,7 @@ impl<'a> ExcitationSource<'a> {
             .with_cache(self.cache)
             .solve_into(self.observer, &mut NoSink)?;
         // Nothing is fed by what does not hold.
-        static_certificate(scene, &solved.history.positions).verdict(scene)?;
+        crate::certificate::verdict(&static_certificate(scene, &solved.history.positions), scene)?;
         let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
         let driven = [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == Driver::Wheel)];
         let cycle = MeshCycle::fed(

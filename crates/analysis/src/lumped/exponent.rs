@@ -11,8 +11,8 @@ use study::Lyapunov;
 
 use super::{
     free_turn::FreeTurn,
+    integration::{MeshFrequencies, integrator},
     mechanism::{BoxedMechanism, ModelFailure},
-    run_loop::{self, MeshFrequencies},
 };
 
 /// Part of the stretches that pass before counting begins: the difference turns into its direction of fastest growth.
@@ -46,7 +46,7 @@ pub(super) fn exponent(
     let asked = model.forces(state.time, &state.q, &state.v, &mut tangents[0]);
     asked.map_err(ModelFailure::at(state.time))?;
     let mut last = state.time;
-    let mut integrator = run_loop::integrator(model, motion, frequencies.step(motion));
+    let mut integrator = integrator(model, motion, frequencies.step(motion));
     let mut failure = None;
     let mut rates = Vec::with_capacity(stretches as usize);
     let settling = stretches / SETTLING;

@@ -14,9 +14,10 @@ use super::{
     LumpedHeadline,
     elastic_pair::ElasticPair,
     excitation::{ExcitationSource, MeshExcitation},
-    impact, lumped_pair,
+    impact,
+    integration::MeshFrequencies,
+    lumped_pair,
     mechanism::{BoxedMechanism, Formulas, StaticPoint},
-    run_loop::MeshFrequencies,
     shafts,
 };
 use crate::{AnalysisError, plausible::refuse};

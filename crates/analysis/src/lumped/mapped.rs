@@ -8,13 +8,16 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
-    elastic_pair::{ElasticFrame, WORST_MAP},
+    elastic_frame::ElasticFrame,
     mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::certificate::Check;
 
 /// Part of a mesh cycle either way over which the velocities of a start are taken.
 const SPAN: f64 = 1e-3;
+
+/// Error of a map over the mean approach of the flanks, root mean square, that is the most.
+pub(super) const WORST_MAP: f64 = 3e-4;
 
 /// A pair on its map, as the run of a cheaper model asks for it.
 pub(super) struct MappedModel {
@@ -111,16 +114,16 @@ impl LumpedMechanism for MappedModel {
         let worst = self.pair.maps().map(|m| m.certificate()).map(|c| c.rms_error_mm / c.deflection_mm);
         vec![
             Check {
-                name: "map_error",
+                name: "map_error".into(),
                 value: worst.fold(0.0, crate::worse),
                 bound: WORST_MAP,
-                way_out: "use `model = \"reduced\"`, which solves the contact itself",
+                hint: "use `model = \"reduced\"`, which solves the contact itself",
             },
             Check {
-                name: "map_excess",
+                name: "map_excess".into(),
                 value: crate::worse(excess.force, excess.tilt),
                 bound: 1.0,
-                way_out: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
+                hint: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
             },
         ]
     }

@@ -11,11 +11,11 @@
 //! | `inputs` | all that a model is made of |
 //! | `excitation` | stiffness over the mesh cycle: given, of the reduced model, of ISO |
 //! | `bodies` | bodies, supports and torques of the scene |
-//! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `mapped`, `reduced` | the models |
+//! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `elastic_frame`, `mapped`, `reduced` | the models |
 //! | `free_turn` | the motion that nothing holds |
 //! | `shooting` | the periodic state by Newton's method |
 //! | `exponent` | the largest Lyapunov exponent of a motion |
-//! | `run_loop`, `periodicity` | a run of any of them |
+//! | `integration`, `run_loop`, `periodicity` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
 
@@ -24,6 +24,7 @@ mod basins;
 mod bodies;
 mod branch;
 mod campbell;
+mod elastic_frame;
 mod elastic_pair;
 mod excitation;
 mod exponent;
@@ -31,6 +32,7 @@ mod free_turn;
 mod headline;
 mod impact;
 mod inputs;
+mod integration;
 mod lumped_pair;
 mod mapped;
 mod mechanism;

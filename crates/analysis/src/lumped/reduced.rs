@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
-    elastic_pair::ElasticFrame,
+    elastic_frame::ElasticFrame,
     mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::{

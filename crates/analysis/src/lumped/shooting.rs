@@ -16,8 +16,8 @@ use scene::MotionScene;
 
 use super::{
     free_turn::FreeTurn,
+    integration::{MeshFrequencies, integrator},
     mechanism::{BoxedMechanism, ModelFailure},
-    run_loop::{self, MeshFrequencies},
 };
 
 /// Newton steps before it is left to waiting; three or four do.
@@ -113,7 +113,7 @@ impl Shooting<'_> {
         asked.map_err(ModelFailure::at(from.time))?;
         let mut state = from.clone();
         let mut extent = [stacked(&state, units), stacked(&state, units)];
-        let integrator = run_loop::integrator(model, self.motion, self.frequencies.step(self.motion));
+        let integrator = integrator(model, self.motion, self.frequencies.step(self.motion));
         // Nobody asks for the energy of the search, and the state has all that a start would have to find.
         let mut integrator = integrator.resumed(Ledger::default());
         let (mut last, mut failure) = (from.time, None);

@@ -12,8 +12,8 @@ use super::{
     checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
     headline,
-    setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, fastest_hz, mesh_range_hz, prepare, speed},
-    step_estimate::{Pace, StepDemand},
+    setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
+    step_estimate::{Pace, StepDemand, fastest_hz},
     unresolved, warnings, waterfall,
 };
 use crate::{

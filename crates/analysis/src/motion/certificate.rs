@@ -6,14 +6,14 @@ use scene::Scene;
 
 use super::{MotionHeadline, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
 use crate::{
-    certificate::{Certificate, Check},
+    certificate::{Check, Checks},
     plausible::pressure_check,
 };
 
 /// What must hold of one speed of a sweep: the same as of a motion alone.
-pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepPoint) -> Certificate {
+pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepPoint) -> Checks {
     let force = point.extremes.largest_force.max(point.coast_force);
-    Certificate::new([
+    Checks::new([
         deflection_check_in_motion(scene, pair, point.transmission_error.iter().copied()),
         energy_check(point.ledger.open_over_vibration()),
         pulling_check(point.extremes.least_force.unwrap_or(0.0), force),
@@ -23,16 +23,16 @@ pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepP
 
 impl MotionHeadline {
     /// Energy, flanks that pull, forces that tooth changes set off, deflection and pressure that linear elasticity holds for.
-    pub(super) fn checks(&self, scene: &Scene, pair: &GearPair) -> Certificate {
+    pub(super) fn checks(&self, scene: &Scene, pair: &GearPair) -> Checks {
         let c = &self.certificate;
         let errors = [self.min_dte_um, self.max_dte_um].map(|um| 1e-3 * um);
         let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
-        Certificate::new([
+        Checks::new([
             energy_check(c.energy_open_over_vibration),
             pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
             force_jump_check(c.force_jump_at_tooth_change_n, force),
             deflection_check_in_motion(scene, pair, errors.into_iter()),
-            Check { name: "dynamic_pressure_over_modulus", ..pressure_check(scene, self.max_pressure_mpa) },
+            Check { name: "dynamic_pressure_over_modulus".into(), ..pressure_check(scene, self.max_pressure_mpa) },
         ])
     }
 }
@@ -72,7 +72,7 @@ mod tests {
         let missed = |change: fn(&mut SweepPoint)| {
             let mut point = sound();
             change(&mut point);
-            checks_of_speed((&scene, &pair), &point).missed().map(|check| check.name).collect::<Vec<_>>()
+            checks_of_speed((&scene, &pair), &point).missed().map(|check| check.name.to_string()).collect::<Vec<_>>()
         };
         assert_eq!(missed(|_| ()), [""; 0]);
         assert_eq!(missed(|p| p.ledger.open = 0.011), ["energy_residual"]);

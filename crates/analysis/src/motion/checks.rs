@@ -29,7 +29,7 @@ const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leav
 /// ([`integrate::Ledger::open_over_vibration`]). What goes through the pair is no measure of it: in a light vibration it
 /// is many thousand times the energy of that.
 pub fn energy_check(open_over_vibration: f64) -> Check {
-    Check { name: "energy_residual", value: open_over_vibration, bound: ENERGY, way_out: ENERGY_WAY_OUT }
+    Check { name: "energy_residual".into(), value: open_over_vibration, bound: ENERGY, hint: ENERGY_WAY_OUT }
 }
 
 /// The least force of a slice in contact (N), below zero where a flank pulls, over the largest normal force (N).
@@ -57,18 +57,18 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
         if e.is_nan() { [e; 2] } else { [if e < least { e } else { least }, if e > largest { e } else { largest }] }
     });
     let deflection = deflection_in_motion(scene, pair, ends);
-    Check { name: "dynamic_deflection_over_module", ..deflection_check(scene, deflection) }
+    Check { name: "dynamic_deflection_over_module".into(), ..deflection_check(scene, deflection) }
 }
 
 /// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on
 /// teeth have passed each other, and no law of a mesh holds.
 pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {
-    Check { name: "flank_excursion", value: farthest_mm / module_mm, bound: 1.0, way_out: EXCURSION_WAY_OUT }
+    Check { name: "flank_excursion".into(), value: farthest_mm / module_mm, bound: 1.0, hint: EXCURSION_WAY_OUT }
 }
 
 /// A force that should not be (N) over the largest normal force (N).
 fn contact_check(name: &'static str, force_n: f64, largest_n: f64) -> Check {
-    Check { name, value: over(force_n, largest_n), bound: CONTACT, way_out: CONTACT_WAY_OUT }
+    Check { name: name.into(), value: over(force_n, largest_n), bound: CONTACT, hint: CONTACT_WAY_OUT }
 }
 
 /// A share; nothing is no share of anything.

@@ -10,7 +10,7 @@
 //! | `pattern` | what the flanks are pressed by |
 //! | `headline` | the few numbers that a motion is made for |
 //! | `checks`, `certificate` | what must hold of any motion, and of these |
-//! | `warnings`, `step_estimate` | what a user should hear; how many steps a longer analysis would take |
+//! | `warnings`, `step_estimate` | what a user should hear; how many steps the fastest motion and a longer analysis take |
 //! | `sweep` | [`SweepAnalysis`]: steady states over speed |
 //! | `precision` | step sizes against errors of every method |
 
@@ -30,6 +30,7 @@ mod step_estimate;
 mod sweep;
 mod warnings;
 
+pub use crate::unstable_steps::{Steps, UnstableSteps};
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
 pub use checks::{
     MOTION_WAY_OUT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
@@ -43,8 +44,8 @@ pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
 pub(crate) use resolved::unresolved;
 pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
 pub use setup::{
-    ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, Steps, UnstableSteps, bearing, drive,
-    motion_options, refuse_unstable, scheme, speed, stated_body, steady_by, torque,
+    ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, bearing, drive, motion_options, refuse_unstable,
+    scheme, speed, stated_body, steady_by, torque,
 };
 pub(crate) use setup::{Elasticity, MotionInputs, PreparedMotion, Vibration, body, mesh_range_hz, pair_drive, prepare};
 pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};

@@ -2,9 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use dynamics::PairMechanism;
 use scene::{MotionScene, Run, Scene};
-
-use super::setup::{PreparedMotion, fastest_hz};
 
 /// A step with twelve normal modes of either gear over one without: measured 2.8.
 const MODES_COST: f64 = 2.8;
@@ -67,12 +66,16 @@ impl StepDemand {
     }
 
     /// As the scene has it, before it begins: steps of a cycle times cycles, the lowest mode dying out among them.
-    pub fn as_it_is(&self, prepared: &PreparedMotion) -> StepEstimate {
-        let fastest = fastest_hz(&prepared.system);
-        let slowest =
-            prepared.system.mode_frequencies_hz().into_iter().fold(prepared.system.mesh_resonance_hz(), f64::min);
+    pub fn as_it_is(&self, system: &PairMechanism) -> StepEstimate {
+        let fastest = fastest_hz(system);
+        let slowest = system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::min);
         StepEstimate { cost: 1.0, ..self.with_modes(fastest, slowest, true) }
     }
+}
+
+/// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.
+pub(crate) fn fastest_hz(system: &PairMechanism) -> f64 {
+    system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::max)
 }
 
 impl Pace {

@@ -8,10 +8,10 @@ use scene::{Flanks, MotionScene, Run, Scene};
 use super::{
     MotionHeadline, SweepHeadline,
     course::failure,
-    setup::{PreparedMotion, Steps, fastest_hz, mesh_range_hz, refuse_unstable},
-    step_estimate::{Pace, StepDemand},
+    setup::{PreparedMotion, mesh_range_hz, refuse_unstable},
+    step_estimate::{Pace, StepDemand, fastest_hz},
 };
-use crate::failure::Failure;
+use crate::{failure::Failure, unstable_steps::Steps};
 
 /// More steps than this in a mesh cycle take half a minute or more.
 const SLOW: f64 = 20_000.0;
@@ -109,7 +109,7 @@ pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
         Some(ramp) => (ramp.before_s + ramp.duration_s + ramp.after_s) * 0.5 * (mesh_hz[0] + mesh_hz[1]),
         None => motion.duration_s.map_or(f64::from(scene.analysis.cycles), |t| t * mesh_hz[1]),
     };
-    let estimate = StepDemand::new(scene, motion, cycles, mesh_hz).as_it_is(prepared);
+    let estimate = StepDemand::new(scene, motion, cycles, mesh_hz).as_it_is(&prepared.system);
     (estimate.steps() > LONG).then(|| {
         format!(
             "with its normal modes this motion takes {}: the highest kept mode, {:.0} Hz, says how long they are, and the lowest settles slowly; fewer modes (`below_hz` in [modes]), more \

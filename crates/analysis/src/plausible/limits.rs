@@ -24,13 +24,13 @@ pub fn effective_modulus(scene: &Scene) -> f64 {
 /// The largest deflection of a pair (mm) over its module.
 pub fn deflection_check(scene: &Scene, deflection_mm: f64) -> Check {
     let value = deflection_mm / scene.pair.normal_module_mm;
-    Check { name: "deflection_over_module", value, bound: DEFLECTION_BOUND, way_out: WAY_OUT }
+    Check { name: "deflection_over_module".into(), value, bound: DEFLECTION_BOUND, hint: WAY_OUT }
 }
 
 /// The largest pressure (MPa) over E*.
 pub fn pressure_check(scene: &Scene, pressure_mpa: f64) -> Check {
     let value = pressure_mpa / effective_modulus(scene);
-    Check { name: "pressure_over_modulus", value, bound: PRESSURE_BOUND, way_out: WAY_OUT }
+    Check { name: "pressure_over_modulus".into(), value, bound: PRESSURE_BOUND, hint: WAY_OUT }
 }
 
 /// Deflection (mm) at the least that a transmission error between two values (mm) stands for in a motion, whose flanks

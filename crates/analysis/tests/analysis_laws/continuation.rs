@@ -59,7 +59,7 @@ pub fn followed(scene: SceneBuilder, [from, to]: [f64; 2]) -> (Scene, Continuati
         .set("motion.steps_per_mesh_cycle", 256);
     let scene = words.build().unwrap_or_else(|e| panic!("{e}"));
     let found = ContinuationAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{e}"));
-    found.facts.certificate.verdict(&scene).unwrap_or_else(|e| panic!("{e}"));
+    analysis::certificate::verdict(&found.facts.certificate, &scene).unwrap_or_else(|e| panic!("{e}"));
     (scene, found)
 }
 

@@ -52,7 +52,7 @@ fn it_moves_as_the_reduced_model() {
         let exact = MotionAnalysis::new(&built(change(small("reduced")))).solve().unwrap_or_else(|e| panic!("{e}"));
         let scene = built(change(small("mapped")));
         let mapped = LumpedAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{e}"));
-        mapped.certificate().verdict(&scene).unwrap_or_else(|e| panic!("{e}"));
+        analysis::certificate::verdict(mapped.certificate(), &scene).unwrap_or_else(|e| panic!("{e}"));
         let (a, b) = (&exact.headline, &mapped.headline);
         let [range, mean] = [a.peak_to_peak_dte_um, a.mean_dte_um];
         let off = (b.peak_to_peak_dte_um / range - 1.0).abs();

@@ -90,7 +90,10 @@ pub(super) fn reference(file: &str, settings: &[String], found: impl FnOnce() ->
 fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, AnalysisError> {
     let scene = scene(file, text, settings)?;
     let solved = AccurateAnalysis::new(&scene).solve()?;
-    static_certificate(&solved.scene, &solved.result.history.positions).verdict(&solved.scene)?;
+    analysis::certificate::verdict(
+        &static_certificate(&solved.scene, &solved.result.history.positions),
+        &solved.scene,
+    )?;
     let without = || AnalysisError::WithAccuracy { file: file.to_owned() };
     let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
@@ -154,7 +157,7 @@ fn refusal(error: &AnalysisError) -> Outcome {
 fn moved(file: &str, text: &str, settings: &[String]) -> Result<LumpedResult, AnalysisError> {
     let scene = scene(file, text, settings)?;
     let result = LumpedAnalysis::new(&scene).solve()?;
-    result.certificate().verdict(&scene)?;
+    analysis::certificate::verdict(result.certificate(), &scene)?;
     Ok(result)
 }
 

@@ -10,7 +10,7 @@
 //! sigma = 2 mu eps + E nu / (1 - nu^2) tr(eps) P                            plane stress, MPa
 //! ```
 //! Evaluated where the strains of the face are most accurate (quadrilaterals of order 2: 2 x 2 Gauss points, triangles
-//! of order 2: three, faces of order 1: the centre), in frames that follow the face; [`super::patch`] carries it to the
+//! of order 2: three, faces of order 1: the centre), in frames that follow the face. Patch recovery carries it to the
 //! nodes.
 
 use mesh::FaceKind::{self, Quad4, Quad8, Quad9, Tri3, Tri6};

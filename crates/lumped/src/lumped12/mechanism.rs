@@ -41,6 +41,16 @@ impl Spring {
     }
 }
 
+impl Lumped12 {
+    /// The mechanism.
+    ///
+    /// # Errors
+    /// [`LumpedError`] for what has no meaning.
+    pub fn motion(&self) -> Result<Motion12, LumpedError> {
+        Motion12::new(self.clone())
+    }
+}
+
 impl Motion12 {
     /// Checks the parameters and sets up mass and supports.
     ///

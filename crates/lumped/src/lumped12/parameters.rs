@@ -4,7 +4,6 @@ use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::Motion12;
 use crate::{LumpedError, LumpedPair, error::not_negative};
 
 /// Springs that hold one gear: bearings, and what drives or loads it.
@@ -51,14 +50,6 @@ impl Lumped12 {
         let made = Self { pair, supports, rayleigh: [b * frequencies[0] * frequencies[1], b] };
         made.check()?;
         Ok(made)
-    }
-
-    /// The mechanism.
-    ///
-    /// # Errors
-    /// [`LumpedError`] for what has no meaning.
-    pub fn motion(&self) -> Result<Motion12, LumpedError> {
-        Motion12::new(self.clone())
     }
 
     /// A state at `t` = 0 s from coordinates and velocities, mm, rad and s.

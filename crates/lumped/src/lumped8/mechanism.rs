@@ -35,6 +35,16 @@ struct Mesh {
     lines: LineMeans,
 }
 
+impl Lumped8 {
+    /// The mechanism.
+    ///
+    /// # Errors
+    /// [`LumpedError`] for what has no meaning.
+    pub fn motion(&self) -> Result<Motion8, LumpedError> {
+        Motion8::new(self.clone())
+    }
+}
+
 impl Motion8 {
     /// Checks the parameters and sets up mass and supports.
     ///

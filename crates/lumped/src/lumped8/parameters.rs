@@ -4,7 +4,7 @@ use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
-use super::{MeshLaw, Motion8};
+use super::MeshLaw;
 use crate::{LumpedError, LumpedPair, error::not_negative};
 
 /// Support of one gear.
@@ -61,14 +61,6 @@ impl Lumped8 {
         let made = Self { pair, supports, mesh_damping, half_backlash, law };
         made.check()?;
         Ok(made)
-    }
-
-    /// The mechanism.
-    ///
-    /// # Errors
-    /// [`LumpedError`] for what has no meaning.
-    pub fn motion(&self) -> Result<Motion8, LumpedError> {
-        Motion8::new(self.clone())
     }
 
     /// b_n, seen along the transverse line of action: the mesh deflection at which the driving flanks begin to touch,

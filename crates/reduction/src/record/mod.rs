@@ -24,8 +24,7 @@ const MAGIC: [u8; 16] = *b"ale-gear reduced";
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
 /// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the
-/// factor, which [`crate::GearReducer::from_record`] makes again when displacement fields or stress modes are asked
-/// for.
+/// factor, which a reducer from a record makes again when displacement fields or stress modes are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
 ///

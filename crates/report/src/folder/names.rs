@@ -75,5 +75,7 @@ pub(super) fn is_ours(name: &str) -> bool {
     OURS.contains(&name)
         || name.ends_with(".vtu")
         || name.ends_with(".pvd")
+        // The rows of any file with commas, column by column.
+        || name.strip_suffix(".parquet").is_some_and(|stem| OURS.contains(&format!("{stem}.csv").as_str()))
         || (name.starts_with("compare_") && name.ends_with(".svg"))
 }

@@ -1,6 +1,9 @@
 //! By what a result folder is known: its `summary.json`, which says whose it is and lists its files.
 
-use std::{fs, io, path::Path};
+use std::{
+    fs, io,
+    path::{Component, Path},
+};
 
 use files::{Kind, is_left_over, is_work_folder, most, read_regular_text, stranger, take_away_left_overs};
 use serde_json::{Value, json};
@@ -29,8 +32,16 @@ fn listed(folder: &Path) -> Option<Vec<String>> {
     if summary["program"] != "ale-gear" {
         return None;
     }
-    let files = summary["files"].as_array()?;
-    Some(files.iter().filter_map(Value::as_str).chain([SUMMARY]).map(str::to_owned).collect())
+    let files = summary["files"].as_array()?.iter().filter_map(Value::as_str).filter(|name| may_be_listed(name));
+    Some(files.chain([SUMMARY]).map(str::to_owned).collect())
+}
+
+/// Whether a result may list a file of that name: a plain name of its own, which no way leads out of the folder. A
+/// summary that somebody else has written is not trusted with anything else.
+fn may_be_listed(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    let is_plain = matches!((parts.next(), parts.next()), (Some(Component::Normal(_)), None));
+    is_plain && (is_ours(name) || name == CASES)
 }
 
 /// Gives a result that has no summary one that says whose it is.
@@ -127,4 +138,31 @@ pub(crate) fn remove_result(folder: &Path) -> io::Result<()> {
         fs::remove_file(folder.join(SUMMARY))?;
     }
     fs::remove_dir(folder)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A summary that lists files elsewhere once had them deleted.
+    #[test]
+    fn a_forged_list_takes_nothing_away() {
+        let scratch = tempfile::tempdir().unwrap();
+        let folder = scratch.path().join("o");
+        fs::create_dir(&folder).unwrap();
+        let thesis = scratch.path().join("thesis.tex");
+        fs::write(&thesis, "years of work").unwrap();
+        let absolute = thesis.display().to_string();
+        let own = scratch.path().join("fields.vtu");
+        fs::write(&own, "fields").unwrap();
+        let list = [absolute.as_str(), "../thesis.tex", "../fields.vtu", "./history.csv", "notes.md", "history.csv"];
+        fs::write(folder.join("history.csv"), "time_s\n").unwrap();
+        fs::write(folder.join("notes.md"), "notes").unwrap();
+        fs::write(folder.join(SUMMARY), json!({ "program": "ale-gear", "files": list }).to_string()).unwrap();
+        assert_eq!(first_stranger(&folder).unwrap().as_deref(), Some("notes.md"));
+        assert_eq!(remove_result(&folder).unwrap_err().kind(), io::ErrorKind::DirectoryNotEmpty);
+        assert_eq!(fs::read_to_string(&thesis).unwrap(), "years of work");
+        assert!(own.is_file() && folder.join("notes.md").is_file() && folder.join(SUMMARY).is_file());
+        assert!(!folder.join("history.csv").exists());
+    }
 }

@@ -1,68 +1,72 @@
-//! Files of a gearbox: positions, shaft lines, line loads, vibration, rows in time, headline numbers, page, closing table.
+//! The answer about a gearbox: positions, shaft lines, line loads, vibration, rows in time, headline numbers, page.
 
-mod modes;
 mod motion;
-mod motion_orders;
-mod motion_page;
 mod page;
-mod response;
 mod rows;
 mod space;
 mod summary;
 mod swing_words;
-mod table;
-mod vibration_page;
+mod vibration;
+mod vibration_rows;
 
 use analysis::gearbox_at_rest::GearboxResult;
+use answer::{Answer, Cost};
 use scene::gearbox::Gearbox;
+use serde_json::json;
 
-use crate::{Cost, ReportError, ResultFiles, folder::ResultDirectory};
+use crate::{ReportError, folder::ResultDirectory, write_result};
 
-pub use table::gearbox_table;
+/// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
+/// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
+/// `motion_orders`.
+pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Answer {
+    let mut tables = vec![rows::positions(file, result), rows::shafts(file, result), rows::line_loads(result)];
+    if let Some(swings) = &result.vibration {
+        tables.extend([
+            vibration_rows::modes(file, swings),
+            vibration_rows::campbell(swings),
+            vibration_rows::crossings(swings),
+            vibration_rows::response(file, swings),
+            vibration_rows::rms(file, swings),
+            vibration_rows::bearing_forces(file, swings),
+        ]);
+    }
+    if let Some(own) = &result.motion {
+        tables.push(rows::motion(file, own));
+        if !own.orders.is_empty() {
+            tables.push(vibration_rows::motion_orders(file, &own.orders));
+        }
+    }
+    Answer {
+        name: file.name.clone(),
+        inputs: json!({ "gearbox": file.file }),
+        tables,
+        headline: summary::headline(result),
+        checks: result.checks(),
+        remarks: result.warnings.clone(),
+        info: summary::info(file, result),
+        cost,
+    }
+}
 
-/// Writes all files of a gearbox, `summary.json` last: where it is, everything is.
+/// Writes all files of a gearbox, `summary.json` last: where it is, everything is. What comes back is the closing table.
 ///
 /// # Errors
 /// When the system refuses, or the page cannot be filled.
 pub fn write_gearbox(
     file: &Gearbox,
     result: &GearboxResult,
-    cost: &Cost,
+    cost: Cost,
     results: &ResultDirectory,
-) -> Result<(), ReportError> {
-    write_gearbox_rows(file, result, results)?;
-    let missed: Vec<String> = result.missed().into_iter().map(|own| own.what).collect();
-    let failed = (!missed.is_empty()).then(|| missed.join("; "));
-    page::gearbox_page(file, result, cost, failed.as_deref())?.write(results)?;
-    let files = results.files()?;
-    let summary = summary::gearbox_summary(file, result, cost, &files, &missed);
-    results.write("summary.json", summary.as_bytes())
+) -> Result<String, ReportError> {
+    let answer = gearbox_answer(file, result, cost);
+    if let Some(swings) = &result.vibration {
+        results.write("bearing_forces.uff", vibration_rows::universal(file, swings).as_bytes())?;
+    }
+    write_result(&answer, &page::gearbox_page(file, result, &answer)?, false, results)
 }
 
-/// Writes the files of rows: `positions.csv`, `shafts.csv`, `line_load.csv`; of a vibration `modes.csv`, `campbell.csv`,
-/// `crossings.csv`, `response.csv`, `rms.csv`, `bearing_forces.csv` and `bearing_forces.uff`; of a motion `motion.csv`
-/// and, where it is long enough to tell orders, `motion_orders.csv`.
-///
-/// # Errors
-/// When the system refuses.
-fn write_gearbox_rows(file: &Gearbox, result: &GearboxResult, files: &dyn ResultFiles) -> Result<(), ReportError> {
-    files.write("positions.csv", rows::positions(file, result).as_bytes())?;
-    files.write("shafts.csv", rows::shafts(file, result).as_bytes())?;
-    files.write("line_load.csv", rows::line_loads(result).as_bytes())?;
-    if let Some(swings) = &result.vibration {
-        files.write("modes.csv", modes::modes(file, swings).as_bytes())?;
-        files.write("campbell.csv", modes::campbell(swings).as_bytes())?;
-        files.write("crossings.csv", modes::crossings(swings).as_bytes())?;
-        files.write("response.csv", response::response(file, swings).as_bytes())?;
-        files.write("rms.csv", response::rms(file, swings).as_bytes())?;
-        files.write("bearing_forces.csv", response::bearing_forces(file, swings).as_bytes())?;
-        files.write("bearing_forces.uff", response::universal(file, swings).as_bytes())?;
-    }
-    if let Some(own) = &result.motion {
-        files.write("motion.csv", motion::motion(file, own).as_bytes())?;
-        if !own.orders.is_empty() {
-            files.write("motion_orders.csv", motion_orders::motion_orders(file, &own.orders).as_bytes())?;
-        }
-    }
-    Ok(())
+/// Length of a force.
+fn norm(force: [f64; 3]) -> f64 {
+    force[0].hypot(force[1]).hypot(force[2])
 }

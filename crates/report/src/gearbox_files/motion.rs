@@ -1,58 +1,24 @@
-//! A gearbox in motion as a file, as numbers of the summary and as lines of the closing table.
+//! A gearbox in motion as numbers of the summary and as a part of its page.
 
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
-use analysis::gearbox_at_rest::{GearboxMotionResult, GearboxResult};
+use analysis::{
+    gearbox_at_rest::{GearboxMotionResult, GearboxResult, MotionOrder},
+    motion::RPM,
+};
 use gearbox::motion::GearboxInstant;
 use scene::gearbox::Gearbox;
 use serde_json::{Value, json};
 
-use crate::{csv::push_row, tables::fixed};
+use crate::{
+    charts::{Curve, line_chart},
+    page::{Cell, Grid, Part},
+};
 
-/// A column: its name, and its value at an instant.
-type Column = (String, Box<dyn Fn(&GearboxInstant) -> f64>);
-
-const PER_MINUTE: f64 = 60.0 / TAU;
-
-/// Columns of `motion.csv`. Meshes, bearings and outputs are numbered from 1 in the order of the file.
-fn columns(file: &Gearbox) -> Vec<Column> {
-    let mut all: Vec<Column> = vec![
-        ("time_s".into(), Box::new(|p| p.time)),
-        ("input_angle_deg".into(), Box::new(|p| p.input[0].to_degrees())),
-        ("input_speed_rpm".into(), Box::new(|p| PER_MINUTE * p.input[1])),
-        ("input_torque_nm".into(), Box::new(|p| 1e-3 * p.input_torque)),
-    ];
-    let mut push = |name: String, of: Box<dyn Fn(&GearboxInstant) -> f64>| all.push((name, of));
-    for i in 0..file.torques.len() {
-        push(format!("output_{}_speed_rpm", i + 1), Box::new(move |p| PER_MINUTE * p.output_speeds[i]));
-    }
-    for i in 0..file.meshes.len() {
-        let name = |what: &str| format!("mesh_{}_{what}", i + 1);
-        push(name("cycles"), Box::new(move |p| p.meshes[i].cycles));
-        push(name("dte_um"), Box::new(move |p| 1e3 * p.meshes[i].transmission_error));
-        push(name("normal_force_n"), Box::new(move |p| p.meshes[i].normal_force));
-    }
-    for i in 0..file.bearings.len() {
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            push(format!("bearing_{}_force_{axis}_n", i + 1), Box::new(move |p| p.bearings[i].force[k]));
-        }
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            push(format!("bearing_{}_moment_{axis}_nmm", i + 1), Box::new(move |p| p.bearings[i].moment[k]));
-        }
-    }
-    all
-}
-
-/// `motion.csv`: one row an instant.
-pub(super) fn motion(file: &Gearbox, result: &GearboxMotionResult) -> String {
-    let columns = columns(file);
-    let mut csv = columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(",") + "\n";
-    for instant in &result.rows {
-        push_row(&mut csv, columns.iter().map(|(_, of)| of(instant)));
-    }
-    csv
-}
+/// Orders of a mesh that are drawn over the speed.
+const DRAWN: usize = 3;
+/// Change of the speed over its largest from which on a motion is a run-up.
+const RUN_UP: f64 = 0.02;
 
 /// Least and largest value of the second half of a motion: what settles is in the first.
 fn range(result: &GearboxMotionResult, of: impl Fn(&GearboxInstant) -> f64) -> [f64; 2] {
@@ -115,38 +81,104 @@ pub(super) fn summary(file: &Gearbox, result: &GearboxResult) -> Value {
     })
 }
 
-/// Lines of the closing table.
-pub(super) fn table(t: &mut String, file: &Gearbox, result: &GearboxResult) {
-    let Some(motion) = &result.motion else { return };
-    // Writing to a String cannot fail.
-    let _ = writeln!(
-        t,
-        "\n  {:<24} {:>10} {:>10} {:>10} {:>10} {:>9}",
-        "in motion", "Hz", "DTE p-p um", "least N", "most N", "lost"
-    );
-    for (i, mesh) in result.meshes.iter().enumerate().take(file.meshes.len()) {
+/// Meshes and bearings in motion, charts over time, and over speed of a run-up.
+pub(super) fn parts(file: &Gearbox, result: &GearboxResult) -> Vec<Part> {
+    let Some(motion) = &result.motion else { return Vec::new() };
+    let words = "Least and largest forces are of the second half.";
+    let words = if is_run_up(motion) {
+        format!("Orders over the speed are those of stretches of sixteen cycles of the slowest mesh. {words}")
+    } else {
+        words.to_owned()
+    };
+    let head = ["in motion", "mesh Hz", "DTE p-p um", "least N", "largest N", "contact lost"];
+    let meshes = (0..file.meshes.len()).map(|i| {
         let dte = range(motion, |p| 1e3 * p.meshes[i].transmission_error);
         let force = range(motion, |p| p.meshes[i].normal_force);
-        let _ = writeln!(
-            t,
-            "  {:<24} {:>10} {:>10} {:>10} {:>10} {:>9}",
-            mesh.name,
-            fixed(motion.mesh_frequencies[i], 1),
-            fixed(dte[1] - dte[0], 3),
-            fixed(force[0], 0),
-            fixed(force[1], 0),
-            motion.separations[i][0],
-        );
+        vec![
+            Cell::text(&result.meshes[i].name),
+            Cell::number(motion.mesh_frequencies[i], 1),
+            Cell::number(dte[1] - dte[0], 3),
+            Cell::number(force[0], 0),
+            Cell::number(force[1], 0),
+            Cell::count(motion.separations[i][0]),
+        ]
+    });
+    let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
+        let force = range(motion, |p| p.bearings[i].force[0].hypot(p.bearings[i].force[1]));
+        vec![Cell::text(&b.name), Cell::number(force[0], 1), Cell::number(force[1], 1)]
+    });
+    let mut charts: Vec<String> = over_time(file, motion).into_iter().flatten().collect();
+    if is_run_up(motion) {
+        charts.extend(over_speed(file, motion).into_iter().flatten());
     }
-    let (energy, reduction) = (&motion.energy, &motion.reduction);
-    let _ = writeln!(
-        t,
-        "  {} steps; energy closes to {:.0e}; {} of {} coordinates, frequencies up to {} Hz to {:.0e}",
+    let reduction = &motion.reduction;
+    let note = format!(
+        "{} steps; {} of {} coordinates of the shafts, frequencies up to {:.0} Hz.",
         motion.steps[0],
-        energy.open_over_vibration,
         reduction.coordinates[1],
         reduction.coordinates[0],
-        fixed(reduction.limit / TAU, 0),
-        reduction.error,
+        reduction.limit / TAU
     );
+    let radial = Grid::new(["bearing", "least radial N", "largest N"]).rows(bearings);
+    vec![
+        Part::new("In motion").closing().words(words).grid(Grid::new(head).rows(meshes)).note(note),
+        Part::more().grid(radial).figures(charts),
+    ]
+}
+
+fn is_run_up(motion: &GearboxMotionResult) -> bool {
+    let speeds = || motion.rows.iter().map(|p| p.input[1].abs());
+    let [least, largest] = speeds().fold([f64::INFINITY, 0.0], |[l, h], x| [l.min(x), h.max(x)]);
+    !motion.orders.is_empty() && largest - least > RUN_UP * largest
+}
+
+fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 4] {
+    let curve = |label: &str, of: &dyn Fn(&GearboxInstant) -> f64| Curve {
+        label: label.to_owned(),
+        points: motion.rows.iter().map(|p| (p.time, of(p))).collect(),
+    };
+    let of_meshes = |of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Vec<Curve> {
+        file.meshes.iter().enumerate().map(|(i, mesh)| curve(&mesh.name, &|p| of(p, i))).collect()
+    };
+    let radial = |p: &GearboxInstant, i: usize| p.bearings[i].force[0].hypot(p.bearings[i].force[1]);
+    let bearings: Vec<Curve> =
+        file.bearings.iter().enumerate().map(|(i, b)| curve(&b.name, &|p| radial(p, i))).collect();
+    let time = "time [s]";
+    [
+        line_chart(
+            "Dynamic transmission error",
+            time,
+            "DTE [um]",
+            &of_meshes(&|p, i| 1e3 * p.meshes[i].transmission_error),
+            false,
+        ),
+        line_chart("Normal force of the meshes", time, "force [N]", &of_meshes(&|p, i| p.meshes[i].normal_force), true),
+        line_chart("Radial force of the bearings", time, "force [N]", &bearings, true),
+        line_chart("Torque on the input", time, "torque [N m]", &[curve("input", &|p| 1e-3 * p.input_torque)], false),
+    ]
+}
+
+/// Orders of every mesh: its own transmission error and the force of the bearing that has most of it.
+fn over_speed(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 2] {
+    let curves = |of: &dyn Fn(&MotionOrder) -> f64| -> Vec<Curve> {
+        let each = (0..file.meshes.len()).flat_map(|mesh| (1..=DRAWN).map(move |order| (mesh, order)));
+        let one = |(mesh, order): (usize, usize)| {
+            let own = motion.orders.iter().filter(|o| o.mesh == mesh && o.order == order);
+            let points: Vec<(f64, f64)> = own.map(|o| (o.speed.abs() / RPM, of(o))).collect();
+            Curve { label: format!("{}, order {order}", file.meshes[mesh].name), points }
+        };
+        each.map(one).filter(|curve| !curve.points.is_empty()).collect()
+    };
+    let largest = |o: &MotionOrder| o.bearing_forces.iter().copied().fold(0.0, f64::max);
+    let speed = "speed of the input [1/min]";
+    [
+        line_chart(
+            "Mesh orders in the transmission error",
+            speed,
+            "amplitude [um]",
+            &curves(&|o| 1e3 * o.transmission_errors[o.mesh]),
+            true,
+        ),
+        line_chart("Mesh orders at the bearing that has most of them", speed, "amplitude [N]", &curves(&largest), true),
+    ]
 }

@@ -1,105 +1,159 @@
-//! `report.html` of a gearbox: in space, tables by stage, charts.
+//! `report.html` and closing table of a gearbox: in space, tables by stage, charts.
 
 use std::borrow::Cow;
 
 use analysis::gearbox_at_rest::GearboxResult;
+use answer::Answer;
 use gearbox::{GearboxPosition, ShaftLine, line_load};
-use minijinja::{context, value::Serde};
+use minijinja::context;
 use scene::gearbox::Gearbox;
-use serde_json::json;
 
-use super::{motion_page::motion, space::BoxInSpace, summary, vibration_page::vibration};
+use super::{motion, norm, space::BoxInSpace, vibration};
 use crate::{
-    Cost, ReportError,
+    ReportError,
     charts::{Curve, embedded, line_chart},
-    page::Rendered,
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
 };
 
-/// The page; `failed` says why the result does not hold, where it does not.
+/// The page of an answer about a gearbox.
 ///
 /// # Errors
 /// [`ReportError::Page`] if it cannot be filled; that would be a fault of this program.
-pub(super) fn gearbox_page(
-    file: &Gearbox,
-    result: &GearboxResult,
-    cost: &Cost,
-    failed: Option<&str>,
-) -> Result<Rendered, ReportError> {
+pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Page, ReportError> {
     let strongest = result.positions.iter().flat_map(|p| &p.bearings).map(|b| norm(b.force)).fold(0.0, f64::max);
-    Rendered::new(
-        "gearbox.html",
-        context! {
-            name => &file.name,
-            version => env!("CARGO_PKG_VERSION"),
-            file => file.file.display().to_string(),
-            set => &file.set,
-            failed => failed,
-            warnings => &result.warnings,
-            view => embedded("gearbox", &BoxInSpace::new(file, result)),
-            strongest => format!("{strongest:.0} N"),
-            positions => result.positions.len(),
-            meshes => Serde(meshes(file, result)),
-            shafts => Serde(shafts(file, result)),
-            bearings => Serde(bearings(file, result)),
-            rolls => result.bearings.iter().any(|b| b.rolling.is_some()),
-            charts => charts(file, result),
-            vibration => file.vibration.as_ref().zip(result.vibration.as_ref()).map(|(v, s)| vibration(file, v, s)),
-            motion => result.motion.as_ref().map(|own| motion(file, result, own)),
-            certificate => result.certificate,
-            cost => Serde(serde_json::to_value(cost).unwrap_or_default()),
-        },
+    let view = context! {
+        view => embedded("gearbox", &BoxInSpace::new(file, result)),
+        strongest => format!("{strongest:.0} N"),
+    };
+    let mut page = Page::of(
+        answer,
+        format!(
+            "gearbox: {} shafts, {} meshes, {} bearings, {} positions",
+            file.shafts.len(),
+            file.meshes.len(),
+            file.bearings.len(),
+            result.positions.len()
+        ),
+    );
+    page.push(Part::more().with(Content::Html(render("gearbox_view.html", view)?)));
+    page.push(meshes(result));
+    page.push(pairs(file, result));
+    page.push(shafts(file, result));
+    page.push(bearings(file, result));
+    page.push(outputs(result));
+    page.push(Part::new("Over the positions").figures(charts(file, result)));
+    if let Some((asked, swings)) = file.vibration.as_ref().zip(result.vibration.as_ref()) {
+        vibration::parts(file, asked, swings).into_iter().for_each(|part| page.push(part));
+    }
+    motion::parts(file, result).into_iter().for_each(|part| page.push(part));
+    page.push(Page::trust(answer).note(
+        "Not in it: what the meshes of the gears, round shafts, linear bearings and rigid rings leave out. Gears are rigid \
+         in their bores and sit on a section of the shaft.",
+    ));
+    page.push(cost_part(&answer.cost));
+    let set: String = file.set.iter().map(|word| format!(" {word}")).collect();
+    page.push(again(&format!("ale-gear run {} --out DIR{set}", file.file.display())));
+    Ok(page)
+}
+
+fn meshes(result: &GearboxResult) -> Part {
+    let head = ["mesh", "force N", "STE um", "p-p um", "f_in um", "f_across um", "K_Hbeta", "MPa"];
+    let rows = result.meshes.iter().map(|m| {
+        vec![
+            Cell::text(&m.name),
+            Cell::number(m.normal_force, 0),
+            Cell::number(1e3 * m.transmission_error[0], 3),
+            Cell::number(1e3 * m.transmission_error[1], 3),
+            Cell::number(1e3 * m.misalignment[0], 2),
+            Cell::number(1e3 * m.misalignment[1], 2),
+            Cell::number(m.face_load_factor, 3),
+            Cell::number(m.max_pressure, 0),
+        ]
+    });
+    Part::new("Meshes").closing().grid(Grid::new(head).rows(rows)).note(
+        "Mean normal force, mean and peak to peak of the static transmission error, largest pressure. Misalignment (f, in \
+         and across the plane of action) is that by shafts, bearings and housing alone, over the face width, positive where \
+         the gap opens as z grows. K_Hbeta is that of the solved load distribution.",
     )
 }
 
-pub(super) fn norm(force: [f64; 3]) -> f64 {
-    force[0].hypot(force[1]).hypot(force[2])
-}
-
-fn meshes(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {
-    let one = |(i, m): (usize, &analysis::gearbox_at_rest::MeshResult)| {
-        let shaft = |gear: usize| &file.shafts[file.gears[gear].shaft].name;
+fn pairs(file: &Gearbox, result: &GearboxResult) -> Part {
+    let rows = result.meshes.iter().enumerate().map(|(i, m)| {
+        let shaft = |gear: usize| file.shafts[file.gears[gear].shaft].name.as_str();
         let pair = &result.pairs[i];
-        let mut row = summary::mesh(m, pair);
-        row["shafts"] = json!(file.meshes[i].gears.map(shaft));
-        row["teeth"] = json!([pair.pinion.teeth(), pair.wheel.teeth()]);
-        row
-    };
-    result.meshes.iter().enumerate().map(one).collect()
+        vec![
+            Cell::text(&m.name),
+            Cell::text(file.meshes[i].gears.map(shaft).join(", ")),
+            Cell::text(format!("{} / {}", pair.pinion.teeth(), pair.wheel.teeth())),
+            Cell::number(pair.total_contact_ratio(), 3),
+            Cell::number(pair.centre_distance(), 3),
+            Cell::count(m.slices),
+        ]
+    });
+    Part::more()
+        .grid(Grid::new(["mesh", "shafts", "teeth", "contact ratio", "centre distance mm", "slices"]).rows(rows))
 }
 
-fn shafts(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {
-    let one = |(i, s): (usize, &scene::gearbox::GearboxShaft)| {
+fn shafts(file: &Gearbox, result: &GearboxResult) -> Part {
+    let rows = file.shafts.iter().enumerate().map(|(i, s)| {
         let lines = || result.positions.iter().map(move |p| &p.shafts[i]);
-        let nodes = || lines().flat_map(|line| &line.displacements);
-        let bending = nodes().map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
-        json!({
-            "name": s.name,
-            "ratio": result.ratios[i],
-            "bending_um": 1e3 * bending,
-            "twist_urad": 1e6 * lines().map(twist).fold(0.0, f64::max),
-        })
-    };
-    file.shafts.iter().enumerate().map(one).collect()
+        let bending = lines().flat_map(|line| &line.displacements).map(|u| u[0].hypot(u[1])).fold(0.0, f64::max);
+        vec![
+            Cell::text(&s.name),
+            Cell::number(result.ratios[i], 5),
+            Cell::number(1e3 * bending, 2),
+            Cell::number(1e6 * lines().map(twist).fold(0.0, f64::max), 1),
+        ]
+    });
+    let head = ["shaft", "turns a turn of the input", "largest bending um", "largest twist urad"];
+    Part::new("Shafts").grid(Grid::new(head).rows(rows))
+}
+
+fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
+    let rolls = result.bearings.iter().any(|b| b.rolling.is_some());
+    let mut head = vec!["bearing", "shaft", "radial N", "F_x N", "F_y N", "F_z N", "tilt mrad"];
+    if rolls {
+        head.extend(["element N", "Hertz MPa", "loaded", "k_x, k_y, k_z N/um"]);
+    }
+    let rows = result.bearings.iter().enumerate().map(|(i, b)| {
+        let mut row = vec![
+            Cell::text(&b.name),
+            Cell::text(&file.shafts[file.bearings[i].shaft].name),
+            Cell::number(b.force[0].hypot(b.force[1]), 0),
+            Cell::number(b.force[0], 0),
+            Cell::number(b.force[1], 0),
+            Cell::number(b.force[2], 0),
+            Cell::number(1e3 * b.tilt, 3),
+        ];
+        if rolls {
+            let own = b.rolling.as_ref();
+            let stiffness = own.map(|r| [0, 1, 2].map(|k| format!("{:.0}", 1e-3 * r.stiffness[k][k])).join(", "));
+            row.extend([
+                Cell::number(own.map(|r| r.element_force), 0),
+                Cell::number(own.map(|r| r.pressure), 0),
+                Cell::count(own.map_or_else(|| "-".to_owned(), |r| format!("{}/{}", r.loaded[1], r.count))),
+                Cell::count(stiffness.unwrap_or_else(|| "-".to_owned())),
+            ]);
+        }
+        row
+    });
+    let note = "Mean forces on the shafts, common axes.";
+    Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
+}
+
+fn outputs(result: &GearboxResult) -> Part {
+    let input = Line::number("mean torque on the input", 1e-3 * result.input_torque, 2, "N m");
+    let outputs = result.outputs.iter().enumerate().map(|(i, o)| {
+        let range = format!("urad, {} urad peak to peak", crate::tables::fixed(1e6 * o.peak_to_peak, 2));
+        Line::number(format!("output {} lags by", i + 1), 1e6 * o.mean, 1, range)
+    });
+    Part::new("Input and outputs").closing().lines(std::iter::once(input).chain(outputs))
 }
 
 /// Turn about its axis of one end of a shaft against the other, at most over all nodes, rad.
 fn twist(line: &ShaftLine) -> f64 {
     let turns = || line.displacements.iter().map(|u| u[5]);
     turns().fold(f64::NEG_INFINITY, f64::max) - turns().fold(f64::INFINITY, f64::min)
-}
-
-fn bearings(file: &Gearbox, result: &GearboxResult) -> serde_json::Value {
-    let one = |(i, b): (usize, &analysis::gearbox_at_rest::BearingLoad)| {
-        json!({
-            "name": b.name,
-            "shaft": file.shafts[file.bearings[i].shaft].name,
-            "force_n": b.force,
-            "radial_n": b.force[0].hypot(b.force[1]),
-            "tilt_mrad": 1e3 * b.tilt,
-            "rolling": b.rolling.as_ref().map(super::summary::rolling),
-        })
-    };
-    result.bearings.iter().enumerate().map(one).collect()
 }
 
 /// Transmission errors, bearing forces and lags over the input's angle, line loads over the width, lines of shafts.

@@ -1,93 +1,134 @@
-//! Rows of a gearbox as files with commas.
+//! Rows of a gearbox at rest and in motion as tables. Meshes, bearings and outputs are numbered from 1 in the order of
+//! the file.
 
-use analysis::gearbox_at_rest::GearboxResult;
-use gearbox::{GearboxPosition, line_load, rolling_bearing::RollingState};
+use std::f64::consts::TAU;
+
+use analysis::gearbox_at_rest::{GearboxMotionResult, GearboxResult};
+use answer::Table;
+use gearbox::{
+    BearingState, GearboxPosition, ShaftLine, line_load, motion::GearboxInstant, rolling_bearing::RollingState,
+};
 use scene::gearbox::Gearbox;
 
-use crate::csv::{push_number, push_row, quoted};
+const PER_MINUTE: f64 = 60.0 / TAU;
+const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// A column: its name, and its value at a position.
-type Column = (String, Box<dyn Fn(&GearboxPosition) -> f64>);
-
-/// Columns of `positions.csv`. Meshes, bearings and outputs are numbered from 1 in the order of the file.
-fn columns(file: &Gearbox) -> Vec<Column> {
-    let mut all: Vec<Column> = vec![
-        ("input_angle_deg".into(), Box::new(|p| p.input_angle.to_degrees())),
-        ("input_torque_nm".into(), Box::new(|p| 1e-3 * p.input_torque)),
-    ];
-    let mut push = |name: String, of: Box<dyn Fn(&GearboxPosition) -> f64>| all.push((name, of));
+/// `positions`: one row a position.
+pub(super) fn positions(file: &Gearbox, result: &GearboxResult) -> Table {
+    let rows = &result.positions;
+    let mut table = Table::new("positions");
+    let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&GearboxPosition) -> f64| {
+        table.push_numbers(name, meaning, rows.iter().map(of));
+    };
+    push("input_angle_deg".into(), "angle of the input", &|p| p.input_angle.to_degrees());
+    push("input_torque_nm".into(), "torque that holds the input, about +z", &|p| 1e-3 * p.input_torque);
     for i in 0..file.torques.len() {
-        push(format!("output_{}_lag_urad", i + 1), Box::new(move |p| 1e6 * p.output_lags[i]));
+        let meaning = "how far the output stays behind its nominal turn: the transmission error from input to output";
+        push(format!("output_{}_lag_urad", i + 1), meaning, &|p| 1e6 * p.output_lags[i]);
     }
     for i in 0..file.meshes.len() {
         let name = |what: &str| format!("mesh_{}_{what}", i + 1);
-        push(name("cycles"), Box::new(move |p| p.meshes[i].cycles));
-        push(name("ste_um"), Box::new(move |p| 1e3 * p.meshes[i].transmission_error));
-        push(name("normal_force_n"), Box::new(move |p| p.meshes[i].normal_force));
-        push(name("misalignment_in_plane_um"), Box::new(move |p| 1e3 * p.meshes[i].misalignment_in_plane));
-        push(name("misalignment_across_um"), Box::new(move |p| 1e3 * p.meshes[i].misalignment_across));
-        push(
-            name("max_pressure_mpa"),
-            Box::new(move |p| p.meshes[i].slices.iter().map(|s| s.pressure).fold(0.0, f64::max)),
-        );
+        push(name("cycles"), "whole mesh cycles and the phase", &|p| p.meshes[i].cycles);
+        let meaning = "transmission error by the turns of both gears, positive when the driven gear lags";
+        push(name("ste_um"), meaning, &|p| 1e3 * p.meshes[i].transmission_error);
+        push(name("normal_force_n"), "sum of the normal forces", &|p| p.meshes[i].normal_force);
+        let meaning = "misalignment of the wheel's axis against the pinion's over the common face width, in the plane of action, positive where the gap opens as z grows";
+        push(name("misalignment_in_plane_um"), meaning, &|p| 1e3 * p.meshes[i].misalignment_in_plane);
+        let meaning = "the same across the plane of action";
+        push(name("misalignment_across_um"), meaning, &|p| 1e3 * p.meshes[i].misalignment_across);
+        push(name("max_pressure_mpa"), "largest pressure", &|p| {
+            p.meshes[i].slices.iter().map(|s| s.pressure).fold(0.0, f64::max)
+        });
     }
     for i in 0..file.bearings.len() {
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            push(format!("bearing_{}_force_{axis}_n", i + 1), Box::new(move |p| p.bearings[i].force[k]));
-        }
-        for (k, axis) in ["x", "y", "z"].into_iter().enumerate() {
-            push(format!("bearing_{}_moment_{axis}_nmm", i + 1), Box::new(move |p| p.bearings[i].moment[k]));
-        }
+        bearing(i, &mut |name, meaning, of| push(name, meaning, &|p| of(&p.bearings[i])));
         if file.bearings[i].rolling.is_some() {
-            let of = move |p: &GearboxPosition, what: fn(&RollingState) -> f64| p.rolling[i].as_ref().map_or(0.0, what);
+            let of = |p: &GearboxPosition, what: fn(&RollingState) -> f64| p.rolling[i].as_ref().map_or(0.0, what);
             let name = |what: &str| format!("bearing_{}_{what}", i + 1);
-            push(name("element_force_n"), Box::new(move |p| of(p, |s| s.element_force)));
-            push(name("hertz_pressure_mpa"), Box::new(move |p| of(p, |s| s.pressure)));
-            push(name("loaded_elements"), Box::new(move |p| of(p, |s| s.loaded as f64)));
+            push(name("element_force_n"), "force of the hardest pressed rolling element", &|p| {
+                of(p, |s| s.element_force)
+            });
+            push(name("hertz_pressure_mpa"), "its pressure", &|p| of(p, |s| s.pressure));
+            push(name("loaded_elements"), "rolling elements that carry", &|p| of(p, |s| s.loaded as f64));
         }
     }
-    push("residual".into(), Box::new(|p| p.certificate.residual));
-    push("body_balance".into(), Box::new(|p| p.certificate.body_balance));
-    all
+    push("residual".into(), "forces left over at the gears over the load", &|p| p.certificate.residual);
+    let meaning = "sum of forces, or moments, on a shaft over the largest of them";
+    push("body_balance".into(), meaning, &|p| p.certificate.body_balance);
+    table
 }
 
-/// `positions.csv`: one row a position.
-pub(super) fn positions(file: &Gearbox, result: &GearboxResult) -> String {
-    let columns = columns(file);
-    let mut csv = columns.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>().join(",") + "\n";
-    for position in &result.positions {
-        push_row(&mut csv, columns.iter().map(|(_, of)| of(position)));
+/// What takes a column of a bearing: name, meaning, value.
+type BearingColumn<'a> = &'a mut dyn FnMut(String, &'static str, &dyn Fn(&BearingState) -> f64);
+
+/// Forces and moments of a bearing on its shaft.
+fn bearing(i: usize, push: BearingColumn<'_>) {
+    for (k, axis) in AXES.into_iter().enumerate() {
+        push(format!("bearing_{}_force_{axis}_n", i + 1), "force on the shaft", &|b| b.force[k]);
     }
-    csv
+    for (k, axis) in AXES.into_iter().enumerate() {
+        push(format!("bearing_{}_moment_{axis}_nmm", i + 1), "moment on the shaft", &|b| b.moment[k]);
+    }
 }
 
-/// `shafts.csv`: one row a node of a shaft at a position.
-pub(super) fn shafts(file: &Gearbox, result: &GearboxResult) -> String {
-    let mut csv = "input_angle_deg,shaft,position_mm,x_um,y_um,z_um,turn_x_urad,turn_y_urad,turn_z_urad\n".to_owned();
-    for position in &result.positions {
-        for (shaft, line) in file.shafts.iter().zip(&position.shafts) {
-            for (z, own) in line.positions.iter().zip(&line.displacements) {
-                push_number(&mut csv, position.input_angle.to_degrees());
-                csv.push(',');
-                csv.push_str(&quoted(&shaft.name));
-                csv.push(',');
-                let units = [1e3, 1e3, 1e3, 1e6, 1e6, 1e6];
-                push_row(&mut csv, [*z].into_iter().chain(own.iter().zip(units).map(|(x, unit)| unit * x)));
-            }
-        }
-    }
-    csv
+/// `shafts`: one row a node of a shaft at a position.
+pub(super) fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
+    let nodes = || {
+        result.positions.iter().flat_map(|position| {
+            let of_line = move |(i, line): (usize, &'_ ShaftLine)| (0..line.positions.len()).map(move |k| (i, k));
+            position.shafts.iter().enumerate().flat_map(of_line).map(move |(i, k)| (position, i, k))
+        })
+    };
+    let displacement = |axis: usize, unit: f64| {
+        nodes().map(move |(p, i, k)| unit * p.shafts[i].displacements[k][axis]).collect::<Vec<f64>>()
+    };
+    Table::new("shafts")
+        .numbers("input_angle_deg", "angle of the input", nodes().map(|(p, _, _)| p.input_angle.to_degrees()))
+        .texts("shaft", "name of the shaft", nodes().map(|(_, i, _)| file.shafts[i].name.as_str()))
+        .numbers("position_mm", "height of the node on its shaft", nodes().map(|(p, i, k)| p.shafts[i].positions[k]))
+        .numbers("x_um", "displacement along x", displacement(0, 1e3))
+        .numbers("y_um", "displacement along y", displacement(1, 1e3))
+        .numbers("z_um", "displacement along z", displacement(2, 1e3))
+        .numbers("turn_x_urad", "turn about x", displacement(3, 1e6))
+        .numbers("turn_y_urad", "turn about y", displacement(4, 1e6))
+        .numbers("turn_z_urad", "turn about z", displacement(5, 1e6))
 }
 
-/// `line_load.csv`: the largest line load that each height of a face sees.
-pub(super) fn line_loads(result: &GearboxResult) -> String {
-    let mut csv = "mesh,z_mm,line_load_n_per_mm\n".to_owned();
-    for (i, mesh) in result.meshes.iter().enumerate() {
-        for (z, load) in line_load(&result.positions, i) {
-            csv.push_str(&quoted(&mesh.name));
-            csv.push(',');
-            push_row(&mut csv, [z, load]);
-        }
+/// `line_load`: the largest line load that each height of a face sees.
+pub(super) fn line_loads(result: &GearboxResult) -> Table {
+    let all: Vec<(&str, f64, f64)> = (result.meshes.iter().enumerate())
+        .flat_map(|(i, mesh)| {
+            line_load(&result.positions, i).into_iter().map(|(z, load)| (mesh.name.as_str(), z, load))
+        })
+        .collect();
+    Table::new("line_load")
+        .texts("mesh", "name of the mesh", all.iter().map(|row| row.0))
+        .numbers("z_mm", "height on the pinion, from its mid-face", all.iter().map(|row| row.1))
+        .numbers("line_load_n_per_mm", "largest line load that this height sees", all.iter().map(|row| row.2))
+}
+
+/// `motion`: one row an instant.
+pub(super) fn motion(file: &Gearbox, result: &GearboxMotionResult) -> Table {
+    let mut table = Table::new("motion");
+    let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&GearboxInstant) -> f64| {
+        table.push_numbers(name, meaning, result.rows.iter().map(of));
+    };
+    push("time_s".into(), "time since the start", &|p| p.time);
+    push("input_angle_deg".into(), "angle of the input", &|p| p.input[0].to_degrees());
+    push("input_speed_rpm".into(), "speed of the input about +z", &|p| PER_MINUTE * p.input[1]);
+    let meaning = "torque on the input about +z; the torque that keeps a given speed is a result";
+    push("input_torque_nm".into(), meaning, &|p| 1e-3 * p.input_torque);
+    for i in 0..file.torques.len() {
+        push(format!("output_{}_speed_rpm", i + 1), "speed of the output", &|p| PER_MINUTE * p.output_speeds[i]);
     }
-    csv
+    for i in 0..file.meshes.len() {
+        let name = |what: &str| format!("mesh_{}_{what}", i + 1);
+        push(name("cycles"), "whole mesh cycles and the phase", &|p| p.meshes[i].cycles);
+        push(name("dte_um"), "dynamic transmission error", &|p| 1e3 * p.meshes[i].transmission_error);
+        push(name("normal_force_n"), "sum of the normal forces, without damping", &|p| p.meshes[i].normal_force);
+    }
+    for i in 0..file.bearings.len() {
+        bearing(i, &mut |name, meaning, of| push(name, meaning, &|p| of(&p.bearings[i])));
+    }
+    table
 }

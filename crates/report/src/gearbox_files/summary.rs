@@ -1,4 +1,4 @@
-//! `summary.json` of a gearbox.
+//! Headline and facts of a gearbox, as `summary.json` has them.
 
 use std::f64::consts::TAU;
 
@@ -6,21 +6,13 @@ use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings, MeshResult, Rollin
 use gearbox::rolling_bearing::RollingElements;
 use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::page::norm;
+use super::norm;
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
-use crate::{Cost, SUMMARY_SCHEMA};
 
-/// What is known of a gearbox but its rows. Names of keys bear the units.
-/// `missed`: what does not hold of it, in words.
-pub(super) fn gearbox_summary(
-    file: &Gearbox,
-    result: &GearboxResult,
-    cost: &Cost,
-    files: &[String],
-    missed: &[String],
-) -> String {
+/// What is known of a gearbox but its rows and its headline. Names of keys bear the units.
+pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value> {
     let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair));
     let bearings = result.bearings.iter().map(|b| {
         let mut own = json!({
@@ -40,35 +32,21 @@ pub(super) fn gearbox_summary(
         .map(|o| json!({ "mean_lag_urad": 1e6 * o.mean, "peak_to_peak_lag_urad": 1e6 * o.peak_to_peak }));
     let shafts = file.shafts.iter().zip(&result.ratios).map(|(s, ratio)| json!({ "name": s.name, "ratio": ratio }));
     let vibration = file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own));
-    let mut all = json!({
-        "schema": SUMMARY_SCHEMA,
-        "program": "ale-gear",
-        "version": env!("CARGO_PKG_VERSION"),
-        "certificate_missed": missed,
-        "headline": headline(result),
-        "gearbox": file.file.display().to_string(),
-        "name": file.name,
-        "shafts": shafts.collect::<Vec<_>>(),
-        "meshes": meshes.collect::<Vec<_>>(),
-        "bearings": bearings.collect::<Vec<_>>(),
-        "outputs": outputs.collect::<Vec<_>>(),
-        "mean_input_torque_nm": 1e-3 * result.input_torque,
-        "positions": result.positions.len(),
-        "certificate": { "residual": result.certificate[0], "body_balance": result.certificate[1] },
-        "motion": super::motion::summary(file, result),
-        "cost": cost,
-        "warnings": result.warnings,
-        "files": files,
-    });
+    let keys = [
+        ("shafts", shafts.collect::<Value>()),
+        ("meshes", meshes.collect()),
+        ("bearings", bearings.collect()),
+        ("outputs", outputs.collect()),
+        ("positions", json!(result.positions.len())),
+        ("motion", super::motion::summary(file, result)),
+    ];
     // Keys of what is not asked for are not there.
-    if let Some(vibration) = vibration {
-        all["vibration"] = vibration;
-    }
-    format!("{all:#}\n")
+    let vibration = vibration.map(|own| ("vibration", own));
+    keys.into_iter().chain(vibration).map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
 /// The numbers that two gearboxes are compared by.
-fn headline(result: &GearboxResult) -> Value {
+pub(super) fn headline(result: &GearboxResult) -> Value {
     let of_meshes = |of: &dyn Fn(&MeshResult) -> Option<f64>| result.meshes.iter().map(of).collect::<Vec<_>>();
     json!({
         "mean_input_torque_nm": 1e-3 * result.input_torque,
@@ -82,8 +60,8 @@ fn headline(result: &GearboxResult) -> Value {
     })
 }
 
-/// What is known of a rolling bearing: the page tells the same.
-pub(super) fn rolling(load: &RollingLoad) -> Value {
+/// What is known of a rolling bearing.
+fn rolling(load: &RollingLoad) -> Value {
     let (elements, diameter, length, pitch_diameter) = match &load.elements {
         RollingElements::Balls(b) => (b.elements, b.diameter, None, b.pitch_diameter),
         RollingElements::Rollers(r) => (r.elements, r.diameter, Some(r.length), r.pitch_diameter),
@@ -149,8 +127,8 @@ fn vibration(file: &Gearbox, (asked, swings): (&GearboxVibration, &GearboxSwings
     })
 }
 
-/// What is known of a mesh: the page tells the same.
-pub(super) fn mesh(m: &MeshResult, pair: &GearPair) -> Value {
+/// What is known of a mesh.
+fn mesh(m: &MeshResult, pair: &GearPair) -> Value {
     json!({
         "name": m.name,
         "eps_gamma": pair.total_contact_ratio(),

@@ -1,7 +1,9 @@
 //! Files of an optimisation: the scene of the optimum, tables, report.
 
 mod page;
+mod result;
 mod tables;
 mod write;
 
-pub use write::{Goals, OptimumResult, optimum_warnings, passed_limits, write_optimum};
+pub use result::{Goals, OptimumResult};
+pub use write::{optimum_warnings, passed_limits, write_optimum};

@@ -27,8 +27,9 @@ mod write;
 
 pub use known::{Column, KnownCases};
 pub use outputs::{OutputError, check_outputs};
+pub use page::{PageWords, report_folder};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseRow, CaseTable, DoneCases};
 pub use solve::{InTime, solve_cases};
 pub use values::{case_values, static_case_values};
-pub use write::{PageWords, plan_digest, report_folder, write_cases};
+pub use write::{plan_digest, write_cases};

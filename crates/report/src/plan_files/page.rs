@@ -5,15 +5,30 @@ use scene::plan::Plan;
 use serde_json::{Value, json};
 use study::correlation;
 
-use super::{Column, KnownCases, PageWords, curves::over_axes, maps::maps};
+use super::{Column, KnownCases, curves::over_axes, maps::maps};
 use crate::{
     ReportError,
     charts::{Curve, line_chart},
     page::Rendered,
+    study_files::CASES,
 };
 
 /// Cases in the table of the page at most; `cases.csv` has all.
 const MOST_ROWS: usize = 2000;
+
+/// What a report of a plan says beside its numbers.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PageWords<'a> {
+    /// The command that makes it again.
+    pub again: &'a str,
+    /// Cases that have a report of their own, in the folder [`report_folder`].
+    pub reports: &'a [usize],
+}
+
+/// Folder of the report of a case, below that of the plan.
+pub fn report_folder(case: usize) -> String {
+    format!("{CASES}/{case}")
+}
 
 /// The page; `table` is the closing table.
 pub(super) fn page(

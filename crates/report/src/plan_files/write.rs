@@ -2,12 +2,13 @@
 
 use std::fmt::Write;
 
+use answer::{Table, parquet_bytes};
 use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
 use serde_json::{Value, json};
 
-use super::{CaseTable, Column, DoneCases, KnownCases, page, spread::Spread};
-use crate::{Cost, ReportError, checkpoint::InputDigests, columnar, folder::ResultDirectory, study_files::CASES};
+use super::{CaseTable, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
+use crate::{Cost, ReportError, checkpoint::InputDigests, folder::ResultDirectory};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -37,20 +38,6 @@ pub fn plan_digest(plan: &Plan) -> Result<String, ReportError> {
     Ok(hasher.finalize().to_hex().to_string())
 }
 
-/// What a report of a plan says beside its numbers.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct PageWords<'a> {
-    /// The command that makes it again.
-    pub again: &'a str,
-    /// Cases that have a report of their own, in the folder [`report_folder`].
-    pub reports: &'a [usize],
-}
-
-/// Folder of the report of a case, below that of the plan.
-pub fn report_folder(case: usize) -> String {
-    format!("{CASES}/{case}")
-}
-
 /// Writes the files of a plan whose cases are done; what comes back is the closing table.
 ///
 /// # Errors
@@ -64,13 +51,12 @@ pub fn write_cases(
     let header = CaseTable::of(plan).header().to_owned();
     results.write("cases.csv", (header + &done.text()).as_bytes())?;
     let known = KnownCases::of(plan, done);
-    let numbers = known.axes.iter().chain(&known.outputs);
-    let (names, values): (Vec<&str>, Vec<Vec<f64>>) = numbers.map(|c| (c.name.as_str(), c.values.clone())).unzip();
-    let (names, columns) = (
-        ["case"].into_iter().chain(names).collect::<Vec<_>>(),
-        [(0..known.count()).map(|case| case as f64).collect()].into_iter().chain(values).collect::<Vec<Vec<f64>>>(),
-    );
-    results.write("cases.parquet", &columnar::parquet_of("cases", &names, &columns)?)?;
+    let numbers = (0..known.count()).map(|case| case as f64);
+    let mut rows = Table::new("cases").numbers("case", "number of the case", numbers);
+    for column in known.axes.iter().chain(&known.outputs) {
+        rows.push_numbers(column.name.clone(), "", column.values.iter().copied());
+    }
+    results.write("cases.parquet", &parquet_bytes(&rows)?)?;
     let told = |column: &Column| {
         Spread::of(column.values.iter().copied()).json(&column.name, column.ascending().first().copied())
     };

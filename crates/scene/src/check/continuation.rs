@@ -5,8 +5,7 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use crate::ladder::StiffnessFrom;
-use crate::schema::RawScene;
+use crate::schema::{RawScene, StiffnessFrom};
 use crate::source::Source;
 use crate::{ContinuationKey, Model, Scene, SceneError};
 

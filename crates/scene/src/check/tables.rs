@@ -3,8 +3,9 @@
 use super::Checked;
 use crate::{
     AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
-    schema::{ANALYSIS, CONTACT, Choice, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
+    schema::{ANALYSIS, CONTACT, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
     source::Source,
+    table::Choice,
 };
 
 /// Slices of a pair that asks for no more, and of models that do not ask.

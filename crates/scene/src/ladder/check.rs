@@ -1,7 +1,7 @@
 //! From the words of the tables on the cheaper models to what they mean.
 
-use super::{Lumped8Scene, MeshScene, StiffnessFrom};
-use crate::schema::{RawLumped8, RawLumped12, RawMesh};
+use super::{Lumped8Scene, MeshScene};
+use crate::schema::{RawLumped8, RawLumped12, RawMesh, StiffnessFrom};
 use crate::source::Source;
 use crate::spanned::Numbers;
 use crate::{Axis, Lumped12Scene, Model, SceneError};

@@ -14,10 +14,7 @@ pub(super) use model_tables::{ModelTables, model_tables};
 pub(super) use shaft::shaft;
 pub(super) use without_effect::{check_free_coordinates, check_in_time, check_tables};
 
-use crate::SupportScene;
-use check::{lumped8, lumped12, mesh};
-use impact::impact;
-use shaft::shaft18;
+use crate::schema::{Law, ShaftCoordinate, Sharing, StiffnessFrom, SupportScene};
 
 /// Mesh of a model that has a stiffness instead of flanks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -48,28 +45,6 @@ pub struct MeshScene {
     pub line_sharing: Option<Sharing>,
 }
 
-choices! {
-    /// Where the stiffness over the mesh cycle comes from.
-    pub enum StiffnessFrom {
-        /// The quasi-static cycle of the reduced model of the same scene, its error with it.
-        Reduced = "reduced",
-        /// The series in the scene.
-        Series = "series",
-        /// ISO 6336-1's mean, in proportion to the length of the contact lines.
-        Iso = "iso",
-    }
-}
-
-choices! {
-    /// How friction weighs the contact lines.
-    pub enum Sharing {
-        /// By their length.
-        Length = "length",
-        /// Every line alike.
-        Line = "line",
-    }
-}
-
 /// The model with eight coordinates.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Lumped8Scene {
@@ -80,16 +55,6 @@ pub struct Lumped8Scene {
     /// Its frequency, Hz; set exactly where there is a fluctuation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_fluctuation_hz: Option<f64>,
-}
-
-choices! {
-    /// How mesh stiffness becomes transverse and axial force.
-    pub enum Law {
-        /// One spring along the normal.
-        Normal = "normal",
-        /// Two with projected stiffness, as seed 004 prints.
-        Projected = "projected",
-    }
 }
 
 /// Both shafts of the model of shafts.
@@ -140,24 +105,6 @@ pub struct DiscScene {
     pub transverse_inertia_kg_m2: f64,
     /// Coordinates that remain; the others follow statically.
     pub keeps: Vec<ShaftCoordinate>,
-}
-
-choices! {
-    /// A coordinate of a station on a shaft.
-    pub enum ShaftCoordinate {
-        /// Along x.
-        X = "x",
-        /// Along y.
-        Y = "y",
-        /// Along the axis.
-        Z = "z",
-        /// Tilt about x.
-        Rx = "rx",
-        /// Tilt about y.
-        Ry = "ry",
-        /// Turn about the axis.
-        Rz = "rz",
-    }
 }
 
 impl SupportScene {

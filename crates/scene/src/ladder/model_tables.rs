@@ -2,11 +2,13 @@
 
 use toml::Spanned;
 
-use super::{Lumped8Scene, MeshScene, Rung, Shaft18Scene};
-use super::{impact, lumped8, lumped12, mesh, shaft18};
-use crate::schema::RawScene;
+use super::check::{Rung, lumped8, lumped12, mesh};
+use super::impact::impact;
+use super::shaft::shaft18;
+use super::{Lumped8Scene, MeshScene, Shaft18Scene};
+use crate::schema::{ImpactScene, Lumped12Scene, RawScene};
 use crate::source::Source;
-use crate::{ImpactScene, Lumped12Scene, Model, SceneError};
+use crate::{Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;
 

@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::check::list;
-use super::{DiscScene, Shaft18Scene, ShaftCoordinate, ShaftScene};
-use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport};
+use super::{DiscScene, Shaft18Scene, ShaftScene};
+use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport, ShaftCoordinate};
 use crate::source::Source;
 use crate::spanned::{Number, Rows};
 use crate::{SceneError, SupportScene};

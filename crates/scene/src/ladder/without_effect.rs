@@ -4,9 +4,8 @@ use std::ops::Range;
 
 use toml::Spanned;
 
-use super::check::Torques;
-use super::{Rung, StiffnessFrom};
-use crate::schema::{RawGear, RawScene};
+use super::check::{Rung, Torques};
+use crate::schema::{RawGear, RawScene, StiffnessFrom};
 use crate::source::Source;
 use crate::{BodyScene, DriveBy, Model, Run, Scene, SceneError, SteadyBy};
 

@@ -1,8 +1,8 @@
 //! Bodies of the gears, and what holds them.
 
-use super::{Axis, BearingScene, BodyScene};
+use super::{BearingScene, BodyScene};
 use crate::SceneError;
-use crate::schema::{BEARING, RawBearing, RawBody};
+use crate::schema::{Axis, BEARING, RawBearing, RawBody};
 use crate::source::Source;
 use crate::spanned::{Number, Rows};
 

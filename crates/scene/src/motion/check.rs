@@ -2,8 +2,8 @@
 
 use toml::Spanned;
 
-use super::{Integration, MotionScene, Run, SweepScene, SweepWay};
-use crate::schema::{RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep};
+use super::{MotionScene, SweepScene};
+use crate::schema::{Integration, RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep, Run, SweepWay};
 use crate::source::Source;
 use crate::spanned::{Number, Whole};
 use crate::{BasinScene, ContinuationScene, RampScene, SceneError};

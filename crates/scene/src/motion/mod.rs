@@ -8,12 +8,12 @@ mod torque;
 use integrate::Scheme;
 use serde::Serialize;
 
-use crate::{BasinScene, ContinuationScene, RampScene};
+use crate::schema::{Axis, BasinScene, ContinuationScene, DriveBy, Integration, RampScene, Run, SteadyBy, SweepWay};
 
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
+pub use modes::ModesScene;
 pub(super) use modes::modes;
-pub use modes::{Boundary, ModesScene};
 pub(super) use torque::{drive, load};
 
 /// Rigid body of a gear with what turns with it.
@@ -32,32 +32,6 @@ pub struct BodyScene {
     pub added_inertia_kg_m2: f64,
     /// Coordinates that are free beside the turn.
     pub free: Vec<Axis>,
-}
-
-choices! {
-    /// A rigid coordinate of a gear's centre.
-    pub enum Axis {
-        /// Along the line of centres.
-        X = "x",
-        /// Across it.
-        Y = "y",
-        /// Along the axis.
-        Z = "z",
-        /// Tilt about x.
-        Rx = "rx",
-        /// Tilt about y.
-        Ry = "ry",
-    }
-}
-
-impl Axis {
-    /// All, in the order of the coordinates.
-    pub const ALL: [Self; 5] = [Self::X, Self::Y, Self::Z, Self::Rx, Self::Ry];
-
-    /// Number of the coordinate.
-    pub fn number(self) -> usize {
-        self as usize
-    }
 }
 
 /// Support of a gear's centre; `None`: none in that direction.
@@ -139,16 +113,6 @@ pub struct DriveScene {
     pub torque: TorqueScene,
 }
 
-choices! {
-    /// What is given of the driver.
-    pub enum DriveBy {
-        /// Its torque; it starts at `speed_rpm`.
-        Torque = "torque",
-        /// Its speed.
-        Speed = "speed",
-    }
-}
-
 /// A torque over time. A table replaces mean, amplitude, frequency and phase.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct TorqueScene {
@@ -227,26 +191,6 @@ pub struct MotionScene {
     pub basins: Option<BasinScene>,
 }
 
-choices! {
-    /// An analysis in time.
-    pub enum Run {
-        /// At constant speed until the motion repeats itself, then the cycles asked for.
-        Steady = "steady",
-        /// The same, the periodic state found directly.
-        Shooting = "shooting",
-        /// So many cycles or seconds from the quasi-static start.
-        Span = "span",
-        /// Run-up or run-down.
-        Ramp = "ramp",
-        /// Steady states at many speeds.
-        Sweep = "sweep",
-        /// Periodic motions along a key, stable and unstable.
-        Continuation = "continuation",
-        /// To which motion the pair settles from each state of a plane.
-        Basins = "basins",
-    }
-}
-
 impl BasinScene {
     /// Initial transmission errors (um) and rates (mm/s) of all starts, rate by rate.
     pub fn places(&self) -> Vec<[f64; 2]> {
@@ -256,36 +200,6 @@ impl BasinScene {
         let column = |i| at([self.from_um, self.to_um], self.columns, i);
         let row = |k| at([self.from_mm_s, self.to_mm_s], self.rows, k);
         (0..self.rows).flat_map(|k| (0..self.columns).map(move |i| [column(i), row(k)])).collect()
-    }
-}
-
-choices! {
-    /// A key along which periodic motions are followed.
-    pub enum ContinuationKey {
-        /// Speed of the driver, 1/min.
-        Speed = "operation.speed_rpm",
-        /// Torque on the driven gear, N m.
-        Torque = "operation.torque_nm",
-        /// Damping ratio of the mesh.
-        Damping = "motion.mesh_damping_ratio",
-        /// Half of the backlash of a lumped mesh, um.
-        HalfBacklash = "mesh.half_backlash_um",
-    }
-}
-
-choices! {
-    /// Method of integration.
-    pub enum Integration {
-        /// Implicit midpoint rule with a discrete gradient.
-        Energy = "energy",
-        /// Generalised-alpha.
-        GeneralisedAlpha = "generalised-alpha",
-        /// Newmark's constant average acceleration.
-        Newmark = "newmark",
-        /// Dormand-Prince 5(4), explicit.
-        DormandPrince = "dormand-prince",
-        /// Runge-Kutta's classical method of fourth order, explicit.
-        RungeKutta4 = "rk4",
     }
 }
 
@@ -330,27 +244,5 @@ impl SweepScene {
         let last = self.speeds.max(2) - 1;
         let at = |i: u32| self.from_rpm + (self.to_rpm - self.from_rpm) * f64::from(i) / f64::from(last);
         (0..self.speeds).map(at).collect()
-    }
-}
-
-choices! {
-    /// Which way a sweep goes.
-    pub enum SweepWay {
-        /// Each speed from its own quasi-static start.
-        Apart = "apart",
-        /// Upwards, the state carried from speed to speed.
-        Up = "up",
-        /// Downwards.
-        Down = "down",
-    }
-}
-
-choices! {
-    /// How a steady state is found.
-    pub enum SteadyBy {
-        /// By waiting.
-        Running = "running",
-        /// By shooting.
-        Shooting = "shooting",
     }
 }

@@ -4,7 +4,7 @@ use serde::Serialize;
 use toml::Spanned;
 
 use crate::SceneError;
-use crate::schema::RawModes;
+use crate::schema::{Boundary, RawModes};
 use crate::source::Source;
 
 /// Normal modes of both gears.
@@ -23,16 +23,6 @@ pub struct ModesScene {
     pub fixed_modes: Option<u32>,
     /// Damping ratio of every mode.
     pub damping_ratio: f64,
-}
-
-choices! {
-    /// Inertia of the flanks.
-    pub enum Boundary {
-        /// None but what the modes carry: modes of the whole mesh, what they leave of the compliance answers at once.
-        Massless = "massless",
-        /// The mesh's own, condensed to the flanks (Craig and Bampton).
-        Consistent = "consistent",
-    }
 }
 
 /// The table that goes with `model = "reduced+modes"`.

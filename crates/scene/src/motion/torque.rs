@@ -2,10 +2,11 @@
 
 use toml::Spanned;
 
-use super::{DriveBy, DriveScene, TorqueScene};
-use crate::schema::{Choice, DRIVE, RawDrive, RawLoad};
+use super::{DriveScene, TorqueScene};
+use crate::schema::{DRIVE, DriveBy, RawDrive, RawLoad};
 use crate::source::Source;
 use crate::spanned::{Number, Rows};
+use crate::table::Choice;
 use crate::{Model, SceneError};
 
 type Checked<T> = Result<T, SceneError>;

@@ -31,7 +31,7 @@ pub(super) fn parsed(text: &str) -> Result<Document<'_>, RexsError> {
         return Err(RexsError::Json);
     }
     match crowded(text) {
-        Some(line) => Err(RexsError::Crowded { line }),
+        Some(line) => Err(RexsError::Crowded { most: ATTRIBUTES, line }),
         None => Ok(Document::parse(text)?),
     }
 }

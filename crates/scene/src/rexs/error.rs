@@ -1,7 +1,5 @@
 //! What is refused of a REXS file.
 
-use super::document::ATTRIBUTES;
-
 /// Why no pair or shaft comes out of a REXS file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -19,8 +17,10 @@ pub enum RexsError {
     #[error("is no XML: {0}")]
     Xml(#[from] roxmltree::Error),
     /// An element that the reader of XML would take hours for.
-    #[error("has an element of more than {ATTRIBUTES} attributes in line {line}")]
+    #[error("has an element of more than {most} attributes in line {line}")]
     Crowded {
+        /// Attributes that an element may have.
+        most: usize,
         /// Line in which it begins, from 1.
         line: usize,
     },

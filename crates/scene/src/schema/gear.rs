@@ -1,10 +1,9 @@
-//! A gear: data, mesh, material. Its micro-geometry has rows of its own, in `modification`.
+//! A gear: data, mesh, material.
 
+use super::flank::{MODIFICATION, RawModification};
 use super::ladder::{RawShaft, SHAFT};
 use super::motion::{BEARING, BODY, RawBearing, RawBody};
-use super::{INF, Table};
-use crate::Coupling;
-use crate::modification::{MODIFICATION, RawModification};
+use crate::table::{INF, Table};
 
 table! {
     /// `[pinion]`
@@ -63,6 +62,16 @@ table! {
     BORE, RawBore: "how the shaft holds the bore; models with a mesh"; {
         held_mm: numbers(), "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it";
         coupling: word(Coupling), "kinematic: every node of the bore moves with the shaft; distributing: the bore deforms, and its area-weighted mean displacement and turn are the shaft's";
+    }
+}
+
+choices! {
+    /// How a bore follows its shaft.
+    pub enum Coupling {
+        /// As a rigid body, node by node.
+        Kinematic = "kinematic",
+        /// By its area-weighted mean displacement and mean turn.
+        Distributing = "distributing",
     }
 }
 

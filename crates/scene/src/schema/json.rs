@@ -2,7 +2,8 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Key, Kind, SCENE, Table};
+use super::SCENE;
+use crate::table::{Key, Table, ValueKind};
 
 /// The schema of the scene file.
 ///
@@ -35,34 +36,34 @@ fn object(table: &Table) -> Value {
 
 fn property(key: &Key) -> Value {
     let mut property = match &key.kind {
-        Kind::Number { low, high, default } => {
+        ValueKind::Number { low, high, default } => {
             let end = |x: &f64| x.is_finite().then(|| Value::from(*x));
             ranged("number", end(low), end(high), default.map(Value::from))
         }
-        Kind::Whole { low, high, default } => {
+        ValueKind::Whole { low, high, default } => {
             // The largest that the type can hold is no limit of its own.
             let high = (*high < u32::MAX).then(|| Value::from(*high));
             ranged("integer", Some(Value::from(*low)), high, default.map(Value::from))
         }
-        Kind::Word { choices, first_is_default } => {
+        ValueKind::Word { choices, first_is_default } => {
             let mut word = json!({ "type": "string", "enum": choices });
             if *first_is_default {
                 word["default"] = choices[0].into();
             }
             word
         }
-        Kind::Words { choices } => json!({ "type": "array", "items": { "type": "string", "enum": choices } }),
-        Kind::Switch { default } => json!({ "type": "boolean", "default": default }),
-        Kind::Text => json!({ "type": "string" }),
-        Kind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
-        Kind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
-        Kind::Rows { columns } => {
+        ValueKind::Words { choices } => json!({ "type": "array", "items": { "type": "string", "enum": choices } }),
+        ValueKind::Switch { default } => json!({ "type": "boolean", "default": default }),
+        ValueKind::Text => json!({ "type": "string" }),
+        ValueKind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
+        ValueKind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
+        ValueKind::Rows { columns } => {
             let row =
                 json!({ "type": "array", "items": { "type": "number" }, "minItems": columns, "maxItems": columns });
             json!({ "type": "array", "items": row, "minItems": 1 })
         }
-        Kind::Table(table) => object(table),
-        Kind::Tables(table) => json!({ "type": "array", "items": object(table) }),
+        ValueKind::Table(table) => object(table),
+        ValueKind::Tables(table) => json!({ "type": "array", "items": object(table) }),
     };
     property["description"] = key.about.into();
     property

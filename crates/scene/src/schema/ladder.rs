@@ -1,7 +1,6 @@
 //! Cheaper models of the same pair.
 
-use super::INF;
-use crate::{Law, ShaftCoordinate, Sharing, StiffnessFrom};
+use crate::table::INF;
 
 table! {
     /// `[mesh]`
@@ -17,12 +16,44 @@ table! {
     }
 }
 
+choices! {
+    /// Where the stiffness over the mesh cycle comes from.
+    pub enum StiffnessFrom {
+        /// The quasi-static cycle of the reduced model of the same scene, its error with it.
+        Reduced = "reduced",
+        /// The series in the scene.
+        Series = "series",
+        /// ISO 6336-1's mean, in proportion to the length of the contact lines.
+        Iso = "iso",
+    }
+}
+
+choices! {
+    /// How friction weighs the contact lines.
+    pub enum Sharing {
+        /// By their length.
+        Length = "length",
+        /// Every line alike.
+        Line = "line",
+    }
+}
+
 table! {
     /// `[lumped8]`
     LUMPED8, RawLumped8: "the model with eight coordinates"; {
         law: word(Law), "one spring along the normal, or two with projected stiffness";
         speed_fluctuation_rpm: number(0.0, 1e7, 0.0), "amplitude of the driver's speed about its mean, 1/min";
         speed_fluctuation_hz: bare(1e-6, 1e7), "its frequency, Hz";
+    }
+}
+
+choices! {
+    /// How mesh stiffness becomes transverse and axial force.
+    pub enum Law {
+        /// One spring along the normal.
+        Normal = "normal",
+        /// Two with projected stiffness, as seed 004 prints.
+        Projected = "projected",
     }
 }
 
@@ -81,6 +112,24 @@ table! {
         polar_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia about the shaft's axis, kg m^2";
         transverse_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia about an axis across, kg m^2";
         keeps: words(ShaftCoordinate), "coordinates that remain; default: x, y, rz";
+    }
+}
+
+choices! {
+    /// A coordinate of a station on a shaft.
+    pub enum ShaftCoordinate {
+        /// Along x.
+        X = "x",
+        /// Along y.
+        Y = "y",
+        /// Along the axis.
+        Z = "z",
+        /// Tilt about x.
+        Rx = "rx",
+        /// Tilt about y.
+        Ry = "ry",
+        /// Turn about the axis.
+        Rz = "rz",
     }
 }
 

@@ -1,7 +1,5 @@
 //! Motion in time: bodies, bearings, torques, modes, integration, analyses.
 
-use crate::{Axis, Boundary, ContinuationKey, DriveBy, Integration, Run, SteadyBy, SweepWay};
-
 table! {
     /// `[pinion.body]`
     BODY, RawBody: "rigid body of the gear (analyses in time)"; {
@@ -10,6 +8,32 @@ table! {
         polar_inertia_kg_m2: bare(1e-15, 1e12), "inertia about the gear's own axis, kg m^2; default: of the mesh";
         added_inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of engine, load or shaft on the same axis, kg m^2";
         free: words(Axis), "coordinates that are free beside the turn";
+    }
+}
+
+choices! {
+    /// A rigid coordinate of a gear's centre.
+    pub enum Axis {
+        /// Along the line of centres.
+        X = "x",
+        /// Across it.
+        Y = "y",
+        /// Along the axis.
+        Z = "z",
+        /// Tilt about x.
+        Rx = "rx",
+        /// Tilt about y.
+        Ry = "ry",
+    }
+}
+
+impl Axis {
+    /// All, in the order of the coordinates.
+    pub const ALL: [Self; 5] = [Self::X, Self::Y, Self::Z, Self::Rx, Self::Ry];
+
+    /// Number of the coordinate.
+    pub fn number(self) -> usize {
+        self as usize
     }
 }
 
@@ -46,6 +70,16 @@ table! {
     }
 }
 
+choices! {
+    /// What is given of the driver.
+    pub enum DriveBy {
+        /// Its torque; it starts at `speed_rpm`.
+        Torque = "torque",
+        /// Its speed.
+        Speed = "speed",
+    }
+}
+
 table! {
     /// `[load]`
     LOAD, RawLoad: "torque on the driven gear beside its mean (analyses in time)"; {
@@ -64,6 +98,16 @@ table! {
         boundary: word(Boundary), "whether the flanks have inertia of their own";
         fixed_modes: whole(0, 100, 2), "modes with the flanks held behind a consistent boundary";
         damping_ratio: number(0.0, 1.0, 0.01), "damping ratio of every mode";
+    }
+}
+
+choices! {
+    /// Inertia of the flanks.
+    pub enum Boundary {
+        /// None but what the modes carry: modes of the whole mesh, what they leave of the compliance answers at once.
+        Massless = "massless",
+        /// The mesh's own, condensed to the flanks (Craig and Bampton).
+        Consistent = "consistent",
     }
 }
 
@@ -90,6 +134,42 @@ table! {
     }
 }
 
+choices! {
+    /// An analysis in time.
+    pub enum Run {
+        /// At constant speed until the motion repeats itself, then the cycles asked for.
+        Steady = "steady",
+        /// The same, the periodic state found directly.
+        Shooting = "shooting",
+        /// So many cycles or seconds from the quasi-static start.
+        Span = "span",
+        /// Run-up or run-down.
+        Ramp = "ramp",
+        /// Steady states at many speeds.
+        Sweep = "sweep",
+        /// Periodic motions along a key, stable and unstable.
+        Continuation = "continuation",
+        /// To which motion the pair settles from each state of a plane.
+        Basins = "basins",
+    }
+}
+
+choices! {
+    /// Method of integration.
+    pub enum Integration {
+        /// Implicit midpoint rule with a discrete gradient.
+        Energy = "energy",
+        /// Generalised-alpha.
+        GeneralisedAlpha = "generalised-alpha",
+        /// Newmark's constant average acceleration.
+        Newmark = "newmark",
+        /// Dormand-Prince 5(4), explicit.
+        DormandPrince = "dormand-prince",
+        /// Runge-Kutta's classical method of fourth order, explicit.
+        RungeKutta4 = "rk4",
+    }
+}
+
 table! {
     /// `[motion.ramp]`
     RAMP, RawRamp => RampScene: "run-up or run-down: the driver's speed changes by a smooth step", needed ["from_rpm", "to_rpm", "duration_s"]; {
@@ -113,6 +193,28 @@ table! {
     }
 }
 
+choices! {
+    /// Which way a sweep goes.
+    pub enum SweepWay {
+        /// Each speed from its own quasi-static start.
+        Apart = "apart",
+        /// Upwards, the state carried from speed to speed.
+        Up = "up",
+        /// Downwards.
+        Down = "down",
+    }
+}
+
+choices! {
+    /// How a steady state is found.
+    pub enum SteadyBy {
+        /// By waiting.
+        Running = "running",
+        /// By shooting.
+        Shooting = "shooting",
+    }
+}
+
 table! {
     /// `[motion.continuation]`
     CONTINUATION, RawContinuation => ContinuationScene: "periodic motions along a key, stable and unstable, by harmonic balance", needed ["from", "to"]; {
@@ -127,6 +229,20 @@ table! {
         longest_step: number(1e-4, 1.0, 0.05), "longest step along the branch, in ranges of the key and static deflections";
         motions: whole(2, 100_000, 1000), "largest number of motions";
         time_points: whole(0, 1000, 8), "stable motions that are run in time as well";
+    }
+}
+
+choices! {
+    /// A key along which periodic motions are followed.
+    pub enum ContinuationKey {
+        /// Speed of the driver, 1/min.
+        Speed = "operation.speed_rpm",
+        /// Torque on the driven gear, N m.
+        Torque = "operation.torque_nm",
+        /// Damping ratio of the mesh.
+        Damping = "motion.mesh_damping_ratio",
+        /// Half of the backlash of a lumped mesh, um.
+        HalfBacklash = "mesh.half_backlash_um",
     }
 }
 

@@ -1,13 +1,12 @@
 //! The file itself, and the tables on pair, load, contact, analysis and output.
 
-use super::INF;
+use super::accuracy::{ACCURACY, RawAccuracy};
 use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};
 use super::ladder::{
     IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
 };
 use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};
-use crate::accuracy::{ACCURACY, RawAccuracy};
-use crate::{Driver, FieldName, Flanks, Gap, Kind, Method, Model, Reduction, Rotation};
+use crate::table::INF;
 
 table! {
     /// The whole file.
@@ -69,6 +68,26 @@ table! {
     }
 }
 
+choices! {
+    /// The gear that drives.
+    pub enum Driver {
+        /// Gear 1.
+        Pinion = "pinion",
+        /// Gear 2.
+        Wheel = "wheel",
+    }
+}
+
+choices! {
+    /// Sense of rotation seen from +z.
+    pub enum Rotation {
+        /// Counter-clockwise.
+        Ccw = "ccw",
+        /// Clockwise.
+        Cw = "cw",
+    }
+}
+
 table! {
     /// `[contact]`
     CONTACT, RawContact: "how flanks press on each other"; {
@@ -80,6 +99,36 @@ table! {
         flanks: bare_word(Flanks), "which flanks may touch; default: driving, in time both";
         friction: number(0.0, 1.0, 0.0), "coefficient of friction";
         corner_contact: switch(true), "whether tip edges may press off the line of action (method slice)";
+    }
+}
+
+choices! {
+    /// Where the contact unknowns sit.
+    pub enum Method {
+        /// One line load an axial slice.
+        Slice = "slice",
+        /// Quadrature points of the flank mesh.
+        Nodal = "nodal",
+    }
+}
+
+choices! {
+    /// Which surface gives the gaps.
+    pub enum Gap {
+        /// The exact involute helicoid.
+        Smooth = "smooth",
+        /// The faces of the mesh: for showing what facets do to the transmission error, not for engineering.
+        Facet = "facet",
+    }
+}
+
+choices! {
+    /// Which flanks may touch.
+    pub enum Flanks {
+        /// Those that the torque presses together.
+        Driving = "driving",
+        /// Both sides.
+        Both = "both",
     }
 }
 
@@ -95,6 +144,52 @@ table! {
     }
 }
 
+choices! {
+    /// Quasi-static or in time.
+    pub enum Kind {
+        /// Equilibrium at every position.
+        Static = "static",
+        /// Motion in time.
+        Dynamic = "dynamic",
+    }
+}
+
+choices! {
+    /// A model of the pair.
+    pub enum Model {
+        /// Flanks of the tooth window.
+        Reduced = "reduced",
+        /// The cheapest that is as exact as `[accuracy]` asks.
+        Auto = "auto",
+        /// The same with normal modes of both gears, in time.
+        ReducedModes = "reduced+modes",
+        /// A map of the contact of the reduced gears, in time.
+        Mapped = "mapped",
+        /// Every degree of freedom of both meshes.
+        Full = "full",
+        /// ISO 6336-1 stiffness and analytic contact lines; no mesh.
+        Iso = "iso",
+        /// Eight coordinates, mesh stiffness, backlash and friction.
+        Lumped8 = "lumped8",
+        /// Twelve coordinates.
+        Lumped12 = "lumped12",
+        /// Two lumped shafts with the mesh between them.
+        Shaft18 = "shaft18",
+        /// Rigid gears, force by overlap of their true flanks.
+        Impact = "impact",
+    }
+}
+
+choices! {
+    /// Which way gears are condensed.
+    pub enum Reduction {
+        /// One sector where the gear is cyclic, else the whole gear.
+        Auto = "auto",
+        /// The whole gear in one factor.
+        General = "general",
+    }
+}
+
 table! {
     /// `[output]`
     OUTPUT, RawOutput: "what is computed and written on request"; {
@@ -105,5 +200,17 @@ table! {
         fields: words(FieldName), "fields of the ParaView files; default: all";
         vtu_every: whole(1, 1_000_000, 1), "one ParaView file every so many positions";
         derivatives: texts(), "keys by which transmission error, stiffness, pressure and pair forces of history.csv are differentiated";
+    }
+}
+
+choices! {
+    /// A field of the ParaView files.
+    pub enum FieldName {
+        /// Displacement of every node, mm.
+        Displacement = "displacement",
+        /// Contact pressure at flank nodes, MPa.
+        Pressure = "pressure",
+        /// Stress tensor and von Mises stress, MPa.
+        Stress = "stress",
     }
 }

@@ -1,10 +1,9 @@
 //! A motion with bounds, by the cheapest model that keeps what is asked.
 
 use scene::{AccuracyScene, Method, Quantity, Run, Scene, Tolerance};
-use serde::Serialize;
 
 use super::{
-    MotionAnswer, MotionCalibration, MotionModel, MotionSample, MotionTold, PairAtRest,
+    MotionAnswer, MotionCalibration, MotionModel, MotionSample, MotionTold, PairAtRest, TriedModel,
     at_rest::at_rest,
     estimate::{Seen, not_covered},
     mesh_bound,
@@ -18,23 +17,6 @@ use crate::{
     lumped::NoLumpedSink,
     motion::NoMotionSink,
 };
-
-/// A model that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TriedModel {
-    /// Which.
-    pub model: MotionModel,
-    /// Elements along the profile, as many in proportion in all other directions; `None` for meshes of the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_profile: Option<u32>,
-    /// Slices over the face width.
-    pub slices: Option<u32>,
-    /// Steps in a period of the fastest motion, at least.
-    pub steps_per_resonance: u32,
-    /// Why it was left; `None` for the one that was taken.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_because: Option<String>,
-}
 
 /// The answer to a scene in motion, with bounds.
 #[derive(Debug)]

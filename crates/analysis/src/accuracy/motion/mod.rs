@@ -8,7 +8,7 @@
 //! | file | question |
 //! |---|---|
 //! | `analysis` | which model is exact enough? |
-//! | `model` | which models are there, and what do they want of a scene? |
+//! | `model`, `model_scene` | which models are there, and what do they want of a scene? |
 //! | `at_rest` | what does the pair at rest say of its motion? |
 //! | `run` | what does a model answer? |
 //! | `response` | what do errors of the pair at rest become in motion? |
@@ -20,10 +20,12 @@ mod at_rest;
 mod calibration;
 mod estimate;
 mod model;
+mod model_scene;
 mod response;
 mod run;
 
-pub use analysis::{AccurateMotion, AccurateMotionResult, TriedModel};
+pub use super::exactness::TriedModel;
+pub use analysis::{AccurateMotion, AccurateMotionResult};
 pub use at_rest::{PairAtRest, solve_at_rest};
 pub use calibration::{MotionCalibration, MotionLaws, SpeedLaw, UsualBound};
 pub use model::MotionModel;

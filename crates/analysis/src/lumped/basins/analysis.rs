@@ -9,17 +9,17 @@ use scene::{MotionScene, Run, Scene};
 use super::{
     super::{
         LumpedInputs,
-        analysis::{self, checked_run, motion_of},
+        analysis::{self, checked_run},
         excitation::ExcitationSource,
         warnings::no_backlash,
     },
-    Attractor, BasinHeadline,
+    Attractor, BasinHeadline, BasinStart,
     attractor::told_apart,
     plane::StatePlane,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, gears, resolution::with_slices,
-    run_phase, unless_cancelled,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, gears, inputs::motion_of,
+    resolution::with_slices, run_phase, unless_cancelled,
 };
 
 /// A scene with `run = "basins"`.
@@ -33,21 +33,6 @@ impl std::fmt::Debug for BasinAnalysis<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("BasinAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
     }
-}
-
-/// One start, and where it leads; units are in the names.
-#[derive(Debug, Clone)]
-pub struct BasinStart {
-    /// Transmission error beside that of rest, um.
-    pub initial_dte_um: f64,
-    /// Its rate beside that of rest, mm/s.
-    pub initial_dte_rate_mm_s: f64,
-    /// Number of the motion that it ends in; `None` where none comes out.
-    pub attractor: Option<usize>,
-    /// Mesh cycles until it is there.
-    pub warm_up_cycles: u64,
-    /// Why no motion comes out.
-    pub failed: Option<Arc<AnalysisError>>,
 }
 
 /// The answer to a search for basins.

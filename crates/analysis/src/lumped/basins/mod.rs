@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `analysis` | [`BasinAnalysis`]: runs a scene from all states of the plane |
 //! | `plane` | the states |
+//! | `start` | [`BasinStart`]: one of them, and where it leads |
 //! | `attractor` | [`Attractor`]: motions that runs end in, told apart |
 //! | `headline` | what is read off them |
 
@@ -11,7 +12,9 @@ mod analysis;
 mod attractor;
 mod headline;
 mod plane;
+mod start;
 
-pub use analysis::{BasinAnalysis, BasinResult, BasinStart};
+pub use analysis::{BasinAnalysis, BasinResult};
 pub use attractor::Attractor;
 pub use headline::BasinHeadline;
+pub use start::BasinStart;

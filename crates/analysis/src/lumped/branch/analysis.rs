@@ -15,7 +15,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress,
-    certificate::{Certificate, Check},
+    certificate::{Check, Checks},
     facts::Facts,
     gears,
     resolution::with_slices,
@@ -122,8 +122,8 @@ impl<'a> ContinuationAnalysis<'a> {
             chosen.iter().map(one).collect::<Result<Vec<TimePoint>, AnalysisError>>()
         })?;
         facts.certificate = certificate(&points, &words)
-            .and(Certificate::new([covered(&branch, &words)]))
-            .and(Certificate::new(family.now().0.checks()));
+            .and(Checks::new([covered(&branch, &words)]))
+            .and(Checks::new(family.now().0.checks()));
         let of = HeadlineInputs {
             words: &words,
             coordinates,
@@ -212,10 +212,10 @@ fn covered(branch: &Branch<AnalysisError>, words: &ContinuationScene) -> Check {
     let unfinished = branch.broken.is_some() || cut_short(branch, words).is_some();
     let left_out = 1.0 - ((high - low).max(0.0) / (words.to - words.from).abs()).min(1.0);
     Check {
-        name: "range_left_out",
+        name: "range_left_out".into(),
         value: if unfinished { left_out } else { 0.0 },
         bound: LEFT_OUT,
-        way_out: "give more `motions`, a larger `longest_step` or more damping in [motion.continuation] and [motion]; the warnings \
+        hint: "give more `motions`, a larger `longest_step` or more damping in [motion.continuation] and [motion]; the warnings \
                   say where the branch ended",
     }
 }
@@ -228,20 +228,20 @@ fn stable_ones(points: &[BranchPoint], most: usize) -> Vec<usize> {
     (0..count).map(|k| stable[(2 * k + 1) * stable.len() / (2 * count)]).collect()
 }
 
-fn certificate(points: &[BranchPoint], words: &ContinuationScene) -> Certificate {
+fn certificate(points: &[BranchPoint], words: &ContinuationScene) -> Checks {
     let largest = |of: fn(&BranchPoint) -> f64| points.iter().map(of).fold(0.0, crate::worse);
-    Certificate::new([
+    Checks::new([
         Check {
-            name: "harmonic_residual",
+            name: "harmonic_residual".into(),
             value: largest(|p| p.residual),
             bound: 10.0 * TOLERANCE,
-            way_out: "give more `phases`",
+            hint: "give more `phases`",
         },
         Check {
-            name: "harmonic_tail",
+            name: "harmonic_tail".into(),
             value: largest(|p| p.tail),
             bound: words.tail,
-            way_out: "give more `most_harmonics`",
+            hint: "give more `most_harmonics`",
         },
     ])
 }

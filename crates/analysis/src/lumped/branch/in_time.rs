@@ -10,15 +10,16 @@ use study::extent;
 use super::{
     super::{
         LumpedInputs,
-        analysis::{motion_of, refuse_unstable},
+        analysis::refuse_unstable,
         inputs::LumpedSystem,
+        integration::integrator,
         mechanism::ModelFailure,
-        run_loop::{LumpedRun, NoRunObserver, RunPlan, integrator},
+        run_loop::{LumpedRun, NoRunObserver, RunPlan},
     },
     family::ModelFamily,
     point::state,
 };
-use crate::AnalysisError;
+use crate::{AnalysisError, inputs::motion_of};
 
 /// Difference after a period over the peak to peak that is none for a guess.
 const ROUGHLY: f64 = 1e-2;

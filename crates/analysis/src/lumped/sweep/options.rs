@@ -5,8 +5,8 @@ use std::{fmt, sync::Arc};
 use scene::{MotionScene, Run, Scene, SweepScene, SweepWay};
 use serde::Serialize;
 
-use super::super::{LumpedRow, analysis::motion_of};
-use crate::AnalysisError;
+use super::super::LumpedRow;
+use crate::{AnalysisError, inputs::motion_of};
 
 /// A number of a row with its name.
 #[derive(Clone)]

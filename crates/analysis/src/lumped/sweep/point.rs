@@ -8,15 +8,10 @@ use serde::Serialize;
 use study::{Lyapunov, extent, mean, section_period};
 
 use super::{
-    super::{
-        LumpedInputs,
-        analysis::{checked_run, motion_of},
-        exponent::exponent,
-        free_turn::FreeTurn,
-    },
+    super::{LumpedInputs, analysis::checked_run, exponent::exponent, free_turn::FreeTurn},
     SweepOptions,
 };
-use crate::AnalysisError;
+use crate::{AnalysisError, inputs::motion_of};
 
 /// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
 const SAME: f64 = 1e-3;

@@ -5,6 +5,7 @@ mod elasticity;
 mod inertia;
 mod options;
 mod prepare;
+mod quasi_static;
 mod stable;
 
 pub use elasticity::{ElasticHeadline, KeptModes};
@@ -12,6 +13,6 @@ pub(crate) use elasticity::{Elasticity, Vibration, mesh_range_hz};
 pub use inertia::InertiaHeadline;
 pub use options::{RPM, bearing, drive, motion_options, scheme, speed, stated_body, steady_by, torque};
 pub(crate) use options::{body, pair_drive};
-pub use prepare::QuasiStatic;
-pub(crate) use prepare::{MotionInputs, PreparedMotion, fastest_hz, prepare};
-pub use stable::{Steps, UnstableSteps, refuse_unstable};
+pub(crate) use prepare::{MotionInputs, PreparedMotion, prepare};
+pub use quasi_static::QuasiStatic;
+pub use stable::refuse_unstable;

@@ -9,23 +9,24 @@ use mesh::Mesh;
 use reduction::RecordKey;
 use scene::{Flanks, MotionScene, Scene};
 
-use super::{Elasticity, motion_options, scheme};
+use super::{Elasticity, QuasiStatic, motion_options, scheme};
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, body_warnings, dof_after,
+    AnalysisError, GearCache, Observer, PhaseWork, body_warnings,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     facts::Facts,
     failure::Failure,
     foreseen::announced_s,
-    free_dofs, gears,
+    gear_dofs::{dof_after, free_dofs, reduced},
+    gears,
     inputs::meshes_of,
     iso_root,
     meshes::SceneMesh,
-    motion::MotionSink,
+    motion::{MotionSink, step_estimate::fastest_hz},
     options::options,
     plausible::{refuse, remarks},
-    reduced,
     resolution::resolution,
-    run_phase, static_certificate, unless_cancelled, wider_window,
+    run_phase, static_certificate, unless_cancelled,
+    window::wider_window,
 };
 
 /// Gears, geometry and window of a run.
@@ -56,37 +57,6 @@ impl<'a> MotionInputs<'a> {
     pub fn wider(&self, window: Option<usize>, error: &StaticError) -> Option<usize> {
         let options = contact_options(self.scene, &self.pair, window);
         wider_window(self.scene, &self.pair, &self.meshes, &options, error)
-    }
-}
-
-/// The quasi-static mesh cycle.
-#[derive(Debug, Clone)]
-pub struct QuasiStatic {
-    /// Transmission error, mm, position by position.
-    pub transmission_error: Vec<f64>,
-    /// Mean tangent stiffness, N/mm on the base circle.
-    pub stiffness: f64,
-    /// Mean length of the contact lines, mm.
-    pub line_length: f64,
-    /// Mean sum of the normal forces, N.
-    pub normal_force: f64,
-}
-
-impl QuasiStatic {
-    fn of(history: &StaticHistory) -> Self {
-        let all = &history.positions;
-        let mean = |f: &dyn Fn(&ltca::StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
-        Self {
-            transmission_error: all.iter().map(|p| p.transmission_error).collect(),
-            stiffness: mean(&|p| p.tangent_stiffness),
-            line_length: mean(&|p| p.contact_line_length),
-            normal_force: mean(&|p| p.pairs.iter().map(|pair| pair.normal_force).sum()),
-        }
-    }
-
-    /// Mean transmission error, mm.
-    pub fn mean_error(&self) -> f64 {
-        self.transmission_error.iter().sum::<f64>() / self.transmission_error.len() as f64
     }
 }
 
@@ -232,11 +202,6 @@ fn settings(
         stop_at_events: motion.stop_at_events,
         scale: system.scales(&system.coordinates().scales(length, driven.base_radius()), length),
     }
-}
-
-/// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.
-pub(crate) fn fastest_hz(system: &PairMechanism) -> f64 {
-    system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::max)
 }
 
 /// Steps in a period of the mesh resonance that give the fastest motion as many as the scene asks for.

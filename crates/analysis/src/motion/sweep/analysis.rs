@@ -58,7 +58,7 @@ impl SweepResult {
     /// # Errors
     /// [`AnalysisError::Certificate`], [`AnalysisError::NoSpeed`].
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
-        self.facts.certificate.verdict(scene)?;
+        crate::certificate::verdict(&self.facts.certificate, scene)?;
         rows::verdict(scene, &self.rows)
     }
 }

@@ -131,7 +131,7 @@ pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisEr
             file: scene.file.display().to_string(),
             speed_rpm: first.speed_rpm,
             reason: first.reason.clone(),
-            way_out: MOTION_WAY_OUT,
+            hint: MOTION_WAY_OUT,
         }),
         _ => Ok(()),
     }

@@ -1,0 +1,66 @@
+//! Steps of a run: how long they are, and by which integrator.
+
+use integrate::{Forces, Integrator, Mechanism, StepControl, StepLimit, Stiffest};
+use scene::MotionScene;
+
+use super::mechanism::{BoxedMechanism, ModelFailure};
+use crate::motion::scheme;
+
+/// Phases of a mesh cycle at which the longest stable step is looked for.
+const PHASES: u32 = 32;
+
+/// Frequencies by which steps are chosen.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct MeshFrequencies {
+    /// Of the mesh, Hz.
+    pub mesh_hz: f64,
+    /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: none.
+    pub resonance_hz: f64,
+}
+
+impl MeshFrequencies {
+    /// Steps between rows that show the mesh resonance with as many steps as asked.
+    pub fn steps_per_row(self, motion: &MotionScene) -> u32 {
+        let per_cycle = f64::from(motion.steps_per_resonance) * self.resonance_hz / self.mesh_hz;
+        let needed = (per_cycle / f64::from(motion.steps_per_mesh_cycle)).ceil();
+        if needed.is_finite() { needed.clamp(1.0, 1e6) as u32 } else { 1 }
+    }
+
+    /// Length of a step, s.
+    pub fn step(self, motion: &MotionScene) -> f64 {
+        let rows = f64::from(motion.steps_per_mesh_cycle) * self.mesh_hz;
+        1.0 / rows / f64::from(self.steps_per_row(motion))
+    }
+}
+
+/// The integrator that a scene asks for, steps as long as this at the most.
+pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64) -> Integrator {
+    let control = match motion.error_tolerance {
+        None => StepControl::Fixed(step),
+        Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * step, least: 1e-7 * step, largest: step },
+    };
+    Integrator::new(scheme(motion), control, model.scale()).stopping_at_events(motion.stop_at_events).keeping_stable()
+}
+
+/// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the
+/// start on, its coordinates held. `None` where any step is stable.
+///
+/// # Errors
+/// [`ModelFailure`] where there is nothing to start from.
+pub(super) fn stable_step(
+    model: &mut BoxedMechanism,
+    motion: &MotionScene,
+    mesh_hz: f64,
+) -> Result<Option<StepLimit>, ModelFailure> {
+    let stiffest = Stiffest::new(scheme(motion), model.mass()).filter(|_| motion.error_tolerance.is_none());
+    let Some(mut stiffest) = stiffest else { return Ok(None) };
+    let start = model.start()?;
+    let mut forces = Forces::zeros(start.q.len());
+    for phase in 0..PHASES {
+        forces.clear();
+        let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
+        model.forces(time, &start.q, &start.v, &mut forces).map_err(ModelFailure::at(time))?;
+        stiffest.include(&forces);
+    }
+    Ok(stiffest.limit())
+}

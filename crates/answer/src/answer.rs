@@ -1,0 +1,33 @@
+//! All that a run answers.
+
+use serde_json::{Map, Value};
+
+use crate::{Checks, Cost, Table};
+
+/// The answer to one question, whatever its kind.
+#[derive(Debug, Clone, Default)]
+pub struct Answer {
+    /// Name of the document, for titles.
+    pub name: String,
+    /// The document with every default written out.
+    pub inputs: Value,
+    /// Rows.
+    pub tables: Vec<Table>,
+    /// The numbers that most people want, by key with unit.
+    pub headline: Value,
+    /// What was demanded, and what was found.
+    pub checks: Checks,
+    /// What the user should hear.
+    pub remarks: Vec<String>,
+    /// Facts about the run, by key with unit.
+    pub info: Map<String, Value>,
+    /// Time and memory.
+    pub cost: Cost,
+}
+
+impl Answer {
+    /// The table of that name.
+    pub fn table(&self, name: &str) -> Option<&Table> {
+        self.tables.iter().find(|table| table.name == name)
+    }
+}

@@ -1,0 +1,70 @@
+//! A table as a Parquet file: the same columns in the same order, numbers bit for bit.
+
+use std::sync::Arc;
+
+use parquet::basic::{Compression, ConvertedType, Encoding, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::SerializedFileWriter;
+use parquet::schema::types::{ColumnPath, Type};
+
+use crate::{Table, TableError, Values};
+
+/// The bytes of a Parquet file of a table, one group of rows, Snappy.
+///
+/// # Errors
+/// [`TableError::Parquet`] when a name is none that the format takes.
+pub fn parquet_bytes(table: &Table) -> Result<Vec<u8>, TableError> {
+    write(table).map_err(|cause| TableError::Parquet { table: table.name.to_owned(), cause })
+}
+
+fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
+    let mut bytes = Vec::new();
+    let columns: Vec<(&str, bool)> =
+        table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
+    let mut writer =
+        SerializedFileWriter::new(&mut bytes, schema(table.name, &columns)?, Arc::new(properties(&columns)))?;
+    let rows = table.rows();
+    let mut group = writer.next_row_group()?;
+    for column in &table.columns {
+        let Some(mut to) = group.next_column()? else { break };
+        match &column.values {
+            Values::Numbers(list) => to.typed::<DoubleType>().write_batch(&list[..rows], None, None)?,
+            Values::Texts(list) => {
+                let texts: Vec<ByteArray> = list[..rows].iter().map(|t| ByteArray::from(t.as_str())).collect();
+                to.typed::<ByteArrayType>().write_batch(&texts, None, None)?
+            }
+        };
+        to.close()?;
+    }
+    group.close()?;
+    writer.close()?;
+    Ok(bytes)
+}
+
+/// How all Parquet files of this program are written; columns as [`schema`] takes them.
+pub fn properties(columns: &[(&str, bool)]) -> WriterProperties {
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_dictionary_enabled(false)
+        // Bytes of like weight beside each other: neighbours of a curve share the leading ones.
+        .set_encoding(Encoding::BYTE_STREAM_SPLIT);
+    let texts = columns.iter().filter(|(_, is_text)| *is_text);
+    texts.fold(properties, |all, (name, _)| all.set_column_encoding(ColumnPath::from(*name), Encoding::PLAIN)).build()
+}
+
+/// Schema of rows with these columns: a name, and whether it holds texts.
+///
+/// # Errors
+/// When a name is none that the format takes.
+pub fn schema(rows: &str, columns: &[(&str, bool)]) -> Result<Arc<Type>, ParquetError> {
+    let column = |(name, is_text): &(&str, bool)| {
+        let physical = if *is_text { Physical::BYTE_ARRAY } else { Physical::DOUBLE };
+        let of = Type::primitive_type_builder(name, physical).with_repetition(Repetition::REQUIRED);
+        let of = if *is_text { of.with_converted_type(ConvertedType::UTF8) } else { of };
+        of.build().map(Arc::new)
+    };
+    let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
+    Ok(Arc::new(Type::group_type_builder(rows).with_fields(fields).build()?))
+}

@@ -1,0 +1,31 @@
+//! What is an answer made of, whatever was asked?
+//!
+//! An [`Answer`] holds tables of rows, a headline, checks, remarks, and facts about the run. Solvers make it, and everything
+//! that shows results reads it: files, pages, closing tables, Python.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`Table`], [`Column`] | columns of numbers or texts; name, unit and meaning stand once |
+//! | [`unit_of`] | the unit that a name ends with |
+//! | [`csv`] | numbers and texts as fields of a file with commas |
+//! | [`parquet_bytes`] | a table as a Parquet file |
+//! | [`Check`], [`Checks`] | what was demanded of a result and what was found |
+//! | [`Cost`], [`Phase`] | time and memory of a run |
+//! | [`Answer`] | all of it together |
+
+mod answer;
+mod check;
+mod columnar;
+mod cost;
+pub mod csv;
+mod error;
+mod table;
+mod unit;
+
+pub use answer::Answer;
+pub use check::{Check, Checks, FailedCheck};
+pub use columnar::{parquet_bytes, properties, schema};
+pub use cost::{Cost, Phase};
+pub use error::TableError;
+pub use table::{Column, Table, Values};
+pub use unit::unit_of;

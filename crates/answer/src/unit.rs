@@ -1,0 +1,63 @@
+//! The unit that a name ends with.
+
+/// Endings of names and their units, the longest first where one ends with another.
+const UNITS: [(&str, &str); 25] = [
+    ("kg_m2", "kg m2"),
+    ("n_s_per_mm", "N s/mm"),
+    ("n_per_um", "N/um"),
+    ("n_per_mm", "N/mm"),
+    ("um_per_s", "um/s"),
+    ("nmm", "N mm"),
+    ("nm", "N m"),
+    ("urad", "urad"),
+    ("mrad", "mrad"),
+    ("rad", "rad"),
+    ("deg", "deg"),
+    ("mpa", "MPa"),
+    ("rpm", "1/min"),
+    ("hz", "Hz"),
+    ("mj", "mJ"),
+    ("um", "um"),
+    ("mm2", "mm2"),
+    ("mm", "mm"),
+    ("kg", "kg"),
+    ("mb", "MB"),
+    ("percent", "%"),
+    ("ms", "ms"),
+    ("s", "s"),
+    ("n", "N"),
+    ("w", "W"),
+];
+
+/// Unit of a column or key by the ending of its name, `""` for a number without unit.
+///
+/// `max_pressure_mpa` is in MPa. A rate `a_um_per_b_deg` is in `um/deg`; a number after the unit, as in
+/// `dte_um_falling`, hides it, so such names are looked at up to their last unit.
+///
+/// ```
+/// assert_eq!(answer::unit_of("max_pressure_mpa"), "MPa");
+/// assert_eq!(answer::unit_of("mean_mesh_stiffness_n_per_um"), "N/um");
+/// assert_eq!(answer::unit_of("d_ste_um_per_pinion_tip_relief_um"), "um/um");
+/// assert_eq!(answer::unit_of("pairs_in_contact"), "");
+/// ```
+pub fn unit_of(name: &str) -> String {
+    if let Some((_, unit)) = ending(name) {
+        return match name.split_once("_per_").filter(|(_, below)| ending_alone(below)) {
+            Some((above, below)) => format!("{}/{}", unit_of(above), unit_of(below)),
+            None => unit.to_owned(),
+        };
+    }
+    name.split_once("_per_").map_or_else(String::new, |(above, _)| unit_of(above))
+}
+
+fn ending(name: &str) -> Option<(&'static str, &'static str)> {
+    let of = |(ending, _): &&(&str, &str)| {
+        name.strip_suffix(ending).is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))
+    };
+    UNITS.iter().find(of).copied()
+}
+
+/// Whether what stands below `_per_` is a quantity with a name of its own, no bare unit.
+fn ending_alone(below: &str) -> bool {
+    ending(below).is_some_and(|(unit, _)| unit != below)
+}

@@ -1,0 +1,76 @@
+//! Laws of tables: what is written reads back to the bit, names tell the unit.
+
+use answer::{Table, parquet_bytes, unit_of};
+use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::record::RowAccessor;
+
+fn table() -> Table {
+    Table::new("positions")
+        .numbers("angle_deg", "angle", [0.1, f64::NAN, -1e-300])
+        .texts("shaft", "shaft", ["fast", "a, b", "say \"so\""])
+        .numbers("ste_um", "error", [1.0, 2.5e17, 0.0])
+}
+
+#[test]
+fn numbers_read_back_to_the_bit_from_commas() {
+    let csv = table().csv();
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some("angle_deg,shaft,ste_um"));
+    assert_eq!(lines.next(), Some("0.1,fast,1"));
+    assert_eq!(lines.next(), Some("NaN,\"a, b\",2.5e17"));
+    assert_eq!(lines.next(), Some("-1e-300,\"say \"\"so\"\"\",0"));
+    assert_eq!(lines.next(), None);
+}
+
+#[test]
+fn numbers_and_texts_read_back_to_the_bit_from_parquet() {
+    let table = table();
+    let bytes = parquet_bytes(&table).unwrap();
+    let folder = tempfile_of(&bytes);
+    let reader = SerializedFileReader::new(folder).unwrap();
+    let columns = reader.metadata().file_metadata().schema_descr().columns().to_vec();
+    let names: Vec<&str> = columns.iter().map(|c| c.name()).collect();
+    assert_eq!(names, table.names().collect::<Vec<_>>());
+    for (i, row) in reader.get_row_iter(None).unwrap().enumerate() {
+        let row = row.unwrap();
+        for (k, name) in [(0, "angle_deg"), (2, "ste_um")] {
+            assert_eq!(row.get_double(k).unwrap().to_bits(), table.find(name).unwrap()[i].to_bits(), "{name} {i}");
+        }
+        assert_eq!(row.get_string(1).unwrap(), ["fast", "a, b", "say \"so\""][i]);
+    }
+    assert_eq!(reader.metadata().file_metadata().num_rows(), 3);
+}
+
+fn tempfile_of(bytes: &[u8]) -> std::fs::File {
+    use std::io::{Seek, Write};
+    let mut file = tempfile::tempfile().unwrap();
+    file.write_all(bytes).unwrap();
+    file.rewind().unwrap();
+    file
+}
+
+#[test]
+fn names_tell_the_unit() {
+    for (name, unit) in [
+        ("time_s", "s"),
+        ("mean_ste_um", "um"),
+        ("mesh_1_normal_force_n", "N"),
+        ("torque_nm", "N m"),
+        ("wheel_moment_x_nmm", "N mm"),
+        ("compression_rate_um_per_s", "um/s"),
+        ("line_load_n_per_mm", "N/mm"),
+        ("d_ste_um_per_pinion_modification_tip_relief_um", "um/um"),
+        ("steps_per_mesh_cycle", ""),
+        ("mesh_cycles", ""),
+        ("status", ""),
+        ("residual", ""),
+    ] {
+        assert_eq!(unit_of(name), unit, "{name}");
+    }
+}
+
+#[test]
+fn a_column_that_is_not_there_is_none() {
+    assert!(table().find("shaft").is_none() && table().find("nothing").is_none());
+    assert_eq!((table().rows(), Table::new("empty").csv().as_str()), (3, "\n"));
+}

@@ -1,0 +1,38 @@
+//! A gearbox about its state at rest: springs in place of rolling elements. Theory (101).
+
+use crate::{
+    GearboxError, GearboxPosition, Structure,
+    rolling_bearing::{RollingState, Tangent},
+};
+
+impl Structure {
+    /// The same with springs in place of rolling elements: about their mean over some positions of it at rest, each
+    /// with the mean of its tangents. What swings and moves is made of it.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.
+    pub fn about(&self, positions: &[GearboxPosition]) -> Result<Self, GearboxError> {
+        let mut linear = self.clone();
+        for (i, bearing) in linear.bearings.iter_mut().enumerate() {
+            if bearing.law.take().is_none() {
+                continue;
+            }
+            let states: Vec<RollingState> =
+                positions.iter().filter_map(|p| p.rolling.get(i).copied().flatten()).collect();
+            let missing = GearboxError::Count { what: "states of a bearing", found: states.len(), wanted: 1 };
+            let own = Tangent::about(&states).ok_or(missing)?;
+            bearing.stiffness += own.stiffness;
+            bearing.preload += own.preload;
+            bearing.stored += own.stored;
+        }
+        Ok(linear)
+    }
+
+    /// That all bearings are springs.
+    pub(crate) fn check_linear(&self) -> Result<(), GearboxError> {
+        match self.bearings.iter().find(|b| b.law.is_some()) {
+            Some(own) => Err(GearboxError::NotLinear { bearing: own.name.clone() }),
+            None => Ok(()),
+        }
+    }
+}

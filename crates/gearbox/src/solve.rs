@@ -1,0 +1,79 @@
+//! A gearbox at an angle of its input: equilibrium from where the last positions lead to, then what is read off. Theory (84).
+
+use contact::SliceResult;
+use nalgebra::DVector;
+
+use crate::{
+    GearboxError, GearboxPosition, MeshReply, StaticGearbox, Vector12,
+    position::{Solved, position},
+    search::Sought,
+    static_gearbox::at_mesh,
+};
+
+impl StaticGearbox {
+    /// Equilibrium with the input turned by `angle` (rad about +z) from its start.
+    ///
+    /// # Errors
+    /// [`GearboxError`].
+    pub fn solve(&mut self, angle: f64) -> Result<GearboxPosition, GearboxError> {
+        if !angle.is_finite() {
+            let part = "the input".into();
+            return Err(GearboxError::OutOfRange { part, quantity: "angle, rad", value: angle });
+        }
+        let cycles = self.train.cycles(angle);
+        for ((element, &c), mesh) in self.elements.iter_mut().zip(&cycles).zip(&self.meshes) {
+            element.go_to(c).map_err(|source| at_mesh(mesh, source))?;
+        }
+        let load = self.seats.basis.transpose() * &self.load;
+        let start = continued(&self.last, angle).unwrap_or_else(|| self.norms.displacements(&load));
+        let sought = match self.search(&load, start) {
+            Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.pliant.is_empty() => {
+                self.by_heavier_loads(&load).ok_or(failed)
+            }
+            other => other,
+        };
+        let Sought { found, mut replies, pressed } = sought?;
+        let Self { elements, meshes, last, .. } = self;
+        let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
+        for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
+            element.check().map_err(|source| at_mesh(mesh, source))?;
+        }
+        last.insert(0, (angle, found.displacements.clone()));
+        last.truncate(2);
+        self.follow(&mut replies, &mut slices, &found.last_step);
+        let forces = self.in_common_axes(&replies);
+        self.replies.clone_from(&replies);
+        Ok(position(self, Solved { angle, cycles, found, replies, pressed, forces, slices }))
+    }
+
+    /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, and their
+    /// sum, go with the moment on gear 2, pressures as its square root.
+    fn follow(&self, replies: &mut [MeshReply], slices: &mut [Vec<SliceResult>], step: &DVector<f64>) {
+        for ((to_gears, reply), slices) in self.to_gears.iter().zip(replies).zip(slices) {
+            let before = reply.force[11];
+            reply.force += reply.tangent * (to_gears * step);
+            let grown = reply.force[11] / before;
+            if grown > 0.0 && grown.is_finite() {
+                reply.normal_force *= grown;
+                for slice in slices {
+                    slice.line_load *= grown;
+                    slice.pressure *= grown.sqrt();
+                }
+            }
+        }
+    }
+
+    /// Forces and moments of the meshes on their gears, common axes.
+    fn in_common_axes(&self, replies: &[MeshReply]) -> Vec<Vector12> {
+        self.places.iter().zip(replies).map(|((_, turn), reply)| turn * reply.force).collect()
+    }
+}
+
+/// Where the last positions lead to at an angle: on along the line through both, as far as they are apart; else where
+/// the last one is. `None` where there is none. A position that has failed leaves the others as they are.
+fn continued(last: &[(f64, DVector<f64>)], angle: f64) -> Option<DVector<f64>> {
+    let (at, z) = last.first()?;
+    let Some((before, y)) = last.get(1) else { return Some(z.clone()) };
+    let part = (angle - at) / (at - before);
+    Some(if part.abs() <= 1.0 + 1e-9 { z + part * (z - y) } else { z.clone() })
+}

@@ -1,0 +1,72 @@
+//! An answer of any kind as the files of a result.
+
+use answer::{Answer, Checks, Cost, parquet_bytes};
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::{
+    ReportError, SUMMARY_SCHEMA,
+    folder::ResultDirectory,
+    page::{Page, Rendered, closing_text},
+};
+
+#[derive(Serialize)]
+struct Summary<'a> {
+    program: &'static str,
+    version: &'static str,
+    schema: u32,
+    name: &'a str,
+    inputs: &'a Value,
+    #[serde(flatten)]
+    info: &'a Map<String, Value>,
+    #[serde(flatten)]
+    checks: &'a Checks,
+    cost: &'a Cost,
+    headline: &'a Value,
+    warnings: &'a [String],
+    files: &'a [String],
+}
+
+/// Writes tables (with commas, and column by column where `with_parquet` is set), page, and `summary.json` last: where it
+/// is, everything is. What comes back is the closing table.
+///
+/// # Errors
+/// When the system refuses, or the page cannot be filled.
+pub fn write_result(
+    answer: &Answer,
+    page: &Page,
+    with_parquet: bool,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    for table in &answer.tables {
+        results.write(&format!("{}.csv", table.name), table.csv().as_bytes())?;
+        if with_parquet {
+            results.write(&format!("{}.parquet", table.name), &parquet_bytes(table)?)?;
+        }
+    }
+    Rendered::new("parts.html", minijinja::Value::from(minijinja::value::Serde(page)))?.write(results)?;
+    results.write("summary.json", summary(answer, &results.files()?).as_bytes())?;
+    Ok(closing_text(page, &answer.cost))
+}
+
+/// `summary.json`: everything about an answer but its rows; numbers without a value (NaN) are `null`. `files` are the
+/// other files of the result.
+fn summary(answer: &Answer, files: &[String]) -> String {
+    let summary = Summary {
+        program: "ale-gear",
+        version: env!("CARGO_PKG_VERSION"),
+        schema: SUMMARY_SCHEMA,
+        name: &answer.name,
+        inputs: &answer.inputs,
+        info: &answer.info,
+        checks: &answer.checks,
+        cost: &answer.cost,
+        headline: &answer.headline,
+        warnings: &answer.remarks,
+        files,
+    };
+    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
+    let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
+    text.push('\n');
+    text
+}

@@ -1,0 +1,98 @@
+//! How a gearbox swings, as parts of its page.
+
+use analysis::{gearbox_at_rest::GearboxSwings, motion::RPM};
+use scene::gearbox::{Gearbox, GearboxVibration};
+
+use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
+use crate::{
+    charts::{Curve, campbell_chart, line_chart},
+    page::{Cell, Grid, Part},
+};
+
+/// Orders that are drawn as lines of a Campbell diagram at the most.
+const DRAWN: usize = 8;
+/// Modes that the closing table lists.
+const LISTED: usize = 8;
+
+/// Modes, charts, largest forces.
+pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &GearboxSwings) -> Vec<Part> {
+    let charts = [campbell(swings), meshes(file, swings), bearings(file, swings)];
+    let rows: Vec<Vec<Cell>> = first_modes(swings)
+        .iter()
+        .enumerate()
+        .map(|(i, mode)| {
+            vec![
+                Cell::count(i + 1),
+                Cell::number(mode.frequency / std::f64::consts::TAU, 1),
+                Cell::text(holders(file, &mode.energy.strain)),
+                Cell::text(holders(file, &mode.energy.kinetic)),
+            ]
+        })
+        .collect();
+    let words = format!(
+        "With the mean stiffness of every mesh at {:.1}/min of the input. Where the strain energy is, and what moves. The \
+         picture in space shows each as a shape.",
+        swings.campbell.speeds.first().map_or(f64::NAN, |s| 60.0 * s)
+    );
+    let of_meshes = mesh_peaks(file, swings).into_iter().zip(&swings.mesh_stiffness).map(|(peak, stiffness)| {
+        vec![
+            Cell::text(peak.name),
+            Cell::number(1e-3 * stiffness, 1),
+            Cell::number(peak.force_n, 1),
+            Cell::number(peak.input_rpm, 0),
+        ]
+    });
+    let of_bearings = bearing_peaks(file, swings)
+        .into_iter()
+        .map(|peak| vec![Cell::text(peak.name), Cell::number(peak.force_n, 2), Cell::number(peak.input_rpm, 0)]);
+    let forces = format!("Root mean square of all orders of all meshes, damping ratio {:.3}.", asked.damping_ratio);
+    let (lowest, rest) = rows.split_at(LISTED.min(rows.len()));
+    let head = ["mode", "Hz", "strain energy in", "kinetic energy in"];
+    let modes = |rows: &[Vec<Cell>]| Grid::new(head).rows(rows.iter().cloned());
+    vec![
+        Part::new("Natural frequencies").closing().words(words).grid(modes(lowest)),
+        Part::more().grid(modes(rest)).figures(charts.into_iter().flatten()),
+        Part::new("Largest dynamic forces")
+            .closing()
+            .words(forces)
+            .grid(Grid::new(["mesh", "mean stiffness N/um", "dynamic force rms N", "at input 1/min"]).rows(of_meshes))
+            .grid(Grid::new(["bearing", "force on the housing rms N", "at input 1/min"]).rows(of_bearings)),
+    ]
+}
+
+/// Natural frequencies over speed with the lowest orders of every mesh.
+fn campbell(swings: &GearboxSwings) -> Option<String> {
+    let mut diagram = swings.campbell.clone();
+    let first = swings.lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
+    let rest =
+        swings.lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
+    let (numbers, names): (Vec<usize>, Vec<String>) =
+        first.chain(rest).take(DRAWN).map(|(i, l)| (i, l.name.replace('_', " "))).unzip();
+    diagram.orders = numbers.iter().map(|i| swings.campbell.orders[*i]).collect();
+    let modes: Vec<String> = (1..=diagram.frequencies.len()).map(|m| format!("natural mode {m}")).collect();
+    campbell_chart(&diagram, &names, &modes)
+}
+
+/// A root mean square over the speed of the input.
+fn over_speed(swings: &GearboxSwings, label: &str, of: impl Fn(usize) -> f64) -> Curve {
+    let points = swings.speeds.iter().enumerate().map(|(s, speed)| (speed / RPM, of(s)));
+    Curve { label: label.to_owned(), points: points.collect() }
+}
+
+const SPEED: &str = "speed of the input [1/min]";
+
+fn meshes(file: &Gearbox, swings: &GearboxSwings) -> Option<String> {
+    let of = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
+        over_speed(swings, &mesh.name, |s| swings.rms[s].mesh_forces[i])
+    };
+    let curves: Vec<Curve> = file.meshes.iter().enumerate().map(of).collect();
+    line_chart("Dynamic normal force of the meshes", SPEED, "root mean square [N]", &curves, true)
+}
+
+fn bearings(file: &Gearbox, swings: &GearboxSwings) -> Option<String> {
+    let of = |(i, bearing): (usize, &scene::gearbox::GearboxBearing)| {
+        over_speed(swings, &bearing.name, |s| swings.rms[s].bearing_forces[i])
+    };
+    let curves: Vec<Curve> = file.bearings.iter().enumerate().map(of).collect();
+    line_chart("Forces of the bearings on the housing", SPEED, "root mean square [N]", &curves, true)
+}

@@ -1,0 +1,285 @@
+//! What a page and a closing table are made of: parts with lines, grids and figures, whatever was asked.
+
+use answer::{Answer, Cost};
+use serde::{Deserialize, Serialize};
+
+use crate::tables::fixed;
+
+/// A page about an answer: what stands at its top, and its parts in their order.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Page {
+    /// Title.
+    pub name: String,
+    /// One line below it.
+    pub subtitle: String,
+    /// Checks that do not hold, in words.
+    pub failed: Vec<String>,
+    /// What the user should hear.
+    pub warnings: Vec<String>,
+    /// The few numbers that people look for first: label and value with unit.
+    pub glance: Vec<[String; 2]>,
+    /// Parts.
+    pub parts: Vec<Part>,
+}
+
+/// A part of a page.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Part {
+    /// Heading; none where the part goes on with the one before.
+    pub title: String,
+    /// One paragraph below it.
+    pub words: String,
+    /// What it shows.
+    pub contents: Vec<Content>,
+    /// In small letters below all.
+    pub note: String,
+    /// Whether the closing table on the terminal has it.
+    pub is_closing: bool,
+}
+
+/// One thing that a part shows.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Content {
+    /// Labels with values.
+    Lines(Vec<Line>),
+    /// Rows below a heading.
+    Grid(Grid),
+    /// Charts and maps, each a figure of a page.
+    Figures(Vec<String>),
+    /// A part of a page by its own template: gears in space, contact patterns.
+    Html(String),
+    /// A list.
+    Items(Vec<String>),
+    /// Text as it stands.
+    Plain(String),
+}
+
+/// A label, its value and its unit.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Line {
+    /// What it is.
+    pub label: String,
+    /// The number as it is shown.
+    pub value: String,
+    /// Unit, and what goes with it.
+    pub unit: String,
+}
+
+impl Line {
+    /// A value in words.
+    pub fn text(label: impl Into<String>, value: impl ToString, unit: impl Into<String>) -> Self {
+        Self { label: label.into(), value: value.to_string(), unit: unit.into() }
+    }
+
+    /// A number with so many decimals ([`fixed`]), `-` when there is none.
+    pub fn number(
+        label: impl Into<String>,
+        value: impl Into<Option<f64>>,
+        decimals: usize,
+        unit: impl Into<String>,
+    ) -> Self {
+        Self::text(label, shown(value.into(), decimals), unit)
+    }
+
+    /// A small number as power of ten, `-` when there is none.
+    pub fn science(label: impl Into<String>, value: impl Into<Option<f64>>, unit: impl Into<String>) -> Self {
+        Self::text(label, science(value.into()), unit)
+    }
+}
+
+/// A cell of a grid.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Cell {
+    /// What stands in it.
+    pub text: String,
+    /// Whether it is a number, which stands on the right.
+    pub is_number: bool,
+    /// Page that a click on it opens.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub link: Option<String>,
+}
+
+impl Cell {
+    /// Words.
+    pub fn text(text: impl Into<String>) -> Self {
+        Self { text: text.into(), ..Self::default() }
+    }
+
+    /// A number with so many decimals, `-` when there is none.
+    pub fn number(value: impl Into<Option<f64>>, decimals: usize) -> Self {
+        Self { text: shown(value.into(), decimals), is_number: true, link: None }
+    }
+
+    /// A small number as power of ten, `-` when there is none.
+    pub fn science(value: impl Into<Option<f64>>) -> Self {
+        Self { text: science(value.into()), is_number: true, link: None }
+    }
+
+    /// A whole number.
+    pub fn count(value: impl ToString) -> Self {
+        Self { text: value.to_string(), is_number: true, link: None }
+    }
+}
+
+/// Rows below a heading, every row with a cell for each word of it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Grid {
+    /// Headings.
+    pub head: Vec<String>,
+    /// Rows.
+    pub rows: Vec<Vec<Cell>>,
+    /// Whether a click on a heading sorts by it.
+    #[serde(default)]
+    pub is_sortable: bool,
+}
+
+impl Grid {
+    /// Without rows.
+    pub fn new<S: Into<String>>(head: impl IntoIterator<Item = S>) -> Self {
+        Self { head: head.into_iter().map(Into::into).collect(), ..Self::default() }
+    }
+
+    /// With these rows.
+    #[must_use]
+    pub fn rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
+        self.rows.extend(rows);
+        self
+    }
+
+    /// Whose rows a click on a heading sorts.
+    #[must_use]
+    pub fn sortable(self) -> Self {
+        Self { is_sortable: true, ..self }
+    }
+}
+
+impl Part {
+    /// With a heading.
+    pub fn new(title: impl Into<String>) -> Self {
+        Self { title: title.into(), ..Self::default() }
+    }
+
+    /// Without one.
+    pub fn more() -> Self {
+        Self::default()
+    }
+
+    /// In the closing table as well.
+    #[must_use]
+    pub fn closing(self) -> Self {
+        Self { is_closing: true, ..self }
+    }
+
+    /// With a paragraph below its heading.
+    #[must_use]
+    pub fn words(self, words: impl Into<String>) -> Self {
+        Self { words: words.into(), ..self }
+    }
+
+    /// With small letters at its end.
+    #[must_use]
+    pub fn note(self, note: impl Into<String>) -> Self {
+        Self { note: note.into(), ..self }
+    }
+
+    /// With one more content; empty ones are left out.
+    #[must_use]
+    pub fn with(mut self, content: Content) -> Self {
+        if !content.is_empty() {
+            self.contents.push(content);
+        }
+        self
+    }
+
+    /// With labels and values.
+    #[must_use]
+    pub fn lines(self, lines: impl IntoIterator<Item = Line>) -> Self {
+        self.with(Content::Lines(lines.into_iter().collect()))
+    }
+
+    /// With a grid.
+    #[must_use]
+    pub fn grid(self, grid: Grid) -> Self {
+        self.with(Content::Grid(grid))
+    }
+
+    /// With figures.
+    #[must_use]
+    pub fn figures(self, figures: impl IntoIterator<Item = String>) -> Self {
+        self.with(Content::Figures(figures.into_iter().collect()))
+    }
+
+    /// Whether it shows nothing.
+    pub fn is_empty(&self) -> bool {
+        self.contents.is_empty() && self.words.is_empty() && self.note.is_empty()
+    }
+}
+
+impl Content {
+    fn is_empty(&self) -> bool {
+        match self {
+            Self::Lines(all) => all.is_empty(),
+            Self::Grid(grid) => grid.rows.is_empty(),
+            Self::Figures(all) | Self::Items(all) => all.is_empty(),
+            Self::Html(text) | Self::Plain(text) => text.is_empty(),
+        }
+    }
+}
+
+impl Page {
+    /// Title, checks that do not hold and remarks of an answer; parts come behind.
+    pub fn of(answer: &Answer, subtitle: String) -> Self {
+        Self {
+            name: answer.name.clone(),
+            subtitle,
+            failed: answer.checks.missed().map(answer::Check::words).collect(),
+            warnings: answer.remarks.clone(),
+            ..Self::default()
+        }
+    }
+
+    /// Every check of an answer with its bound.
+    pub fn trust(answer: &Answer) -> Part {
+        let words = match (answer.checks.word(), answer.remarks.len()) {
+            ("failed", _) => "Not at all: see the top of this page.",
+            (_, 0) => "No check of this run asks for a second look.",
+            (_, 1) => "Mind the warning at the top of this page.",
+            _ => "Mind the warnings at the top of this page.",
+        };
+        let rows = answer.checks.iter().map(|check| {
+            vec![Cell::text(check.name.replace('_', " ")), Cell::science(check.value), Cell::science(check.bound)]
+        });
+        Part::new("How far to trust it").words(words).grid(Grid::new(["check", "value", "bound"]).rows(rows))
+    }
+
+    /// With one more part; empty ones are left out.
+    pub fn push(&mut self, part: Part) {
+        if !part.is_empty() {
+            self.parts.push(part);
+        }
+    }
+}
+
+fn shown(value: Option<f64>, decimals: usize) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| fixed(v, decimals))
+}
+
+fn science(value: Option<f64>) -> String {
+    value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}"))
+}
+
+/// Time and memory of every phase.
+pub fn cost_part(cost: &Cost) -> Part {
+    let row =
+        |name: &str, wall_s: f64, mb: Option<f64>| vec![Cell::text(name), Cell::number(wall_s, 2), Cell::number(mb, 0)];
+    let phases = cost.phases.iter().map(|phase| row(&phase.name, phase.wall_s, phase.peak_memory_mb));
+    let rows = phases.chain([row("total", cost.wall_s, cost.peak_memory_mb)]);
+    let note = format!("{} threads.", cost.threads);
+    Part::new("Cost").grid(Grid::new(["phase", "wall s", "peak MB"]).rows(rows)).note(note)
+}
+
+/// The command that makes a result again.
+pub fn again(command: &str) -> Part {
+    Part::new("How to make it again").with(Content::Plain(command.to_owned()))
+}

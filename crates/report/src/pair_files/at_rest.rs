@@ -1,0 +1,215 @@
+//! A run at rest: rows, contact, page, closing table.
+
+use analysis::{
+    Derivatives,
+    accuracy::Quantity,
+    facts::Facts,
+    results::{Place, StaticHeadline, static_headline},
+};
+use answer::Table;
+use ltca::StaticHistory;
+use scene::Scene;
+
+use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
+use crate::{
+    Cost, ReportError,
+    charts::{LineChart, banded_chart},
+    columns::{
+        At, StaticCurves, history_table,
+        static_history::{
+            FORCE_X, FORCE_Y, FORCE_Z, GEOMETRIC_LENGTH, LINE_LENGTH, PAIR_FORCE, SECANT_STIFFNESS, STE,
+            TANGENT_STIFFNESS, TOOTH_TENSION,
+        },
+    },
+    contact_files::{contact_lines, pattern_figure, write_patterns},
+    folder::ResultDirectory,
+    page::{Content, Line, Part},
+    view::View,
+    write_result,
+};
+
+/// Writes all files of a run at rest but the fields for ParaView, which come position by position; what comes back is
+/// the closing table. `view`: the gears in space.
+///
+/// # Errors
+/// When the system refuses, or a page does not come out.
+pub fn write_static_result(
+    scene: &Scene,
+    (history, derivatives): (&StaticHistory, Option<&Derivatives>),
+    (facts, cost): (&Facts, &Cost),
+    view: Option<&View>,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    let headline = static_headline(scene, history)?;
+    let mut tables = vec![history_table(scene, history, derivatives)];
+    let mut pattern = None;
+    if scene.has_slices() {
+        let pair = scene.gear_pair()?;
+        if scene.output.contact_lines {
+            tables.push(contact_lines(scene, &pair, history));
+        }
+        let patterns = analysis::results::patterns(scene, &pair, history)?;
+        tables.extend(write_patterns(scene, &patterns, results)?);
+        pattern = pattern_figure(&patterns);
+    }
+    let answer = pair_answer(scene, (facts, cost), &headline, &history.warnings, tables);
+    let shown = Shown {
+        subtitle: format!(", {} positions a mesh cycle, {} cycle(s)", headline.samples_per_cycle, headline.cycles),
+        key: vec![
+            key("peak-to-peak STE", headline.peak_to_peak_ste_um, 3, "um"),
+            key("mean mesh stiffness", headline.mean_mesh_stiffness_n_per_um, 1, "N/um"),
+            key("maximum pressure", headline.max_pressure_mpa, 0, "MPa"),
+        ],
+        over: "Over the mesh cycle".into(),
+        charts: charts(scene, history, facts),
+        after: after(&headline, facts, pattern),
+        headline: lines(&headline, facts),
+        solved: solved(&headline),
+        view,
+        again: None,
+    };
+    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+}
+
+/// Definitions, and the contact pattern.
+fn after(h: &StaticHeadline, facts: &Facts, pattern: Option<String>) -> Vec<Part> {
+    let mut notes = Vec::new();
+    if let Some(root) = &h.root_stress {
+        notes.push(format!("Root stress: {}; {}.", root.definition, root.averaging));
+    } else if !facts.meshes.is_empty() {
+        notes.push("Root stress of the meshes was not asked for: `--set output.root_stress=true`.".to_owned());
+    }
+    notes.extend(facts.iso_root_stress.as_ref().map(|iso| format!("Nominal root stress: {}.", iso.method)));
+    notes.push(
+        "Pair 0 passes the middle of its path during the cycle shown; pair 1 is one pitch ahead of it in the sense of \
+         rotation, pair -1 one behind."
+            .to_owned(),
+    );
+    let pattern = Part::new("Contact pattern").with(Content::Figures(pattern.into_iter().collect()));
+    let has_pattern = !pattern.is_empty();
+    let words = "Largest pressure over the whole mesh on the driving flank of one tooth; grey: no contact line came there.";
+    std::iter::once(Part::more().note(notes.join(" "))).chain(has_pattern.then(|| pattern.note(words))).collect()
+}
+
+fn lines(h: &StaticHeadline, facts: &Facts) -> Vec<Line> {
+    let mut all = vec![
+        Line::number("mean STE", h.mean_ste_um, 4, "um"),
+        Line::number(
+            format!("peak-to-peak STE ({} positions)", h.samples_per_cycle),
+            h.peak_to_peak_ste_um,
+            4,
+            "um",
+        ),
+    ];
+    all.extend(harmonics("STE", &h.ste_harmonics_um));
+    all.extend([
+        Line::number("mean mesh stiffness, secant", h.mean_mesh_stiffness_n_per_um, 2, "N/um"),
+        Line::number("mean mesh stiffness, tangent", h.mean_mesh_stiffness_tangent_n_per_um, 2, "N/um"),
+        Line::number("mean contact-line length", h.mean_contact_line_length_mm, 3, "mm"),
+        Line::number("  unloaded, analytic", h.mean_geometric_line_length_mm, 3, "mm"),
+        Line::number("mean sum of normal forces", h.mean_normal_force_n, 1, "N"),
+        Line::number("mean axial force on the wheel", h.mean_wheel_force_n[2], 1, "N"),
+        Line::number("mean tilting moment on the pinion", h.mean_pinion_tilting_moment_nmm, 0, "N mm"),
+        Line::number("mean tilting moment on the wheel", h.mean_wheel_tilting_moment_nmm, 0, "N mm"),
+        Line::number("largest force of one pair", h.max_pair_force_n, 1, "N"),
+    ]);
+    if h.mean_friction_power_loss_w != 0.0 {
+        all.push(Line::number("mean power lost to friction", h.mean_friction_power_loss_w, 2, "W"));
+        all.push(Line::text("efficiency of the contact", format!("{:.3}", 100.0 * h.efficiency), "%"));
+    }
+    let factors = [
+        ("tooth loss factor H_VL", h.tooth_loss_factor),
+        ("transverse load factor K_Halpha", h.transverse_load_factor),
+        ("load sharing ratio", h.load_sharing_ratio),
+        ("face load factor K_Hbeta", h.face_load_factor),
+    ];
+    all.extend(factors.into_iter().filter_map(|(what, value)| Some(Line::number(what, value?, 3, ""))));
+    all.push(pressure(h.max_pressure_mpa, h.max_pressure_at.as_ref()));
+    for (name, gear) in h.root_stress.iter().flat_map(|root| [("pinion", &root.pinion), ("wheel", &root.wheel)]) {
+        let (tension, compression) = (&gear.max_principal, &gear.min_principal);
+        all.extend([
+            Line::number(format!("largest root tension, {name}"), tension.stress_mpa, 1, place(tension)),
+            Line::number(format!("largest root compression, {name}"), compression.stress_mpa, 1, "MPa"),
+            Line::number(format!("largest root von Mises, {name}"), gear.von_mises.stress_mpa, 1, "MPa"),
+        ]);
+    }
+    all.extend(iso_root_stress(facts));
+    if h.root_stress.is_none() && !facts.meshes.is_empty() {
+        let why = "(not asked for: `--set output.root_stress=true`)";
+        all.push(Line::text("root stress of the meshes", "-", why));
+    }
+    let first = h.tooth_change.as_ref().map_or(String::new(), |change| change.words());
+    all.push(Line::text("tooth changes", h.tooth_changes, first));
+    all.push(Line::science("worst torque residual", h.worst_torque_residual, ""));
+    all
+}
+
+/// Unit, tooth and place of a root stress.
+fn place(at: &Place) -> String {
+    let Place { tooth, radius_mm, z_mm, estimated_error_percent, .. } = at;
+    let side = at.side.name();
+    format!(
+        "MPa, within about {estimated_error_percent:.1} % (tooth {tooth}, {side} fillet, r {radius_mm:.3} mm, z {z_mm:.2} mm)"
+    )
+}
+
+fn solved(h: &StaticHeadline) -> Vec<Line> {
+    let usual = "(0.5 is usual with the least window)";
+    vec![
+        Line::science("complementarity (gap, pressure), worst relative violation", h.worst_complementarity_residual, ""),
+        Line::science("action and reaction, worst relative difference", h.worst_action_reaction_residual, ""),
+        Line::science("share of load on an end pair of the window, largest", h.worst_window_edge_load, usual),
+        Line::science(
+            "interpolated bulk compliance, largest error relative to the largest self-compliance of a slice",
+            h.bulk_compliance_error,
+            "(0: exact)",
+        ),
+        Line::text("iterations, all positions", h.iterations, ""),
+    ]
+}
+
+const ANGLE: &str = "pinion angle [deg]";
+
+/// What is drawn of positions at rest over the pinion angle: static transmission error and load sharing first.
+pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
+    let curves = StaticCurves::new(scene, history);
+    let forces = [("x", FORCE_X), ("y", FORCE_Y), ("z", FORCE_Z)]
+        .map(|(axis, column)| curves.at(axis, column, At { gear: 1, pair: 0 }));
+    let length = [curves.of("under load", LINE_LENGTH), curves.of("unloaded, analytic", GEOMETRIC_LENGTH)];
+    let stiffness = [curves.of("secant", SECANT_STIFFNESS), curves.of("tangent", TANGENT_STIFFNESS)];
+    // A pair's bending on either gear: the tension below the loaded flank of its teeth.
+    let bending = |gear| curves.by_pair(TOOTH_TENSION, gear);
+    let chart = |title, y, curves: &[_], from_zero| LineChart::new(title, [ANGLE, y], curves, from_zero);
+    [
+        chart("Static transmission error", "STE [um]", &[curves.of("STE", STE)], false),
+        chart("Load sharing", "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
+        chart("Total contact-line length", "length [mm]", &length, false),
+        chart("Mesh stiffness", "stiffness [N/um]", &stiffness, false),
+        chart("Mesh force on the wheel", "force [N]", &forces, true),
+        chart("Largest principal root stress, pinion", "stress [MPa]", &bending(0), true),
+        chart("Largest principal root stress, wheel", "stress [MPa]", &bending(1), true),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> {
+    let all = static_charts(scene, history);
+    all.iter()
+        .enumerate()
+        .filter_map(|(k, chart)| if k == 0 { in_its_bounds(chart, facts) } else { chart.figure() })
+        .collect()
+}
+
+/// The transmission error; where its bounds are known, in the band of those of its mean.
+fn in_its_bounds(chart: &LineChart, facts: &Facts) -> Option<String> {
+    let bounds = facts.accuracy.as_ref().map(|accuracy| &accuracy.bounds[..]).unwrap_or_default();
+    match bounds.iter().find(|b| b.quantity == Quantity::MeanSte) {
+        Some(mean) => {
+            let (name, [x, y]) = ("within the bounds of the mean", chart.axes);
+            banded_chart(chart.title, x, y, chart.curves[0].clone(), name, [mean.below, mean.above])
+        }
+        None => chart.figure(),
+    }
+}

@@ -1,0 +1,349 @@
+//! Parts that the pages of all runs of a pair have.
+
+use std::f64::consts::PI;
+
+use analysis::{
+    accuracy::{Accuracy, Bound},
+    facts::Facts,
+    motion::{ElasticHeadline, InertiaHeadline},
+    results::PressurePlace,
+};
+use answer::{Answer, Cost, Table};
+use minijinja::context;
+use scene::{Driver, Scene};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::{
+    ReportError,
+    charts::embedded,
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
+    tables::{fixed, geometry_table, model_name, torque},
+    view::View,
+};
+
+/// The answer of a run of a pair, without its rows.
+pub(super) fn pair_answer<H: Serialize>(
+    scene: &Scene,
+    (facts, cost): (&Facts, &Cost),
+    headline: &H,
+    warnings: &[String],
+    tables: Vec<Table>,
+) -> Answer {
+    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
+    let json = |of: Result<Value, serde_json::Error>| of.unwrap_or_default();
+    let Value::Object(mut info) = json(serde_json::to_value(facts)) else { Default::default() };
+    // They stand by themselves.
+    info.retain(|key, _| !key.starts_with("certificate"));
+    Answer {
+        name: scene.name.clone(),
+        inputs: json(serde_json::to_value(scene)),
+        tables,
+        headline: json(serde_json::to_value(headline)),
+        checks: facts.certificate.clone(),
+        remarks: warnings.to_vec(),
+        info,
+        cost: cost.clone(),
+    }
+}
+
+/// What a page of a pair shows beside what all have.
+#[derive(Debug, Default)]
+pub(super) struct Shown<'a> {
+    /// Behind the model in the line below the title.
+    pub subtitle: String,
+    /// Numbers that people look for first.
+    pub key: Vec<[String; 2]>,
+    /// Heading of the charts.
+    pub over: String,
+    /// Charts.
+    pub charts: Vec<String>,
+    /// Behind the charts.
+    pub after: Vec<Part>,
+    /// Headline numbers.
+    pub headline: Vec<Line>,
+    /// Numbers that tell how well it was solved.
+    pub solved: Vec<Line>,
+    /// The gears in space with their fields; without, they are drawn from geometry alone.
+    pub view: Option<&'a View>,
+    /// The command that makes it again; without, `ale-gear run`.
+    pub again: Option<String>,
+}
+
+/// The page of a run of a pair.
+///
+/// # Errors
+/// [`ReportError`] if a part cannot be filled; that would be a fault of this program.
+pub(super) fn pair_page(
+    scene: &Scene,
+    facts: &Facts,
+    answer: &Answer,
+    shown: Shown<'_>,
+) -> Result<Page, ReportError> {
+    let mut page = Page::of(answer, format!("model {}{}", model_name(scene), shown.subtitle));
+    page.glance = glance(scene, facts).into_iter().chain(shown.key).collect();
+    let view = match shown.view {
+        Some(view) => embedded("view", view),
+        None => embedded("view", &View::of_geometry(scene, &scene.gear_pair()?)),
+    };
+    page.push(Part::more().with(Content::Html(render("view.html", context! { view => view })?)));
+    page.push(Part::new(shown.over).figures(shown.charts));
+    shown.after.into_iter().for_each(|part| page.push(part));
+    let first = Line::number("contact ratio eps_gamma", facts.geometry.eps_gamma, 4, "");
+    page.push(
+        Part::new("Headline numbers")
+            .closing()
+            .lines(std::iter::once(first).chain(shown.headline))
+            .lines(resolution(scene, facts)),
+    );
+    facts.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
+    let solved = Content::Lines(shown.solved);
+    page.push(Page::trust(answer).with(solved).note(
+        "These checks are about the equations as they were set up. What a mesh, linear elasticity or a reduced-order model \
+         leave out is not in them: `ale-gear chart` shows the error of models and meshes for a pair, docs/validation.md \
+         what was compared with published results.",
+    ));
+    let rpm = scene.pinion_speed() * 30.0 / PI;
+    let sheet = geometry_table(&scene.name, facts, &torque(scene), rpm);
+    page.push(Part::new("Geometry").lines(geometry(facts)).with(Content::Plain(sheet)));
+    page.push(Part::new("Size").closing().lines(size(facts)));
+    page.push(cost_part(&answer.cost));
+    page.push(again(&shown.again.unwrap_or_else(|| command(scene))));
+    let words = "The scene with every default written out; paths in it are relative to the scene file.";
+    page.push(Part::more().words(words).with(Content::Plain(scene.to_toml())));
+    Ok(page)
+}
+
+/// The command that runs a scene.
+fn command(scene: &Scene) -> String {
+    let run = if scene.is_default_scene() {
+        "ale-gear".to_owned()
+    } else {
+        format!("ale-gear run {} --out DIR", scene.file.display())
+    };
+    let vtu = scene.output.vtu.then(|| "--vtu".to_owned());
+    std::iter::once(run).chain(scene.set.iter().cloned()).chain(vtu).collect::<Vec<_>>().join(" ")
+}
+
+/// Pair and load in a few words each.
+fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
+    let (pinion, wheel, pair) = (&scene.pinion, &scene.wheel, &scene.pair);
+    let ratio = f64::from(wheel.teeth) / f64::from(pinion.teeth);
+    let (driven, driver) = match scene.operation.driver {
+        Driver::Pinion => ("wheel", "pinion"),
+        Driver::Wheel => ("pinion", "wheel"),
+    };
+    let mut rows = vec![
+        ["teeth, ratio".into(), format!("{} : {}, {ratio:.3}", pinion.teeth, wheel.teeth)],
+        ["normal module".into(), format!("{} mm", pair.normal_module_mm)],
+        ["helix angle of the pinion".into(), format!("{} deg", pinion.helix_angle_deg)],
+        ["face width".into(), widths(scene)],
+        ["centre distance".into(), format!("{:.3} mm", facts.geometry.centre_distance_mm)],
+        ["contact ratio".into(), format!("{:.3}", facts.geometry.eps_gamma)],
+        [format!("torque on the {driven}"), format!("{} N m", scene.operation.torque_nm)],
+        [format!("speed of the {driver}"), format!("{} 1/min", speeds(scene))],
+    ];
+    if let Some((slices, chosen)) = facts.resolution.as_ref().and_then(|r| Some((r.slices?, r.slices_chosen))) {
+        let whose = if chosen { "chosen" } else { "of the scene" };
+        rows.push(["slices over the face".to_owned(), format!("{slices} ({whose})")]);
+    }
+    rows
+}
+
+/// One face width, or both and how they stand to each other.
+fn widths(scene: &Scene) -> String {
+    let [pinion, wheel] = scene.face_widths_mm();
+    match scene.pair.mid_face_offset_mm {
+        Some(offset) if offset != 0.0 => format!("{pinion} : {wheel} mm, mid-faces {offset} mm apart"),
+        _ if pinion != wheel => format!("{pinion} : {wheel} mm"),
+        _ => format!("{pinion} mm"),
+    }
+}
+
+/// The speed of the driver, or the first and the last one.
+fn speeds(scene: &Scene) -> String {
+    let motion = scene.motion.as_ref();
+    let ramp = motion.and_then(|m| m.ramp.as_ref()).map(|r| [r.from_rpm, r.to_rpm]);
+    let ends = ramp.or(motion.and_then(|m| m.sweep.as_ref()).map(|s| [s.from_rpm, s.to_rpm]));
+    ends.map_or_else(|| scene.operation.speed_rpm.to_string(), |[from, to]| format!("{from} .. {to}"))
+}
+
+/// Slices and elements along the face, and whether the program chose them.
+fn resolution(scene: &Scene, facts: &Facts) -> Vec<Line> {
+    let Some(r) = &facts.resolution else { return Vec::new() };
+    let slices = r.slices.map(|slices| {
+        Line::text("slices over the face", slices, if r.slices_chosen { "(chosen)" } else { "(of the scene)" })
+    });
+    let elements = match r.face_elements {
+        [Some(pinion), Some(wheel)] => {
+            let chosen = ["pinion.mesher.elements_face", "wheel.mesher.elements_face"]
+                .map(|key| scene.place_of(&[key]).is_none());
+            let by = if chosen == [true; 2] { "(chosen)" } else { "(of the scene)" };
+            Some(Line::text("elements along the face, pinion, wheel", format!("{pinion}, {wheel}"), by))
+        }
+        _ => None,
+    };
+    slices.into_iter().chain(elements).collect()
+}
+
+/// Headline numbers with their bounds, what was asked of them, what was tried.
+fn how_exact(exact: &Accuracy) -> Vec<Part> {
+    let words = format!(
+        "Held against {}; laws of the errors from {} random pairs, of which {:.0} % lie within each of their bounds.",
+        exact.held_against,
+        exact.calibrated_on_pairs,
+        100.0 * exact.coverage
+    );
+    let bounds = exact.bounds.iter().map(|bound| {
+        let asked = match (bound.asked, bound.met) {
+            (Some(asked), Some(true)) => format!("(within {asked:.3}, as asked)"),
+            (Some(asked), _) => format!("({asked:.3} WAS ASKED)"),
+            _ => String::new(),
+        };
+        Line::text(bound.quantity.key().replace('_', " "), bound.words(), asked)
+    });
+    let mesh = |elements: Option<u32>| elements.map_or("meshes of the scene".into(), |n| format!("{n} elements"));
+    let slices = |slices: Option<usize>| slices.map_or(String::new(), |n| format!(", {n} slices"));
+    let left = |why: &Option<String>| why.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
+    let rungs = exact.rungs.iter().map(|rung| {
+        let of = format!("{}{}, {} positions", mesh(rung.elements_profile), slices(rung.slices), rung.positions_per_cycle);
+        Line::text("tried", of, left(&rung.left_because))
+    });
+    let models = exact.models.iter().map(|tried| {
+        let mesh = mesh(tried.elements_profile);
+        let of = format!("{}, {mesh}{}, {} steps", tried.model.name(), slices(tried.slices), tried.steps_per_resonance);
+        Line::text("tried", of, left(&tried.left_because))
+    });
+    let not_covered = exact.not_covered.iter().map(|what| Line::text("not covered", "", what));
+    let causes = exact.bounds.first().map_or(&[][..], |bound| &bound.terms);
+    let head = ["number", "unit", "as computed", "above", "below", "corrected", "within"].map(str::to_owned);
+    let cause = |term: &analysis::accuracy::Term| format!("by {}", words_of(&term.cause));
+    let grid = Grid::new(head.into_iter().chain(causes.iter().map(cause)));
+    vec![
+        Part::new("How exact").closing().words(words).lines(bounds.chain(rungs).chain(models).chain(not_covered)),
+        Part::more().grid(grid.rows(exact.bounds.iter().map(bound_row))),
+    ]
+}
+
+/// A cause of an error in words.
+fn words_of(cause: &impl Serialize) -> String {
+    serde_json::to_value(cause).ok().and_then(|v| Some(v.as_str()?.replace('_', " "))).unwrap_or_default()
+}
+
+fn bound_row(bound: &Bound) -> Vec<Cell> {
+    let numbers = [
+        Cell::text(bound.quantity.key().replace('_', " ")),
+        Cell::text(bound.unit),
+        Cell::number(bound.value, 4),
+        Cell::science(bound.above),
+        Cell::science(bound.below),
+        Cell::number(bound.corrected, 4),
+        Cell::science(bound.corrected_within),
+    ];
+    numbers.into_iter().chain(bound.terms.iter().map(|term| Cell::science(term.amount))).collect()
+}
+
+fn geometry(facts: &Facts) -> Vec<Line> {
+    let g = &facts.geometry;
+    let ratios = [g.eps_alpha, g.eps_beta, g.eps_gamma].map(|ratio| fixed(ratio, 4));
+    let [alpha, beta, gamma] = ratios;
+    vec![
+        Line::text("contact ratios eps_alpha + eps_beta = eps_gamma", format!("{alpha} + {beta} = {gamma}"), ""),
+        Line::number("centre distance", g.centre_distance_mm, 4, "mm"),
+        Line::number("working pressure angle", g.working_pressure_angle_deg, 4, "deg"),
+        Line::number("base helix angle", g.base_helix_angle_deg, 4, "deg"),
+        Line::number("base radius of the pinion", g.base_radius_mm[0], 4, "mm"),
+        Line::number("base radius of the wheel", g.base_radius_mm[1], 4, "mm"),
+        Line::number("transverse base pitch", g.base_pitch_mm, 4, "mm"),
+    ]
+}
+
+/// Meshes and degrees of freedom.
+fn size(facts: &Facts) -> Vec<Line> {
+    if facts.dof_before == [0; 2] && facts.meshes.is_empty() {
+        return Vec::new();
+    }
+    let names = ["pinion", "wheel"];
+    let meshes = facts.meshes.iter().zip(names).map(|(mesh, name)| {
+        let kinds = format!("nodes, {} ({})", mesh.kinds.join(", "), mesh.source);
+        Line::text(format!("mesh of the {name}"), mesh.nodes, kinds)
+    });
+    let sum = |[pinion, wheel]: [usize; 2]| (pinion + wheel).to_string();
+    let dof = [
+        Line::text("DOF before reduction, pinion + wheel", sum(facts.dof_before), ""),
+        Line::text("DOF after reduction, pinion + wheel", sum(facts.dof_after), ""),
+    ];
+    let ways =
+        names.iter().zip(&facts.reduction).map(|(name, way)| Line::text(format!("reduction, {name}"), way, ""));
+    meshes.chain(dof).chain(ways).collect()
+}
+
+/// The largest pressure, and where it is.
+pub(super) fn pressure(pressure_mpa: f64, at: Option<&PressurePlace>) -> Line {
+    let unit = at.map_or_else(|| "MPa".to_owned(), |at| format!("MPa ({})", at.describe()));
+    Line::number("maximum pressure", pressure_mpa, 0, unit)
+}
+
+/// The transmission errors of a motion beside those of the quasi-static cycle: means, then peak to peak, um.
+pub(super) fn errors(dynamic: [f64; 2], quasi_static: [Option<f64>; 2]) -> Vec<Line> {
+    let labels = ["mean DTE", "peak-to-peak DTE"];
+    let of = |(k, label): (usize, &str)| {
+        [Line::number(label, dynamic[k], 4, "um"), Line::number("  quasi-static", quasi_static[k], 4, "um")]
+    };
+    labels.into_iter().enumerate().flat_map(of).collect()
+}
+
+/// Amplitudes of the first mesh orders, um.
+pub(super) fn harmonics(of: &str, amplitudes_um: &[f64]) -> Vec<Line> {
+    let line = |(k, amplitude): (usize, &f64)| {
+        Line::number(format!("mesh harmonic {} of {of}, amplitude", k + 1), *amplitude, 4, "um")
+    };
+    amplitudes_um.iter().take(4).enumerate().map(line).collect()
+}
+
+/// Nominal root stresses of the standard, where there are some.
+pub(super) fn iso_root_stress(facts: &Facts) -> Option<Line> {
+    let iso = facts.iso_root_stress.as_ref()?;
+    let [pinion, wheel] = [&iso.pinion, &iso.wheel].map(|g| fixed(g.nominal_root_stress_mpa, 1));
+    Some(Line::text("nominal root stress by ISO 6336-3", format!("{pinion}, {wheel}"), "MPa (pinion, wheel)"))
+}
+
+/// Mesh cycles of a motion, and how nearly it repeats itself.
+pub(super) fn cycles([settling, written]: [u64; 2], periodicity: Option<f64>, period: Option<usize>) -> [Line; 2] {
+    [
+        Line::text("mesh cycles, settling and written", format!("{settling} + {written}"), ""),
+        Line::science("repeats itself to", periodicity, format!("after {} cycle(s)", period.unwrap_or(1))),
+    ]
+}
+
+/// Whose inertia the mesh resonance is of.
+pub(super) fn inertia(inertia: &InertiaHeadline) -> [Line; 3] {
+    let of = format!("kg ({})", inertia.describe());
+    [
+        Line::number("  of an inertia on the base circle of", inertia.equivalent_mass_kg, 4, of),
+        Line::number("  with both gears free", inertia.mesh_resonance_both_free_hz, 1, "Hz"),
+        Line::number("  with the driver held", inertia.mesh_resonance_driver_held_hz, 1, "Hz"),
+    ]
+}
+
+/// Where quasi-static elasticity ends.
+pub(super) fn elasticity(e: &ElasticHeadline) -> [Line; 3] {
+    let [pinion, wheel] = e.lowest_elastic_frequency_hz.map(|hz| fixed(hz, 0));
+    let of = format!("(harmonic {} of {} Hz)", e.mesh_harmonic, fixed(e.highest_mesh_frequency_hz, 1));
+    let change = format!(
+        "um, {} % of the peak to peak (told from {} % on)",
+        fixed(100.0 * e.change_over_peak_to_peak, 1),
+        fixed(100.0 * e.limit_of_change, 1)
+    );
+    [
+        Line::text("lowest elastic frequencies", format!("{pinion}, {wheel}"), "Hz"),
+        Line::number("mesh harmonic over elastic frequency", e.mesh_harmonic_over_elastic, 4, of),
+        Line::number("  its inertia may change the DTE by", e.change_of_peak_to_peak_um, 4, change),
+    ]
+}
+
+/// A label and a number with its unit, for the top of a page.
+pub(super) fn key(label: &str, value: impl Into<Option<f64>>, decimals: usize, unit: &str) -> [String; 2] {
+    let Line { value, .. } = Line::number("", value, decimals, "");
+    [label.to_owned(), format!("{value} {unit}")]
+}

@@ -1,0 +1,185 @@
+//! What a table of keys is: of each key type, range, default and meaning; and enums whose values are words of a file.
+
+/// An end of a range that depends on the rest of the scene.
+pub(crate) const INF: f64 = f64::INFINITY;
+
+/// An enum of which each value is a word of the scene file.
+pub(crate) trait Choice: Copy + 'static {
+    /// Words and values; the first one is the default.
+    const CHOICES: &'static [(&'static str, Self)];
+}
+
+/// A field of a checked table.
+pub(crate) trait Field {
+    /// Whether the written scene leaves it out.
+    fn is_absent(&self) -> bool {
+        false
+    }
+}
+
+impl Field for f64 {}
+impl Field for u32 {}
+impl<T> Field for Option<T> {
+    fn is_absent(&self) -> bool {
+        self.is_none()
+    }
+}
+
+/// A table of the scene file.
+#[derive(Debug)]
+pub(crate) struct Table {
+    /// What it is about.
+    pub about: &'static str,
+    /// What may stand in it.
+    pub keys: &'static [Key],
+    /// Keys without a default.
+    pub needed: &'static [&'static str],
+}
+
+/// A key of a table.
+#[derive(Debug)]
+pub(crate) struct Key {
+    /// As in the file, with its unit.
+    pub name: &'static str,
+    /// What may stand behind it.
+    pub kind: ValueKind,
+    /// What it says.
+    pub about: &'static str,
+}
+
+/// What may stand behind a key.
+#[derive(Debug)]
+pub(crate) enum ValueKind {
+    /// A number within a range; an infinite end depends on the rest of the scene. No default: it follows from other
+    /// keys, or there is none.
+    Number { low: f64, high: f64, default: Option<f64> },
+    /// A whole number.
+    Whole { low: u32, high: u32, default: Option<u32> },
+    /// One of some words; the first is what holds where none is written, unless that depends on other keys.
+    Word { choices: &'static [&'static str], first_is_default: bool },
+    /// Some of some words.
+    Words { choices: &'static [&'static str] },
+    /// On or off.
+    Switch { default: bool },
+    /// Any text: a name, a path.
+    Text,
+    /// A list of texts.
+    Texts,
+    /// A list of numbers.
+    Numbers,
+    /// Rows of so many numbers.
+    Rows { columns: usize },
+    /// A table of its own.
+    Table(&'static Table),
+    /// Tables of one kind, as many as one likes.
+    Tables(&'static Table),
+}
+
+pub(crate) const fn key(name: &'static str, kind: ValueKind, about: &'static str) -> Key {
+    Key { name, kind, about }
+}
+
+/// A number with a default.
+pub(crate) const fn number(name: &'static str, low: f64, high: f64, default: f64, about: &'static str) -> Key {
+    key(name, ValueKind::Number { low, high, default: Some(default) }, about)
+}
+
+/// A number that must be there.
+pub(crate) const fn must(name: &'static str, low: f64, high: f64, about: &'static str) -> Key {
+    bare(name, low, high, about)
+}
+
+/// A number without.
+pub(crate) const fn bare(name: &'static str, low: f64, high: f64, about: &'static str) -> Key {
+    key(name, ValueKind::Number { low, high, default: None }, about)
+}
+
+pub(crate) const fn whole(name: &'static str, low: u32, high: u32, default: u32, about: &'static str) -> Key {
+    key(name, ValueKind::Whole { low, high, default: Some(default) }, about)
+}
+
+pub(crate) const fn bare_whole(name: &'static str, low: u32, high: u32, about: &'static str) -> Key {
+    key(name, ValueKind::Whole { low, high, default: None }, about)
+}
+
+pub(crate) const fn word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+    key(name, ValueKind::Word { choices, first_is_default: true }, about)
+}
+
+/// A word whose default depends on other keys.
+pub(crate) const fn bare_word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+    key(name, ValueKind::Word { choices, first_is_default: false }, about)
+}
+
+pub(crate) const fn words(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
+    key(name, ValueKind::Words { choices }, about)
+}
+
+pub(crate) const fn switch(name: &'static str, default: bool, about: &'static str) -> Key {
+    key(name, ValueKind::Switch { default }, about)
+}
+
+pub(crate) const fn text(name: &'static str, about: &'static str) -> Key {
+    key(name, ValueKind::Text, about)
+}
+
+pub(crate) const fn texts(name: &'static str, about: &'static str) -> Key {
+    key(name, ValueKind::Texts, about)
+}
+
+pub(crate) const fn numbers(name: &'static str, about: &'static str) -> Key {
+    key(name, ValueKind::Numbers, about)
+}
+
+pub(crate) const fn rows(name: &'static str, columns: usize, about: &'static str) -> Key {
+    key(name, ValueKind::Rows { columns }, about)
+}
+
+pub(crate) const fn table(name: &'static str, of: &'static Table) -> Key {
+    key(name, ValueKind::Table(of), of.about)
+}
+
+pub(crate) const fn list(name: &'static str, of: &'static Table) -> Key {
+    key(name, ValueKind::Tables(of), of.about)
+}
+
+impl Table {
+    /// Range and default of a number; `value!` names no key that has no row.
+    pub fn number(&self, name: &str) -> (f64, f64, Option<f64>) {
+        match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
+            Some(&ValueKind::Number { low, high, default }) => (low, high, default),
+            _ => (f64::NEG_INFINITY, f64::INFINITY, None),
+        }
+    }
+
+    /// Whether a switch is on where nothing is written.
+    pub fn switch(&self, name: &str) -> bool {
+        self.keys.iter().any(|k| k.name == name && matches!(k.kind, ValueKind::Switch { default: true }))
+    }
+
+    /// What a key says; none of one that stands in another table.
+    pub fn about(&self, name: &str) -> Option<&'static str> {
+        self.keys.iter().find(|k| k.name == name).map(|k| k.about)
+    }
+
+    /// Range and default of a whole number.
+    pub fn whole(&self, name: &str) -> (u32, u32, Option<u32>) {
+        match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
+            Some(&ValueKind::Whole { low, high, default }) => (low, high, default),
+            _ => (0, u32::MAX, None),
+        }
+    }
+
+    /// Visits the table and those in it, with their names; a list of tables has brackets about its name.
+    pub fn walk(&'static self, path: &str, visit: &mut impl FnMut(&str, &'static Self)) {
+        visit(path, self);
+        let inner = |key: &Key| if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+        for key in self.keys {
+            match key.kind {
+                ValueKind::Table(of) => of.walk(&inner(key), visit),
+                ValueKind::Tables(of) => of.walk(&format!("[{}]", inner(key)), visit),
+                _ => {}
+            }
+        }
+    }
+}
