@@ -17,7 +17,7 @@ use report::{
     folder::ResultDirectory,
     paraview::FieldWriter,
     view::{View, ViewRecorder},
-    write_static_result, write_static_rows,
+    write_static_result,
 };
 use study::Columns;
 use tempfile::TempDir;
@@ -165,9 +165,8 @@ impl AtRest {
         };
         let mut history = self.history.clone();
         history.warnings.extend_from_slice(said);
-        let pattern = write_static_rows(&self.scene, &history, self.derivatives.as_ref(), results)?;
-        let shown = (pattern.as_deref(), view);
-        write_static_result(&self.scene, &history, (&self.facts, &self.cost), shown, results)
+        let rows = (&history, self.derivatives.as_ref());
+        write_static_result(&self.scene, rows, (&self.facts, &self.cost), view, results)
     }
 }
 

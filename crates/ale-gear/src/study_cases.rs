@@ -9,7 +9,7 @@ use analysis::{
     side_by_side, static_certificate,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{checkpoint::HISTORY, close_result, folder::KeptCases, read_columns};
+use report::{checkpoint::HISTORY, folder::KeptCases, read_columns, write_static_rows};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},
@@ -19,13 +19,7 @@ use files::{most, read_regular_text};
 use study::Columns;
 
 use crate::{
-    certificate::Written,
-    error::CommandError,
-    gears,
-    output::{ResultDirectory, static_headline, write_history},
-    phases::Phases,
-    scene::Scene,
-    talk,
+    certificate::Written, error::CommandError, gears, output::ResultDirectory, phases::Phases, scene::Scene, talk,
 };
 
 /// Runs a scene and writes every file of its result; inside, whether it holds.
@@ -103,15 +97,13 @@ fn write_rows(scene: &Scene, models: &SharedModels<'_>, results: &ResultDirector
     let mut phases = Phases::quiet();
     let (scene, history) = phases.run("solve", || models.solve_told(scene))?;
     let pair = scene.gear_pair()?;
-    let headline = static_headline(&scene, &history)?;
-    results.write(HISTORY, write_history(&scene, &history, None).as_bytes())?;
     let facts = Facts {
         geometry: gears::geometry_facts(&pair),
         geometry_sheet: Some(pair.sheet()),
         certificate: static_certificate(&scene, &history.positions),
         ..Facts::default()
     };
-    Ok(close_result(&scene, (&facts, &phases.cost()), &headline, &history.warnings, results)?)
+    Ok(write_static_rows(&scene, &history, (&facts, &phases.cost()), results)?)
 }
 
 /// The case that a folder holds; `None` where its result does not hold.

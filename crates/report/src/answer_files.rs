@@ -38,15 +38,33 @@ pub fn write_result(
     with_parquet: bool,
     results: &ResultDirectory,
 ) -> Result<String, ReportError> {
+    write_tables(answer, with_parquet, results)?;
+    Rendered::new("parts.html", minijinja::Value::from(minijinja::value::Serde(page)))?.write(results)?;
+    results.write("summary.json", summary(answer, &results.files()?).as_bytes())?;
+    Ok(closing_text(page, &answer.cost))
+}
+
+/// Writes tables and `summary.json`, without a page.
+///
+/// # Errors
+/// When the system refuses.
+pub fn write_rows(answer: &Answer, results: &ResultDirectory) -> Result<(), ReportError> {
+    write_tables(answer, false, results)?;
+    results.write("summary.json", summary(answer, &results.files()?).as_bytes())
+}
+
+/// The files of all tables; one whose rows were written as they came is there already.
+fn write_tables(answer: &Answer, with_parquet: bool, results: &ResultDirectory) -> Result<(), ReportError> {
     for table in &answer.tables {
-        results.write(&format!("{}.csv", table.name), table.csv().as_bytes())?;
+        let file = format!("{}.csv", table.name);
+        if !results.path(&file).exists() {
+            results.write(&file, table.csv().as_bytes())?;
+        }
         if with_parquet {
             results.write(&format!("{}.parquet", table.name), &parquet_bytes(table)?)?;
         }
     }
-    Rendered::new("parts.html", minijinja::Value::from(minijinja::value::Serde(page)))?.write(results)?;
-    results.write("summary.json", summary(answer, &results.files()?).as_bytes())?;
-    Ok(closing_text(page, &answer.cost))
+    Ok(())
 }
 
 /// `summary.json`: everything about an answer but its rows; numbers without a value (NaN) are `null`. `files` are the

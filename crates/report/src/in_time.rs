@@ -2,7 +2,7 @@
 
 use analysis::{
     AnalysisError, GearCache, Observer,
-    accuracy::motion::{AccurateMotion, MotionTold},
+    accuracy::motion::{AccurateMotion, MotionAnswer, MotionTold},
     lumped::{BasinAnalysis, ContinuationAnalysis, KeySweep, LumpedAnalysis, NoLumpedSink, SweepOptions, is_lumped},
     motion::{MotionAnalysis, MotionOutcome, SweepAnalysis},
 };
@@ -14,8 +14,8 @@ use crate::{
     columns::{lumped_history::DTE, lumped_quantity},
     folder::ResultDirectory,
     motion_files::MotionFileSink,
-    write_answer, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
-    write_motion_result, write_sweep_result,
+    write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result, write_motion_result,
+    write_sweep_result,
 };
 
 /// Hears of the phases, and knows what they cost.
@@ -163,7 +163,11 @@ pub fn solve_accurate(
         let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
         let told = &mut MotionTold { motion: &mut sink, lumped: &mut NoLumpedSink };
         let solved = AccurateMotion::new(scene).with_cache(cache).solve_into(recorder, told)?;
-        let table = write_answer(&solved.scene, &solved.answer, &recorder.cost(), sink.view.as_ref(), results)?;
+        let (scene, cost) = (&solved.scene, recorder.cost());
+        let table = match &solved.answer {
+            MotionAnswer::Lumped(result) => write_lumped_result(scene, result, &cost, results)?,
+            MotionAnswer::Reduced(result) => write_motion_result(scene, result, &cost, sink.view.as_ref(), results)?,
+        };
         Ok((table, solved.answer.facts().verdict(&solved.scene)))
     };
     solve().map_err(|e| e.0)

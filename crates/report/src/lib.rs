@@ -10,7 +10,7 @@
 //! | [`view`] | both gears in space, for the page |
 //! | [`contact_files`] | contact lines and contact pattern |
 //! | [`accuracy_chart`] | table and picture of accuracy against cost |
-//! | [`lumped_files`] | files of a cheaper model and of sweeps beside its rows |
+//! | [`pair_files`] | the answer of every run of a pair |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`envelope_files`] | failure modes with their figures, maps of where methods fail |
 //! | [`gearbox_files`] | a gearbox at rest: meshes, bearings, shaft lines |
@@ -23,14 +23,13 @@
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
 //! | [`solve_in_time`] | a motion, from its scene to the files of its result |
-//! | [`Cost`], [`write_summary`] | what a run cost; everything about it but its rows |
+//! | [`Cost`], [`write_result`] | what a run cost; an answer into a result folder |
 //! | [`ResultFiles`] | where files go |
 
 pub mod accuracy_chart;
 mod answer_files;
 pub mod charts;
 pub mod checkpoint;
-mod columnar;
 pub mod columns;
 pub mod compare;
 pub mod contact_files;
@@ -39,43 +38,37 @@ mod error;
 pub mod folder;
 pub mod gearbox_files;
 mod in_time;
-pub mod lumped_files;
 mod marked_place;
 mod memory_available;
 mod memory_demand;
 pub mod motion_files;
-mod motion_result;
 pub mod optimum_files;
 pub mod page;
+pub mod pair_files;
 pub mod paraview;
 pub mod plan_files;
 mod result_files;
 mod rows;
-mod static_result;
 mod static_sink;
 pub mod study_files;
-mod summary;
 pub mod tables;
 pub mod universal;
 pub mod view;
 
 pub use answer::{Cost, Phase, csv};
-pub use answer_files::write_result;
-pub use columnar::write_parquet;
+pub use answer_files::{write_result, write_rows};
 pub use error::ReportError;
 pub use in_time::{Recorder, Told, solve_accurate, solve_in_time, solve_lumped, solve_many_motions, solve_sweep};
 pub use marked_place::MarkedPlace;
 pub use memory_available::{available_bytes, available_mb};
 pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
-pub use motion_result::{
-    write_answer, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
-    write_motion_result, write_sweep_result,
+pub use pair_files::{
+    static_charts, write_basin_result, write_continuation_result, write_key_sweep_result, write_lumped_result,
+    write_motion_result, write_static_result, write_static_rows, write_sweep_result,
 };
 pub use result_files::ResultFiles;
 pub use rows::{columns_to_csv, parse_columns, read_columns};
-pub use static_result::{write_static_result, write_static_rows};
 pub use static_sink::StaticFileSink;
-pub use summary::{close_result, write_summary};
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
 pub const SUMMARY_SCHEMA: u32 = 1;

@@ -15,8 +15,7 @@ use analysis::{
 use ltca::StaticHistory;
 use report::{
     charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
-    check_memory,
-    page::static_charts,
+    check_memory, static_charts,
     view::View,
 };
 use scene::{Model, Scene};

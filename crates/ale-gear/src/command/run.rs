@@ -6,7 +6,7 @@ use analysis::lumped::is_lumped;
 use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
-use report::{check_memory, write_static_result, write_static_rows};
+use report::{check_memory, write_static_result};
 
 use report::folder::Cache;
 
@@ -279,8 +279,8 @@ fn write_static(
     let Solved { scene, history, mut facts, derivatives, view } = run::solve(scene, phases, results, cache, in_space)?;
     let scene = &scene;
     facts.certificate = run::certificate(scene, &history.positions);
-    let pattern = phases.run("write", || write_static_rows(scene, &history, derivatives.as_ref(), results))?;
-    let (cost, shown) = (phases.cost(), (pattern.as_deref(), view.as_ref()));
-    let table = write_static_result(scene, &history, (&facts, &cost), shown, results)?;
+    let cost = phases.cost();
+    let rows = (&history, derivatives.as_ref());
+    let table = write_static_result(scene, rows, (&facts, &cost), view.as_ref(), results)?;
     Ok(Written { table, verdict: facts.verdict(scene).map_err(CommandError::from) })
 }

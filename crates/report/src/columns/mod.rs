@@ -17,7 +17,7 @@ pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_column
 pub use motion_history::{MOTION_HISTORY, MotionRows};
 pub use motion_rows::motion_rows;
 pub use static_history::{
-    STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, history_rows, write_history,
+    STATIC_HISTORY, StaticCurves, StaticLayout, StaticRows, history_columns, history_rows, history_table,
 };
 pub(crate) use table::columns;
 pub use table::{At, Column, GEARS, Group, Over, Rows, Sheet, Table};

@@ -11,7 +11,7 @@ use scene::Scene;
 use study::Columns;
 
 use super::{At, Column, Group, Over, Rows, Table, columns, derivatives};
-use crate::{charts::Curve, csv::push_row};
+use crate::charts::Curve;
 
 /// Rows of a run at rest.
 #[derive(Debug)]
@@ -177,18 +177,24 @@ pub const STATIC_HISTORY: Table<StaticRows> = Table {
     ],
 };
 
-/// The history as CSV: one header row, a unit in every name, numbers that read back to the same bits; behind them
-/// derivatives, where there are such.
+/// The history as the table `history`; behind its columns derivatives, where there are such.
 ///
 /// Time starts with the first position. `NaN` stands where a quantity has no value (stiffness without load).
-pub fn write_history(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> String {
-    let columns = history_rows(scene, history, derivatives);
-    let mut csv = columns.names().join(",") + "\n";
-    columns.rows().for_each(|row| push_row(&mut csv, row));
-    csv
+pub fn history_table(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> answer::Table {
+    let layout = StaticLayout::of(scene, history);
+    let numbers = pairs::columns(history, layout.pitch);
+    let mut table = STATIC_HISTORY.sheet(&layout, &numbers).table("history", &layout, &history.positions);
+    let Some(rates) = derivatives else { return table };
+    let rows: Vec<Vec<f64>> = (history.positions.iter().enumerate())
+        .map(|(i, position)| derivatives::row(rates, i, position, &numbers, layout.pitch))
+        .collect();
+    for (k, name) in derivatives::names(&rates.keys, &numbers).into_iter().enumerate() {
+        table.push_numbers(name, "derivative by the key", rows.iter().map(|row| row[k]));
+    }
+    table
 }
 
-/// The same as columns.
+/// The same as columns by name.
 pub fn history_rows(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> Columns {
     let layout = StaticLayout::of(scene, history);
     let numbers = pairs::columns(history, layout.pitch);

@@ -172,6 +172,24 @@ impl<R: Rows> Sheet<R> {
         columns
     }
 
+    /// The whole as a table of this name.
+    pub fn table<'a>(
+        &self,
+        name: &'static str,
+        layout: &R::Layout,
+        records: impl IntoIterator<Item = &'a R::Record>,
+    ) -> answer::Table {
+        let mut values = vec![Vec::new(); self.columns.len()];
+        for record in records {
+            values.iter_mut().zip(self.row(layout, record)).for_each(|(column, value)| column.push(value));
+        }
+        let mut table = answer::Table::new(name);
+        for ((column, at), values) in self.columns.iter().zip(values) {
+            table.push_numbers(column.name_at(*at), column.meaning, values);
+        }
+        table
+    }
+
     /// The whole file.
     pub fn csv<'a>(&self, layout: &R::Layout, records: impl IntoIterator<Item = &'a R::Record>) -> String {
         let mut csv = self.header();

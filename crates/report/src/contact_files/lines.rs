@@ -1,53 +1,43 @@
 //! `contact_lines.csv`: one row a loaded slice of a position.
 
-use analysis::results::{diameter, pairs};
 use std::f64::consts::PI;
 
+use analysis::results::{diameter, pairs};
+use answer::Table;
 use geometry::GearPair;
 use ltca::StaticHistory;
-
 use scene::Scene;
 
-use crate::csv::push_row;
-
-const COLUMNS: &str = "pinion_angle_deg,mesh_phase,pair,pinion_tooth,wheel_tooth,coast_flank,z_mm,\
-                       pinion_roll_angle_deg,pinion_diameter_mm,wheel_roll_angle_deg,wheel_diameter_mm,\
-                       line_load_n_per_mm,half_width_mm,pressure_mpa,off_line_mm\n";
-
-/// Every contact line of a run, slice by slice, as CSV: position by position, pair by pair, ascending in z.
+/// Every contact line of a run, slice by slice: position by position, pair by pair, ascending in z.
 ///
 /// Pairs are numbered within their mesh cycle, as in `history.csv`.
-pub fn write_contact_lines(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> String {
+pub fn contact_lines(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Table {
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()];
-    let mut csv = COLUMNS.to_owned();
-    for p in &history.positions {
-        for of_pair in &p.pairs {
-            for s in &of_pair.slices {
-                let at = |gear: usize| [s.roll[gear].to_degrees(), diameter(base_radius[gear], s.roll[gear])];
-                let ([pinion_roll, pinion_diameter], [wheel_roll, wheel_diameter]) = (at(0), at(1));
-                push_row(
-                    &mut csv,
-                    [
-                        p.pinion_angle.to_degrees(),
-                        p.mesh_phase,
-                        pairs::in_cycle(p, of_pair.pair, pitch) as f64,
-                        f64::from(of_pair.pinion_tooth),
-                        f64::from(of_pair.wheel_tooth),
-                        f64::from(u8::from(s.side != scene.side())),
-                        s.z,
-                        pinion_roll,
-                        pinion_diameter,
-                        wheel_roll,
-                        wheel_diameter,
-                        s.line_load,
-                        s.half_width,
-                        s.pressure,
-                        s.off_line,
-                    ],
-                );
-            }
-        }
-    }
-    csv
+    let all: Vec<_> = (history.positions.iter())
+        .flat_map(|p| p.pairs.iter().flat_map(move |q| q.slices.iter().map(move |s| (p, q, s))))
+        .collect();
+    let rows = || all.iter();
+    let roll = |gear: usize| rows().map(move |(_, _, s)| s.roll[gear].to_degrees());
+    let diameters = |gear: usize| rows().map(move |(_, _, s)| diameter(base_radius[gear], s.roll[gear]));
+    Table::new("contact_lines")
+        .numbers("pinion_angle_deg", "angle of the pinion", rows().map(|(p, _, _)| p.pinion_angle.to_degrees()))
+        .numbers("mesh_phase", "phase of the mesh cycle", rows().map(|(p, _, _)| p.mesh_phase))
+        .numbers("pair", "number of the pair", rows().map(|(p, q, _)| pairs::in_cycle(p, q.pair, pitch) as f64))
+        .numbers("pinion_tooth", "tooth of the pinion", rows().map(|(_, q, _)| f64::from(q.pinion_tooth)))
+        .numbers("wheel_tooth", "tooth of the wheel", rows().map(|(_, q, _)| f64::from(q.wheel_tooth)))
+        .numbers(
+            "coast_flank",
+            "1 on the coast flank",
+            rows().map(|(_, _, s)| f64::from(u8::from(s.side != scene.side()))),
+        )
+        .numbers("z_mm", "height", rows().map(|(_, _, s)| s.z))
+        .numbers("pinion_roll_angle_deg", "roll angle on the pinion", roll(0))
+        .numbers("pinion_diameter_mm", "diameter on the pinion", diameters(0))
+        .numbers("wheel_roll_angle_deg", "roll angle on the wheel", roll(1))
+        .numbers("wheel_diameter_mm", "diameter on the wheel", diameters(1))
+        .numbers("line_load_n_per_mm", "line load", rows().map(|(_, _, s)| s.line_load))
+        .numbers("half_width_mm", "half the width of the contact band", rows().map(|(_, _, s)| s.half_width))
+        .numbers("pressure_mpa", "largest pressure", rows().map(|(_, _, s)| s.pressure))
+        .numbers("off_line_mm", "distance from the line of action", rows().map(|(_, _, s)| s.off_line))
 }

@@ -1,9 +1,9 @@
-//! Contact lines and contact patterns as files, which only a run with slices has.
+//! Contact lines and contact pattern.
 
 mod lines;
 mod pattern_csv;
 mod write;
 
-pub use lines::write_contact_lines;
-pub use pattern_csv::write_contact_pattern;
-pub use write::{write_contact, write_patterns};
+pub use lines::contact_lines;
+pub use pattern_csv::pattern_table;
+pub use write::{pattern_figure, write_patterns};

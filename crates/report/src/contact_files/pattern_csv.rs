@@ -1,16 +1,17 @@
 //! `contact_pattern_pinion.csv`, `contact_pattern_wheel.csv`: one row a place on the flank.
 
 use analysis::results::GearPattern;
+use answer::Table;
 
-use crate::csv::push_row;
-
-/// A gear's pattern as CSV, station by station in z, from root to tip.
-pub fn write_contact_pattern(pattern: &GearPattern) -> String {
-    let mut csv = "roll_angle_deg,diameter_mm,z_mm,max_pressure_mpa,max_line_load_n_per_mm\n".to_owned();
+/// A gear's pattern under that name, station by station in z, from root to tip.
+pub fn pattern_table(name: &'static str, pattern: &GearPattern) -> Table {
     let grid = &pattern.grid;
-    let places = grid.stations().iter().flat_map(|&z| grid.rolls().iter().map(move |&roll| (roll, z)));
-    for ((roll, z), (&pressure, &load)) in places.zip(grid.max_pressure().iter().zip(grid.max_line_load())) {
-        push_row(&mut csv, [roll.to_degrees(), pattern.diameter(roll), z, pressure, load]);
-    }
-    csv
+    let places = || grid.stations().iter().flat_map(|&z| grid.rolls().iter().map(move |&roll| (roll, z)));
+    let of = places().count().min(grid.max_pressure().len()).min(grid.max_line_load().len());
+    Table::new(name)
+        .numbers("roll_angle_deg", "roll angle", places().map(|(roll, _)| roll.to_degrees()).take(of))
+        .numbers("diameter_mm", "diameter", places().map(|(roll, _)| pattern.diameter(roll)).take(of))
+        .numbers("z_mm", "height on the gear", places().map(|(_, z)| z).take(of))
+        .numbers("max_pressure_mpa", "largest pressure that came there", grid.max_pressure().iter().copied().take(of))
+        .numbers("max_line_load_n_per_mm", "largest line load", grid.max_line_load().iter().copied().take(of))
 }

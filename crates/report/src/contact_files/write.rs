@@ -1,38 +1,20 @@
-//! The files on contact lines and pattern, which only a run with slices has.
+//! The files on contact patterns, which only a run with slices has.
 
-use analysis::results::{GearPattern, patterns};
-use ltca::StaticHistory;
-
+use analysis::results::GearPattern;
+use answer::Table;
 use scene::Scene;
 
-use super::{write_contact_lines, write_contact_pattern};
+use super::pattern_table;
 use crate::{
     ReportError, ResultFiles,
     charts::{contact_pattern_figure, contact_pattern_svg},
     paraview::write_pattern_vtu,
 };
 
-/// Writes what the scene asks for of the contact; the pattern comes back as a part of the report's page.
-///
-/// # Errors
-/// When the system refuses, or a result is no number.
-pub fn write_contact(
-    scene: &Scene,
-    history: &StaticHistory,
-    results: &dyn ResultFiles,
-) -> Result<Option<String>, ReportError> {
-    if !scene.has_slices() {
-        return Ok(None);
-    }
-    let pair = scene.gear_pair()?;
-    if scene.output.contact_lines {
-        results.write("contact_lines.csv", write_contact_lines(scene, &pair, history).as_bytes())?;
-    }
-    let patterns = patterns(scene, &pair, history)?;
-    write_patterns(scene, &patterns, results)
-}
+/// Names of the tables of both patterns.
+const NAMES: [&str; 2] = ["contact_pattern_pinion", "contact_pattern_wheel"];
 
-/// The patterns of both gears; their picture comes back for the report.
+/// Writes the pictures of both patterns, and what ParaView takes where the scene asks for it; their rows come back.
 ///
 /// # Errors
 /// When the system refuses.
@@ -40,21 +22,21 @@ pub fn write_patterns(
     scene: &Scene,
     patterns: &[GearPattern; 2],
     results: &dyn ResultFiles,
-) -> Result<Option<String>, ReportError> {
-    for pattern in patterns {
-        let file = format!("contact_pattern_{}", pattern.name);
-        results.write(&format!("{file}.csv"), write_contact_pattern(pattern).as_bytes())?;
-        if scene.output.vtu {
-            let file = format!("{file}.vtu");
-            let mut content = Vec::new();
-            write_pattern_vtu(pattern, &mut content)
-                .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
-            results.write(&file, &content)?;
-        }
+) -> Result<Vec<Table>, ReportError> {
+    for (pattern, name) in patterns.iter().zip(NAMES).filter(|_| scene.output.vtu) {
+        let file = format!("{name}.vtu");
+        let mut content = Vec::new();
+        write_pattern_vtu(pattern, &mut content)
+            .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
+        results.write(&file, &content)?;
     }
-    let picture = contact_pattern_svg(patterns);
-    if let Some(svg) = &picture {
+    if let Some(svg) = contact_pattern_svg(patterns) {
         results.write("contact_pattern.svg", svg.as_bytes())?;
     }
-    Ok(picture.map(|svg| contact_pattern_figure(&svg, patterns)))
+    Ok(patterns.iter().zip(NAMES).map(|(pattern, name)| pattern_table(name, pattern)).collect())
+}
+
+/// Both patterns as a part of a page.
+pub fn pattern_figure(patterns: &[GearPattern; 2]) -> Option<String> {
+    contact_pattern_svg(patterns).map(|svg| contact_pattern_figure(&svg, patterns))
 }

@@ -51,8 +51,8 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
          in their bores and sit on a section of the shaft.",
     ));
     page.push(cost_part(&answer.cost));
-    let set: String = file.set.iter().map(|word| format!(" {word}")).collect();
-    page.push(again(&format!("ale-gear run {} --out DIR{set}", file.file.display())));
+    let run = format!("ale-gear run {} --out DIR", file.file.display());
+    page.push(again(&std::iter::once(run).chain(file.set.iter().cloned()).collect::<Vec<_>>().join(" ")));
     Ok(page)
 }
 

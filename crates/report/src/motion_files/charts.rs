@@ -11,7 +11,6 @@ use crate::{
         Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
     },
     columns::motion_history::{MESH_PHASE, TIME},
-    view::View,
 };
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
@@ -44,8 +43,6 @@ pub struct MotionPictures<'a> {
     pub per_cycle: usize,
     /// Transmission error of the quasi-static cycle, mm, position by position; `None` where there is none.
     pub quasi_static: Option<&'a [f64]>,
-    /// The gears in space with their fields; `None` where a model has none.
-    pub view: Option<&'a View>,
 }
 
 /// All charts of a motion.
@@ -199,8 +196,6 @@ pub struct SweepPictures<'a> {
     pub campbell: &'a CampbellDiagram,
     /// Teeth of the driver.
     pub teeth: u32,
-    /// The gears in space; `None` where a model has none.
-    pub view: Option<&'a View>,
 }
 
 /// Largest minus smallest DTE over speed, way by way, its orders, and the largest force.

@@ -39,13 +39,6 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
-        ("report.html", include_str!("report.html")),
-        ("motion.html", include_str!("motion.html")),
-        ("sweep.html", include_str!("sweep.html")),
-        ("ladder.html", include_str!("ladder.html")),
-        ("ladder_sweep.html", include_str!("ladder_sweep.html")),
-        ("basins.html", include_str!("basins.html")),
-        ("branch.html", include_str!("branch.html")),
         ("optimum.html", include_str!("optimum.html")),
         ("plan.html", include_str!("plan.html")),
         ("study.html", include_str!("study.html")),
@@ -57,11 +50,9 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("style.html", include_str!("style.html")),
         ("style.css", scripts::STYLE),
         ("warnings.html", include_str!("warnings.html")),
-        ("page.html", include_str!("page.html")),
         ("parts.html", include_str!("parts.html")),
         ("sort.html", include_str!("sort.html")),
         ("view.html", include_str!("view.html")),
-        ("tail.html", include_str!("tail.html")),
     ];
     for (part, text) in parts {
         environment.add_template(part, text)?;

@@ -6,7 +6,6 @@ use analysis::{
     facts::Facts,
     results::{Place, StaticHeadline, static_headline},
 };
-use answer::Table;
 use ltca::StaticHistory;
 use scene::Scene;
 
@@ -25,7 +24,7 @@ use crate::{
     folder::ResultDirectory,
     page::{Content, Line, Part},
     view::View,
-    write_result,
+    write_result, write_rows,
 };
 
 /// Writes all files of a run at rest but the fields for ParaView, which come position by position; what comes back is
@@ -71,6 +70,21 @@ pub fn write_static_result(
     write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
 }
 
+/// Writes rows and summary of a run at rest, without a page.
+///
+/// # Errors
+/// When the system refuses.
+pub fn write_static_rows(
+    scene: &Scene,
+    history: &StaticHistory,
+    (facts, cost): (&Facts, &Cost),
+    results: &ResultDirectory,
+) -> Result<(), ReportError> {
+    let tables = vec![history_table(scene, history, None)];
+    let headline = static_headline(scene, history)?;
+    write_rows(&pair_answer(scene, (facts, cost), &headline, &history.warnings, tables), results)
+}
+
 /// Definitions, and the contact pattern.
 fn after(h: &StaticHeadline, facts: &Facts, pattern: Option<String>) -> Vec<Part> {
     let mut notes = Vec::new();
@@ -87,19 +101,15 @@ fn after(h: &StaticHeadline, facts: &Facts, pattern: Option<String>) -> Vec<Part
     );
     let pattern = Part::new("Contact pattern").with(Content::Figures(pattern.into_iter().collect()));
     let has_pattern = !pattern.is_empty();
-    let words = "Largest pressure over the whole mesh on the driving flank of one tooth; grey: no contact line came there.";
+    let words =
+        "Largest pressure over the whole mesh on the driving flank of one tooth; grey: no contact line came there.";
     std::iter::once(Part::more().note(notes.join(" "))).chain(has_pattern.then(|| pattern.note(words))).collect()
 }
 
 fn lines(h: &StaticHeadline, facts: &Facts) -> Vec<Line> {
     let mut all = vec![
         Line::number("mean STE", h.mean_ste_um, 4, "um"),
-        Line::number(
-            format!("peak-to-peak STE ({} positions)", h.samples_per_cycle),
-            h.peak_to_peak_ste_um,
-            4,
-            "um",
-        ),
+        Line::number(format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), h.peak_to_peak_ste_um, 4, "um"),
     ];
     all.extend(harmonics("STE", &h.ste_harmonics_um));
     all.extend([
@@ -156,7 +166,11 @@ fn place(at: &Place) -> String {
 fn solved(h: &StaticHeadline) -> Vec<Line> {
     let usual = "(0.5 is usual with the least window)";
     vec![
-        Line::science("complementarity (gap, pressure), worst relative violation", h.worst_complementarity_residual, ""),
+        Line::science(
+            "complementarity (gap, pressure), worst relative violation",
+            h.worst_complementarity_residual,
+            "",
+        ),
         Line::science("action and reaction, worst relative difference", h.worst_action_reaction_residual, ""),
         Line::science("share of load on an end pair of the window, largest", h.worst_window_edge_load, usual),
         Line::science(

@@ -12,7 +12,7 @@ use answer::{Answer, Cost, Table};
 use minijinja::context;
 use scene::{Driver, Scene};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::{
     ReportError,
@@ -32,7 +32,10 @@ pub(super) fn pair_answer<H: Serialize>(
 ) -> Answer {
     // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
     let json = |of: Result<Value, serde_json::Error>| of.unwrap_or_default();
-    let Value::Object(mut info) = json(serde_json::to_value(facts)) else { Default::default() };
+    let mut info = match json(serde_json::to_value(facts)) {
+        Value::Object(info) => info,
+        _ => Map::new(),
+    };
     // They stand by themselves.
     info.retain(|key, _| !key.starts_with("certificate"));
     Answer {
@@ -74,12 +77,7 @@ pub(super) struct Shown<'a> {
 ///
 /// # Errors
 /// [`ReportError`] if a part cannot be filled; that would be a fault of this program.
-pub(super) fn pair_page(
-    scene: &Scene,
-    facts: &Facts,
-    answer: &Answer,
-    shown: Shown<'_>,
-) -> Result<Page, ReportError> {
+pub(super) fn pair_page(scene: &Scene, facts: &Facts, answer: &Answer, shown: Shown<'_>) -> Result<Page, ReportError> {
     let mut page = Page::of(answer, format!("model {}{}", model_name(scene), shown.subtitle));
     page.glance = glance(scene, facts).into_iter().chain(shown.key).collect();
     let view = match shown.view {
@@ -105,7 +103,7 @@ pub(super) fn pair_page(
     ));
     let rpm = scene.pinion_speed() * 30.0 / PI;
     let sheet = geometry_table(&scene.name, facts, &torque(scene), rpm);
-    page.push(Part::new("Geometry").lines(geometry(facts)).with(Content::Plain(sheet)));
+    page.push(Part::new("Geometry").lines(geometry(facts)).with(Content::Plain(sheet.unwrap_or_default())));
     page.push(Part::new("Size").closing().lines(size(facts)));
     page.push(cost_part(&answer.cost));
     page.push(again(&shown.again.unwrap_or_else(|| command(scene))));
@@ -203,10 +201,11 @@ fn how_exact(exact: &Accuracy) -> Vec<Part> {
         Line::text(bound.quantity.key().replace('_', " "), bound.words(), asked)
     });
     let mesh = |elements: Option<u32>| elements.map_or("meshes of the scene".into(), |n| format!("{n} elements"));
-    let slices = |slices: Option<usize>| slices.map_or(String::new(), |n| format!(", {n} slices"));
+    let slices = |slices: Option<u32>| slices.map_or(String::new(), |n| format!(", {n} slices"));
     let left = |why: &Option<String>| why.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
     let rungs = exact.rungs.iter().map(|rung| {
-        let of = format!("{}{}, {} positions", mesh(rung.elements_profile), slices(rung.slices), rung.positions_per_cycle);
+        let of =
+            format!("{}{}, {} positions", mesh(rung.elements_profile), slices(rung.slices), rung.positions_per_cycle);
         Line::text("tried", of, left(&rung.left_because))
     });
     let models = exact.models.iter().map(|tried| {
@@ -273,8 +272,7 @@ fn size(facts: &Facts) -> Vec<Line> {
         Line::text("DOF before reduction, pinion + wheel", sum(facts.dof_before), ""),
         Line::text("DOF after reduction, pinion + wheel", sum(facts.dof_after), ""),
     ];
-    let ways =
-        names.iter().zip(&facts.reduction).map(|(name, way)| Line::text(format!("reduction, {name}"), way, ""));
+    let ways = names.iter().zip(&facts.reduction).map(|(name, way)| Line::text(format!("reduction, {name}"), way, ""));
     meshes.chain(dof).chain(ways).collect()
 }
 
