@@ -1,10 +1,12 @@
 //! What the command ends with where a result does not hold.
 
 use analysis::Solved;
-use report::Cost;
-use report::WrittenInTime;
+use report::{Cost, WrittenInTime};
 
 use crate::error::CommandError;
+
+/// The closing table of a result whose files stand, and whether it holds: status 1 where it does not.
+pub(crate) type Closing = (String, Result<(), CommandError>);
 
 /// A result whose files stand, and whether it holds.
 #[derive(Debug)]

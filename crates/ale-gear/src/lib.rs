@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`command`] | the subcommands |
 //! | [`run`], `motion`, `lumped`, `gearbox` | a scene at rest, in time, of a cheaper model, and a gearbox, into a result folder |
+//! | `progression` | motions that run in parts, from checkpoint to checkpoint |
 //! | `study_cases`, `kept_cases` | runs the scenes of a study; those that are done before the study is |
 //! | `chart` | what a chart takes from this process |
 //! | [`output`] | what of `analysis` and `report` the command names |
@@ -27,6 +28,7 @@ pub mod output;
 mod pace;
 pub mod phases;
 pub mod printed;
+mod progression;
 pub mod run;
 pub use ::scene;
 pub mod stop;

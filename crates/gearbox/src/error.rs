@@ -108,6 +108,14 @@ pub enum GearboxError {
         /// Length of the shaft, mm.
         length_mm: f64,
     },
+    /// A state of another gearbox.
+    #[error("the state to go on from has {checkpoint} coordinates, and the motion has {motion}")]
+    OtherCoordinates {
+        /// Those of the state.
+        checkpoint: usize,
+        /// Those of the motion.
+        motion: usize,
+    },
     /// A value is not a finite number, or below 0 where it must not be.
     #[error("{part}: {quantity} = {value} must be a number of 0 or more")]
     OutOfRange {
@@ -322,6 +330,7 @@ impl GearboxError {
                 "shafts and discs are numbered in the order in which they are given"
             }
             Self::OffShaft { .. } => "positions count from the shaft's own beginning, its sections one after the other",
+            Self::OtherCoordinates { .. } => "begin the motion anew",
             Self::OutOfRange { .. } => {
                 "inside are mm, N, t, s: 1 MN/m is 1000 N/mm, 1 kg is 0.001 t, 1 kg m^2 is 1000 t mm^2"
             }

@@ -26,6 +26,8 @@ pub struct ExactMesh {
     poses: [Pose; 2],
     /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
     within: Option<f64>,
+    /// Whether the next search is for all rows, whatever the last one found.
+    is_wide: bool,
 }
 
 /// Overlap over that of the last evaluation up to which the search is narrow.
@@ -49,7 +51,17 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
-        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], within: None })
+        Ok(Self {
+            pair,
+            gears,
+            options,
+            contact,
+            window,
+            station,
+            poses: [Pose::identity(); 2],
+            within: None,
+            is_wide: false,
+        })
     }
 
     /// The pair.
@@ -70,7 +82,7 @@ impl ExactMesh {
         {
             return Ok(found.clone());
         }
-        let overlap = self.contact.deepest_overlap();
+        let overlap = if std::mem::take(&mut self.is_wide) { 0.0 } else { self.contact.deepest_overlap() };
         let found = if overlap > 0.0 {
             self.contact.evaluate_within(&self.poses, REACH * overlap)?.clone()
         } else {
@@ -99,6 +111,12 @@ impl ExactMesh {
     pub(crate) fn forget(&mut self) {
         self.contact.forget_places();
         self.within = None;
+    }
+
+    /// The same, and how deep flanks overlapped: the next search is as wide as the first one.
+    pub(crate) fn forget_history(&mut self) {
+        self.forget();
+        self.is_wide = true;
     }
 
     /// Deepest overlap of the flanks where they were evaluated last, mm; 0 or below without contact.

@@ -14,7 +14,7 @@ pub struct ShaftLine {
 }
 
 /// What a bearing carries; zero on a held shaft, whose reaction stands by itself.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct BearingState {
     /// Force on the shaft, N.
     pub force: [f64; 3],

@@ -101,6 +101,7 @@ macro_rules! raw {
     (bare_whole $args:tt) => { $crate::spanned::Whole };
     (switch $args:tt) => { $crate::spanned::Switch };
     (numbers $args:tt) => { $crate::spanned::Numbers };
+    (wholes $args:tt) => { $crate::spanned::Wholes };
     (rows $args:tt) => { $crate::spanned::Rows };
     ($number:ident $args:tt) => { $crate::spanned::Number };
 }
@@ -164,7 +165,8 @@ macro_rules! choices {
         impl $name {
             pub(crate) const WORDS: &'static [&'static str] = &[$($word),*];
 
-            /// As scenes write it.
+            /// As files write it.
+            #[allow(dead_code, reason = "some are read alone")]
             pub fn word(self) -> &'static str {
                 Self::WORDS[self as usize]
             }

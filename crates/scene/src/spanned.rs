@@ -15,5 +15,7 @@ pub(crate) type Words = Option<Vec<Spanned<String>>>;
 pub(crate) type Switch = Option<Spanned<bool>>;
 /// A list of numbers as written.
 pub(crate) type Numbers = Option<Spanned<Vec<Spanned<f64>>>>;
+/// A list of whole numbers as written.
+pub(crate) type Wholes = Option<Spanned<Vec<i64>>>;
 /// Rows of numbers as written.
 pub(crate) type Rows = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;

@@ -67,7 +67,9 @@ pub(crate) enum ValueKind {
     Texts,
     /// A list of numbers.
     Numbers,
-    /// Rows of so many numbers.
+    /// A list of whole numbers.
+    Wholes,
+    /// Rows of so many numbers; 0: of as many as other keys ask for.
     Rows { columns: usize },
     /// A table of its own.
     Table(&'static Table),
@@ -76,7 +78,15 @@ pub(crate) enum ValueKind {
 }
 
 pub(crate) const fn key(name: &'static str, kind: ValueKind, about: &'static str) -> Key {
-    Key { name, kind, about }
+    Key { name: plain(name), kind, about }
+}
+
+/// The name of a field without the mark of those that are words of Rust, too: `type` of `r#type`.
+const fn plain(name: &'static str) -> &'static str {
+    match name.as_bytes() {
+        [b'r', b'#', ..] => name.split_at(2).1,
+        _ => name,
+    }
 }
 
 /// A number with a default.
@@ -131,6 +141,10 @@ pub(crate) const fn numbers(name: &'static str, about: &'static str) -> Key {
     key(name, ValueKind::Numbers, about)
 }
 
+pub(crate) const fn wholes(name: &'static str, about: &'static str) -> Key {
+    key(name, ValueKind::Wholes, about)
+}
+
 pub(crate) const fn rows(name: &'static str, columns: usize, about: &'static str) -> Key {
     key(name, ValueKind::Rows { columns }, about)
 }
@@ -173,7 +187,8 @@ impl Table {
     /// Visits the table and those in it, with their names; a list of tables has brackets about its name.
     pub fn walk(&'static self, path: &str, visit: &mut impl FnMut(&str, &'static Self)) {
         visit(path, self);
-        let inner = |key: &Key| if path.is_empty() { key.name.to_owned() } else { format!("{path}.{}", key.name) };
+        let own = path.trim_matches(['[', ']']);
+        let inner = |key: &Key| if own.is_empty() { key.name.to_owned() } else { format!("{own}.{}", key.name) };
         for key in self.keys {
             match key.kind {
                 ValueKind::Table(of) => of.walk(&inner(key), visit),

@@ -6,7 +6,7 @@ use analysis::motion::{MotionCheckpoint, MotionLayout};
 use flate2::{Compression, write::GzEncoder};
 use reduction::{RecordKey, ReductionRecord};
 use report::{
-    checkpoint::{Stored, parse_rows, sealed_state},
+    checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state},
     columns_to_csv,
     compare::{
         Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
@@ -54,9 +54,13 @@ pub fn sealed_record(payload: &[u8]) -> Vec<u8> {
 /// The state of a checkpoint, with the digest that it should have; as it is, too.
 pub fn checkpoint(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let read = |text: &str| match Stored::parse(text, Path::new("state.json"), Path::new("fuzz.toml")) {
-        Ok(stored) => gone_on_from(stored.checkpoint()),
-        Err(e) => drop((e.to_string(), e.hint())),
+    let read = |text: &str| {
+        let names = [Path::new("state.json"), Path::new("fuzz.toml")];
+        match Stored::<PairState>::parse(text, names[0], names[1]) {
+            Ok(stored) => gone_on_from(stored.state.checkpoint()),
+            Err(e) => drop((e.to_string(), e.hint())),
+        }
+        let _ = Stored::<GearboxState>::parse(text, names[0], names[1]).map_err(|e| drop((e.to_string(), e.hint())));
     };
     read(text);
     read(&sealed_state(text));

@@ -99,8 +99,8 @@ enum Command {
     Report(report::ReportArgs),
     /// A page on this machine where a pair is tried by hand: sliders, curves, pattern, gears in space
     Serve(serve::ServeArgs),
-    /// JSON Schema of the scene file on stdout, for completion and checks in editors
-    Schema,
+    /// JSON Schema of the scene file, or of the gearbox file, on stdout, for completion and checks in editors
+    Schema(schema::SchemaArgs),
     /// Script on stdout that completes words in a shell
     Completions {
         /// Which shell
@@ -194,7 +194,7 @@ impl Cli {
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Report(args)) => args.execute(quiet),
             Some(Command::Serve(args)) => args.execute(),
-            Some(Command::Schema) => Ok(schema::execute()),
+            Some(Command::Schema(args)) => Ok(args.execute()),
             Some(Command::Licences) => Ok(NOTICES.to_owned()),
             Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
             Some(Command::Man) => shell::man(),

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use analysis::{Solved, SolvedAtRest, lumped::is_lumped};
+use analysis::{Solved, SolvedAtRest, in_time::TimeAnalysis, lumped::is_lumped};
 use scene::gearbox::Gearbox;
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
@@ -11,14 +11,13 @@ use report::{check_memory, solve_in_time, write_static_result};
 use report::folder::Cache;
 
 use crate::{
-    certificate::Written,
+    certificate::{Closing, Written},
     error::CommandError,
     facts::ForFiles,
-    gearbox::write_gearbox_result,
-    memory,
-    motion::{self, Progression},
+    gearbox, memory, motion,
     output::ResultDirectory,
     phases::Phases,
+    progression::{Outcome, Progression},
     resolution::with_slices,
     run::{self, InSpace},
     scene::{DocumentKind, DocumentText, Kind, Model, Run, Scene},
@@ -99,7 +98,13 @@ impl RunArgs {
         let text = DocumentText::read(&self.file)?;
         if text.kind() == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
-            return Ok(Document::Gearbox(Box::new(text.gearbox(&self.overrides.settings()?)?)));
+            let file = text.gearbox(&self.overrides.settings()?)?;
+            if file.motion.is_none() && (self.resume || self.stop_after_cycles.is_some()) {
+                let said = format_args!("{}: this analysis has no checkpoints", self.file.display());
+                let hint = "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]".to_owned();
+                return Err(CommandError::input(said, Some(hint)));
+            }
+            return Ok(Document::Gearbox(Box::new(file)));
         }
         let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
         let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
@@ -116,8 +121,6 @@ impl RunArgs {
             (!self.derivatives.is_empty(), "--derivatives", "leave it out, or run the scene of one of its pairs"),
             (self.vtu, "--vtu", "leave it out: the page shows the gearbox in space"),
             (self.no_view, "--no-view", "leave it out: nothing is saved by it"),
-            (self.resume, "--resume", "leave it out: a gearbox has no checkpoints"),
-            (self.stop_after_cycles.is_some(), "--stop-after-cycles", "leave it out: a gearbox has no checkpoints"),
         ];
         let Some((_, word, hint)) = words.into_iter().find(|(given, ..)| *given) else { return Ok(()) };
         let said = format_args!("{}: `{word}` is for pairs, and this is a gearbox file", self.file.display());
@@ -172,39 +175,31 @@ impl RunArgs {
         Ok(())
     }
 
-    /// Runs a motion; the text is the closing table, or how to go on.
-    fn move_pair(
+    /// What is said of a motion: the closing table, or how to go on.
+    fn ended(
         &self,
-        scene: &Scene,
-        mut phases: Phases,
-        results: ResultDirectory,
+        outcome: Outcome,
+        (progression, results): (&Progression, ResultDirectory),
         quiet: bool,
     ) -> Result<Answer, CommandError> {
-        let progression = Progression::new(scene, &self.out, self.resume, self.stop_after_cycles);
-        match motion::solve(scene, &mut phases, &results, &self.cache.open(), &progression)? {
-            motion::Outcome::Stopped { cycles } if self.json => {
-                Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into())
-            }
-            motion::Outcome::Stopped { cycles } => Ok(format!(
+        match outcome {
+            Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into()),
+            Outcome::Stopped { cycles } => Ok(format!(
                 "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {} --out {} --resume\n",
                 self.file.display(),
                 self.out.display()
             )
             .into()),
-            motion::Outcome::Finished(written) => {
+            Outcome::Finished(written) => {
                 results.finish(talk::note)?;
                 progression.done()?;
-                self.answer((written.table, written.verdict), quiet)
+                self.answer(written, quiet)
             }
         }
     }
 
     /// What stands on stdout at the end: the summary, nothing, or the closing table.
-    fn answer(
-        &self,
-        (table, verdict): (String, Result<(), CommandError>),
-        quiet: bool,
-    ) -> Result<Answer, CommandError> {
+    fn answer(&self, (table, verdict): Closing, quiet: bool) -> Result<Answer, CommandError> {
         let summary = self.out.join("summary.json");
         let text = match (self.json, quiet) {
             (true, _) => files::read_regular_text(&summary, files::most::SUMMARY)
@@ -215,12 +210,13 @@ impl RunArgs {
         Ok(Answer { text, failure: verdict.err() })
     }
 
-    /// Runs a gearbox; the text is the closing table.
+    /// Runs a gearbox; the text is the closing table, or how to go on.
     fn solve_gearbox(&self, file: &Gearbox, mut phases: Phases, quiet: bool) -> Result<Answer, CommandError> {
         let results = ResultDirectory::create(&self.out)?;
-        let (table, verdict) = write_gearbox_result(file, &mut phases, &results, &self.cache.open())?;
-        results.finish(talk::note)?;
-        self.answer((table, verdict), quiet)
+        let every = file.motion.map(|motion| motion.checkpoint_every_cycles);
+        let progression = Progression::new(every, &self.out, self.resume, self.stop_after_cycles);
+        let outcome = gearbox::solve(file, &mut phases, &results, &self.cache.open(), &progression)?;
+        self.ended(outcome, (&progression, results), quiet)
     }
 
     /// Runs the document; the text is the closing table.
@@ -231,8 +227,11 @@ impl RunArgs {
             Document::Gearbox(file) => return self.solve_gearbox(&file, phases, quiet),
         };
         let results = ResultDirectory::create(&self.out)?;
-        if scene.motion.is_some() {
-            return self.move_pair(&scene, phases, results, quiet);
+        if let Some(motion) = &scene.motion {
+            let every = motion.checkpoint_every_cycles.filter(|_| TimeAnalysis::is_one_motion(&scene));
+            let progression = Progression::new(every, &self.out, self.resume, self.stop_after_cycles);
+            let outcome = motion::solve(&scene, &mut phases, &results, &self.cache.open(), &progression)?;
+            return self.ended(outcome, (&progression, results), quiet);
         }
         let in_space = if self.no_view { InSpace::Bands } else { InSpace::Fields };
         let written = write_static(&scene, &mut phases, &results, &self.cache.open(), in_space)?;

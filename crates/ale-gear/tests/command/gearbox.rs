@@ -2,6 +2,11 @@
 
 use std::path::Path;
 
+use parquet::{
+    file::reader::{FileReader, SerializedFileReader},
+    record::RowAccessor,
+};
+
 use crate::util::{Scratch, repository};
 
 /// The two stages of the scenes, beside their pairs.
@@ -144,6 +149,8 @@ fn every_key_is_in_a_scene_that_runs() {
     }
     let speeds = column(&scratch.read("run_up/motion.csv"), "input_speed_rpm");
     assert!((speeds[speeds.len() - 1] + 1600.0).abs() < 1e-6);
+    ["positions", "shafts", "motion"].into_iter().for_each(|name| same_columns(&scratch.path().join("run_up"), name));
+    assert!(!scratch.path().join("in_housing/positions.parquet").exists(), "nobody asked for it");
     // A tenth more than the load asks for makes it faster.
     let speeds = column(&scratch.read("in_housing/motion.csv"), "input_speed_rpm");
     assert!(speeds[speeds.len() - 1] < -1500.0, "{} 1/min", speeds[speeds.len() - 1]);
@@ -195,6 +202,29 @@ fn a_gearbox_is_set_and_told_as_a_pair_is() {
     }
     let page = scratch.read("s/report.html");
     assert!(page.contains("ale-gear run plain.toml --out DIR") && page.contains("analysis.positions_per_cycle=2"));
+}
+
+/// `NAME.parquet` of a folder has the columns of `NAME.csv`, number by number to the bit.
+fn same_columns(folder: &Path, name: &str) {
+    let csv = std::fs::read_to_string(folder.join(format!("{name}.csv"))).unwrap();
+    let file = std::fs::File::open(folder.join(format!("{name}.parquet"))).unwrap();
+    let reader = SerializedFileReader::new(file).unwrap();
+    let columns = reader.metadata().file_metadata().schema_descr().columns().to_vec();
+    let names: Vec<&str> = columns.iter().map(|c| c.name()).collect();
+    let mut lines = csv.lines();
+    assert_eq!(names.join(","), lines.next().unwrap(), "{name}");
+    let mut rows = 0;
+    for (row, line) in reader.get_row_iter(None).unwrap().zip(lines.by_ref()) {
+        let row = row.unwrap();
+        for (i, text) in line.split(',').enumerate() {
+            match row.get_double(i) {
+                Ok(value) => assert_eq!(value.to_bits(), text.parse::<f64>().unwrap().to_bits(), "{name} {rows} {i}"),
+                Err(_) => assert_eq!(row.get_string(i).unwrap(), text, "{name} {rows} {i}"),
+            }
+        }
+        rows += 1;
+    }
+    assert!(rows > 1 && lines.next().is_none(), "{name}: {rows} rows");
 }
 
 /// Words for pairs alone are refused with what takes their place, and leave nothing behind.
@@ -351,6 +381,6 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
     refused(
         plain.replace("from_rpm = 400.0", "from_rpm = 0.0"),
         "ale-gear: box.toml:123: `from_rpm` is 0, allowed is 0.001 .. 1000000\n\
-         hint: give `from_rpm` a number in 0.001 .. 1000000\n",
+         hint: `from_rpm` means: lowest speed of the input, 1/min\n",
     );
 }

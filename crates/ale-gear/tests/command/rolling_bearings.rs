@@ -67,7 +67,10 @@ fn a_gearbox_on_rolling_bearings_is_solved() {
         let mean = rest.iter().sum::<f64>() / 8.0;
         assert!((moved - mean).abs() < 0.05 * 4000.0, "{name}: {moved} beside {mean} N");
     }
-    assert!(scratch.read("o/report.html").contains("loaded elements"));
+    let page = scratch.read("o/report.html");
+    for head in ["element N", "Hertz MPa", "loaded"] {
+        assert!(page.contains(head), "the page has no column {head}");
+    }
     let again = scratch.ale_gear(["run", "rolling_bearings.toml", "--out", "o", "--no-cache", "-q", "-j", "1"]);
     assert_eq!(again.code, Some(0), "{}", again.stderr);
     assert!(scratch.read("o/positions.csv") == positions, "bits go with the number of threads");

@@ -6,7 +6,7 @@
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `checks` | what must hold |
-//! | `motion`, `orders` | from rest on, in time, and the orders of its meshes |
+//! | `motion`, `orders`, `sink` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `room` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
@@ -21,24 +21,29 @@ mod orders;
 mod parts;
 mod result;
 mod room;
+mod sink;
 mod swings;
 mod vibration;
 
 use std::f64::consts::TAU;
 
-use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
+use gearbox::{
+    GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train,
+    motion::{GearboxCheckpoint, GearboxInstant},
+};
 use scene::gearbox::Gearbox;
 
-use crate::{AnalysisError, GearCache, Observer, PhaseWork, run_phase, unless_cancelled};
+use crate::{AnalysisError, GearCache, NoCache, Observer, PhaseWork, run_phase, unless_cancelled};
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
 pub use motion::GearboxMotionResult;
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
+pub use sink::{GearboxSink, NoGearboxSink};
 pub use swings::{ExcitationLine, GearboxSwings, OrderForces, SpeedRms};
 use vibration::Parts;
 
-/// Solves a gearbox at all positions that its file asks for.
+/// Solves a gearbox as its file asks, in one piece.
 ///
 /// # Errors
 /// [`AnalysisError`].
@@ -47,6 +52,87 @@ pub fn solve_gearbox(
     cache: &dyn GearCache,
     observer: &mut dyn Observer,
 ) -> Result<GearboxResult, AnalysisError> {
+    Ok(solve((file, cache), Span::default(), observer, &mut NoGearboxSink)?.0)
+}
+
+/// A gearbox as its file asks, whose motion may be stopped and gone on with.
+pub struct GearboxAnalysis<'a> {
+    file: &'a Gearbox,
+    cache: &'a dyn GearCache,
+    span: Span,
+}
+
+/// How an analysis ended.
+#[derive(Debug)]
+pub enum GearboxOutcome {
+    /// With its result.
+    Finished(Box<GearboxResult>),
+    /// The caller asked to stop its motion.
+    Stopped {
+        /// Cycles of the fastest mesh that are done.
+        cycles: u64,
+    },
+}
+
+/// Where a motion begins, and where it is to stop.
+#[derive(Debug, Default)]
+struct Span {
+    /// State to go on from, with the rows before it.
+    from: Option<(GearboxCheckpoint, Vec<GearboxInstant>)>,
+    /// Stop when so many cycles of the fastest mesh are done.
+    stop_after: Option<u64>,
+}
+
+impl<'a> GearboxAnalysis<'a> {
+    /// Of a checked file, without a cache.
+    pub fn new(file: &'a Gearbox) -> Self {
+        Self { file, cache: &NoCache, span: Span::default() }
+    }
+
+    /// With reduced gears from a cache, and into it.
+    #[must_use]
+    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
+        Self { cache, ..self }
+    }
+
+    /// Goes on from a state of the motion, with the rows before it. What is at rest is solved again.
+    #[must_use]
+    pub fn resume(mut self, from: GearboxCheckpoint, rows: Vec<GearboxInstant>) -> Self {
+        self.span.from = Some((from, rows));
+        self
+    }
+
+    /// Stops the motion when so many cycles of the fastest mesh are done, at the first row from there on.
+    #[must_use]
+    pub fn stop_after(mut self, cycles: Option<u64>) -> Self {
+        self.span.stop_after = cycles;
+        self
+    }
+
+    /// Solves it; `sink` gets rows and states of the motion as they come.
+    ///
+    /// # Errors
+    /// [`AnalysisError`].
+    pub fn solve_into(
+        self,
+        observer: &mut dyn Observer,
+        sink: &mut dyn GearboxSink,
+    ) -> Result<GearboxOutcome, AnalysisError> {
+        let (result, stopped) = solve((self.file, self.cache), self.span, observer, sink)?;
+        Ok(match stopped {
+            Some(cycles) => GearboxOutcome::Stopped { cycles },
+            None => GearboxOutcome::Finished(Box::new(result)),
+        })
+    }
+}
+
+/// The result, and the cycles after which its motion was stopped, where it was.
+fn solve(
+    (file, cache): (&Gearbox, &dyn GearCache),
+    span: Span,
+    observer: &mut dyn Observer,
+    sink: &mut dyn GearboxSink,
+) -> Result<(GearboxResult, Option<u64>), AnalysisError> {
     let failed = |source: GearboxError| AnalysisError::Gearbox {
         file: file.file.display().to_string(),
         source: Box::new(source),
@@ -130,9 +216,10 @@ pub fn solve_gearbox(
         reduced: &reduced,
         positions: &positions,
     };
-    let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, observer)).transpose()?;
+    let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
+    let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
     let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), warnings);
-    Ok(GearboxResult { motion: moved, ..result })
+    Ok((GearboxResult { motion: moved, ..result }, stopped))
 }
 
 fn count(file: &Gearbox) -> u32 {

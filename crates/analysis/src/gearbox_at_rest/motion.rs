@@ -6,16 +6,17 @@ use dynamics::{RigidBody, Speed};
 use gearbox::{
     GearboxError, GearboxPosition, Mesh, Meshing, Operation, Structure, Train, Vector12,
     motion::{
-        ContactSpring, Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, MapRequest, MotionOptions, MotionPlan,
-        MovingMesh, ReductionCertificate,
+        ContactSpring, Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRow, MapRequest, MotionOptions,
+        MotionPlan, MovingMesh, ReductionCertificate,
     },
 };
 use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
 
 use super::{
-    inertia,
+    Span, inertia,
     meshes::ReducedMesh,
     orders::{MotionOrder, orders},
+    sink::GearboxSink,
 };
 use crate::{AnalysisError, Observer, PhaseWork, run_phase, unless_cancelled};
 
@@ -66,12 +67,13 @@ pub(super) struct AtRest<'a> {
     pub positions: &'a [GearboxPosition],
 }
 
-/// Runs a gearbox as its file asks for.
+/// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
 pub(super) fn run(
     rest: &AtRest<'_>,
     asked: &GearboxMotion,
-    observer: &mut dyn Observer,
-) -> Result<GearboxMotionResult, AnalysisError> {
+    span: Span,
+    (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
+) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
     let failed = |source: GearboxError| AnalysisError::Gearbox {
         file: rest.file.file.display().to_string(),
         source: Box::new(source),
@@ -115,24 +117,28 @@ pub(super) fn run(
     let slowest = speed.min(asked.to_speed_rpm.map_or(speed, |rpm| rpm * TAU / 60.0));
     let step = 1.0 / (rest.fastest(slowest) * f64::from(asked.steps_per_cycle));
     let steps = u64::from(asked.cycles) * u64::from(asked.steps_per_cycle);
-    let plan = MotionPlan { scheme: asked.scheme, step, steps, steps_per_row: u64::from(asked.steps_per_row) };
-    let mut rows: Vec<GearboxInstant> = Vec::new();
-    let count = steps / plan.steps_per_row;
-    let (done, cancelled) = run_phase(observer, "run", PhaseWork::Steps(count), |progress| {
-        let mut cancelled = None;
-        let done = mechanism.run(&start, &plan, |instant| {
-            rows.push(instant.clone());
+    let steps_per_cycle = u64::from(asked.steps_per_cycle);
+    let steps_per_row = u64::from(asked.steps_per_row);
+    let plan = MotionPlan { scheme: asked.scheme, step, steps, steps_per_row, steps_per_cycle };
+    let (from, before) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
+    sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
+    let every = u64::from(asked.checkpoint_every_cycles);
+    let mut course = Course { rows: before, sink, every, stop_after: span.stop_after, kept: 0, stopped: None };
+    course.kept = from.as_ref().map_or(0, |from| from.cycles);
+    let count = (steps / plan.steps_per_row).saturating_sub(course.rows.len() as u64);
+    let (done, ended) = run_phase(observer, "run", PhaseWork::Steps(count), |progress| {
+        let mut ended = Ok(());
+        let done = mechanism.run_from(&start, from.as_ref(), &plan, |row| {
             progress.tick();
-            cancelled = unless_cancelled(progress).err();
-            cancelled.is_none()
+            ended = unless_cancelled(progress).and_then(|()| course.take(row));
+            ended.is_ok() && course.stopped.is_none()
         });
-        (done, cancelled)
+        (done, ended)
     });
-    if let Some(stopped) = cancelled {
-        return Err(stopped);
-    }
+    ended?;
     let done = done.map_err(failed)?;
-    Ok(GearboxMotionResult {
+    let Course { rows, stopped, .. } = course;
+    let result = GearboxMotionResult {
         orders: orders(&rows)?,
         rows,
         mesh_frequencies: mechanism.mesh_frequencies(),
@@ -144,7 +150,37 @@ pub(super) fn run(
         separations: done.separations,
         reach: done.reach,
         reduction: *mechanism.bodies().certificate(),
-    })
+    };
+    Ok((result, stopped))
+}
+
+/// Rows of a motion so far, and when a state is kept.
+struct Course<'a> {
+    rows: Vec<GearboxInstant>,
+    sink: &'a mut dyn GearboxSink,
+    /// Cycles from one kept state to the next; 0: none.
+    every: u64,
+    stop_after: Option<u64>,
+    /// Cycles of the state that was kept last.
+    kept: u64,
+    /// Cycles after which the motion is stopped.
+    stopped: Option<u64>,
+}
+
+impl Course<'_> {
+    fn take(&mut self, row: GearboxRow<'_>) -> Result<(), AnalysisError> {
+        self.sink.row(row.instant).map_err(AnalysisError::Sink)?;
+        self.rows.push(row.instant.clone());
+        let Some(checkpoint) = row.checkpoint else { return Ok(()) };
+        let cycles = checkpoint.cycles;
+        self.stopped = self.stop_after.filter(|most| cycles >= *most).map(|_| cycles);
+        let is_due = self.every > 0 && cycles / self.every > self.kept / self.every;
+        if is_due || self.stopped.is_some() {
+            self.kept = cycles;
+            self.sink.checkpoint(checkpoint).map_err(AnalysisError::Sink)?;
+        }
+        Ok(())
+    }
 }
 
 impl AtRest<'_> {

@@ -2,12 +2,13 @@
 
 use integrate::State;
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 
 use super::GearboxMechanism;
 use crate::{BearingState, GearboxError};
 
 /// A mesh at an instant.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshInstant {
     /// Mesh cycles ([`crate::Train::cycles`]).
     pub cycles: f64,
@@ -21,7 +22,7 @@ pub struct MeshInstant {
 }
 
 /// A gearbox at an instant of its motion.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GearboxInstant {
     /// Time, s.
     pub time: f64,

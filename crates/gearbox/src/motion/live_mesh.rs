@@ -46,6 +46,12 @@ impl LiveMesh {
         self.last.as_ref().map(|(_, _, reply)| reply).ok_or(lost)
     }
 
+    /// Forgets what it remembers of earlier places.
+    pub fn forget(&mut self) {
+        self.last = None;
+        self.element.forget();
+    }
+
     /// The element, standing where it was asked last.
     pub fn element(&mut self) -> &mut dyn MovingMesh {
         &mut *self.element

@@ -80,6 +80,11 @@ impl MovingMesh for MovingExactMesh {
         all
     }
 
+    fn forget(&mut self) {
+        self.at = None;
+        self.mesh.forget_history();
+    }
+
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
         let deepest = self.mesh.deepest_overlap();
         let drive = match &self.at {

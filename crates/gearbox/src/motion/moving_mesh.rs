@@ -24,6 +24,10 @@ pub trait MovingMesh: MeshElement {
     /// [`GearboxError`] when it is not known.
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError>;
 
+    /// Forgets what it remembers of earlier places, so that answers depend on the place alone to the last bit. Nothing to
+    /// do for a mesh that is a pure function of it.
+    fn forget(&mut self) {}
+
     /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
     /// such bounds.
     fn reach(&self) -> f64 {

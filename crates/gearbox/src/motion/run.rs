@@ -3,7 +3,7 @@
 use dynamics::Speed;
 use integrate::{Integrator, Ledger, Scheme, State, StepControl};
 
-use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism};
+use super::{Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism};
 use crate::GearboxError;
 
 /// How a motion is integrated.
@@ -17,6 +17,8 @@ pub struct MotionPlan {
     pub steps: u64,
     /// Steps a row.
     pub steps_per_row: u64,
+    /// Steps a cycle of the fastest mesh.
+    pub steps_per_cycle: u64,
 }
 
 /// How a motion ended.
@@ -38,6 +40,16 @@ pub struct GearboxRun {
     pub reach: Vec<f64>,
 }
 
+/// A row of a motion as it comes.
+#[derive(Debug)]
+pub struct GearboxRow<'a> {
+    /// What is read off.
+    pub instant: &'a GearboxInstant,
+    /// A state to go on from: of the first row at or behind the end of each cycle of the fastest mesh, but for the last
+    /// row.
+    pub checkpoint: Option<GearboxCheckpoint>,
+}
+
 impl GearboxMechanism {
     /// Runs from `start`; `seen` is told of rows, the start among them, and stops the motion by `false`.
     ///
@@ -49,13 +61,38 @@ impl GearboxMechanism {
         plan: &MotionPlan,
         mut seen: impl FnMut(&GearboxInstant) -> bool,
     ) -> Result<GearboxRun, GearboxError> {
+        self.run_from(start, None, plan, |row| seen(row.instant))
+    }
+
+    /// The same, going on from a state on the way of an earlier run from the same start: rows before it do not come
+    /// again.
+    ///
+    /// What meshes remember is forgotten at every state that could be gone on from, so that a motion that is taken up
+    /// again goes the same way to the last bit.
+    ///
+    /// # Errors
+    /// [`GearboxError::OtherCoordinates`] for a state of another gearbox; as of [`GearboxMechanism::run`].
+    pub fn run_from(
+        &mut self,
+        start: &State,
+        from: Option<&GearboxCheckpoint>,
+        plan: &MotionPlan,
+        mut seen: impl FnMut(GearboxRow<'_>) -> bool,
+    ) -> Result<GearboxRun, GearboxError> {
         let scale = self.scale(start);
         let mut integrator = Integrator::new(plan.scheme, StepControl::Fixed(plan.step), scale);
-        let mut state = start.clone();
-        let mut separations = vec![[0; 2]; self.live.len()];
+        let (mut state, mut separations, mut before) = (start.clone(), vec![[0; 2]; self.live.len()], [0; 2]);
+        let mut first_row = 0;
+        if let Some(from) = from {
+            self.restore(from)?;
+            integrator = integrator.resumed(from.ledger);
+            (state, separations, before) = (from.state.clone(), from.separations.clone(), from.steps);
+            first_row = from.rows;
+        }
         let per_row = plan.steps_per_row.max(1);
         let rows = plan.steps.div_ceil(per_row);
-        for row in 0..=rows {
+        let cycles = |row: u64| (row * per_row).min(plan.steps) / plan.steps_per_cycle.max(1);
+        for row in first_row..=rows {
             let last = (row * per_row).min(plan.steps);
             // A step of its own for each time where these are not evenly spaced.
             let first = if self.is_ramp() { (last + 1).saturating_sub(per_row).min(last) } else { last };
@@ -67,13 +104,27 @@ impl GearboxMechanism {
                     }
                 })?;
             }
-            if !seen(&self.instant(&state)?) {
+            let instant = self.instant(&state)?;
+            let is_due = row > 0 && row < rows && cycles(row) > cycles(row - 1);
+            let checkpoint = integrator.ledger().filter(|_| is_due).map(|ledger| GearboxCheckpoint {
+                rows: row + 1,
+                cycles: cycles(row),
+                state: state.clone(),
+                ledger: *ledger,
+                steps: sum(before, integrator.steps()),
+                separations: separations.clone(),
+                reach: self.reach.clone(),
+            });
+            if !seen(GearboxRow { instant: &instant, checkpoint }) {
                 break;
+            }
+            if is_due {
+                self.forget();
             }
         }
         let ledger = integrator.ledger().copied().unwrap_or_default();
         let energy = self.energy(start, &state, &ledger)?;
-        let [steps, divided] = integrator.steps();
+        let [steps, divided] = sum(before, integrator.steps());
         let (states, reach) = ([start.clone(), state], self.reach.clone());
         Ok(GearboxRun { states, ledger, energy, steps, divided, separations, reach })
     }
@@ -92,4 +143,8 @@ impl GearboxMechanism {
         let never = || GearboxError::OutOfRange { part: "the ramp".into(), quantity: "angle, rad", value: angle };
         ramp.time_at(angle).ok_or_else(never)
     }
+}
+
+fn sum(before: [u64; 2], now: [u64; 2]) -> [u64; 2] {
+    [before[0] + now[0], before[1] + now[1]]
 }

@@ -64,7 +64,7 @@ fn run(
     let start = mechanism.start(0.01).unwrap();
     let step = 1.0 / mechanism.mesh_frequencies()[0] / f64::from(steps_per_cycle);
     let steps = (cycles * f64::from(steps_per_cycle)).round() as u64;
-    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1 };
+    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1, steps_per_cycle: 64 };
     let mut rows = Vec::new();
     let run = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());

@@ -263,7 +263,7 @@ fn a_motion_begins_where_rolling_bearings_stand() {
     })
     .unwrap();
     let start = mechanism.start(0.02).unwrap();
-    let plan = MotionPlan { scheme: Scheme::Energy, step: 1e-5, steps: 200, steps_per_row: 100 };
+    let plan = MotionPlan { scheme: Scheme::Energy, step: 1e-5, steps: 200, steps_per_row: 100, steps_per_cycle: 64 };
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());

@@ -1,15 +1,84 @@
 //! Digests of what a run is made of: whoever goes on from a checkpoint must have the same.
 
-use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
 
-use scene::Scene;
+use scene::{Scene, gearbox::Gearbox};
+use serde::{Deserialize, Serialize};
 
 use super::CheckpointError;
 
-/// The scene as it was checked, and the files that it names.
+/// A document whose run can be gone on from: what it is made of.
+pub trait Resumable {
+    /// Where it stands; messages name it.
+    fn file(&self) -> &Path;
+
+    /// What messages call one that says something else.
+    fn another(&self) -> &'static str;
+
+    /// What it says, but for how long it runs where that changes nothing before, and for how often it leaves a checkpoint.
+    fn text(&self) -> String;
+
+    /// Files that it names, each with the scene that names it.
+    fn files(&self) -> Vec<(&Scene, &Path)>;
+}
+
+impl Resumable for Scene {
+    fn file(&self) -> &Path {
+        &self.file
+    }
+
+    fn another(&self) -> &'static str {
+        "another scene"
+    }
+
+    fn text(&self) -> String {
+        let mut same = self.clone();
+        same.analysis.cycles = 0;
+        if let Some(motion) = &mut same.motion {
+            motion.checkpoint_every_cycles = None;
+        }
+        same.to_toml()
+    }
+
+    fn files(&self) -> Vec<(&Scene, &Path)> {
+        Scene::files(self).into_iter().map(|path| (self, path)).collect()
+    }
+}
+
+impl Resumable for Gearbox {
+    fn file(&self) -> &Path {
+        &self.file
+    }
+
+    fn another(&self) -> &'static str {
+        "another gearbox file"
+    }
+
+    /// Numbers of `{:?}` are the shortest that are read as the same; files of shafts and housings have been read into
+    /// them.
+    fn text(&self) -> String {
+        let Self { name, shafts, bearings, gears, meshes, input, torques, housing, vibration, .. } = self;
+        let mut motion = self.motion;
+        if let Some(own) = &mut motion {
+            own.checkpoint_every_cycles = 0;
+            // A ramp is another one where it is longer.
+            own.cycles = if own.to_speed_rpm.is_some() { own.cycles } else { 0 };
+        }
+        let pairs: Vec<_> = meshes.iter().map(|m| (&m.name, m.gears, m.scene.to_toml())).collect();
+        let rest = (self.positions_per_cycle, self.cycles, vibration, motion);
+        format!("{:?}", ((name, shafts, bearings, gears), pairs, (input, torques, housing), rest))
+    }
+
+    fn files(&self) -> Vec<(&Scene, &Path)> {
+        let of = |scene| Scene::files(scene).into_iter().map(move |path| (scene, path));
+        self.meshes.iter().flat_map(|mesh| of(&mesh.scene)).collect()
+    }
+}
+
+/// A document as it was checked, and the files that it names.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct InputDigests {
-    scene: String,
+    text: String,
     files: Vec<FileDigest>,
 }
 
@@ -25,43 +94,34 @@ struct FileDigest {
 /// What became of the inputs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum Change {
-    /// The scene says something else.
-    Scene,
-    /// A file has other content, as the scene names it.
-    File(String),
+    /// The document says something else.
+    Document,
+    /// A file has other content.
+    File(PathBuf),
 }
 
 impl InputDigests {
-    /// Of a scene as everything is now.
+    /// Of a document as everything is now.
     ///
     /// # Errors
     /// [`CheckpointError::Input`].
-    pub fn of(scene: &Scene) -> Result<Self, CheckpointError> {
-        let digest = |path: &std::path::Path| -> Result<FileDigest, CheckpointError> {
+    pub fn of(document: &dyn Resumable) -> Result<Self, CheckpointError> {
+        let digest = |(scene, path): (&Scene, &Path)| -> Result<FileDigest, CheckpointError> {
             let unreadable = |cause| CheckpointError::Input { file: scene.resolve(path), cause };
             let content = scene.content(path).map_err(unreadable)?;
             Ok(FileDigest { path: path.display().to_string(), blake3: blake3::hash(&content).to_hex().to_string() })
         };
-        Ok(Self { scene: text_of(scene), files: scene.files().into_iter().map(digest).collect::<Result<_, _>>()? })
+        let files = document.files().into_iter().map(digest).collect::<Result<_, _>>()?;
+        Ok(Self { text: document.text(), files })
     }
 
-    /// What is another now, if anything.
-    pub(crate) fn change(&self, now: &Self) -> Option<Change> {
-        if self.scene != now.scene {
-            return Some(Change::Scene);
+    /// What is another now, if anything, of the document that both are of.
+    pub(crate) fn change(&self, now: &Self, document: &dyn Resumable) -> Option<Change> {
+        if self.text != now.text {
+            return Some(Change::Document);
         }
-        // Of the same scene the names are the same.
-        let other = self.files.iter().zip(&now.files).find(|(then, now)| then != now);
-        other.map(|(_, now)| Change::File(now.path.clone()))
+        // Of the same document the names are the same.
+        let at = self.files.iter().zip(&now.files).position(|(then, now)| then != now)?;
+        document.files().get(at).map(|(scene, path)| Change::File(scene.resolve(path)))
     }
-}
-
-/// The scene but for how many cycles are asked for: a run may be made longer.
-fn text_of(scene: &Scene) -> String {
-    let mut same = scene.clone();
-    same.analysis.cycles = 0;
-    if let Some(motion) = &mut same.motion {
-        motion.checkpoint_every_cycles = None;
-    }
-    same.to_toml()
 }

@@ -6,35 +6,26 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use analysis::{
-    facts::MeshFacts,
-    motion::{MotionCheckpoint, MotionCourse},
-};
-use dynamics::Checkpoint;
 use files::{Kind, Lock, most, read_regular_text, take_away_left_overs, write_file};
-use scene::Scene;
-use serde::{Deserialize, Serialize};
-use study::FlankPattern;
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{
-    Change, CheckpointError, InputDigests,
-    rows::{self, Kept, Rows},
+    Change, CheckpointError, InputDigests, Resumable,
+    growing::{Kept, digested},
+    rows::{ENERGY_FILE, HISTORY},
     seal::{sealed_state, unsealed},
 };
 use crate::ReportError;
 
 const STATE: &str = "state.json";
+/// Rows of a gearbox's motion.
+pub(super) const GEARBOX_ROWS: &str = "rows.jsonl";
 /// Locked as long as a run uses the folder, and by what it is known as one of checkpoints.
 const IN_USE: &str = "in_use";
 /// What is in that file.
 const HEADING: &str = "ale-gear keeps checkpoints here\n";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 3;
-
-/// Teeth of a window at the most; scenes ask for 25 or fewer.
-const WIDEST: usize = 1000;
-/// Farthest pair of a window: mesh cycles are counted exactly up to here.
-const FARTHEST: u64 = 1 << 53;
+const VERSION: u32 = 4;
 
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]
@@ -54,6 +45,8 @@ pub struct CheckpointFolder(PathBuf);
 struct Writer {
     version: u32,
     program: String,
+    /// Which kind of run.
+    kind: String,
 }
 
 /// What a checkpoint of any version has.
@@ -63,106 +56,76 @@ struct Head {
 }
 
 impl Writer {
-    fn this() -> Self {
-        Self { version: VERSION, program: env!("CARGO_PKG_VERSION").to_owned() }
+    fn this(kind: &str) -> Self {
+        Self { version: VERSION, program: env!("CARGO_PKG_VERSION").to_owned(), kind: kind.to_owned() }
     }
 }
 
-/// What is in it beside the rows.
-#[derive(Debug, Clone, Serialize, Deserialize)]
-pub struct Stored {
-    writer: Writer,
-    inputs: InputDigests,
-    meshes: String,
-    /// Teeth of the window.
-    window: usize,
-    /// The motion.
-    motion: Checkpoint,
-    /// How far the analysis has come.
-    course: MotionCourse,
-    /// The files of rows.
-    pub rows: [Kept; 2],
-    /// What the flanks were pressed by so far.
-    patterns: [FlankPattern; 2],
-}
+/// What a kind of run keeps in its state.
+pub trait StoredState: Serialize + DeserializeOwned {
+    /// Which kind of run.
+    const KIND: &'static str;
 
-impl Stored {
-    /// State of a run of these inputs.
-    pub fn new(
-        (inputs, meshes): (&InputDigests, &[MeshFacts]),
-        MotionCheckpoint { window, motion, course, patterns }: MotionCheckpoint,
-        rows: [Kept; 2],
-    ) -> Self {
-        let meshes = text_of_meshes(meshes);
-        Self { writer: Writer::this(), inputs: inputs.clone(), meshes, window, motion, course, rows, patterns }
-    }
+    /// The files of rows that belong to it, by their names in the folder.
+    fn rows(&self) -> Vec<(&'static str, &Kept)>;
 
-    /// The state in the text of `file`, without a look at its rows; messages name `scene`, too.
+    /// Whether its parts go together: what a run goes on from is indexed by them.
     ///
     /// # Errors
-    /// [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote it.
-    pub fn parse(text: &str, file: &Path, scene: &Path) -> Result<Self, CheckpointError> {
+    /// What does not.
+    fn consistent(&self) -> Result<(), &'static str>;
+}
+
+/// What is in the folder beside the rows.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct Stored<S> {
+    writer: Writer,
+    inputs: InputDigests,
+    /// What the run goes on from.
+    pub state: S,
+}
+
+impl<S: StoredState> Stored<S> {
+    /// State of a run of these inputs.
+    pub fn new(inputs: &InputDigests, state: S) -> Self {
+        Self { writer: Writer::this(S::KIND), inputs: inputs.clone(), state }
+    }
+
+    /// The state in the text of `file`, without a look at its rows; messages name `document`, too.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote it, or a run of another kind.
+    pub fn parse(text: &str, file: &Path, document: &Path) -> Result<Self, CheckpointError> {
         let refuse = |what: String| CheckpointError::Damaged { file: file.to_owned(), what };
         let damaged = || refuse("is not as it was written: changed, damaged or of another version".to_owned());
         let state = unsealed(text).ok_or_else(damaged)?;
         let Head { writer } = serde_json::from_str(state).map_err(|_| damaged())?;
-        if writer != Writer::this() {
-            return Err(foreign(scene, "another version of this program"));
+        if writer != Writer::this(&writer.kind) {
+            return Err(foreign(document, "another version of this program"));
+        }
+        if writer.kind != S::KIND {
+            return Err(foreign(document, "another kind of run"));
         }
         let stored: Self = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
-        stored.consistent().map_err(|what| refuse(format!("is no checkpoint: {what}")))?;
+        stored.state.consistent().map_err(|what| refuse(format!("is no checkpoint: {what}")))?;
         Ok(stored)
-    }
-
-    /// Whether its parts go together: what a run goes on from is indexed by them.
-    fn consistent(&self) -> Result<(), &'static str> {
-        if !(1..=WIDEST).contains(&self.window) {
-            return Err("a window of so many teeth");
-        }
-        let Checkpoint { state, place, .. } = &self.motion;
-        if [&state.v, &state.a, &state.averaged].iter().any(|part| part.len() != state.q.len()) {
-            return Err("velocities of other coordinates");
-        }
-        let sides = [Some(&place.driving), place.coast.as_ref()];
-        if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
-            return Err("a window beyond all cycles");
-        }
-        Ok(())
-    }
-
-    /// What the analysis goes on from.
-    pub fn checkpoint(&self) -> MotionCheckpoint {
-        let Self { window, motion, course, patterns, .. } = self.clone();
-        MotionCheckpoint { window, motion, course, patterns }
     }
 
     /// Whether it belongs to a run of these inputs: else it must not go on.
     ///
     /// # Errors
     /// [`CheckpointError::Foreign`], [`CheckpointError::OtherFile`].
-    pub fn check_inputs(&self, scene: &Scene, now: &InputDigests) -> Result<(), CheckpointError> {
-        match self.inputs.change(now) {
+    pub fn check_inputs(&self, document: &dyn Resumable, now: &InputDigests) -> Result<(), CheckpointError> {
+        match self.inputs.change(now, document) {
             None => Ok(()),
-            Some(Change::Scene) => Err(foreign(&scene.file, "another scene")),
-            Some(Change::File(path)) => Err(CheckpointError::OtherFile { file: scene.resolve(Path::new(&path)) }),
+            Some(Change::Document) => Err(foreign(document.file(), document.another())),
+            Some(Change::File(file)) => Err(CheckpointError::OtherFile { file }),
         }
     }
-
-    /// The same of the meshes that the program made of them.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Foreign`].
-    pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CheckpointError> {
-        if self.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(&scene.file, "other meshes")) }
-    }
 }
 
-fn foreign(scene: &Path, what: &'static str) -> CheckpointError {
-    CheckpointError::Foreign { scene: scene.to_owned(), what }
-}
-
-fn text_of_meshes(meshes: &[MeshFacts]) -> String {
-    serde_json::to_string(meshes).unwrap_or_default()
+pub(super) fn foreign(document: &Path, what: &'static str) -> CheckpointError {
+    CheckpointError::Foreign { scene: document.to_owned(), what }
 }
 
 impl CheckpointFolder {
@@ -215,7 +178,7 @@ impl CheckpointFolder {
     /// When the system refuses.
     pub fn start(&self) -> Result<(), ReportError> {
         take_away_left_overs(&self.0, &Kind::FILE);
-        self.without(&[STATE, rows::HISTORY, rows::ENERGY_FILE])
+        self.without(&[STATE, HISTORY, ENERGY_FILE, GEARBOX_ROWS])
     }
 
     fn without(&self, files: &[&str]) -> Result<(), ReportError> {
@@ -234,13 +197,15 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// [`CheckpointError::None`], [`CheckpointError::Damaged`]; [`CheckpointError::Foreign`] when another version wrote
-    /// it.
-    pub fn read(&self, scene: &Scene) -> Result<Stored, CheckpointError> {
+    /// it, or a run of another kind.
+    pub fn read<S: StoredState>(&self, document: &Path) -> Result<Stored<S>, CheckpointError> {
         let path = self.0.join(STATE);
         let text = read_regular_text(&path, most::STATE)
             .map_err(|cause| CheckpointError::None { file: path.clone(), cause })?;
-        let stored = Stored::parse(&text, &path, &scene.file)?;
-        Rows::check(&self.0, &stored.rows)?;
+        let stored = Stored::<S>::parse(&text, &path, document)?;
+        for (name, kept) in stored.state.rows() {
+            digested(&self.0.join(name), kept)?;
+        }
         Ok(stored)
     }
 
@@ -248,7 +213,7 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn write(&self, stored: &Stored) -> Result<(), ReportError> {
+    pub fn write<S: StoredState>(&self, stored: &Stored<S>) -> Result<(), ReportError> {
         let path = self.0.join(STATE);
         let unwritten = |cause| ReportError::Write { file: path.clone(), cause };
         let state = serde_json::to_string(stored).map_err(|e| unwritten(e.into()))?;

@@ -63,7 +63,7 @@ pub fn write_gearbox(
     if let Some(swings) = &result.vibration {
         results.write("bearing_forces.uff", vibration_rows::universal(file, swings).as_bytes())?;
     }
-    write_result(&answer, &page::gearbox_page(file, result, &answer)?, false, results)
+    write_result(&answer, &page::gearbox_page(file, result, &answer)?, file.parquet, results)
 }
 
 /// Length of a force.

@@ -14,7 +14,7 @@ use scene::Scene;
 
 use crate::{
     ReportError, ResultFiles,
-    checkpoint::{Change, CheckpointError, Checkpoints, InputDigests, Rows, Stored},
+    checkpoint::{Change, CheckpointError, Checkpoints, InputDigests, PairState, Rows, Stored},
     paraview::FieldWriter,
     view::{View, ViewRecorder},
 };
@@ -26,7 +26,7 @@ pub struct MotionFileSink<'a> {
     folder: &'a Path,
     checkpoints: Option<Checkpoints<'a>>,
     /// State that the run goes on from.
-    from: Option<&'a Stored>,
+    from: Option<&'a Stored<PairState>>,
     meshes: Vec<MeshFacts>,
     recorder: ViewRecorder,
     rows: Option<Rows>,
@@ -41,7 +41,7 @@ impl<'a> MotionFileSink<'a> {
         scene: &'a Scene,
         folder: &'a Path,
         checkpoints: Option<Checkpoints<'a>>,
-        from: Option<&'a Stored>,
+        from: Option<&'a Stored<PairState>>,
     ) -> Self {
         let recorder = ViewRecorder::new(scene);
         let (rows, fields, view) = (None, None, None);
@@ -58,15 +58,15 @@ impl<'a> MotionFileSink<'a> {
     /// checkpoint.
     fn check_inputs(&self) -> Result<(), CheckpointError> {
         let Some(Checkpoints { inputs, .. }) = self.checkpoints else { return Ok(()) };
-        if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.scene)?) {
-            return Err(CheckpointError::Changing { file: self.scene.resolve(Path::new(&file)) });
+        if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.scene)?, self.scene) {
+            return Err(CheckpointError::Changing { file });
         }
         self.from.map_or(Ok(()), |stored| stored.check_meshes(self.scene, &self.meshes))
     }
 
     fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, ReportError> {
         if let (true, Some(stored)) = (resumes, self.from) {
-            return Rows::resume(layout, self.folder, &stored.rows);
+            return Rows::resume(layout, self.folder, &stored.state.rows);
         }
         if let Some(Checkpoints { folder, .. }) = self.checkpoints {
             folder.start()?;
@@ -123,7 +123,7 @@ impl MotionSink for MotionFileSink<'_> {
     fn checkpoint(&mut self, state: MotionCheckpoint) -> SinkResult {
         if let (Some(Checkpoints { folder, inputs }), Some(rows)) = (self.checkpoints, &mut self.rows) {
             let kept = rows.flush()?;
-            folder.write(&Stored::new((inputs, &self.meshes), state, kept))?;
+            folder.write(&Stored::new(inputs, PairState::new(&self.meshes, state, kept)))?;
         }
         Ok(())
     }

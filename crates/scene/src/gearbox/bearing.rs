@@ -23,7 +23,7 @@ pub(super) fn bearing(
         None => format!("bearing at {position} mm of {}", shafts[shaft].0),
     };
     let damping = numbers::<3>(s, "damping_n_s_per_mm", &raw.damping_n_s_per_mm, 1e12)?.unwrap_or_default();
-    let (stiffness, rolling) = match &raw.kind {
+    let (stiffness, rolling) = match &raw.r#type {
         Some(word) => {
             apart(s, raw)?;
             ([[0.0; 6]; 6], Some(rolling(s, table, word)?))

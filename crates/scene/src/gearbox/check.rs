@@ -10,13 +10,11 @@ use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
 use super::parts::{all, distinct, few, place, place_of_gear};
-use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque};
+use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
-use super::values::{Checked, missing, needed_number, needed_word};
+use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{
-    Kind, Method, Model, Number, PairScene, Rotation, Scene, SceneError, Setting, Source, Word, study::setting,
-};
+use crate::{Kind, Method, Model, PairScene, Scene, SceneError, Setting, Source, Word, study::setting};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
@@ -50,9 +48,10 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
-    let name = raw.name.unwrap_or_else(|| {
+    let name = raw.name.map(Spanned::into_inner).unwrap_or_else(|| {
         s.file.file_stem().map_or_else(|| "gearbox".into(), |stem| stem.to_string_lossy().into_owned())
     });
+    let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
         name,
         file: s.file.to_owned(),
@@ -64,10 +63,11 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
         input,
         torques,
         housing,
-        positions_per_cycle: s.whole("positions_per_cycle", &raw.analysis.positions_per_cycle, 32, 1, 10_000)?,
-        cycles: s.whole("cycles", &raw.analysis.cycles, 1, 1, 10_000)?,
+        positions_per_cycle: row!(s, ANALYSIS, analysis.positions_per_cycle)?,
+        cycles: row!(s, ANALYSIS, analysis.cycles)?,
         vibration: raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?,
         motion: raw.motion.as_ref().map(|table| motion(s, table)).transpose()?,
+        parquet: row!(s, OUTPUT, output.parquet)?,
     })
 }
 
@@ -81,15 +81,11 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
         None => position,
         Some(_) => s.number("seat_mm", &raw.seat_mm, position, 0.0, shafts[shaft].1)?,
     };
-    let key = s.number("key_deg", &raw.key_deg, 0.0, -360.0, 360.0)?.to_radians();
-    let stated = |key: &str, value: &Number, unit: f64, least: f64| {
-        let read = value.is_some().then(|| s.number(key, value, 0.0, least, 1e12)).transpose();
-        read.map(|x| x.map(|x| unit * x))
-    };
+    let key = row!(s, GEAR, raw.key_deg)?.to_radians();
     let inertia = [
-        stated("mass_kg", &raw.mass_kg, 1e-3, 1e-9)?,
-        stated("transverse_inertia_kg_m2", &raw.transverse_inertia_kg_m2, 1e3, 1e-15)?,
-        stated("polar_inertia_kg_m2", &raw.polar_inertia_kg_m2, 1e3, 1e-15)?,
+        given!(s, GEAR, raw.mass_kg)?.map(|x| 1e-3 * x),
+        given!(s, GEAR, raw.transverse_inertia_kg_m2)?.map(|x| 1e3 * x),
+        given!(s, GEAR, raw.polar_inertia_kg_m2)?.map(|x| 1e3 * x),
     ];
     Ok(GearboxGear { name, shaft, position, seat, key, inertia })
 }
@@ -199,18 +195,13 @@ fn facing(
 fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) -> Checked<GearboxInput> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[input]", (&raw.shaft, &raw.position_mm), shafts)?;
-    let rotation = s.choice("rotation", &raw.rotation, &[("ccw", Rotation::Ccw), ("cw", Rotation::Cw)])?;
-    Ok(GearboxInput { shaft, position, rotation, inertia: inertia(s, &raw.inertia_kg_m2)? })
+    let rotation = s.choice_of("rotation", &raw.rotation)?;
+    Ok(GearboxInput { shaft, position, rotation, inertia: 1e3 * row!(s, INPUT, raw.inertia_kg_m2)? })
 }
 
 fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) -> Checked<GearboxTorque> {
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[torque]]", (&raw.shaft, &raw.position_mm), shafts)?;
-    let torque = 1e3 * needed_number(s, table, "[[torque]]", "torque_nm", &raw.torque_nm, 0.0, 1e12)?;
-    Ok(GearboxTorque { shaft, position, torque, inertia: inertia(s, &raw.inertia_kg_m2)? })
-}
-
-/// Inertia of a machine at a coupling, t mm^2.
-fn inertia(s: &Source<'_>, value: &Number) -> Checked<f64> {
-    Ok(1e3 * s.number("inertia_kg_m2", value, 0.0, 0.0, 1e12)?)
+    let torque = 1e3 * needed_of(s, (table, "[[torque]]"), &TORQUE, "torque_nm", &raw.torque_nm)?;
+    Ok(GearboxTorque { shaft, position, torque, inertia: 1e3 * row!(s, TORQUE, raw.inertia_kg_m2)? })
 }

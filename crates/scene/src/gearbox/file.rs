@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::GearboxMotion;
+use super::{GearboxMotion, raw::RollingKind};
 use crate::{Rotation, Scene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -36,6 +36,8 @@ pub struct Gearbox {
     pub vibration: Option<GearboxVibration>,
     /// How it runs in time; none: at rest alone.
     pub motion: Option<GearboxMotion>,
+    /// Every table column by column as well, for other programs.
+    pub parquet: bool,
 }
 
 /// Heights nearer than this are one: round-off of sums of positions, mm.
@@ -133,19 +135,6 @@ pub enum ThrustSeat {
     Floating,
     /// Towards +z (+1) or -z (-1) alone.
     Shoulder(f64),
-}
-
-/// Kind of a rolling bearing.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum RollingKind {
-    /// Balls in deep grooves.
-    DeepGrooveBall,
-    /// Balls with a contact angle.
-    AngularContactBall,
-    /// Cylindrical rollers between rings without ribs for thrust.
-    CylindricalRoller,
-    /// Tapered rollers.
-    TaperedRoller,
 }
 
 /// What is known of the inside of a rolling bearing.

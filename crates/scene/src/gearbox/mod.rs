@@ -25,6 +25,7 @@ mod vibration;
 
 pub use file::{
     AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRolling, GearboxSection,
-    GearboxShaft, GearboxTorque, GearboxVibration, RollingKind, RollingSize, ThrustSeat,
+    GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
-pub use motion::{GearboxDrive, GearboxMotion, MeshModel};
+pub use motion::GearboxMotion;
+pub use raw::{GearboxDrive, MeshModel, RollingKind};

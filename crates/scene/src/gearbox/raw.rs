@@ -1,223 +1,272 @@
-//! The words of a gearbox file, nothing checked yet.
+//! Every key of a gearbox file once: type, range, default, meaning; and the words of a file, nothing checked yet. Checks take
+//! ranges and defaults from here, and so does the JSON Schema.
 
-use serde::Deserialize;
-use toml::Spanned;
+use crate::{Integration, Rotation, table::INF};
 
-use super::motion::RawMotion;
-use crate::spanned::{Number, Numbers, Rows, Switch, Whole, Word, Words};
+table! {
+    /// The whole file.
+    GEARBOX, RawGearbox: "A gearbox of ale-gear: shafts, bearings, gears and the pairs that mesh. Every key has its unit in its name", needed ["shaft", "gear", "mesh", "input"]; {
+        name: text(), "title; default: the file's name";
+        shaft: list(SHAFT: RawShaft);
+        bearing: list(BEARING: RawBearing);
+        gear: list(GEAR: RawGear);
+        mesh: list(MESH: RawMesh);
+        input: table(INPUT: RawInput);
+        torque: list(TORQUE: RawTorque);
+        housing: table(HOUSING: RawHousing);
+        analysis: always(ANALYSIS: RawAnalysis);
+        vibration: table(VIBRATION: RawVibration);
+        motion: table(MOTION: RawMotion);
+        output: always(OUTPUT: RawOutput);
+    }
+}
 
-/// Every table with its keys.
-const TABLES: &[(&str, &[&str])] = &[
-    (
-        "",
-        &["name", "shaft", "bearing", "gear", "mesh", "input", "torque", "housing", "analysis", "vibration", "motion"],
-    ),
-    (
-        "[shaft]",
-        &["name", "origin_mm", "section", "rexs", "rexs_shaft", "young_mpa", "poisson", "density_kg_m3", "held"],
-    ),
-    ("[shaft.section]", &["length_mm", "outer_diameter_mm", "inner_diameter_mm"]),
-    (
-        "[bearing]",
-        &[
-            "name",
-            "shaft",
-            "position_mm",
-            "stiffness_n_per_mm",
-            "tilt_stiffness_nm_per_rad",
-            "matrix_n_mm_rad",
-            "damping_n_s_per_mm",
-            "type",
-            "bore_mm",
-            "outer_diameter_mm",
-            "static_rating_kn",
-            "elements",
-            "element_diameter_mm",
-            "element_length_mm",
-            "pitch_diameter_mm",
-            "contact_angle_deg",
-            "inner_conformity",
-            "outer_conformity",
-            "profile",
-            "radial_clearance_um",
-            "axial_clearance_um",
-            "preload_n",
-            "takes_thrust",
-            "rows",
-            "row_distance_mm",
-            "arrangement",
-        ],
-    ),
-    (
-        "[gear]",
-        &[
-            "name",
-            "shaft",
-            "position_mm",
-            "seat_mm",
-            "key_deg",
-            "mass_kg",
-            "transverse_inertia_kg_m2",
-            "polar_inertia_kg_m2",
-        ],
-    ),
-    ("[mesh]", &["name", "scene", "set", "pinion", "wheel"]),
-    ("input", &["shaft", "position_mm", "rotation", "inertia_kg_m2"]),
-    ("[torque]", &["shaft", "position_mm", "torque_nm", "inertia_kg_m2"]),
-    ("housing", &["matrix_n_mm_rad", "file", "matrix", "nodes", "turn_nodes"]),
-    ("analysis", &["positions_per_cycle", "cycles"]),
-    ("vibration", &["from_rpm", "to_rpm", "speeds", "orders", "damping_ratio", "modes", "input"]),
-    ("motion", super::motion::KEYS),
-];
+table! {
+    /// `[[shaft]]`
+    SHAFT, RawShaft: "a shaft along +z", needed ["name"]; {
+        name: text(), "what bearings, gears and loads call it by";
+        origin_mm: numbers(), "where its z = 0 lies: x, y, z; default: 0, 0, 0";
+        section: list(SECTION: RawSection);
+        rexs: text(), "path of a REXS file that has its sections and its steel";
+        rexs_shaft: text(), "number or name of the shaft in that file; default: the only one";
+        young_mpa: bare(1.0, 1e12), "Young's modulus, MPa; default: 206000, or the REXS file's";
+        poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
+        density_kg_m3: bare(1.0, 1e5), "density, kg/m^3; default: 7850, or the REXS file's";
+        held: switch(false), "whether it is rigid in rigid bearings";
+    }
+}
 
-/// The same, as messages look them up.
+table! {
+    /// `[[shaft.section]]`
+    SECTION, RawSection: "a length of shaft of one section, from z = 0 on", needed ["length_mm", "outer_diameter_mm"]; {
+        length_mm: must(1e-3, 1e6), "length, mm";
+        outer_diameter_mm: must(1e-3, 1e6), "outer diameter, mm";
+        inner_diameter_mm: number(0.0, 1e6, 0.0), "inner diameter, mm; 0: solid";
+    }
+}
+
+choices! {
+    /// Kind of a rolling bearing.
+    pub enum RollingKind {
+        /// Balls in deep grooves.
+        DeepGrooveBall = "deep-groove-ball",
+        /// Balls with a contact angle.
+        AngularContactBall = "angular-contact-ball",
+        /// Cylindrical rollers between rings without ribs for thrust.
+        CylindricalRoller = "cylindrical-roller",
+        /// Tapered rollers.
+        TaperedRoller = "tapered-roller",
+    }
+}
+
+choices! {
+    /// Relief of rollers.
+    pub enum RollerProfile {
+        /// To their ends as in ISO/TS 16281.
+        Logarithmic = "logarithmic",
+        /// None.
+        Straight = "straight",
+    }
+}
+
+choices! {
+    /// Which thrust of the shaft a bearing takes.
+    pub enum Thrust {
+        /// Either way.
+        Both = "both",
+        /// None.
+        None = "none",
+        /// Towards +z alone.
+        Up = "+z",
+        /// Towards -z alone.
+        Down = "-z",
+    }
+}
+
+choices! {
+    /// How two rows with a contact angle are set.
+    pub enum Arrangement {
+        /// Lines of contact meet the axis outside of the rows.
+        BackToBack = "back-to-back",
+        /// They meet it between the rows.
+        FaceToFace = "face-to-face",
+        /// Both rows take thrust the same way.
+        Tandem = "tandem",
+    }
+}
+
+table! {
+    /// `[[bearing]]`
+    BEARING, RawBearing: "a bearing between a shaft and the housing", needed ["shaft", "position_mm"]; {
+        name: text(), "name for tables; default: its place";
+        shaft: text(), "name of its shaft";
+        position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0";
+        stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm";
+        tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad; default: 0, 0";
+        matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z)";
+        damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm; default: 0, 0, 0";
+        r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness";
+        bore_mm: bare(1e-2, 1e5), "bore, mm, of a bearing that is estimated";
+        outer_diameter_mm: bare(1e-2, 1e5), "outer diameter, mm, of a bearing that is estimated";
+        static_rating_kn: bare(1e-6, 1e9), "C_0 of the whole bearing, kN, ISO 76";
+        elements: bare_whole(3, 500), "rolling elements of one row";
+        element_diameter_mm: bare(1e-2, 1e5), "their diameter, mm; of tapered rollers in the middle";
+        element_length_mm: bare(1e-2, 1e5), "of rollers: length that presses, mm";
+        pitch_diameter_mm: bare(1e-2, 1e5), "diameter of the circle of their centres, mm; default: between bore and outer diameter";
+        contact_angle_deg: bare(1.0, 75.0), "nominal contact angle, degrees";
+        inner_conformity: number(0.502, 0.7, 0.52), "groove radius of the inner ring over the ball's diameter";
+        outer_conformity: number(0.502, 0.7, 0.53), "groove radius of the outer ring over the ball's diameter";
+        profile: word(RollerProfile), "relief of rollers to their ends";
+        radial_clearance_um: number(-1e3, 1e4, 0.0), "radial play from one side to the other, um; below 0: pressed";
+        axial_clearance_um: number(-1e3, 1e4, 0.0), "way of the shaft into a row's thrust until it touches, um; below 0: pressed";
+        preload_n: bare(0.0, 1e9), "force along the axis that presses each row before any load, N";
+        takes_thrust: bare_word(Thrust), "which thrust of the shaft it takes; default: as its rows do, cylindrical rollers none";
+        rows: whole(1, 2, 1), "rows of rolling elements";
+        row_distance_mm: bare(1e-3, 1e5), "of two rows: distance of their middles, mm";
+        arrangement: bare_word(Arrangement), "how two rows with a contact angle are set";
+    }
+}
+
+table! {
+    /// `[[gear]]`
+    GEAR, RawGear: "a gear on a shaft", needed ["name", "shaft", "position_mm"]; {
+        name: text(), "what meshes call it by";
+        shaft: text(), "name of its shaft";
+        position_mm: must(-1e6, 1e6), "where its mid-face is, mm from the shaft's z = 0";
+        seat_mm: bare(0.0, INF), "cross-section that its bore moves with, mm from the shaft's z = 0; default: position_mm";
+        key_deg: number(-360.0, 360.0, 0.0), "angle of its tooth 0 against the mark of its shaft, degrees";
+        mass_kg: bare(1e-9, 1e12), "mass, kg; default: of its mesh";
+        transverse_inertia_kg_m2: bare(1e-15, 1e12), "inertia about an axis across its own, kg m^2; default: of its mesh";
+        polar_inertia_kg_m2: bare(1e-15, 1e12), "inertia about its own axis, kg m^2; default: of its mesh";
+    }
+}
+
+table! {
+    /// `[[mesh]]`
+    MESH, RawMesh: "two gears in mesh", needed ["scene", "pinion", "wheel"]; {
+        name: text(), "name for tables; default: those of its gears";
+        scene: text(), "path of the scene of the pair";
+        set: texts(), "keys of that scene that are otherwise here, as after --set";
+        pinion: text(), "name of the gear that is the scene's pinion";
+        wheel: text(), "name of the gear that is the scene's wheel";
+    }
+}
+
+table! {
+    /// `[input]`
+    INPUT, RawInput: "where the turn is given", needed ["shaft", "position_mm"]; {
+        shaft: text(), "name of its shaft";
+        position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0";
+        rotation: word(Rotation), "sense, seen from +z";
+        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2";
+    }
+}
+
+table! {
+    /// `[[torque]]`
+    TORQUE, RawTorque: "a load on a shaft", needed ["shaft", "position_mm", "torque_nm"]; {
+        shaft: text(), "name of its shaft";
+        position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0";
+        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m";
+        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2";
+    }
+}
+
+table! {
+    /// `[housing]`
+    HOUSING, RawHousing: "stiffness between the bearing seats; left out: rigid"; {
+        matrix_n_mm_rad: rows(0), "six rows a bearing, in their order";
+        file: text(), "path of the file of another program that has it";
+        matrix: text(), "name of the DMIG matrix in that file; default: the first one";
+        nodes: wholes(), "with a file: node of each bearing's seat";
+        turn_nodes: wholes(), "nodes whose directions 1 to 3 are the turns; default: directions 4 to 6 of nodes";
+    }
+}
+
+table! {
+    /// `[analysis]`
+    ANALYSIS, RawAnalysis: "positions at rest"; {
+        positions_per_cycle: whole(1, 10_000, 32), "positions of the input in a cycle of the first mesh";
+        cycles: whole(1, 10_000, 1), "cycles of the first mesh";
+    }
+}
+
+choices! {
+    /// How the input turns in a vibration.
+    pub enum InputTurn {
+        /// Freely, with its machine.
+        Free = "free",
+        /// As it is given.
+        Held = "held",
+    }
+}
+
+table! {
+    /// `[vibration]`
+    VIBRATION, RawVibration: "vibration about where the gearbox stands; left out: none", needed ["from_rpm", "to_rpm"]; {
+        from_rpm: must(1e-3, 1e6), "lowest speed of the input, 1/min";
+        to_rpm: must(1e-3, 1e6), "highest speed of the input, 1/min";
+        speeds: whole(2, 2000, 101), "number of speeds, evenly spaced";
+        orders: whole(1, 50, 5), "orders of each mesh";
+        damping_ratio: number(1e-6, 1.0, 0.02), "share of critical damping of every mode";
+        modes: whole(1, 500, 20), "natural frequencies in the results";
+        input: word(InputTurn), "whether the input turns freely with its machine, or its turn is given";
+    }
+}
+
+choices! {
+    /// What turns the input.
+    pub enum GearboxDrive {
+        /// It keeps its speed.
+        Speed = "speed",
+        /// A torque acts on it.
+        Torque = "torque",
+    }
+}
+
+choices! {
+    /// What stands for the meshes.
+    pub enum MeshModel {
+        /// A map of the exact contact.
+        Mapped = "mapped",
+        /// A spring over the phase, by the exact contact about its mean.
+        Spring = "spring",
+        /// The exact contact at every step.
+        Exact = "exact",
+    }
+}
+
+table! {
+    /// `[motion]`
+    MOTION, RawMotion: "motion in time from the equilibrium on; left out: none", needed ["speed_rpm"]; {
+        speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
+        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min; default: speed_rpm";
+        drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it";
+        input_torque_nm: bare(0.0, 1e12), "torque on the input, N m; default: what balances the loads";
+        mesh: word(MeshModel), "what stands for the meshes";
+        cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
+        steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
+        steps_per_row: whole(1, 1_000_000, 1), "steps a row";
+        method: word(Integration), "method of integration";
+        spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
+        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
+        modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode";
+        highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh";
+        map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at, over the mean approach";
+        checkpoint_every_cycles: whole(0, 1_000_000, 0), "a checkpoint every so many cycles of the fastest mesh; 0: none";
+    }
+}
+
+table! {
+    /// `[output]`
+    OUTPUT, RawOutput: "files on request"; {
+        parquet: switch(false), "every table column by column as well: positions.parquet, motion.parquet and so on";
+    }
+}
+
+/// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    TABLES.iter().map(|(name, keys)| ((*name).to_owned(), keys.to_vec())).collect()
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawGearbox {
-    pub name: Option<String>,
-    #[serde(default)]
-    pub shaft: Vec<Spanned<RawShaft>>,
-    #[serde(default)]
-    pub bearing: Vec<Spanned<RawBearing>>,
-    #[serde(default)]
-    pub gear: Vec<Spanned<RawGear>>,
-    #[serde(default)]
-    pub mesh: Vec<Spanned<RawMesh>>,
-    pub input: Option<Spanned<RawInput>>,
-    #[serde(default)]
-    pub torque: Vec<Spanned<RawTorque>>,
-    pub housing: Option<Spanned<RawHousing>>,
-    #[serde(default)]
-    pub analysis: RawAnalysis,
-    pub vibration: Option<Spanned<RawVibration>>,
-    pub motion: Option<Spanned<RawMotion>>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawShaft {
-    pub name: Word,
-    pub origin_mm: Numbers,
-    #[serde(default)]
-    pub section: Vec<Spanned<RawSection>>,
-    pub rexs: Word,
-    pub rexs_shaft: Word,
-    pub young_mpa: Number,
-    pub poisson: Number,
-    pub density_kg_m3: Number,
-    pub held: Switch,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawSection {
-    pub length_mm: Number,
-    pub outer_diameter_mm: Number,
-    pub inner_diameter_mm: Number,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawBearing {
-    pub name: Word,
-    pub shaft: Word,
-    pub position_mm: Number,
-    pub stiffness_n_per_mm: Numbers,
-    pub tilt_stiffness_nm_per_rad: Numbers,
-    pub matrix_n_mm_rad: Rows,
-    pub damping_n_s_per_mm: Numbers,
-    #[serde(rename = "type")]
-    pub kind: Word,
-    pub bore_mm: Number,
-    pub outer_diameter_mm: Number,
-    pub static_rating_kn: Number,
-    pub elements: Whole,
-    pub element_diameter_mm: Number,
-    pub element_length_mm: Number,
-    pub pitch_diameter_mm: Number,
-    pub contact_angle_deg: Number,
-    pub inner_conformity: Number,
-    pub outer_conformity: Number,
-    pub profile: Word,
-    pub radial_clearance_um: Number,
-    pub axial_clearance_um: Number,
-    pub preload_n: Number,
-    pub takes_thrust: Word,
-    pub rows: Whole,
-    pub row_distance_mm: Number,
-    pub arrangement: Word,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawGear {
-    pub name: Word,
-    pub shaft: Word,
-    pub position_mm: Number,
-    pub seat_mm: Number,
-    pub key_deg: Number,
-    pub mass_kg: Number,
-    pub transverse_inertia_kg_m2: Number,
-    pub polar_inertia_kg_m2: Number,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawMesh {
-    pub name: Word,
-    pub scene: Word,
-    pub set: Words,
-    pub pinion: Word,
-    pub wheel: Word,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawInput {
-    pub shaft: Word,
-    pub position_mm: Number,
-    pub rotation: Word,
-    pub inertia_kg_m2: Number,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawTorque {
-    pub shaft: Word,
-    pub position_mm: Number,
-    pub torque_nm: Number,
-    pub inertia_kg_m2: Number,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawHousing {
-    pub matrix_n_mm_rad: Rows,
-    pub file: Word,
-    pub matrix: Word,
-    pub nodes: Option<Spanned<Vec<i64>>>,
-    pub turn_nodes: Option<Spanned<Vec<i64>>>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawAnalysis {
-    pub positions_per_cycle: Whole,
-    pub cycles: Whole,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawVibration {
-    pub from_rpm: Number,
-    pub to_rpm: Number,
-    pub speeds: Whole,
-    pub orders: Whole,
-    pub damping_ratio: Number,
-    pub modes: Whole,
-    pub input: Word,
+    let mut all = Vec::new();
+    GEARBOX.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
+    all
 }

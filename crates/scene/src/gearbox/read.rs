@@ -7,12 +7,13 @@ use serde::Deserialize;
 use super::{
     Gearbox,
     check::check,
-    raw::{RawGearbox, tables},
+    raw::{GEARBOX, RawGearbox, tables},
 };
 use crate::{
     DocumentKind, SceneError, Setting, Source,
     raw::with_tables,
     read_text,
+    schema::schema_of,
     setting::{below, few_enough},
 };
 
@@ -24,6 +25,11 @@ impl Gearbox {
             keys.into_iter().map(move |key| if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") })
         };
         tables().into_iter().flat_map(of).collect()
+    }
+
+    /// The gearbox file as JSON Schema, draft 2020-12.
+    pub fn json_schema() -> serde_json::Value {
+        schema_of(&GEARBOX, "gearbox file")
     }
 
     /// Reads and checks a gearbox file and the scenes of its meshes.

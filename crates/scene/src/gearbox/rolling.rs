@@ -5,9 +5,9 @@ use std::ops::Range;
 use toml::Spanned;
 
 use super::{
-    file::{AxialPlay, GearboxRolling, RollingKind, RollingSize, ThrustSeat},
-    raw::RawBearing,
-    values::{Checked, missing, needed_number},
+    file::{AxialPlay, GearboxRolling, RollingSize, ThrustSeat},
+    raw::{Arrangement, BEARING, RawBearing, RollerProfile, RollingKind, Thrust},
+    values::{Checked, missing, needed_number, needed_of, row},
 };
 use crate::{Number, Source};
 
@@ -34,13 +34,6 @@ pub(super) const TYPED: &[(&str, Place)] = &[
     ("rows", |r| r.rows.as_ref().map(Spanned::span)),
     ("row_distance_mm", |r| r.row_distance_mm.as_ref().map(Spanned::span)),
     ("arrangement", |r| r.arrangement.as_ref().map(Spanned::span)),
-];
-
-const KINDS: &[(&str, RollingKind)] = &[
-    ("deep-groove-ball", RollingKind::DeepGrooveBall),
-    ("angular-contact-ball", RollingKind::AngularContactBall),
-    ("cylindrical-roller", RollingKind::CylindricalRoller),
-    ("tapered-roller", RollingKind::TaperedRoller),
 ];
 
 /// Kinds that users ask for and that are not here.
@@ -83,10 +76,10 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
     let (raw, name) = (table.get_ref(), word.get_ref().as_str());
     if OTHERS.contains(&name) {
         let said = format!("there is no law of a \"{name}\" bearing here");
-        let known = KINDS.iter().map(|k| format!("\"{}\"", k.0)).collect::<Vec<_>>().join(", ");
+        let known = RollingKind::WORDS.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
         return Err(s.conflict(&word.span(), said, format!("give its stiffness, or take one of {known}")));
     }
-    let kind = s.one_of("type", word, KINDS)?;
+    let kind: RollingKind = s.meaning_of("type", word)?;
     if let Some((span, key)) = TYPED.iter().filter(|k| !kind.takes(k.0)).find_map(|(key, of)| Some((of(raw)?, key))) {
         return Err(s.conflict(&span, format!("a \"{name}\" bearing has no `{key}`"), advice(key)));
     }
@@ -100,18 +93,14 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
     } else {
         0.0
     };
-    let conformity = |key, value: &Number, usual| s.number(key, value, usual, 0.502, 0.7);
-    let straight = s.choice("profile", &raw.profile, &[("logarithmic", false), ("straight", true)])?;
+    let profile: RollerProfile = s.choice_of("profile", &raw.profile)?;
     Ok(GearboxRolling {
         kind,
         size: size(s, table, kind)?,
         contact_angle,
-        conformity: [
-            conformity("inner_conformity", &raw.inner_conformity, 0.52)?,
-            conformity("outer_conformity", &raw.outer_conformity, 0.53)?,
-        ],
-        straight_rollers: straight,
-        radial_clearance: 1e-3 * s.number("radial_clearance_um", &raw.radial_clearance_um, 0.0, -1e3, 1e4)?,
+        conformity: [row!(s, BEARING, raw.inner_conformity)?, row!(s, BEARING, raw.outer_conformity)?],
+        straight_rollers: profile == RollerProfile::Straight,
+        radial_clearance: 1e-3 * row!(s, BEARING, raw.radial_clearance_um)?,
         axial: axial(s, raw)?,
         rows: rows(s, table, kind)?,
         seat: seat(s, raw, kind)?,
@@ -147,6 +136,7 @@ fn needed(
 fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Checked<RollingSize> {
     let raw = table.get_ref();
     let stated = raw.elements.is_some() || raw.element_diameter_mm.is_some() || raw.element_length_mm.is_some();
+    let of_row = |key, value| needed_of(s, (table, "[[bearing]]"), &BEARING, key, value);
     let bore = |least: f64| needed(s, table, "bore_mm", &raw.bore_mm, [least, LARGE]);
     let outer = |bore: f64| needed(s, table, "outer_diameter_mm", &raw.outer_diameter_mm, [1.001 * bore, LARGE]);
     if !stated {
@@ -160,7 +150,7 @@ fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
         }
         let bore = bore(1e-2)?;
         let outer_diameter = outer(bore)?;
-        let static_rating = 1e3 * needed(s, table, "static_rating_kn", &raw.static_rating_kn, [1e-6, 1e9])?;
+        let static_rating = 1e3 * of_row("static_rating_kn", &raw.static_rating_kn)?;
         return Ok(RollingSize::Catalogue { bore, outer_diameter, static_rating });
     }
     if let Some(rating) = &raw.static_rating_kn {
@@ -170,48 +160,39 @@ fn size(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
     let Some(count) = &raw.elements else {
         return Err(missing(s, table, "[[bearing]]", "elements", "how many rolling elements a row has"));
     };
-    let elements = s.whole("elements", &Some(count.clone()), 0, 3, 500)?;
-    let diameter = needed(s, table, "element_diameter_mm", &raw.element_diameter_mm, [1e-2, LARGE])?;
-    let length = if kind.has_balls() {
-        0.0
-    } else {
-        needed(s, table, "element_length_mm", &raw.element_length_mm, [1e-2, LARGE])?
-    };
+    let elements = s.whole_of(&BEARING, "elements", &Some(count.clone()))?;
+    let diameter = of_row("element_diameter_mm", &raw.element_diameter_mm)?;
+    let length = if kind.has_balls() { 0.0 } else { of_row("element_length_mm", &raw.element_length_mm)? };
     let middle = raw.pitch_diameter_mm.is_none() && raw.bore_mm.is_some();
     let pitch_diameter = if middle {
         let bore = bore(1e-2)?;
         0.5 * (bore + outer(bore)?)
     } else {
-        needed(s, table, "pitch_diameter_mm", &raw.pitch_diameter_mm, [1e-2, LARGE])?
+        of_row("pitch_diameter_mm", &raw.pitch_diameter_mm)?
     };
     Ok(RollingSize::Elements { elements, diameter, length, pitch_diameter })
 }
 
 fn axial(s: &Source<'_>, raw: &RawBearing) -> Checked<AxialPlay> {
     let Some(preload) = &raw.preload_n else {
-        return Ok(AxialPlay::Clearance(
-            1e-3 * s.number("axial_clearance_um", &raw.axial_clearance_um, 0.0, -1e3, 1e4)?,
-        ));
+        return Ok(AxialPlay::Clearance(1e-3 * row!(s, BEARING, raw.axial_clearance_um)?));
     };
     if raw.axial_clearance_um.is_some() {
         return Err(s.conflict(&preload.span(), "a preload and an axial clearance", "rows are set by one of both"));
     }
-    Ok(AxialPlay::Preload(s.number("preload_n", &raw.preload_n, 0.0, 0.0, 1e9)?))
+    Ok(AxialPlay::Preload(row!(s, BEARING, raw.preload_n)?))
 }
-
-/// Words of `takes_thrust`.
-const THRUSTS: &[(&str, ThrustSeat)] = &[
-    ("both", ThrustSeat::Held),
-    ("none", ThrustSeat::Floating),
-    ("+z", ThrustSeat::Shoulder(1.0)),
-    ("-z", ThrustSeat::Shoulder(-1.0)),
-];
 
 /// Thrust that the seat of a bearing takes. Rows that take it one way alone say so with the same key, and are held.
 fn seat(s: &Source<'_>, raw: &RawBearing, kind: RollingKind) -> Checked<ThrustSeat> {
     let one_way = kind.has_angle() && raw.arrangement.as_ref().is_none_or(|word| word.get_ref() == "tandem");
     let Some(word) = raw.takes_thrust.as_ref().filter(|_| !one_way) else { return Ok(ThrustSeat::Held) };
-    let found = s.one_of("takes_thrust", word, THRUSTS)?;
+    let found = match s.meaning_of("takes_thrust", word)? {
+        Thrust::Both => ThrustSeat::Held,
+        Thrust::None => ThrustSeat::Floating,
+        Thrust::Up => ThrustSeat::Shoulder(1.0),
+        Thrust::Down => ThrustSeat::Shoulder(-1.0),
+    };
     if kind == RollingKind::CylindricalRoller {
         if found == ThrustSeat::Floating {
             return Ok(ThrustSeat::Held);
@@ -229,7 +210,7 @@ fn rows(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
         Some(word) => s.one_of("takes_thrust", word, &[("+z", 1.0), ("-z", -1.0)]),
         None => Err(missing(s, table, "[[bearing]]", "takes_thrust", "\"+z\" or \"-z\": where the shaft may press")),
     };
-    if s.whole("rows", &raw.rows, 1, 1, 2)? == 1 {
+    if row!(s, BEARING, raw.rows)? == 1 {
         let single = [
             ("row_distance_mm", raw.row_distance_mm.as_ref().map(Spanned::span)),
             ("arrangement", raw.arrangement.as_ref().map(Spanned::span)),
@@ -239,20 +220,18 @@ fn rows(s: &Source<'_>, table: &Spanned<RawBearing>, kind: RollingKind) -> Check
         }
         return Ok(vec![[0.0, if kind.has_angle() { thrust()? } else { 1.0 }]]);
     }
-    let half = 0.5 * needed(s, table, "row_distance_mm", &raw.row_distance_mm, [1e-3, LARGE])?;
+    let half = 0.5 * needed_of(s, (table, "[[bearing]]"), &BEARING, "row_distance_mm", &raw.row_distance_mm)?;
     let ways = match (&raw.arrangement, kind.has_angle()) {
         (_, false) => [1.0, 1.0],
         (None, true) => {
             let what = "\"back-to-back\", \"face-to-face\" or \"tandem\"";
             return Err(missing(s, table, "[[bearing]]", "arrangement", what));
         }
-        (Some(word), true) => {
-            let known = [("back-to-back", Some([1.0, -1.0])), ("face-to-face", Some([-1.0, 1.0])), ("tandem", None)];
-            match (s.one_of("arrangement", word, &known)?, &raw.takes_thrust) {
-                (Some(ways), _) => ways,
-                (None, _) => [thrust()?; 2],
-            }
-        }
+        (Some(word), true) => match s.meaning_of("arrangement", word)? {
+            Arrangement::BackToBack => [1.0, -1.0],
+            Arrangement::FaceToFace => [-1.0, 1.0],
+            Arrangement::Tandem => [thrust()?; 2],
+        },
     };
     Ok(vec![[-half, ways[0]], [half, ways[1]]])
 }

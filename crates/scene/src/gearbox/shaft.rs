@@ -7,8 +7,8 @@ use toml::Spanned;
 use super::{
     file::{GearboxSection, GearboxShaft},
     parts::{all, few},
-    raw::{RawSection, RawShaft},
-    values::{Checked, missing, needed_number, needed_word, numbers},
+    raw::{RawSection, RawShaft, SECTION, SHAFT},
+    values::{Checked, given, missing, needed_of, needed_word, numbers, row},
 };
 use crate::{RexsShaft, Source, read_rexs, read_shaft};
 
@@ -48,9 +48,9 @@ pub(super) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<Gearbo
     Ok(GearboxShaft {
         origin: numbers::<3>(s, "origin_mm", &raw.origin_mm, FAR)?.unwrap_or_default(),
         sections,
-        young_mpa: s.number("young_mpa", &raw.young_mpa, of(|r| r.young_mpa, 2.06e5), 1.0, 1e12)?,
-        poisson: s.number("poisson", &raw.poisson, of(|r| r.poisson, 0.3), 0.0, 0.499)?,
-        density: 1e-12 * s.number("density_kg_m3", &raw.density_kg_m3, of(|r| r.density_kg_m3, 7850.0), 1.0, 1e5)?,
+        young_mpa: given!(s, SHAFT, raw.young_mpa)?.unwrap_or_else(|| of(|r| r.young_mpa, 2.06e5)),
+        poisson: given!(s, SHAFT, raw.poisson)?.unwrap_or_else(|| of(|r| r.poisson, 0.3)),
+        density: 1e-12 * given!(s, SHAFT, raw.density_kg_m3)?.unwrap_or_else(|| of(|r| r.density_kg_m3, 7850.0)),
         held: raw.held.as_ref().is_some_and(|h| *h.get_ref()),
         name,
     })
@@ -77,8 +77,9 @@ fn rexs(s: &Source<'_>, table: &Spanned<RawShaft>, word: &Spanned<String>) -> Ch
     })?;
     let inside = |value: f64, [low, high]: [f64; 2]| (low..=high).contains(&value);
     let lengths = found.sections.iter().flatten().all(|x| inside(*x, [0.0, FAR]));
-    let stated = [(found.young_mpa, [1.0, 1e12]), (found.poisson, [0.0, 0.499]), (found.density_kg_m3, [1.0, 1e5])];
-    let material = stated.into_iter().all(|(value, range)| value.is_none_or(|x| inside(x, range)));
+    let stated = [(found.young_mpa, "young_mpa"), (found.poisson, "poisson"), (found.density_kg_m3, "density_kg_m3")];
+    let range = |key| [SHAFT.number(key).0, SHAFT.number(key).1];
+    let material = stated.into_iter().all(|(value, key)| value.is_none_or(|x| inside(x, range(key))));
     if !lengths || !material || found.sections.len() > 1000 {
         let what = "has a shaft of more than 1000 sections, of 1e6 mm, or of a material that is none";
         return Err(at(what.into(), "is it the file that was meant?".into()));
@@ -88,9 +89,9 @@ fn rexs(s: &Source<'_>, table: &Spanned<RawShaft>, word: &Spanned<String>) -> Ch
 
 fn section(s: &Source<'_>, table: &Spanned<RawSection>) -> Checked<GearboxSection> {
     let raw = table.get_ref();
-    let of = |key, value| needed_number(s, table, "[[shaft.section]]", key, value, 1e-3, FAR);
+    let of = |key, value| needed_of(s, (table, "[[shaft.section]]"), &SECTION, key, value);
     let (length, outer) = (of("length_mm", &raw.length_mm)?, of("outer_diameter_mm", &raw.outer_diameter_mm)?);
-    let inner = s.number("inner_diameter_mm", &raw.inner_diameter_mm, 0.0, 0.0, FAR)?;
+    let inner = row!(s, SECTION, raw.inner_diameter_mm)?;
     if inner >= outer {
         let said = format!("a section {outer} mm wide outside and {inner} mm inside");
         return Err(s.conflict(&table.span(), said, "the inner diameter is the smaller one; 0 is solid"));

@@ -3,7 +3,7 @@
 use toml::Spanned;
 
 use crate::spanned::{Numbers, Rows};
-use crate::{Number, SceneError, Source, Word};
+use crate::{Number, SceneError, Source, Word, table::Table};
 
 pub(super) type Checked<T> = Result<T, SceneError>;
 
@@ -74,6 +74,37 @@ pub(super) fn needed_number<R>(
     }
     s.number(key, value, 0.0, low, high)
 }
+
+/// The number of a key that must be there, within the range of its row.
+pub(super) fn needed_of<R>(
+    s: &Source<'_>,
+    (table, name): (&Spanned<R>, &str),
+    of: &Table,
+    key: &str,
+    value: &Number,
+) -> Checked<f64> {
+    if value.is_none() {
+        let (low, high, _) = of.number(key);
+        return Err(missing(s, table, name, key, &format!("a number of {low} .. {high}")));
+    }
+    s.number_of(of, key, value)
+}
+
+/// The value of a key by its row, or the row's default; the names of key and field are one.
+macro_rules! row {
+    ($s:expr, $table:ident, $raw:ident.$key:ident) => {
+        $crate::source::Entry::value(&$raw.$key, $s, &$crate::gearbox::raw::$table, stringify!($key))
+    };
+}
+
+/// The same where it is written, else nothing.
+macro_rules! given {
+    ($s:expr, $table:ident, $raw:ident.$key:ident) => {
+        $raw.$key.is_some().then(|| row!($s, $table, $raw.$key)).transpose()
+    };
+}
+
+pub(super) use {given, row};
 
 pub(super) fn missing<R>(s: &Source<'_>, table: &Spanned<R>, name: &str, key: &str, what: &str) -> SceneError {
     s.conflict(&table.span(), format!("{name} has no `{key}`"), format!("give {what}"))

@@ -4,13 +4,10 @@ use toml::Spanned;
 
 use super::{
     file::GearboxVibration,
-    raw::RawVibration,
-    values::{Checked, needed_number},
+    raw::{InputTurn, RawVibration, VIBRATION},
+    values::{Checked, needed_of, row},
 };
 use crate::Source;
-
-/// Speeds of the input at the most, 1/min.
-const FAST: f64 = 1e6;
 
 /// Numbers in the answer at the most: speeds, orders and meshes times bearings and meshes.
 const MOST: f64 = 2e6;
@@ -22,14 +19,14 @@ pub(super) fn vibration(
     [meshes, bearings]: [usize; 2],
 ) -> Checked<GearboxVibration> {
     let raw = table.get_ref();
-    let speed = |key: &str, value| needed_number(s, table, "[vibration]", key, value, 1e-3, FAST);
+    let speed = |key: &str, value| needed_of(s, (table, "[vibration]"), &VIBRATION, key, value);
     let speeds_rpm = [speed("from_rpm", &raw.from_rpm)?, speed("to_rpm", &raw.to_rpm)?];
     if speeds_rpm[1] <= speeds_rpm[0] {
         let said = format!("speeds from {} to {} 1/min", speeds_rpm[0], speeds_rpm[1]);
         return Err(s.conflict(&table.span(), said, "`to_rpm` is the higher one"));
     }
-    let speeds = s.whole("speeds", &raw.speeds, 101, 2, 2000)?;
-    let orders = s.whole("orders", &raw.orders, 5, 1, 50)?;
+    let speeds = row!(s, VIBRATION, raw.speeds)?;
+    let orders = row!(s, VIBRATION, raw.orders)?;
     let numbers = f64::from(speeds) * f64::from(orders) * (meshes * (meshes + bearings)) as f64;
     if numbers > MOST {
         let said = format!("an answer of {numbers:.0} forces over speed, order and part");
@@ -43,8 +40,8 @@ pub(super) fn vibration(
         speeds_rpm,
         speeds,
         orders,
-        damping_ratio: s.number("damping_ratio", &raw.damping_ratio, 0.02, 1e-6, 1.0)?,
-        modes: s.whole("modes", &raw.modes, 20, 1, 500)?,
-        held_input: s.choice("input", &raw.input, &[("free", false), ("held", true)])?,
+        damping_ratio: row!(s, VIBRATION, raw.damping_ratio)?,
+        modes: row!(s, VIBRATION, raw.modes)?,
+        held_input: s.choice_of::<InputTurn>("input", &raw.input)? == InputTurn::Held,
     })
 }

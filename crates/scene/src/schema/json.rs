@@ -1,4 +1,4 @@
-//! The scene file as JSON Schema, draft 2020-12: what editors complete and check TOML with.
+//! Files of keys as JSON Schema, draft 2020-12: what editors complete and check TOML with.
 
 use serde_json::{Map, Value, json};
 
@@ -12,10 +12,15 @@ use crate::table::{Key, Table, ValueKind};
 /// assert_eq!(schema["properties"]["operation"]["properties"]["torque_nm"]["minimum"], 0.0);
 /// ```
 pub fn json_schema() -> Value {
-    let mut schema = object(&SCENE);
+    schema_of(&SCENE, "scene")
+}
+
+/// The schema of a kind of file by the table of all of it.
+pub(crate) fn schema_of(file: &Table, kind: &str) -> Value {
+    let mut schema = object(file);
     if let Value::Object(map) = &mut schema {
         map.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
-        map.insert("title".into(), format!("ale-gear scene, version {}", env!("CARGO_PKG_VERSION")).into());
+        map.insert("title".into(), format!("ale-gear {kind}, version {}", env!("CARGO_PKG_VERSION")).into());
     }
     schema
 }
@@ -57,6 +62,10 @@ fn property(key: &Key) -> Value {
         ValueKind::Text => json!({ "type": "string" }),
         ValueKind::Texts => json!({ "type": "array", "items": { "type": "string" } }),
         ValueKind::Numbers => json!({ "type": "array", "items": { "type": "number" } }),
+        ValueKind::Wholes => json!({ "type": "array", "items": { "type": "integer" } }),
+        ValueKind::Rows { columns: 0 } => {
+            json!({ "type": "array", "items": { "type": "array", "items": { "type": "number" } }, "minItems": 1 })
+        }
         ValueKind::Rows { columns } => {
             let row =
                 json!({ "type": "array", "items": { "type": "number" }, "minItems": columns, "maxItems": columns });

@@ -30,6 +30,7 @@ pub(crate) use flank::{RawFlank, RawModification};
 pub use gear::Coupling;
 pub(crate) use gear::*;
 pub use json::json_schema;
+pub(crate) use json::schema_of;
 pub(crate) use ladder::*;
 pub use ladder::{ImpactScene, Law, Lumped12Scene, ShaftCoordinate, Sharing, StiffnessFrom, SupportScene};
 pub(crate) use motion::*;
@@ -139,6 +140,7 @@ mod tests {
                     ValueKind::Words { .. }
                     | ValueKind::Texts
                     | ValueKind::Numbers
+                    | ValueKind::Wholes
                     | ValueKind::Rows { .. }
                     | ValueKind::Tables(_) => ("1", "must be a list"),
                     ValueKind::Table(_) => ("1", "must be a table"),

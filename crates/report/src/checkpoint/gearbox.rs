@@ -1,0 +1,112 @@
+//! What a gearbox's motion keeps: its state, and its rows with all their digits.
+
+use std::path::Path;
+
+use analysis::{SinkResult, gearbox_at_rest::GearboxSink};
+use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
+use scene::gearbox::Gearbox;
+use serde::{Deserialize, Serialize};
+
+use super::{
+    Change, CheckpointError, Checkpoints, InputDigests,
+    growing::{Growing, Kept, digested},
+    store::{GEARBOX_ROWS, Stored, StoredState},
+};
+use crate::ReportError;
+
+/// State of a gearbox's motion.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct GearboxState {
+    /// The motion.
+    pub motion: GearboxCheckpoint,
+    /// The file of rows.
+    rows: Kept,
+}
+
+impl StoredState for GearboxState {
+    const KIND: &'static str = "motion of a gearbox";
+
+    fn rows(&self) -> Vec<(&'static str, &Kept)> {
+        vec![(GEARBOX_ROWS, &self.rows)]
+    }
+
+    fn consistent(&self) -> Result<(), &'static str> {
+        if self.motion.is_consistent() {
+            Ok(())
+        } else {
+            Err("velocities of other coordinates, or counts of other meshes")
+        }
+    }
+}
+
+impl GearboxState {
+    /// The rows of the run so far, from the file as far as it was kept; `folder`: that of the checkpoint.
+    ///
+    /// # Errors
+    /// When the file cannot be read, holds what is no row, or other rows than the state has.
+    pub fn read_rows(&self, folder: &Path) -> Result<Vec<GearboxInstant>, ReportError> {
+        let file = folder.join(GEARBOX_ROWS);
+        let text = self.rows.text(&file)?;
+        let rows: Result<Vec<GearboxInstant>, _> = text.lines().map(serde_json::from_str).collect();
+        let what = match rows {
+            Ok(rows) if rows.len() as u64 == self.motion.rows => return Ok(rows),
+            Ok(rows) => format!("has {} rows, and the state {}", rows.len(), self.motion.rows),
+            Err(e) => format!("holds what is no row: {e}"),
+        };
+        Err(CheckpointError::Damaged { file, what }.into())
+    }
+}
+
+/// Where rows and states of a gearbox's motion go.
+pub struct GearboxFileSink<'a> {
+    file: &'a Gearbox,
+    checkpoints: Checkpoints<'a>,
+    /// State that the run goes on from.
+    from: Option<&'a Stored<GearboxState>>,
+    rows: Option<Growing>,
+}
+
+impl<'a> GearboxFileSink<'a> {
+    /// Of a gearbox file; `from` is what the run goes on from.
+    pub fn new(file: &'a Gearbox, checkpoints: Checkpoints<'a>, from: Option<&'a Stored<GearboxState>>) -> Self {
+        Self { file, checkpoints, from, rows: None }
+    }
+
+    fn open(&self, resumes: bool) -> Result<Growing, ReportError> {
+        let Checkpoints { folder, inputs } = self.checkpoints;
+        // Nobody may have written to a file while it was read.
+        if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.file)?, self.file) {
+            return Err(CheckpointError::Changing { file }.into());
+        }
+        let path = folder.path().join(GEARBOX_ROWS);
+        if let (true, Some(stored)) = (resumes, self.from) {
+            let digest = digested(&path, &stored.state.rows)?;
+            return Growing::resume(path, digest);
+        }
+        folder.start()?;
+        Growing::new(path, "")
+    }
+}
+
+impl GearboxSink for GearboxFileSink<'_> {
+    fn begin_rows(&mut self, resumes: bool) -> SinkResult {
+        self.rows = Some(self.open(resumes)?);
+        Ok(())
+    }
+
+    fn row(&mut self, row: &GearboxInstant) -> SinkResult {
+        if let Some(rows) = &mut self.rows {
+            rows.push(&(serde_json::to_string(row)? + "\n"));
+        }
+        Ok(())
+    }
+
+    fn checkpoint(&mut self, motion: GearboxCheckpoint) -> SinkResult {
+        if let Some(rows) = &mut self.rows {
+            let Checkpoints { folder, inputs } = self.checkpoints;
+            let state = GearboxState { motion, rows: rows.flush()? };
+            folder.write(&Stored::new(inputs, state))?;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,92 @@
+//! What a pair's motion keeps beside its rows.
+
+use analysis::{
+    facts::MeshFacts,
+    motion::{MotionCheckpoint, MotionCourse},
+};
+use dynamics::Checkpoint;
+use scene::Scene;
+use serde::{Deserialize, Serialize};
+use study::FlankPattern;
+
+use super::{
+    CheckpointError,
+    growing::Kept,
+    rows::{ENERGY_FILE, HISTORY},
+    store::{Stored, StoredState, foreign},
+};
+
+/// Teeth of a window at the most; scenes ask for 25 or fewer.
+const WIDEST: usize = 1000;
+/// Farthest pair of a window: mesh cycles are counted exactly up to here.
+const FARTHEST: u64 = 1 << 53;
+
+/// State of a pair's motion.
+#[derive(Debug, Clone, Serialize, Deserialize)]
+pub struct PairState {
+    meshes: String,
+    /// Teeth of the window.
+    window: usize,
+    /// The motion.
+    motion: Checkpoint,
+    /// How far the analysis has come.
+    course: MotionCourse,
+    /// The files of rows.
+    pub rows: [Kept; 2],
+    /// What the flanks were pressed by so far.
+    patterns: [FlankPattern; 2],
+}
+
+impl PairState {
+    /// Of a motion between such meshes.
+    pub fn new(
+        meshes: &[MeshFacts],
+        MotionCheckpoint { window, motion, course, patterns }: MotionCheckpoint,
+        rows: [Kept; 2],
+    ) -> Self {
+        Self { meshes: text_of_meshes(meshes), window, motion, course, rows, patterns }
+    }
+
+    /// What the analysis goes on from.
+    pub fn checkpoint(&self) -> MotionCheckpoint {
+        let Self { window, motion, course, patterns, .. } = self.clone();
+        MotionCheckpoint { window, motion, course, patterns }
+    }
+}
+
+impl StoredState for PairState {
+    const KIND: &'static str = "motion of a pair";
+
+    fn rows(&self) -> Vec<(&'static str, &Kept)> {
+        [HISTORY, ENERGY_FILE].into_iter().zip(&self.rows).collect()
+    }
+
+    fn consistent(&self) -> Result<(), &'static str> {
+        if !(1..=WIDEST).contains(&self.window) {
+            return Err("a window of so many teeth");
+        }
+        let Checkpoint { state, place, .. } = &self.motion;
+        if [&state.v, &state.a, &state.averaged].iter().any(|part| part.len() != state.q.len()) {
+            return Err("velocities of other coordinates");
+        }
+        let sides = [Some(&place.driving), place.coast.as_ref()];
+        if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
+            return Err("a window beyond all cycles");
+        }
+        Ok(())
+    }
+}
+
+impl Stored<PairState> {
+    /// Whether it belongs to a run with the meshes that the program made of the scene: else it must not go on.
+    ///
+    /// # Errors
+    /// [`CheckpointError::Foreign`].
+    pub fn check_meshes(&self, scene: &Scene, meshes: &[MeshFacts]) -> Result<(), CheckpointError> {
+        if self.state.meshes == text_of_meshes(meshes) { Ok(()) } else { Err(foreign(&scene.file, "other meshes")) }
+    }
+}
+
+fn text_of_meshes(meshes: &[MeshFacts]) -> String {
+    serde_json::to_string(meshes).unwrap_or_default()
+}
