@@ -39,7 +39,8 @@ pub struct SolvedAtRest {
 
 /// Solves a scene of any kind in memory: at rest on what `models` have of its gears, in time with their cache and meshes.
 ///
-/// At rest `warnings` says what is found out for [`Solved::warnings`], and a result that does not hold is an error, as of [`SharedModels::solve`]; in time [`Solved::verdict`] tells.
+/// At rest `warnings` says what is found out for [`Solved::warnings`], and a result that does not hold is an error, as of
+/// [`SharedModels::solve`]; in time [`Solved::verdict`] tells.
 ///
 /// # Errors
 /// [`AnalysisError`].
