@@ -11,7 +11,10 @@ use parquet::schema::types::{ColumnPath, Type};
 
 use crate::{Table, TableError, Values};
 
-/// The bytes of a Parquet file of a table, one group of rows, Snappy.
+/// Rows of a group.
+const GROUP: usize = 65_536;
+
+/// The bytes of a Parquet file of a table, in groups of 65,536 rows, Snappy.
 ///
 /// # Errors
 /// [`TableError::Parquet`] when a name is none that the format takes.
@@ -26,25 +29,28 @@ fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
     let mut writer =
         SerializedFileWriter::new(&mut bytes, schema(table.name, &columns)?, Arc::new(properties(&columns)))?;
     let rows = table.rows();
-    let mut group = writer.next_row_group()?;
-    for column in &table.columns {
-        let Some(mut to) = group.next_column()? else { break };
-        match &column.values {
-            Values::Numbers(list) => to.typed::<DoubleType>().write_batch(&list[..rows], None, None)?,
-            Values::Texts(list) => {
-                let texts: Vec<ByteArray> = list[..rows].iter().map(|t| ByteArray::from(t.as_str())).collect();
-                to.typed::<ByteArrayType>().write_batch(&texts, None, None)?
-            }
-        };
-        to.close()?;
+    for first in (0..rows).step_by(GROUP) {
+        let mut group = writer.next_row_group()?;
+        for column in &table.columns {
+            let Some(mut to) = group.next_column()? else { break };
+            let own = first..rows.min(first + GROUP);
+            match &column.values {
+                Values::Numbers(list) => to.typed::<DoubleType>().write_batch(&list[own], None, None)?,
+                Values::Texts(list) => {
+                    let texts: Vec<ByteArray> = list[own].iter().map(|t| ByteArray::from(t.as_str())).collect();
+                    to.typed::<ByteArrayType>().write_batch(&texts, None, None)?
+                }
+            };
+            to.close()?;
+        }
+        group.close()?;
     }
-    group.close()?;
     writer.close()?;
     Ok(bytes)
 }
 
 /// How all Parquet files of this program are written; columns as [`schema`] takes them.
-pub fn properties(columns: &[(&str, bool)]) -> WriterProperties {
+fn properties(columns: &[(&str, bool)]) -> WriterProperties {
     let properties = WriterProperties::builder()
         .set_compression(Compression::SNAPPY)
         .set_dictionary_enabled(false)
@@ -58,7 +64,7 @@ pub fn properties(columns: &[(&str, bool)]) -> WriterProperties {
 ///
 /// # Errors
 /// When a name is none that the format takes.
-pub fn schema(rows: &str, columns: &[(&str, bool)]) -> Result<Arc<Type>, ParquetError> {
+fn schema(rows: &str, columns: &[(&str, bool)]) -> Result<Arc<Type>, ParquetError> {
     let column = |(name, is_text): &(&str, bool)| {
         let physical = if *is_text { Physical::BYTE_ARRAY } else { Physical::DOUBLE };
         let of = Type::primitive_type_builder(name, physical).with_repetition(Repetition::REQUIRED);

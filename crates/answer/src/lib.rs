@@ -24,7 +24,7 @@ mod unit;
 
 pub use answer::Answer;
 pub use check::{Check, Checks, FailedCheck};
-pub use columnar::{parquet_bytes, properties, schema};
+pub use columnar::parquet_bytes;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
 pub use table::{Column, Table, Values};

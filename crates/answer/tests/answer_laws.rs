@@ -74,3 +74,15 @@ fn a_column_that_is_not_there_is_none() {
     assert!(table().find("shaft").is_none() && table().find("nothing").is_none());
     assert_eq!((table().rows(), Table::new("empty").csv().as_str()), (3, "\n"));
 }
+
+/// Long tables come in groups of rows, all of them.
+#[test]
+fn rows_of_several_groups_read_back() {
+    let values: Vec<f64> = (0..65_536 + 3).map(|i| (0.1 * f64::from(i)).sin() * 1e-300).collect();
+    let bytes = parquet_bytes(&Table::new("history").numbers("dte_um", "", values.clone())).unwrap();
+    let reader = SerializedFileReader::new(tempfile_of(&bytes)).unwrap();
+    assert_eq!(reader.num_row_groups(), 2);
+    let read: Vec<u64> =
+        reader.get_row_iter(None).unwrap().map(|row| row.unwrap().get_double(0).unwrap().to_bits()).collect();
+    assert!(read.iter().eq(values.iter().map(|v| v.to_bits()).collect::<Vec<_>>().iter()));
+}

@@ -16,7 +16,7 @@ pub struct OutputScene {
     pub root_stress: bool,
     /// The contact lines slice by slice.
     pub contact_lines: bool,
-    /// The history column by column as well, in `history.parquet`.
+    /// Every table column by column as well: `history.parquet` beside `history.csv`.
     #[serde(skip_serializing_if = "is_false")]
     pub parquet: bool,
     /// ParaView files.

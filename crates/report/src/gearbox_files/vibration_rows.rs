@@ -112,7 +112,7 @@ fn each_order(swings: &GearboxSwings) -> impl Iterator<Item = (f64, &OrderForces
 fn with_orders(name: &'static str, swings: &GearboxSwings) -> Table {
     which(
         Table::new(name),
-        each_order(swings).map(|(speed, own)| (speed, own.mesh, own.order as usize, own.frequency_hz)),
+        each_order(swings).map(|(speed, own)| (speed, own.mesh, own.order, own.frequency_hz)),
     )
 }
 

@@ -12,6 +12,8 @@ pub struct Page {
     pub name: String,
     /// One line below it.
     pub subtitle: String,
+    /// Version of the program that made it.
+    pub version: String,
     /// Checks that do not hold, in words.
     pub failed: Vec<String>,
     /// What the user should hear.
@@ -233,6 +235,7 @@ impl Page {
         Self {
             name: answer.name.clone(),
             subtitle,
+            version: env!("CARGO_PKG_VERSION").to_owned(),
             failed: answer.checks.missed().map(answer::Check::words).collect(),
             warnings: answer.remarks.clone(),
             ..Self::default()

@@ -232,19 +232,6 @@ fn possible(s: &Source<'_>, raw: &RawScene, scene: &Scene, on_ladder: bool) -> C
 
 /// What the run asked for can have.
 fn of_run(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
-    let without_history = match scene.motion.as_ref().map(|m| m.run) {
-        Some(Run::Sweep) => Some("a sweep"),
-        Some(Run::Continuation) => Some("a continuation"),
-        Some(Run::Basins) => Some("a search for basins"),
-        _ => None,
-    };
-    if let (Some(asked), true, Some(run)) = (&raw.output.parquet, scene.output.parquet, without_history) {
-        return Err(s.conflict(
-            &asked.span(),
-            format!("`parquet` writes the history, and {run} has none"),
-            "leave it out: its tables are CSV files",
-        ));
-    }
     super::continuation::check(s, raw, scene)?;
     of_drive(s, raw, scene)
 }

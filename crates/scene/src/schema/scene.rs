@@ -195,7 +195,7 @@ table! {
     OUTPUT, RawOutput: "what is computed and written on request"; {
         root_stress: switch(false), "stress in the root fillets at every position";
         contact_lines: switch(false), "contact_lines.csv: every loaded slice of every position";
-        parquet: switch(false), "history.parquet: the columns of history.csv for long runs";
+        parquet: switch(false), "every table column by column as well: history.parquet beside history.csv, for long runs";
         vtu: switch(false), "ParaView files";
         fields: words(FieldName), "fields of the ParaView files; default: all";
         vtu_every: whole(1, 1_000_000, 1), "one ParaView file every so many positions";
