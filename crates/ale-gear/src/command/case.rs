@@ -72,14 +72,20 @@ impl CaseArgs {
         let range = range.start.min(count)..range.end.min(count);
         let digest = plan_digest(&plan)?;
         let (from, to) = (range.start, range.end);
-        if Part::read(out, &digest).is_ok_and(|part| part.range == range) {
-            return Ok(told(format!("{}: cases {from}..{to} of {count} are there\n", out.display())));
-        }
-        if !Part::may_replace(out) {
-            return Err(CommandError::input(
-                format_args!("--out {}: is there, and is no file of `ale-gear case`", out.display()),
-                Some("give the name of a new file".into()),
-            ));
+        let refuse = |what: String| {
+            let hint = "give the name of a new file, or take that one away".to_owned();
+            Err(CommandError::input(format_args!("--out {}: {what}", out.display()), Some(hint)))
+        };
+        match Part::read(out, &digest) {
+            Ok(part) if part.range.start <= from && to <= part.range.end => {
+                return Ok(told(format!("{}: cases {from}..{to} of {count} are there\n", out.display())));
+            }
+            Ok(part) => return refuse(format!("has the cases {}..{} of this plan", part.range.start, part.range.end)),
+            Err(PartError::AnotherPlan { .. }) => return refuse("has cases of another plan or version".to_owned()),
+            Err(_) if !Part::may_replace(out) => {
+                return refuse("is there, and is no file of `ale-gear case`".to_owned());
+            }
+            Err(_) => {}
         }
         let complain = |e: std::io::Error| CommandError::write(out, &e);
         let done = DoneCases::in_memory(BTreeMap::new());

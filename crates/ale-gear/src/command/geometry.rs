@@ -6,7 +6,7 @@ use analysis::facts::Facts;
 use report::tables::{geometry_json, geometry_table, torque};
 use scene::rexs_of;
 
-use super::overrides::Overrides;
+use super::{overrides::Overrides, target::Target};
 use crate::error::CommandError;
 
 /// Words of `ale-gear geometry`.
@@ -27,6 +27,9 @@ pub(super) struct GeometryArgs {
 impl GeometryArgs {
     /// The sheet, for stdout.
     pub(super) fn execute(self) -> Result<String, CommandError> {
+        if let Some(file) = &self.rexs {
+            Target::Rexs.check("--rexs", file)?;
+        }
         let scene = self.overrides.read(&self.scene)?;
         let pair = scene.gear_pair()?;
         if let Some(file) = &self.rexs {

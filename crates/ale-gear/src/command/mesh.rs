@@ -7,6 +7,7 @@ use clap::{Subcommand, ValueEnum};
 use mesh::{GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
 use report::tables::{mesh_findings, mesh_findings_json, mesh_info_table};
 
+use super::target::Target;
 use crate::{error::CommandError, meshes, scene::Scene};
 
 /// Subcommands of `ale-gear mesh`.
@@ -191,6 +192,7 @@ fn check(file: &Path, teeth: Option<u32>, names: &GroupNames, json: bool) -> Res
 
 fn generate(scene: &Path, which: WhichGear, output: &Path, format: &str, ascii: bool) -> Result<String, CommandError> {
     let format = msh_format(format, ascii)?;
+    Target::Mesh.check("--output", output)?;
     let scene = Scene::read(scene)?;
     let pair = scene.gear_pair()?;
     let mesh = match which {

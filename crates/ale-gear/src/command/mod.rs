@@ -20,6 +20,7 @@ mod serve;
 mod shell;
 mod study;
 mod sweep;
+mod target;
 mod vary;
 
 use std::{ffi::OsString, io::Write};

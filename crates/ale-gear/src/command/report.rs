@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use report::compare::ResultFolder;
 
+use super::target::Target;
 use crate::{error::CommandError, output::report_again};
 
 /// Words of `ale-gear report`.
@@ -22,10 +23,14 @@ impl ReportArgs {
         // Says what is wrong with a folder that is none.
         let missed = ResultFolder::read(&self.folder)?.missed().join("; ");
         let page = report_again(&self.folder)?;
-        let file = self.output.unwrap_or_else(|| self.folder.join("report.html"));
-        if file.as_os_str() == "-" {
-            return Ok(page);
-        }
+        let file = match self.output {
+            Some(file) if file.as_os_str() == "-" => return Ok(page),
+            Some(file) => {
+                Target::Page.check("--output", &file)?;
+                file
+            }
+            None => self.folder.join("report.html"),
+        };
         files::write_file(&file, page.as_bytes()).map_err(|e| CommandError::write(&file, &e))?;
         let mut said = format!("{}: written\n", file.display());
         if !missed.is_empty() {

@@ -171,6 +171,56 @@ fn only_files_of_a_result_are_replaced() {
     }
 }
 
+/// A summary that somebody else has written may list what it likes: nothing outside of its folder is taken away, whatever
+/// command finds it.
+#[test]
+fn a_forged_list_of_files_takes_nothing_away() {
+    let scratch = scratch().file("thesis.tex", "years of work").file("fields.vtu", "another solver's");
+    assert_eq!(scratch.command(&words("run iso.toml --out one")).code, Some(0));
+    let absolute = scratch.path().join("thesis.tex").display().to_string();
+    let list = [absolute.as_str(), "../thesis.tex", "../fields.vtu", "../one/../fields.vtu"];
+    let forged = serde_json::json!({ "program": "ale-gear", "files": list }).to_string();
+    for line in FOLDERS {
+        fs::create_dir(scratch.path().join("o")).unwrap();
+        fs::write(scratch.path().join("o/summary.json"), &forged).unwrap();
+        let run = scratch.command(&[&words(line)[..], &["--out", "o", "-q"]].concat());
+        assert_eq!(scratch.read("thesis.tex"), "years of work", "{line}");
+        assert_eq!(scratch.read("fields.vtu"), "another solver's", "{line}: {}", run.stderr);
+        fs::remove_dir_all(scratch.path().join("o")).unwrap();
+    }
+}
+
+/// A file of another kind stays, the command's own input among them; one of the same kind is replaced.
+#[test]
+fn only_files_of_the_same_kind_are_replaced() {
+    let scratch = scratch().file("thesis.tex", "years of work").file("empty.msh", "");
+    assert_eq!(scratch.command(&words("run iso.toml --out one")).code, Some(0));
+    assert_eq!(scratch.command(&words(FILES[0].0)).code, Some(0));
+    assert_eq!(scratch.command(&words(FILES[2].0)).code, Some(0));
+    let before = tree(scratch.path());
+    for line in [
+        "mesh generate rest.toml --gear pinion -o rest.toml",
+        "mesh generate rest.toml --gear pinion -o thesis.tex",
+        "mesh generate rest.toml --gear pinion -o pair.rexs",
+        "geometry iso.toml --rexs iso.toml",
+        "geometry iso.toml --rexs a.msh",
+        "report one -o one/history.csv",
+        "report one -o one/summary.json",
+        "report one -o iso.toml",
+        "case plan.toml --range 0..2 --out thesis.tex --no-cache",
+    ] {
+        let run = scratch.command(&words(line));
+        assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
+        assert!(run.stderr.contains(": is there, and is no ") && run.stderr.contains("\nhint: "), "{}", run.stderr);
+        assert!(tree(scratch.path()) == before, "{line}: something is another");
+    }
+    for (line, _) in FILES {
+        assert_eq!(scratch.command(&words(line)).code, Some(0), "{line}");
+    }
+    let empty = scratch.command(&words("mesh generate rest.toml --gear pinion -o empty.msh"));
+    assert_eq!(empty.code, Some(0), "{}", empty.stderr);
+}
+
 /// What a command wrote it replaces, and so does any other.
 #[test]
 fn every_command_replaces_what_any_of_them_wrote() {
@@ -306,7 +356,7 @@ fn a_place_where_nobody_may_write_is_named_by_all() {
 #[test]
 fn a_protected_file_stays() {
     use std::os::unix::fs::PermissionsExt;
-    let scratch = scratch().file("a.msh", "mine");
+    let scratch = scratch().file("a.msh", "$MeshFormat\nmine");
     let file = scratch.path().join("a.msh");
     fs::set_permissions(&file, fs::Permissions::from_mode(0o444)).unwrap();
     if fs::File::options().write(true).open(&file).is_ok() {
@@ -314,7 +364,7 @@ fn a_protected_file_stays() {
     }
     let run = scratch.command(&words(FILES[0].0));
     assert_eq!(run.code, Some(1), "{}", run.stderr);
-    assert_eq!(scratch.read("a.msh"), "mine");
+    assert_eq!(scratch.read("a.msh"), "$MeshFormat\nmine");
 }
 
 /// Stopped by the system (`kill`, Slurm, systemd, docker) at any moment of any command: status 130, nothing half written

@@ -47,6 +47,28 @@ fn pieces_make_what_one_machine_makes() {
     assert_eq!(scratch.names().iter().filter(|name| name.contains(".new")).count(), 0, "nothing is left behind");
 }
 
+/// A part that has the cases already is left alone, one that has others of them or is of another plan as well; one that was
+/// cut short is made again.
+#[test]
+fn no_part_loses_its_rows() {
+    let scratch = scratch();
+    part(&scratch, "0..20", "a.csv");
+    let whole = scratch.read("a.csv");
+    let run = |range: &str| scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", "a.csv"]);
+    assert!(run("5..7").stdout.contains("cases 5..7 of 50 are there"));
+    let others = run("10..30");
+    assert_eq!(others.code, Some(2));
+    assert!(others.stderr.contains("--out a.csv: has the cases 0..20 of this plan\nhint: "), "{}", others.stderr);
+    assert_eq!(scratch.read("a.csv"), whole);
+    std::fs::write(scratch.path().join("a.csv"), &whole[..whole.len() / 2]).unwrap();
+    assert_eq!(run("0..20").code, Some(0));
+    assert_eq!(scratch.read("a.csv"), whole);
+    std::fs::write(scratch.path().join("iso.toml"), ISO_SCENE.to_owned() + "positions_per_cycle = 7\n").unwrap();
+    let another = run("0..20");
+    assert_eq!((another.code, scratch.read("a.csv")), (Some(2), whole));
+    assert!(another.stderr.contains("has cases of another plan or version\nhint: "), "{}", another.stderr);
+}
+
 /// What is missing, cut short, changed or of another plan is named and refused.
 #[test]
 fn pieces_that_do_not_fit_are_refused() {

@@ -1,9 +1,7 @@
 //! `energy.csv`: the ledger of a motion, row for row with its history.
 
-use analysis::motion::EnergyRow;
-use study::Columns;
-
 use super::{Group, Over, Rows, Table, columns};
+use analysis::motion::EnergyRow;
 
 /// Rows of a ledger.
 #[derive(Debug)]
@@ -31,8 +29,3 @@ columns!(EnergyRows, ALL, |(), _| true, {
 
 /// All columns of a ledger.
 pub const ENERGY: Table<EnergyRows> = Table { groups: &[Group { over: Over::File, columns: ALL }] };
-
-/// The ledger of a motion as columns by name.
-pub fn energy_columns<'a>(rows: impl IntoIterator<Item = &'a EnergyRow>) -> Columns {
-    ENERGY.sheet(&(), &[]).columns(&(), rows)
-}

@@ -13,7 +13,7 @@ mod solved;
 pub mod static_history;
 mod table;
 
-pub use energy::{ENERGY, EnergyRows, energy_columns};
+pub use energy::{ENERGY, EnergyRows};
 pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_quantity};
 pub use motion_history::{MOTION_HISTORY, MotionRows};
 pub use motion_rows::motion_rows;

@@ -60,6 +60,10 @@ impl Cache {
         let Some(folder) = &self.folder else { return Ok(()) };
         fs::create_dir_all(folder)?;
         take_away_left_overs(folder, &Kind::FILE);
+        // A link or a pipe of that name was put there by somebody else, for whatever purpose.
+        if fs::symlink_metadata(file).is_ok_and(|found| !found.is_file()) {
+            return Err(std::io::Error::other("is no regular file"));
+        }
         write_file(file, bytes)?;
         make_room(folder, file);
         Ok(())

@@ -110,10 +110,7 @@ fn each_order(swings: &GearboxSwings) -> impl Iterator<Item = (f64, &OrderForces
 }
 
 fn with_orders(name: &'static str, swings: &GearboxSwings) -> Table {
-    which(
-        Table::new(name),
-        each_order(swings).map(|(speed, own)| (speed, own.mesh, own.order, own.frequency_hz)),
-    )
+    which(Table::new(name), each_order(swings).map(|(speed, own)| (speed, own.mesh, own.order, own.frequency_hz)))
 }
 
 /// `response`: the dynamic normal force of every mesh under every order of every mesh.

@@ -131,9 +131,6 @@ pub struct Grid {
     pub head: Vec<String>,
     /// Rows.
     pub rows: Vec<Vec<Cell>>,
-    /// Whether a click on a heading sorts by it.
-    #[serde(default)]
-    pub is_sortable: bool,
 }
 
 impl Grid {
@@ -147,12 +144,6 @@ impl Grid {
     pub fn rows(mut self, rows: impl IntoIterator<Item = Vec<Cell>>) -> Self {
         self.rows.extend(rows);
         self
-    }
-
-    /// Whose rows a click on a heading sorts.
-    #[must_use]
-    pub fn sortable(self) -> Self {
-        Self { is_sortable: true, ..self }
     }
 }
 

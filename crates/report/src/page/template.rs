@@ -51,7 +51,6 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("style.css", scripts::STYLE),
         ("warnings.html", include_str!("warnings.html")),
         ("parts.html", include_str!("parts.html")),
-        ("sort.html", include_str!("sort.html")),
         ("view.html", include_str!("view.html")),
     ];
     for (part, text) in parts {

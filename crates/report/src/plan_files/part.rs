@@ -44,6 +44,12 @@ pub enum PartError {
         /// What is wrong.
         what: &'static str,
     },
+    /// A whole part of another plan.
+    #[error("{file} is no part of this plan: plan, scene or version of the program are others")]
+    AnotherPlan {
+        /// The file.
+        file: PathBuf,
+    },
     /// Two parts have another row of the same case.
     #[error("case {case} is in two parts with other numbers, the later one {file}")]
     Differ {
@@ -105,7 +111,7 @@ impl Part {
         let words = first.strip_prefix("# cases ").and_then(|words| words.split_once(" of "));
         let (range, of) = words.ok_or_else(|| not_whole("its first line does not say which cases it has"))?;
         if of != digest {
-            return Err(not_whole("plan, scene or version of the program are others"));
+            return Err(PartError::AnotherPlan { file: file.clone() });
         }
         let ends = range.split_once("..").and_then(|(a, b)| Some((a.parse().ok()?, b.parse().ok()?)));
         let (start, end) = ends.ok_or_else(|| not_whole("its first line does not say which cases it has"))?;
