@@ -26,7 +26,7 @@ def test_rows_files_and_numbers_agree(at_rest):
     ste = result["mesh_2_ste_um"]
     assert not ste.flags.writeable
     assert result.headline["mean_ste_um"][1] == pytest.approx(float(np.mean(ste)), rel=1e-12)
-    assert result.summary["certificate"]["body_balance"] < 1e-9
+    assert result.summary["certificate_checks"]["body_balance"]["value"] < 1e-9
     shafts = result.read("shafts.csv")
     assert set(shafts["shaft"]) == {"fast", "middle", "slow"}
     assert "solve" in phases
