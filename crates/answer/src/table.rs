@@ -56,12 +56,20 @@ pub struct Table {
     pub name: &'static str,
     /// Columns in the order of the files.
     pub columns: Vec<Column>,
+    /// Whether its file with commas has been written row by row, as the rows came.
+    pub is_written: bool,
 }
 
 impl Table {
     /// A table without columns.
     pub fn new(name: &'static str) -> Self {
-        Self { name, columns: Vec::new() }
+        Self { name, columns: Vec::new(), is_written: false }
+    }
+
+    /// The same, its file with commas being there already.
+    #[must_use]
+    pub fn written(self) -> Self {
+        Self { is_written: true, ..self }
     }
 
     /// With a column of numbers behind the others.

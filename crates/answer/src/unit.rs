@@ -1,12 +1,15 @@
 //! The unit that a name ends with.
 
 /// Endings of names and their units, the longest first where one ends with another.
-const UNITS: [(&str, &str); 25] = [
+const UNITS: [(&str, &str); 28] = [
     ("kg_m2", "kg m2"),
     ("n_s_per_mm", "N s/mm"),
     ("n_per_um", "N/um"),
     ("n_per_mm", "N/mm"),
     ("um_per_s", "um/s"),
+    ("mm_s", "mm/s"),
+    ("per_s", "1/s"),
+    ("pct", "%"),
     ("nmm", "N mm"),
     ("nm", "N m"),
     ("urad", "urad"),
@@ -31,8 +34,8 @@ const UNITS: [(&str, &str); 25] = [
 
 /// Unit of a column or key by the ending of its name, `""` for a number without unit.
 ///
-/// `max_pressure_mpa` is in MPa. A rate `a_um_per_b_deg` is in `um/deg`; a number after the unit, as in
-/// `dte_um_falling`, hides it, so such names are looked at up to their last unit.
+/// `max_pressure_mpa` is in MPa. A rate `a_um_per_b_deg` is in `um/deg`. A name that goes on behind its unit, as
+/// `d_ste_um_falling`, tells none.
 ///
 /// ```
 /// assert_eq!(answer::unit_of("max_pressure_mpa"), "MPa");

@@ -56,9 +56,8 @@ pub fn write_rows(answer: &Answer, results: &ResultDirectory) -> Result<(), Repo
 /// The files of all tables; one whose rows were written as they came is there already.
 fn write_tables(answer: &Answer, with_parquet: bool, results: &ResultDirectory) -> Result<(), ReportError> {
     for table in &answer.tables {
-        let file = format!("{}.csv", table.name);
-        if !results.path(&file).exists() {
-            results.write(&file, table.csv().as_bytes())?;
+        if !table.is_written {
+            results.write(&format!("{}.csv", table.name), table.csv().as_bytes())?;
         }
         if with_parquet {
             results.write(&format!("{}.parquet", table.name), &parquet_bytes(table)?)?;

@@ -42,8 +42,8 @@ pub(super) fn write_motion_result(
     let (history, energy) = (MOTION_HISTORY.sheet(layout, &pairs), ENERGY.sheet(&(), &[]));
     let mut tables = Vec::new();
     if scene.output.parquet {
-        tables.push(history.table("history", layout, all));
-        tables.push(energy.table("energy", &(), all.iter().map(|r| &r.energy)));
+        tables.push(history.table("history", layout, all).written());
+        tables.push(energy.table("energy", &(), all.iter().map(|r| &r.energy)).written());
     }
     tables.extend(spectrum.as_ref().map(rows::spectrum));
     if let Some(ramp) = ramp {
