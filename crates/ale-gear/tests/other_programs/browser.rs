@@ -31,7 +31,7 @@ const LARGEST: u64 = 6_000_000;
 
 /// Looks at the page from inside, and leaves what it saw in an element of its own.
 const SELF_CHECK: &str = r##"<script>
-addEventListener("load", () => {
+addEventListener("load", async () => {
   const seen = { charts: [], failed: window.report?.failed ?? null };
   // Colours of a canvas other than its corner's.
   const marks = canvas => {
@@ -68,6 +68,16 @@ addEventListener("load", () => {
   // The picture that is kept shows the first field at the first position.
   document.querySelector("#quantity input:not(:disabled)")?.click();
   document.querySelector("[data-look=mesh]")?.click();
+  // The still picture of every chart in pixels, as "save as PNG" hands it out.
+  const stills = [...document.querySelectorAll("figure.chart svg")];
+  seen.links = [document.querySelectorAll("figure.chart a.png").length, stills.length];
+  seen.stills = [];
+  for (const still of stills) {
+    const drawn = new Image();
+    const picture = await window.report.pixels(still);
+    await new Promise(done => { drawn.onload = done; drawn.src = picture; });
+    seen.stills.push(drawn.src.startsWith("data:image/png;base64,") ? marks(drawn).different : 0);
+  }
   seen.wide = document.documentElement.scrollWidth > innerWidth;
   const answer = document.createElement("pre");
   answer.hidden = true;
@@ -108,6 +118,9 @@ fn check_charts(seen: &Value, name: &str) {
     let charts: Vec<u64> = seen["charts"].as_array().unwrap().iter().map(|c| c.as_u64().unwrap()).collect();
     assert_eq!(charts.len() as u64, seen["figures"].as_u64().unwrap(), "{name}: every chart has a canvas");
     assert!(charts.len() >= 3 && charts.iter().all(|&c| c > 500), "{name}: pixels drawn in the charts: {charts:?}");
+    assert_eq!(seen["links"][0], seen["links"][1], "{name}: every chart can be saved as PNG: {seen}");
+    let stills = seen["stills"].as_array().unwrap();
+    assert!(!stills.is_empty() && stills.iter().all(|s| s.as_u64() > Some(500)), "{name}: empty pictures: {stills:?}");
     assert_eq!(seen["wide"], Value::Bool(false), "{name}: the page is wider than the window");
     assert_eq!(seen["marks"], serde_json::json!([]), "{name}: marks of axes that do not stand where they say");
 }

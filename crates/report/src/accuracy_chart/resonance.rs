@@ -154,8 +154,7 @@ pub fn resonance_precision_table(of: &ResonancePrecision, command: &str) -> Stri
     t
 }
 
-/// `resonance_precision.csv`, `.svg`, `.png` and `.md`, `resonance_curves.csv`, `.svg` and `.png`; what comes back is the
-/// table.
+/// `resonance_precision.csv`, `.svg` and `.md`, `resonance_curves.csv` and `.svg`; what comes back is the table.
 ///
 /// # Errors
 /// When the system refuses, or a picture cannot be drawn.

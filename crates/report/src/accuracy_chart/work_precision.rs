@@ -104,7 +104,7 @@ fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Fail
     Ok(())
 }
 
-/// `chart.csv`, `work_precision.svg`, `.png`, `chart.md` with the tables, and `report.html` with all of it.
+/// `chart.csv`, `work_precision.svg`, `chart.md` with the tables, and `report.html` with all of it.
 ///
 /// # Errors
 /// When the system refuses, or the picture cannot be drawn.

@@ -309,9 +309,33 @@
     }
     return update;
   };
+  // The still picture of a figure in pixels, twice as many as the drawing has: sharp on a dense screen and in print.
+  const pixels = still => new Promise((done, fail) => {
+    const { width, height } = still.viewBox.baseVal.width ? still.viewBox.baseVal : { width: still.width.baseVal.value, height: still.height.baseVal.value };
+    const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height: 2 * height }), drawing = new Image();
+    drawing.onerror = fail;
+    drawing.onload = () => {
+      canvas.getContext("2d").drawImage(drawing, 0, 0, canvas.width, canvas.height);
+      done(canvas.toDataURL("image/png"));
+    };
+    // A drawing that stands alone says what it is and how large.
+    const copy = still.cloneNode(true);
+    for (const [key, value] of Object.entries({ xmlns: "http://www.w3.org/2000/svg", width, height })) copy.setAttribute(key, value);
+    drawing.src = "data:image/svg+xml;charset=utf-8," + encodeURIComponent(new XMLSerializer().serializeToString(copy));
+  });
+  const offer = figure => figure.querySelectorAll(".still svg, :scope > svg").forEach((still, k) => {
+    const link = Object.assign(document.createElement("a"), { className: "png small screen", href: "#", textContent: "save as PNG" });
+    const name = still.querySelector("text")?.textContent.trim().toLowerCase().replace(/[^a-z0-9]+/g, "_") || "chart";
+    link.addEventListener("click", async event => {
+      event.preventDefault();
+      Object.assign(document.createElement("a"), { href: await pixels(still), download: `${name}.png` }).click();
+    });
+    (figure.querySelectorAll(".live")[k] ?? figure).append(link);
+  });
   for (const figure of document.querySelectorAll("figure.chart")) {
     figure.classList.add("lively");
     figure.querySelectorAll("script.plot, script.map").forEach(script => put(figure, JSON.parse(script.textContent), script.className === "map"));
+    offer(figure);
   }
   let waiting = 0;
   addEventListener("resize", () => {
@@ -320,5 +344,5 @@
   });
   scheme.addEventListener("change", () => all.forEach(([chart]) => chart.redraw()));
   // For the other scripts of the page.
-  window.report = { viridis, bytes, short, ink, scheme, put, VIRIDIS, charts: all };
+  window.report = { viridis, bytes, short, ink, scheme, put, pixels, VIRIDIS, charts: all };
 })();

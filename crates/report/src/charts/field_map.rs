@@ -2,7 +2,6 @@
 
 use base64::{Engine, prelude::BASE64_STANDARD};
 use plotters::prelude::*;
-use resvg::tiny_skia::{Pixmap, PremultipliedColorU8};
 use serde::{Serialize, Serializer};
 
 use super::{
@@ -81,7 +80,7 @@ impl FieldMap<'_> {
         let ends = |side: &Side<'_>| Some((*side.edges.first()?, *side.edges.last()?));
         let ((left, right), (low, high)) = (ends(x)?, ends(y)?);
         let place = draw_axes(&mut svg, &self.caption(), [x.label, y.label], [left, right, low, high]).ok()?;
-        let image = BASE64_STANDARD.encode(self.pixels([left, right, low, high])?.encode_png().ok()?);
+        let image = BASE64_STANDARD.encode(self.pixels([left, right, low, high])?);
         let [at_x, at_y, width, height] = place;
         let image = format!(
             "<image x=\"{at_x}\" y=\"{at_y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
@@ -97,26 +96,32 @@ impl FieldMap<'_> {
         if self.least == 0.0 { self.title.clone() } else { ends() }
     }
 
-    fn pixels(&self, [left, right, low, high]: [f64; 4]) -> Option<Pixmap> {
+    /// The cells as PNG, four bytes a pixel; where there is no cell nothing is drawn.
+    fn pixels(&self, [left, right, low, high]: [f64; 4]) -> Option<Vec<u8>> {
         let [width, height] = PIXELS;
-        let mut pixmap = Pixmap::new(width, height)?;
         let middles = |count: u32, from: f64, to: f64| {
             (0..count).map(move |i| from + (to - from) * (f64::from(i) + 0.5) / f64::from(count))
         };
         let cell = |side: &Side<'_>, at: f64| side.edges.partition_point(|&e| e <= at).checked_sub(1);
         let columns: Vec<Option<usize>> = middles(width, left, right).map(|x| cell(&self.sides[0], x)).collect();
         let per_row = self.sides[0].edges.len().saturating_sub(1);
-        for (line, y) in pixmap.pixels_mut().chunks_mut(width as usize).zip(middles(height, high, low)) {
+        let mut pixels = Vec::with_capacity(4 * (width * height) as usize);
+        for y in middles(height, high, low) {
             let row = cell(&self.sides[1], y);
-            for (pixel, column) in line.iter_mut().zip(&columns) {
+            for column in &columns {
                 let share = row.zip(*column).and_then(|(r, c)| self.shares.get(r * per_row + c)).copied();
-                if let Some(share) = share.filter(|s| *s > 0.0) {
+                let of_share = |share: f64| {
                     let RGBColor(r, g, b) = ViridisRGB.get_color(share as f32);
-                    *pixel = PremultipliedColorU8::from_rgba(r, g, b, 255)?;
-                }
+                    [r, g, b, u8::MAX]
+                };
+                pixels.extend(share.filter(|s| *s > 0.0).map_or([0; 4], of_share));
             }
         }
-        Some(pixmap)
+        let mut file = Vec::new();
+        let mut encoder = png::Encoder::new(&mut file, width, height);
+        encoder.set_color(png::ColorType::Rgba);
+        encoder.write_header().ok()?.write_image_data(&pixels).ok()?;
+        Some(file)
     }
 }
 

@@ -8,8 +8,8 @@ mod field_map;
 mod heat_map;
 mod log_panel;
 mod overlay;
+mod picture;
 mod plot_data;
-mod png;
 
 pub use campbell::campbell_chart;
 pub use contour_map::{GridValues, MapWords, coloured_dots, contour_map};
@@ -21,6 +21,5 @@ pub use field_map::{FieldMap, Side, share};
 pub use heat_map::{contact_pattern_figure, contact_pattern_maps, contact_pattern_svg};
 pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
 pub use overlay::{LevelLine, Mark, Overlay, Room, words};
+pub(crate) use picture::write_picture;
 pub use plot_data::{Numbers, Plot, embedded};
-pub use png::svg_to_png;
-pub(crate) use png::write_picture;

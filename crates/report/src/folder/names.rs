@@ -1,7 +1,7 @@
 //! Names of all files that a result may hold: what a killed run has left is known by them, since it has no record yet.
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 66] = [
+const OURS: [&str; 62] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -52,19 +52,15 @@ const OURS: [&str; 66] = [
     "chart.md",
     "motion_precision.csv",
     "motion_precision.md",
-    "motion_precision.png",
     "motion_precision.svg",
     "resonance_curves.csv",
-    "resonance_curves.png",
     "resonance_curves.svg",
     "resonance_precision.csv",
     "resonance_precision.md",
-    "resonance_precision.png",
     "resonance_precision.svg",
     "envelope.csv",
     "maps.csv",
     "work_precision.svg",
-    "work_precision.png",
     "compare.html",
     "compare.csv",
     "compare_curves.csv",

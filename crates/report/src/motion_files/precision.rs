@@ -101,7 +101,7 @@ pub fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
     t
 }
 
-/// `motion_precision.csv`, `.svg`, `.png` and `.md`; what comes back is the table.
+/// `motion_precision.csv`, `.svg` and `.md`; what comes back is the table.
 ///
 /// # Errors
 /// When the system refuses, or the picture cannot be drawn.

@@ -65,7 +65,7 @@ fn with_scripts(mut page: String) -> String {
     let mut scripts = String::new();
     // The part that holds the picture is a `view` on both pages.
     let in_space = [("gearbox", scripts::GEARBOX), ("view", scripts::VIEW)].into_iter().find(|(class, _)| has(class));
-    if in_space.is_some() || has("plot") || has("map") {
+    if in_space.is_some() || has("plot") || has("map") || has("chart") {
         let [style, uplot, charts] = [scripts::UPLOT_STYLE, scripts::UPLOT, scripts::CHARTS];
         scripts += &format!("<style>{style}</style>\n");
         scripts += &format!("<script>{uplot}</script>\n<script>{charts}</script>\n");
