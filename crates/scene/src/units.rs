@@ -12,14 +12,16 @@ const UNITS: &[Unit] = &[
     ("density_kg_m3", 1e9, "kg/mm^3", "kg/m^3"),
     ("density_kg_m3", 1e3, "g/cm^3", "kg/m^3"),
     ("poisson", 1e-2, "%", ""),
+    ("_n_per_mm", 1e-3, "N/m", "N/mm"),
+    ("_n_per_mm", 1e3, "N/um", "N/mm"),
     ("_mm", 1e3, "m", "mm"),
     ("_mm", 1e-3, "um", "mm"),
     ("_um", 1e3, "mm", "um"),
     ("_nm", 1e-3, "N mm", "N m"),
     ("_rpm", 30.0 / std::f64::consts::PI, "rad/s", "1/min"),
-    ("_n_per_mm", 1e-3, "N/m", "N/mm"),
     ("_kg_m2", 1e-6, "kg mm^2", "kg m^2"),
     ("_kg", 1e3, "t", "kg"),
+    ("_kg", 1e-3, "g", "kg"),
 ];
 
 /// A number in the unit of its key that was written in another one.

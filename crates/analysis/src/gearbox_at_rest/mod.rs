@@ -33,7 +33,9 @@ use gearbox::{
 };
 use scene::gearbox::Gearbox;
 
-use crate::{AnalysisError, GearCache, NoCache, Observer, PhaseWork, run_phase, unless_cancelled};
+use crate::{
+    AnalysisError, GearCache, NoCache, Observer, PhaseWork, plausible::gearbox_remarks, run_phase, unless_cancelled,
+};
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
 pub use motion::GearboxMotionResult;
@@ -146,7 +148,7 @@ fn solve(
     let operation = parts::operation(file, &train);
     let meshes = meshes::meshes(file, Some(&train))?;
     let loaded = loads::Loaded { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
-    for said in loaded.judge()? {
+    for said in gearbox_remarks(file).into_iter().chain(loaded.judge()?) {
         observer.note(said.clone());
         warnings.push(said);
     }

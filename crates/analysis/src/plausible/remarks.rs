@@ -7,14 +7,10 @@ use scene::{GearScene, Kind, Scene, units::in_another_unit};
 
 use super::{
     flanks::largest_depth,
+    material::{DENSITIES, HEAVY, SOFT},
     refusal::{digits, doubtful},
 };
 
-/// Softer than this is rubber, or a number of GPa, MPa; heavier than this is no plastic, kg/m^3.
-const SOFT: f64 = 1000.0;
-const HEAVY: f64 = 2500.0;
-/// Densities of solids that gears are made of, kg/m^3: from wood to tungsten.
-const DENSITIES: [f64; 2] = [300.0, 20_000.0];
 /// Helix angles that nobody makes, degrees: up to 45 degrees in rad.
 const FLAT: [f64; 2] = [0.02, 0.8];
 /// Face width over module likewise, below and above.

@@ -1,0 +1,206 @@
+//! Numbers of a gearbox file that are possible and unlikely: shafts, bearings, gears and machines in other units.
+
+use std::f64::consts::PI;
+
+use scene::{
+    gearbox::{Gearbox, GearboxBearing, GearboxGear, GearboxShaft},
+    units::in_another_unit,
+};
+
+use super::{
+    material::{DENSITIES, SOFT},
+    refusal::digits,
+};
+
+/// Stiffer than cemented carbide, MPa.
+const HARD: f64 = 1e6;
+/// Stiffness of a bearing over Young's modulus times the diameter of its shaft: a ring of rolling elements has some 0.02
+/// to 0.3, a seat of rubber 1e-3.
+const STIFFNESSES: [f64; 2] = [3e-4, 10.0];
+/// Mass of a gear over that of a solid one of its pair's face width and tip diameter.
+const MASSES: [f64; 2] = [0.02, 20.0];
+/// Radius of gyration of a gear over its tip radius: 0.7 is a disc, 1 a rim.
+const GYRATIONS: [f64; 2] = [0.05, 3.0];
+/// Inertia of a machine over that of all gears on its shaft as solid discs, above: a flywheel has some thousand.
+const MACHINE: f64 = 1e5;
+
+/// What is unlikely in a gearbox file, with the unit that may have been meant.
+pub fn gearbox_remarks(file: &Gearbox) -> Vec<String> {
+    let moves = file.vibration.is_some() || file.motion.is_some();
+    let shafts = file.shafts.iter().flat_map(|shaft| {
+        let density = moves.then(|| density(shaft)).flatten();
+        [young(shaft), density].into_iter().flatten()
+    });
+    let bearings = file.bearings.iter().filter_map(|bearing| stiffness(bearing, &file.shafts[bearing.shaft]));
+    let gears = file.gears.iter().enumerate().filter(|_| moves).flat_map(|(i, gear)| {
+        let disc = disc(file, i);
+        disc.into_iter().flat_map(|disc| inertias(gear, disc))
+    });
+    let machines = moves.then(|| machines(file)).into_iter().flatten();
+    shafts.chain(bearings).chain(gears).chain(machines).collect()
+}
+
+/// What `value` is in another unit, behind other words; nothing where no unit fits.
+fn meant(key: &str, value: f64, fits: impl Fn(f64) -> bool) -> String {
+    in_another_unit(key, value, fits).map(|other| format!("; {}", other.said)).unwrap_or_default()
+}
+
+fn young(shaft: &GearboxShaft) -> Option<String> {
+    let young = shaft.young_mpa;
+    let usual = |x: f64| (SOFT..=HARD).contains(&x);
+    (!usual(young)).then(|| {
+        let than = if young < SOFT { "softer than plastics" } else { "stiffer than any metal" };
+        let other = meant("young_mpa", young, usual);
+        format!("`young_mpa` of the shaft \"{}\" is {}, {than}{other}", shaft.name, digits(young))
+    })
+}
+
+fn density(shaft: &GearboxShaft) -> Option<String> {
+    let density = 1e12 * shaft.density;
+    let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
+    (!usual(density)).then(|| {
+        let other = meant("density_kg_m3", density, usual);
+        format!("`density_kg_m3` of the shaft \"{}\" is {}, which no metal has{other}", shaft.name, digits(density))
+    })
+}
+
+/// Outer diameter of a shaft at a place, mm.
+fn diameter(shaft: &GearboxShaft, at: f64) -> Option<f64> {
+    let ends = shaft.sections.iter().scan(0.0, |end, section| {
+        *end += section.length;
+        Some((*end, section.outer))
+    });
+    ends.clone().find(|(end, _)| at <= *end).or_else(|| ends.last()).map(|(_, outer)| outer)
+}
+
+/// The stiffness across the axis, over that of solid steel of the shaft's size.
+fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<String> {
+    let across = (bearing.stiffness[0][0] * bearing.stiffness[1][1]).abs().sqrt();
+    let solid = 2.06e5 * diameter(shaft, bearing.position)?;
+    let usual = |x: f64| (STIFFNESSES[0]..=STIFFNESSES[1]).contains(&(x / solid));
+    (across > 0.0 && bearing.rolling.is_none() && !shaft.held && !usual(across)).then(|| {
+        let than = if across < STIFFNESSES[0] * solid { "softer than a seat of rubber" } else { "as good as rigid" };
+        let other = meant("stiffness_n_per_mm", across, usual);
+        format!(
+            "the stiffness of the {} is {} N/mm across the axis, {than} for a shaft of {} mm{other}",
+            bearing.name,
+            digits(across),
+            digits(solid / 2.06e5)
+        )
+    })
+}
+
+/// A gear as a solid disc: mass, kg, and tip radius, m.
+#[derive(Clone, Copy)]
+struct Disc {
+    mass: f64,
+    radius: f64,
+}
+
+/// Of the first pair that the gear is in: its tips are about a module beyond its reference circle.
+fn disc(file: &Gearbox, gear: usize) -> Option<Disc> {
+    let (mesh, end) = file.meshes.iter().find_map(|m| Some((m, m.gears.iter().position(|&g| g == gear)?)))?;
+    let (pair, own) = (&mesh.scene.pair, mesh.scene.gears()[end]);
+    let cosine = mesh.scene.pinion.helix_angle_deg.to_radians().cos();
+    let radius = 1e-3 * pair.normal_module_mm * (0.5 * f64::from(own.teeth) / cosine + 1.0);
+    let width = 1e-3 * mesh.scene.face_widths_mm()[end];
+    Some(Disc { mass: own.material.density_kg_m3 * PI * radius * radius * width, radius })
+}
+
+fn inertias(gear: &GearboxGear, disc: Disc) -> Vec<String> {
+    let [mass, transverse, polar] = gear.inertia;
+    let (mass, transverse, polar) = (mass.map(|t| 1e3 * t), transverse.map(|x| 1e-3 * x), polar.map(|x| 1e-3 * x));
+    let mut all = Vec::new();
+    let usual = |x: f64| (MASSES[0]..=MASSES[1]).contains(&(x / disc.mass));
+    if let Some(own) = mass.filter(|&own| !usual(own)) {
+        all.push(format!(
+            "`mass_kg` of the gear \"{}\" is {}, a solid one has {}{}",
+            gear.name,
+            digits(own),
+            digits(disc.mass),
+            meant("mass_kg", own, usual)
+        ));
+    }
+    let weight = mass.filter(|&own| usual(own)).unwrap_or(disc.mass);
+    for (key, own) in [("polar_inertia_kg_m2", polar), ("transverse_inertia_kg_m2", transverse)] {
+        let usual = |x: f64| (GYRATIONS[0]..=GYRATIONS[1]).contains(&((x / weight).sqrt() / disc.radius));
+        if let Some(own) = own.filter(|&own| !usual(own)) {
+            let solid = 0.5 * weight * disc.radius * disc.radius;
+            all.push(format!(
+                "`{key}` of the gear \"{}\" is {}, a solid disc has about {}{}",
+                gear.name,
+                digits(own),
+                digits(solid),
+                meant(key, own, usual)
+            ));
+        }
+    }
+    all
+}
+
+/// Machines whose inertia is far from that of the gears on their shaft.
+fn machines(file: &Gearbox) -> Vec<String> {
+    let of_shaft = |shaft: usize| {
+        let gears = (0..file.gears.len()).filter(|&g| file.gears[g].shaft == shaft);
+        gears.filter_map(|g| disc(file, g)).map(|d| 0.5 * d.mass * d.radius * d.radius).sum::<f64>()
+    };
+    let input = ("[input]".to_owned(), file.input.shaft, file.input.inertia);
+    let torques = file.torques.iter().enumerate();
+    let torques = torques.map(|(i, t)| (format!("[[torque]] {}", i + 1), t.shaft, t.inertia));
+    let unlikely = |(place, shaft, inertia): (String, usize, f64)| {
+        let (own, gears) = (1e-3 * inertia, of_shaft(shaft));
+        (gears > 0.0 && own > MACHINE * gears).then(|| {
+            let other = meant("inertia_kg_m2", own, |x| x < 1e3 * gears);
+            format!(
+                "`inertia_kg_m2` of {place} is {}, {} times that of the gears on its shaft{other}",
+                digits(own),
+                digits(own / gears)
+            )
+        })
+    };
+    std::iter::once(input).chain(torques).filter_map(unlikely).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::{Path, PathBuf};
+
+    use super::*;
+
+    fn file(name: &str) -> PathBuf {
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gearbox").join(name)
+    }
+
+    /// What is said of the two stages with one line otherwise.
+    fn said(old: &str, new: &str) -> Vec<String> {
+        let file = file("two_stages.toml");
+        let text = std::fs::read_to_string(&file).unwrap();
+        assert!(text.contains(old), "{old}");
+        gearbox_remarks(&Gearbox::parse(&text.replacen(old, new, 1), &file).unwrap())
+    }
+
+    /// A number in another unit is told with the unit that was meant; shipped gearboxes have none.
+    #[test]
+    fn another_unit_is_told() {
+        for (old, new, words) in [
+            ("young_mpa = 2.1e5", "young_mpa = 2.1e11", "2.1e11 Pa are 210000 MPa"),
+            ("young_mpa = 2.1e5", "young_mpa = 210.0", "210 GPa are 210000 MPa"),
+            ("density_kg_m3 = 7800.0", "density_kg_m3 = 7.8", "7.8 g/cm^3 are 7800 kg/m^3"),
+            ("[2.0e5, 2.0e5, 8.0e4]", "[2.0e8, 2.0e8, 8.0e7]", "2e8 N/m are 200000 N/mm"),
+            ("[2.0e5, 2.0e5, 8.0e4]", "[200.0, 200.0, 80.0]", "200 N/um are 200000 N/mm"),
+            ("mass_kg = 3.2", "mass_kg = 3200.0", "3200 g are 3.2 kg"),
+            ("polar_inertia_kg_m2 = 0.0115", "polar_inertia_kg_m2 = 11500.0", "11500 kg mm^2 are 0.0115 kg m^2"),
+            ("inertia_kg_m2 = 0.02\n", "inertia_kg_m2 = 20000.0\n", "20000 kg mm^2 are 0.02 kg m^2"),
+            ("inertia_kg_m2 = 0.5\n", "inertia_kg_m2 = 500000.0\n", "500000 kg mm^2 are 0.5 kg m^2"),
+        ] {
+            let said = said(old, new);
+            assert!(said.len() == 1 && said[0].ends_with(words), "{new}: {said:#?}");
+        }
+        for name in
+            ["two_stages", "in_housing", "rolling_bearings", "run_up", "overhung_pinion", "nrel_5mw_third_stage"]
+        {
+            let file = Gearbox::read(&file(&format!("{name}.toml"))).unwrap();
+            assert_eq!(gearbox_remarks(&file), Vec::<String>::new(), "{name}");
+        }
+    }
+}
