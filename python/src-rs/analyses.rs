@@ -12,7 +12,7 @@ use analysis::{
 use report::{
     Recorder, WrittenInTime,
     folder::ResultDirectory,
-    optimum_files::{Goals, OptimumResult, optimum_warnings, write_optimum},
+    optimum_files::{OptimumResult, write_optimum},
     plan_files::{DoneCases, PageWords, solve_cases, write_cases},
     solve_in_time,
 };
@@ -51,14 +51,14 @@ pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
 pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let done = DoneCases::in_memory(Default::default());
+    let done = DoneCases::in_memory(plan, Default::default());
     let count = plan.cases.count();
     let progress = watch.begin("cases", PhaseWork::Steps(count as u64));
     let beside = watch.beside();
     solve_cases((plan, 0..count), held.models, &|| Box::new(beside.beside()), &done, &*progress)?;
     watch.end();
     analysis::unless_cancelled(&*progress)?;
-    write_cases((plan, &done), PageWords { again, ..PageWords::default() }, &watch.cost(), &results)?;
+    write_cases((plan, &done), PageWords { again, ..PageWords::default() }, watch.cost(), &results)?;
     results.finish(drop)?;
     Result::written(("plan", &plan.name), folder, None)
 }
@@ -78,17 +78,8 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     let told = told(held.models, &found)?;
     watch.end();
     let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
-    let (goals, warnings) = (Goals::of(&found), optimum_warnings(&found));
-    let of = OptimumResult {
-        optimum: &found,
-        told: &told,
-        scene: &scene,
-        goals: &goals,
-        cost: &watch.cost(),
-        warnings: &warnings,
-        again,
-    };
-    write_optimum(of, &results)?;
+    let of = OptimumResult { optimum: &found, told: &told, scene: &scene, again };
+    write_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
     Result::written(("optimum", &plan.name), folder, None)
 }

@@ -38,10 +38,32 @@ pub fn write_result(
     with_parquet: bool,
     results: &ResultDirectory,
 ) -> Result<String, ReportError> {
+    let text = write_tables_and_page(answer, page, with_parquet, results)?;
+    write_summary(answer, results)?;
+    Ok(text)
+}
+
+/// All but `summary.json`: for a result that moves more files into its folder before [`write_summary`] ends it.
+///
+/// # Errors
+/// When the system refuses, or the page cannot be filled.
+pub fn write_tables_and_page(
+    answer: &Answer,
+    page: &Page,
+    with_parquet: bool,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
     write_tables(answer, with_parquet, results)?;
     Rendered::new("parts.html", minijinja::Value::from(minijinja::value::Serde(page)))?.write(results)?;
-    results.write("summary.json", summary(answer, &results.files()?).as_bytes())?;
     Ok(closing_text(page, &answer.cost))
+}
+
+/// `summary.json`, which ends a result.
+///
+/// # Errors
+/// When the system refuses.
+pub fn write_summary(answer: &Answer, results: &ResultDirectory) -> Result<(), ReportError> {
+    results.write("summary.json", summary(answer, &results.files()?).as_bytes())
 }
 
 /// Writes tables and `summary.json`, without a page.
@@ -50,7 +72,7 @@ pub fn write_result(
 /// When the system refuses.
 pub fn write_rows(answer: &Answer, results: &ResultDirectory) -> Result<(), ReportError> {
     write_tables(answer, false, results)?;
-    results.write("summary.json", summary(answer, &results.files()?).as_bytes())
+    write_summary(answer, results)
 }
 
 /// The files of all tables; one whose rows were written as they came is there already.

@@ -88,7 +88,7 @@ impl CaseArgs {
             Err(_) => {}
         }
         let complain = |e: std::io::Error| CommandError::write(out, &e);
-        let done = DoneCases::in_memory(BTreeMap::new());
+        let done = DoneCases::in_memory(&plan, BTreeMap::new());
         solve_range(&plan, range.clone(), &mut phases, &self.cache.open(), &done).map_err(complain)?;
         Part { range, text: done.text() }.write(out, &digest).map_err(complain)?;
         Ok(told(format!("{}: cases {from}..{to} of {count}\n", out.display())))
@@ -99,7 +99,7 @@ impl MergeArgs {
     /// Puts the parts together; the files are those of `ale-gear vary`.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let (plan, phases) = (Plan::read(&self.plan)?, Phases::quiet());
-        let lines = merged(&self.parts, &plan_digest(&plan)?, plan.cases.count()).map_err(|e| {
+        let rows = merged(&self.parts, &plan_digest(&plan)?, &plan).map_err(|e| {
             let hint = match &e {
                 PartError::Missing { missing } => missing.first().map(|range| {
                     let (plan, from, to) = (self.plan.display(), range.start, range.end);
@@ -114,7 +114,7 @@ impl MergeArgs {
         let parts: Vec<String> = self.parts.iter().map(|part| part.display().to_string()).collect();
         let again = format!("ale-gear merge {} {} --out DIR", self.plan.display(), parts.join(" "));
         let words = PageWords { again: &again, reports: &[] };
-        let text = write_cases((&plan, &DoneCases::in_memory(lines)), words, &phases.cost(), &results)?;
+        let text = write_cases((&plan, &DoneCases::in_memory(&plan, rows)), words, phases.cost(), &results)?;
         results.finish(talk::note)?;
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }

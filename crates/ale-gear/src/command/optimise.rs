@@ -7,7 +7,7 @@ use analysis::{
     optimum::{Optimised, Optimum, optimise, told},
     run_phase,
 };
-use report::optimum_files::{Goals, OptimumResult, optimum_warnings, passed_limits, write_optimum};
+use report::optimum_files::{OptimumResult, passed_limits, write_optimum};
 use scene::{
     optimum::{Optimisation, OptimisationWords},
     read_text,
@@ -125,22 +125,14 @@ impl OptimiseArgs {
         })?;
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
-        let (goals, warnings, passed) = (Goals::of(&optimum), optimum_warnings(&optimum), passed_limits(&optimum));
         let again = self.again(&optimum);
-        let of = OptimumResult {
-            optimum: &optimum,
-            told: &told,
-            scene: &scene,
-            goals: &goals,
-            cost: &phases.cost(),
-            warnings: &warnings,
-            again: &again,
-        };
-        let text = write_optimum(of, &results)?;
+        let of = OptimumResult { optimum: &optimum, told: &told, scene: &scene, again: &again };
+        let text = write_optimum(&of, phases.cost(), &results)?;
         results.finish(talk::note)?;
         let text = if quiet { String::new() } else { format!("{text}\nresults: {}\n", self.out.display()) };
         let hint = "allow more, or let more parameters change, within wider bounds (`--parameter`)";
-        let failure = passed.map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
+        let failure = passed_limits(&optimum)
+            .map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
         Ok(Answer { text, failure })
     }
 }

@@ -8,14 +8,11 @@ use analysis::{
     parameter_study::{Findings, findings},
     resolution::with_slices,
 };
-use report::study_files::{
-    STUDY_FILE, StudyResult, columns_of, study_csv, study_digest, study_table, study_warnings, write_study_report,
-    write_study_summary,
-};
+use report::study_files::{StudyResult, columns_of, study_answer, study_digest, study_page, study_warnings};
 use scene::study::Study;
 
 use super::{cache_args::CacheArgs, overrides::Overrides, run::write_result};
-use report::{check_memory, folder::KeptCases};
+use report::{check_memory, folder::KeptCases, write_summary, write_tables_and_page};
 
 use crate::{
     chart::ProcessMemory,
@@ -94,23 +91,19 @@ impl StudyArgs {
             warnings.push(said);
             None
         });
-        results.write(STUDY_FILE, study_csv(&study, &findings).as_bytes())?;
-        let cost = phases.cost();
         let of = StudyResult {
             study: &study,
             runs: &runs,
             findings: &findings,
             speed_up: speed_up.as_ref(),
-            cost: &cost,
             warnings: &warnings,
             reports: self.reports,
         };
-        let table = study_table(of);
-        write_study_report(of, &table)?.write(&results)?;
+        let answer = study_answer(of, phases.cost());
+        let table = write_tables_and_page(&answer, &study_page(of, &answer)?, false, &results)?;
         // Cases stay where they are until all else is written. Last of all the summary: it means that everything is there.
         kept.move_into(&results.path(CASES), folders.iter().map(String::as_str))?;
-        let files = results.files()?;
-        results.write("summary.json", write_study_summary(of, &files).as_bytes())?;
+        write_summary(&answer, &results)?;
         results.finish(talk::note)?;
         Ok(format!("{table}\nresults: {}\n", self.out.display()))
     }

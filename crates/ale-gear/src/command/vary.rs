@@ -9,7 +9,7 @@ use std::{
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
 use report::{
     folder::{Cache, beside_results},
-    plan_files::{CaseTable, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
+    plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
 };
 use scene::plan::{Plan, PlanWords};
 
@@ -138,16 +138,16 @@ pub(super) fn run_plan(
     // Beside the results, so that a run that is cut short goes on from there.
     let done_file = beside_results(out);
     let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
-    let done = DoneCases::open(out, &plan_digest(plan)?, &CaseTable::of(plan))?;
+    let done = DoneCases::open(out, &plan_digest(plan)?, CaseLines::of(plan))?;
     let (count, before) = (plan.cases.count(), done.count());
     if before > 0 {
         talk::note(format!("{before} of {count} cases were done before"));
     }
     solve_range(plan, 0..count, &mut phases, cache, &done).map_err(complain)?;
-    let known = KnownCases::of(plan, &done);
+    let known = KnownCases::of(plan, &done.all());
     let written = reports.write((plan, &known), &mut phases, &results, cache)?;
     let words = PageWords { again, reports: &written };
-    let text = write_cases((plan, &done), words, &phases.cost(), &results)?;
+    let text = write_cases((plan, &done), words, phases.cost(), &results)?;
     results.finish(talk::note)?;
     done.remove().map_err(complain)?;
     match known.reasons.first() {

@@ -87,7 +87,7 @@ fn pieces_that_do_not_fit_are_refused() {
     let write = |text: &str| std::fs::write(scratch.path().join("cut.csv"), text).unwrap();
     write(&whole[..whole.len() - 10]);
     refused(&["a.csv", "cut.csv"], "it was cut short");
-    write(&whole.replacen(",ok,", ",OK,", 1));
+    write(&whole.replacen(",solved,", ",SOLVED,", 1));
     refused(&["a.csv", "cut.csv"], "it was cut short, or changed");
     // A scene with another load is another plan, for the keys that are not varied as well.
     let other = ISO_SCENE.to_owned() + "positions_per_cycle = 7\n";

@@ -69,7 +69,7 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     let follows = column(&numbers, "correlation_ste_um_contact_line_length_mm");
     assert!(follows.iter().all(|r| *r < -0.98), "{follows:?}");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    assert_eq!(summary["cases"][2]["quantities"]["mean_wheel_force_z_n"].as_f64(), Some(axial[2]));
+    assert_eq!(summary["headline"]["cases"][2]["quantities"]["mean_wheel_force_z_n"].as_f64(), Some(axial[2]));
     assert_eq!(summary["files"], serde_json::json!(["cases", "report.html", "report.json.gz", "study.csv"]));
     let page = scratch.read("o/report.html");
     // Three columns over cycles, two against others, one over time, two over the angle.
@@ -118,7 +118,7 @@ fn a_case_without_a_solution_stands_alone() {
     let csv = scratch.read("o/study.csv");
     let rows: Vec<&str> = csv.lines().collect();
     assert_eq!(rows.len(), 4, "{csv}");
-    assert!(rows[2].starts_with("\"15 deg\",15,NaN,NaN,NaN,NaN,NaN,NaN,NaN,\"") && rows[2].contains(reason), "{csv}");
+    assert!(rows[2].starts_with("15 deg,15,NaN,NaN,NaN,NaN,NaN,NaN,NaN,\"") && rows[2].contains(reason), "{csv}");
     // The others are those of a study without it.
     assert_eq!(scratch.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
     let whole = iso_cases().file("s.toml", ISO_STUDY);
@@ -129,13 +129,13 @@ fn a_case_without_a_solution_stands_alone() {
         std::fs::read_dir(scratch.path().join("o/cases")).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(folders.len(), 2, "{folders:?}");
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    let cases = &summary["cases"];
+    let cases = &summary["headline"]["cases"];
     assert!(cases[1]["reason"].as_str().is_some_and(|r| r.contains(reason)), "{cases}");
     assert!(
         cases[1]["quantities"].is_null() && cases[1]["folder"].is_null() && cases[0]["reason"].is_null(),
         "{cases}"
     );
-    assert!(summary["correlations"][0]["by_case"][1].is_null(), "{summary}");
+    assert!(summary["headline"]["correlations"][0]["by_case"][1].is_null(), "{summary}");
     let page = scratch.read("o/report.html");
     assert_eq!(page.matches("<svg").count(), 8);
     assert!(page.matches("Without 15 deg: no result.").count() == 2 && page.contains("<td>no result: "), "{page}");
@@ -174,7 +174,7 @@ fn a_study_of_motions_does_not_see_the_number_of_threads() {
         assert_eq!(of(case)["inputs"]["operation"]["torque_nm"].as_f64(), Some(torque), "{case}");
     }
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("one/summary.json")).unwrap();
-    let full = &summary["full"];
+    let full = &summary["headline"]["full"];
     let number = |key: &str| full["at_rest"][key].as_f64().unwrap_or_else(|| panic!("no {key}: {full}"));
     assert_eq!((full["case"].as_str(), number("full_positions_run")), (Some("heavy"), 1.0));
     assert!(number("times_faster_position") > 1.0, "{full}");
@@ -289,7 +289,7 @@ fn a_case_that_does_not_hold_leaves_its_files() {
         let run = scratch.command(&[&["study", "s.toml", "--out", "o"], words].concat());
         assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
         let mut summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-        let case = summary["cases"][1].take();
+        let case = summary["headline"]["cases"][1].take();
         assert!(case["reason"].as_str().is_some_and(|r| r.contains("does not hold: deflection_over_module")), "{case}");
         assert!(case["quantities"].is_null(), "{case}");
         case
@@ -311,7 +311,7 @@ fn a_value_that_is_none_takes_nothing_from_the_others() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let csv = scratch.read("o/study.csv");
     let rows: Vec<&str> = csv.lines().collect();
-    assert!(rows[2].starts_with("\"15 deg\",15,NaN") && rows[2].contains("`torque_nm` is -5"), "{csv}");
+    assert!(rows[2].starts_with("15 deg,15,NaN") && rows[2].contains("`torque_nm` is -5"), "{csv}");
     assert!(rows[1].ends_with(',') && rows[3].ends_with(','), "the others have no reason: {csv}");
     assert!(scratch.path().join("o/cases/03-20-deg").is_dir() && !scratch.path().join("o/cases/02-15-deg").exists());
 }

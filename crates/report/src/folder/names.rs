@@ -1,7 +1,7 @@
 //! Names of all files that a result may hold: what a killed run has left is known by them, since it has no record yet.
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 62] = [
+const OURS: [&str; 63] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -48,6 +48,7 @@ const OURS: [&str; 62] = [
     "harris.csv",
     "influences.csv",
     "front.csv",
+    "torques.csv",
     "chart.csv",
     "chart.md",
     "motion_precision.csv",

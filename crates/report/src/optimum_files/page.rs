@@ -1,66 +1,123 @@
-//! `report.html` of an optimisation.
+//! `report.html` and closing table of an optimisation.
 
-use analysis::optimum::Optimised;
-use minijinja::{context, value::Serde};
+use analysis::optimum::{HarrisPoint, Optimised};
+use answer::Answer;
+use scene::optimum::DesignParameter;
 
-use super::OptimumResult;
+use super::{Goals, OptimumResult};
 use crate::{
-    ReportError,
     charts::{Curve, line_chart},
-    page::Rendered,
+    page::{Cell, Grid, Line, Page, Part, again, cost_part},
 };
 
-pub(super) fn page(of: &OptimumResult<'_>) -> Result<Rendered, ReportError> {
-    let OptimumResult { optimum, told, goals, .. } = *of;
+pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
+    let OptimumResult { optimum, told, .. } = *of;
     let plan = &optimum.plan;
-    let mut charts: Vec<Option<String>> = Vec::new();
-    for line in &told.torques {
+    let mut page = Page::of(answer, format!("optimisation of {} parameters", plan.parameters.len()));
+    page.push(goal(of));
+    page.push(parameters(of));
+    page.push(torques(told));
+    page.push(Part::more().figures(charts(of)));
+    page.push(influences(told));
+    page.push(cost_part(&answer.cost));
+    page.push(again(of.again));
+    page
+}
+
+fn goal(of: &OptimumResult<'_>) -> Part {
+    let optimum = of.optimum;
+    let goals = Goals::of(optimum);
+    Part::new("Before and after")
+        .closing()
+        .words(format!("Goal: {}.", Optimised::goal_words(&optimum.plan.goal)))
+        .lines([
+            Line::number("goal at the start", goals.goal_start_um, 4, "um"),
+            Line::number(format!("found in {} evaluations", optimum.found.steps.len()), goals.goal_found_um, 4, "um"),
+            Line::number("with values that a machine can be set to", goals.goal_optimum_um, 4, "um"),
+        ])
+}
+
+fn parameters(of: &OptimumResult<'_>) -> Part {
+    let rows = of.optimum.plan.parameters.iter().zip(&of.told.influences).map(|(parameter, i)| {
+        vec![
+            Cell::text(parameter.name()),
+            Cell::number(i.lowest, 3),
+            Cell::number(i.highest, 3),
+            Cell::number(i.start, 3),
+            Cell::number(i.found, 3),
+            Cell::number(i.value, 3),
+            Cell::text(at_bound(parameter, i.value)),
+        ]
+    });
+    let head = ["parameter", "lower bound", "upper bound", "start", "found", "set to", ""];
+    Part::new("Parameters").closing().grid(Grid::new(head).rows(rows))
+}
+
+/// Which bound a value lies on.
+fn at_bound(parameter: &DesignParameter, value: f64) -> &'static str {
+    let [low, high] = parameter.bounds;
+    let near = 1e-6 * (high - low);
+    match () {
+        () if value - low <= near => "at its lower bound",
+        () if high - value <= near => "at its upper bound",
+        () => "",
+    }
+}
+
+fn torques(told: &Optimised) -> Part {
+    let rows = told.torques.iter().map(|t| {
+        vec![
+            Cell::number(t.torque_nm, 1),
+            Cell::number(t.peak_to_peak_before_um, 4),
+            Cell::number(t.peak_to_peak_after_um, 4),
+            Cell::number(t.max_pressure_before_mpa, 1),
+            Cell::number(t.max_pressure_after_mpa, 1),
+        ]
+    });
+    let head = ["torque N m", "p-p STE um", "optimum um", "largest MPa", "optimum MPa"];
+    Part::new("Torques that count").closing().grid(Grid::new(head).rows(rows)).note(
+        "Peak to peak of the static transmission error and largest contact pressure at the start and of the optimum, as \
+         the drawing says and without deviations.",
+    )
+}
+
+fn charts(of: &OptimumResult<'_>) -> Vec<String> {
+    let OptimumResult { optimum, told, .. } = *of;
+    let over_phase = told.torques.iter().filter_map(|line| {
         let curve = |label: &str, values: &Vec<f64>| {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let at = |(i, v): (usize, &f64)| (i as f64 / values.len() as f64, v - mean);
             Curve { label: label.to_owned(), points: values.iter().enumerate().map(at).collect() }
         };
-        let curves = [curve("before", &line.curves[0]), curve("after", &line.curves[1])];
+        let curves = [curve("start", &line.curves[0]), curve("optimum", &line.curves[1])];
         let title = format!("Static transmission error less its mean, {} N m", line.torque_nm);
-        charts.push(line_chart(&title, "mesh phase", "STE less its mean [um]", &curves, false));
-    }
-    let harris = |label: &str, of: fn(&analysis::optimum::HarrisPoint) -> Option<f64>| Curve {
+        line_chart(&title, "mesh phase", "STE less its mean [um]", &curves, false)
+    });
+    let harris = |label: &str, value: fn(&HarrisPoint) -> Option<f64>| Curve {
         label: label.to_owned(),
-        points: told.harris.iter().filter_map(|p| Some((p.torque_nm, of(p)?))).collect(),
+        points: told.harris.iter().filter_map(|p| Some((p.torque_nm, value(p)?))).collect(),
     };
-    let over_torque = [harris("before", |p| p.peak_to_peak_before_um), harris("after", |p| p.peak_to_peak_after_um)];
-    charts.push(line_chart(
-        "Over the torque (Harris map)",
-        "torque [N m]",
-        "peak-to-peak STE [um]",
-        &over_torque,
-        true,
-    ));
-    let front = Curve {
-        label: "optima".to_owned(),
-        points: optimum.front.iter().map(|p| (p.max_pressure_mpa, p.goal_um)).collect(),
-    };
-    charts.push(line_chart(
-        "What a lower pressure costs",
-        "largest pressure [MPa]",
-        "what was made small [um]",
-        &[front],
-        true,
-    ));
-    let charts: Vec<String> = charts.into_iter().flatten().collect();
-    Rendered::new(
-        "optimum.html",
-        context! {
-            name => &plan.name,
-            version => env!("CARGO_PKG_VERSION"),
-            goal => Optimised::goal_words(&plan.goal),
-            goals => Serde(serde_json::to_value(goals).unwrap_or_default()),
-            evaluations => optimum.found.steps.len(),
-            charts => charts,
-            torques => Serde(serde_json::to_value(&told.torques).unwrap_or_default()),
-            influences => Serde(serde_json::to_value(&told.influences).unwrap_or_default()),
-            warnings => of.warnings.to_vec(),
-            again => of.again,
-        },
-    )
+    let over_torque = [harris("start", |p| p.peak_to_peak_before_um), harris("optimum", |p| p.peak_to_peak_after_um)];
+    let front = optimum.front.iter().map(|p| (p.max_pressure_mpa, p.goal_um)).collect();
+    let front = [Curve { label: "optima".to_owned(), points: front }];
+    let last = [
+        line_chart("Over the torque (Harris map)", "torque [N m]", "peak-to-peak STE [um]", &over_torque, true),
+        line_chart("What a lower pressure costs", "largest pressure [MPa]", "goal [um]", &front, true),
+    ];
+    over_phase.chain(last.into_iter().flatten()).collect()
+}
+
+fn influences(told: &Optimised) -> Part {
+    let rows = told.influences.iter().map(|i| {
+        vec![
+            Cell::text(&i.key),
+            Cell::number(i.step, 3),
+            Cell::number(i.goal_change_less_um, 4),
+            Cell::number(i.goal_change_more_um, 4),
+        ]
+    });
+    let head = ["parameter", "step", "goal with a step less um", "a step more um"];
+    Part::new("What a step of the machine changes")
+        .grid(Grid::new(head).rows(rows))
+        .note("Changes of the goal by a step are told to first order, from the derivatives at the optimum.")
 }

@@ -1,115 +1,95 @@
-//! `steps.csv`, `harris.csv`, `influences.csv`, `front.csv`, and the closing table.
+//! Rows of an optimisation.
 
-use std::fmt::Write;
+use analysis::optimum::{HarrisPoint, Influence, Optimum, TorqueLine};
+use answer::Table;
+use scene::optimum::DesignParameter;
 
-use analysis::optimum::Optimised;
-use scene::optimum::{DesignParameter, Optimisation};
+const OF_PARAMETER: &str = "value of this parameter, in the unit of its key";
 
-use super::OptimumResult;
-use crate::csv::quoted;
-
-/// Empty where there is no number.
-fn cell(value: Option<f64>) -> String {
-    value.filter(|v| v.is_finite()).map_or_else(String::new, |v| v.to_string())
-}
-
-fn keys(plan: &Optimisation) -> String {
-    plan.parameters.iter().map(|p| format!(",{}", quoted(p.name()))).collect()
-}
-
-fn values(list: &[f64]) -> String {
-    list.iter().map(|v| format!(",{v}")).collect()
+/// With a column a parameter, whose values are those of a row at its place.
+fn with_parameters<'a>(
+    mut table: Table,
+    parameters: &[DesignParameter],
+    rows: impl Iterator<Item = &'a Vec<f64>> + Clone,
+) -> Table {
+    for (k, parameter) in parameters.iter().enumerate() {
+        table.push_numbers(parameter.name().to_owned(), OF_PARAMETER, rows.clone().map(|row| row[k]));
+    }
+    table
 }
 
 /// A row an evaluation of the search.
-pub(super) fn steps_csv(of: &OptimumResult<'_>) -> String {
-    let mut t = format!("evaluation,goal_um,over_limits,taken{}\n", keys(&of.optimum.plan));
-    for (i, step) in of.optimum.found.steps.iter().enumerate() {
-        let (goal, over) = (cell(step.goal), cell(Some(step.over_limits)));
-        // Writing to a String cannot fail.
-        let _ = writeln!(t, "{},{goal},{over},{}{}", i + 1, step.taken, values(&step.values));
-    }
-    t
+pub(super) fn steps(optimum: &Optimum) -> Table {
+    let steps = &optimum.found.steps;
+    let table = Table::new("steps")
+        .numbers("evaluation", "number of the evaluation, from 1", (1..=steps.len()).map(|i| i as f64))
+        .numbers("goal_um", "the goal; NaN without a result", steps.iter().map(|s| s.goal.unwrap_or(f64::NAN)))
+        .numbers(
+            "over_limits",
+            "share by which the worst limit of the pressure is passed",
+            steps.iter().map(|s| s.over_limits),
+        )
+        .texts("taken", "`true` where the search went on from it", steps.iter().map(|s| s.taken.to_string()));
+    with_parameters(table, &optimum.plan.parameters, steps.iter().map(|s| &s.values))
+}
+
+/// A row a torque that counts.
+pub(super) fn torques(lines: &[TorqueLine]) -> Table {
+    let column = |of: fn(&TorqueLine) -> f64| lines.iter().map(of);
+    let (ste, pressure) = ("peak to peak of the STE", "largest contact pressure");
+    let edge = "largest contact pressure at end faces and tip edges";
+    Table::new("torques")
+        .numbers("torque_nm", "torque of the driven gear", column(|t| t.torque_nm))
+        .numbers("peak_to_peak_before_um", format!("{ste} at the start"), column(|t| t.peak_to_peak_before_um))
+        .numbers("peak_to_peak_after_um", format!("{ste} of the optimum"), column(|t| t.peak_to_peak_after_um))
+        .numbers("max_pressure_before_mpa", format!("{pressure} at the start"), column(|t| t.max_pressure_before_mpa))
+        .numbers("max_pressure_after_mpa", format!("{pressure} of the optimum"), column(|t| t.max_pressure_after_mpa))
+        .numbers("max_edge_pressure_before_mpa", format!("{edge}, start"), column(|t| t.max_edge_pressure_before_mpa))
+        .numbers("max_edge_pressure_after_mpa", format!("{edge}, optimum"), column(|t| t.max_edge_pressure_after_mpa))
 }
 
 /// A row a torque.
-pub(super) fn harris_csv(of: &OptimumResult<'_>) -> String {
-    let mut t = "torque_nm,peak_to_peak_before_um,peak_to_peak_after_um\n".to_owned();
-    for point in &of.told.harris {
-        let [before, after] = [point.peak_to_peak_before_um, point.peak_to_peak_after_um].map(cell);
-        let _ = writeln!(t, "{},{before},{after}", point.torque_nm);
-    }
-    t
+pub(super) fn harris(points: &[HarrisPoint]) -> Table {
+    let known = |of: fn(&HarrisPoint) -> Option<f64>| points.iter().map(move |p| of(p).unwrap_or(f64::NAN));
+    Table::new("harris")
+        .numbers("torque_nm", "torque of the driven gear", points.iter().map(|p| p.torque_nm))
+        .numbers(
+            "peak_to_peak_before_um",
+            "peak to peak of the STE at the start; NaN without a result",
+            known(|p| p.peak_to_peak_before_um),
+        )
+        .numbers(
+            "peak_to_peak_after_um",
+            "peak to peak of the STE of the optimum; NaN without a result",
+            known(|p| p.peak_to_peak_after_um),
+        )
 }
 
 /// A row a parameter.
-pub(super) fn influences_csv(of: &OptimumResult<'_>) -> String {
-    let mut t = "key,lowest,highest,start,found,value,step,goal_change_less_um,goal_change_more_um\n".to_owned();
-    for i in &of.told.influences {
-        let numbers =
-            [i.lowest, i.highest, i.start, i.found, i.value, i.step, i.goal_change_less_um, i.goal_change_more_um];
-        let _ = writeln!(t, "{}{}", quoted(&i.key), values(&numbers));
-    }
-    t
+pub(super) fn influences(all: &[Influence]) -> Table {
+    let column = |of: fn(&Influence) -> f64| all.iter().map(of);
+    Table::new("influences")
+        .texts("key", "key of the parameter", all.iter().map(|i| i.key.clone()))
+        .numbers("lowest", "lower bound", column(|i| i.lowest))
+        .numbers("highest", "upper bound", column(|i| i.highest))
+        .numbers("start", "value at the start", column(|i| i.start))
+        .numbers("found", "value of the search", column(|i| i.found))
+        .numbers("value", "value that a machine can be set to", column(|i| i.value))
+        .numbers("step", "the step that changes of the goal are told for", column(|i| i.step))
+        .numbers("goal_change_less_um", "change of the goal with a step less", column(|i| i.goal_change_less_um))
+        .numbers("goal_change_more_um", "change of the goal with a step more", column(|i| i.goal_change_more_um))
 }
 
 /// A row a limit of the pressure.
-pub(super) fn front_csv(of: &OptimumResult<'_>) -> String {
-    let mut t = format!("limit_mpa,max_pressure_mpa,goal_um{}\n", keys(&of.optimum.plan));
-    for point in &of.optimum.front {
-        let limit = cell(point.limit_mpa);
-        let _ = writeln!(t, "{limit},{},{}{}", point.max_pressure_mpa, point.goal_um, values(&point.values));
-    }
-    t
-}
-
-/// What a user reads when it is done.
-pub(super) fn closing_table(of: &OptimumResult<'_>) -> String {
-    let OptimumResult { optimum, told, cost, goals, .. } = *of;
-    let plan = &optimum.plan;
-    let mut t = format!("{} ({} parameters)\n\n", plan.name, plan.parameters.len());
-    let _ = writeln!(t, "  {}, um", Optimised::goal_words(&plan.goal));
-    let _ = writeln!(t, "  {:<44} {:>10.4}", "start", goals.start_um);
-    let _ =
-        writeln!(t, "  {:<44} {:>10.4}", format!("found in {} evaluations", optimum.found.steps.len()), goals.found_um);
-    let _ = writeln!(t, "  {:<44} {:>10.4}", "with values that a machine can be set to", goals.optimum_um);
-    let _ = writeln!(t, "\n  {:<44} {:>10} {:>10} {:>10}", "parameter", "start", "found", "set to");
-    for (parameter, influence) in plan.parameters.iter().zip(&told.influences) {
-        let name = parameter.name();
-        let at = bound(parameter, influence.value);
-        let _ = writeln!(
-            t,
-            "  {name:<44} {:>10.3} {:>10.3} {:>10.3}{at}",
-            influence.start, influence.found, influence.value
-        );
-    }
-    let _ = writeln!(t, "\n  {:>12} {:>24} {:>28}", "torque [N m]", "peak to peak STE [um]", "largest pressure [MPa]");
-    for line in &told.torques {
-        let _ = writeln!(
-            t,
-            "  {:>12} {:>11.4} -> {:>9.4} {:>14.1} -> {:>10.1}",
-            line.torque_nm,
-            line.peak_to_peak_before_um,
-            line.peak_to_peak_after_um,
-            line.max_pressure_before_mpa,
-            line.max_pressure_after_mpa
-        );
-    }
-    for warning in of.warnings {
-        let _ = writeln!(t, "\n  warning: {warning}");
-    }
-    let _ = writeln!(t, "\n  wall time {:.2} s", cost.wall_s);
-    t
-}
-
-fn bound(parameter: &DesignParameter, value: f64) -> &'static str {
-    let [low, high] = parameter.bounds;
-    let near = 1e-6 * (high - low);
-    if value - low <= near {
-        "  lowest"
-    } else if high - value <= near {
-        "  highest"
-    } else {
-        ""
-    }
+pub(super) fn front(optimum: &Optimum) -> Table {
+    let front = &optimum.front;
+    let table = Table::new("front")
+        .numbers(
+            "limit_mpa",
+            "limit of the pressure; NaN without",
+            front.iter().map(|p| p.limit_mpa.unwrap_or(f64::NAN)),
+        )
+        .numbers("max_pressure_mpa", "largest contact pressure", front.iter().map(|p| p.max_pressure_mpa))
+        .numbers("goal_um", "the goal", front.iter().map(|p| p.goal_um));
+    with_parameters(table, &optimum.plan.parameters, front.iter().map(|p| &p.values))
 }

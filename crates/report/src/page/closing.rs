@@ -8,6 +8,8 @@ use crate::{Cost, tables::push_line};
 /// Width of the first column of a grid, and the least of the others.
 const FIRST: usize = 24;
 const OTHER: usize = 9;
+/// Width of a column at the most: longer labels stand out, and none of 65536 characters can be a width at all.
+const WIDEST: usize = 200;
 
 /// The closing table of a page: title, checks that do not hold, its closing parts, phases, warnings.
 pub fn closing_text(page: &Page, cost: &Cost) -> String {
@@ -56,7 +58,7 @@ fn push_grid(t: &mut String, grid: &Grid) {
     let wide = |k: usize| {
         let cells = grid.rows.iter().filter_map(|row| row.get(k)).map(|cell| cell.text.chars().count());
         let least = if k == 0 { FIRST } else { OTHER };
-        cells.chain([grid.head[k].chars().count(), least]).max().unwrap_or(least)
+        cells.chain([grid.head[k].chars().count(), least]).max().unwrap_or(least).min(WIDEST)
     };
     let widths: Vec<usize> = (0..grid.head.len()).map(wide).collect();
     let is_number = |k: usize| grid.rows.iter().any(|row| row.get(k).is_some_and(|cell| cell.is_number));

@@ -131,12 +131,21 @@ pub struct Grid {
     pub head: Vec<String>,
     /// Rows.
     pub rows: Vec<Vec<Cell>>,
+    /// Whether a click on a heading sorts them.
+    #[serde(default)]
+    pub is_sortable: bool,
 }
 
 impl Grid {
     /// Without rows.
     pub fn new<S: Into<String>>(head: impl IntoIterator<Item = S>) -> Self {
         Self { head: head.into_iter().map(Into::into).collect(), ..Self::default() }
+    }
+
+    /// With rows that a click on a heading sorts.
+    #[must_use]
+    pub fn sortable(self) -> Self {
+        Self { is_sortable: true, ..self }
     }
 
     /// With these rows.

@@ -11,6 +11,8 @@ pub const UPLOT: &str =
     concat!("/*\n", include_str!("../../assets/uPlot.LICENSE"), "*/\n", include_str!("../../assets/uPlot.iife.min.js"));
 /// Charts and maps: `report.put(figure, plot, isMap)` makes one and hands back what puts other numbers into it.
 pub const CHARTS: &str = include_str!("../charts/charts.js");
+/// Tables whose headings sort their rows.
+pub const SORT: &str = include_str!("sort.js");
 /// three.js 0.187.0, MIT.
 pub const THREE: &str =
     concat!("/*\n", include_str!("../../assets/three.LICENSE"), "*/\n", include_str!("../../assets/three.min.js"));

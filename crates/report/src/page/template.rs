@@ -39,9 +39,6 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
-        ("optimum.html", include_str!("optimum.html")),
-        ("plan.html", include_str!("plan.html")),
-        ("study.html", include_str!("study.html")),
         ("chart.html", include_str!("chart.html")),
         ("compare.html", include_str!("compare.html")),
         ("envelope.html", include_str!("envelope.html")),
@@ -69,6 +66,9 @@ fn with_scripts(mut page: String) -> String {
         let [style, uplot, charts] = [scripts::UPLOT_STYLE, scripts::UPLOT, scripts::CHARTS];
         scripts += &format!("<style>{style}</style>\n");
         scripts += &format!("<script>{uplot}</script>\n<script>{charts}</script>\n");
+    }
+    if has("sortable") {
+        scripts += &format!("<script>{}</script>\n", scripts::SORT);
     }
     if let Some((_, view)) = in_space {
         scripts += &format!("<script>{}</script>\n<script>{view}</script>\n", scripts::THREE);

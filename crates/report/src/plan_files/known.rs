@@ -2,7 +2,7 @@
 
 use scene::plan::{Plan, PlanAxis, PlanOutput};
 
-use super::DoneCases;
+use super::CaseRow;
 
 /// All cases of a plan, column by column.
 #[derive(Debug)]
@@ -20,7 +20,7 @@ pub struct KnownCases {
 /// A number of every case.
 #[derive(Debug)]
 pub struct Column {
-    /// Name, as in `cases.csv`.
+    /// Name, as in the table `cases`.
     pub name: String,
     /// Case by case.
     pub values: Vec<f64>,
@@ -28,22 +28,23 @@ pub struct Column {
 
 impl KnownCases {
     /// From the rows of a plan whose cases are all done.
-    pub fn of(plan: &Plan, done: &DoneCases) -> Self {
-        let column = |name: String| Column { name, values: Vec::new() };
-        let mut axes: Vec<Column> = plan.axes.iter().map(|axis| column(PlanAxis::name(axis).to_owned())).collect();
-        let mut outputs: Vec<Column> = plan.outputs.iter().map(|output| column(PlanOutput::name(output))).collect();
-        let (mut reasons, mut failed, numbers) = (Vec::new(), 0, 1 + axes.len() + outputs.len());
-        for line in done.text().lines() {
-            let fields: Vec<&str> = line.split(',').collect();
-            let reason = fields.get(numbers + 1..).unwrap_or_default().join(",");
-            reasons.push(reason.trim_matches('"').replace("\"\"", "\""));
-            failed += usize::from(fields.get(numbers) == Some(&"failed"));
-            for (column, field) in axes.iter_mut().chain(&mut outputs).zip(&fields[1..]) {
-                // Without a result there is no number.
-                column.values.push(field.parse().unwrap_or(f64::NAN));
-            }
+    pub fn of(plan: &Plan, rows: &[CaseRow]) -> Self {
+        let axis = |(k, axis): (usize, &PlanAxis)| Column {
+            name: axis.name().to_owned(),
+            values: rows.iter().map(|row| row.values[k]).collect(),
+        };
+        // Without a result there is no number.
+        let number = |row: &CaseRow, k: usize| row.outcome.as_ref().map_or(f64::NAN, |numbers| numbers[k]);
+        let output = |(k, output): (usize, &PlanOutput)| Column {
+            name: output.name(),
+            values: rows.iter().map(|row| number(row, k)).collect(),
+        };
+        Self {
+            axes: plan.axes.iter().enumerate().map(axis).collect(),
+            outputs: plan.outputs.iter().enumerate().map(output).collect(),
+            reasons: rows.iter().map(|row| row.outcome.clone().err().unwrap_or_default()).collect(),
+            failed: rows.iter().filter(|row| row.outcome.is_err()).count(),
         }
-        Self { axes, outputs, reasons, failed }
     }
 
     /// How many cases there are.

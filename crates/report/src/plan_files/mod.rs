@@ -29,7 +29,7 @@ pub use known::{Column, KnownCases};
 pub use outputs::{OutputError, check_outputs};
 pub use page::{PageWords, report_folder};
 pub use part::{Part, PartError, merged};
-pub use rows::{CaseRow, CaseTable, DoneCases};
+pub use rows::{CaseLines, CaseRow, DoneCases};
 pub use solve::{CaseObserver, solve_cases};
 pub use values::case_values;
 pub use write::{plan_digest, write_cases};

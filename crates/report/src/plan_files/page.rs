@@ -1,15 +1,13 @@
 //! `report.html` of a plan: how outputs are spread, what each axis does to them, and the cases as a table.
 
-use minijinja::{context, value::Serde};
-use scene::plan::Plan;
-use serde_json::{Value, json};
+use answer::Answer;
+use scene::plan::{Plan, PlanAxis};
 use study::correlation;
 
-use super::{Column, KnownCases, curves::over_axes, maps::maps};
+use super::{Column, KnownCases, curves::over_axes, maps::maps, spread::Spread};
 use crate::{
-    ReportError,
     charts::{Curve, line_chart},
-    page::Rendered,
+    page::{Cell, Grid, Page, Part, again, cost_part},
     study_files::CASES,
 };
 
@@ -30,41 +28,70 @@ pub fn report_folder(case: usize) -> String {
     format!("{CASES}/{case}")
 }
 
-/// The page; `table` is the closing table.
-pub(super) fn page(
-    plan: &Plan,
-    known: &KnownCases,
-    words: PageWords<'_>,
-    table: &str,
-) -> Result<Rendered, ReportError> {
-    let mut charts = Vec::new();
-    for output in &known.outputs {
-        charts.extend(maps(plan, known, output));
-        charts.extend(over_axes(plan, known, output));
-        charts.extend(spread(output));
+/// The page.
+pub(super) fn page(plan: &Plan, known: &KnownCases, words: PageWords<'_>, answer: &Answer) -> Page {
+    let axes: Vec<&str> = plan.axes.iter().map(PlanAxis::name).collect();
+    let mut page = Page::of(answer, format!("{} cases over {}", known.count(), axes.join(", ")));
+    page.push(numbers(known));
+    page.push(Part::more().figures(known.outputs.iter().flat_map(|output| {
+        let maps = maps(plan, known, output);
+        maps.into_iter().chain(over_axes(plan, known, output)).chain(spread(output))
+    })));
+    page.push(together(known));
+    page.push(cases(known, words.reports));
+    page.push(cost_part(&answer.cost));
+    page.push(
+        again(words.again)
+            .note("Reports of the ten best cases: `--reports 10`; of some by their numbers: `--report-case 3,17`."),
+    );
+    page
+}
+
+/// How each number is spread.
+fn numbers(known: &KnownCases) -> Part {
+    let rows = known.outputs.iter().map(|output| {
+        let spread = Spread::of(output.values.iter().copied());
+        let [least, median, ninety, largest] =
+            [0.0, 0.5, 0.9, 1.0].map(|share| Cell::number(spread.quantile(share), 4));
+        let case = output.ascending().first().map_or_else(|| "-".to_owned(), usize::to_string);
+        vec![Cell::text(&output.name), least, Cell::count(case), median, ninety, largest]
+    });
+    let head = ["number", "least", "in case", "median", "90 %", "largest"];
+    Part::new("Numbers").closing().grid(Grid::new(head).rows(rows))
+}
+
+/// What goes with what.
+fn together(known: &KnownCases) -> Part {
+    let rows = known.axes.iter().map(|axis| {
+        let with = known.outputs.iter().map(|output| Cell::number(pearson(&axis.values, &output.values), 3));
+        std::iter::once(Cell::text(&axis.name)).chain(with).collect()
+    });
+    let head = ["axis"].into_iter().chain(known.outputs.iter().map(|output| output.name.as_str()));
+    let words = "Pearson's coefficient over the cases: 1 or -1 where one is a straight line of the other, 0 where it tells \
+                 nothing of it.";
+    Part::new("What goes with what").words(words).grid(Grid::new(head).rows(rows))
+}
+
+/// The cases as a table to sort.
+fn cases(known: &KnownCases, reports: &[usize]) -> Part {
+    let shown = shown(known, reports);
+    let mut words = String::new();
+    if shown.len() < known.count() {
+        words += &format!("The first {}; `cases.csv` has all. ", shown.len());
     }
-    let together = |axis: &Column| {
-        let with: Vec<Option<f64>> = known.outputs.iter().map(|output| pearson(&axis.values, &output.values)).collect();
-        json!({ "axis": axis.name, "with": with })
-    };
-    let names = |columns: &[Column]| columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>();
-    let rows = shown(known, words.reports).into_iter().map(|case| row(known, words.reports, case));
-    Rendered::new(
-        "plan.html",
-        context! {
-            name => &plan.name,
-            version => env!("CARGO_PKG_VERSION"),
-            count => known.count(),
-            table => table,
-            charts => charts,
-            outputs => names(&known.outputs),
-            axes => names(&known.axes),
-            together => Serde(known.axes.iter().map(together).collect::<Value>()),
-            rows => Serde(rows.collect::<Value>()),
-            reports => words.reports.len(),
-            again => words.again,
-        },
-    )
+    words += "A click on a heading sorts by it.";
+    if !reports.is_empty() {
+        words += " A case with a link has a report of its own.";
+    }
+    let columns = || known.axes.iter().chain(&known.outputs);
+    let head = ["case"].into_iter().chain(columns().map(|column| column.name.as_str())).chain(["reason"]);
+    let rows = shown.into_iter().map(|case| {
+        let link = reports.contains(&case).then(|| format!("{}/report.html", report_folder(case)));
+        let number = Cell { link, ..Cell::count(case) };
+        let numbers = columns().map(|column| Cell::number(column.values[case], 4));
+        std::iter::once(number).chain(numbers).chain([Cell::text(&known.reasons[case])]).collect()
+    });
+    Part::new("Cases").words(words).grid(Grid::new(head).rows(rows).sortable())
 }
 
 /// Cases of the table: the first ones, and all with a report of their own.
@@ -73,12 +100,6 @@ fn shown(known: &KnownCases, reports: &[usize]) -> Vec<usize> {
     let mut later: Vec<usize> = reports.iter().copied().filter(|&case| case >= first).collect();
     later.sort_unstable();
     (0..first).chain(later).collect()
-}
-
-fn row(known: &KnownCases, reports: &[usize], case: usize) -> Value {
-    let numbers = known.axes.iter().chain(&known.outputs).map(|column| column.values[case]);
-    let numbers: Vec<Option<f64>> = numbers.map(|v| Some(v).filter(|v| v.is_finite())).collect();
-    json!({ "case": case, "numbers": numbers, "reason": known.reasons[case], "report": reports.contains(&case) })
 }
 
 /// Share of the cases that have no more than a value.

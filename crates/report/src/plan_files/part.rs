@@ -8,6 +8,9 @@ use std::{
 };
 
 use files::{most, read_regular_text, write_file};
+use scene::plan::Plan;
+
+use super::{CaseLines, CaseRow};
 
 /// Cases of a plan that one process has solved.
 ///
@@ -124,31 +127,32 @@ impl Part {
     }
 }
 
-/// Lines of all `count` cases of the plan with this digest, from parts in any order; a case may be in several, with the
-/// same line.
+/// Rows of all cases of the plan with this digest, from parts in any order; a case may be in several, with the same row.
 ///
 /// # Errors
 /// [`PartError`].
-pub fn merged(files: &[PathBuf], digest: &str, count: usize) -> Result<BTreeMap<usize, String>, PartError> {
-    let mut lines: BTreeMap<usize, String> = BTreeMap::new();
+pub fn merged(files: &[PathBuf], digest: &str, plan: &Plan) -> Result<BTreeMap<usize, CaseRow>, PartError> {
+    let (lines, count) = (CaseLines::of(plan), plan.cases.count());
+    let mut rows: BTreeMap<usize, CaseRow> = BTreeMap::new();
     for file in files {
         let part = Part::read(file, digest)?;
         for line in part.text.split_inclusive('\n') {
-            let case: Option<usize> = line.split(',').next().and_then(|n| n.parse().ok());
-            let known = case.filter(|case| part.range.contains(case) && *case < count);
+            let own = lines.row(line).filter(|row| part.range.contains(&row.case) && row.case < count);
             let not_whole = PartError::NotWhole { file: file.clone(), what: "it has a line of no case of its own" };
-            let case = known.ok_or(not_whole)?;
-            if lines.insert(case, line.to_owned()).is_some_and(|before| before != line) {
+            let row = own.ok_or(not_whole)?;
+            let case = row.case;
+            // As lines: a number that is none equals itself there.
+            if rows.insert(case, row).is_some_and(|before| lines.line(&before) != line) {
                 return Err(PartError::Differ { case, file: file.clone() });
             }
         }
     }
     let mut missing: Vec<Range<usize>> = Vec::new();
-    for case in (0..count).filter(|case| !lines.contains_key(case)) {
+    for case in (0..count).filter(|case| !rows.contains_key(case)) {
         match missing.last_mut() {
             Some(last) if last.end == case => last.end = case + 1,
             _ => missing.push(case..case + 1),
         }
     }
-    if missing.is_empty() { Ok(lines) } else { Err(PartError::Missing { missing }) }
+    if missing.is_empty() { Ok(rows) } else { Err(PartError::Missing { missing }) }
 }

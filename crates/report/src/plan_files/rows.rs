@@ -1,15 +1,15 @@
-//! `cases.csv`: a row a case, written as they come and put in order at the end.
+//! A row a case, written down as they come: a run that is cut short goes on from there.
 
 use std::{
     collections::BTreeMap,
     fs,
     io::{self, Write},
     path::Path,
-    sync::{Mutex, PoisonError},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 
 use files::{Lock, most, read_regular_text};
-use scene::plan::{Plan, PlanAxis, PlanOutput};
+use scene::plan::Plan;
 
 use crate::{
     ReportError,
@@ -28,62 +28,64 @@ pub struct CaseRow {
     pub outcome: Result<Vec<f64>, String>,
 }
 
-/// The rows of a plan.
-#[derive(Debug, Clone)]
-pub struct CaseTable {
-    header: String,
+/// How the rows of a plan are kept while its cases are solved: a line a case,
+/// `case,axes..,outputs..,status,reason`.
+#[derive(Debug, Clone, Copy)]
+pub struct CaseLines {
+    axes: usize,
     outputs: usize,
 }
 
-impl CaseTable {
+/// Status of a case with a result, and of one without.
+pub const SOLVED: &str = "solved";
+/// Status of a case without a result.
+pub const FAILED: &str = "failed";
+
+impl CaseRow {
+    /// Its status in a word.
+    pub fn status(&self) -> &'static str {
+        if self.outcome.is_ok() { SOLVED } else { FAILED }
+    }
+}
+
+impl CaseLines {
     /// Of a plan.
     pub fn of(plan: &Plan) -> Self {
-        let axes = plan.axes.iter().map(PlanAxis::name).map(str::to_owned);
-        let outputs = plan.outputs.iter().map(PlanOutput::name);
-        let names: Vec<String> = ["case".to_owned()].into_iter().chain(axes).chain(outputs).collect();
-        Self { header: names.join(",") + ",status,reason\n", outputs: plan.outputs.len() }
+        Self { axes: plan.axes.len(), outputs: plan.outputs.len() }
     }
 
-    /// First line of the file.
-    pub fn header(&self) -> &str {
-        &self.header
-    }
-
-    /// The case of a whole line: one that ends, and has the fields that [`CaseTable::line`] writes.
-    fn case_of(&self, line: &str) -> Option<usize> {
+    /// The row of a whole line: one that ends, and has the fields that [`CaseLines::line`] writes.
+    pub fn row(&self, line: &str) -> Option<CaseRow> {
+        let Self { axes, outputs } = *self;
         // Only the last field, in quotes, may hold commas.
-        let fields = self.header.matches(',').count() + 1;
-        let words: Vec<&str> = line.strip_suffix('\n')?.splitn(fields, ',').collect();
-        let (case, [status, reason]) = (words.first()?.parse().ok()?, words.last_chunk()?);
-        let numbers = words.get(1..fields.checked_sub(2)?)?;
-        let whole = match *status {
-            "ok" => reason.is_empty() && numbers.iter().all(|word| word.parse::<f64>().is_ok()),
-            "failed" => reason.len() >= 2 && reason.starts_with('"') && reason.ends_with('"'),
-            _ => false,
+        let fields: Vec<&str> = line.strip_suffix('\n')?.splitn(axes + outputs + 3, ',').collect();
+        let (case, [status, reason]) = (fields.first()?.parse().ok()?, fields.last_chunk()?);
+        let numbers = |from: usize, count: usize| -> Option<Vec<f64>> {
+            fields.get(from..from + count)?.iter().map(|word| word.parse().ok()).collect()
         };
-        (words.len() == fields && whole).then_some(case)
+        let outcome = match *status {
+            SOLVED if reason.is_empty() => Ok(numbers(1 + axes, outputs)?),
+            FAILED => Err(reason.strip_prefix('"')?.strip_suffix('"')?.replace("\"\"", "\"")),
+            _ => return None,
+        };
+        (fields.len() == axes + outputs + 3).then_some(CaseRow { case, values: numbers(1, axes)?, outcome })
     }
 
     /// A row as its line; numbers read back to the same bits.
     pub fn line(&self, row: &CaseRow) -> String {
         let mut line = row.case.to_string();
-        for value in &row.values {
-            line.push_str(&format!(",{value}"));
-        }
+        let mut push = |field: &str| {
+            line.push(',');
+            line.push_str(field);
+        };
+        row.values.iter().for_each(|value| push(&value.to_string()));
         match &row.outcome {
-            Ok(numbers) => {
-                for number in numbers {
-                    line.push_str(&format!(",{number}"));
-                }
-                line.push_str(",ok,\n");
-            }
-            Err(why) => {
-                line.push_str(&",".repeat(self.outputs));
-                line.push_str(",failed,");
-                line.push_str(&always_quoted(&why.replace(['\n', '\r'], " ")));
-                line.push('\n');
-            }
+            Ok(numbers) => numbers.iter().for_each(|number| push(&number.to_string())),
+            Err(_) => (0..self.outputs).for_each(|_| push("")),
         }
+        push(row.status());
+        push(&row.outcome.as_ref().err().map_or_else(String::new, |why| always_quoted(why)));
+        line.push('\n');
         line
     }
 }
@@ -95,7 +97,8 @@ impl CaseTable {
 pub struct DoneCases {
     /// None where they are kept in memory alone.
     file: Option<Mutex<Growing>>,
-    lines: Mutex<BTreeMap<usize, String>>,
+    lines: CaseLines,
+    rows: Mutex<BTreeMap<usize, CaseRow>>,
 }
 
 /// Beginning of the first line.
@@ -143,16 +146,15 @@ fn is_beginning(text: &str) -> bool {
 
 impl DoneCases {
     /// In memory alone.
-    pub fn in_memory(lines: BTreeMap<usize, String>) -> Self {
-        Self { file: None, lines: Mutex::new(lines) }
+    pub fn in_memory(plan: &Plan, rows: BTreeMap<usize, CaseRow>) -> Self {
+        Self { file: None, lines: CaseLines::of(plan), rows: Mutex::new(rows) }
     }
 
-    /// Those of the plan with this digest, which goes into `out`; of another plan: none. Lines have as many fields as
-    /// those of `table`. The file is locked until the value is gone.
+    /// Those of the plan with this digest, which goes into `out`; of another plan: none. The file is locked until the value is gone.
     ///
     /// # Errors
     /// [`ReportError::Folder`] where another run has the file or it is none of this program, else [`ReportError::Write`].
-    pub fn open(out: &Path, digest: &str, table: &CaseTable) -> Result<Self, ReportError> {
+    pub fn open(out: &Path, digest: &str, lines: CaseLines) -> Result<Self, ReportError> {
         let path = beside_results(out);
         let failed = |cause: io::Error| ReportError::Write { file: path.clone(), cause };
         let foreign = || ReportError::Folder {
@@ -172,14 +174,14 @@ impl DoneCases {
             return Err(foreign());
         }
         let first = format!("{OF}{digest}\n");
-        let mut lines = BTreeMap::new();
+        let mut rows = BTreeMap::new();
         let mut whole = 0;
-        if let Some(rows) = text.strip_prefix(&first) {
+        if let Some(kept) = text.strip_prefix(&first) {
             whole = first.len();
             // What was cut short, by a full disk or a power cut, and all behind it are done again.
-            for line in rows.split_inclusive('\n') {
-                let Some(case) = table.case_of(line) else { break };
-                lines.insert(case, line.to_owned());
+            for line in kept.split_inclusive('\n') {
+                let Some(row) = lines.row(line) else { break };
+                rows.insert(row.case, row);
                 whole += line.len();
             }
         }
@@ -194,34 +196,45 @@ impl DoneCases {
             whole = first.len();
         }
         let growing = Growing { lock, whole: whole as u64, torn: false };
-        Ok(Self { file: Some(Mutex::new(growing)), lines: Mutex::new(lines) })
+        Ok(Self { file: Some(Mutex::new(growing)), lines, rows: Mutex::new(rows) })
+    }
+
+    fn rows(&self) -> MutexGuard<'_, BTreeMap<usize, CaseRow>> {
+        self.rows.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Whether a case is done.
     pub fn has(&self, case: usize) -> bool {
-        self.lines.lock().unwrap_or_else(PoisonError::into_inner).contains_key(&case)
+        self.rows().contains_key(&case)
     }
 
     /// How many are.
     pub fn count(&self) -> usize {
-        self.lines.lock().unwrap_or_else(PoisonError::into_inner).len()
+        self.rows().len()
     }
 
     /// One more.
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn add(&self, case: usize, line: String) -> io::Result<()> {
+    pub fn add(&self, mut row: CaseRow) -> io::Result<()> {
+        // A row is a line.
+        row.outcome = row.outcome.map_err(|why| why.replace(['\n', '\r'], " "));
         if let Some(file) = &self.file {
-            file.lock().unwrap_or_else(PoisonError::into_inner).push(&line)?;
+            file.lock().unwrap_or_else(PoisonError::into_inner).push(&self.lines.line(&row))?;
         }
-        self.lines.lock().unwrap_or_else(PoisonError::into_inner).insert(case, line);
+        self.rows().insert(row.case, row);
         Ok(())
+    }
+
+    /// All rows in the order of their cases.
+    pub fn all(&self) -> Vec<CaseRow> {
+        self.rows().values().cloned().collect()
     }
 
     /// All lines in the order of their cases.
     pub fn text(&self) -> String {
-        self.lines.lock().unwrap_or_else(PoisonError::into_inner).values().map(String::as_str).collect()
+        self.rows().values().map(|row| self.lines.line(row)).collect()
     }
 
     /// Takes the file away: the results hold everything.
@@ -241,34 +254,44 @@ mod tests {
     const ONE: &str = "0000000000000000000000000000000000000000000000000000000000000001";
     const TWO: &str = "0000000000000000000000000000000000000000000000000000000000000002";
 
-    fn table() -> CaseTable {
-        CaseTable { header: "case,a,b,status,reason\n".into(), outputs: 1 }
+    const LINES: CaseLines = CaseLines { axes: 1, outputs: 1 };
+
+    fn row(case: usize) -> CaseRow {
+        let outcome = if case == 2 { Err("no, \"never\"".into()) } else { Ok(vec![0.5]) };
+        CaseRow { case, values: vec![case as f64], outcome }
     }
 
-    fn row(case: usize) -> String {
-        let outcome = if case == 2 { Err("no, \"never\"".into()) } else { Ok(vec![0.5]) };
-        table().line(&CaseRow { case, values: vec![case as f64], outcome })
+    fn line(case: usize) -> String {
+        LINES.line(&row(case))
+    }
+
+    #[test]
+    fn a_line_reads_back_to_its_row() {
+        for case in 0..4 {
+            assert_eq!(LINES.row(&line(case)), Some(row(case)));
+            assert_eq!(CaseLines { axes: 2, outputs: 1 }.row(&line(case)), None, "of another plan");
+        }
     }
 
     #[test]
     fn lines_that_were_cut_short_are_done_again() {
         let scratch = tempfile::tempdir().unwrap();
         let (out, file) = (scratch.path().join("v"), scratch.path().join("v.cases"));
-        let open = |digest| DoneCases::open(&out, digest, &table());
+        let open = |digest| DoneCases::open(&out, digest, LINES);
         let first = open(ONE).unwrap();
-        (0..4).for_each(|case| first.add(case, row(case)).unwrap());
+        (0..4).for_each(|case| first.add(row(case)).unwrap());
         assert!(open(ONE).unwrap_err().to_string().contains("another run into it is under way"));
         drop(first);
         assert_eq!(open(ONE).unwrap().count(), 4);
         let whole = fs::read_to_string(&file).unwrap();
         for (cut, count) in
-            [(1, 3), (whole.len() - 2, 0), (whole.len() - 40, 0), (row(3).len(), 3), (row(3).len() + 3, 2)]
+            [(1, 3), (whole.len() - 2, 0), (whole.len() - 40, 0), (line(3).len(), 3), (line(3).len() + 3, 2)]
         {
             fs::write(&file, &whole[..whole.len() - cut]).unwrap();
             assert_eq!(open(ONE).unwrap().count(), count, "{cut} bytes fewer");
         }
         // Two lines that ran into each other.
-        fs::write(&file, whole.replace(&row(1), &row(1)[..3])).unwrap();
+        fs::write(&file, whole.replace(&line(1), &line(1)[..3])).unwrap();
         assert_eq!(open(ONE).unwrap().count(), 1);
         fs::write(&file, &whole).unwrap();
         assert_eq!(open(TWO).unwrap().count(), 0, "of another plan");
@@ -282,7 +305,7 @@ mod tests {
         let file = scratch.path().join("v.cases");
         for text in ["years of work", "# cases of beer\n", "# cases\n"] {
             fs::write(&file, text).unwrap();
-            let error = DoneCases::open(&scratch.path().join("v"), ONE, &table()).unwrap_err();
+            let error = DoneCases::open(&scratch.path().join("v"), ONE, LINES).unwrap_err();
             assert!(error.to_string().contains("holds no cases of this program"), "{text}: {error}");
             assert_eq!(fs::read_to_string(&file).unwrap(), text);
         }

@@ -9,7 +9,7 @@ use std::{
 use analysis::{Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
 use scene::plan::Plan;
 
-use super::{CaseRow, CaseTable, DoneCases, case_values};
+use super::{CaseRow, DoneCases, case_values};
 
 /// Makes who hears of one case while it is solved.
 pub type CaseObserver<'a> = &'a (dyn Fn() -> Box<dyn Observer> + Sync);
@@ -30,7 +30,7 @@ pub fn solve_cases(
     progress: &dyn Progress,
 ) -> io::Result<()> {
     let open: Vec<usize> = range.filter(|&case| !done.has(case)).collect();
-    let (table, failed) = (CaseTable::of(plan), Mutex::new(None));
+    let failed = Mutex::new(None);
     let failure = || failed.lock().unwrap_or_else(PoisonError::into_inner);
     side_by_side(open.len(), |i| {
         if failure().is_some() || progress.is_cancelled() {
@@ -42,7 +42,7 @@ pub fn solve_cases(
             return;
         }
         let row = CaseRow { case, values: plan.values(case), outcome };
-        if let Err(e) = done.add(case, table.line(&row)) {
+        if let Err(e) = done.add(row) {
             *failure() = Some(e);
         }
         progress.tick();

@@ -1,14 +1,12 @@
-//! `cases.csv`, `cases.parquet`, `summary.json` and the closing table of a plan.
+//! The answer about a plan.
 
-use std::fmt::Write;
-
-use answer::{Table, parquet_bytes};
+use answer::{Answer, Cost, Table};
 use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
-use super::{CaseTable, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
-use crate::{Cost, ReportError, checkpoint::InputDigests, folder::ResultDirectory};
+use super::{CaseRow, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
+use crate::{ReportError, checkpoint::InputDigests, folder::ResultDirectory, write_result};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -38,6 +36,47 @@ pub fn plan_digest(plan: &Plan) -> Result<String, ReportError> {
     Ok(hasher.finalize().to_hex().to_string())
 }
 
+/// The answer about a plan whose cases are done: the table `cases`.
+fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], cost: Cost) -> Answer {
+    let mut table =
+        Table::new("cases").numbers("case", "number of the case, from 0", rows.iter().map(|row| row.case as f64));
+    for axis in &known.axes {
+        table.push_numbers(axis.name.clone(), "value of this key in the case", axis.values.iter().copied());
+    }
+    for output in &known.outputs {
+        let meaning = "the number that was asked for; NaN without a result";
+        table.push_numbers(output.name.clone(), meaning, output.values.iter().copied());
+    }
+    let table = table
+        .texts("status", "`solved`, or `failed` where the case has no result", rows.iter().map(CaseRow::status))
+        .texts("reason", "why it has none", known.reasons.iter().cloned());
+    let told = |column: &Column| {
+        Spread::of(column.values.iter().copied()).json(&column.name, column.ascending().first().copied())
+    };
+    Answer {
+        name: plan.name.clone(),
+        inputs: json!({ "plan": {
+            "scene": plan.scene_file,
+            "axes": plan.axes.iter().map(|axis| &axis.keys).collect::<Vec<_>>(),
+            "values": plan.axes.iter().zip(plan.cases.axes()).map(|(axis, of)| values_of(axis, of)).collect::<Vec<_>>(),
+            "sampling": plan.sampling,
+        } }),
+        tables: vec![table],
+        headline: json!({
+            "cases": plan.cases.count(),
+            "failed": known.failed,
+            "outputs": known.outputs.iter().map(told).collect::<Vec<_>>(),
+        }),
+        remarks: (known.failed > 0)
+            .then(|| format!("{} of {} cases have no result: `reason` in cases.csv says why", known.failed, rows.len()))
+            .into_iter()
+            .collect(),
+        info: Map::from_iter([("reports".to_owned(), json!(reports))]),
+        cost,
+        ..Answer::default()
+    }
+}
+
 /// Writes the files of a plan whose cases are done; what comes back is the closing table.
 ///
 /// # Errors
@@ -45,45 +84,13 @@ pub fn plan_digest(plan: &Plan) -> Result<String, ReportError> {
 pub fn write_cases(
     (plan, done): (&Plan, &DoneCases),
     words: PageWords<'_>,
-    cost: &Cost,
+    cost: Cost,
     results: &ResultDirectory,
 ) -> Result<String, ReportError> {
-    let header = CaseTable::of(plan).header().to_owned();
-    results.write("cases.csv", (header + &done.text()).as_bytes())?;
-    let known = KnownCases::of(plan, done);
-    let numbers = (0..known.count()).map(|case| case as f64);
-    let mut rows = Table::new("cases").numbers("case", "number of the case", numbers);
-    for column in known.axes.iter().chain(&known.outputs) {
-        rows.push_numbers(column.name.clone(), "", column.values.iter().copied());
-    }
-    results.write("cases.parquet", &parquet_bytes(&rows)?)?;
-    let told = |column: &Column| {
-        Spread::of(column.values.iter().copied()).json(&column.name, column.ascending().first().copied())
-    };
-    let table = table(plan, &known, cost);
-    page::page(plan, &known, words, &table)?.write(results)?;
-    let summary = json!({
-        "name": plan.name,
-        "program": "ale-gear",
-        "version": env!("CARGO_PKG_VERSION"),
-        "plan": {
-            "scene": plan.scene_file,
-            "axes": plan.axes.iter().map(|axis| &axis.keys).collect::<Vec<_>>(),
-            "values": plan.axes.iter().zip(plan.cases.axes()).map(|(axis, of)| values_of(axis, of)).collect::<Vec<_>>(),
-            "sampling": plan.sampling,
-        },
-        "headline": {
-            "cases": plan.cases.count(),
-            "failed": known.failed,
-            "outputs": known.outputs.iter().map(told).collect::<Vec<_>>(),
-        },
-        "reports": words.reports,
-        "wall_time_s": cost.wall_s,
-        "files": results.files()?,
-    });
-    let text = serde_json::to_string_pretty(&summary).unwrap_or_default() + "\n";
-    results.write("summary.json", text.as_bytes())?;
-    Ok(table)
+    let rows = done.all();
+    let known = KnownCases::of(plan, &rows);
+    let answer = answer(plan, &rows, &known, words.reports, cost);
+    write_result(&answer, &page::page(plan, &known, words, &answer), true, results)
 }
 
 /// What an axis goes through, or is drawn from.
@@ -95,24 +102,4 @@ fn values_of(axis: &PlanAxis, of: impl Serialize) -> Value {
             json!({ "pitch-errors": { "single_pitch_um": single_pitch_um, "total_pitch_um": total_pitch_um } })
         },
     )
-}
-
-fn table(plan: &Plan, known: &KnownCases, cost: &Cost) -> String {
-    let axes: Vec<&str> = plan.axes.iter().map(PlanAxis::name).collect();
-    let mut t = format!("{} ({} cases over {})\n\n", plan.name, plan.cases.count(), axes.join(", "));
-    // Writing to a String cannot fail.
-    let heads = ["least", "in case", "median", "90 %", "largest"].map(|head| format!(" {head:>12}")).concat();
-    let _ = writeln!(t, "  {:<36}{heads}", "");
-    for output in &known.outputs {
-        let spread = Spread::of(output.values.iter().copied());
-        let at = |share: f64| spread.quantile(share).map_or_else(|| "-".to_owned(), |x| format!("{x:.4}"));
-        let [least, median, ninety, largest] = [0.0, 0.5, 0.9, 1.0].map(at);
-        let case = output.ascending().first().map_or_else(|| "-".to_owned(), usize::to_string);
-        let _ = writeln!(t, "  {:<36} {least:>12} {case:>12} {median:>12} {ninety:>12} {largest:>12}", output.name);
-    }
-    if known.failed > 0 {
-        let _ = writeln!(t, "\n  cases without a result: {}; `reason` in cases.csv says why", known.failed);
-    }
-    let _ = writeln!(t, "\n  wall time {:.2} s", cost.wall_s);
-    t
 }

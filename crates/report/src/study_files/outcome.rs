@@ -58,8 +58,6 @@ pub struct StudyResult<'a> {
     pub findings: &'a Findings,
     /// The whole model, where it was run.
     pub speed_up: Option<&'a SpeedUp>,
-    /// What it all took.
-    pub cost: &'a Cost,
     /// What a user should hear.
     pub warnings: &'a [String],
     /// Whether every case was to have a report.

@@ -1,62 +1,21 @@
-//! `report.html` and `summary.json` of a study.
+//! The answer about a study, and its page.
 
-use minijinja::{context, value::Serde};
+use answer::{Answer, Cost};
 use serde_json::{Map, Value, json};
 
 use super::{
     CASES, CaseResult, StudyResult,
     charts::figures,
-    tables::{speed_up_text, step_s},
+    tables::{grid, speed_up_text, step_s, study as study_rows},
 };
-use crate::{ReportError, page::Rendered};
+use crate::{
+    ReportError,
+    page::{Cell, Content, Grid, Page, Part, again, cost_part},
+};
 
-/// The report: figures, the table, each case's own report linked by its folder's name.
-///
-/// # Errors
-/// For rows without a column that is drawn, and if the template cannot be filled.
-pub fn write_study_report(of: StudyResult<'_>, table: &str) -> Result<Rendered, ReportError> {
-    let StudyResult { study, runs, findings, speed_up, warnings, reports, .. } = of;
-    let figures: Vec<Value> = figures(study, runs, findings)?
-        .into_iter()
-        .map(|figure| json!({ "text": figure.text, "charts": figure.charts }))
-        .collect();
-    let cases: Vec<Value> = study
-        .cases
-        .iter()
-        .enumerate()
-        .map(|(i, case)| {
-            json!({
-                "label": case.label,
-                "scene": case.scene.file.display().to_string(),
-                "folder": has_folder(&runs[i]).then(|| study.folder(i)),
-                "reason": findings.reason(i),
-                "report": runs[i].as_ref().map_or_else(|miss| miss.has_folder, |run| run.has_report),
-            })
-        })
-        .collect();
-    let full = study.full.zip(speed_up);
-    let speed = full.map(|(f, s)| speed_up_text(s, &study.cases[f.case].label, step_s(runs, f.case)));
-    let page = Rendered::new(
-        "study.html",
-        context! {
-            name => &study.name,
-            version => env!("CARGO_PKG_VERSION"),
-            file => study.file.display().to_string(),
-            figures => Serde(figures),
-            cases => Serde(cases),
-            speed => speed,
-            reports => reports,
-            table => table,
-            warnings => warnings.to_vec(),
-        },
-    )?;
-    Ok(page)
-}
-
-/// The summary as JSON; numbers without a value are `null`.
-pub fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> String {
-    let StudyResult { study, runs, findings, speed_up, cost, warnings, .. } = of;
-    let cases: Vec<Value> = (0..study.cases.len()).map(|i| case(of, i)).collect();
+/// The answer: the table `study`, a row a case.
+pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
+    let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
     let full = study.full.zip(speed_up).map(|(full, s)| {
         let step_s = step_s(runs, full.case);
         json!({
@@ -66,25 +25,64 @@ pub fn write_study_summary(of: StudyResult<'_>, files: &[String]) -> String {
             "full_position_over_motion_step": step_s.map(|step| s.full_position_s / step),
         })
     });
-    let summary = json!({
-        "program": "ale-gear",
-        "version": env!("CARGO_PKG_VERSION"),
-        "name": study.name,
-        "study": study.file.display().to_string(),
-        "parameter": study.parameter,
-        "cases": cases,
-        "correlations": findings.followers.iter().map(|f| json!({
-            "column": f.column, "beside": f.beside, "by_case": f.correlation,
-        })).collect::<Vec<_>>(),
-        "full": full,
-        "cost": cost,
-        "warnings": warnings,
-        "files": files,
+    Answer {
+        name: study.name.clone(),
+        inputs: json!({ "study": study.file.display().to_string(), "parameter": study.parameter }),
+        tables: vec![study_rows(study, findings)],
+        headline: json!({
+            "cases": (0..study.cases.len()).map(|i| case(of, i)).collect::<Vec<_>>(),
+            "correlations": findings.followers.iter().map(|f| json!({
+                "column": f.column, "beside": f.beside, "by_case": f.correlation,
+            })).collect::<Vec<_>>(),
+            "full": full,
+        }),
+        remarks: warnings.to_vec(),
+        cost,
+        ..Answer::default()
+    }
+}
+
+/// The page: figures, the numbers, each case's own report linked by its folder's name.
+///
+/// # Errors
+/// For rows without a column that is drawn.
+pub fn study_page(of: StudyResult<'_>, answer: &Answer) -> Result<Page, ReportError> {
+    let StudyResult { study, runs, findings, speed_up, reports, .. } = of;
+    let mut page = Page::of(answer, format!("study of {} cases", study.cases.len()));
+    for figure in figures(study, runs, findings)? {
+        page.push(Part::more().words(figure.text).figures(figure.charts));
+    }
+    page.push(Part::new("Numbers").closing().grid(grid(study, runs, findings)));
+    if let Some((full, s)) = study.full.zip(speed_up) {
+        let text = speed_up_text(s, &study.cases[full.case].label, step_s(runs, full.case));
+        page.push(Part::new("Against every degree of freedom").closing().with(Content::Items(vec![text])));
+    }
+    page.push(cases(of));
+    page.push(cost_part(&answer.cost));
+    let words = if reports { " --reports" } else { "" };
+    page.push(again(&format!("ale-gear study {} --out DIR{words}", study.file.display())));
+    Ok(page)
+}
+
+fn cases(of: StudyResult<'_>) -> Part {
+    let StudyResult { study, runs, findings, reports, .. } = of;
+    let rows = study.cases.iter().enumerate().map(|(i, case)| {
+        let folder = format!("{CASES}/{}", study.folder(i));
+        let has_report = runs[i].as_ref().map_or_else(|miss| miss.has_folder, |run| run.has_report);
+        let link = has_report.then(|| format!("{folder}/report.html"));
+        let told = match findings.reason(i) {
+            Some(reason) if has_folder(&runs[i]) => format!("no result: {reason} ({folder})"),
+            Some(reason) => format!("no result: {reason}"),
+            None => folder,
+        };
+        let scene = case.scene.file.display().to_string();
+        vec![Cell { link, ..Cell::text(&case.label) }, Cell::text(scene), Cell::text(told)]
     });
-    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
-    let mut text = serde_json::to_string_pretty(&summary).unwrap_or_default();
-    text.push('\n');
-    text
+    let mut words = "The files of each case are in its folder below `cases`.".to_owned();
+    if !reports {
+        words += " Reports and views of single cases at rest are made with `--reports`.";
+    }
+    Part::new("Cases").words(words).grid(Grid::new(["case", "scene", "folder"]).rows(rows))
 }
 
 /// Whether a case left files.
