@@ -19,7 +19,7 @@ const GROUP: usize = 65_536;
 /// # Errors
 /// [`TableError::Parquet`] when a name is none that the format takes.
 pub fn parquet_bytes(table: &Table) -> Result<Vec<u8>, TableError> {
-    write(table).map_err(|cause| TableError::Parquet { table: table.name.to_owned(), cause })
+    write(table).map_err(|cause| TableError::Parquet { table: table.name.to_string(), cause })
 }
 
 fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
@@ -27,7 +27,7 @@ fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
     let columns: Vec<(&str, bool)> =
         table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
     let mut writer =
-        SerializedFileWriter::new(&mut bytes, schema(table.name, &columns)?, Arc::new(properties(&columns)))?;
+        SerializedFileWriter::new(&mut bytes, schema(&table.name, &columns)?, Arc::new(properties(&columns)))?;
     let rows = table.rows();
     for first in (0..rows).step_by(GROUP) {
         let mut group = writer.next_row_group()?;

@@ -1,8 +1,8 @@
 //! Rows of an answer, column by column.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, collections::BTreeSet};
 
-use crate::{csv, unit_of};
+use crate::{TableError, csv, unit_of};
 
 /// Numbers or texts of a column, one a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,7 +53,7 @@ impl Column {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
     /// Name of the files, without their ending.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Columns in the order of the files.
     pub columns: Vec<Column>,
     /// Whether its file with commas has been written row by row, as the rows came.
@@ -62,8 +62,40 @@ pub struct Table {
 
 impl Table {
     /// A table without columns.
-    pub fn new(name: &'static str) -> Self {
-        Self { name, columns: Vec::new(), is_written: false }
+    pub fn new(name: impl Into<Cow<'static, str>>) -> Self {
+        Self { name: name.into(), columns: Vec::new(), is_written: false }
+    }
+
+    /// The table in the text of its file with commas, up to `most` columns; meanings are not in it. A column is one of
+    /// numbers where every field of it is a number.
+    ///
+    /// # Errors
+    /// [`TableError::Damaged`] where the text is no such file: rows of another length, too many columns, two of a name.
+    pub fn read(name: &str, text: &str, most: usize) -> Result<Self, TableError> {
+        let damaged = |what: String| TableError::Damaged { table: name.to_owned(), what };
+        let mut reader = ::csv::Reader::from_reader(text.as_bytes());
+        let names: Vec<String> =
+            reader.headers().map_err(|e| damaged(e.to_string()))?.iter().map(str::to_owned).collect();
+        if names.len() > most {
+            return Err(damaged(format!("{} columns, read are {most} at the most", names.len())));
+        }
+        let distinct: BTreeSet<&String> = names.iter().collect();
+        if distinct.len() < names.len() {
+            return Err(damaged("two columns of one name".to_owned()));
+        }
+        let mut fields: Vec<Vec<String>> = names.iter().map(|_| Vec::new()).collect();
+        for record in reader.records() {
+            let record = record.map_err(|e| damaged(e.to_string()))?;
+            fields.iter_mut().zip(&record).for_each(|(column, field)| column.push(field.to_owned()));
+        }
+        let numbers = |column: &[String]| column.iter().map(|field| field.parse().ok()).collect::<Option<Vec<f64>>>();
+        let columns = fields.into_iter().map(|column| match numbers(&column) {
+            Some(list) => Values::Numbers(list),
+            None => Values::Texts(column),
+        });
+        let columns = names.into_iter().zip(columns);
+        let columns = columns.map(|(name, values)| Column { name: name.into(), meaning: "".into(), values }).collect();
+        Ok(Self { columns, ..Self::new(name.to_owned()) })
     }
 
     /// The same, its file with commas being there already.

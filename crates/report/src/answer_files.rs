@@ -24,6 +24,7 @@ struct Summary<'a> {
     cost: &'a Cost,
     headline: &'a Value,
     warnings: &'a [String],
+    tables: Vec<&'a str>,
     files: &'a [String],
 }
 
@@ -102,6 +103,7 @@ fn summary(answer: &Answer, files: &[String]) -> String {
         cost: &answer.cost,
         headline: &answer.headline,
         warnings: &answer.remarks,
+        tables: answer.tables.iter().map(|table| &*table.name).collect(),
         files,
     };
     // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.

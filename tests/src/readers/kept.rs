@@ -3,16 +3,14 @@
 use std::{io::Write, path::Path, sync::OnceLock};
 
 use analysis::motion::{MotionCheckpoint, MotionLayout};
+use answer::Table;
 use flate2::{Compression, write::GzEncoder};
 use reduction::{RecordKey, ReductionRecord};
 use report::{
     checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state},
     columns_to_csv,
-    compare::{
-        Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
-        write_curves_csv,
-    },
-    page::report_from,
+    compare::{Axis, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows, overlays},
+    page::{closing_text, report_from},
     parse_columns,
 };
 use scene::Scene;
@@ -129,9 +127,10 @@ pub fn results(bytes: &[u8]) {
     let (Ok(first), Ok(second)) = (folder("a", first), folder("b", second)) else { return };
     let runs = [first, second];
     let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
-    drop((compare_table(&runs, &numbers, &inputs), write_compare_csv(&runs, &numbers)));
     for axis in [Axis::Phase, Axis::Time] {
         let curves = overlays(&runs, axis);
-        drop((write_curves_csv(&curves), compare_charts(&curves)));
+        let answer = compare_answer(&runs, &numbers, &inputs, &curves);
+        let page = compare_page(&answer, &runs, (&numbers, &inputs), &compare_charts(&curves));
+        drop((closing_text(&page, &answer.cost), answer.tables.iter().map(Table::csv).collect::<Vec<_>>()));
     }
 }

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use analysis::accuracy_chart::{ChartOptions, resonance_precision};
 use analysis::motion::motion_precision;
-use report::accuracy_chart::{chart_tables, write_resonance_precision, write_work_precision};
-use report::motion_files::write_motion_precision;
+use report::accuracy_chart::{methods_chart, resonance_chart, work_precision_chart, write_chart};
 
 use super::overrides::Overrides;
 use report::MarkedPlace;
@@ -85,30 +84,23 @@ impl ChartArgs {
         let quick = if self.quick { " --quick" } else { "" };
         let set: String = scene.set.iter().map(|word| format!(" {word}")).collect();
         let command = |words: &str| format!("ale-gear chart {} --out DIR{quick}{words}{set}", self.scene.display());
-        if self.methods {
-            let found = motion_precision(&scene, &mut phases, self.quick)?;
-            let table = write_motion_precision(&scene.name, &found, &command(" --methods"), &results)?;
-            return self.told(&scene, table, results);
-        }
-        if self.resonance {
+        let drawn = if self.methods {
+            methods_chart(&scene.name, &motion_precision(&scene, &mut phases, self.quick)?, &command(" --methods"))
+        } else if self.resonance {
             let found = resonance_precision(&scene, &mut phases, self.quick)?;
-            let table = write_resonance_precision(&scene.name, &found, &command(" --resonance"), &results)?;
-            return self.told(&scene, table, results);
-        }
-        let points = chart(&scene, &options, &mut phases)?;
-        let command = command(if self.motion { " --motion" } else { "" });
-        let tables = chart_tables(&points, &command, rayon::current_num_threads());
-        write_work_precision(&scene.name, &points, &tables, &results)?;
-        self.told(&scene, tables, results)
-    }
-
-    /// What is said at the end: the tables, which go into a page as well where one is named.
-    fn told(&self, scene: &Scene, tables: String, results: ResultDirectory) -> Result<String, CommandError> {
+            resonance_chart(&scene.name, &found, &command(" --resonance"))
+        } else {
+            let points = chart(&scene, &options, &mut phases)?;
+            let command = command(if self.motion { " --motion" } else { "" });
+            work_precision_chart(&scene.name, &points, &command, rayon::current_num_threads())
+        };
+        let tables = drawn.markdown.clone();
+        let text = write_chart(&scene, drawn, phases.cost(), &results)?;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
             MarkedPlace::find(file, &scene.name)?.replace(&tables)?;
         }
-        Ok(format!("{tables}\nresults: {}\n", self.out.display()))
+        Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }
 
     fn other_scene(&self, word: &str, wanted: &str, way_out: &str) -> CommandError {

@@ -5,9 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use serde_json::json;
 
-use report::compare::{
-    Axis, ResultFolder, compare_charts, compare_table, headline_rows, input_rows, overlays, write_compare_csv,
-    write_compare_report, write_curves_csv,
+use report::{
+    compare::{
+        Axis, BESIDE, NumberRow, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows,
+        overlays,
+    },
+    page::closing_text,
+    write_result,
 };
 
 use crate::{error::CommandError, output::ResultDirectory, talk};
@@ -18,7 +22,7 @@ pub(super) struct CompareArgs {
     /// Result folders; the first is what the others are compared with
     #[arg(required = true, num_args = 2.., value_name = "DIR")]
     folders: Vec<PathBuf>,
-    /// Folder for compare.html, compare.csv, compare_curves.csv and one SVG for each quantity
+    /// Folder for report.html, compare.csv, compare_curves.csv and one SVG for each quantity
     #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
     /// What curves are drawn over [default: time if all runs are motions, else phase]
@@ -43,13 +47,29 @@ impl CompareArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let runs = self.folders.iter().map(|f| ResultFolder::read(f)).collect::<Result<Vec<_>, _>>()?;
         let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
+        if let Some(alone) = without_a_number(&runs, &numbers) {
+            return Err(CommandError::input(
+                format_args!("{} has no number of its headline in common with the others", alone.label()),
+                Some("compare answers to the same kind of question".into()),
+            ));
+        }
+        let axis = match self.over {
+            Some(Over::Phase) => Axis::Phase,
+            Some(Over::Time) => Axis::Time,
+            None if runs.iter().all(ResultFolder::is_motion) => Axis::Time,
+            None => Axis::Phase,
+        };
+        let curves = overlays(&runs, axis);
+        let answer = compare_answer(&runs, &numbers, &inputs, &curves);
+        let charts = if self.out.is_some() { compare_charts(&curves) } else { Vec::new() };
+        let page = compare_page(&answer, &runs, (&numbers, &inputs), &charts);
         let mut text = if self.json {
             let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
             let missed: Vec<_> = runs.iter().map(ResultFolder::missed).collect();
             let all = json!({ "runs": labels, "certificate_missed": missed, "numbers": numbers, "inputs": inputs });
             format!("{all:#}\n")
         } else {
-            compare_table(&runs, &numbers, &inputs)
+            closing_text(&page, &answer.cost)
         };
         let Some(out) = &self.out else { return Ok(text) };
         let same =
@@ -60,25 +80,24 @@ impl CompareArgs {
                 Some("give the name of a new folder".into()),
             ));
         }
-        let axis = match self.over {
-            Some(Over::Phase) => Axis::Phase,
-            Some(Over::Time) => Axis::Time,
-            None if runs.iter().all(ResultFolder::is_motion) => Axis::Time,
-            None => Axis::Phase,
-        };
-        let curves = overlays(&runs, axis);
-        let charts = compare_charts(&curves);
         let results = ResultDirectory::create(out)?;
-        results.write("compare.csv", write_compare_csv(&runs, &numbers).as_bytes())?;
-        results.write("compare_curves.csv", write_curves_csv(&curves).as_bytes())?;
         for chart in &charts {
             results.write(&format!("compare_{}.svg", chart.name), chart.svg.as_bytes())?;
         }
-        results.write("compare.html", write_compare_report(&runs, &numbers, &inputs, &charts)?.as_bytes())?;
+        write_result(&answer, &page, false, &results)?;
         results.finish(talk::note)?;
         if !self.json {
-            text.push_str(&format!("\ncharts: {}\n", out.join("compare.html").display()));
+            text.push_str(&format!("\nresults: {}\n", out.display()));
         }
         Ok(text)
     }
+}
+
+/// A run that shares no number of its headline with another one.
+fn without_a_number<'a>(runs: &'a [ResultFolder], numbers: &[NumberRow]) -> Option<&'a ResultFolder> {
+    let shares = |i: usize| {
+        let shared = numbers.iter().filter(|row| !BESIDE.contains(&row.key.as_str()));
+        shared.filter(|row| row.values[i].is_some()).any(|row| row.values.iter().flatten().count() > 1)
+    };
+    (0..runs.len()).find(|&i| !shares(i)).map(|i| &runs[i])
 }

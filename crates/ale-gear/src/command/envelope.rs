@@ -3,9 +3,7 @@
 use std::{path::PathBuf, time::Instant};
 
 use envelope::{FailureMode, MAPS, MODES, chosen};
-use report::envelope_files::{
-    EnvelopeResult, envelope_table, find_envelope_tables, replace_envelope_tables, write_envelope,
-};
+use report::envelope_files::{EnvelopeResult, find_envelope_tables, replace_envelope_tables, write_envelope};
 
 use crate::{command::Answer, error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
@@ -56,7 +54,7 @@ impl EnvelopeArgs {
             let drawn = phases.run_steps(map.name, map.count() as u64, |progress| map.draw(&|| progress.tick()));
             found.maps.push((*map, drawn, start.elapsed().as_secs_f64()));
         }
-        write_envelope(&found, "ale-gear envelope --maps --out DIR", &results)?;
+        let text = write_envelope(&found, "ale-gear envelope --maps --out DIR", phases.cost(), &results)?;
         results.finish(talk::note)?;
         self.into.iter().try_for_each(|file| replace_envelope_tables(&found, file))?;
         let failure = found.missed().map(|missed| {
@@ -65,6 +63,6 @@ impl EnvelopeArgs {
                 Some("the table says why".into()),
             )
         });
-        Ok(Answer { text: format!("{}\nresults: {}\n", envelope_table(&found), self.out.display()), failure })
+        Ok(Answer { text: format!("{text}\nresults: {}\n", self.out.display()), failure })
     }
 }

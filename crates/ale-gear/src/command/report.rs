@@ -21,7 +21,7 @@ impl ReportArgs {
     /// Writes the page; the text says where.
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
         // Says what is wrong with a folder that is none.
-        let missed = ResultFolder::read(&self.folder)?.missed().join("; ");
+        let missed = ResultFolder::open(&self.folder)?.missed().join("; ");
         let page = report_again(&self.folder)?;
         let file = match self.output {
             Some(file) if file.as_os_str() == "-" => return Ok(page),

@@ -234,6 +234,6 @@ pub fn studies(browser: PathBuf) {
     check_charts(&seen, "study");
     let cases = ["o/cases/01-light", "o/cases/02-heavy"];
     let compare = ["compare", cases[0], cases[1], "--out", "c"];
-    let seen = page_of(&browser, "compare", &scratch, &[&compare], "c/compare.html");
+    let seen = page_of(&browser, "compare", &scratch, &[&compare], "c/report.html");
     check_charts(&seen, "compare");
 }

@@ -45,11 +45,11 @@ fn runs_of_all_kinds_stand_side_by_side() {
 
     // Equilibrium and motion on one picture, over the last whole mesh cycle of each.
     let curves = scratch.read("c/compare_curves.csv");
-    let error: Vec<&str> = curves.lines().filter(|l| l.starts_with("te_um,mesh_phase")).collect();
+    let error: Vec<&str> = curves.lines().filter(|l| l.starts_with("history,te_um,mesh_phase")).collect();
     for (folder, file_column, rows, over) in [("a", "ste_um", 32, 0), ("m", "dte_um", 16, 1), ("l", "dte_um", 64, 0)] {
         let own: Vec<f64> = error
             .iter()
-            .filter(|l| l.contains(&format!("\"{folder}\"")))
+            .filter(|l| l.contains(&format!(",{folder},")))
             .map(|l| l.rsplit(',').next().unwrap().parse().unwrap())
             .collect();
         let history = scratch.read(&format!("{folder}/history.csv"));
@@ -62,7 +62,7 @@ fn runs_of_all_kinds_stand_side_by_side() {
         drawn.sort_by(f64::total_cmp);
         assert_eq!(drawn, last, "{folder}: not the last cycle of {file_column}");
     }
-    let page = scratch.read("c/compare.html");
+    let page = scratch.read("c/report.html");
     assert!(!page.contains("src=\"http") && !page.contains("href=\"http"), "the page wants the network");
     for file in ["compare_te_um.svg", "compare_contact_line_length_mm.svg"] {
         assert!(scratch.read(&format!("c/{file}")).contains("<svg"), "{file}");
@@ -72,7 +72,7 @@ fn runs_of_all_kinds_stand_side_by_side() {
 
     let run = scratch.ale_gear(["compare", "m", "l", "--out", "c"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    assert!(scratch.read("c/compare_curves.csv").contains("dte_um,time_s,\"l\""), "motions are drawn over time");
+    assert!(scratch.read("c/compare_curves.csv").contains("history,dte_um,time_s,l,"), "motions are drawn over time");
 }
 
 #[test]
@@ -85,7 +85,7 @@ fn what_is_no_result_is_refused() {
             std::fs::write(scratch.path().join(name).join("summary.json"), text).unwrap();
         }
     }
-    let newer = scratch.read("a/summary.json").replacen("\"schema\": 1", "\"schema\": 999", 1);
+    let newer = scratch.read("a/summary.json").replacen("\"schema\": 2", "\"schema\": 999", 1);
     std::fs::create_dir(scratch.path().join("newer")).unwrap();
     std::fs::write(scratch.path().join("newer/summary.json"), newer).unwrap();
     for (folder, said) in [
@@ -94,7 +94,7 @@ fn what_is_no_result_is_refused() {
         ("empty", "empty: has no summary.json"),
         ("other", "other: summary.json is of another program"),
         ("broken", "broken: summary.json is no JSON"),
-        ("newer", "newer: summary.json has schema 999, this program reads 1"),
+        ("newer", "newer: summary.json has schema 999, this program reads 2"),
     ] {
         let run = scratch.ale_gear(["compare", "a", folder]);
         assert!(run.stderr.starts_with(&format!("ale-gear: {said}")), "{}", run.stderr);
@@ -124,6 +124,38 @@ fn a_report_is_made_again_from_its_folder() {
     std::fs::write(scratch.path().join("a/report.json.gz"), "no gzip").unwrap();
     let damaged = scratch.ale_gear(["report", "a"]);
     assert_eq!(damaged.code, Some(2));
-    assert!(damaged.stderr.contains("hint: run the scene again"), "{}", damaged.stderr);
+    assert!(damaged.stderr.contains("hint: "), "{}", damaged.stderr);
     assert_eq!(scratch.ale_gear(["report", "nowhere"]).code, Some(2));
+}
+
+/// Answers to any kind of question are laid over each other; those to two kinds of question are not.
+#[test]
+fn answers_to_one_kind_of_question_are_compared() {
+    let scratch = Scratch::new().file("iso.toml", ISO_SCENE);
+    let vary = |out: &str, factor: &str| {
+        let axis = format!("operation.torque_nm=100:{factor}:3");
+        let words = ["vary", "iso.toml", "--vary", &axis, "--output", "mean_ste_um", "--out", out];
+        let run = scratch.ale_gear(words);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    };
+    vary("a", "200");
+    vary("b", "400");
+    let run = scratch.ale_gear(["compare", "a", "b", "--out", "c"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let curves = scratch.read("c/compare_curves.csv");
+    let of = |run: &str| curves.lines().filter(|l| l.starts_with(&format!("cases,mean_ste_um,case,{run},"))).count();
+    assert_eq!([of("a"), of("b")], [3, 3], "{curves}");
+    assert!(scratch.read("c/compare_cases_mean_ste_um.svg").contains("<svg"));
+    // The page of any answer can be made again.
+    for folder in ["a", "c"] {
+        let page = scratch.read(&format!("{folder}/report.html"));
+        assert!(scratch.ale_gear(["report", folder, "--output", "-"]).stdout == page, "{folder}: another page");
+    }
+    assert_eq!(scratch.ale_gear(["run", "iso.toml", "--out", "r"]).code, Some(0));
+    let two = scratch.ale_gear(["compare", "a", "r"]);
+    assert_eq!(
+        two.complaint(),
+        "ale-gear: a has no number of its headline in common with the others\nhint: compare answers to the same kind of question\n"
+    );
+    assert_eq!(two.code, Some(2));
 }

@@ -78,14 +78,14 @@ fn a_row_has_the_numbers_of_a_run() {
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", PLAN);
     let run = scratch.ale_gear(["vary", "plan.toml", "--out", "o"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
-    assert!(run.stdout.contains("cases without a result: 4"), "{}", run.stdout);
+    assert!(run.stdout.contains("4 of 12 cases have no result"), "{}", run.stdout);
     let all = rows(&scratch, "o/cases.csv");
     assert_eq!(all.len(), 12);
     for (i, row) in all.iter().enumerate() {
         assert_eq!(row["case"], i.to_string());
         let torque = &row["operation.torque_nm"];
         if torque == "10000000" {
-            assert_eq!((row["status"].as_str(), row["peak_to_peak_ste_um"].as_str()), ("failed", ""), "{row:?}");
+            assert_eq!((row["status"].as_str(), row["peak_to_peak_ste_um"].as_str()), ("failed", "NaN"), "{row:?}");
             assert!(row["reason"].contains("would bend the teeth"), "{row:?}");
             continue;
         }
@@ -357,7 +357,7 @@ fn the_report_of_a_case_has_the_numbers_of_its_row() {
                 .total_cmp(&all[b]["peak_to_peak_ste_um"].parse().unwrap())
         })
         .unwrap();
-    let page = scratch.read("o/report.html");
+    let page = scratch.page("o/report.html");
     assert!(!page.contains("cases/2/") && !scratch.path().join("o/cases/2").exists());
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     assert_eq!(summary["headline"]["outputs"][0]["least_case"], best);

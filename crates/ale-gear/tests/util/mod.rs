@@ -30,6 +30,11 @@ impl Scratch {
         self
     }
 
+    /// A page of the folder, with slashes as they are.
+    pub fn page(&self, name: &str) -> String {
+        self.read(name).replace("&#x2f;", "/")
+    }
+
     pub fn read(&self, name: &str) -> String {
         std::fs::read_to_string(self.path().join(name)).unwrap()
     }

@@ -1,14 +1,64 @@
-//! Files of a chart of accuracy against cost.
+//! The answer about accuracy against cost: models of a pair, methods of integration, models over speed.
 
-mod csv;
+mod methods;
 mod resonance;
+mod rows;
 mod tables;
 mod work_precision;
 
-pub use csv::chart_csv;
-pub use resonance::{
-    resonance_curves_csv, resonance_curves_svg, resonance_precision_csv, resonance_precision_svg,
-    resonance_precision_table, write_resonance_precision,
+pub use methods::methods_chart;
+pub use resonance::resonance_chart;
+pub use work_precision::work_precision_chart;
+
+use answer::{Answer, Cost, Table};
+use scene::Scene;
+use serde_json::{Value, json};
+
+use crate::{
+    ReportError,
+    charts::write_picture,
+    folder::ResultDirectory,
+    page::{Content, Page, Part, again, cost_part},
+    write_result,
 };
-pub use tables::chart_tables;
-pub use work_precision::{work_precision_svg, write_work_precision};
+
+/// A chart that is drawn.
+#[derive(Debug)]
+pub struct Chart {
+    /// What it is about, in words.
+    subtitle: String,
+    /// Rows of all points.
+    tables: Vec<Table>,
+    /// The numbers that most people want.
+    headline: Value,
+    /// Names of files and pictures.
+    pictures: Vec<(&'static str, Result<String, String>)>,
+    /// Errors and times as tables of a document.
+    pub markdown: String,
+    /// The command that makes it again.
+    command: String,
+}
+
+/// Writes a chart of a scene: tables, pictures, page, summary; what comes back is the closing table.
+///
+/// # Errors
+/// When the system refuses, or a picture was not drawn.
+pub fn write_chart(scene: &Scene, chart: Chart, cost: Cost, results: &ResultDirectory) -> Result<String, ReportError> {
+    let answer = Answer {
+        name: scene.name.clone(),
+        inputs: json!(scene),
+        tables: chart.tables,
+        headline: chart.headline,
+        cost,
+        ..Answer::default()
+    };
+    let pictures = chart.pictures.into_iter().map(|(stem, drawn)| write_picture(stem, drawn, results));
+    let pictures = pictures.collect::<Result<Vec<_>, _>>()?;
+    let figures = pictures.into_iter().map(|svg| format!("<figure class=\"chart\">{svg}</figure>"));
+    let mut page = Page::of(&answer, chart.subtitle);
+    page.push(Part::more().figures(figures));
+    page.push(Part::new("Accuracy and cost").closing().with(Content::Markdown(chart.markdown)));
+    page.push(cost_part(&answer.cost));
+    page.push(again(&chart.command));
+    write_result(&answer, &page, scene.output.parquet, results)
+}

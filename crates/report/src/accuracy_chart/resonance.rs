@@ -3,15 +3,12 @@
 use std::fmt::Write;
 
 use analysis::accuracy_chart::{ResonanceCurve, ResonancePoint, ResonancePrecision};
+use answer::Table;
 use plotters::prelude::*;
+use serde_json::json;
 
-use super::tables::seconds;
-use crate::{
-    ReportError, ResultFiles,
-    charts::{Captions, Curve, Failure, Labelled, legend, line_picture, log_panel, write_picture},
-    csv::always_quoted,
-    page::write_chart_page,
-};
+use super::{Chart, tables::seconds};
+use crate::charts::{Captions, Curve, Failure, Labelled, legend, line_picture, log_panel};
 
 const SIZE: (u32, u32) = (1040, 490);
 const HEAD: u32 = 104;
@@ -28,10 +25,7 @@ fn models(of: &ResonancePrecision) -> Vec<&'static str> {
 }
 
 /// The chart as SVG: errors against the wall time of all and of the motions alone.
-///
-/// # Errors
-/// What the drawing library complains of.
-pub fn resonance_precision_svg(title: &str, of: &ResonancePrecision) -> Result<String, String> {
+fn resonance_precision_svg(title: &str, of: &ResonancePrecision) -> Result<String, String> {
     let mut svg = String::new();
     draw(&mut svg, title, of).map_err(|e| e.to_string())?;
     Ok(svg)
@@ -70,7 +64,7 @@ fn draw(svg: &mut String, title: &str, of: &ResonancePrecision) -> Result<(), Fa
 }
 
 /// The curves of every model with its shortest steps, and the reference, as SVG.
-pub fn resonance_curves_svg(title: &str, of: &ResonancePrecision) -> Option<String> {
+fn resonance_curves_svg(title: &str, of: &ResonancePrecision) -> Option<String> {
     let line = |label: &str, curve: &ResonanceCurve| {
         let known = curve.speeds.iter().filter_map(|p| Some((p.speed_rpm, p.peak_to_peak_um?)));
         Curve { label: label.to_owned(), points: known.collect() }
@@ -84,44 +78,49 @@ pub fn resonance_curves_svg(title: &str, of: &ResonancePrecision) -> Option<Stri
 }
 
 /// Every model with every step, then the reference; one that comes to no curve has its reason in `note`.
-pub fn resonance_precision_csv(of: &ResonancePrecision) -> String {
-    let mut text = "model,steps_per_mesh_cycle,offline_s,sweep_s,error_peak_to_peak_dte,largest_peak_to_peak_dte_um,\
-                    largest_at_rpm,speeds_without_motion,note\n"
-        .to_owned();
-    for p in &of.points {
-        text.push_str(&csv_line(p.model, p.steps, p.outcome.as_ref()));
-    }
-    text + &csv_line(REFERENCE, of.reference_steps, Ok(&of.reference))
+fn precision_rows(of: &ResonancePrecision) -> Table {
+    let reference = ResonancePoint { model: REFERENCE, steps: of.reference_steps, outcome: Ok(of.reference.clone()) };
+    let points: Vec<&ResonancePoint> = of.points.iter().chain([&reference]).collect();
+    let number = |pick: fn(&ResonanceCurve) -> Option<f64>| {
+        points.iter().map(move |p| p.outcome.as_ref().ok().and_then(pick).unwrap_or(f64::NAN))
+    };
+    let notes = points.iter().map(|p| p.outcome.as_ref().err().cloned().unwrap_or_default());
+    Table::new("resonance_precision")
+        .texts("model", "model", points.iter().map(|p| p.model))
+        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", points.iter().map(|p| f64::from(p.steps)))
+        .numbers("offline_s", "wall time of everything before the first motion", number(|c| Some(c.offline_s)))
+        .numbers("sweep_s", "wall time of all motions", number(|c| Some(c.sweep_s)))
+        .numbers(
+            "error_peak_to_peak_dte",
+            "root mean square over all motions of the peak-to-peak DTE minus that of the reference, over that of the reference",
+            number(|c| c.error),
+        )
+        .numbers("largest_peak_to_peak_dte_um", "largest peak-to-peak DTE", number(|c| Some(c.largest()?.1)))
+        .numbers("largest_at_rpm", "speed of the driver at which it is largest", number(|c| Some(c.largest()?.0.speed_rpm)))
+        .numbers("speeds_without_motion", "speeds without a motion", number(|c| Some(c.missing() as f64)))
+        .texts("note", "why a model comes to no curve", notes)
 }
 
-fn csv_line(model: &str, steps: u32, outcome: Result<&ResonanceCurve, &String>) -> String {
-    let model = always_quoted(model);
-    match outcome {
-        Err(why) => format!("{model},{steps},,,,,,,{}\n", always_quoted(why)),
-        Ok(c) => {
-            let error = c.error.map_or_else(String::new, |e| e.to_string());
-            let largest = c.largest().map_or_else(|| ",".to_owned(), |(p, um)| format!("{um},{}", p.speed_rpm));
-            format!("{model},{steps},{},{},{error},{largest},{},\"\"\n", c.offline_s, c.sweep_s, c.missing())
-        }
-    }
-}
-
-/// Motion by motion; a field without a value is empty.
-pub fn resonance_curves_csv(of: &ResonancePrecision) -> String {
-    let mut text = "model,steps_per_mesh_cycle,way,speed_rpm,peak_to_peak_dte_um\n".to_owned();
+/// Motion by motion; NaN without a value.
+fn curve_rows(of: &ResonancePrecision) -> Table {
     let known = of.points.iter().filter_map(|p| Some((p.model, p.steps, p.outcome.as_ref().ok()?)));
-    for (model, steps, curve) in known.chain([(REFERENCE, of.reference_steps, &of.reference)]) {
-        for p in &curve.speeds {
-            let um = p.peak_to_peak_um.map_or_else(String::new, |x| x.to_string());
-            // Writing to a String cannot fail.
-            let _ = writeln!(text, "{},{steps},{},{},{um}", always_quoted(model), p.way.word(), p.speed_rpm);
-        }
-    }
-    text
+    let all = known.chain([(REFERENCE, of.reference_steps, &of.reference)]);
+    let rows: Vec<_> =
+        all.flat_map(|(model, steps, curve)| curve.speeds.iter().map(move |p| (model, steps, p))).collect();
+    Table::new("resonance_curves")
+        .texts("model", "model", rows.iter().map(|r| r.0))
+        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", rows.iter().map(|r| f64::from(r.1)))
+        .texts("way", "`up` or `down`", rows.iter().map(|r| r.2.way.word()))
+        .numbers("speed_rpm", "speed of the driver", rows.iter().map(|r| r.2.speed_rpm))
+        .numbers(
+            "peak_to_peak_dte_um",
+            "peak to peak of the DTE",
+            rows.iter().map(|r| r.2.peak_to_peak_um.unwrap_or(f64::NAN)),
+        )
 }
 
 /// Errors and wall times as Markdown.
-pub fn resonance_precision_table(of: &ResonancePrecision, command: &str) -> String {
+fn resonance_precision_table(of: &ResonancePrecision, command: &str) -> String {
     let sweep = &of.sweep;
     let mut t = format!(
         "Made by `{command}`. {} speeds of the driver from {} to {}/min; driver at constant speed, axes held or as stiff as makes no \
@@ -154,23 +153,20 @@ pub fn resonance_precision_table(of: &ResonancePrecision, command: &str) -> Stri
     t
 }
 
-/// `resonance_precision.csv`, `.svg` and `.md`, `resonance_curves.csv` and `.svg`; what comes back is the table.
-///
-/// # Errors
-/// When the system refuses, or a picture cannot be drawn.
-pub fn write_resonance_precision(
-    name: &str,
-    found: &ResonancePrecision,
-    command: &str,
-    results: &dyn ResultFiles,
-) -> Result<String, ReportError> {
-    let table = resonance_precision_table(found, command);
-    results.write("resonance_precision.csv", resonance_precision_csv(found).as_bytes())?;
-    results.write("resonance_curves.csv", resonance_curves_csv(found).as_bytes())?;
-    let errors = write_picture("resonance_precision", resonance_precision_svg(name, found), results)?;
+/// Every model over the speeds of a scene: error of the resonance curve against wall time.
+pub fn resonance_chart(name: &str, found: &ResonancePrecision, command: &str) -> Chart {
     let curves = resonance_curves_svg(name, found).ok_or_else(|| "no model has a curve".to_owned());
-    let curves = write_picture("resonance_curves", curves, results)?;
-    results.write("resonance_precision.md", format!("# {name}\n\n{table}").as_bytes())?;
-    write_chart_page(name, &[curves, errors], &table, results)?;
-    Ok(table)
+    let known = found.points.iter().filter(|p| p.outcome.is_ok()).count();
+    Chart {
+        subtitle: format!("accuracy against cost over {} speeds", found.sweep.speeds),
+        tables: vec![precision_rows(found), curve_rows(found)],
+        headline: json!({
+            "points": known,
+            "points_not_run": found.points.len() - known,
+            "reference_largest_peak_to_peak_dte_um": found.reference.largest().map(|(_, um)| um),
+        }),
+        pictures: vec![("resonance_curves", curves), ("resonance_precision", resonance_precision_svg(name, found))],
+        markdown: resonance_precision_table(found, command),
+        command: command.to_owned(),
+    }
 }

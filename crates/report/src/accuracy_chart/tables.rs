@@ -7,7 +7,7 @@ use study::{AnswerError, Work, power_law};
 use analysis::accuracy_chart::{CALCULIX, Density, FED, FULL, MotionPoint, Outcome, OwnBound, REDUCED, WorkPrecision};
 
 /// All tables of a chart.
-pub fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> String {
+pub(super) fn chart_tables(chart: &WorkPrecision, command: &str, threads: usize) -> String {
     let mut t = format!("Made by `{command}` on {} with {threads} threads.\n", machine());
     let reference = chart.reference_density.profile;
     let _ = writeln!(

@@ -2,14 +2,11 @@
 //! points say of their errors themselves.
 
 use plotters::prelude::*;
+use serde_json::json;
 use study::{AnswerError, Work};
 
-use super::chart_csv;
-use crate::{
-    ReportError, ResultFiles,
-    charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
-    page::write_chart_page,
-};
+use super::{Chart, rows::rows, tables::chart_tables};
+use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
 use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
 const WIDTH: u32 = 1040;
@@ -44,10 +41,7 @@ const EFFORTS: [Effort; 2] = [
 ];
 
 /// The chart as SVG.
-///
-/// # Errors
-/// What the drawing library complains of.
-pub fn work_precision_svg(title: &str, chart: &WorkPrecision) -> Result<String, String> {
+fn work_precision_svg(title: &str, chart: &WorkPrecision) -> Result<String, String> {
     let mut svg = String::new();
     draw(&mut svg, title, chart).map_err(|e| e.to_string())?;
     Ok(svg)
@@ -104,18 +98,19 @@ fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Fail
     Ok(())
 }
 
-/// `chart.csv`, `work_precision.svg`, `chart.md` with the tables, and `report.html` with all of it.
-///
-/// # Errors
-/// When the system refuses, or the picture cannot be drawn.
-pub fn write_work_precision(
-    name: &str,
-    points: &WorkPrecision,
-    tables: &str,
-    results: &dyn ResultFiles,
-) -> Result<(), ReportError> {
-    results.write("chart.csv", chart_csv(points).as_bytes())?;
-    let picture = write_picture("work_precision", work_precision_svg(name, points), results)?;
-    results.write("chart.md", format!("# {name}\n\n{tables}").as_bytes())?;
-    write_chart_page(name, &[picture], tables, results)
+/// Every model of a pair: error against wall time.
+pub fn work_precision_chart(name: &str, points: &WorkPrecision, command: &str, threads: usize) -> Chart {
+    let measured = points.rows.iter().filter(|row| matches!(row.outcome, Outcome::Measured { .. })).count();
+    Chart {
+        subtitle: format!("accuracy against cost, {measured} points"),
+        tables: vec![rows(points)],
+        headline: json!({
+            "points": measured,
+            "points_not_run": points.rows.len() - measured,
+            "reference_mean_ste_um": study::mean(&points.reference.ste_um),
+        }),
+        pictures: vec![("work_precision", work_precision_svg(name, points))],
+        markdown: chart_tables(points, command, threads),
+        command: command.to_owned(),
+    }
 }

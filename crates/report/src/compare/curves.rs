@@ -2,8 +2,9 @@
 
 use std::collections::HashSet;
 
+use answer::{Table, Values};
+
 use super::ResultFolder;
-use study::Columns;
 
 /// What curves are drawn over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,10 +19,12 @@ pub enum Axis {
 /// One quantity of several runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// Column of the files, with unit; `te_um` where a static transmission error stands beside a dynamic one.
+    /// Table that it stands in.
+    pub table: String,
+    /// Column of the table, with unit; `te_um` where a static transmission error stands beside a dynamic one.
     pub name: String,
     /// What it is over, with unit.
-    pub over: &'static str,
+    pub over: String,
     /// Runs that have it.
     pub traces: Vec<Trace>,
 }
@@ -40,63 +43,106 @@ const PLACES: [&str; 5] = ["time_s", "pinion_angle_deg", "mesh_phase", "speed_rp
 /// One quantity under two names: equilibrium and motion.
 const ERRORS: [&str; 2] = ["ste_um", "dte_um"];
 const ERROR: &str = "te_um";
+/// Kinds of row in a table, told by the words of its first column: ways of a sweep, models of a chart.
+const MOST_KINDS: usize = 16;
 
 /// Every quantity that two runs at least have, in the order of the first run that has it.
 pub fn overlays(runs: &[ResultFolder], axis: Axis) -> Vec<Overlay> {
     let curves: Vec<Curves<'_>> = runs.iter().enumerate().flat_map(|(i, run)| Curves::of(i, run, axis)).collect();
-    let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| c.rows.find(name).is_some_and(|all| !all.is_empty())));
-    let mut quantities: Vec<(String, &'static str)> = Vec::new();
-    let mut seen: HashSet<(&str, &'static str)> = HashSet::new();
+    let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| c.table.find(name).is_some_and(|all| !all.is_empty())));
+    let mut quantities: Vec<[String; 3]> = Vec::new();
+    let mut seen: HashSet<[&str; 3]> = HashSet::new();
     for c in &curves {
-        for name in c.rows.names_from("").into_iter().filter(|n| !PLACES.contains(n)) {
+        for name in c.quantities() {
             let name = if mixed && ERRORS.contains(&name) { ERROR } else { name };
-            if seen.insert((name, c.over)) {
-                quantities.push((name.to_owned(), c.over));
+            if seen.insert([&c.table.name, name, &c.over]) {
+                quantities.push([&c.table.name, name, &c.over].map(str::to_owned));
             }
         }
     }
-    let all = quantities.into_iter().map(|(name, over)| {
+    let all = quantities.into_iter().map(|[table, name, over]| {
         let names: &[&str] = if name == ERROR { &ERRORS } else { &[&name] };
-        let of_axis = curves.iter().filter(|c| c.over == over);
-        let traces: Vec<(usize, Trace)> = of_axis.filter_map(|c| Some((c.run, c.trace(names)?))).collect();
+        let own = curves.iter().filter(|c| c.over == over && c.table.name == table);
+        let traces: Vec<(usize, Trace)> = own.filter_map(|c| Some((c.run, c.trace(names)?))).collect();
         let shared = traces.iter().any(|(run, _)| *run != traces[0].0);
-        (shared, Overlay { name, over, traces: traces.into_iter().map(|(_, t)| t).collect() })
+        (shared, Overlay { table, name, over, traces: traces.into_iter().map(|(_, t)| t).collect() })
     });
     all.filter(|(shared, _)| *shared).map(|(_, overlay)| overlay).collect()
 }
 
-/// Rows of a run with the rows' places.
+/// Rows of one kind of a table with the rows' places.
 struct Curves<'a> {
     /// Number of the run.
     run: usize,
     label: String,
-    over: &'static str,
-    rows: &'a Columns,
+    over: String,
+    table: &'a Table,
     /// Abscissa and number of each row that is drawn.
     places: Vec<(f64, usize)>,
 }
 
 impl<'a> Curves<'a> {
     fn of(number: usize, run: &'a ResultFolder, axis: Axis) -> Vec<Self> {
-        let one = |(way, rows): &'a (String, Columns)| {
-            let label = if way.is_empty() { run.label() } else { format!("{} ({way})", run.label()) };
-            let of = |name: &str| rows.find(name).unwrap_or_default();
-            let speeds = of("speed_rpm");
-            let (over, places) = match axis {
-                _ if !speeds.is_empty() => ("speed_rpm", plain(speeds)),
-                Axis::Time => ("time_s", plain(of("time_s"))),
-                Axis::Phase => ("mesh_phase", last_cycle(of("mesh_phase"))),
-            };
-            Self { run: number, label, over, rows, places }
+        let of_table = |table: &'a Table| {
+            let (over, places) = places(table, axis)?;
+            let (kinds, of_row) = kinds(table)?;
+            let curves = kinds.into_iter().enumerate().map(|(k, kind)| {
+                let label = if kind.is_empty() { run.label() } else { format!("{} ({kind})", run.label()) };
+                let places = places.iter().copied().filter(|(_, row)| of_row[*row] == k).collect();
+                Self { run: number, label, over: over.to_owned(), table, places }
+            });
+            Some(curves.collect::<Vec<_>>())
         };
-        run.parts().iter().map(one).collect()
+        run.tables().iter().filter_map(of_table).flatten().collect()
+    }
+
+    /// Columns of numbers that are no places.
+    fn quantities(&self) -> impl Iterator<Item = &'a str> {
+        let over = self.over.clone();
+        let numbers = self.table.columns.iter().filter(|c| matches!(c.values, Values::Numbers(_)));
+        numbers.map(|c| &*c.name).filter(move |name| *name != over && !PLACES.contains(name))
     }
 
     fn trace(&self, names: &[&str]) -> Option<Trace> {
-        let values = names.iter().filter_map(|n| self.rows.find(n)).find(|v| !v.is_empty())?;
+        let values = names.iter().filter_map(|n| self.table.find(n)).find(|v| !v.is_empty())?;
         let points = self.places.iter().filter_map(|&(x, i)| Some((x, *values.get(i)?))).collect();
         Some(Trace { label: self.label.clone(), points })
     }
+}
+
+/// What the rows of a table are drawn over: mesh phase or time where it has them, else its first column of numbers.
+fn places(table: &Table, axis: Axis) -> Option<(&str, Vec<(f64, usize)>)> {
+    let of = |name: &'static str| table.find(name).filter(|values| !values.is_empty()).map(|values| (name, values));
+    match (of("speed_rpm"), of("mesh_phase"), of("time_s"), axis) {
+        (_, Some((name, phases)), _, Axis::Phase) => Some((name, last_cycle(phases))),
+        (_, Some(_), Some((name, times)), Axis::Time) => Some((name, plain(times))),
+        (Some((name, speeds)), None, ..) => Some((name, plain(speeds))),
+        _ => table.columns.iter().find_map(|c| match &c.values {
+            Values::Numbers(list) => Some((&*c.name, plain(list))),
+            Values::Texts(_) => None,
+        }),
+    }
+}
+
+/// Kinds of row by the words of the first column, and the kind of each row; one without a name where that has numbers.
+/// `None` where they are too many.
+fn kinds(table: &Table) -> Option<(Vec<&str>, Vec<usize>)> {
+    let Some(Values::Texts(words)) = table.columns.first().map(|c| &c.values) else {
+        return Some((vec![""], vec![0; table.rows()]));
+    };
+    let mut kinds: Vec<&str> = Vec::new();
+    let mut of_row = Vec::with_capacity(words.len());
+    for word in words {
+        let known = kinds.iter().position(|known| known == word);
+        of_row.push(known.unwrap_or(kinds.len()));
+        if known.is_none() {
+            kinds.push(word);
+        }
+        if kinds.len() > MOST_KINDS {
+            return None;
+        }
+    }
+    Some((kinds, of_row))
 }
 
 fn plain(values: &[f64]) -> Vec<(f64, usize)> {
@@ -134,5 +180,17 @@ mod tests {
         assert_eq!(rows(&[0.0, 0.25, 0.5, 0.75, 1.0 - 1e-12, 0.25, 0.5, 0.75]), [4, 5, 6, 7]);
         assert_eq!(rows(&[0.0, 0.5]), [0, 1]);
         assert!(rows(&[]).is_empty());
+    }
+
+    /// Ways of a sweep are curves of their own; a table without words is one curve, one of many words none.
+    #[test]
+    fn rows_are_told_apart_by_the_words_of_the_first_column() {
+        let sweep = "way,speed_rpm,a,status\nup,1,10,solved\ndown,2,21,solved\nup,2,NaN,failed\n";
+        let table = Table::read("resonance", sweep, 9).unwrap();
+        assert_eq!(kinds(&table), Some((vec!["up", "down"], vec![0, 1, 0])));
+        assert_eq!(places(&table, Axis::Phase), Some(("speed_rpm", vec![(1.0, 0), (2.0, 1), (2.0, 2)])));
+        assert_eq!(kinds(&Table::read("x", "a,b\n1,2\n", 9).unwrap()), Some((vec![""], vec![0])));
+        let many: String = (0..=MOST_KINDS).map(|i| format!("w{i},1\n")).collect();
+        assert_eq!(kinds(&Table::read("x", &format!("way,a\n{many}"), 9).unwrap()), None);
     }
 }

@@ -38,7 +38,7 @@ pub struct WordRow {
 }
 
 /// Parts of the summary beside the headline that are worth a row.
-const BESIDE: [&str; 5] = ["/geometry/eps_gamma", "/dof_before", "/dof_after", "/cost/wall_s", "/cost/peak_memory_mb"];
+pub const BESIDE: [&str; 5] = ["geometry.eps_gamma", "dof_before", "dof_after", "cost.wall_s", "cost.peak_memory_mb"];
 
 /// Bytes of a path that is shown: those of this program are far shorter, and a table has a column as wide as the longest.
 const LONGEST: usize = 200;
@@ -85,10 +85,9 @@ fn numbers(run: &ResultFolder) -> Vec<(String, f64)> {
         }
     };
     walk("", &run.summary()["headline"], &mut |key, value| leaf(key, value, &mut all));
-    for pointer in BESIDE {
-        if let Some(value) = run.summary().pointer(pointer) {
-            let key = pointer.trim_start_matches('/').replace('/', ".");
-            walk(&key, value, &mut |key, value| leaf(key, value, &mut all));
+    for key in BESIDE {
+        if let Some(value) = run.summary().pointer(&format!("/{}", key.replace('.', "/"))) {
+            walk(key, value, &mut |key, value| leaf(key, value, &mut all));
         }
     }
     all

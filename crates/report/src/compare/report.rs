@@ -1,15 +1,14 @@
-//! `compare.html`: runs side by side on one page that needs nothing beside itself.
+//! Runs side by side: answer, charts and page.
 
-use minijinja::context;
+use std::collections::BTreeMap;
 
-use super::{
-    NumberRow, Overlay, ResultFolder, Trace, WordRow,
-    table::{letter, number, per_cent},
-};
+use answer::Answer;
+use serde_json::{Value, json};
+
+use super::{Difference, NumberRow, Overlay, ResultFolder, Trace, WordRow, rows};
 use crate::{
-    ReportError,
     charts::{Curve, line_chart, line_picture},
-    page,
+    page::{Cell, Grid, Page, Part},
 };
 
 /// A chart of one quantity.
@@ -41,11 +40,16 @@ const SHOWN: [(&str, &str, &str); 11] = [
 /// Of these the transmission errors, which are drawn without their mean as well: what a gear excites.
 const ERRORS: usize = 3;
 
-/// The quantities that matter, each in a chart; of a sweep all. A quantity without a finite value has none.
+/// Columns of a table beside the rows of a pair that are drawn; all stand in `compare_curves.csv`.
+const MOST_CHARTS: usize = 40;
+
+/// The quantities that matter, each in a chart; of tables beside the rows of a pair the first ones. A quantity without a
+/// finite value has none.
 pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
+    let of_pair = |o: &&Overlay| o.table == HISTORY && o.over != SPEED;
     let mut charts = Vec::new();
     for (k, &(name, title, axis)) in SHOWN.iter().enumerate() {
-        for overlay in overlays.iter().filter(|o| o.name == name && o.over != SPEED) {
+        for overlay in overlays.iter().filter(of_pair).filter(|o| o.name == name) {
             if k < ERRORS {
                 let alone = Overlay { traces: overlay.traces.iter().map(without_mean).collect(), ..overlay.clone() };
                 let file = format!("{}_without_mean_um", name.trim_end_matches("_um"));
@@ -54,16 +58,25 @@ pub fn compare_charts(overlays: &[Overlay]) -> Vec<CompareChart> {
             charts.extend(chart(overlay, name.to_owned(), title, axis));
         }
     }
-    let over_speed = overlays.iter().filter(|o| o.over == SPEED);
-    charts.extend(over_speed.filter_map(|o| chart(o, o.name.clone(), &o.name.replace('_', " "), &o.name)));
+    let mut drawn: BTreeMap<&str, usize> = BTreeMap::new();
+    for o in overlays.iter().filter(|o| !of_pair(o)) {
+        let count = drawn.entry(&o.table).or_default();
+        *count += 1;
+        if *count <= MOST_CHARTS {
+            let title = format!("{}, {}", o.name.replace('_', " "), o.table.replace('_', " "));
+            charts.extend(chart(o, format!("{}_{}", o.table, o.name.replace('.', "_")), &title, &o.name));
+        }
+    }
     charts
 }
 
 /// Abscissa of sweeps.
 const SPEED: &str = "speed_rpm";
+/// Rows of a pair over phase or time.
+const HISTORY: &str = "history";
 
 fn chart(overlay: &Overlay, name: String, title: &str, axis: &str) -> Option<CompareChart> {
-    let over = match overlay.over {
+    let over = match overlay.over.as_str() {
         "mesh_phase" => "mesh phase",
         "time_s" => "time [s]",
         SPEED => "speed of the driver [1/min]",
@@ -84,72 +97,115 @@ fn without_mean(trace: &Trace) -> Trace {
     Trace { label: trace.label.clone(), points }
 }
 
+/// Runs side by side as an answer: the tables `compare` and `compare_curves`.
+pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[WordRow], curves: &[Overlay]) -> Answer {
+    let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
+    let missed = runs.iter().enumerate().flat_map(|(i, run)| {
+        run.missed().into_iter().map(move |words| format!("{} DOES NOT HOLD: {words}", letter(i))).collect::<Vec<_>>()
+    });
+    Answer {
+        name: format!("{} runs side by side", runs.len()),
+        inputs: json!({ "runs": labels }),
+        tables: vec![rows::numbers(runs.len(), numbers), rows::curves(curves)],
+        headline: json!({ "runs": runs.len(), "numbers": numbers.len(), "inputs_that_differ": inputs.len() }),
+        remarks: missed.collect(),
+        ..Answer::default()
+    }
+}
+
 /// The page.
-///
-/// # Errors
-/// If the template cannot be filled; that would be a fault of this program.
-pub fn write_compare_report(
+pub fn compare_page(
+    answer: &Answer,
     runs: &[ResultFolder],
-    numbers: &[NumberRow],
-    inputs: &[WordRow],
+    (numbers, inputs): (&[NumberRow], &[WordRow]),
     charts: &[CompareChart],
-) -> Result<String, ReportError> {
-    let name = |run: &ResultFolder| run.summary()["name"].as_str().unwrap_or_default().to_owned();
-    let model =
-        |run: &ResultFolder| run.summary()["inputs"]["analysis"]["model"].as_str().unwrap_or_default().to_owned();
-    let heads: Vec<_> = runs
-        .iter()
+) -> Page {
+    let mut page = Page::of(answer, "differences are against run A".to_owned());
+    let names = runs.iter().enumerate().map(|(i, run)| {
+        let word =
+            |pointer: &str| run.summary().pointer(pointer).and_then(Value::as_str).unwrap_or_default().to_owned();
+        [letter(i), run.label(), word("/name"), word("/inputs/analysis/model")].map(Cell::text).to_vec()
+    });
+    page.push(Part::more().closing().grid(Grid::new(["", "folder", "name", "model"]).rows(names)));
+    let figures = Part::new("Curves").figures(charts.iter().map(|c| c.figure.clone()));
+    let none = "These runs have no column of rows in common.";
+    page.push(if charts.is_empty() { figures.words(none) } else { figures });
+    let letters = || (0..runs.len()).map(letter);
+    let words = inputs.iter().map(|row| {
+        let values = row.values.iter().map(|v| Cell::text(v.as_deref().unwrap_or("-")));
+        std::iter::once(Cell::text(&row.key)).chain(values).collect()
+    });
+    let head = std::iter::once("input".to_owned()).chain(letters());
+    page.push(Part::new("Inputs that differ").closing().grid(Grid::new(head).rows(words)));
+    let cell = |text: String| Cell { is_number: true, ..Cell::text(text) };
+    let rows = numbers.iter().map(|row| {
+        let mut cells = vec![Cell::text(&row.key), cell(number(row.values[0]))];
+        for (value, difference) in row.values.iter().skip(1).zip(&row.differences) {
+            let absolute = number(difference.map(|d| d.absolute));
+            cells.extend([number(*value), absolute, per_cent(*difference)].map(cell));
+        }
+        cells
+    });
+    let heads = letters()
         .enumerate()
-        .map(|(i, run)| {
-            let missed: Vec<String> = run.missed().into_iter().map(str::to_owned).collect();
-            context! { letter => letter(i), label => run.label(), name => name(run), model => model(run), missed => missed }
-        })
-        .collect();
-    let rows: Vec<_> = numbers
-        .iter()
-        .map(|row| {
-            let mut cells = vec![number(row.values[0])];
-            for (value, difference) in row.values.iter().skip(1).zip(&row.differences) {
-                cells.extend([number(*value), number(difference.map(|d| d.absolute)), per_cent(*difference)]);
-            }
-            context! { key => &row.key, cells => cells }
-        })
-        .collect();
-    let words: Vec<_> = inputs
-        .iter()
-        .map(|row| {
-            let cells: Vec<String> = row.values.iter().map(|v| v.clone().unwrap_or_else(|| "-".into())).collect();
-            context! { key => &row.key, cells => cells }
-        })
-        .collect();
-    let pictures: Vec<String> = charts.iter().map(|c| c.figure.clone()).collect();
-    page::render(
-        "compare.html",
-        context! {
-            name => format!("{} runs side by side", runs.len()),
-            version => env!("CARGO_PKG_VERSION"),
-            runs => heads,
-            rows => rows,
-            words => words,
-            charts => pictures,
-        },
-    )
+        .flat_map(|(i, own)| if i == 0 { vec![own] } else { vec![own.clone(), format!("{own} - A"), "%".to_owned()] });
+    let head = std::iter::once("number".to_owned()).chain(heads);
+    page.push(Part::new("Headline numbers").closing().grid(Grid::new(head).rows(rows)));
+    page
+}
+
+/// A, B, C, ... and numbers for those who compare more runs than letters.
+pub(super) fn letter(run: usize) -> String {
+    u8::try_from(run).ok().filter(|i| *i < 26).map_or_else(|| run.to_string(), |i| char::from(b'A' + i).to_string())
+}
+
+/// Six digits; `-` where there is no number.
+pub(super) fn number(value: Option<f64>) -> String {
+    match value {
+        None => "-".to_owned(),
+        Some(v) if !v.is_finite() => "-".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(v) if v == v.trunc() && v.abs() < 1e9 => format!("{v:.0}"),
+        Some(v) if (1e-3..1e7).contains(&v.abs()) => {
+            let places = (5.0 - v.abs().log10().floor()).clamp(0.0, 8.0) as usize;
+            format!("{v:.places$}")
+        }
+        Some(v) => format!("{v:.4e}"),
+    }
+}
+
+/// Per cent with sign; `-` where there is none.
+pub(super) fn per_cent(difference: Option<Difference>) -> String {
+    match difference.and_then(|d| d.per_cent) {
+        None => "-".to_owned(),
+        Some(0.0) => "0".to_owned(),
+        Some(p) if p.abs() < 1e-3 || p.abs() >= 1e6 => format!("{p:+.1e}"),
+        Some(p) => format!("{p:+.3}"),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn overlay(name: &str, over: &'static str) -> Overlay {
+    fn overlay(table: &str, name: &str, over: &str) -> Overlay {
         let trace =
             |label: &str, by: f64| Trace { label: label.into(), points: vec![(0.0, 1.0 + by), (0.5, 3.0 + by)] };
-        Overlay { name: name.into(), over, traces: vec![trace("a", 0.0), trace("b", 10.0)] }
+        Overlay {
+            table: table.into(),
+            name: name.into(),
+            over: over.into(),
+            traces: vec![trace("a", 0.0), trace("b", 10.0)],
+        }
     }
 
     /// Two loads with the same variation lie on each other, whatever their means.
     #[test]
     fn errors_are_drawn_without_their_mean_first() {
-        let charts = compare_charts(&[overlay("iterations", "mesh_phase"), overlay("ste_um", "mesh_phase")]);
+        let charts = compare_charts(&[
+            overlay("history", "iterations", "mesh_phase"),
+            overlay("history", "ste_um", "mesh_phase"),
+        ]);
         let names: Vec<&str> = charts.iter().map(|c| c.name.as_str()).collect();
         assert_eq!(names, ["ste_without_mean_um", "ste_um"], "what does not matter is not drawn");
         assert!(charts[0].figure.contains("[[0,0.5],[-1,1],[-1,1]]"), "{}", charts[0].figure);
@@ -158,7 +214,21 @@ mod tests {
 
     #[test]
     fn a_sweep_shows_all_its_columns() {
-        let charts = compare_charts(&[overlay("rms_dte_um", "speed_rpm")]);
-        assert_eq!((charts.len(), charts[0].name.as_str()), (1, "rms_dte_um"));
+        let charts = compare_charts(&[overlay("resonance", "rms_dte_um", "speed_rpm")]);
+        assert_eq!((charts.len(), charts[0].name.as_str()), (1, "resonance_rms_dte_um"));
+    }
+
+    #[test]
+    fn numbers_keep_six_digits_and_a_sign_where_it_matters() {
+        let shown = [12.3456789, -0.00123456789, 1e-7, 86_000.0, 0.0, 1234.5678].map(|v| number(Some(v)));
+        assert_eq!(shown, ["12.3457", "-0.00123457", "1.0000e-7", "86000", "0", "1234.57"]);
+        assert_eq!((number(None), number(Some(f64::NAN))), ("-".into(), "-".into()));
+        let d = |absolute, per_cent| per_cent_of(absolute, per_cent);
+        assert_eq!([d(1.0, Some(5.0)), d(1.0, None), d(-1.0, Some(-2e-6))], ["+5.000", "-", "-2.0e-6"]);
+        assert_eq!([letter(0), letter(25), letter(26)], ["A", "Z", "26"]);
+    }
+
+    fn per_cent_of(absolute: f64, per_cent_of_first: Option<f64>) -> String {
+        per_cent(Some(Difference { absolute, per_cent: per_cent_of_first }))
     }
 }

@@ -1,14 +1,13 @@
 //! Files of the envelope: every failure mode with its figures, and maps of where methods fail.
 
-mod csv;
 mod markdown;
+mod page;
+mod rows;
 mod words;
 mod write;
 
-pub use csv::{envelope_csv, maps_csv};
-pub use markdown::{maps_markdown, modes_markdown};
-pub use words::envelope_table;
-pub use write::{find_envelope_tables, replace_envelope_tables, write_envelope};
+use markdown::{maps_markdown, modes_markdown};
+pub use write::{envelope_answer, find_envelope_tables, replace_envelope_tables, write_envelope};
 
 use envelope::{DrawnMap, EnvelopeMap, Examined, FailureMode};
 

@@ -1,83 +1,63 @@
-//! All files of the envelope.
+//! The answer about the envelope, and its tables in a document.
 
 use std::path::Path;
 
-use envelope::Outcome;
-use minijinja::{context, value::Serde};
-use serde_json::{Value, json};
+use answer::{Answer, Check, Checks, Cost};
+use serde_json::json;
 
-use super::{
-    EnvelopeResult, envelope_csv, maps_csv, maps_markdown, modes_markdown,
-    words::{outcome, short, shown},
-};
-use crate::{MarkedPlace, ReportError, ResultFiles, page::Rendered};
+use super::{EnvelopeResult, maps_markdown, modes_markdown, page, rows};
+use crate::{MarkedPlace, ReportError, folder::ResultDirectory, write_result};
 
 /// Names of the places of both tables in a document.
 const MODES: &str = "failure modes";
 const MAPS: &str = "maps";
 
-/// `envelope.csv`, `maps.csv` where maps were drawn, and `report.html`.
-///
-/// # Errors
-/// When the system refuses, or the template cannot be filled.
-pub fn write_envelope(of: &EnvelopeResult, command: &str, results: &dyn ResultFiles) -> Result<(), ReportError> {
+/// The answer: `envelope` and, where maps were drawn, `maps`.
+pub fn envelope_answer(of: &EnvelopeResult, cost: Cost) -> Answer {
+    let missed = of.modes.iter().filter(|(_, found)| !found.holds()).count();
+    let wrong: usize = of.maps.iter().map(|(_, drawn, _)| drawn.wrong()).sum();
+    let mut tables = Vec::new();
     if !of.modes.is_empty() {
-        results.write("envelope.csv", envelope_csv(of).as_bytes())?;
+        tables.push(rows::modes(of));
     }
     if !of.maps.is_empty() {
-        results.write("maps.csv", maps_csv(of).as_bytes())?;
+        tables.push(rows::maps(of));
     }
-    let page = Rendered::new(
-        "envelope.html",
-        context! {
-            name => "Envelope: where such solvers fail",
-            version => env!("CARGO_PKG_VERSION"),
-            warnings => of.missed().into_iter().map(|m| format!("does not hold: {m}")).collect::<Vec<_>>(),
-            modes => Serde(of.modes.iter().map(mode).collect::<Vec<_>>()),
-            maps => Serde(of.maps.iter().map(map).collect::<Vec<_>>()),
-            command => command,
-        },
-    )?;
-    page.write(results)
+    let hint = "the table says why";
+    Answer {
+        name: "Envelope: where such solvers fail".to_owned(),
+        inputs: json!({
+            "modes": of.modes.iter().map(|(mode, _)| mode.label()).collect::<Vec<_>>(),
+            "maps": of.maps.iter().map(|(map, ..)| map.key).collect::<Vec<_>>(),
+        }),
+        tables,
+        headline: json!({
+            "failure_modes": of.modes.len(),
+            "failure_modes_missed": missed,
+            "maps": of.maps.len(),
+            "cells_wrong": wrong,
+        }),
+        checks: Checks::new([
+            Check::new("failure_modes_missed", missed as f64, 0.0, hint),
+            Check::new("cells_wrong_without_a_word", wrong as f64, 0.0, hint),
+        ]),
+        cost,
+        ..Answer::default()
+    }
 }
 
-fn mode((mode, found): &(envelope::FailureMode, envelope::Examined)) -> Value {
-    let figures = match &found.figures {
-        Err(error) => vec![json!({ "what": error.to_string(), "naive": "", "robust": "", "asked": "", "holds": false })],
-        Ok(figures) => figures
-            .iter()
-            .map(|figure| {
-                let (robust, asked) = shown(&figure.robust);
-                let naive = figure.naive.as_ref().map_or(String::new(), |n| shown(n).0);
-                json!({ "what": figure.what, "naive": naive, "robust": robust, "asked": asked, "holds": figure.holds() })
-            })
-            .collect(),
-    };
-    json!({
-        "label": mode.label(), "name": mode.name, "fails": mode.fails, "does": mode.does, "command": mode.command(),
-        "naive_command": mode.naive_command(), "figures": figures, "seconds": format!("{:.1}", found.seconds),
-        "holds": found.holds(),
-    })
-}
-
-fn map((map, drawn, seconds): &(envelope::EnvelopeMap, envelope::DrawnMap, f64)) -> Value {
-    let cell = |c: &envelope::Cell| {
-        let off = c.off_percent.filter(|_| c.outcome != Outcome::Refused).map_or(String::new(), short);
-        json!({ "outcome": outcome(c), "off": off, "said": c.said, "settings": c.settings.join(" ") })
-    };
-    let layer = |(name, rows): (&&str, &Vec<Vec<envelope::Cell>>)| {
-        let rows: Vec<Value> = rows
-            .iter()
-            .zip(map.rows.1)
-            .map(|(cells, value)| json!({ "value": value, "cells": cells.iter().map(cell).collect::<Vec<_>>() }))
-            .collect();
-        json!({ "name": name, "rows": rows })
-    };
-    json!({
-        "key": map.key, "name": map.name, "judged": map.judged, "columns": map.columns.1, "columns_name": map.columns.0,
-        "rows_name": map.rows.0, "layers": map.layers.iter().zip(&drawn.layers).map(layer).collect::<Vec<_>>(),
-        "seconds": format!("{seconds:.0}"), "wrong": drawn.wrong(),
-    })
+/// Writes the answer; what comes back is the closing table.
+///
+/// # Errors
+/// When the system refuses, or the page cannot be filled.
+pub fn write_envelope(
+    of: &EnvelopeResult,
+    command: &str,
+    cost: Cost,
+    results: &ResultDirectory,
+) -> Result<String, ReportError> {
+    let answer = envelope_answer(of, cost);
+    write_result(&answer, &page::page(of, &answer, command), false, results)
 }
 
 /// Whether a file has the places of the tables that [`replace_envelope_tables`] will replace: told before any work.

@@ -26,13 +26,15 @@ pub fn closing_text(page: &Page, cost: &Cost) -> String {
                 Content::Lines(lines) => lines.iter().for_each(|l| push_line(&mut t, &l.label, &l.value, &l.unit)),
                 Content::Grid(grid) => push_grid(&mut t, grid),
                 Content::Items(items) => items.iter().for_each(|item| push_line(&mut t, item, "", "")),
-                Content::Plain(text) => t.push_str(text),
+                Content::Plain(text) | Content::Markdown(text) => t.push_str(text),
                 Content::Figures(_) | Content::Html(_) => {}
             }
         }
     }
-    t.push('\n');
-    t += &phases(cost);
+    if !cost.phases.is_empty() {
+        t.push('\n');
+        t += &phases(cost);
+    }
     for warning in &page.warnings {
         // Writing to a String cannot fail.
         let _ = writeln!(t, "\nwarning: {warning}");

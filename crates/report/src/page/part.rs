@@ -55,6 +55,8 @@ pub enum Content {
     Items(Vec<String>),
     /// Text as it stands.
     Plain(String),
+    /// Tables of a document.
+    Markdown(String),
 }
 
 /// A label, its value and its unit.
@@ -100,9 +102,27 @@ pub struct Cell {
     /// Page that a click on it opens.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub link: Option<String>,
+    /// How it is coloured: a class of `style.css`.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub tone: String,
+    /// What a pointer on it says.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub told: String,
 }
 
 impl Cell {
+    /// The same in a colour.
+    #[must_use]
+    pub fn toned(self, tone: &str) -> Self {
+        Self { tone: tone.to_owned(), ..self }
+    }
+
+    /// The same with words for a pointer.
+    #[must_use]
+    pub fn told(self, told: String) -> Self {
+        Self { told, ..self }
+    }
+
     /// Words.
     pub fn text(text: impl Into<String>) -> Self {
         Self { text: text.into(), ..Self::default() }
@@ -110,17 +130,17 @@ impl Cell {
 
     /// A number with so many decimals, `-` when there is none.
     pub fn number(value: impl Into<Option<f64>>, decimals: usize) -> Self {
-        Self { text: shown(value.into(), decimals), is_number: true, link: None }
+        Self { text: shown(value.into(), decimals), is_number: true, ..Self::default() }
     }
 
     /// A small number as power of ten, `-` when there is none.
     pub fn science(value: impl Into<Option<f64>>) -> Self {
-        Self { text: science(value.into()), is_number: true, link: None }
+        Self { text: science(value.into()), is_number: true, ..Self::default() }
     }
 
     /// A whole number.
     pub fn count(value: impl ToString) -> Self {
-        Self { text: value.to_string(), is_number: true, link: None }
+        Self { text: value.to_string(), is_number: true, ..Self::default() }
     }
 }
 
@@ -224,7 +244,7 @@ impl Content {
             Self::Lines(all) => all.is_empty(),
             Self::Grid(grid) => grid.rows.is_empty(),
             Self::Figures(all) | Self::Items(all) => all.is_empty(),
-            Self::Html(text) | Self::Plain(text) => text.is_empty(),
+            Self::Html(text) | Self::Plain(text) | Self::Markdown(text) => text.is_empty(),
         }
     }
 }

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use minijinja::{Environment, Value};
 
-use super::scripts;
+use super::{markdown::markdown, scripts};
 use crate::ReportError;
 
 /// The template of this name, filled in; the parts that all pages share are at hand in it, and scripts are put in where
@@ -36,12 +36,10 @@ fn filled(fill: impl FnOnce(&Environment<'static>) -> Result<String, minijinja::
 fn environment() -> Result<Environment<'static>, minijinja::Error> {
     let mut environment = Environment::new();
     environment.set_undefined_behavior(minijinja::UndefinedBehavior::Strict);
+    environment.add_filter("markdown", markdown);
     environment.add_function("number", number);
     environment.add_function("science", science);
     let parts = [
-        ("chart.html", include_str!("chart.html")),
-        ("compare.html", include_str!("compare.html")),
-        ("envelope.html", include_str!("envelope.html")),
         ("gearbox_view.html", include_str!("gearbox_view.html")),
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),

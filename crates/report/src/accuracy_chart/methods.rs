@@ -1,15 +1,14 @@
-//! Error of the methods of integration against what they cost: chart, CSV and table.
+//! Error of the methods of integration against what they cost: chart and table.
 
 use std::fmt::Write;
 
 use analysis::motion::{MotionPrecision, MotionPrecisionPoint};
+use answer::Table;
 use plotters::prelude::*;
+use serde_json::json;
 
-use crate::{
-    ReportError, ResultFiles,
-    charts::{Captions, Failure, Labelled, legend, log_panel, write_picture},
-    page::write_chart_page,
-};
+use super::Chart;
+use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
 
 const SIZE: (u32, u32) = (1040, 470);
 const HEAD: u32 = 84;
@@ -19,10 +18,7 @@ const LEAST_UM: f64 = 1e-6;
 const MOST_UM: f64 = 100.0;
 
 /// The chart as SVG: errors against steps and against wall time.
-///
-/// # Errors
-/// What the drawing library complains of.
-pub fn motion_precision_svg(title: &str, of: &MotionPrecision) -> Result<String, String> {
+fn motion_precision_svg(title: &str, of: &MotionPrecision) -> Result<String, String> {
     let mut svg = String::new();
     draw(&mut svg, title, of).map_err(|e| e.to_string())?;
     Ok(svg)
@@ -62,18 +58,22 @@ fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failu
 }
 
 /// Every point; a method that does not come through has its reason in `note`.
-pub fn motion_precision_csv(of: &MotionPrecision) -> String {
-    let mut text = "method,steps_per_mesh_cycle,error_dte_um,cycle_s,note\n".to_owned();
-    for p in &of.points {
-        let error = p.error_um.map_or_else(String::new, |e| e.to_string());
-        let note = p.note.replace('"', "\"\"");
-        let _ = writeln!(text, "{},{},{error},{},\"{note}\"", p.method, p.steps, p.cycle_s);
-    }
-    text
+fn rows(of: &MotionPrecision) -> Table {
+    let points = &of.points;
+    Table::new("motion_precision")
+        .texts("method", "method of integration", points.iter().map(|p| p.method))
+        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", points.iter().map(|p| f64::from(p.steps)))
+        .numbers(
+            "error_dte_um",
+            "largest difference of the DTE to the reference",
+            points.iter().map(|p| p.error_um.unwrap_or(f64::NAN)),
+        )
+        .numbers("cycle_s", "wall time of a mesh cycle", points.iter().map(|p| p.cycle_s))
+        .texts("note", "why the method does not come through", points.iter().map(|p| p.note.clone()))
 }
 
 /// Errors and wall times as Markdown, a line a method.
-pub fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
+fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
     let MotionPrecision { mesh_over_resonance, reference, cycles, .. } = of;
     let mut t = format!(
         "Made by `{command}`. f_m / f_0 = {mesh_over_resonance:.2}; {cycles} mesh cycles from the quasi-static start; reference: {reference}. Largest error of the DTE, um, and wall \
@@ -101,20 +101,19 @@ pub fn motion_precision_table(of: &MotionPrecision, command: &str) -> String {
     t
 }
 
-/// `motion_precision.csv`, `.svg` and `.md`; what comes back is the table.
-///
-/// # Errors
-/// When the system refuses, or the picture cannot be drawn.
-pub fn write_motion_precision(
-    name: &str,
-    found: &MotionPrecision,
-    command: &str,
-    results: &dyn ResultFiles,
-) -> Result<String, ReportError> {
-    let table = motion_precision_table(found, command);
-    results.write("motion_precision.csv", motion_precision_csv(found).as_bytes())?;
-    let picture = write_picture("motion_precision", motion_precision_svg(name, found), results)?;
-    results.write("motion_precision.md", format!("# {name}\n\n{table}").as_bytes())?;
-    write_chart_page(name, &[picture], &table, results)?;
-    Ok(table)
+/// Every method of integration of a scene: error against step and wall time.
+pub fn methods_chart(name: &str, found: &MotionPrecision, command: &str) -> Chart {
+    let known = found.points.iter().filter(|p| p.error_um.is_some()).count();
+    Chart {
+        subtitle: "methods of integration, accuracy against cost".to_owned(),
+        tables: vec![rows(found)],
+        headline: json!({
+            "points": known,
+            "points_not_run": found.points.len() - known,
+            "mesh_over_resonance": found.mesh_over_resonance,
+        }),
+        pictures: vec![("motion_precision", motion_precision_svg(name, found))],
+        markdown: motion_precision_table(found, command),
+        command: command.to_owned(),
+    }
 }
