@@ -1,12 +1,13 @@
 //! From a scene to the exact geometry of its pair: gear data, micro-geometry, pitch errors.
 
-use geometry::modification::{DataFileError, read_pitch_errors};
-use geometry::{Gear, GearData, GearModifications, GearPair, Side};
+use geometry::modification::DataFileError;
+use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, Side};
 
-use crate::{GearScene, Scene, SceneError};
+use crate::{FlankScene, GearScene, Scene, SceneError};
 
 impl Scene {
-    /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors.
+    /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors. Their files are read the
+    /// first time that they are needed; the scene and its clones keep what they say.
     ///
     /// # Errors
     /// [`SceneError::Geometry`] when no running pair can be made of the data, [`SceneError::DataFile`] when a
@@ -48,11 +49,15 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
 
 /// Micro-geometry of a gear: the driving flanks are on the same side of both gears.
 fn modifications(scene: &Scene, gear: &GearScene) -> Result<GearModifications, DataFileError> {
-    let drive = gear.modification.drive.in_geometry(&scene.file)?;
-    let coast = gear.modification.coast.in_geometry(&scene.file)?;
+    let files = scene.written.data_files();
+    let flank = |of: &FlankScene| -> Result<FlankModification, DataFileError> {
+        let measured = of.topography.as_ref().map(|path| files.topography(&scene.resolve(path))).transpose()?;
+        Ok(of.in_geometry(measured))
+    };
+    let (drive, coast) = (flank(&gear.modification.drive)?, flank(&gear.modification.coast)?);
     let (left, right) = if scene.side() == Side::Left { (drive, coast) } else { (coast, drive) };
     let pitch_errors = match &gear.pitch_errors_file {
-        Some(file) => read_pitch_errors(&scene.resolve(file))?,
+        Some(file) => files.pitch_errors(&scene.resolve(file))?,
         None => gear.pitch_errors_um.iter().map(|e| 1e-3 * e).collect(),
     };
     Ok(GearModifications { left, right, pitch_errors })

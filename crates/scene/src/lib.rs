@@ -22,6 +22,7 @@ mod analysis;
 mod builder;
 mod check;
 mod contact;
+mod data_files;
 mod default_scene;
 mod design_key;
 mod document_kind;
