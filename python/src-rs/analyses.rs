@@ -41,10 +41,10 @@ pub struct Held<'a> {
 pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let WrittenInTime { solved, .. } = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
+    let WrittenInTime { solved, written, .. } = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
     results.finish(drop)?;
     let failure = solved.verdict().err().map(Complaint::from);
-    Result::in_time(&scene.name, solved, folder, failure)
+    Ok(Result::written("dynamic", written.answer, folder, failure))
 }
 
 /// Many cases of a scene, a row a case; `again`: the call that makes it again.
@@ -58,9 +58,10 @@ pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answ
     solve_cases((plan, 0..count), held.models, &|| Box::new(beside.beside()), &done, &*progress)?;
     watch.end();
     analysis::unless_cancelled(&*progress)?;
-    write_cases((plan, &done), PageWords { again, ..PageWords::default() }, watch.cost(), &results)?;
+    let words = PageWords { again, ..PageWords::default() };
+    let written = write_cases((plan, &done), words, watch.cost(), &results)?;
     results.finish(drop)?;
-    Result::written(("plan", &plan.name), folder, None)
+    Ok(Result::written("plan", written.answer, folder, None))
 }
 
 /// The quietest micro-geometry; `again`: words of the command that make it again.
@@ -79,7 +80,7 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     watch.end();
     let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
     let of = OptimumResult { optimum: &found, told: &told, scene: &scene, again };
-    write_optimum(&of, watch.cost(), &results)?;
+    let written = write_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
-    Result::written(("optimum", &plan.name), folder, None)
+    Ok(Result::written("optimum", written.answer, folder, None))
 }

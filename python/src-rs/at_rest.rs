@@ -10,16 +10,16 @@ use analysis::{
     results::{root_stress_headline, root_stress_warnings, static_headline},
     static_certificate,
 };
+use answer::Table;
 use ltca::{StaticHistory, StaticModel, StaticPosition};
 use report::{
     Cost, Recorder, ReportError,
-    columns::history_rows,
+    columns::history_table,
     folder::ResultDirectory,
     paraview::FieldWriter,
     view::{View, ViewRecorder},
     write_static_result,
 };
-use study::Columns;
 use tempfile::TempDir;
 
 use crate::{error::Complaint, work::Watch};
@@ -118,14 +118,14 @@ impl AtRest {
     }
 
     /// The rows, column by column.
-    pub fn columns(&self) -> Columns {
-        history_rows(&self.scene, &self.history, self.derivatives.as_ref())
+    pub fn table(&self) -> Table {
+        history_table(&self.scene, &self.history, self.derivatives.as_ref())
     }
 
-    /// The headline numbers as JSON.
-    pub fn headline(&self) -> Result<String, Complaint> {
+    /// The headline numbers.
+    pub fn headline(&self) -> Result<serde_json::Value, Complaint> {
         let headline = static_headline(&self.scene, &self.history).map_err(ReportError::from)?;
-        Ok(serde_json::to_string(&headline).unwrap_or_default())
+        Ok(serde_json::to_value(&headline).unwrap_or_default())
     }
 
     /// What a user should hear.
@@ -166,7 +166,7 @@ impl AtRest {
         let mut history = self.history.clone();
         history.warnings.extend_from_slice(said);
         let rows = (&history, self.derivatives.as_ref());
-        write_static_result(&self.scene, rows, (&self.facts, &self.cost), view, results)
+        write_static_result(&self.scene, rows, (&self.facts, &self.cost), view, results).map(|written| written.table)
     }
 }
 

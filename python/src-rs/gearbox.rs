@@ -3,10 +3,7 @@
 use std::{path::Path, sync::Arc};
 
 use ::scene::gearbox::Gearbox as GearboxFile;
-use analysis::{
-    GearCache,
-    gearbox_at_rest::solve_gearbox,
-};
+use analysis::{GearCache, gearbox_at_rest::solve_gearbox};
 use pyo3::prelude::*;
 use report::{Recorder, folder::ResultDirectory, gearbox_files::write_gearbox};
 use tempfile::TempDir;
@@ -95,11 +92,11 @@ fn solved(file: &GearboxFile, cache: &dyn GearCache, watch: &mut Watch) -> Answe
     let solved = solve_gearbox(file, cache, watch)?;
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    write_gearbox(file, &solved, watch.cost(), &results)?;
+    let written = write_gearbox(file, &solved, watch.cost(), &results)?;
     results.finish(drop)?;
     let failure = solved.checks().failed().map(|failed| {
         let words = format_args!("the result does not hold: {}", failed.missed);
         Complaint::new(Kind::NoResult, words, Some(failed.hint.into()))
     });
-    Result::written(("gearbox", &file.name), folder, failure)
+    Ok(Result::written("gearbox", written.answer, folder, failure))
 }

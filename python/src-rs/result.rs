@@ -1,26 +1,27 @@
 //! What a run gives: columns as arrays, headline numbers, and every file that the command writes.
 
 use std::{
-    collections::BTreeMap,
+    borrow::Cow,
     path::{Path, PathBuf},
     sync::OnceLock,
 };
 
-use analysis::{Solved, in_time::SolvedInTime};
+use answer::{Answer, Column, Table, Values};
 use numpy::{PyArray1, ndarray::ArrayView1};
 use pyo3::{
     exceptions::PyKeyError,
     prelude::*,
     types::{PyDict, PyList},
 };
-use report::{charts::stills, columns::solved_rows, folder::ResultDirectory};
+use report::{charts::stills, folder::ResultDirectory};
+use serde_json::Value;
 use tempfile::TempDir;
 
 use crate::{
     arguments::{path, text},
     at_rest::{AtRest, names},
     error::{Complaint, Kind},
-    scene::of_json,
+    scene::{of_json, of_value},
     views::view,
 };
 
@@ -29,8 +30,9 @@ use crate::{
 pub struct Result {
     kind: &'static str,
     name: String,
-    table: Table,
-    headline: String,
+    /// Its tables; the first one is that of its rows.
+    tables: Vec<Table>,
+    headline: Value,
     warnings: Vec<String>,
     files: Files,
     /// Why it does not hold; nothing where it does.
@@ -47,78 +49,12 @@ enum Files {
 
 /// Name of the folder of the files in a folder of its own.
 pub const FILES: &str = "result";
-/// The file of rows of a result, whichever it has.
-const ROWS: [&str; 9] = [
-    "positions.csv",
-    "history.csv",
-    "branch.csv",
-    "sweep.csv",
-    "bifurcation.csv",
-    "basins.csv",
-    "resonance.csv",
-    "cases.csv",
-    "steps.csv",
-];
-
-/// Columns of numbers, and of words, in the order of the file.
-#[derive(Debug, Default)]
-pub struct Table {
-    order: Vec<String>,
-    numbers: BTreeMap<String, Vec<f64>>,
-    words: BTreeMap<String, Vec<String>>,
-}
-
-impl Table {
-    /// Of columns of numbers.
-    fn of(columns: &study::Columns) -> Self {
-        let names: Vec<String> = columns.names().into_iter().map(str::to_owned).collect();
-        let column = |name: &String| Some((name.clone(), columns.find(name)?.to_vec()));
-        let numbers = names.iter().filter_map(column).collect();
-        Self { order: names, numbers, words: BTreeMap::new() }
+/// Numbers of a column, or its words as a list.
+fn values<'py>(py: Python<'py>, values: &Values) -> PyResult<Bound<'py, PyAny>> {
+    match values {
+        Values::Numbers(list) => Ok(PyArray1::from_slice(py, list).into_any()),
+        Values::Texts(list) => Ok(PyList::new(py, list)?.into_any()),
     }
-
-    /// Of a file with commas; a column with a field that is no number is one of words.
-    fn parse(csv: &str) -> Self {
-        let mut lines = csv.lines().map(fields);
-        let order = lines.next().unwrap_or_default();
-        let rows: Vec<Vec<String>> = lines.collect();
-        let mut table = Self { order, ..Self::default() };
-        for (k, name) in table.order.iter().enumerate() {
-            let column = || rows.iter().map(move |row| row.get(k).map_or("", String::as_str));
-            let numbers: Option<Vec<f64>> = column().map(number).collect();
-            match numbers.filter(|_| column().any(|field| !field.is_empty())) {
-                Some(numbers) => drop(table.numbers.insert(name.clone(), numbers)),
-                None => drop(table.words.insert(name.clone(), column().map(str::to_owned).collect())),
-            }
-        }
-        table
-    }
-
-    fn rows(&self) -> usize {
-        let words = self.words.values().next().map(Vec::len);
-        self.numbers.values().next().map(Vec::len).or(words).unwrap_or(0)
-    }
-}
-
-/// A number of a file; where a field is empty there is none.
-fn number(field: &str) -> Option<f64> {
-    if field.is_empty() { Some(f64::NAN) } else { field.parse().ok() }
-}
-
-/// Fields of a line, without their quotes.
-fn fields(line: &str) -> Vec<String> {
-    let (mut all, mut field, mut quoted) = (Vec::new(), String::new(), false);
-    let mut letters = line.chars().peekable();
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' if quoted && letters.peek() == Some(&'"') => field.extend(letters.next()),
-            '"' => quoted = !quoted,
-            ',' if !quoted => all.push(std::mem::take(&mut field)),
-            other => field.push(other),
-        }
-    }
-    all.push(field);
-    all
 }
 
 impl Result {
@@ -127,7 +63,7 @@ impl Result {
         Ok(Self {
             kind: "static",
             name: name.to_owned(),
-            table: Table::of(&solved.columns()),
+            tables: vec![solved.table()],
             headline: solved.headline()?,
             warnings: solved.warnings().to_vec(),
             failure: solved.verdict().err().map(Complaint::from),
@@ -135,51 +71,15 @@ impl Result {
         })
     }
 
-    /// Of a scene in time whose files are written, in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
-    pub fn in_time(
-        name: &str,
-        solved: Box<SolvedInTime>,
-        folder: TempDir,
-        failure: Option<Complaint>,
-    ) -> std::result::Result<Self, Complaint> {
-        let solved = Solved::InTime(solved);
-        let rows = solved_rows(&solved);
-        if rows.is_empty() {
-            // Of many motions the files have tables of their own.
-            return Self::written(("dynamic", name), folder, failure);
-        }
-        Ok(Self {
-            kind: "dynamic",
-            name: name.to_owned(),
-            table: Table::of(&rows),
-            headline: solved.headline()?.to_string(),
-            warnings: solved.warnings().to_vec(),
-            files: Files::Written(folder),
-            failure,
-        })
+    /// Of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
+    pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
+        let Answer { name, tables, headline, remarks, .. } = answer;
+        Self { kind, name, tables, headline, warnings: remarks, files: Files::Written(folder), failure }
     }
 
-    /// Of files that are written, in the folder [`FILES`] of `folder`.
-    pub fn written(
-        (kind, name): (&'static str, &str),
-        folder: TempDir,
-        failure: Option<Complaint>,
-    ) -> std::result::Result<Self, Complaint> {
-        let at = folder.path().join(FILES);
-        let read = |file: &str| std::fs::read_to_string(at.join(file)).map_err(Complaint::from);
-        let summary: serde_json::Value = serde_json::from_str(&read("summary.json")?).unwrap_or_default();
-        let rows = ROWS.iter().find(|file| at.join(file).is_file());
-        let table = rows.map(|file| Ok::<_, Complaint>(Table::parse(&read(file)?))).transpose()?.unwrap_or_default();
-        let words = summary["warnings"].as_array().into_iter().flatten().filter_map(|w| w.as_str());
-        Ok(Self {
-            kind,
-            name: name.to_owned(),
-            table,
-            headline: summary["headline"].to_string(),
-            warnings: words.map(str::to_owned).collect(),
-            files: Files::Written(folder),
-            failure,
-        })
+    /// Its columns, in their order.
+    fn own_columns(&self) -> &[Column] {
+        self.tables.first().map_or(&[], |table| &table.columns)
     }
 
     /// Why it does not hold.
@@ -215,12 +115,11 @@ impl Result {
     }
 
     fn column<'py>(own: &Bound<'py, Self>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
-        let table = &own.get().table;
-        if let Some(numbers) = table.numbers.get(name) {
-            return view(own.clone().into_any(), &ArrayView1::from(&numbers[..])).map(Some);
+        match own.get().own_columns().iter().find(|column| column.name == name).map(|column| &column.values) {
+            Some(Values::Numbers(list)) => view(own.clone().into_any(), &ArrayView1::from(&list[..])).map(Some),
+            Some(words) => values(own.py(), words).map(Some),
+            None => Ok(None),
         }
-        let words = table.words.get(name).map(|words| PyList::new(own.py(), words)).transpose()?;
-        Ok(words.map(Bound::into_any))
     }
 }
 
@@ -237,41 +136,41 @@ impl Result {
     fn __getitem__<'py>(slf: &Bound<'py, Self>, name: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         let name = text("name", name)?;
         Self::column(slf, &name)?.ok_or_else(|| {
-            let names: Vec<&str> = slf.get().table.order.iter().map(String::as_str).collect();
+            let names: Vec<&str> = slf.get().own_columns().iter().map(|column| &*column.name).collect();
             let near = ::scene::nearest(&name, &names).map(|near| format!("; did you mean {near:?}?"));
             PyKeyError::new_err(format!("there is no column {name:?}{}", near.unwrap_or_default()))
         })
     }
 
     fn __len__(&self) -> usize {
-        self.table.order.len()
+        self.own_columns().len()
     }
 
     fn __contains__(&self, name: &Bound<'_, PyAny>) -> bool {
-        name.extract::<String>().is_ok_and(|name| self.table.order.contains(&name))
+        name.extract::<String>().is_ok_and(|name| self.keys().contains(&name))
     }
 
     fn __iter__<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        Ok(PyList::new(py, &self.table.order)?.try_iter()?.into_any())
+        Ok(PyList::new(py, self.keys())?.try_iter()?.into_any())
     }
 
     /// Names of the columns, in the order of the file.
     fn keys(&self) -> Vec<String> {
-        self.table.order.clone()
+        self.own_columns().iter().map(|column| column.name.to_string()).collect()
     }
 
     /// Number of rows.
     #[getter]
     fn rows(&self) -> usize {
-        self.table.rows()
+        self.tables.first().map_or(0, Table::rows)
     }
 
     /// All columns by name.
     #[getter]
     fn columns<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(slf.py());
-        for name in &slf.get().table.order {
-            all.set_item(name, Self::column(slf, name)?)?;
+        for column in slf.get().own_columns() {
+            all.set_item(&*column.name, Self::column(slf, &column.name)?)?;
         }
         Ok(all)
     }
@@ -279,7 +178,7 @@ impl Result {
     /// Where the numbers of a column begin in memory.
     fn address(&self, name: &Bound<'_, PyAny>) -> PyResult<usize> {
         let name = text("name", name)?;
-        let column = self.table.numbers.get(&name);
+        let column = self.tables.first().and_then(|table| table.find(&name));
         Ok(column.map(|c| c.as_ptr().addr()).ok_or_else(|| {
             Complaint::argument("name", format_args!("is {name:?}, which is no column of numbers"), "see `keys()`")
         })?)
@@ -300,7 +199,7 @@ impl Result {
     /// The headline numbers of `summary.json`.
     #[getter]
     fn headline<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        of_json(py, &self.headline)
+        of_value(py, &self.headline)
     }
 
     /// What a user should hear.
@@ -329,13 +228,17 @@ impl Result {
 
     /// The columns of one of the files, as `result.read("harris.csv")`.
     fn read<'py>(&self, py: Python<'py>, file: &Bound<'_, PyAny>) -> PyResult<Bound<'py, PyDict>> {
-        let table = Table::parse(&self.text(py, &text("file", file)?)?);
+        let file = text("file", file)?;
+        let known = self.tables.iter().find(|table| file.strip_suffix(".csv") == Some(&table.name));
+        let read = || -> std::result::Result<Table, Complaint> {
+            let text = self.text(py, &file)?;
+            let wrong = |e: answer::TableError| Complaint::new(Kind::Argument, e.to_string(), Some(e.hint().into()));
+            Table::read(file.trim_end_matches(".csv"), &text, usize::MAX).map_err(wrong)
+        };
+        let table = known.map_or_else(|| read().map(Cow::Owned), |table| Ok(Cow::Borrowed(table)))?;
         let all = PyDict::new(py);
-        for name in &table.order {
-            match (table.numbers.get(name), table.words.get(name)) {
-                (Some(numbers), _) => all.set_item(name, PyArray1::from_slice(py, numbers))?,
-                (_, words) => all.set_item(name, words)?,
-            }
+        for column in &table.columns {
+            all.set_item(&*column.name, values(py, &column.values)?)?;
         }
         Ok(all)
     }
@@ -373,7 +276,7 @@ impl Result {
 
     fn __repr__(&self) -> String {
         let word = if self.holds() { "" } else { ", which does not hold" };
-        let (rows, columns) = (self.table.rows(), self.table.order.len());
+        let (rows, columns) = (self.rows(), self.own_columns().len());
         format!("Result({:?}, {}: {rows} rows of {columns} columns{word})", self.name, self.kind)
     }
 

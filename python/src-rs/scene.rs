@@ -6,7 +6,7 @@ use ::scene::{SceneError, Setting, Starter, all_keys, json_schema, read_pair, re
 use analysis::{gears, resolution::with_slices};
 use pyo3::{
     prelude::*,
-    types::{PyDict, PyString},
+    types::{PyBool, PyDict, PyList, PyString},
 };
 use report::{available_bytes, check_memory};
 
@@ -94,6 +94,31 @@ pub fn of_json<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> 
     py.import("json")?.call_method1("loads", (json,))
 }
 
+/// Values of JSON as Python's.
+pub fn of_value<'py>(py: Python<'py>, value: &serde_json::Value) -> PyResult<Bound<'py, PyAny>> {
+    use serde_json::Value;
+    Ok(match value {
+        Value::Null => py.None().into_bound(py),
+        Value::Bool(own) => PyBool::new(py, *own).to_owned().into_any(),
+        Value::Number(own) => match own.as_i64() {
+            Some(whole) => whole.into_pyobject(py)?.into_any(),
+            None => own.as_f64().unwrap_or(f64::NAN).into_pyobject(py)?.into_any(),
+        },
+        Value::String(own) => own.into_pyobject(py)?.into_any(),
+        Value::Array(all) => {
+            let all = all.iter().map(|own| of_value(py, own)).collect::<PyResult<Vec<_>>>()?;
+            PyList::new(py, all)?.into_any()
+        }
+        Value::Object(all) => {
+            let dict = PyDict::new(py);
+            for (key, own) in all {
+                dict.set_item(key, of_value(py, own)?)?;
+            }
+            dict.into_any()
+        }
+    })
+}
+
 #[pymethods]
 impl Scene {
     /// A scene of tables: `Scene({"pinion": {...}, ...})`, `Scene(pinion={...}, ...)`, or keys with dots.
@@ -135,8 +160,9 @@ impl Scene {
     fn from_rexs(file: &Bound<'_, PyAny>, stage: Given<'_, '_>, set: Given<'_, '_>) -> Result<Self, Complaint> {
         let file = path("file", file)?;
         let stage = stage.map_or(Ok(1), |any| whole("stage", any, 1))? as usize;
-        let wrong =
-            |e: ::scene::RexsError| Complaint::new(Kind::Input, format_args!("{}: {e}", file.display()), e.hint()).about(&file);
+        let wrong = |e: ::scene::RexsError| {
+            Complaint::new(Kind::Input, format_args!("{}: {e}", file.display()), e.hint()).about(&file)
+        };
         let text = read_rexs(&file).map_err(wrong)?;
         let starter = read_pair(&text, stage, 1, &Starter::default()).map_err(wrong)?.starter;
         let name = file.with_extension("toml");

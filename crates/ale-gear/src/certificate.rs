@@ -22,7 +22,8 @@ pub(crate) struct Written {
 }
 
 impl From<WrittenInTime> for Written {
-    fn from(WrittenInTime { solved, cost, table }: WrittenInTime) -> Self {
+    fn from(WrittenInTime { solved, cost, written }: WrittenInTime) -> Self {
+        let table = written.table;
         Self { table, verdict: solved.verdict().map_err(CommandError::from), solved: Solved::InTime(solved), cost }
     }
 }

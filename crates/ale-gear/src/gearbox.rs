@@ -43,7 +43,7 @@ pub(crate) fn solve(
             GearboxOutcome::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
             GearboxOutcome::Finished(result) => result,
         };
-        let table = write_gearbox(file, &result, phases.cost(), results)?;
+        let table = write_gearbox(file, &result, phases.cost(), results)?.table;
         let verdict = result.verdict(file).map_err(CommandError::from);
         Ok(Outcome::Finished((table, verdict)))
     })

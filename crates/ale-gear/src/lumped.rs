@@ -38,5 +38,5 @@ pub(crate) fn sweep_key(
     cache: &Cache,
 ) -> Result<String, CommandError> {
     let found = KeySweep::new(scenes, options).with_cache(cache).solve_with(phases)?;
-    Ok(write_key_sweep_result(options, &found, again, &phases.cost(), results)?)
+    Ok(write_key_sweep_result(options, &found, again, &phases.cost(), results)?.table)
 }

@@ -35,7 +35,7 @@ pub(crate) fn solve(
         let Some((checkpoints, from)) = part else {
             let written = solve_in_time(scene, None, phases, results, cache)?;
             let verdict = written.solved.verdict().map_err(CommandError::from);
-            return Ok(Outcome::Finished((written.table, verdict)));
+            return Ok(Outcome::Finished((written.written.table, verdict)));
         };
         let folder = checkpoints.folder.path();
         let mut analysis = TimeAnalysis::new(scene).with_cache(cache).stop_after(progression.stop_after);
@@ -53,7 +53,7 @@ pub(crate) fn solve(
         for file in [HISTORY, ENERGY_FILE] {
             results.copy(&folder.join(file), file)?;
         }
-        let table = write_in_time(&solved, &phases.cost(), sink.view.as_ref(), results)?;
+        let table = write_in_time(&solved, &phases.cost(), sink.view.as_ref(), results)?.table;
         Ok(Outcome::Finished((table, solved.verdict().map_err(CommandError::from))))
     })
 }

@@ -52,7 +52,7 @@ struct Rates<'a> {
 
 /// Positions and their derivatives.
 #[derive(Debug, Clone)]
-pub struct SolvedWithRates {
+pub(crate) struct SolvedWithRates {
     /// The scene as it was solved.
     pub scene: Scene,
     /// Its positions.
@@ -76,33 +76,23 @@ impl SharedModels<'_> {
         Ok((scene, history))
     }
 
-    /// As [`SharedModels::solve`], and with the positions what a user should hear of pair, meshes and bodies, as a run by itself says it.
-    ///
-    /// # Errors
-    /// As of [`SharedModels::solve`].
-    pub fn solve_told(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        match self.solve_while(scene, Interest::LASTING)? {
-            Some(told) => Ok(told),
-            None => self.solve(scene),
-        }
-    }
-
     /// As [`SharedModels::solve`], with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks
     /// for none.
     ///
     /// # Errors
     /// As of [`SharedModels::solve`], and where there are no derivatives.
-    pub fn solve_with_derivatives(
+    pub(crate) fn solve_with_derivatives(
         &self,
         scene: &Scene,
         warnings: WarningsAtRest,
     ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
         let keys = scene.output.derivatives.clone();
         if keys.is_empty() {
-            let (scene, history) = match warnings {
-                WarningsAtRest::Told => self.solve_told(scene)?,
-                WarningsAtRest::Left => self.solve(scene)?,
+            let told = match warnings {
+                WarningsAtRest::Told => self.solve_while(scene, Interest::LASTING)?,
+                WarningsAtRest::Left => None,
             };
+            let (scene, history) = told.map_or_else(|| self.solve(scene), Ok)?;
             return Ok((scene, history, None));
         }
         let varied = VariedScene::by_keys(scene, &keys)?;
@@ -173,7 +163,11 @@ impl SharedModels<'_> {
     ///
     /// # Errors
     /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
-    pub fn solve_with_rates(&self, scene: &Scene, varied: &[VariedScene]) -> Result<SolvedWithRates, AnalysisError> {
+    pub(crate) fn solve_with_rates(
+        &self,
+        scene: &Scene,
+        varied: &[VariedScene],
+    ) -> Result<SolvedWithRates, AnalysisError> {
         let asked = Rates { of: varied, of_unloaded: false };
         let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
         hold(&solved.scene, &solved.history)?;

@@ -28,20 +28,29 @@ struct Summary<'a> {
     files: &'a [String],
 }
 
+/// An answer whose files are written.
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// The answer.
+    pub answer: Answer,
+    /// The closing table.
+    pub table: String,
+}
+
 /// Writes tables (with commas, and column by column where `with_parquet` is set), page, and `summary.json` last: where it
-/// is, everything is. What comes back is the closing table.
+/// is, everything is.
 ///
 /// # Errors
 /// When the system refuses, or the page cannot be filled.
 pub fn write_result(
-    answer: &Answer,
+    answer: Answer,
     page: &Page,
     with_parquet: bool,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
-    let text = write_tables_and_page(answer, page, with_parquet, results)?;
-    write_summary(answer, results)?;
-    Ok(text)
+) -> Result<Written, ReportError> {
+    let table = write_tables_and_page(&answer, page, with_parquet, results)?;
+    write_summary(&answer, results)?;
+    Ok(Written { answer, table })
 }
 
 /// All but `summary.json`: for a result that moves more files into its folder before [`write_summary`] ends it.

@@ -7,7 +7,9 @@ use analysis::{
 use mesh::Mesh;
 use scene::Scene;
 
-use crate::{Cost, ReportError, folder::ResultDirectory, motion_files::MotionFileSink, pair_files::write_in_time};
+use crate::{
+    Cost, ReportError, Written, folder::ResultDirectory, motion_files::MotionFileSink, pair_files::write_in_time,
+};
 
 /// Hears of the phases, and knows what they cost.
 pub trait Recorder: Observer {
@@ -22,8 +24,8 @@ pub struct WrittenInTime {
     pub solved: Box<SolvedInTime>,
     /// What it took, as `summary.json` has it.
     pub cost: Cost,
-    /// The closing table.
-    pub table: String,
+    /// The answer as its files have it.
+    pub written: Written,
 }
 
 /// What files say against an analysis.
@@ -53,8 +55,8 @@ pub fn solve_in_time(
         TimeOutcome::Stopped { .. } => Err(AnalysisError::Cancelled),
         TimeOutcome::Finished(solved) => {
             let cost = recorder.cost();
-            let table = write_in_time(&solved, &cost, sink.view.as_ref(), results).map_err(unwritten)?;
-            Ok(WrittenInTime { solved, cost, table })
+            let written = write_in_time(&solved, &cost, sink.view.as_ref(), results).map_err(unwritten)?;
+            Ok(WrittenInTime { solved, cost, written })
         }
     }
 }

@@ -56,7 +56,7 @@ pub mod universal;
 pub mod view;
 
 pub use answer::{Cost, Phase, csv};
-pub use answer_files::{write_result, write_rows, write_summary, write_tables_and_page};
+pub use answer_files::{Written, write_result, write_rows, write_summary, write_tables_and_page};
 pub use error::ReportError;
 pub use in_time::{Recorder, WrittenInTime, solve_in_time};
 pub use marked_place::MarkedPlace;

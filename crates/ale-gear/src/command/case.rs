@@ -114,7 +114,7 @@ impl MergeArgs {
         let parts: Vec<String> = self.parts.iter().map(|part| part.display().to_string()).collect();
         let again = format!("ale-gear merge {} {} --out DIR", self.plan.display(), parts.join(" "));
         let words = PageWords { again: &again, reports: &[] };
-        let text = write_cases((&plan, &DoneCases::in_memory(&plan, rows)), words, phases.cost(), &results)?;
+        let text = write_cases((&plan, &DoneCases::in_memory(&plan, rows)), words, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }

@@ -95,7 +95,7 @@ impl ChartArgs {
             work_precision_chart(&scene.name, &points, &command, rayon::current_num_threads())
         };
         let tables = drawn.markdown.clone();
-        let text = write_chart(&scene, drawn, phases.cost(), &results)?;
+        let text = write_chart(&scene, drawn, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         if let Some(file) = &self.into {
             MarkedPlace::find(file, &scene.name)?.replace(&tables)?;

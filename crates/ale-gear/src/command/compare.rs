@@ -84,7 +84,7 @@ impl CompareArgs {
         for chart in &charts {
             results.write(&format!("compare_{}.svg", chart.name), chart.svg.as_bytes())?;
         }
-        write_result(&answer, &page, false, &results)?;
+        write_result(answer, &page, false, &results)?;
         results.finish(talk::note)?;
         if !self.json {
             text.push_str(&format!("\nresults: {}\n", out.display()));

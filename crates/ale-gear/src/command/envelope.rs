@@ -54,7 +54,7 @@ impl EnvelopeArgs {
             let drawn = phases.run_steps(map.name, map.count() as u64, |progress| map.draw(&|| progress.tick()));
             found.maps.push((*map, drawn, start.elapsed().as_secs_f64()));
         }
-        let text = write_envelope(&found, "ale-gear envelope --maps --out DIR", phases.cost(), &results)?;
+        let text = write_envelope(&found, "ale-gear envelope --maps --out DIR", phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         self.into.iter().try_for_each(|file| replace_envelope_tables(&found, file))?;
         let failure = found.missed().map(|missed| {

@@ -127,7 +127,7 @@ impl OptimiseArgs {
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
         let again = self.again(&optimum);
         let of = OptimumResult { optimum: &optimum, told: &told, scene: &scene, again: &again };
-        let text = write_optimum(&of, phases.cost(), &results)?;
+        let text = write_optimum(&of, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         let text = if quiet { String::new() } else { format!("{text}\nresults: {}\n", self.out.display()) };
         let hint = "allow more, or let more parameters change, within wider bounds (`--parameter`)";

@@ -269,7 +269,7 @@ fn write_static(
     let SolvedAtRest { scene, history, derivatives } = &solved;
     facts.certificate = run::certificate(scene, &history.positions);
     let (cost, rows) = (phases.cost(), (history, derivatives.as_ref()));
-    let table = write_static_result(scene, rows, (&facts, &cost), view.as_ref(), results)?;
+    let table = write_static_result(scene, rows, (&facts, &cost), view.as_ref(), results)?.table;
     let verdict = facts.verdict(scene).map_err(CommandError::from);
     Ok(Written { table, verdict, solved: Solved::AtRest(Box::new(solved)), cost })
 }

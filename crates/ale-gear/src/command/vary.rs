@@ -147,7 +147,7 @@ pub(super) fn run_plan(
     let known = KnownCases::of(plan, &done.all());
     let written = reports.write((plan, &known), &mut phases, &results, cache)?;
     let words = PageWords { again, reports: &written };
-    let text = write_cases((plan, &done), words, phases.cost(), &results)?;
+    let text = write_cases((plan, &done), words, phases.cost(), &results)?.table;
     results.finish(talk::note)?;
     done.remove().map_err(complain)?;
     match known.reasons.first() {

@@ -3,7 +3,10 @@
 use design::{Curve, Evaluation, Limited};
 use scene::{Scene, optimum::Optimisation};
 
-use crate::{AnalysisError, SharedModels, SolvedWithRates, VariedScene, resolution::with_slices, side_by_side};
+use crate::{
+    AnalysisError, SharedModels, resolution::with_slices, shared_solutions::SolvedWithRates, side_by_side,
+    varied_scene::VariedScene,
+};
 
 /// Slices that serve all designs, so that none jumps to another number: as many as the start and the middle of all
 /// bounds ask for.

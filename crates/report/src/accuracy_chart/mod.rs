@@ -15,7 +15,7 @@ use scene::Scene;
 use serde_json::{Value, json};
 
 use crate::{
-    ReportError,
+    ReportError, Written,
     charts::write_picture,
     folder::ResultDirectory,
     page::{Content, Page, Part, again, cost_part},
@@ -43,7 +43,7 @@ pub struct Chart {
 ///
 /// # Errors
 /// When the system refuses, or a picture was not drawn.
-pub fn write_chart(scene: &Scene, chart: Chart, cost: Cost, results: &ResultDirectory) -> Result<String, ReportError> {
+pub fn write_chart(scene: &Scene, chart: Chart, cost: Cost, results: &ResultDirectory) -> Result<Written, ReportError> {
     let answer = Answer {
         name: scene.name.clone(),
         inputs: json!(scene),
@@ -60,5 +60,5 @@ pub fn write_chart(scene: &Scene, chart: Chart, cost: Cost, results: &ResultDire
     page.push(Part::new("Accuracy and cost").closing().with(Content::Markdown(chart.markdown)));
     page.push(cost_part(&answer.cost));
     page.push(again(&chart.command));
-    write_result(&answer, &page, scene.output.parquet, results)
+    write_result(answer, &page, scene.output.parquet, results)
 }

@@ -6,7 +6,7 @@ use answer::{Answer, Check, Checks, Cost};
 use serde_json::json;
 
 use super::{EnvelopeResult, maps_markdown, modes_markdown, page, rows};
-use crate::{MarkedPlace, ReportError, folder::ResultDirectory, write_result};
+use crate::{MarkedPlace, ReportError, Written, folder::ResultDirectory, write_result};
 
 /// Names of the places of both tables in a document.
 const MODES: &str = "failure modes";
@@ -55,9 +55,10 @@ pub fn write_envelope(
     command: &str,
     cost: Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let answer = envelope_answer(of, cost);
-    write_result(&answer, &page::page(of, &answer, command), false, results)
+    let page = page::page(of, &answer, command);
+    write_result(answer, &page, false, results)
 }
 
 /// Whether a file has the places of the tables that [`replace_envelope_tables`] will replace: told before any work.

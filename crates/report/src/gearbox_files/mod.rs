@@ -14,7 +14,7 @@ use answer::{Answer, Cost};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use crate::{ReportError, folder::ResultDirectory, write_result};
+use crate::{ReportError, Written, folder::ResultDirectory, write_result};
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
@@ -58,12 +58,13 @@ pub fn write_gearbox(
     result: &GearboxResult,
     cost: Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let answer = gearbox_answer(file, result, cost);
     if let Some(swings) = &result.vibration {
         results.write("bearing_forces.uff", vibration_rows::universal(file, swings).as_bytes())?;
     }
-    write_result(&answer, &page::gearbox_page(file, result, &answer)?, file.parquet, results)
+    let page = page::gearbox_page(file, result, &answer)?;
+    write_result(answer, &page, file.parquet, results)
 }
 
 /// Length of a force.

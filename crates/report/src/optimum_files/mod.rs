@@ -9,7 +9,7 @@ use scene::Scene;
 use serde::Serialize;
 use serde_json::json;
 
-use crate::{ReportError, folder::ResultDirectory, write_result};
+use crate::{ReportError, Written, folder::ResultDirectory, write_result};
 
 /// What files of an optimisation are made of.
 #[derive(Debug, Clone, Copy)]
@@ -83,10 +83,11 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
 ///
 /// # Errors
 /// When the system refuses.
-pub fn write_optimum(of: &OptimumResult<'_>, cost: Cost, results: &ResultDirectory) -> Result<String, ReportError> {
+pub fn write_optimum(of: &OptimumResult<'_>, cost: Cost, results: &ResultDirectory) -> Result<Written, ReportError> {
     results.write("optimum.toml", of.scene.to_toml().as_bytes())?;
     let answer = optimum_answer(of, cost);
-    write_result(&answer, &page::page(of, &answer), of.scene.output.parquet, results)
+    let page = page::page(of, &answer);
+    write_result(answer, &page, of.scene.output.parquet, results)
 }
 
 /// Which limits the optimum passes, and by how much; `None` where it holds them.

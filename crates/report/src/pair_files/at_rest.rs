@@ -11,7 +11,7 @@ use scene::Scene;
 
 use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     charts::{LineChart, banded_chart},
     columns::{
         At, StaticCurves, history_table,
@@ -38,7 +38,7 @@ pub fn write_static_result(
     (facts, cost): (&Facts, &Cost),
     view: Option<&View>,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let headline = static_headline(scene, history)?;
     let mut tables = vec![history_table(scene, history, derivatives)];
     let mut pattern = None;
@@ -67,7 +67,8 @@ pub fn write_static_result(
         view,
         again: None,
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 /// Writes rows and summary of a run at rest, without a page.

@@ -8,7 +8,7 @@ use super::{
     rows,
 };
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     charts::{Curve, dot_chart, dot_picture},
     folder::ResultDirectory,
     page::{Cell, Grid, Line, Part},
@@ -28,7 +28,7 @@ pub(super) fn write_basin_result(
     found: &BasinResult,
     cost: &Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let BasinResult { facts, attractors, headline: h, warnings, .. } = found;
     let tables = vec![rows::basins(found), rows::attractors(attractors)];
     let curves = curves(found);
@@ -48,7 +48,8 @@ pub(super) fn write_basin_result(
         headline: lines(h),
         ..Shown::default()
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 fn name(a: &Attractor) -> String {

@@ -8,7 +8,7 @@ use super::{
     rows,
 };
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     charts::{Curve, dot_chart, dot_picture},
     folder::ResultDirectory,
     page::Line,
@@ -31,7 +31,7 @@ pub(super) fn write_continuation_result(
     found: &ContinuationResult,
     cost: &Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let ContinuationResult { facts, in_time, headline: h, warnings, .. } = found;
     let tables = vec![rows::branch(found), rows::turns(found), rows::in_time(found)];
     let dots: Vec<(f64, f64)> = in_time.iter().map(|p| (p.value, p.peak_to_peak_dte_um)).collect();
@@ -51,7 +51,8 @@ pub(super) fn write_continuation_result(
         headline: lines(h),
         ..Shown::default()
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 /// Both parts of the branch as rows of dots, bifurcations, and motions in time.

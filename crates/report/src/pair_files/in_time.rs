@@ -9,7 +9,7 @@ use super::{
     lumped::write_lumped_result,
     motion::{write_motion_result, write_sweep_result},
 };
-use crate::{Cost, ReportError, folder::ResultDirectory, view::View};
+use crate::{Cost, ReportError, Written, folder::ResultDirectory, view::View};
 
 /// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
 ///
@@ -20,7 +20,7 @@ pub fn write_in_time(
     cost: &Cost,
     view: Option<&View>,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let SolvedInTime { scene, answer } = solved;
     match answer {
         TimeAnswer::Motion(result) => write_motion_result(scene, result, cost, view, results),

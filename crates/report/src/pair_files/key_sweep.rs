@@ -8,7 +8,7 @@ use super::{
     rows,
 };
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     charts::{Curve, dot_chart, dot_picture, line_chart},
     folder::ResultDirectory,
     page::Line,
@@ -41,7 +41,7 @@ pub fn write_key_sweep_result(
     again: Option<&str>,
     cost: &Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let BifurcationAnalysis { scene, facts, points, headline: h, warnings } = found;
     let tables = vec![rows::sweep(options, points), rows::bifurcation(options, points)];
     let diagram = by_way(points, |p| p.points.clone());
@@ -68,7 +68,8 @@ pub fn write_key_sweep_result(
         again: sweep,
         ..Shown::default()
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 /// Bifurcation diagram first, then what goes with it.

@@ -12,7 +12,7 @@ use super::{
     rows,
 };
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     charts::{Curve, campbell_chart, dot_chart, line_chart},
     columns::{ENERGY, LumpedLayout},
     folder::ResultDirectory,
@@ -41,7 +41,7 @@ pub(super) fn write_lumped_result(
     result: &LumpedResult,
     cost: &Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let LumpedResult { facts, spectrum, passage, campbell, headline: h, warnings, .. } = result;
     let layout = LumpedLayout::of(scene);
     let (history, energy) = (layout.sheet(), ENERGY.sheet(&(), &[]));
@@ -99,7 +99,8 @@ pub(super) fn write_lumped_result(
         ],
         ..Shown::default()
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 fn lines(h: &LumpedHeadline) -> Vec<Line> {

@@ -13,7 +13,7 @@ use super::{
     rows,
 };
 use crate::{
-    Cost, ReportError,
+    Cost, ReportError, Written,
     columns::{ENERGY, MOTION_HISTORY},
     contact_files::{pattern_figure, write_patterns},
     folder::ResultDirectory,
@@ -35,7 +35,7 @@ pub(super) fn write_motion_result(
     cost: &Cost,
     view: Option<&View>,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let MotionResult { rows: all, layout, headline: h, spectrum, ramp, patterns, facts, warnings, .. } = result;
     let per_cycle = h.rows_per_cycle as usize;
     let pairs: Vec<i64> = layout.pairs().collect();
@@ -83,7 +83,8 @@ pub(super) fn write_motion_result(
         view,
         again: None,
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 fn keys(h: &MotionHeadline) -> Vec<[String; 2]> {
@@ -195,7 +196,7 @@ pub(super) fn write_sweep_result(
     cost: &Cost,
     view: Option<&View>,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let SweepResult { rows: all, headline: h, campbell, facts, warnings, .. } = result;
     let tables = vec![rows::resonance(all), rows::campbell(campbell)];
     let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
@@ -209,7 +210,8 @@ pub(super) fn write_sweep_result(
         view,
         ..Shown::default()
     };
-    write_result(&answer, &pair_page(scene, facts, &answer, shown)?, scene.output.parquet, results)
+    let page = pair_page(scene, facts, &answer, shown)?;
+    write_result(answer, &page, scene.output.parquet, results)
 }
 
 fn over_speeds(h: &SweepHeadline) -> Vec<Line> {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::{CaseRow, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
-use crate::{ReportError, checkpoint::InputDigests, folder::ResultDirectory, write_result};
+use crate::{ReportError, Written, checkpoint::InputDigests, folder::ResultDirectory, write_result};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 ///
@@ -86,11 +86,12 @@ pub fn write_cases(
     words: PageWords<'_>,
     cost: Cost,
     results: &ResultDirectory,
-) -> Result<String, ReportError> {
+) -> Result<Written, ReportError> {
     let rows = done.all();
     let known = KnownCases::of(plan, &rows);
     let answer = answer(plan, &rows, &known, words.reports, cost);
-    write_result(&answer, &page::page(plan, &known, words, &answer), true, results)
+    let page = page::page(plan, &known, words, &answer);
+    write_result(answer, &page, true, results)
 }
 
 /// What an axis goes through, or is drawn from.
