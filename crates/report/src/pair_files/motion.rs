@@ -40,11 +40,10 @@ pub(super) fn write_motion_result(
     let per_cycle = h.rows_per_cycle as usize;
     let pairs: Vec<i64> = layout.pairs().collect();
     let (history, energy) = (MOTION_HISTORY.sheet(layout, &pairs), ENERGY.sheet(&(), &[]));
-    let mut tables = Vec::new();
-    if scene.output.parquet {
-        tables.push(history.table("history", layout, all).written());
-        tables.push(energy.table("energy", &(), all.iter().map(|r| &r.energy)).written());
-    }
+    let mut tables = vec![
+        history.table("history", layout, all).written(),
+        energy.table("energy", &(), all.iter().map(|r| &r.energy)).written(),
+    ];
     tables.extend(spectrum.as_ref().map(rows::spectrum));
     if let Some(ramp) = ramp {
         tables.extend([
