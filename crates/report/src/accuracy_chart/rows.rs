@@ -87,10 +87,11 @@ pub(super) fn rows(chart: &WorkPrecision) -> Table {
         table.push_numbers(name, meaning, column(of));
     }
     table.push_numbers("error_mean_line_length", "the same of the line length", column(|m| m.error.mean_line_length));
-    let bounds: [(&str, fn(&Measured<'_>) -> Option<OwnBound>); 2] =
-        [("mean_ste", |m| m.own_mean().copied()), ("peak_to_peak_ste", |m| m.own_swing().copied())];
-    for (quantity, of) in bounds {
-        let own: Vec<Option<OwnBound>> = measured.iter().map(|m| m.as_ref().and_then(of)).collect();
+    let own = |of: fn(&Measured<'_>) -> Option<OwnBound>| -> Vec<Option<OwnBound>> {
+        measured.iter().map(|m| m.as_ref().and_then(of)).collect()
+    };
+    let bounds = [("mean_ste", own(|m| m.own_mean().copied())), ("peak_to_peak_ste", own(|m| m.own_swing().copied()))];
+    for (quantity, own) in bounds {
         let number = |of: fn(OwnBound) -> f64| own.iter().map(move |b| b.map_or(f64::NAN, of));
         let holds = own.iter().map(|b| b.map_or_else(String::new, |b| b.holds.to_string()));
         table = table
