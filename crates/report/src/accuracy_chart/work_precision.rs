@@ -6,7 +6,10 @@ use serde_json::json;
 use study::{AnswerError, Work};
 
 use super::{Chart, rows::rows, tables::chart_tables};
-use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
+use crate::{
+    charts::{Captions, Failure, Labelled, legend, log_panel},
+    page::counted,
+};
 use analysis::accuracy_chart::{Outcome, OwnBound, OwnBounds, WorkPrecision};
 
 const WIDTH: u32 = 1040;
@@ -102,7 +105,7 @@ fn draw(svg: &mut String, title: &str, chart: &WorkPrecision) -> Result<(), Fail
 pub fn work_precision_chart(name: &str, points: &WorkPrecision, command: &str, threads: usize) -> Chart {
     let measured = points.rows.iter().filter(|row| matches!(row.outcome, Outcome::Measured { .. })).count();
     Chart {
-        subtitle: format!("accuracy against cost, {measured} points"),
+        subtitle: format!("accuracy against cost, {}", counted(measured, "point")),
         tables: vec![rows(points)],
         headline: json!({
             "points": measured,

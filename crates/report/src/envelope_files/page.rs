@@ -7,10 +7,11 @@ use super::{
     EnvelopeResult,
     words::{outcome, short, shown},
 };
-use crate::page::{Cell, Content, Grid, Page, Part, again, cost_part};
+use crate::page::{Cell, Content, Grid, Page, Part, again, cost_part, counted};
 
 pub(super) fn page(of: &EnvelopeResult, answer: &Answer, command: &str) -> Page {
-    let mut page = Page::of(answer, format!("{} failure modes, {} maps", of.modes.len(), of.maps.len()));
+    let mut page =
+        Page::of(answer, format!("{}, {}", counted(of.modes.len(), "failure mode"), counted(of.maps.len(), "map")));
     page.push(verdicts(of));
     page.push(Part::more().closing().with(Content::Items(of.modes.iter().flat_map(missed).collect())));
     page.push(outcomes(of));

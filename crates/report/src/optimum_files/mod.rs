@@ -7,7 +7,7 @@ use analysis::optimum::{Optimised, Optimum};
 use answer::{Answer, Cost};
 use scene::Scene;
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Map, json};
 
 use crate::{ReportError, Written, folder::ResultDirectory, write_result};
 
@@ -70,7 +70,7 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
             "stop": optimum.found.stop,
             "over_limits": optimum.evaluation.over_limits(),
             "torques": told.torques,
-            "parameters": told.influences,
+            "parameters": told.influences.iter().map(|i| (i.key.clone(), json!(i))).collect::<Map<_, _>>(),
             "samples": plan.samples(),
         }),
         remarks: passed_limits(optimum).into_iter().collect(),

@@ -7,13 +7,13 @@ use scene::optimum::DesignParameter;
 use super::{Goals, OptimumResult};
 use crate::{
     charts::{Curve, line_chart},
-    page::{Cell, Grid, Line, Page, Part, again, cost_part},
+    page::{Cell, Grid, Line, Page, Part, again, cost_part, counted},
 };
 
 pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
     let OptimumResult { optimum, told, .. } = *of;
     let plan = &optimum.plan;
-    let mut page = Page::of(answer, format!("optimisation of {} parameters", plan.parameters.len()));
+    let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
     page.push(goal(of));
     page.push(parameters(of));
     page.push(torques(told));
@@ -32,7 +32,12 @@ fn goal(of: &OptimumResult<'_>) -> Part {
         .words(format!("Goal: {}.", Optimised::goal_words(&optimum.plan.goal)))
         .lines([
             Line::number("goal at the start", goals.goal_start_um, 4, "um"),
-            Line::number(format!("found in {} evaluations", optimum.found.steps.len()), goals.goal_found_um, 4, "um"),
+            Line::number(
+                format!("found in {}", counted(optimum.found.steps.len(), "evaluation")),
+                goals.goal_found_um,
+                4,
+                "um",
+            ),
             Line::number("with values that a machine can be set to", goals.goal_optimum_um, 4, "um"),
         ])
 }

@@ -17,7 +17,7 @@ pub fn closing_text(page: &Page, cost: &Cost) -> String {
     for words in &page.failed {
         push_line(&mut t, "THE RESULT DOES NOT HOLD", "", words);
     }
-    for (i, part) in page.parts.iter().filter(|part| part.is_closing).enumerate() {
+    for (i, part) in page.parts.iter().filter(|part| part.is_closing && !part.contents.is_empty()).enumerate() {
         if i > 0 && !part.title.is_empty() {
             t.push('\n');
         }
@@ -65,11 +65,11 @@ fn push_grid(t: &mut String, grid: &Grid) {
     let widths: Vec<usize> = (0..grid.head.len()).map(wide).collect();
     let is_number = |k: usize| grid.rows.iter().any(|row| row.get(k).is_some_and(|cell| cell.is_number));
     let mut push = |cells: &mut dyn Iterator<Item = &str>| {
-        let mut line = " ".to_owned();
+        let mut line = String::new();
         for (k, text) in cells.enumerate().take(widths.len()) {
             let width = widths[k];
             // Writing to a String cannot fail.
-            let _ = if is_number(k) { write!(line, " {text:>width$}") } else { write!(line, " {text:<width$}") };
+            let _ = if is_number(k) { write!(line, "  {text:>width$}") } else { write!(line, "  {text:<width$}") };
         }
         t.push_str(line.trim_end());
         t.push('\n');

@@ -292,6 +292,11 @@ fn science(value: Option<f64>) -> String {
     value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.1e}"))
 }
 
+/// So many of something: `1 case`, `5 cases`.
+pub fn counted(count: usize, of_one: &str) -> String {
+    format!("{count} {of_one}{}", if count == 1 { "" } else { "s" })
+}
+
 /// Time and memory of every phase.
 pub fn cost_part(cost: &Cost) -> Part {
     let row =

@@ -7,7 +7,7 @@ use study::correlation;
 use super::{Column, KnownCases, curves::over_axes, maps::maps, spread::Spread};
 use crate::{
     charts::{Curve, line_chart},
-    page::{Cell, Grid, Page, Part, again, cost_part},
+    page::{Cell, Grid, Page, Part, again, cost_part, counted},
     study_files::CASES,
 };
 
@@ -31,7 +31,7 @@ pub fn report_folder(case: usize) -> String {
 /// The page.
 pub(super) fn page(plan: &Plan, known: &KnownCases, words: PageWords<'_>, answer: &Answer) -> Page {
     let axes: Vec<&str> = plan.axes.iter().map(PlanAxis::name).collect();
-    let mut page = Page::of(answer, format!("{} cases over {}", known.count(), axes.join(", ")));
+    let mut page = Page::of(answer, format!("{} over {}", counted(known.count(), "case"), axes.join(", ")));
     page.push(numbers(known));
     page.push(Part::more().figures(known.outputs.iter().flat_map(|output| {
         let maps = maps(plan, known, output);

@@ -39,12 +39,11 @@ impl Spread {
         (low >= 1.0 && high <= n).then(|| [self.values[low as usize - 1], self.values[high as usize - 1]])
     }
 
-    /// All that is told of it, under the number's name; `least_case`: the case that has the least value.
-    pub fn json(&self, name: &str, least_case: Option<usize>) -> Value {
+    /// All that is told of it; `least_case`: the case that has the least value.
+    pub fn json(&self, least_case: Option<usize>) -> Value {
         let known = |x: f64| Some(x).filter(|x| x.is_finite());
         let [least, largest] = extent(&self.values).map(known);
         json!({
-            "name": name,
             "mean": known(mean(&self.values)),
             "mean_within_95": known(NORMAL_95 * root_mean_square(&self.values) / (self.values.len() as f64).sqrt()),
             "standard_deviation": known(root_mean_square(&self.values)),

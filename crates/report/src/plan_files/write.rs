@@ -51,7 +51,8 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
         .texts("status", "`solved`, or `failed` where the case has no result", rows.iter().map(CaseRow::status))
         .texts("reason", "why it has none", known.reasons.iter().cloned());
     let told = |column: &Column| {
-        Spread::of(column.values.iter().copied()).json(&column.name, column.ascending().first().copied())
+        let spread = Spread::of(column.values.iter().copied()).json(column.ascending().first().copied());
+        (column.name.clone(), spread)
     };
     Answer {
         name: plan.name.clone(),
@@ -65,7 +66,7 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
         headline: json!({
             "cases": plan.cases.count(),
             "failed": known.failed,
-            "outputs": known.outputs.iter().map(told).collect::<Vec<_>>(),
+            "outputs": known.outputs.iter().map(told).collect::<Map<_, _>>(),
         }),
         remarks: (known.failed > 0)
             .then(|| format!("{} of {} cases have no result: `reason` in cases.csv says why", known.failed, rows.len()))

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     ReportError,
-    page::{Cell, Content, Grid, Page, Part, again, cost_part},
+    page::{Cell, Content, Grid, Page, Part, again, cost_part, counted},
 };
 
 /// The answer: the table `study`, a row a case.
@@ -48,7 +48,7 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
 /// For rows without a column that is drawn.
 pub fn study_page(of: StudyResult<'_>, answer: &Answer) -> Result<Page, ReportError> {
     let StudyResult { study, runs, findings, speed_up, reports, .. } = of;
-    let mut page = Page::of(answer, format!("study of {} cases", study.cases.len()));
+    let mut page = Page::of(answer, format!("study of {}", counted(study.cases.len(), "case")));
     for figure in figures(study, runs, findings)? {
         page.push(Part::more().words(figure.text).figures(figure.charts));
     }
