@@ -117,7 +117,7 @@ def test_cases_of_a_plan_are_those_of_the_command(top, command):
     result = Pair(scene).vary({"operation.torque_nm": "50:150:3"}, "peak_to_peak_ste_um")
     names, rows = (theirs / "cases.csv").read_text().splitlines()[0].split(","), result.rows
     assert (result.keys(), rows) == (names, 3)
-    assert result["status"] == ["ok"] * 3
+    assert result["status"] == ["solved"] * 3
     listed = Pair(scene).vary({"operation.torque_nm": [50, 100, 150]}, ["peak_to_peak_ste_um"])
     assert listed["peak_to_peak_ste_um"].tobytes() == result["peak_to_peak_ste_um"].tobytes()
     for i, line in enumerate((theirs / "cases.csv").read_text().splitlines()[1:]):

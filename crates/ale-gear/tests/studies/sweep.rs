@@ -241,7 +241,7 @@ fn a_sweep_at_rest_is_a_plan() {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let rows = chart_rows(&scratch.read("o/cases.csv"));
     let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
-    assert_eq!(statuses, ["ok", "failed"]);
+    assert_eq!(statuses, ["solved", "failed"]);
     assert!(rows[1]["reason"].contains("would bend the teeth"), "{:?}", rows[1]);
     let plan = "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nfrom = 100\nto = 1e7\ncount = 2\nscale = \"log\"\n";
     let plan = ["mean", "peak_to_peak", "least", "largest"]

@@ -89,7 +89,7 @@ fn a_row_has_the_numbers_of_a_run() {
             assert!(row["reason"].contains("would bend the teeth"), "{row:?}");
             continue;
         }
-        assert_eq!((row["status"].as_str(), row["reason"].as_str()), ("ok", ""), "{row:?}");
+        assert_eq!((row["status"].as_str(), row["reason"].as_str()), ("solved", ""), "{row:?}");
         if i % 6 != 0 {
             continue;
         }
@@ -275,7 +275,7 @@ fn pitch_deviations_are_drawn_tooth_by_tooth() {
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let (all, parsed) = (rows(&scratch, "o/cases.csv"), Plan::read(&scratch.path().join("plan.toml")).unwrap());
     for (case, row) in all.iter().enumerate() {
-        assert_eq!(row["status"], "ok", "{row:?}");
+        assert_eq!(row["status"], "solved", "{row:?}");
         let scene = parsed.scene(case).unwrap();
         for (name, gear) in [("pinion", &scene.pinion), ("wheel", &scene.wheel)] {
             let list = &gear.pitch_errors_um;

@@ -57,7 +57,7 @@ impl CaseTable {
         let (case, [status, reason]) = (words.first()?.parse().ok()?, words.last_chunk()?);
         let numbers = words.get(1..fields.checked_sub(2)?)?;
         let whole = match *status {
-            "ok" => reason.is_empty() && numbers.iter().all(|word| word.parse::<f64>().is_ok()),
+            "solved" => reason.is_empty() && numbers.iter().all(|word| word.parse::<f64>().is_ok()),
             "failed" => reason.len() >= 2 && reason.starts_with('"') && reason.ends_with('"'),
             _ => false,
         };
@@ -75,7 +75,7 @@ impl CaseTable {
                 for number in numbers {
                     line.push_str(&format!(",{number}"));
                 }
-                line.push_str(",ok,\n");
+                line.push_str(",solved,\n");
             }
             Err(why) => {
                 line.push_str(&",".repeat(self.outputs));
