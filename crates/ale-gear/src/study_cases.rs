@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use analysis::{
-    SharedModels, Solved, WarningsAtRest,
+    PhaseWork, RestRequest, SharedModels, Solved, WarningsAtRest,
     parameter_study::{CaseFailure, CaseRecord},
-    side_by_side, solve_at_rest,
+    run_phase, side_by_side, solve_at_rest,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
 use report::{Cost, checkpoint::HISTORY, columns::solved_rows, folder::KeptCases, read_columns, write_static_rows};
@@ -102,7 +102,8 @@ fn write_rows(
     results: &ResultDirectory,
 ) -> Result<(Solved, Cost), CommandError> {
     let mut phases = Phases::quiet();
-    let solved = solve_at_rest(scene, models, WarningsAtRest::Told, &mut phases)?;
+    let work = || solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Told));
+    let solved = run_phase(&mut phases, "solve", PhaseWork::Unknown, |_| work())?;
     let (facts, cost) = (solved.facts()?, phases.cost());
     let rows = (&solved.history, solved.derivatives.as_ref());
     write_static_rows(&solved.scene, rows, (&facts, &cost), results)?;

@@ -93,7 +93,7 @@ impl SolvedInTime {
     }
 
     /// Whether the answer holds and is as exact as was asked. The certificate of a sweep of a reduced-order
-    /// model is empty.
+    /// model has the worst of all values that came out.
     ///
     /// # Errors
     /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`], [`AnalysisError::NoSpeed`].

@@ -90,11 +90,12 @@ pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_
 pub use options::options;
 pub use plausible::{Implausible, LoadEstimate};
 pub use shared_models::SharedModels;
-pub use shared_solutions::WarningsAtRest;
+pub use shared_solutions::{RestRequest, WarningsAtRest};
 pub use side_by_side::side_by_side;
 pub use sink::{NoSink, SinkResult, StaticSink};
 pub use solved::{Solved, SolvedAtRest, solve, solve_at_rest};
 pub use static_certificate::{static_certificate, worse};
 pub use statics::{StaticAnalysis, StaticResult};
+pub use varied_scene::VariedScene;
 pub use warnings::{body_warnings, locking_warning};
 pub use with_keys::HeadlineKey;

@@ -15,7 +15,7 @@ use ltca::{Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, 
 use scene::Scene;
 
 use crate::{
-    AnalysisError, Derivatives, NoObserver, SinkResult, StaticSink,
+    AnalysisError, NoObserver, SinkResult, StaticSink,
     accuracy::{AccurateAnalysis, AccurateResult},
     alike::shares,
     failure::Failure,
@@ -43,11 +43,28 @@ pub enum WarningsAtRest {
     Left,
 }
 
-/// What is asked for beside the positions: derivatives by some parameters, of the unloaded pair too or not.
+/// Derivatives that are asked for beside the positions: by which parameters, of the unloaded pair too or not.
 #[derive(Clone, Copy, Default)]
-struct Rates<'a> {
-    of: &'a [VariedScene],
-    of_unloaded: bool,
+pub(crate) struct Rates<'a> {
+    pub of: &'a [VariedScene],
+    pub of_unloaded: bool,
+}
+
+/// What is asked of a scene at rest.
+#[derive(Clone, Copy, Debug)]
+pub struct RestRequest<'a> {
+    /// Whether warnings about pair, meshes and bodies are found out.
+    pub warnings: WarningsAtRest,
+    /// Whether the answer is still wanted; the solve ends with [`AnalysisError::Cancelled`] where it is not. A scene that
+    /// shares nothing reduces its gears to the end.
+    pub interest: Interest<'a>,
+}
+
+impl RestRequest<'static> {
+    /// A result to its end with these warnings.
+    pub const fn to_the_end(warnings: WarningsAtRest) -> Self {
+        Self { warnings, interest: Interest::LASTING }
+    }
 }
 
 /// Positions and their derivatives.
@@ -62,94 +79,44 @@ pub(crate) struct SolvedWithRates {
 }
 
 impl SharedModels<'_> {
-    /// Positions of a scene at rest that hold, and the scene as it was solved.
+    /// Positions of a scene at rest that hold, with the derivatives that are asked for, and the scene as it was solved.
     ///
     /// # Errors
-    /// [`AnalysisError`]; that of the certificate among them.
-    pub fn solve(&self, scene: &Scene) -> Result<(Scene, StaticHistory), AnalysisError> {
-        if shares(scene) {
-            let SolvedWithRates { scene, history, .. } = self.solve_with_rates(scene, &[])?;
-            return Ok((scene, history));
-        }
-        let (scene, history) = self.alone(scene, &|| true)?;
-        hold(&scene, &history)?;
-        Ok((scene, history))
-    }
-
-    /// As [`SharedModels::solve`], with the derivatives that the scene asks for in `output.derivatives`; `None` where it asks
-    /// for none.
-    ///
-    /// # Errors
-    /// As of [`SharedModels::solve`], and where there are no derivatives.
-    pub(crate) fn solve_with_derivatives(
+    /// [`AnalysisError`]; that of the certificate among them, derivatives that are not there, and
+    /// [`AnalysisError::Cancelled`] where interest was lost.
+    pub(crate) fn solve(
         &self,
         scene: &Scene,
-        warnings: WarningsAtRest,
-    ) -> Result<(Scene, StaticHistory, Option<Derivatives>), AnalysisError> {
-        let keys = scene.output.derivatives.clone();
-        if keys.is_empty() {
-            let told = match warnings {
-                WarningsAtRest::Told => self.solve_while(scene, Interest::LASTING)?,
-                WarningsAtRest::Left => None,
-            };
-            let (scene, history) = told.map_or_else(|| self.solve(scene), Ok)?;
-            return Ok((scene, history, None));
-        }
-        let varied = VariedScene::by_keys(scene, &keys)?;
-        let asked = Rates { of: &varied, of_unloaded: true };
-        let (SolvedWithRates { scene, mut history, rates }, base) = self.positions(scene, asked, Interest::LASTING)?;
-        hold(&scene, &history)?;
-        if warnings == WarningsAtRest::Told {
-            warn(&base, &scene, &mut history)?;
-        }
-        Ok((scene, history, Some(Derivatives { keys, rates })))
-    }
-
-    /// As [`SharedModels::solve`], with all that a user should hear in the history's warnings, for who may lose
-    /// interest; `None` where that happened. A scene that shares nothing reduces its gears to the end.
-    ///
-    /// # Errors
-    /// As [`SharedModels::solve`].
-    pub fn solve_while(
-        &self,
-        scene: &Scene,
-        interest: Interest<'_>,
-    ) -> Result<Option<(Scene, StaticHistory)>, AnalysisError> {
-        if !(interest.positions)() {
-            return Ok(None);
-        }
+        rates: Rates<'_>,
+        request: RestRequest<'_>,
+    ) -> Result<SolvedWithRates, AnalysisError> {
+        let interest = request.interest;
         // Once lost it does not come back: what was left out stays so.
         let lost = AtomicBool::new(false);
         let still = || {
             lost.fetch_or(!(interest.positions)(), Ordering::Relaxed);
             !lost.load(Ordering::Relaxed)
         };
-        let given_up = |error: &AnalysisError| match error {
-            AnalysisError::Cancelled => true,
-            AnalysisError::Sink(_) => lost.load(Ordering::Relaxed),
-            _ => false,
-        };
-        if !shares(scene) {
-            return match self.alone(scene, &still) {
-                Err(error) if given_up(&error) => Ok(None),
-                Err(error) => Err(error),
-                Ok((scene, history)) => {
-                    hold(&scene, &history)?;
-                    Ok(still().then_some((scene, history)))
-                }
-            };
+        let unless_lost = || if still() { Ok(()) } else { Err(AnalysisError::Cancelled) };
+        unless_lost()?;
+        if rates.of.is_empty() && !shares(scene) {
+            let (scene, history) = self.alone(scene, &still).map_err(|error| match error {
+                AnalysisError::Sink(_) if lost.load(Ordering::Relaxed) => AnalysisError::Cancelled,
+                error => error,
+            })?;
+            hold(&scene, &history)?;
+            unless_lost()?;
+            return Ok(SolvedWithRates { scene, history, rates: Vec::new() });
         }
-        let solved = self.positions(scene, Rates::default(), Interest { positions: &still, ..interest });
-        let (SolvedWithRates { scene, mut history, .. }, base) = match solved {
-            Err(error) if given_up(&error) => return Ok(None),
-            solved => solved?,
-        };
+        let (mut solved, base) = self.positions(scene, rates, Interest { positions: &still, ..interest })?;
         if lost.load(Ordering::Relaxed) {
-            return Ok(None);
+            return Err(AnalysisError::Cancelled);
         }
-        hold(&scene, &history)?;
-        warn(&base, &scene, &mut history)?;
-        Ok(Some((scene, history)))
+        hold(&solved.scene, &solved.history)?;
+        if request.warnings == WarningsAtRest::Told {
+            warn(&base, &solved.scene, &mut solved.history)?;
+        }
+        Ok(solved)
     }
 
     /// A scene that nothing is shared of.
@@ -157,21 +124,6 @@ impl SharedModels<'_> {
         let analysis = AccurateAnalysis::new(scene).with_cache(self.cache()).with_shared(self);
         let AccurateResult { scene, result } = analysis.solve_into(&mut NoObserver, &mut WhileWanted(wanted))?;
         Ok((scene, result.history))
-    }
-
-    /// Positions of a scene at rest with the derivatives of the loaded pair by some parameters, and the scene as it was solved.
-    ///
-    /// # Errors
-    /// [`AnalysisError`]; that of the certificate among them, and derivatives that are not there.
-    pub(crate) fn solve_with_rates(
-        &self,
-        scene: &Scene,
-        varied: &[VariedScene],
-    ) -> Result<SolvedWithRates, AnalysisError> {
-        let asked = Rates { of: varied, of_unloaded: false };
-        let (solved, _) = self.positions(scene, asked, Interest::LASTING)?;
-        hold(&solved.scene, &solved.history)?;
-        Ok(solved)
     }
 
     /// Positions until all are solved, or until they are `wanted` no longer.

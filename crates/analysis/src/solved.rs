@@ -7,14 +7,16 @@ use scene::Scene;
 use serde_json::Value;
 
 use crate::{
-    AnalysisError, Derivatives, Observer, PhaseWork, SharedModels, WarningsAtRest,
+    AnalysisError, Derivatives, Observer, PhaseWork, SharedModels, VariedScene,
     certificate::Checks,
     facts::Facts,
     gears,
     in_time::{SolvedInTime, TimeAnalysis},
     resolution::with_slices,
     results::{StaticHeadline, static_headline},
-    run_phase, static_certificate,
+    run_phase,
+    shared_solutions::{Rates, RestRequest, SolvedWithRates, WarningsAtRest},
+    static_certificate,
 };
 
 /// A scene with its answer.
@@ -39,8 +41,8 @@ pub struct SolvedAtRest {
 
 /// Solves a scene of any kind in memory: at rest on what `models` have of its gears, in time with their cache and meshes.
 ///
-/// At rest `warnings` says what is found out for [`Solved::warnings`], and a result that does not hold is an error, as of
-/// [`SharedModels::solve`]; in time [`Solved::verdict`] tells.
+/// At rest `warnings` says what is found out for [`Solved::warnings`], and a result that does not hold is an error; in
+/// time [`Solved::verdict`] tells.
 ///
 /// # Errors
 /// [`AnalysisError`].
@@ -51,25 +53,31 @@ pub fn solve(
     observer: &mut dyn Observer,
 ) -> Result<Solved, AnalysisError> {
     if scene.motion.is_none() {
-        return Ok(Solved::AtRest(Box::new(solve_at_rest(scene, models, warnings, observer)?)));
+        let work = || solve_at_rest(scene, models, RestRequest::to_the_end(warnings));
+        let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| work())?;
+        return Ok(Solved::AtRest(Box::new(solved)));
     }
     let scene = with_slices(scene.clone());
     let analysis = TimeAnalysis::new(&scene).with_meshes(models.meshes()).with_cache(models.cache());
     Ok(Solved::InTime(Box::new(analysis.solve(observer)?)))
 }
 
-/// As [`solve`], of a scene that is to be solved at rest.
+/// Solves a scene at rest on what `models` have of its gears, with the derivatives that it asks for in
+/// `output.derivatives`.
 ///
 /// # Errors
-/// [`AnalysisError`].
+/// [`AnalysisError`]; [`AnalysisError::Certificate`] of a result that does not hold, [`AnalysisError::Cancelled`] where
+/// interest was lost.
 pub fn solve_at_rest(
     scene: &Scene,
     models: &SharedModels<'_>,
-    warnings: WarningsAtRest,
-    observer: &mut dyn Observer,
+    request: RestRequest<'_>,
 ) -> Result<SolvedAtRest, AnalysisError> {
-    let work = || models.solve_with_derivatives(scene, warnings);
-    let (scene, history, derivatives) = run_phase(observer, "solve", PhaseWork::Unknown, |_| work())?;
+    let keys = scene.output.derivatives.clone();
+    let varied = VariedScene::by_keys(scene, &keys)?;
+    let asked = Rates { of: &varied, of_unloaded: true };
+    let SolvedWithRates { scene, history, rates } = models.solve(scene, asked, request)?;
+    let derivatives = (!keys.is_empty()).then_some(Derivatives { keys, rates });
     Ok(SolvedAtRest { scene, history, derivatives })
 }
 

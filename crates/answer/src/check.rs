@@ -67,6 +67,20 @@ impl Checks {
         self
     }
 
+    /// Of several results the worst of each check, in the order in which they first come.
+    pub fn worst<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
+        let mut worst: Vec<Check> = Vec::new();
+        for check in all.into_iter().flat_map(Self::iter) {
+            match worst.iter_mut().find(|known| known.name == check.name) {
+                // What is no number is worse than any.
+                Some(known) if known.value.is_nan() || check.value <= known.value => {}
+                Some(known) => *known = check.clone(),
+                None => worst.push(check.clone()),
+            }
+        }
+        Self(worst)
+    }
+
     /// All, in their order.
     pub fn iter(&self) -> std::slice::Iter<'_, Check> {
         self.0.iter()
@@ -140,5 +154,17 @@ mod tests {
         assert_eq!(json["certificate_missed"].as_array().map(Vec::len), Some(1));
         assert_eq!(serde_json::to_value(Checks::default()).unwrap(), serde_json::json!({}));
         assert_eq!(Checks::default().failed(), None);
+    }
+
+    /// Each check has its worst value, whichever result comes first; what is no number is the worst of all.
+    #[test]
+    fn the_worst_of_several_results_is_kept() {
+        let [sound, poor, none] = [1e-9, 5e-9, f64::NAN].map(|value| Checks::new([check(value)]));
+        let value = |all: &[&Checks]| Checks::worst(all.iter().copied()).iter().next().map(|check| check.value);
+        assert_eq!(value(&[&sound, &poor]), Some(5e-9));
+        assert_eq!(value(&[&poor, &sound]), Some(5e-9));
+        assert!(value(&[&none, &poor]).is_some_and(f64::is_nan));
+        assert!(value(&[&poor, &none]).is_some_and(f64::is_nan));
+        assert_eq!(value(&[]), None);
     }
 }

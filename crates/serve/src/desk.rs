@@ -8,9 +8,10 @@ use std::{
 };
 
 use analysis::{
-    GearCache, Interest, SharedGears, SharedModels,
+    AnalysisError, GearCache, Interest, RestRequest, SharedGears, SharedModels, SolvedAtRest, WarningsAtRest,
     lumped::is_lumped,
     results::{StaticHeadline, patterns, static_headline},
+    solve_at_rest,
 };
 use ltca::StaticHistory;
 use report::{
@@ -122,7 +123,7 @@ impl<'a> Desk<'a> {
     /// Reduces the gears of a scene for those that come.
     pub fn warm(&self, scene: &Scene, interest: Interest<'_>) {
         if self.fits(scene).is_ok() {
-            let _ = self.models.solve_while(scene, interest);
+            let _ = self.at_rest(scene, interest);
         }
     }
 
@@ -189,8 +190,18 @@ impl<'a> Desk<'a> {
     fn solved(&self, text: &str, scene: &Scene, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
         self.fits(scene)?;
         let start = Instant::now();
-        let solved = self.models.solve_while(scene, interest).map_err(|e| Fault::of_analysis(text, &e))?;
-        Ok(solved.map(|(scene, history)| (scene, history, 1e3 * start.elapsed().as_secs_f64())))
+        match self.at_rest(scene, interest) {
+            Ok(SolvedAtRest { scene, history, .. }) => Ok(Some((scene, history, 1e3 * start.elapsed().as_secs_f64()))),
+            Err(AnalysisError::Cancelled) => Ok(None),
+            Err(e) => Err(Fault::of_analysis(text, &e)),
+        }
+    }
+
+    /// A scene at rest on the models that are kept; the page shows no derivatives.
+    fn at_rest(&self, scene: &Scene, interest: Interest<'_>) -> Result<SolvedAtRest, AnalysisError> {
+        let mut scene = scene.clone();
+        scene.output.derivatives.clear();
+        solve_at_rest(&scene, &self.models, RestRequest { warnings: WarningsAtRest::Told, interest })
     }
 }
 

@@ -70,7 +70,6 @@ fn everything_that_is_carried_is_named_with_its_licence() {
     }
     for (what, text) in [
         ("METIS", "Copyright 1995-2013, Regents of the University of Minnesota"),
-        ("the typeface", "UBUNTU FONT LICENCE Version 1.0"),
         ("the MPL", "Mozilla Public License Version 2.0"),
         ("Apache-2.0", "END OF TERMS AND CONDITIONS"),
         ("three.js", "three.js authors"),

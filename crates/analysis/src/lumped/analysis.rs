@@ -265,11 +265,11 @@ impl RunObserver for RowsOnward<'_> {
 /// [`AnalysisError`], also where the certificate does not hold.
 pub(crate) fn steady_rows(inputs: &LumpedInputs, system: LumpedSystem) -> Result<(Vec<LumpedRow>, u64), AnalysisError> {
     let mut model = system.model;
-    let run = checked_run(inputs, &mut model, system.resonance_hz, None)?;
+    let (run, _) = checked_run(inputs, &mut model, system.resonance_hz, None)?;
     Ok((run.rows, run.warm_up + run.cycles))
 }
 
-/// A run whose certificate holds.
+/// A run whose certificate holds, with that certificate.
 ///
 /// # Errors
 /// [`AnalysisError`].
@@ -278,7 +278,7 @@ pub(super) fn checked_run(
     model: &mut BoxedMechanism,
     resonance_hz: f64,
     from: Option<&State>,
-) -> Result<LumpedRun, AnalysisError> {
+) -> Result<(LumpedRun, Checks), AnalysisError> {
     let scene = &inputs.scene;
     let motion = motion_of(scene)?;
     let frequencies = inputs.frequencies(motion, resonance_hz);
@@ -288,7 +288,7 @@ pub(super) fn checked_run(
     within_bounds(&run.rows)?;
     let checks = certificate(inputs, &run, std::iter::empty()).and(Checks::new(model.checks()));
     crate::certificate::verdict(&checks, scene)?;
-    Ok(run)
+    Ok((run, checks))
 }
 
 /// Refuses steps of given length that are too long for an explicit method.

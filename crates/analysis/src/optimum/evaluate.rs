@@ -4,8 +4,10 @@ use design::{Curve, Evaluation, Limited};
 use scene::{Scene, optimum::Optimisation};
 
 use crate::{
-    AnalysisError, SharedModels, resolution::with_slices, shared_solutions::SolvedWithRates, side_by_side,
-    varied_scene::VariedScene,
+    AnalysisError, RestRequest, SharedModels, VariedScene, WarningsAtRest,
+    resolution::with_slices,
+    shared_solutions::{Rates, SolvedWithRates},
+    side_by_side,
 };
 
 /// Slices that serve all designs, so that none jumps to another number: as many as the start and the middle of all
@@ -38,7 +40,8 @@ pub(super) fn evaluate(
     let solved = side_by_side(torques * plan.samples(), |i| {
         let (sample, torque) = (i / torques, plan.torques[i % torques].torque_nm);
         let at = |values: &[f64]| plan.scene(values, torque, Some(sample));
-        models.solve_with_rates(&at(values)?, &varied(plan, values, at)?)
+        let rates = Rates { of: &varied(plan, values, at)?, of_unloaded: false };
+        models.solve(&at(values)?, rates, RestRequest::to_the_end(WarningsAtRest::Left))
     });
     let mut evaluation = Evaluation::default();
     for (i, solved) in solved.into_iter().enumerate() {

@@ -6,7 +6,7 @@ use scene::optimum::Optimisation;
 use serde::Serialize;
 
 use super::Optimum;
-use crate::{AnalysisError, SharedModels, side_by_side};
+use crate::{AnalysisError, RestRequest, SharedModels, WarningsAtRest, shared_solutions::Rates, side_by_side};
 
 /// Before and after.
 #[derive(Debug, Clone)]
@@ -78,7 +78,9 @@ pub fn told(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimised, A
     all.dedup();
     let solved = side_by_side(2 * all.len(), |i| {
         let values = if i % 2 == 0 { &start } else { values };
-        Ok(cycle(&models.solve(&plan.scene(values, all[i / 2], None)?)?.1))
+        let scene = plan.scene(values, all[i / 2], None)?;
+        let request = RestRequest::to_the_end(WarningsAtRest::Left);
+        Ok(cycle(&models.solve(&scene, Rates::default(), request)?.history))
     });
     let mut cycles = Vec::new();
     for (i, found) in solved.into_iter().enumerate() {

@@ -2,7 +2,10 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use analysis::{Interest, NoCache, SharedGears, SharedModels};
+use analysis::{
+    AnalysisError, Interest, NoCache, RestRequest, SharedGears, SharedModels, WarningsAtRest, solve_at_rest,
+};
+use ltca::StaticHistory;
 use scene::Scene;
 
 fn small(more: &str) -> Scene {
@@ -19,8 +22,17 @@ fn small(more: &str) -> Scene {
 fn lost_after(models: &SharedModels<'_>, scene: &Scene, questions: usize) -> (bool, usize) {
     let asked = AtomicUsize::new(0);
     let gears = || asked.fetch_add(1, Ordering::SeqCst) < questions;
-    let solved = models.solve_while(scene, Interest { gears: &gears, positions: &|| true }).unwrap();
-    (solved.is_some(), asked.into_inner())
+    let interest = Interest { gears: &gears, positions: &|| true };
+    let solved = match solve_at_rest(scene, models, RestRequest { warnings: WarningsAtRest::Told, interest }) {
+        Ok(_) => true,
+        Err(AnalysisError::Cancelled) => false,
+        Err(e) => panic!("{e}"),
+    };
+    (solved, asked.into_inner())
+}
+
+fn to_the_end(models: &SharedModels<'_>, scene: &Scene) -> StaticHistory {
+    solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Left)).unwrap().history
 }
 
 /// By the sector and by one factor of the whole gear.
@@ -30,7 +42,7 @@ fn a_reduction_ends_at_the_step_at_which_nobody_wants_it() {
         let scene = small(way);
         let (fresh, all) = lost_after(&SharedModels::new(&NoCache), &scene, usize::MAX);
         assert!(fresh && all >= 6, "{all} questions in a reduction {way:?}");
-        let wanted = SharedModels::new(&NoCache).solve(&scene).unwrap().1;
+        let wanted = to_the_end(&SharedModels::new(&NoCache), &scene);
         for questions in 0..all {
             let models = SharedModels::new(&NoCache);
             let (solved, asked) = lost_after(&models, &scene, questions);
@@ -38,7 +50,7 @@ fn a_reduction_ends_at_the_step_at_which_nobody_wants_it() {
             // Pinion and wheel are reduced side by side: each may ask once more.
             assert!(asked <= questions + 2, "{asked} questions, {questions} were answered with yes");
             if questions % 5 == 0 {
-                let again = models.solve(&scene).unwrap().1;
+                let again = to_the_end(&models, &scene);
                 assert_eq!(again.positions, wanted.positions, "after {questions} questions");
             }
         }

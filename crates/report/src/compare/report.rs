@@ -5,7 +5,10 @@ use std::collections::BTreeMap;
 use answer::Answer;
 use serde_json::{Value, json};
 
-use super::{Difference, NumberRow, Overlay, ResultFolder, Trace, WordRow, rows};
+use super::{
+    Difference, NumberRow, Overlay, ResultFolder, Trace, WordRow,
+    rows::{self, letter},
+};
 use crate::{
     charts::{Curve, line_chart, line_picture},
     page::{Cell, Grid, Page, Part},
@@ -152,11 +155,6 @@ pub fn compare_page(
     let head = std::iter::once("number".to_owned()).chain(heads);
     page.push(Part::new("Headline numbers").closing().grid(Grid::new(head).rows(rows)));
     page
-}
-
-/// A, B, C, ... and numbers for those who compare more runs than letters.
-pub(super) fn letter(run: usize) -> String {
-    u8::try_from(run).ok().filter(|i| *i < 26).map_or_else(|| run.to_string(), |i| char::from(b'A' + i).to_string())
 }
 
 /// Six digits; `-` where there is no number.

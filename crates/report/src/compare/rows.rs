@@ -2,7 +2,7 @@
 
 use answer::Table;
 
-use super::{NumberRow, Overlay, report::letter};
+use super::{NumberRow, Overlay};
 
 /// Numbers of all runs: key, value of each run, difference and per cent of each but the first. NaN without a value.
 pub(super) fn numbers(runs: usize, rows: &[NumberRow]) -> Table {
@@ -36,4 +36,9 @@ pub(super) fn curves(overlays: &[Overlay]) -> Table {
         .texts("run", "folder, and what tells its rows apart", points().map(|(_, t, _)| t.label.clone()))
         .numbers("x", "abscissa", points().map(|(.., p)| p.0))
         .numbers("value", "value", points().map(|(.., p)| p.1))
+}
+
+/// A, B, C, ... and numbers for those who compare more runs than letters.
+pub(super) fn letter(run: usize) -> String {
+    u8::try_from(run).ok().filter(|i| *i < 26).map_or_else(|| run.to_string(), |i| char::from(b'A' + i).to_string())
 }

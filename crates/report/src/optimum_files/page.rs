@@ -27,19 +27,17 @@ pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
 fn goal(of: &OptimumResult<'_>) -> Part {
     let optimum = of.optimum;
     let goals = Goals::of(optimum);
-    Part::new("Before and after")
-        .closing()
-        .words(format!("Goal: {}.", Optimised::goal_words(&optimum.plan.goal)))
-        .lines([
-            Line::number("goal at the start", goals.goal_start_um, 4, "um"),
-            Line::number(
-                format!("found in {}", counted(optimum.found.steps.len(), "evaluation")),
-                goals.goal_found_um,
-                4,
-                "um",
-            ),
-            Line::number("with values that a machine can be set to", goals.goal_optimum_um, 4, "um"),
-        ])
+    Part::new("Before and after").closing().lines([
+        Line::text("goal", Optimised::goal_words(&optimum.plan.goal), ""),
+        Line::number("goal at the start", goals.goal_start_um, 4, "um"),
+        Line::number(
+            format!("found in {}", counted(optimum.found.steps.len(), "evaluation")),
+            goals.goal_found_um,
+            4,
+            "um",
+        ),
+        Line::number("with values that a machine can be set to", goals.goal_optimum_um, 4, "um"),
+    ])
 }
 
 fn parameters(of: &OptimumResult<'_>) -> Part {

@@ -4,8 +4,8 @@ use analysis::lumped::{Attractor, BasinHeadline, BasinResult};
 use scene::Scene;
 
 use super::{
+    key_rows,
     parts::{Shown, pair_answer, pair_page},
-    rows,
 };
 use crate::{
     Cost, ReportError, Written,
@@ -30,7 +30,7 @@ pub(super) fn write_basin_result(
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
     let BasinResult { facts, attractors, headline: h, warnings, .. } = found;
-    let tables = vec![rows::basins(found), rows::attractors(attractors)];
+    let tables = vec![key_rows::basins(&found.starts), key_rows::attractors(attractors)];
     let curves = curves(found);
     if let Some(picture) = dot_picture(TITLE, X, Y, &curves) {
         results.write("basins.svg", picture.as_bytes())?;

@@ -4,8 +4,8 @@ use analysis::lumped::{BranchPoint, ContinuationHeadline, ContinuationResult, Lo
 use scene::Scene;
 
 use super::{
+    key_rows,
     parts::{Shown, key, pair_answer, pair_page},
-    rows,
 };
 use crate::{
     Cost, ReportError, Written,
@@ -33,7 +33,12 @@ pub(super) fn write_continuation_result(
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
     let ContinuationResult { facts, in_time, headline: h, warnings, .. } = found;
-    let tables = vec![rows::branch(found), rows::turns(found), rows::in_time(found)];
+    let swept = found.headline.key;
+    let tables = vec![
+        key_rows::branch(swept, &found.points),
+        key_rows::turns(swept, &found.turns),
+        key_rows::in_time(swept, &found.in_time),
+    ];
     let dots: Vec<(f64, f64)> = in_time.iter().map(|p| (p.value, p.peak_to_peak_dte_um)).collect();
     if let Some(picture) = dot_picture(TITLE, h.key, DTE, &curves(found, |p| p.peak_to_peak_dte_um, &dots)) {
         results.write("branch.svg", picture.as_bytes())?;

@@ -4,8 +4,8 @@ use analysis::lumped::{BifurcationAnalysis, SweepHeadline, SweepOptions, SweepPo
 use scene::SweepWay;
 
 use super::{
+    key_rows,
     parts::{Shown, pair_answer, pair_page},
-    rows,
 };
 use crate::{
     Cost, ReportError, Written,
@@ -43,7 +43,7 @@ pub fn write_key_sweep_result(
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
     let BifurcationAnalysis { scene, facts, points, headline: h, warnings } = found;
-    let tables = vec![rows::sweep(options, points), rows::bifurcation(options, points)];
+    let tables = vec![key_rows::sweep(options, points), key_rows::bifurcation(options, points)];
     let diagram = by_way(points, |p| p.points.clone());
     if let Some(picture) = dot_picture(BIFURCATION, &options.key, &options.quantity.name, &diagram) {
         results.write("bifurcation.svg", picture.as_bytes())?;

@@ -1,15 +1,19 @@
 //! Rows beside the histories of motions as tables.
 
 use analysis::{
-    lumped::{
-        Attractor, BasinResult, BranchPoint, ContinuationResult, LossName, LumpedCampbell, SweepOptions, SweepPoint,
-    },
-    motion::{CampbellDiagram, MotionSpectrum, Passage, SWEEP_ORDERS, SweepRow, SweepStatus, WaterfallLine},
+    lumped::LumpedCampbell,
+    motion::{CampbellDiagram, MotionSpectrum, Passage, SWEEP_ORDERS, SweepRow, WaterfallLine},
 };
 use answer::Table;
 use study::Campbell;
 
 use crate::motion_files::{SPECTRA, spectra};
+
+/// Meaning of the column `periodicity` of all sweeps.
+pub(super) const PERIODICITY: &str =
+    "how nearly it repeats itself: largest difference over peak to peak, coordinates and velocities";
+/// Meaning of the column `status` of all sweeps.
+pub(super) const STATUS: &str = "`solved`; `not-periodic`: `periodicity` is above `periodic_tolerance`; `failed`: no motion, or one whose certificate does not hold";
 
 /// `spectrum`: lines of a motion at constant speed.
 pub(super) fn spectrum(of: &MotionSpectrum) -> Table {
@@ -17,7 +21,11 @@ pub(super) fn spectrum(of: &MotionSpectrum) -> Table {
         .numbers("mesh_order", "order of the mesh frequency", of.orders.iter().copied())
         .numbers("frequency_hz", "its frequency", of.frequencies.iter().copied());
     for (name, amplitudes) in SPECTRA.into_iter().zip(spectra(of)) {
-        table.push_numbers(name, "amplitude", amplitudes[..of.orders.len()].iter().copied());
+        table.push_numbers(
+            name,
+            "single-sided amplitude; of order 0 the mean",
+            amplitudes[..of.orders.len()].iter().copied(),
+        );
     }
     table
 }
@@ -35,10 +43,10 @@ pub(super) fn waterfall(lines: &[WaterfallLine], per_cycle: usize) -> Table {
         .collect();
     Table::new("waterfall")
         .numbers("time_s", "middle of the stretch", all.iter().map(|r| r.0.time))
-        .numbers("pinion_speed_rpm", "mean speed of the pinion", all.iter().map(|r| r.0.speed_rpm))
+        .numbers("pinion_speed_rpm", "mean speed of the pinion over the stretch", all.iter().map(|r| r.0.speed_rpm))
         .numbers("mesh_order", "order of the mesh frequency", all.iter().map(|r| r.1))
-        .numbers("frequency_hz", "its frequency", all.iter().map(|r| r.1 * r.0.mesh_frequency_hz))
-        .numbers("dte_um", "amplitude of the DTE", all.iter().map(|r| r.2))
+        .numbers("frequency_hz", "its frequency at the mean speed", all.iter().map(|r| r.1 * r.0.mesh_frequency_hz))
+        .numbers("dte_um", "single-sided amplitude of the dynamic transmission error", all.iter().map(|r| r.2))
 }
 
 /// `cycles`: one row a mesh cycle of a ramp.
@@ -46,16 +54,36 @@ pub(super) fn cycles(of: &Passage) -> Table {
     let all = &of.cycles;
     let mut table = Table::new("cycles")
         .numbers("time_s", "middle of the mesh cycle", all.iter().map(|c| c.time_s))
-        .numbers("driver_speed_rpm", "speed of the driver", all.iter().map(|c| c.driver_speed_rpm))
-        .numbers("mesh_frequency_hz", "mesh frequency", all.iter().map(|c| c.mesh_frequency_hz))
-        .numbers("mean_dte_um", "mean DTE", all.iter().map(|c| c.mean_dte_um))
-        .numbers("peak_to_peak_dte_um", "peak to peak of the DTE", all.iter().map(|c| c.peak_to_peak_dte_um))
-        .numbers("min_normal_force_n", "least sum of normal forces", all.iter().map(|c| c.min_normal_force_n))
-        .numbers("max_normal_force_n", "largest sum of normal forces", all.iter().map(|c| c.max_normal_force_n))
-        .numbers("dynamic_factor", "largest over static force", all.iter().map(|c| c.dynamic_factor));
+        .numbers("driver_speed_rpm", "speed of the driver at that time", all.iter().map(|c| c.driver_speed_rpm))
+        .numbers("mesh_frequency_hz", "mesh frequency at that time", all.iter().map(|c| c.mesh_frequency_hz))
+        .numbers("mean_dte_um", "mean dynamic transmission error", all.iter().map(|c| c.mean_dte_um))
+        .numbers(
+            "peak_to_peak_dte_um",
+            "peak to peak of the dynamic transmission error",
+            all.iter().map(|c| c.peak_to_peak_dte_um),
+        )
+        .numbers(
+            "min_normal_force_n",
+            "least sum of normal forces on the driving flanks",
+            all.iter().map(|c| c.min_normal_force_n),
+        )
+        .numbers(
+            "max_normal_force_n",
+            "largest sum of normal forces on the driving flanks",
+            all.iter().map(|c| c.max_normal_force_n),
+        )
+        .numbers(
+            "dynamic_factor",
+            "largest sum of normal forces over the mean quasi-static one",
+            all.iter().map(|c| c.dynamic_factor),
+        );
     if all.iter().all(|c| c.max_pair_normal_force_n.is_some()) {
         let forces = all.iter().filter_map(|c| c.max_pair_normal_force_n);
-        table.push_numbers("max_pair_normal_force_n", "largest force of one pair", forces);
+        table.push_numbers(
+            "max_pair_normal_force_n",
+            "largest normal force of one tooth pair, without damping; not of `impact`",
+            forces,
+        );
     }
     table
 }
@@ -69,7 +97,11 @@ pub(super) fn order_cuts(of: &Passage) -> Table {
         .numbers("mesh_frequency_hz", "mesh frequency", of.cuts.iter().map(|c| c.mesh_frequency_hz));
     for n in 0..orders {
         let amplitudes = of.cuts.iter().map(|c| c.amplitudes_um[n]);
-        table.push_numbers(format!("dte_order_{}_um", n + 1), "amplitude of the order in the DTE", amplitudes);
+        table.push_numbers(
+            format!("dte_order_{}_um", n + 1),
+            "amplitude of a mesh order in the dynamic transmission error, 8 orders at the most",
+            amplitudes,
+        );
     }
     table
 }
@@ -100,175 +132,62 @@ fn frequencies(diagram: &Campbell, modes: impl Iterator<Item = String>, lines: i
 
 /// `resonance`: a row a way and speed.
 pub(super) fn resonance(rows: &[SweepRow]) -> Table {
-    let status = |row: &SweepRow| match row.status {
-        SweepStatus::Periodic => "periodic",
-        SweepStatus::NotPeriodic => "not-periodic",
-        SweepStatus::Failed => "failed",
-    };
     let mut table = Table::new("resonance")
-        .texts("way", "how the speed was reached", rows.iter().map(|r| r.way.word()))
+        .texts(
+            "way",
+            "`up`, `down` (from the motion of the speed before) or `apart` (from rest under the load)",
+            rows.iter().map(|r| r.way.word()),
+        )
         .numbers("speed_rpm", "speed of the driver", rows.iter().map(|r| r.speed_rpm))
         .numbers("mesh_frequency_hz", "mesh frequency", rows.iter().map(|r| r.mesh_frequency_hz))
-        .numbers("mean_dte_um", "mean DTE", rows.iter().map(|r| r.mean_dte_um))
-        .numbers("peak_to_peak_dte_um", "peak to peak of the DTE", rows.iter().map(|r| r.peak_to_peak_dte_um));
+        .numbers("mean_dte_um", "mean dynamic transmission error", rows.iter().map(|r| r.mean_dte_um))
+        .numbers(
+            "peak_to_peak_dte_um",
+            "peak to peak of the dynamic transmission error",
+            rows.iter().map(|r| r.peak_to_peak_dte_um),
+        );
     for h in 0..SWEEP_ORDERS {
         let amplitudes = rows.iter().map(|r| r.dte_harmonics_um.get(h).copied().unwrap_or(f64::NAN));
-        table.push_numbers(format!("dte_harmonic_{}_um", h + 1), "amplitude of the mesh harmonic", amplitudes);
+        table.push_numbers(
+            format!("dte_harmonic_{}_um", h + 1),
+            "amplitude of a mesh harmonic of the dynamic transmission error",
+            amplitudes,
+        );
     }
     table
-        .numbers("min_normal_force_n", "least sum of normal forces", rows.iter().map(|r| r.min_normal_force_n))
-        .numbers("max_normal_force_n", "largest sum of normal forces", rows.iter().map(|r| r.max_normal_force_n))
-        .numbers("dynamic_factor", "largest over static force", rows.iter().map(|r| r.dynamic_factor))
+        .numbers(
+            "min_normal_force_n",
+            "least sum of normal forces on the driving flanks",
+            rows.iter().map(|r| r.min_normal_force_n),
+        )
+        .numbers(
+            "max_normal_force_n",
+            "largest sum of normal forces on the driving flanks",
+            rows.iter().map(|r| r.max_normal_force_n),
+        )
+        .numbers(
+            "dynamic_factor",
+            "largest sum of normal forces on driving or coast flanks over the mean quasi-static one",
+            rows.iter().map(|r| r.dynamic_factor),
+        )
         .numbers(
             "max_coast_normal_force_n",
-            "largest force on the coast flanks",
+            "largest sum of normal forces on the coast flanks",
             rows.iter().map(|r| r.max_coast_normal_force_n),
         )
         .numbers("max_bearing_force_n", "largest force of a bearing", rows.iter().map(|r| r.max_bearing_force_n))
-        .numbers("period_cycles", "mesh cycles of a period", rows.iter().map(|r| r.period_cycles as f64))
-        .numbers("periodicity", "how nearly it repeats itself", rows.iter().map(|r| r.periodicity))
-        .numbers("warm_up_cycles", "mesh cycles before", rows.iter().map(|r| r.warm_up_cycles as f64))
-        .texts(
-            "start",
-            "what it starts from",
-            rows.iter().map(|r| if r.own_start { "quasi-static" } else { "neighbour" }),
-        )
-        .texts("status", "whether it repeats itself", rows.iter().map(status))
-        .texts("reason", "why there is no solution", rows.iter().map(|r| r.reason.as_str()))
-}
-
-/// `sweep`: one row a value and way.
-pub(super) fn sweep(options: &SweepOptions, points: &[SweepPoint]) -> Table {
-    let (of, none) = (&options.quantity.name, f64::NAN);
-    let all = || points.iter();
-    Table::new("sweep")
-        .texts("way", "how the value was reached", all().map(|p| p.way.word()))
-        .numbers(options.key.clone(), "value of the key", all().map(|p| p.value))
-        .numbers(format!("mean_{of}"), "mean", all().map(|p| p.mean))
-        .numbers(format!("peak_to_peak_{of}"), "peak to peak", all().map(SweepPoint::peak_to_peak))
-        .numbers(format!("min_{of}"), "least", all().map(|p| p.extent[0]))
-        .numbers(format!("max_{of}"), "largest", all().map(|p| p.extent[1]))
-        .numbers("section_period", "points of the section", all().map(|p| p.period.map_or(none, |n| n as f64)))
-        .numbers("periodicity", "how nearly it repeats itself", all().map(|p| p.periodicity.unwrap_or(none)))
-        .numbers("warm_up_cycles", "mesh cycles before", all().map(|p| p.warm_up_cycles as f64))
-        .numbers(
-            "lyapunov_per_s",
-            "largest Lyapunov exponent",
-            all().map(|p| p.lyapunov.as_ref().map_or(none, |l| l.exponent)),
-        )
-        .numbers(
-            "lyapunov_error_per_s",
-            "its standard error",
-            all().map(|p| p.lyapunov.as_ref().map_or(none, |l| l.error)),
-        )
-        .numbers("min_normal_force_n", "least normal force", all().map(|p| p.normal_force_n[0]))
-        .numbers("max_normal_force_n", "largest normal force", all().map(|p| p.normal_force_n[1]))
-        .numbers("rows_without_driving_force", "rows without contact", all().map(|p| p.rows_apart as f64))
-        .texts("status", "whether it is solved", all().map(|p| if p.failed.is_some() { "failed" } else { "solved" }))
-        .texts("reason", "why not", all().map(|p| p.failed.as_ref().map_or(String::new(), ToString::to_string)))
-}
-
-/// `bifurcation`: one row a point of a section.
-pub(super) fn bifurcation(options: &SweepOptions, points: &[SweepPoint]) -> Table {
-    let all = || points.iter().flat_map(|p| p.points.iter().enumerate().map(move |(k, x)| (p, k, *x)));
-    Table::new("bifurcation")
-        .texts("way", "how the value was reached", all().map(|r| r.0.way.word()))
-        .numbers(options.key.clone(), "value of the key", all().map(|r| r.0.value))
-        .numbers("point", "number of the point", all().map(|r| r.1 as f64))
-        .numbers(options.quantity.name.clone(), "value at the point", all().map(|r| r.2))
-}
-
-/// Columns of motions along a branch.
-fn of_branch(mut table: Table, key: &'static str, points: &[&BranchPoint]) -> Table {
-    let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&BranchPoint) -> f64| {
-        table.push_numbers(name, meaning, points.iter().map(|p| of(p)));
-    };
-    push(key.into(), "value of the key", &|p| p.value);
-    push("stable".into(), "1 where disturbances fade", &|p| f64::from(u8::from(p.is_stable)));
-    push("largest_multiplier".into(), "size of the largest Floquet multiplier", &|p| p.largest_multiplier);
-    push("mean_dte_um".into(), "mean DTE", &|p| p.mean_dte_um);
-    push("peak_to_peak_dte_um".into(), "peak to peak of the DTE", &|p| p.peak_to_peak_dte_um);
-    push("rms_dte_um".into(), "root mean square of the DTE about its mean", &|p| p.rms_dte_um);
-    for k in 0..5 {
-        push(format!("dte_harmonic_{}_um", k + 1), "amplitude of the mesh harmonic", &|p| p.dte_harmonics_um[k]);
-    }
-    push("min_normal_force_n".into(), "least normal force", &|p| p.min_normal_force_n);
-    push("max_normal_force_n".into(), "largest normal force", &|p| p.max_normal_force_n);
-    push("share_apart".into(), "share of the period without contact", &|p| p.share_apart);
-    push("harmonics".into(), "harmonics of the motion", &|p| p.harmonics as f64);
-    push("newton_steps".into(), "Newton steps", &|p| p.newton_steps as f64);
-    push("residual".into(), "what is left over of the balance", &|p| p.residual);
-    push("tail".into(), "share of the forces that the harmonics leave out", &|p| p.tail);
-    table
-}
-
-/// `branch`: one row a motion, in the order of the branch.
-pub(super) fn branch(found: &ContinuationResult) -> Table {
-    of_branch(Table::new("branch"), found.headline.key, &found.points.iter().collect::<Vec<_>>())
-}
-
-/// `bifurcations`: one row a fold, period doubling or torus bifurcation.
-pub(super) fn turns(found: &ContinuationResult) -> Table {
-    let name = |loss: LossName| match loss {
-        LossName::Fold => "fold",
-        LossName::PeriodDoubling => "period-doubling",
-        LossName::Torus => "torus",
-    };
-    let kinds = found.turns.iter().map(|turn| name(turn.loss));
-    let table = Table::new("bifurcations").texts("bifurcation", "what becomes of the motion", kinds);
-    of_branch(table, found.headline.key, &found.turns.iter().map(|turn| &turn.point).collect::<Vec<_>>())
-}
-
-/// `in_time`: one row a motion that was integrated in time.
-pub(super) fn in_time(found: &ContinuationResult) -> Table {
-    let all = &found.in_time;
-    Table::new("in_time")
-        .numbers(found.headline.key, "value of the key", all.iter().map(|p| p.value))
-        .numbers("peak_to_peak_dte_um", "peak to peak in time", all.iter().map(|p| p.peak_to_peak_dte_um))
-        .numbers(
-            "branch_peak_to_peak_dte_um",
-            "peak to peak of the branch",
-            all.iter().map(|p| p.branch_peak_to_peak_dte_um),
-        )
-}
-
-/// `basins`: one row a start; NaN where no motion comes out.
-pub(super) fn basins(found: &BasinResult) -> Table {
-    let all = &found.starts;
-    Table::new("basins")
-        .numbers("initial_dte_um", "initial DTE beside that of rest", all.iter().map(|s| s.initial_dte_um))
-        .numbers("initial_dte_rate_mm_s", "its initial rate", all.iter().map(|s| s.initial_dte_rate_mm_s))
-        .numbers(
-            "attractor",
-            "number of the motion that it ends in",
-            all.iter().map(|s| s.attractor.map_or(f64::NAN, |n| n as f64)),
-        )
-        .numbers(
-            "warm_up_cycles",
-            "mesh cycles until there",
-            all.iter().map(|s| s.attractor.map_or(f64::NAN, |_| s.warm_up_cycles as f64)),
-        )
-}
-
-/// `attractors`: one row a motion that starts end in; one that does not come back has no period.
-pub(super) fn attractors(all: &[Attractor]) -> Table {
-    Table::new("attractors")
-        .numbers("attractor", "number of the motion", all.iter().map(|a| a.attractor as f64))
         .numbers(
             "period_cycles",
-            "mesh cycles of a period",
-            all.iter().map(|a| a.period_cycles.map_or(f64::NAN, |p| p as f64)),
+            "mesh cycles after which the motion repeats itself best",
+            rows.iter().map(|r| r.period_cycles as f64),
         )
-        .numbers("starts", "starts that end in it", all.iter().map(|a| a.starts as f64))
-        .numbers("share_pct", "their share of all starts, %", all.iter().map(|a| a.share_pct))
-        .numbers("mean_dte_um", "mean DTE", all.iter().map(|a| a.mean_dte_um))
-        .numbers("min_dte_um", "least DTE", all.iter().map(|a| a.min_dte_um))
-        .numbers("max_dte_um", "largest DTE", all.iter().map(|a| a.max_dte_um))
-        .numbers("min_normal_force_n", "least normal force", all.iter().map(|a| a.min_normal_force_n))
-        .numbers("max_normal_force_n", "largest normal force", all.iter().map(|a| a.max_normal_force_n))
-        .numbers(
-            "most_warm_up_cycles",
-            "most mesh cycles until there",
-            all.iter().map(|a| a.most_warm_up_cycles as f64),
+        .numbers("periodicity", PERIODICITY, rows.iter().map(|r| r.periodicity))
+        .numbers("warm_up_cycles", "mesh cycles before the first row", rows.iter().map(|r| r.warm_up_cycles as f64))
+        .texts(
+            "start",
+            "`neighbour`: where the speed beside it ended; `quasi-static`: its own equilibrium",
+            rows.iter().map(|r| if r.own_start { "quasi-static" } else { "neighbour" }),
         )
+        .texts("status", STATUS, rows.iter().map(|r| r.status.word()))
+        .texts("reason", "why there is no motion; empty where there is one", rows.iter().map(|r| r.reason.as_str()))
 }

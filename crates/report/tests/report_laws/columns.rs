@@ -2,7 +2,11 @@
 
 use std::{collections::BTreeSet, fs, path::Path};
 
-use report::columns::{ENERGY, LUMPED_HISTORY, MOTION_HISTORY, Rows, STATIC_HISTORY, Table};
+use answer::{Column, Table, Values};
+use report::{
+    columns::{self, ENERGY, LUMPED_HISTORY, MOTION_HISTORY, Rows, STATIC_HISTORY},
+    pair_files::tables_without_rows,
+};
 
 /// How a unit ends a name; nothing for a plain number.
 fn ending(unit: &str) -> &'static str {
@@ -28,7 +32,7 @@ fn ending(unit: &str) -> &'static str {
     }
 }
 
-fn holds<R: Rows>(table: &Table<R>, what: &str) {
+fn holds<R: Rows>(table: &columns::Table<R>, what: &str) {
     let mut names = BTreeSet::new();
     for column in table.columns() {
         assert!(names.insert(column.name), "{what}: two columns `{}`", column.name);
@@ -53,4 +57,57 @@ fn columns_are_named_by_their_units_and_documented() {
     holds(&MOTION_HISTORY, "history.csv of a motion");
     holds(&LUMPED_HISTORY, "history.csv of a cheaper model");
     holds(&ENERGY, "energy.csv");
+}
+
+/// Set, it writes the lists again: `UPDATE_OUTPUTS=1 cargo test --workspace --test report_laws -- lists_of_columns`.
+const UPDATE: &str = "UPDATE_OUTPUTS";
+
+/// Numbers of harmonics as `<h>`, of orders as `<n>`.
+fn general(name: &str) -> String {
+    let mut words: Vec<&str> = name.split('_').collect();
+    for k in 1..words.len() {
+        if words[k].parse::<u32>().is_ok() {
+            words[k] = if words[k - 1] == "harmonic" { "<h>" } else { "<n>" };
+        }
+    }
+    words.join("_")
+}
+
+/// The list of a table's columns; columns that differ in a number alone stand once.
+fn list(table: &Table) -> String {
+    let row = |column: &Column| {
+        let unit = match column.values {
+            Values::Texts(_) => "text".to_owned(),
+            Values::Numbers(_) => column.unit(),
+        };
+        format!("| `{}` | {unit} | {} |\n", general(&column.name), column.meaning).replace("|  |", "| |")
+    };
+    let mut rows: Vec<String> = table.columns.iter().map(row).collect();
+    rows.dedup();
+    format!("| column of `{}.csv` | unit | meaning |\n|---|---|---|\n{}", table.name, rows.concat())
+}
+
+/// Every table of many motions is listed column by column, as the program has it.
+#[test]
+fn the_lists_of_columns_are_up_to_date() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/outputs.md");
+    let page = fs::read_to_string(&file).unwrap();
+    let mut wanted = page.clone();
+    for table in tables_without_rows() {
+        for column in &table.columns {
+            assert!(!column.meaning.is_empty(), "`{}` of {} has no meaning", column.name, table.name);
+        }
+        let begin = format!("<!-- columns of {} -->\n", table.name);
+        let (above, rest) = wanted.split_once(&begin).unwrap_or_else(|| panic!("docs/outputs.md has no {begin}"));
+        let (_, below) = rest.split_once("<!-- end -->").unwrap_or_else(|| panic!("{begin} has no end"));
+        wanted = format!("{above}{begin}{}<!-- end -->{below}", list(&table));
+    }
+    if std::env::var_os(UPDATE).is_some() {
+        fs::write(&file, &wanted).unwrap();
+    }
+    let differ = page.lines().zip(wanted.lines()).find(|(old, new)| old != new);
+    assert!(
+        page == wanted,
+        "docs/outputs.md is not up to date (written again with {UPDATE}=1, if that was set); first: {differ:?}"
+    );
 }

@@ -1,6 +1,8 @@
 //! The numbers of the page are those of a run, its complaints those of the command.
 
-use analysis::{NoCache, SharedModels, StaticAnalysis, results::static_headline};
+use analysis::{
+    NoCache, RestRequest, SharedModels, StaticAnalysis, WarningsAtRest, results::static_headline, solve_at_rest,
+};
 use scene::Scene;
 use serde_json::{Value, json};
 
@@ -10,7 +12,9 @@ use crate::served::{ISO, Served, with_contact};
 fn headline_of_a_run(text: &str) -> Value {
     let scene = Scene::parse(text, "a.toml".as_ref()).unwrap();
     let solved = StaticAnalysis::new(&scene).solve().unwrap();
-    let settled = SharedModels::new(&NoCache).solve(&scene).unwrap().0;
+    let settled = solve_at_rest(&scene, &SharedModels::new(&NoCache), RestRequest::to_the_end(WarningsAtRest::Left))
+        .unwrap()
+        .scene;
     let headline = static_headline(&settled, &solved.history).unwrap();
     let mut all: Value = serde_json::from_str(&serde_json::to_string(&headline).unwrap()).unwrap();
     all.as_object_mut().unwrap().retain(|key, _| !key.starts_with("tooth_change"));

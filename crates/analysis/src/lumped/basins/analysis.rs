@@ -18,8 +18,8 @@ use super::{
     plane::StatePlane,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, gears, inputs::motion_of,
-    resolution::with_slices, run_phase, unless_cancelled,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts, gears,
+    inputs::motion_of, resolution::with_slices, run_phase, unless_cancelled,
 };
 
 /// A scene with `run = "basins"`.
@@ -83,7 +83,7 @@ impl<'a> BasinAnalysis<'a> {
         let inputs = LumpedInputs::gather(scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;
         let (coordinates, resonance_hz) = (system.coordinates(), system.resonance_hz);
-        let facts = analysis::facts(&inputs, coordinates);
+        let mut facts = analysis::facts(&inputs, coordinates);
         let plane = StatePlane::new(&mut system.model).map_err(|e| e.of(scene))?;
         let tolerance = motion_of(scene)?.periodic_tolerance.unwrap_or(0.0);
         let places = words.places();
@@ -94,13 +94,15 @@ impl<'a> BasinAnalysis<'a> {
                     checked_run(&inputs, &mut own.model, resonance_hz, Some(&from))
                 });
                 progress.tick();
-                found.map(|run| Attractor::of(&run, tolerance)).map_err(Arc::new)
+                found.map(|(run, checks)| (Attractor::of(&run, tolerance), checks)).map_err(Arc::new)
             };
             places.par_iter().map(one).collect::<Vec<_>>()
         });
         if let (Some(Err(first)), true) = (runs.first(), runs.iter().all(Result::is_err)) {
             return Err(AnalysisError::Shared(Arc::clone(first)));
         }
+        facts.certificate = Checks::worst(runs.iter().flatten().map(|(_, checks)| checks));
+        let runs: Vec<_> = runs.into_iter().map(|run| run.map(|(attractor, _)| attractor)).collect();
         let of_starts: Vec<Option<Attractor>> = runs.iter().map(|run| run.as_ref().ok().cloned()).collect();
         let (attractors, belongs) = told_apart(&of_starts);
         let starts: Vec<BasinStart> = places

@@ -23,8 +23,8 @@ pub use point::SweepPoint;
 
 use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, facts::Facts, resolution::with_slices,
-    run_phase,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts,
+    resolution::with_slices, run_phase,
 };
 use ways::{SweepValue, one_way};
 
@@ -86,7 +86,7 @@ impl<'a> KeySweep<'a> {
         let options = self.options;
         let values = self.gather(observer);
         let (first, system) = first_of(&values)?;
-        let (facts, mut warnings) = (analysis::facts(first, system.coordinates()), system.warnings);
+        let (mut facts, mut warnings) = (analysis::facts(first, system.coordinates()), system.warnings);
         let count = (values.len() * options.ways.len()) as u64;
         let points: Vec<SweepPoint> = run_phase(observer, "sweep", PhaseWork::Steps(count), |progress| {
             let at = |value: &SweepValue, from: Option<&_>| match &value.inputs {
@@ -102,6 +102,7 @@ impl<'a> KeySweep<'a> {
         if let (Some(error), true) = (failed, points.iter().all(|p| p.failed.is_some())) {
             return Err(AnalysisError::Shared(error));
         }
+        facts.certificate = Checks::worst(points.iter().map(|p| &p.checks));
         let headline = headline::headline(&first.scene, options, &points);
         warnings.extend(headline.warnings());
         warnings.extend(first.left_out_of_sweeps());

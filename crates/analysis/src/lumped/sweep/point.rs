@@ -11,7 +11,7 @@ use super::{
     super::{LumpedInputs, analysis::checked_run, exponent::exponent, free_turn::FreeTurn},
     SweepOptions,
 };
-use crate::{AnalysisError, inputs::motion_of};
+use crate::{AnalysisError, certificate::Checks, inputs::motion_of, motion::SweepStatus};
 
 /// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
 const SAME: f64 = 1e-3;
@@ -42,6 +42,12 @@ pub struct SweepPoint {
     pub normal_force_n: [f64; 2],
     /// Rows in which the driving flanks do not press.
     pub rows_apart: usize,
+    /// How it came out.
+    #[serde(skip)]
+    pub status: SweepStatus,
+    /// What must hold of the motion.
+    #[serde(skip)]
+    pub checks: Checks,
     /// Why there is no motion at this value; `None` where there is one.
     #[serde(skip)]
     pub failed: Option<Arc<AnalysisError>>,
@@ -63,6 +69,8 @@ impl SweepPoint {
             lyapunov: None,
             normal_force_n: [none; 2],
             rows_apart: 0,
+            status: SweepStatus::Failed,
+            checks: Checks::default(),
             failed: Some(error),
         }
     }
@@ -101,7 +109,7 @@ pub(super) fn run(
     let located = |e: AnalysisError| AnalysisError::AtValue { key: options.key.clone(), value, source: Box::new(e) };
     // Standing, the model stands where it begins: this comes before the run.
     let free = FreeTurn::of(&mut model).map_err(|e| located(e.of(scene)))?;
-    let run = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
+    let (run, checks) = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
     let every = options.every.cycles(scene) as usize;
     let points: Vec<f64> = run.section().map(|row| options.quantity.of(row)).step_by(every).collect();
     let of_rows: Vec<f64> = run.rows.iter().map(|row| options.quantity.of(row)).collect();
@@ -127,6 +135,11 @@ pub(super) fn run(
         lyapunov,
         normal_force_n: extent(&force),
         rows_apart: force.iter().filter(|f| **f <= 0.0).count(),
+        status: SweepStatus::of(
+            run.periodicity.as_ref().map(|p| p.residual),
+            motion.periodic_tolerance.unwrap_or(1e-6),
+        ),
+        checks,
         failed: None,
     };
     Ok(SettledPoint { point, end: run.end })

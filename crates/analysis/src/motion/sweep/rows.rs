@@ -18,16 +18,32 @@ use crate::{
 /// Mesh harmonics of a speed that are listed.
 pub const SWEEP_ORDERS: usize = 4;
 
-/// How a speed of a sweep came out.
+/// How a value of a sweep came out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SweepStatus {
     /// The motion repeats itself.
-    Periodic,
+    Solved,
     /// It does not, in the cycles that it was given.
     NotPeriodic,
     /// There is no motion at all.
     Failed,
+}
+
+impl SweepStatus {
+    /// Of a motion that repeats itself up to `periodicity`, wanted up to `tolerance`; `None` where that is unknown.
+    pub(crate) fn of(periodicity: Option<f64>, tolerance: f64) -> Self {
+        if periodicity.is_some_and(|residual| residual > tolerance) { Self::NotPeriodic } else { Self::Solved }
+    }
+
+    /// The word of the column `status`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::NotPeriodic => "not-periodic",
+            Self::Failed => "failed",
+        }
+    }
 }
 
 /// One speed of a sweep; units are in the names.
@@ -115,7 +131,7 @@ fn solved(
         periodicity: point.periodicity.residual,
         warm_up_cycles: point.waited,
         own_start: point.own_start,
-        status: if point.periodicity.residual > tolerance { SweepStatus::NotPeriodic } else { SweepStatus::Periodic },
+        status: SweepStatus::of(Some(point.periodicity.residual), tolerance),
         reason: String::new(),
     })
 }
