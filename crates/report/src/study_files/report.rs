@@ -37,6 +37,8 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
             "full": full,
         }),
         remarks: warnings.to_vec(),
+        // What differs from run to run is no result.
+        info: Map::from_iter([("wall_s_by_case".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
         cost,
         ..Answer::default()
     }
@@ -85,6 +87,11 @@ fn cases(of: StudyResult<'_>) -> Part {
     Part::new("Cases").words(words).grid(Grid::new(["case", "scene", "folder"]).rows(rows))
 }
 
+/// Wall time of a case with a result, s.
+fn wall_s(run: &CaseResult) -> Option<f64> {
+    run.as_ref().ok().map(|run| run.cost.wall_s)
+}
+
 /// Whether a case left files.
 fn has_folder(run: &CaseResult) -> bool {
     run.as_ref().map_or_else(|miss| miss.has_folder, |_| true)
@@ -105,6 +112,5 @@ fn case(of: StudyResult<'_>, i: usize) -> Value {
         "geometry": run.map(|r| r.record.geometry),
         "quantities": quantities,
         "steps": run.map(|r| r.steps),
-        "wall_s": run.map(|r| r.cost.wall_s),
     })
 }
