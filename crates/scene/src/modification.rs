@@ -1,13 +1,10 @@
 //! Micro-geometry of a scene: which keys of a flank go together, and the depths in the geometry that they stand for.
 
-use std::path::Path;
-
 use geometry::FlankModification;
-use geometry::modification::{DataFileError, EndRelief, ProfilePlace, Relief, ReliefShape, Topography};
+use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
 use serde::Serialize;
 
 use crate::error::SceneError;
-use crate::inputs::resolved;
 use crate::schema::{FlankScene, RawFlank, RawModification, Shape};
 use crate::source::Source;
 use crate::spanned::{Number, Word};
@@ -48,8 +45,8 @@ impl FlankScene {
         stated.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a })
     }
 
-    /// The depths that are ground off, in mm and rad; files are read, their paths relative to the scene's file.
-    pub(crate) fn in_geometry(&self, scene: &Path) -> Result<FlankModification, DataFileError> {
+    /// The depths that are ground off, in mm and rad.
+    pub(crate) fn in_geometry(&self) -> FlankModification {
         let mm = |um: Option<f64>| 1e-3 * um.unwrap_or(0.0);
         let grows = |shape: Option<Shape>| match shape {
             None | Some(Shape::Linear) => ReliefShape::Linear,
@@ -62,7 +59,7 @@ impl FlankScene {
         let end = |amount: Option<f64>, length: Option<f64>| {
             Some(EndRelief { amount: 1e-3 * amount?, length: length?, shape: grows(self.end_relief_shape) })
         };
-        Ok(FlankModification {
+        FlankModification {
             tip_relief: relief(
                 self.tip_relief_um,
                 self.tip_relief_start_diameter_mm,
@@ -84,9 +81,9 @@ impl FlankScene {
                 end(self.end_relief_upper_um, self.end_relief_upper_length_mm),
             ],
             bias: mm(self.bias_um),
-            topography: self.topography.as_ref().map(|path| Topography::read(&resolved(scene, path))).transpose()?,
+            topography: self.topography.as_ref().map(|file| file.values().clone()),
             evaluation_start: self.evaluation_start_diameter_mm.map(ProfilePlace::Diameter),
-        })
+        }
     }
 }
 
