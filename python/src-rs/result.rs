@@ -129,7 +129,7 @@ impl Result {
             name: name.to_owned(),
             table: Table::of(&solved.columns()),
             headline: solved.headline()?,
-            warnings: solved.warnings().to_vec(),
+            warnings: solved.warnings().iter().map(ToString::to_string).collect(),
             failure: solved.verdict().err().map(Complaint::from),
             files: Files::Held(Box::new(solved), OnceLock::new()),
         })
@@ -153,7 +153,7 @@ impl Result {
             name: name.to_owned(),
             table: Table::of(&rows),
             headline: solved.headline()?.to_string(),
-            warnings: solved.warnings().to_vec(),
+            warnings: solved.warnings().iter().map(ToString::to_string).collect(),
             files: Files::Written(folder),
             failure,
         })
@@ -170,13 +170,16 @@ impl Result {
         let summary: serde_json::Value = serde_json::from_str(&read("summary.json")?).unwrap_or_default();
         let rows = ROWS.iter().find(|file| at.join(file).is_file());
         let table = rows.map(|file| Ok::<_, Complaint>(Table::parse(&read(file)?))).transpose()?.unwrap_or_default();
-        let words = summary["warnings"].as_array().into_iter().flatten().filter_map(|w| w.as_str());
+        let words = summary["remarks"].as_array().into_iter().flatten().filter_map(|remark| {
+            let text = remark["text"].as_str()?;
+            Some(remark["hint"].as_str().map_or_else(|| text.to_owned(), |hint| format!("{text}; {hint}")))
+        });
         Ok(Self {
             kind,
             name: name.to_owned(),
             table,
             headline: summary["headline"].to_string(),
-            warnings: words.map(str::to_owned).collect(),
+            warnings: words.collect(),
             files: Files::Written(folder),
             failure,
         })
