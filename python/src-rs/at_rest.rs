@@ -7,6 +7,7 @@ use analysis::{
     AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticResult, StaticSink,
     accuracy::{AccurateAnalysis, AccurateResult},
     facts::Facts,
+    remark::Remark,
     results::{root_stress_headline, root_stress_warnings, static_headline},
     static_certificate,
 };
@@ -40,7 +41,7 @@ pub struct AtRest {
 /// The gears in space: remembered, then drawn when somebody writes the result.
 enum InSpace {
     Remembered(Box<(ViewRecorder, StaticModel)>),
-    Drawn(Option<Box<View>>, Vec<String>),
+    Drawn(Option<Box<View>>, Vec<Remark>),
 }
 
 /// Remembers what the files are made of, and writes fields on the way.
@@ -129,7 +130,7 @@ impl AtRest {
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[Remark] {
         &self.history.warnings
     }
 

@@ -65,7 +65,7 @@ impl Result {
             name: name.to_owned(),
             tables: vec![solved.table()],
             headline: solved.headline()?,
-            warnings: solved.warnings().to_vec(),
+            warnings: solved.warnings().iter().map(ToString::to_string).collect(),
             failure: solved.verdict().err().map(Complaint::from),
             files: Files::Held(Box::new(solved), OnceLock::new()),
         })
@@ -74,7 +74,8 @@ impl Result {
     /// Of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
     pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
         let Answer { name, tables, headline, remarks, .. } = answer;
-        Self { kind, name, tables, headline, warnings: remarks, files: Files::Written(folder), failure }
+        let warnings = remarks.iter().map(ToString::to_string).collect();
+        Self { kind, name, tables, headline, warnings, files: Files::Written(folder), failure }
     }
 
     /// Its columns, in their order.

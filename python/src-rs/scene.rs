@@ -192,7 +192,7 @@ impl Scene {
         let scene = self.ready();
         let pair = scene.gear_pair()?;
         check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
-        Ok(gears::warnings(&pair))
+        Ok(gears::warnings(&pair).iter().map(ToString::to_string).collect())
     }
 
     /// Geometry of the pair as the summary has it: diameters, contact ratios, backlash.

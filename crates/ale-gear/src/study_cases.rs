@@ -91,7 +91,7 @@ fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Res
         cost,
         steps: steps(&solved.headline()?),
         has_report: has_report(&folder),
-        warnings: solved.warnings().to_vec(),
+        warnings: solved.warnings().iter().map(ToString::to_string).collect(),
     }))
 }
 
@@ -126,14 +126,20 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
         return Ok(None);
     }
     let rows = read_columns(&folder.join(HISTORY))?;
-    let warnings = summary["warnings"].as_array().map_or(&[][..], |list| list);
+    let remarks = summary["remarks"].as_array().map_or(&[][..], |list| list);
     Ok(Some(CaseRun {
         record: CaseRecord { rows, geometry: gears::geometry_facts(&scene.gear_pair()?) },
         cost: serde_json::from_value(summary["cost"].clone()).unwrap_or_default(),
         steps: steps(&summary["headline"]),
         has_report: has_report(folder),
-        warnings: warnings.iter().filter_map(|w| Some(w.as_str()?.to_owned())).collect(),
+        warnings: remarks.iter().filter_map(words).collect(),
     }))
+}
+
+/// Sentence and hint of a remark in a summary.
+fn words(remark: &serde_json::Value) -> Option<String> {
+    let text = remark["text"].as_str()?;
+    Some(remark["hint"].as_str().map_or_else(|| text.to_owned(), |hint| format!("{text}; {hint}")))
 }
 
 /// The summary of a case.

@@ -1,5 +1,6 @@
 //! Reduced gears, and maps of their contact, that are kept from run to run.
 
+use answer::Remark;
 use std::fmt;
 
 use contact_map::ContactMap;
@@ -14,18 +15,18 @@ pub trait GearCache: Sync {
 
     /// The record of a key, with the key that it was made for; `None` when there is none. A warning says what is wrong
     /// with one that cannot be used.
-    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>);
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>);
 
     /// Keeps a record; a warning says why it could not be done.
-    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String>;
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark>;
 
     /// The maps of a key, as [`GearCache::load`]. A store need not keep maps.
-    fn load_maps(&self, _: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
+    fn load_maps(&self, _: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         (None, None)
     }
 
     /// Keeps maps, as [`GearCache::save`].
-    fn save_maps(&self, _: &MapKey, _: &[&ContactMap]) -> Option<String> {
+    fn save_maps(&self, _: &MapKey, _: &[&ContactMap]) -> Option<Remark> {
         None
     }
 }
@@ -83,19 +84,19 @@ impl<T: GearCache + ?Sized> GearCache for &T {
         (**self).is_on()
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
         (**self).load(key)
     }
 
-    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
         (**self).save(key, record)
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         (**self).load_maps(key)
     }
 
-    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<Remark> {
         (**self).save_maps(key, maps)
     }
 }
@@ -109,11 +110,11 @@ impl GearCache for NoCache {
         false
     }
 
-    fn load(&self, _: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
+    fn load(&self, _: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
         (None, None)
     }
 
-    fn save(&self, _: &RecordKey, _: &ReductionRecord) -> Option<String> {
+    fn save(&self, _: &RecordKey, _: &ReductionRecord) -> Option<Remark> {
         None
     }
 }

@@ -1,5 +1,6 @@
 //! From meshes to elastic gears: reduced, from the cache, or whole.
 
+use answer::Remark;
 use fem::{ElementOptions, Material, Wanted};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
@@ -19,7 +20,7 @@ pub struct ElasticGears {
     /// What the cache knows them by.
     pub keys: RecordKeys,
     /// What was wrong with files of the cache.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// What the cache knows the gears by; none where nothing is cached.
@@ -33,7 +34,7 @@ impl RecordKeys {
     }
 
     /// Writes what was reduced in this run; the warnings are about what could not be written.
-    pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<String> {
+    pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<Remark> {
         let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
             ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
             ElasticGear::Full(_) => None,
@@ -74,7 +75,7 @@ const NAMES: [&str; 2] = ["pinion", "wheel"];
 const LONG_S: f64 = 0.8;
 
 /// A gear, its key, and what is wrong with its file.
-type Built = (ElasticGear, Option<RecordKey>, Option<String>);
+type Built = (ElasticGear, Option<RecordKey>, Option<Remark>);
 
 fn one(
     scene: &Scene,

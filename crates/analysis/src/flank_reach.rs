@@ -19,7 +19,7 @@ impl NamedFlanks<'_> {
     ///
     /// # Errors
     /// [`AnalysisError::Mismatch`] where it is more.
-    pub fn reach(&self, pair: &GearPair) -> Result<Option<String>, AnalysisError> {
+    pub fn reach(&self, pair: &GearPair) -> Result<Option<answer::Remark>, AnalysisError> {
         let Self { found, exact, .. } = *self;
         let [start, end] = pair.path_of_contact();
         let length = pair.tangent_length();
@@ -58,7 +58,10 @@ impl NamedFlanks<'_> {
         }
         match worst {
             Some(lack) if lack.share > LARGEST_LACK => Err(mismatch(lack.said(self), lack.hint(self))),
-            other => Ok(other.map(|lack| format!("{}; {}", lack.said(self), lack.hint(self)))),
+            other => {
+                Ok(other
+                    .map(|lack| crate::remark::mesh_lacks_face(lack.said(self), 100.0 * lack.share, lack.hint(self))))
+            }
         }
     }
 }

@@ -1,5 +1,6 @@
 //! What a user hears of the exact pair of a scene: warnings and derived geometry.
 
+use crate::remark;
 use geometry::GearPair;
 use serde::Serialize;
 
@@ -31,16 +32,15 @@ pub struct GeometryFacts {
 }
 
 /// What a user should know of a pair that runs.
-pub fn warnings(pair: &GearPair) -> Vec<String> {
+pub fn warnings(pair: &GearPair) -> Vec<answer::Remark> {
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
     let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
     let told = undercut.map(|(whose, gear)| {
-        format!(
-            "the {whose} is undercut: its involute begins at diameter {:.3} mm and its roots are weak; a `profile_shift` of {:.3} or more (it is {}) \
-             or more teeth avoid that",
+        remark::undercut(
+            whose,
             2.0 * gear.form_radius(),
             (1e3 * gear.undercut_limit()).ceil() / 1e3,
-            gear.data().profile_shift
+            gear.data().profile_shift,
         )
     });
     told.collect()

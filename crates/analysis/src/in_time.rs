@@ -88,7 +88,7 @@ impl SolvedInTime {
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[answer::Remark] {
         of_any!(&self.answer, result => &result.warnings)
     }
 

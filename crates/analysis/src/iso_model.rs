@@ -1,5 +1,6 @@
 //! The model `iso`: ISO 6336-1 stiffness, load spread evenly over the analytic contact lines. No mesh. Theory (24).
 
+use crate::remark;
 use std::f64::consts::PI;
 
 use contact::Wrench;
@@ -57,10 +58,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
     }
     model.insert("axial_bending_ste_um".to_owned(), bodies.map(|c| 1e3 * base_force * c).to_vec().into());
     let bending = 1e3 * base_force * mesh.bodies;
-    let mut warnings = vec![format!(
-        "model \"iso\": stiffness after ISO 6336-1, load spread evenly over the contact lines, and {bending:.2} um by which the axial force bends the bodies, \
-         solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess"
-    )];
+    let mut warnings = vec![remark::iso_model(bending)];
     warnings.extend(doubts(pair, bending / mean_te));
     let facts = Facts { model, ..Facts::of_pair(scene, pair) };
     warnings.extend(iso_root::warning(scene, pair));
@@ -74,21 +72,10 @@ const LEAST_CONTACT_RATIO: f64 = 1.2;
 const MUCH_BENDING: f64 = 0.5;
 
 /// Where the formulas are used outside of what they were held against.
-fn doubts(pair: &GearPair, bending: f64) -> Vec<String> {
+fn doubts(pair: &GearPair, bending: f64) -> Vec<answer::Remark> {
     let ratio = pair.transverse_contact_ratio();
-    let low = (ratio < LEAST_CONTACT_RATIO).then(|| {
-        format!(
-            "model \"iso\": the transverse contact ratio is {ratio:.3}; below {LEAST_CONTACT_RATIO} ISO 6336-1 wants less stiffness, by up to 10 % for spur gears, \
-             and gives no formula"
-        )
-    });
-    let soft = (bending > MUCH_BENDING).then(|| {
-        format!(
-            "model \"iso\": the axial force bends the bodies by {:.0} % of the teeth's own deflection: webs, rims and hubs decide, which only \
-             `model = \"reduced\"` on meshes of the true bodies knows",
-            100.0 * bending
-        )
-    });
+    let low = (ratio < LEAST_CONTACT_RATIO).then(|| remark::iso_low_contact_ratio(ratio, LEAST_CONTACT_RATIO));
+    let soft = (bending > MUCH_BENDING).then(|| remark::iso_soft_bodies(100.0 * bending));
     low.into_iter().chain(soft).collect()
 }
 

@@ -41,8 +41,8 @@ pub struct IsoGearRoot {
 }
 
 /// Says why there is no nominal root stress, to those who asked for root stress.
-pub fn warning(scene: &Scene, pair: &GearPair) -> Option<String> {
-    root_stress(scene, pair).err().map(|e| format!("no nominal root stress after ISO 6336-3: {e}"))
+pub fn warning(scene: &Scene, pair: &GearPair) -> Option<answer::Remark> {
+    root_stress(scene, pair).err().map(|e| crate::remark::no_iso_root_stress(e.to_string()))
 }
 
 /// As the standard has it, with the torque of the scene.

@@ -62,6 +62,7 @@ mod options;
 pub mod parameter_study;
 mod plausible;
 pub mod reduction_alone;
+pub mod remark;
 pub mod resolution;
 pub mod results;
 mod shared_models;

@@ -1,5 +1,7 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
+use crate::remark;
+use answer::Remark;
 use geometry::{Gear, GearPair};
 use mesh::{
     BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup,
@@ -23,7 +25,7 @@ pub struct SceneMesh {
     /// What the summary says of it.
     pub facts: MeshFacts,
     /// What the user should know of it.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// The meshes of pinion and wheel.
@@ -92,11 +94,7 @@ pub fn checked_mesh(
         } else {
             format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
         };
-        warnings.push(format!(
-            "{file}: no flank is named; {} flanks found by fit, nodes within {:.2} um{turned}",
-            fit.flanks.len(),
-            1e3 * fit.largest_deviation(),
-        ));
+        warnings.push(remark::flanks_found(&*file, fit.flanks.len(), 1e3 * fit.largest_deviation(), turned));
     }
     same_bore(scene, &file, whose, &found, exact)?;
     let flanks = NamedFlanks { file: &file, whose, found: &found, exact, names: &gear.groups };
@@ -183,14 +181,14 @@ fn unit_of(size: f64) -> Option<(&'static str, f64)> {
 }
 
 /// Refuses a mesh with errors; hands on its warnings.
-fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<String>, AnalysisError> {
+fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<Remark>, AnalysisError> {
     let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
     if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
         let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
         return Err(mismatch(format!("{file}: {}", error.text), hint));
     }
     let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
-    Ok(warnings.map(|f| format!("{file}: {}", f.text)).collect())
+    Ok(warnings.map(|f| remark::mesh_finding(file, &*f.text)).collect())
 }
 
 /// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.

@@ -1,5 +1,6 @@
 //! Reduction of gears by itself: into the cache, and what it took.
 
+use answer::Remark;
 use fem::{ElementOptions, Material};
 use geometry::Side;
 use ltca::StaticModel;
@@ -42,7 +43,7 @@ pub struct ReducedScene {
     /// What the cache knows them by.
     pub keys: RecordKeys,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// Reduces both gears of a scene for their first window, as a run does, and keeps the records in `cache`.

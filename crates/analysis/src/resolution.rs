@@ -1,5 +1,7 @@
 //! How many slices and face elements a scene has: chosen where it says nothing, judged where it does.
 
+use crate::remark;
+use answer::Remark;
 use contact::{ContactOptions, Method};
 use geometry::GearPair;
 use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
@@ -57,7 +59,7 @@ pub fn with_slices(mut scene: Scene) -> Scene {
 }
 
 /// How fine the contact is of a pair that is computed with `options`, and what a user should hear of it.
-pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<String>) {
+pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (Resolution, Vec<Remark>) {
     let sliced = options.contact.method == Method::Slice;
     let slices_chosen = sliced && scene.place_of(&[SLICES]).is_none();
     let needed = sliced.then(|| slices_needed(pair, options));
@@ -88,7 +90,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
 
 /// What a user should hear of how fine the contact is: of [`resolution`] its words alone, without the cost of what it
 /// says of chosen slices.
-pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<String> {
+pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
     if options.contact.method == Method::Slice && scene.place_of(&[SLICES]).is_some() {
         return resolution(scene, pair, options).1;
     }
@@ -109,29 +111,23 @@ fn face_elements(scene: &Scene) -> ([Option<u32>; 2], [Option<u32>; 2]) {
     (face_elements, would_do)
 }
 
-fn few_elements(face_elements: [Option<u32>; 2], would_do: [Option<u32>; 2]) -> Vec<String> {
+fn few_elements(face_elements: [Option<u32>; 2], would_do: [Option<u32>; 2]) -> Vec<Remark> {
     let mut said = Vec::new();
     for (i, whose) in ["pinion", "wheel"].into_iter().enumerate() {
         if let (Some(few), Some(enough)) = (face_elements[i], would_do[i])
             && FEW * few < enough
         {
-            said.push(format!(
-                "{few} elements along the face of the {whose} are few for its width: {enough} would do (`elements_face` in [{whose}.mesher]; \
-                 left out, the program chooses)"
-            ));
+            said.push(remark::few_face_elements(whose, few, enough));
         }
     }
     said
 }
 
-fn few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> Option<String> {
+fn few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> Option<Remark> {
     (stated < enough && errors.exceed(COARSE)).then(|| too_few_slices(stated, enough, errors))
 }
 
-fn too_few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> String {
+fn too_few_slices(stated: usize, enough: usize, errors: &SpringErrors) -> Remark {
     let [mean, swing, peak] = [errors.mean, errors.swing, errors.peak].map(|x| 100.0 * x);
-    format!(
-        "{stated} slices are few for this pair: a row of springs over its gaps is off by {mean:.1} % in the mean, {swing:.0} % in the peak to \
-         peak and {peak:.0} % in the largest line load; {enough} would do (`slices` in [contact]; left out, the program chooses)"
-    )
+    remark::few_slices(stated, mean, swing, peak, enough)
 }

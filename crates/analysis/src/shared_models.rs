@@ -1,5 +1,6 @@
 //! What scenes at rest, one after the other, have in common: meshes, reduced gears, tables of the contact.
 
+use answer::Remark;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fem::Wanted;
@@ -45,12 +46,12 @@ pub(crate) struct Base {
     pub meshes: Arc<[SceneMesh; 2]>,
     pub model: StaticModel,
     /// What a user should hear of its bodies, once somebody asks.
-    of_bodies: OnceLock<Vec<String>>,
+    of_bodies: OnceLock<Vec<Remark>>,
 }
 
 impl Base {
     /// What a user should hear of its bodies.
-    pub fn body_warnings(&self) -> &[String] {
+    pub fn body_warnings(&self) -> &[Remark] {
         self.of_bodies.get_or_init(|| body_warnings(&self.model))
     }
 }

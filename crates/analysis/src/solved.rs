@@ -143,7 +143,7 @@ impl Solved {
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[String] {
+    pub fn warnings(&self) -> &[answer::Remark] {
         match self {
             Self::AtRest(solved) => &solved.history.warnings,
             Self::InTime(solved) => solved.warnings(),

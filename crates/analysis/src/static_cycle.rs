@@ -1,5 +1,7 @@
 //! Positions of the loaded pair through its mesh cycles, on gears of its own or on those that scenes share.
 
+use crate::remark;
+use answer::Remark;
 use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{Station, solve_widening};
@@ -36,7 +38,7 @@ pub(crate) struct SolvedStaticCycle {
     pub model: StaticModel,
     pub history: StaticHistory,
     /// What a user should hear of windows that were too narrow.
-    pub widened: Vec<String>,
+    pub widened: Vec<Remark>,
 }
 
 impl CycleInputs<'_> {
@@ -59,7 +61,7 @@ impl CycleInputs<'_> {
             |window, failure| {
                 let Failure::Static(e) = failure else { return None };
                 let teeth = wider_window(scene, pair, meshes, &with(window), e)?;
-                widened.push(format!("{e}; the window was widened to {teeth} teeth"));
+                widened.push(remark::window_widened(e.to_string(), teeth));
                 Some(teeth)
             },
         );

@@ -130,7 +130,7 @@ impl<'a> StaticAnalysis<'a> {
         }
         let unlikely = remarks(scene, &pair);
         if !self.slices_stand {
-            unlikely.iter().for_each(|said| observer.note(said.clone()));
+            unlikely.iter().for_each(|said| observer.note(said.to_string()));
         }
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));

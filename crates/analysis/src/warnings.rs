@@ -1,18 +1,19 @@
 //! What a user should hear of a solution.
 
+use answer::Remark;
 use fem::locks_from;
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions, StaticPosition};
 use mesh::{BoreCoupling, ElementKind, Extent};
 use reduction::{ElasticGear, GearReducer};
 
-use crate::{coarse::Coarse, gear_dofs::reduced};
+use crate::{coarse::Coarse, gear_dofs::reduced, remark};
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
 
 /// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth
 /// stiffen.
-pub fn body_warnings(model: &StaticModel) -> Vec<String> {
+pub fn body_warnings(model: &StaticModel) -> Vec<Remark> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
     let warn = |i: usize| {
@@ -23,7 +24,7 @@ pub fn body_warnings(model: &StaticModel) -> Vec<String> {
 }
 
 /// A free-cut sector is softer than the gear it was cut from: by how much, two coarse models say.
-fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
+fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
     let gear = model.gears()[i].gear();
     let (meshed, teeth) = (gear.teeth().len(), gear.tooth_count());
     let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
@@ -40,10 +41,7 @@ fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<
         ),
         None => String::new(),
     };
-    Some(format!(
-        "the {}'s mesh has {meshed} of {teeth} teeth and free cuts: it is softer than the whole gear{by}; use it for comparison only",
-        NAMES[i]
-    ))
+    Some(remark::free_cut_sector(NAMES[i], meshed, teeth, by))
 }
 
 /// Bore over reference diameter of the solid gear that a thin rim is held against: the default of scenes.
@@ -56,7 +54,7 @@ const HELD: f64 = 0.1;
 
 /// A bore close to the teeth holds them: what the answer would be were the gear solid further in, two coarse models
 /// say.
-fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<String> {
+fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
     let gear = [&model.pair().pinion, &model.pair().wheel][i];
     let (bore, reference) = (gear.data().bore_diameter, 2.0 * gear.reference_radius());
     let held = |g: &ElasticGear| g.gear().bore_coupling() == BoreCoupling::Kinematic;
@@ -67,35 +65,19 @@ fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Str
     let mut solid = as_is;
     solid[i].bore_diameter = SOLID * reference;
     let softer = coarse.ratio(as_is, solid)? - 1.0;
-    (softer > HELD).then(|| {
-        format!(
-            "the {}'s bore of {bore:.2} mm is held rigidly and stiffens the teeth, with a rim of {:.2} tooth heights between: solid down to {:.2} mm, the mean \
-             transmission error would be {:.0} % larger (coarse solid gears), and a rim on a web is softer than that; mesh the body down to where it is held",
-            NAMES[i],
-            lumped::iso::rim_ratio(gear),
-            solid[i].bore_diameter,
-            100.0 * softer
-        )
-    })
+    (softer > HELD)
+        .then(|| remark::rim_held(NAMES[i], bore, lumped::iso::rim_ratio(gear), solid[i].bore_diameter, 100.0 * softer))
 }
 
 /// Elements that lock: linear tetrahedra and wedges in bending always, others near a Poisson's ratio of 0.5.
-pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<String> {
+pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<Remark> {
     let poisson = gear.material().poisson();
     let kinds: Vec<ElementKind> = gear.gear().mesh().blocks.iter().map(|b| b.kind).collect();
     let locks = kinds.iter().find(|kind| locks_from(**kind).is_some_and(|from| poisson >= from));
     let stiff = kinds.iter().find(|kind| matches!(kind, ElementKind::Tet4 | ElementKind::Wedge6));
     match (locks, stiff) {
-        (Some(kind), _) => Some(format!(
-            "the {name}'s mesh has {} elements, which lock at a Poisson's ratio of {poisson}: the body is too stiff, linear ones by \
-             a multiple; mesh it with hexahedra",
-            kind.name()
-        )),
-        (None, Some(kind)) => Some(format!(
-            "the {name}'s mesh has linear {} elements, which are several times too stiff in bending where few of them \
-             lie across a tooth: mesh it with second-order elements or with hexahedra",
-            kind.name()
-        )),
+        (Some(kind), _) => Some(remark::locking_elements(name, kind.name(), poisson)),
+        (None, Some(kind)) => Some(remark::stiff_elements(name, kind.name())),
         (None, None) => None,
     }
 }
@@ -114,22 +96,16 @@ pub(crate) struct PressedMesh {
 }
 
 /// Gears that jam: driving and coast flanks press against each other, and the teeth carry many times their load.
-pub(crate) fn jam_warning(all: &[PressedMesh], friction: f64) -> Option<String> {
+pub(crate) fn jam_warning(all: &[PressedMesh], friction: f64) -> Option<Remark> {
     let jammed = |p: &&PressedMesh| p.sum > (JAMMED + friction) * p.needed;
     let count = all.iter().filter(jammed).count();
     let worst = all.iter().filter(jammed).max_by(|a, b| a.sum.total_cmp(&b.sum))?;
     let times = if worst.needed > 0.0 { format!("{:.1} times", worst.sum / worst.needed) } else { "not".to_owned() };
-    Some(format!(
-        "driving and coast flanks press at once in {count} of {} positions, the gears jam: normal forces add up to {:.0} N, {times} the {:.0} N that the torque \
-         asks for; give more backlash (`thickness_allowance_mm` in [pinion] and [wheel], `centre_distance_mm` in [pair]) or less misalignment",
-        all.len(),
-        worst.sum,
-        worst.needed
-    ))
+    Some(remark::jammed(count, all.len(), worst.sum, times, worst.needed))
 }
 
 /// [`jam_warning`] of a pair at rest whose flanks may touch on both sides.
-pub(crate) fn jammed_pair(positions: &[StaticPosition], pair: &GearPair, options: &StaticOptions) -> Option<String> {
+pub(crate) fn jammed_pair(positions: &[StaticPosition], pair: &GearPair, options: &StaticOptions) -> Option<Remark> {
     let driven = [&pair.pinion, &pair.wheel][options.driven()];
     let needed = options.torque.abs() / (driven.base_radius() * pair.base_helix_angle().cos());
     let of = |p: &StaticPosition| PressedMesh { sum: p.pairs.iter().map(|q| q.normal_force).sum(), needed };
@@ -144,28 +120,19 @@ const LARGE_ERROR_MODULES: f64 = 0.05;
 const FEW_DIGITS: f64 = 1e3;
 
 /// What a solution says that a user should hear; module and centre distance in mm.
-pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64, centre_distance: f64) -> Vec<String> {
+pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64, centre_distance: f64) -> Vec<Remark> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
     let round_off = f64::EPSILON * centre_distance;
     if worst(|p| p.strain_energy) > 0.0 && error < FEW_DIGITS * round_off {
-        said.push(format!(
-            "the load is too light for its result: teeth approach each other by {error:.1e} mm at the most, and places \
-             are known to {round_off:.1e} mm only; transmission error, stiffness and contact lines have few digits or none; \
-             take a larger torque, or none"
-        ));
+        said.push(remark::light_load(error, round_off));
     }
     said.extend(large_error(error, (LARGE_ERROR_MODULES, module)));
     said
 }
 
 /// What is said of a transmission error that is too large for linear elasticity: over so many modules; both in mm.
-pub(crate) fn large_error(error: f64, (most, module): (f64, f64)) -> Option<String> {
-    (error > most * module).then(|| {
-        format!(
-            "the transmission error reaches {error:.3} mm at a module of {module} mm: elasticity here is linear and holds for \
-             small deflections; is the torque in N m?"
-        )
-    })
+pub(crate) fn large_error(error: f64, (most, module): (f64, f64)) -> Option<Remark> {
+    (error > most * module).then(|| remark::large_deflection(error, module))
 }

@@ -1,5 +1,7 @@
 //! Waves on measured flanks that are shorter than what a slice sees of them. Theory (26a).
 
+use crate::remark;
+use answer::Remark;
 use std::f64::consts::{PI, TAU};
 
 use contact::Method;
@@ -21,7 +23,7 @@ const HEIGHTS: usize = 9;
 
 /// What a user should hear of topographies under the load of a scene: where contact is made of slices, one remark for each
 /// flank that bears waves shorter than its contact band resolves.
-pub(crate) fn unresolved_waves(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<String> {
+pub(crate) fn unresolved_waves(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
     if options.contact.method != Method::Slice || options.torque == 0.0 {
         return Vec::new();
     }
@@ -35,7 +37,7 @@ pub(crate) fn unresolved_waves(scene: &Scene, pair: &GearPair, options: &StaticO
 }
 
 /// What is said of the flanks on `side` beside a band of half-width a, mm.
-pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<String> {
+pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<Remark> {
     if half_width <= 0.0 {
         return Vec::new();
     }
@@ -47,15 +49,15 @@ pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<Stri
             return None;
         }
         let (k, flank) = (waves.wave_number, side.name());
-        Some(format!(
-            "the topography of the {whose}'s {flank} flanks holds waves that slices do not resolve: {:.0} % of its deviation (rms {:.3} um, parabola \
-             taken off) is shorter than {:.2} mm along the profile, k a above {RESOLVED} beside a contact band of half-width a = \
-             {half_width:.3} mm; the largest has k = {k:.2} rad/mm (k a = {:.2}, wavelength {:.3} mm). A slice takes value and curvature at \
-             one point, a band the mean over its width: transmission error and pressure by these waves may be far off; smooth the grid \
-             over that length, or take them for noise",
+        Some(remark::unresolved_waves(
+            whose,
+            flank,
             100.0 * waves.share,
             1e3 * waves.whole,
             TAU * half_width / RESOLVED,
+            RESOLVED,
+            half_width,
+            k,
             k * half_width,
             TAU / k,
         ))

@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use crate::{Checks, Cost, Table};
+use crate::{Checks, Cost, Remark, Table};
 
 /// The answer to one question, whatever its kind.
 #[derive(Debug, Clone, Default)]
@@ -18,7 +18,7 @@ pub struct Answer {
     /// What was demanded, and what was found.
     pub checks: Checks,
     /// What the user should hear.
-    pub remarks: Vec<String>,
+    pub remarks: Vec<Remark>,
     /// Facts about the run, by key with unit.
     pub info: Map<String, Value>,
     /// Time and memory.

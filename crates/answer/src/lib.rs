@@ -10,6 +10,7 @@
 //! | [`csv`] | numbers and texts as fields of a file with commas |
 //! | [`parquet_bytes`] | a table as a Parquet file |
 //! | [`Check`], [`Checks`] | what was demanded of a result and what was found |
+//! | [`Remark`], [`remarks!`] | what a user should hear: code, values, and the words made of them |
 //! | [`Cost`], [`Phase`] | time and memory of a run |
 //! | [`Answer`] | all of it together |
 
@@ -19,6 +20,7 @@ mod columnar;
 mod cost;
 pub mod csv;
 mod error;
+mod remark;
 mod table;
 mod unit;
 
@@ -27,5 +29,6 @@ pub use check::{Check, Checks, FailedCheck};
 pub use columnar::parquet_bytes;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
+pub use remark::{Remark, RemarkKind, RemarkValue};
 pub use table::{Column, Table, Values};
 pub use unit::unit_of;

@@ -58,8 +58,8 @@ impl Shown {
     }
 
     /// The first of `warnings` that holds `words`, or that there is none.
-    pub fn warned(warnings: &[String], words: &'static str) -> Self {
-        let found = warnings.iter().find(|w| w.contains(words)).cloned();
+    pub fn warned(warnings: &[impl ToString], words: &'static str) -> Self {
+        let found = warnings.iter().map(ToString::to_string).find(|w| w.contains(words));
         Self::says(found.unwrap_or_else(|| "no such warning".to_owned()), words)
     }
 
@@ -135,7 +135,7 @@ mod tests {
             Shown::says("anything", ""),
             Shown::says("solved", "refused"),
             Shown::refused(&Ok::<(), String>(()), "cut"),
-            Shown::warned(&[], "cut"),
+            Shown::warned(&[""; 0], "cut"),
         ] {
             assert!(!figure(wrong.clone(), fails.clone()).holds(), "robust {wrong:?}");
             assert!(!figure(fine.clone(), wrong.clone()).holds(), "naive {wrong:?}");

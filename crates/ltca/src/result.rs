@@ -111,7 +111,7 @@ pub struct StaticHistory {
     /// Tooth changes on the way, in their order.
     pub tooth_changes: Vec<ToothChangeRecord>,
     /// What the user should know: neglected, doubtful, adjusted.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<answer::Remark>,
 }
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.

@@ -1,6 +1,6 @@
 //! An answer of any kind as the files of a result.
 
-use answer::{Answer, Checks, Cost, parquet_bytes};
+use answer::{Answer, Checks, Cost, Remark, parquet_bytes};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -23,7 +23,7 @@ struct Summary<'a> {
     checks: &'a Checks,
     cost: &'a Cost,
     headline: &'a Value,
-    warnings: &'a [String],
+    remarks: &'a [Remark],
     tables: Vec<&'a str>,
     files: &'a [String],
 }
@@ -111,7 +111,7 @@ fn summary(answer: &Answer, files: &[String]) -> String {
         checks: &answer.checks,
         cost: &answer.cost,
         headline: &answer.headline,
-        warnings: &answer.remarks,
+        remarks: &answer.remarks,
         tables: answer.tables.iter().map(|table| &*table.name).collect(),
         files,
     };

@@ -45,7 +45,7 @@ impl<'a> StaticFileSink<'a> {
     }
 
     /// The gears in space, from what the positions left.
-    pub fn into_view(self, model: &StaticModel, warnings: &mut Vec<String>) -> Option<View> {
+    pub fn into_view(self, model: &StaticModel, warnings: &mut Vec<answer::Remark>) -> Option<View> {
         self.recorder?.view_or_warning(self.scene, model, warnings)
     }
 }

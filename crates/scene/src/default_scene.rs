@@ -2,7 +2,7 @@
 
 use std::{borrow::Cow, io, path::Path};
 
-use super::{GearScene, Scene, SceneError, Setting, inputs, origin::Origin};
+use super::{DataFile, GearScene, Scene, SceneError, Setting, inputs, origin::Origin};
 
 /// What messages call the default scene.
 const NAME: &str = "default scene";
@@ -31,11 +31,15 @@ impl Scene {
         self.written.origin() == Origin::Program
     }
 
-    /// The content of a file that the scene names.
+    /// The content of a file that the scene names: of topographies and pitch errors as it was when the scene was read, of
+    /// meshes as it is now.
     ///
     /// # Errors
     /// As the system says; [`io::ErrorKind::InvalidInput`] for folders, devices and named pipes.
-    pub fn content(&self, path: &Path) -> io::Result<Cow<'static, [u8]>> {
+    pub fn content(&self, path: &Path) -> io::Result<Cow<'_, [u8]>> {
+        if let Some(content) = self.gears().into_iter().find_map(|gear| data_of(gear, path)) {
+            return Ok(content);
+        }
         inputs::content(self.written.origin(), &self.file, path)
     }
 
@@ -51,10 +55,18 @@ impl Scene {
     }
 }
 
+/// The content of a data file that a gear names so.
+fn data_of<'a>(gear: &'a GearScene, path: &Path) -> Option<Cow<'a, [u8]>> {
+    let flanks = [&gear.modification.drive, &gear.modification.coast];
+    let topography = flanks.into_iter().filter_map(|f| f.topography.as_ref()).find(|file| file.path() == path);
+    let errors = gear.pitch_errors_file.as_ref().filter(|file| file.path() == path);
+    topography.map(DataFile::content).or_else(|| errors.map(DataFile::content))
+}
+
 fn files_of(gear: &GearScene) -> impl Iterator<Item = &Path> {
     let flanks = [&gear.modification.drive, &gear.modification.coast];
-    let topographies = flanks.into_iter().filter_map(|f| f.topography.as_deref());
-    gear.mesh.as_deref().into_iter().chain(topographies).chain(gear.pitch_errors_file.as_deref())
+    let topographies = flanks.into_iter().filter_map(|f| f.topography.as_ref().map(DataFile::path));
+    gear.mesh.as_deref().into_iter().chain(topographies).chain(gear.pitch_errors_file.as_ref().map(DataFile::path))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use mesh::{FaceResolution, GroupNames};
 use serde::Serialize;
 
+use crate::data_file::DataFile;
 use crate::ladder::ShaftScene;
 use crate::modification::ModificationScene;
 use crate::motion::{BearingScene, BodyScene};
@@ -34,9 +35,9 @@ pub struct GearScene {
     /// Cumulative pitch deviation of each tooth, um; empty: none, or in a file.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pitch_errors_um: Vec<f64>,
-    /// File of them, as written in the scene.
+    /// File of them, with their values in mm.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub pitch_errors_file: Option<PathBuf>,
+    pub pitch_errors_file: Option<DataFile<Vec<f64>>>,
     /// Mesh file as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it a path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<PathBuf>,

@@ -1,21 +1,18 @@
 //! From a scene to the exact geometry of its pair: gear data, micro-geometry, pitch errors.
 
-use geometry::modification::DataFileError;
-use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, Side};
+use geometry::{Gear, GearData, GearModifications, GearPair, Side};
 
-use crate::{FlankScene, GearScene, Scene, SceneError};
+use crate::{GearScene, Scene, SceneError};
 
 impl Scene {
-    /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors. Their files are read the
-    /// first time that they are needed; the scene and its clones keep what they say.
+    /// The exact pair of the scene, in mm and rad, with its micro-geometry and pitch errors.
     ///
     /// # Errors
-    /// [`SceneError::Geometry`] when no running pair can be made of the data, [`SceneError::DataFile`] when a
-    /// topography or a list of pitch errors cannot be read.
+    /// [`SceneError::Geometry`] when no running pair can be made of the data.
     pub fn gear_pair(&self) -> Result<GearPair, SceneError> {
         let gear = |whose: &'static str, of: &GearScene| {
             let nominal = Gear::new(data(self, of)).map_err(|e| self.geometry_fault(whose, e))?;
-            nominal.with_modifications(modifications(self, of)?).map_err(|e| self.geometry_fault(whose, e))
+            nominal.with_modifications(modifications(self, of)).map_err(|e| self.geometry_fault(whose, e))
         };
         let pinion = gear("pinion", &self.pinion)?;
         let wheel = gear("wheel", &self.wheel)?;
@@ -48,17 +45,12 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
 }
 
 /// Micro-geometry of a gear: the driving flanks are on the same side of both gears.
-fn modifications(scene: &Scene, gear: &GearScene) -> Result<GearModifications, DataFileError> {
-    let files = scene.written.data_files();
-    let flank = |of: &FlankScene| -> Result<FlankModification, DataFileError> {
-        let measured = of.topography.as_ref().map(|path| files.topography(&scene.resolve(path))).transpose()?;
-        Ok(of.in_geometry(measured))
-    };
-    let (drive, coast) = (flank(&gear.modification.drive)?, flank(&gear.modification.coast)?);
+fn modifications(scene: &Scene, gear: &GearScene) -> GearModifications {
+    let (drive, coast) = (gear.modification.drive.in_geometry(), gear.modification.coast.in_geometry());
     let (left, right) = if scene.side() == Side::Left { (drive, coast) } else { (coast, drive) };
     let pitch_errors = match &gear.pitch_errors_file {
-        Some(file) => files.pitch_errors(&scene.resolve(file))?,
+        Some(file) => file.values().clone(),
         None => gear.pitch_errors_um.iter().map(|e| 1e-3 * e).collect(),
     };
-    Ok(GearModifications { left, right, pitch_errors })
+    GearModifications { left, right, pitch_errors }
 }

@@ -22,7 +22,7 @@ mod analysis;
 mod builder;
 mod check;
 mod contact;
-mod data_files;
+mod data_file;
 mod default_scene;
 mod design_key;
 mod document_kind;
@@ -67,6 +67,7 @@ pub use accuracy::{AccuracyScene, Tolerance, ToleranceError};
 pub use analysis::Analysis;
 pub use builder::{SceneBuilder, Value};
 pub use contact::ContactScene;
+pub use data_file::DataFile;
 pub use document_kind::DocumentKind;
 pub use document_text::DocumentText;
 pub use error::{Line, Place, SceneError};
@@ -209,10 +210,18 @@ impl Scene {
         let mut all = self.clone();
         for gear in [&mut all.pinion, &mut all.wheel] {
             let GearScene { modification, mesh, pitch_errors_file, .. } = gear;
-            let flanks = [&mut modification.drive.topography, &mut modification.coast.topography];
-            for path in flanks.into_iter().chain([mesh, pitch_errors_file]).flatten() {
+            let absolute = |path: &Path| {
                 let whole = self.resolve(path);
-                *path = std::path::absolute(&whole).unwrap_or(whole);
+                std::path::absolute(&whole).unwrap_or(whole)
+            };
+            for file in [&mut modification.drive.topography, &mut modification.coast.topography].into_iter().flatten() {
+                file.set_path(absolute(file.path()));
+            }
+            if let Some(file) = pitch_errors_file {
+                file.set_path(absolute(file.path()));
+            }
+            if let Some(path) = mesh {
+                *path = absolute(path);
             }
         }
         all

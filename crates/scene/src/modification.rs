@@ -1,7 +1,7 @@
 //! Micro-geometry of a scene: which keys of a flank go together, and the depths in the geometry that they stand for.
 
 use geometry::FlankModification;
-use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape, Topography};
+use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
 use serde::Serialize;
 
 use crate::error::SceneError;
@@ -45,8 +45,8 @@ impl FlankScene {
         stated.reduce(|a, b| if b.1.abs() > a.1.abs() { b } else { a })
     }
 
-    /// The depths that are ground off, in mm and rad; `topography` is what the file of measured depths says.
-    pub(crate) fn in_geometry(&self, topography: Option<Topography>) -> FlankModification {
+    /// The depths that are ground off, in mm and rad.
+    pub(crate) fn in_geometry(&self) -> FlankModification {
         let mm = |um: Option<f64>| 1e-3 * um.unwrap_or(0.0);
         let grows = |shape: Option<Shape>| match shape {
             None | Some(Shape::Linear) => ReliefShape::Linear,
@@ -81,7 +81,7 @@ impl FlankScene {
                 end(self.end_relief_upper_um, self.end_relief_upper_length_mm),
             ],
             bias: mm(self.bias_um),
-            topography,
+            topography: self.topography.as_ref().map(|file| file.values().clone()),
             evaluation_start: self.evaluation_start_diameter_mm.map(ProfilePlace::Diameter),
         }
     }

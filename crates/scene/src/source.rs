@@ -1,8 +1,11 @@
 //! The text behind the words: lines, keys, and complaints that name them.
 
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 use std::fmt::Display;
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use toml::Spanned;
 
@@ -32,13 +35,25 @@ pub struct Source<'a> {
     pub(crate) origin: Origin,
     /// Names and texts of files beside it that are not written yet.
     pub(crate) beside: &'a [(String, String)],
+    /// Texts of the data files that it names, as far as they were read.
+    pub(crate) data_files: RefCell<BTreeMap<PathBuf, Arc<str>>>,
 }
 
 impl<'a> Source<'a> {
     /// The text of a file of these tables. Hints tell no meanings: a key of a scene that has its name means something else.
     pub fn of(file: &'a Path, text: &'a str, tables: Tables) -> Self {
         let (origin, beside): (_, &[_]) = (Origin::Disk, &[]);
-        Self { file, text, settings: &[], ranges: &[], tables, meaning: |_| None, origin, beside }
+        Self {
+            file,
+            text,
+            settings: &[],
+            ranges: &[],
+            tables,
+            meaning: |_| None,
+            origin,
+            beside,
+            data_files: RefCell::default(),
+        }
     }
 
     /// The same file with what its keys mean.

@@ -7,10 +7,9 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
-use super::{Place, Scene, Setting, data_files::DataFiles, origin::Origin, raw, source::Source};
+use super::{Place, Scene, Setting, origin::Origin, raw, source::Source};
 
-/// The text of a scene with what was set beside it, and the data files that it names once they are read. Equal to any
-/// other: scenes are compared by what they mean.
+/// The text of a scene with what was set beside it. Equal to any other: scenes are compared by what they mean.
 #[derive(Debug, Clone)]
 pub struct Written(Arc<Text>);
 
@@ -20,7 +19,6 @@ struct Text {
     settings: Vec<Setting>,
     ranges: Vec<Range<usize>>,
     origin: Origin,
-    data_files: DataFiles,
 }
 
 impl PartialEq for Written {
@@ -32,17 +30,12 @@ impl PartialEq for Written {
 impl Written {
     pub(super) fn new(source: &Source<'_>) -> Self {
         let (all, settings, ranges) = (source.text.to_owned(), source.settings.to_vec(), source.ranges.to_vec());
-        Self(Arc::new(Text { all, settings, ranges, origin: source.origin, data_files: DataFiles::default() }))
+        Self(Arc::new(Text { all, settings, ranges, origin: source.origin }))
     }
 
     /// Whether the scene stands in files or in the program.
     pub(super) fn origin(&self) -> Origin {
         self.0.origin
-    }
-
-    /// The data files that the scene names, shared by all clones of it.
-    pub(super) fn data_files(&self) -> &DataFiles {
-        &self.0.data_files
     }
 
     fn source<'a>(&'a self, file: &'a Path) -> Source<'a> {

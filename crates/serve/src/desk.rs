@@ -76,7 +76,7 @@ struct Outcome<'a> {
     charts: Vec<Plot<'a>>,
     maps: Vec<FieldMap<'static>>,
     view: View,
-    warnings: &'a [String],
+    warnings: Vec<String>,
 }
 
 /// Where scenes are tried, all on the same reduced gears.
@@ -234,7 +234,7 @@ fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) ->
         charts: charts.iter().map(LineChart::plot).collect(),
         maps,
         view,
-        warnings: &history.warnings,
+        warnings: history.warnings.iter().map(ToString::to_string).collect(),
     };
     json(&Answer { result: Some(result), ..answer })
 }

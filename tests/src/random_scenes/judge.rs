@@ -72,7 +72,7 @@ pub fn judge(folder: &Path) -> Judged {
             return judged;
         }
     };
-    judged.warnings = summary["warnings"].as_array().map_or(0, Vec::len);
+    judged.warnings = summary["remarks"].as_array().map_or(0, Vec::len);
     if summary["certificate"] == "failed" {
         // Exit status 1, with the reason: it is counted there.
         return judged;

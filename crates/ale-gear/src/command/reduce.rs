@@ -5,7 +5,10 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use analysis::reduction_alone::{ReducedRow, ReducedScene, reduce_mesh, reduce_scene};
+use analysis::{
+    reduction_alone::{ReducedRow, ReducedScene, reduce_mesh, reduce_scene},
+    remark::Remark,
+};
 use fem::Material;
 use mesh::{GearMesh, Mesh};
 use serde_json::json;
@@ -73,7 +76,7 @@ impl ReduceArgs {
             reduced(&scene, &mut phases, &self.cache.open())?
         };
         Ok(if json {
-            format!("{:#}\n", json!({ "gears": rows, "phases": phases.rows(), "warnings": warnings }))
+            format!("{:#}\n", json!({ "gears": rows, "phases": phases.rows(), "remarks": warnings }))
         } else {
             table(&rows, &phases, &warnings)
         })
@@ -124,7 +127,7 @@ impl MeshArgs {
 }
 
 /// Both gears of a scene, with the files of their records; warnings come second.
-fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<ReducedRow>, Vec<String>), CommandError> {
+fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<ReducedRow>, Vec<Remark>), CommandError> {
     let ReducedScene { mut rows, keys, warnings } = reduce_scene(scene, phases, cache)?;
     for (row, key) in rows.iter_mut().zip(keys.keys()) {
         let file = key.as_ref().and_then(|key| cache.file(key)).filter(|f| f.is_file());
@@ -133,7 +136,7 @@ fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<Red
     Ok((rows, warnings))
 }
 
-fn table(rows: &[ReducedRow], phases: &Phases, warnings: &[String]) -> String {
+fn table(rows: &[ReducedRow], phases: &Phases, warnings: &[Remark]) -> String {
     let mut t = String::new();
     for row in rows {
         let source = if row.from_cache { ", from the cache" } else { "" };

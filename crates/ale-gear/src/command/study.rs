@@ -88,7 +88,7 @@ impl StudyArgs {
         };
         let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
-            warnings.push(said);
+            warnings.push(analysis::remark::study_said(said));
             None
         });
         let of = StudyResult {

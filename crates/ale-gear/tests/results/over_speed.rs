@@ -1,7 +1,7 @@
 //! Motions over speed as a user runs them: which inertias count, what a ramp is made for, speeds without a solution, a
 //! pair without backlash.
 
-use crate::util::{Scratch, column, motion_scene as scene, repository};
+use crate::util::{Scratch, column, motion_scene as scene, remark_words, repository};
 use serde_json::Value;
 
 fn run(scratch: &Scratch, more: &[&str]) -> Value {
@@ -16,7 +16,7 @@ fn number(of: &Value, key: &str) -> f64 {
 }
 
 fn warned(summary: &Value, word: &str) -> bool {
-    summary["warnings"].as_array().unwrap().iter().any(|w| w.as_str().unwrap().contains(word))
+    summary["remarks"].as_array().unwrap().iter().any(|w| remark_words(w).contains(word))
 }
 
 fn sweep(from: f64, to: f64, speeds: u32, ways: &str) -> String {
@@ -145,10 +145,10 @@ fn a_pair_without_backlash_is_told_in_motion() {
     let none = span.replace("thickness_allowance_mm = 0.05\n", "");
     assert_ne!(span, none);
     let summary = run(&Scratch::new().file("a.toml", &none), &[]);
-    assert!(warned(&summary, "no backlash") && warned(&summary, "`thickness_allowance_mm`"), "{}", summary["warnings"]);
+    assert!(warned(&summary, "no backlash") && warned(&summary, "`thickness_allowance_mm`"), "{}", summary["remarks"]);
     assert!(number(&summary["geometry"], "backlash_mm").abs() < 1e-6);
     let summary = run(&Scratch::new().file("a.toml", &span), &[]);
-    assert!(!warned(&summary, "no backlash"), "{}", summary["warnings"]);
+    assert!(!warned(&summary, "no backlash"), "{}", summary["remarks"]);
 }
 
 /// One value of a sweep without a solution does not take the others with it: its row says why, and a warning says so;
@@ -184,7 +184,7 @@ fn a_value_without_a_solution_leaves_the_others_alone() {
     assert!(
         !failed.is_empty() && warned(&summary, &format!("{} of 6 points have no solution", failed.len())),
         "{}",
-        summary["warnings"]
+        summary["remarks"]
     );
     let (scratch, done) = swept("1e8");
     assert_eq!((done.code, scratch.names()), (Some(1), vec!["a.toml".to_owned()]), "{}", done.stderr);

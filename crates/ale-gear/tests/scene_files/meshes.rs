@@ -339,7 +339,7 @@ fn warnings(teeth: u32, bore: f64, sector: u32) -> (Vec<String>, f64) {
     let run = scratch.ale_gear(["run", "a.toml", "--out", "out"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let told = summary(&scratch, "out");
-    let said = told["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().to_owned()).collect();
+    let said = told["remarks"].as_array().unwrap().iter().map(|w| w["text"].as_str().unwrap().to_owned()).collect();
     (said, told["headline"]["mean_ste_um"].as_f64().unwrap())
 }
 

@@ -192,3 +192,9 @@ pub fn chart_rows(csv: &str) -> Vec<BTreeMap<String, String>> {
     };
     csv.lines().skip(1).map(row).collect()
 }
+
+/// Sentence and hint of a remark of a summary, as people read them.
+pub fn remark_words(remark: &serde_json::Value) -> String {
+    let word = |key: &str| remark[key].as_str().unwrap_or_default();
+    format!("{}; {}", word("text"), word("hint"))
+}

@@ -1,5 +1,6 @@
 //! Gears that are reduced already stay in memory: from rung to rung of the ladder, and for who asks again.
 
+use answer::Remark;
 use std::{
     collections::BTreeMap,
     sync::{Arc, Mutex, PoisonError},
@@ -39,7 +40,7 @@ impl GearCache for KeptGears<'_> {
         true
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner).get(&key.to_string()).cloned();
         match kept {
             Some(record) => (Some(Kept::new(*key, record)), None),
@@ -48,16 +49,16 @@ impl GearCache for KeptGears<'_> {
         }
     }
 
-    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_string(), record.clone());
         if self.store.is_on() { self.store.save(key, record) } else { None }
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         self.store.load_maps(key)
     }
 
-    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<Remark> {
         self.store.save_maps(key, maps)
     }
 }

@@ -76,8 +76,8 @@ fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults
         dof_before: facts.dof_before.iter().sum(),
         dof_after: facts.dof_after.iter().sum(),
     };
-    let widened = history.warnings.iter().find(|w| w.contains("the window was widened"));
-    Ok(Measured { work, answer, note: widened.cloned().unwrap_or_default(), accuracy })
+    let widened = history.warnings.iter().find(|w| w.code() == "window_widened");
+    Ok(Measured { work, answer, note: widened.map(ToString::to_string).unwrap_or_default(), accuracy })
 }
 
 /// Wall time (s) of the scene's positions once more on gears that are reduced already.

@@ -1,5 +1,6 @@
 //! Bearings of a gearbox file as its solver takes them, and what is read off those with rolling elements.
 
+use crate::remark;
 use gearbox::{
     Bearing, GearboxError, GearboxPosition,
     rolling_bearing::{
@@ -123,7 +124,7 @@ pub(super) fn rolling_load(
 }
 
 /// What the user should hear of a rolling bearing.
-pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<String> {
+pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {
@@ -135,15 +136,12 @@ pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLo
                 format!("{} rollers of {size} on a circle of {:.1} mm", r.elements, r.pitch_diameter)
             }
         };
-        said.push(format!(
-            "bearing {name}: its inside is estimated from bore, outer diameter and static rating: {what} a row; state \
-             `elements` and their sizes where they are known"
-        ));
+        said.push(remark::bearing_estimated(name, what));
     }
     if is_held {
-        said.push(format!("bearing {name} is on a shaft that is held: its rolling elements carry nothing"));
+        said.push(remark::bearing_on_held_shaft(name));
     } else if load.loaded[1] == 0 {
-        said.push(format!("bearing {name} carries nothing at any position: the shaft floats in its clearance"));
+        said.push(remark::bearing_unloaded(name));
     }
     let (dent, most, what) = match load.elements {
         RollingElements::Balls(_) => (BALLS_DENT, BALLS_TILT, "ball"),
@@ -151,16 +149,11 @@ pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLo
     };
     if tilt > most && load.loaded[1] > 0 {
         let (tilt, most) = (1e3 * tilt, 1e3 * most);
-        said.push(format!(
-            "bearing {name} tilts by {tilt:.1} mrad: catalogues let {what} bearings tilt by some {most:.1} mrad at most"
-        ));
+        said.push(remark::bearing_tilts(name, tilt, what, most));
     }
     if load.pressure > dent {
         let pressure = load.pressure;
-        said.push(format!(
-            "bearing {name}: {pressure:.0} MPa on a {what}, beyond the {dent:.0} MPa of the static rating (ISO 76): \
-             steel no longer stays elastic"
-        ));
+        said.push(remark::bearing_pressure(name, pressure, what, dent));
     }
     said
 }

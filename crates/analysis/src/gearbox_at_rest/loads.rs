@@ -31,7 +31,7 @@ impl Loaded<'_> {
     ///
     /// # Errors
     /// [`AnalysisError::Implausible`]; [`GearboxError::OneWay`].
-    pub fn judge(&self) -> Result<Vec<String>, AnalysisError> {
+    pub fn judge(&self) -> Result<Vec<answer::Remark>, AnalysisError> {
         let mut said = Vec::new();
         let torques = mesh_torques(self.structure, self.meshes, self.operation);
         for (i, mesh) in self.meshes.iter().enumerate() {
@@ -49,7 +49,7 @@ impl Loaded<'_> {
                     return Err(AnalysisError::Implausible(Box::new(Implausible { at, excerpt: None, said, hint })));
                 }
             }
-            said.extend(remarks(&scene, &mesh.pair).into_iter().map(|own| format!("{}: {own}", mesh.name)));
+            said.extend(remarks(&scene, &mesh.pair).into_iter().map(|own| own.about(&mesh.name)));
         }
         if let Some(all) = torques {
             self.thrust(&all).map_err(|source| AnalysisError::Gearbox {

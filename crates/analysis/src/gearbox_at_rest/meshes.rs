@@ -1,5 +1,7 @@
 //! The meshes of a gearbox: pairs as they run, their reduced gears, and the contact of each.
 
+use crate::remark;
+use answer::Remark;
 use std::sync::Arc;
 
 use dynamics::RigidBody;
@@ -66,7 +68,7 @@ pub(super) fn widening<T>(
     (file, meshes): (&Gearbox, &[Mesh]),
     reduced: &mut [ReducedMesh],
     cache: &dyn GearCache,
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Remark>,
     mut solve: impl FnMut(&[ReducedMesh]) -> Result<T, AnalysisError>,
 ) -> Result<T, AnalysisError> {
     loop {
@@ -83,7 +85,7 @@ pub(super) fn widening<T>(
         if !reduced[i].widen(file, i, &meshes[i], cache)? {
             return Err(error);
         }
-        warnings.push(format!("{error}; the window was widened to {} teeth", reduced[i].window()));
+        warnings.push(remark::window_widened(error.to_string(), reduced[i].window()));
     }
 }
 
@@ -98,7 +100,7 @@ pub(super) struct ReducedMesh {
     gears: Arc<[ElasticGear; 2]>,
     keys: RecordKeys,
     /// What the user should hear of them.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl ReducedMesh {
@@ -115,13 +117,13 @@ impl ReducedMesh {
         let ElasticGears { gears, keys, warnings } =
             elastic_gears(&scene, &mesh.pair, &options, &meshes, (cache, progress, &|| true))?;
         let of_pair = gears::warnings(&mesh.pair).into_iter().chain(meshes.iter().flat_map(|m| m.warnings.clone()));
-        let warnings = of_pair.chain(warnings).map(|said| format!("{}: {said}", mesh.name)).collect();
+        let warnings = of_pair.chain(warnings).map(|said| said.about(&mesh.name)).collect();
         Ok(Self { scene, options, meshes, gears: Arc::new(gears), keys, warnings })
     }
 
     /// What is held of the bores, where that is about another cross-section than the gear's seat: a shaft would take
     /// hold of it by a lever that is not there.
-    pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<String> {
+    pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<Remark> {
         let width = self.scene.pair.face_width_mm;
         let gears = file.meshes[i].gears.into_iter().zip(&self.meshes).map(|(gear, mesh)| (&file.gears[gear], mesh));
         let one = |(gear, mesh): (&GearboxGear, &SceneMesh)| {
@@ -131,21 +133,13 @@ impl ReducedMesh {
             let held = weights.iter().map(|&(n, w)| w * z(n)).sum::<f64>() / area;
             let seat = gear.seat - gear.position;
             let apart = !file.shafts[gear.shaft].held && (held - seat).abs() > OFF_SEAT * width;
-            apart.then(|| {
-                format!(
-                    "the mesh of gear {} is held about z = {held:.3} mm from its mid-plane, and its seat is at \
-                     {seat:.3} mm: \
-                     say `seat_mm = {:.3}`",
-                    gear.name,
-                    gear.position + held
-                )
-            })
+            apart.then(|| remark::seat_elsewhere(&*gear.name, held, seat, gear.position + held))
         };
         gears.filter_map(one).collect()
     }
 
     /// What is said of a mesh whose flanks press on both sides at once.
-    pub fn jammed(&self, i: usize, mesh: &Mesh, positions: &[GearboxPosition]) -> Option<String> {
+    pub fn jammed(&self, i: usize, mesh: &Mesh, positions: &[GearboxPosition]) -> Option<Remark> {
         let contact = &self.options.contact;
         let lever = mesh.pair.wheel.base_radius() * mesh.pair.base_helix_angle().cos();
         let of = |p: &GearboxPosition| {
@@ -154,7 +148,7 @@ impl ReducedMesh {
         };
         let all: Vec<PressedMesh> = positions.iter().map(of).collect();
         let said = contact.both_flanks.then(|| jam_warning(&all, contact.friction)).flatten()?;
-        Some(format!("{}: {said}", mesh.name))
+        Some(said.about(&mesh.name))
     }
 
     /// Its contact.
@@ -212,7 +206,7 @@ impl ReducedMesh {
     }
 
     /// Keeps the gears for later runs; what could not be written.
-    pub fn save(&self, cache: &dyn GearCache) -> Vec<String> {
+    pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
         if cache.is_on() { self.keys.save(cache, &self.gears) } else { Vec::new() }
     }
 }

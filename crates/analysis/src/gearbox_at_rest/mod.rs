@@ -149,7 +149,7 @@ fn solve(
     let meshes = meshes::meshes(file, Some(&train))?;
     let loaded = loads::Loaded { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
     for said in gearbox_remarks(file).into_iter().chain(loaded.judge()?) {
-        observer.note(said.clone());
+        observer.note(said.to_string());
         warnings.push(said);
     }
     let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {

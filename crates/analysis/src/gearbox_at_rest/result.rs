@@ -1,5 +1,6 @@
 //! What is read off all positions of a gearbox.
 
+use answer::Remark;
 use gearbox::{GearboxPosition, Mesh, Structure, Train, face_load_factor};
 use geometry::{GearPair, Side};
 use scene::gearbox::Gearbox;
@@ -32,7 +33,7 @@ pub struct GearboxResult {
     /// How it swings about them, where that is asked for.
     pub vibration: Option<GearboxSwings>,
     /// What the user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
     /// In motion, where the file asks for it.
     pub motion: Option<GearboxMotionResult>,
 }
@@ -103,10 +104,10 @@ fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Transmission errors that are too large for linear elasticity.
-fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<String> {
+fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<Remark> {
     let one = |(mesh, pair): (&MeshResult, &GearPair)| {
         let said = large_error(mesh.largest_transmission_error, (LARGE, pair.pinion.data().normal_module));
-        said.map(|said| format!("{}: {said}", mesh.name))
+        said.map(|said| said.about(&mesh.name))
     };
     meshes.iter().zip(pairs).filter_map(one).collect()
 }
@@ -117,7 +118,7 @@ pub(super) fn result(
     train: &Train,
     reduced: &[ReducedMesh],
     (positions, vibration): (Vec<GearboxPosition>, Option<GearboxSwings>),
-    warnings: Vec<String>,
+    warnings: Vec<Remark>,
 ) -> GearboxResult {
     let all = &positions;
     let mesh = |i: usize| {
@@ -172,7 +173,7 @@ pub(super) fn result(
         let slices = || all.iter().flat_map(move |p| &p.meshes[i].slices);
         let widest = slices().map(|s| s.half_width).fold(0.0, f64::max);
         let side = slices().next().map_or(Side::Left, |s| s.side);
-        warnings.extend(waves_on(pair, side, widest).into_iter().map(|said| format!("{}: {said}", of_meshes[i].name)));
+        warnings.extend(waves_on(pair, side, widest).into_iter().map(|said| said.about(&of_meshes[i].name)));
     }
     GearboxResult {
         ratios: train.ratios().to_vec(),

@@ -1,5 +1,7 @@
 //! Parts of a gearbox that have no room beside each other: it is solved all the same, and said.
 
+use crate::remark;
+use answer::Remark;
 use geometry::{Gear, GearPair};
 use scene::gearbox::{Gearbox, GearboxGear};
 
@@ -14,7 +16,7 @@ struct Body<'a> {
 }
 
 /// Warnings of where gears and shafts stand.
-pub(super) fn room(file: &Gearbox, pairs: &[GearPair]) -> Vec<String> {
+pub(super) fn room(file: &Gearbox, pairs: &[GearPair]) -> Vec<Remark> {
     let exact: Vec<Option<&Gear>> = (0..file.gears.len()).map(|i| of_pairs(file, pairs, i)).collect();
     let mut said = Vec::new();
     for (i, gear) in file.gears.iter().enumerate() {
@@ -24,7 +26,7 @@ pub(super) fn room(file: &Gearbox, pairs: &[GearPair]) -> Vec<String> {
             let Some(wide) = exact[k] else { continue };
             if (gear.position - other.position).abs() < 0.5 * (own.face_width() + wide.face_width()) {
                 let shaft = &file.shafts[gear.shaft].name;
-                said.push(format!("gears {} and {} stand at one place of shaft {shaft}", gear.name, other.name));
+                said.push(remark::gears_at_one_place(&*gear.name, &*other.name, &**shaft));
             }
         }
     }
@@ -47,7 +49,7 @@ fn of_pairs<'a>(file: &Gearbox, pairs: &'a [GearPair], gear: usize) -> Option<&'
 }
 
 /// A gear against the ends and the diameter of its own shaft.
-fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<String> {
+fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<Remark> {
     let shaft = &file.shafts[gear.shaft];
     let length: f64 = shaft.sections.iter().map(|s| s.length).sum();
     let (from, to) = (gear.position - 0.5 * exact.face_width(), gear.position + 0.5 * exact.face_width());
@@ -55,7 +57,7 @@ fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<String> {
     let beyond = (-from).max(to - length);
     // One that is meshed in one with its part of the shaft is no part of it.
     if beyond > 0.0 && gear.seat == gear.position {
-        said.push(format!("gear {} reaches {beyond:.3} mm beyond the end of shaft {}", gear.name, shaft.name));
+        said.push(remark::gear_beyond_shaft(&*gear.name, beyond, &*shaft.name));
     }
     let mut end = 0.0;
     let inside = shaft.sections.iter().filter(|s| {
@@ -65,13 +67,7 @@ fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<String> {
     });
     let thick = inside.map(|s| 0.5 * s.outer).fold(0.0, f64::max);
     if thick > exact.root_radius() {
-        said.push(format!(
-            "shaft {} is {:.3} mm thick where gear {} has a root circle of {:.3} mm",
-            shaft.name,
-            2.0 * thick,
-            gear.name,
-            2.0 * exact.root_radius()
-        ));
+        said.push(remark::shaft_thicker_than_root(&*shaft.name, 2.0 * thick, &*gear.name, 2.0 * exact.root_radius()));
     }
     said
 }
@@ -96,7 +92,7 @@ fn bodies<'a>(file: &'a Gearbox, shaft: usize, exact: &[Option<&Gear>]) -> Vec<B
 }
 
 /// The first two bodies of two shafts that reach into each other and do not mesh.
-fn between(file: &Gearbox, [a, b]: [usize; 2], [of_a, of_b]: [&[Body<'_>]; 2]) -> Option<String> {
+fn between(file: &Gearbox, [a, b]: [usize; 2], [of_a, of_b]: [&[Body<'_>]; 2]) -> Option<Remark> {
     let [p, q] = [a, b].map(|i| file.shafts[i].origin);
     let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
     let mesh = |x: usize, y: usize| file.meshes.iter().any(|m| m.gears == [x, y] || m.gears == [y, x]);
@@ -106,13 +102,12 @@ fn between(file: &Gearbox, [a, b]: [usize; 2], [of_a, of_b]: [&[Body<'_>]; 2]) -
             let beside = one.from < other.to && other.from < one.to;
             if beside && !meet && one.radius + other.radius > distance {
                 let kind = |body: &Body<'_>| if body.gear.is_some() { "gear" } else { "shaft" };
-                return Some(format!(
-                    "{} {} and {} {} reach into each other by {:.3} mm",
+                return Some(remark::parts_collide(
                     kind(one),
                     one.name,
                     kind(other),
                     other.name,
-                    one.radius + other.radius - distance
+                    one.radius + other.radius - distance,
                 ));
             }
         }

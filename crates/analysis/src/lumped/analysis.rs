@@ -1,5 +1,6 @@
 //! A motion of a model with few coordinates.
 
+use answer::Remark;
 use std::f64::consts::TAU;
 
 use integrate::State;
@@ -81,7 +82,7 @@ pub struct LumpedResult {
     /// The few numbers that it is made for.
     pub headline: LumpedHeadline,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl LumpedResult {
@@ -193,7 +194,7 @@ struct RunResults {
     static_cycle: Option<Vec<StaticPoint>>,
     campbell: Option<LumpedCampbell>,
     lyapunov: Option<Lyapunov>,
-    warnings: Vec<String>,
+    warnings: Vec<Remark>,
 }
 
 /// Reads headline and spectra off a run.
@@ -340,7 +341,7 @@ pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
 }
 
 /// How rigid gears are cut into slices, with what a user should hear of it; other models are not.
-fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<String>)> {
+fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<Remark>)> {
     let LumpedInputs { scene, pair, .. } = inputs;
     matches!(scene.analysis.model, Model::Impact | Model::Mapped)
         .then(|| resolution(scene, pair, &options(scene, pair)))

@@ -1,5 +1,6 @@
 //! Reduced gears in motion, their contact solved or mapped, as the runs of cheaper models ask for them.
 
+use answer::Remark;
 use std::{path::PathBuf, time::Instant};
 
 use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
@@ -41,7 +42,7 @@ pub(crate) struct ElasticPair {
     elasticity: Elasticity,
     pace: Pace,
     frame: ElasticFrame,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// How contact is found.
@@ -88,7 +89,7 @@ impl ElasticPair {
     }
 
     /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
-    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
         let mesh_hz = mesh_range_hz(scene, motion, None);
         let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
         let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;
@@ -132,7 +133,7 @@ fn mapped(
     system: PairMechanism,
     request: &MapRequest,
     (cache, key): (&dyn GearCache, Option<&MapKey>),
-    warnings: &mut Vec<String>,
+    warnings: &mut Vec<Remark>,
 ) -> Result<MappedPair, PairMotionError> {
     let Some(key) = key else { return MappedPair::new(system, request) };
     let (kept, said) = cache.load_maps(key);

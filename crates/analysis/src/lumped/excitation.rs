@@ -3,6 +3,7 @@
 //! Scenes and files count a mesh cycle as the reduced model does: pair 0 is in the middle of its path at phase 1/2.
 //! Lumped pairs have it there at phase 0, so that their contact lines are half a cycle on.
 
+use answer::Remark;
 use std::sync::Arc;
 
 use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
@@ -20,7 +21,7 @@ use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_mode
 #[derive(Debug, Clone)]
 pub(crate) struct MeshExcitation {
     pub cycle: MeshCycle,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// Makes the excitation of scene after scene.

@@ -29,7 +29,7 @@ pub(super) fn impact(
     scene: &Scene,
     own: &ImpactScene,
     gears: &GearPair,
-) -> Result<(ImpactMechanism, Vec<String>), LumpedError> {
+) -> Result<(ImpactMechanism, Vec<answer::Remark>), LumpedError> {
     let running = options(scene, gears);
     let (stiffness, warnings) = match own.stiffness_n_per_mm_to_exponent {
         Some(given) => (given, Vec::new()),
@@ -73,18 +73,12 @@ fn load(scene: &Scene) -> Torque {
 }
 
 /// K of two balls; gears of different materials by one material that is as stiff in contact.
-fn formula(scene: &Scene, own: &ImpactScene, gears: &GearPair) -> Result<(f64, Vec<String>), LumpedError> {
+fn formula(scene: &Scene, own: &ImpactScene, gears: &GearPair) -> Result<(f64, Vec<answer::Remark>), LumpedError> {
     let compliance: f64 = scene.gears().iter().map(|g| (1.0 - g.material.poisson.powi(2)) / g.material.young_mpa).sum();
     let poisson = scene.pinion.material.poisson;
     let young = 2.0 * (1.0 - poisson * poisson) / compliance;
     let stiffness = contact_stiffness(gears, options(scene, gears).contact.driver, young, poisson)?;
-    let warning = (own.exponent != 1.5).then(|| {
-        format!(
-            "the impact stiffness of {stiffness:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {}: give \
-             `stiffness_n_per_mm_to_exponent`",
-            own.exponent
-        )
-    });
+    let warning = (own.exponent != 1.5).then(|| crate::remark::impact_exponent(stiffness, own.exponent));
     Ok((stiffness, warning.into_iter().collect()))
 }
 

@@ -1,5 +1,6 @@
 //! All that a model of a scene is made of: gathered once, built as often as wanted.
 
+use answer::Remark;
 use std::{f64::consts::TAU, sync::Arc};
 
 use ::lumped::{
@@ -35,7 +36,7 @@ pub(crate) struct LumpedSystem {
     pub model: BoxedMechanism,
     /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
     pub resonance_hz: f64,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
     /// The system of shafts, where it is one: for the continuum beside it.
     pub shafts: Option<ShaftSystem>,
 }
@@ -126,18 +127,14 @@ impl LumpedInputs {
     }
 
     /// What a user should hear of a run, beside what the model itself says.
-    pub fn warnings_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+    pub fn warnings_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
         self.elastic.as_ref().map_or_else(Vec::new, |gears| gears.warnings_of(&self.scene, motion, headline))
     }
 
     /// What a run at many speeds does not look into.
-    pub fn left_out_of_sweeps(&self) -> Option<String> {
+    pub fn left_out_of_sweeps(&self) -> Option<Remark> {
         let quasi_static = self.elastic.is_some() && self.scene.modes.is_none();
-        quasi_static.then(|| {
-            "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed \
-             says so"
-                .to_owned()
-        })
+        quasi_static.then(|| crate::remark::inertia_not_judged())
     }
 
     /// Mesh frequency at the scene's speed, of a ramp at its last, and the resonance of a model.

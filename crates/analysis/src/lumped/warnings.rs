@@ -1,10 +1,12 @@
 //! What a user of a cheaper model should hear.
 
+use answer::Remark;
 use scene::{Model, MotionScene, Run};
 use study::Lyapunov;
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
 use crate::motion::{self, NO_BACKLASH_UM};
+use crate::remark;
 
 /// Energy that steps add or take by themselves over that of the vibration, from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;
@@ -16,7 +18,7 @@ pub(super) fn backlash_um(inputs: &LumpedInputs) -> f64 {
 }
 
 /// A mesh without backlash where the model has one: its flanks do not part.
-pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
+pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<Remark> {
     let LumpedInputs { scene, pair, .. } = inputs;
     let has_one = match scene.analysis.model {
         model if model.has_reduced_gears() => return motion::no_backlash(scene, pair),
@@ -25,12 +27,7 @@ pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<String> {
     };
     let backlash_um = has_one.then(|| backlash_um(inputs))?;
     let own = if scene.mesh.is_some() { "`half_backlash_um` in [mesh], or " } else { "" };
-    (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
-        format!(
-            "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance; give {own}`thickness_allowance_mm` \
-             in [pinion] and [wheel]"
-        )
-    })
+    (backlash_um.abs() < NO_BACKLASH_UM).then(|| remark::mesh_without_backlash(own))
 }
 
 /// What the largest exponent says of a motion that does not repeat itself.
@@ -57,26 +54,18 @@ fn why_not(exponent: Option<Lyapunov>) -> String {
 }
 
 /// What the certificate says that a user should hear.
-pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<String> {
+pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
     let mut warnings = Vec::new();
     let c = &headline.certificate;
     if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {
         if found > asked {
-            warnings.push(format!(
-                "the motion does not repeat itself: after {} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); {}",
-                c.warm_up_cycles,
-                why_not(c.lyapunov)
-            ));
+            warnings.push(remark::not_periodic(c.warm_up_cycles, found, asked, why_not(c.lyapunov)));
         } else if let Some(period) = c.period_cycles.filter(|p| *p > 1) {
-            warnings.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
+            warnings.push(remark::subharmonic(period));
         }
     }
     if c.energy_open_over_vibration > OPEN_ENERGY {
-        warnings.push(format!(
-            "energy closes to {:.1e} of the energy of the vibration only (asked: {OPEN_ENERGY:.0e}): take smaller steps or \
-             `method = \"energy\"`",
-            c.energy_open_over_vibration
-        ));
+        warnings.push(remark::vibration_energy_open(c.energy_open_over_vibration, OPEN_ENERGY));
     }
     warnings
 }

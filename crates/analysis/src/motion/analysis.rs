@@ -1,6 +1,7 @@
 //! One motion of a scene.
 
 use ale::solve_widening;
+use answer::Remark;
 use geometry::GearPair;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
@@ -74,7 +75,7 @@ pub struct MotionResult {
     /// What it was made of, with its certificate.
     pub facts: Facts,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// What a run-up or run-down shows over speed.
@@ -222,7 +223,7 @@ pub(super) fn ready(
     let slow = warnings::slow(scene, motion, &prepared).or_else(|| warnings::long(scene, motion, &prepared));
     if let Some(slow) = slow {
         // Who waits should hear it before the end.
-        observer.note(slow.clone());
+        observer.note(slow.to_string());
         prepared.warnings.push(slow);
     }
     Ok(prepared)
@@ -289,7 +290,7 @@ fn warnings_of(
     headline: &MotionHeadline,
     mesh_hz: [f64; 2],
     wall_s: f64,
-) -> Vec<String> {
+) -> Vec<Remark> {
     let mut all = prepared.warnings.clone();
     all.extend(warnings::of_motion(motion, prepared, headline));
     let resonance = prepared.system.mesh_resonance();

@@ -1,5 +1,7 @@
 //! Whether the rows and the steps of a motion show what moves.
 
+use crate::remark;
+use answer::Remark;
 use study::{mesh_harmonics, unresolved_share};
 
 /// Share of the vibration in the upper half of what rows can tell apart from which on a user should hear of it.
@@ -15,24 +17,17 @@ const MORE_STEPS: f64 = 14.0;
 
 /// Rows, or steps, that are too few for what moves; `samples`: the transmission error row by row over so many whole mesh
 /// cycles, `steps` in each.
-pub(crate) fn unresolved(samples: &[f64], cycles: u64, steps: f64) -> Vec<String> {
+pub(crate) fn unresolved(samples: &[f64], cycles: u64, steps: f64) -> Vec<Remark> {
     rows(samples, cycles).into_iter().chain(orders(samples, cycles, steps)).collect()
 }
 
-fn rows(samples: &[f64], cycles: u64) -> Option<String> {
+fn rows(samples: &[f64], cycles: u64) -> Option<Remark> {
     let share = unresolved_share(samples, cycles as usize).ok().filter(|share| *share > UNRESOLVED)?;
     let rows = samples.len() as u64 / cycles.max(1);
-    Some(format!(
-        "{rows} rows a mesh cycle do not show all that moves: {:.0} % of the vibration lies between the mesh orders {} and {}, \
-         and more may lie beyond (told from {:.0} % on); peaks fall between the rows: take more `steps_per_mesh_cycle`",
-        100.0 * share,
-        rows / 4,
-        rows / 2,
-        100.0 * UNRESOLVED
-    ))
+    Some(remark::few_rows(rows, 100.0 * share, rows / 4, rows / 2, 100.0 * UNRESOLVED))
 }
 
-fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
+fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<Remark> {
     let rows = samples.len() / cycles.max(1) as usize;
     let all = mesh_harmonics(samples, cycles as usize, rows / 2).ok()?;
     let sum: f64 = all.iter().map(|h| h.amplitude).sum();
@@ -40,14 +35,7 @@ fn orders(samples: &[f64], cycles: u64, steps: f64) -> Option<String> {
     let wanted = |share: f64| STEPS + MORE_STEPS * share;
     let counts = all.iter().map(|h| (h.order, h.amplitude / sum)).filter(|(_, share)| *share > COUNTS);
     let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
-    Some(format!(
-        "a step is 1/{:.1} of the period of mesh order {order}, which has {:.0} % of the vibration: near a resonance its \
-         size may be wrong by a tenth and more (told below 1/{:.0}): take more `steps_per_mesh_cycle` or \
-         `steps_per_resonance`",
-        in_period(order),
-        100.0 * share,
-        wanted(share)
-    ))
+    Some(remark::few_steps(in_period(order), order, 100.0 * share, wanted(share)))
 }
 
 #[cfg(test)]
@@ -62,11 +50,11 @@ mod tests {
         let wave = |rows: usize, order: f64| -> Vec<f64> {
             (0..2 * rows).map(|i| 10.0 + (TAU * order * i as f64 / rows as f64).cos()).collect()
         };
-        assert_eq!(unresolved(&wave(64, 2.0), 2, 64.0), [""; 0]);
-        assert_eq!(unresolved(&[3.0; 64], 2, 8.0), [""; 0], "nothing moves");
+        assert!(unresolved(&wave(64, 2.0), 2, 64.0).is_empty());
+        assert!(unresolved(&[3.0; 64], 2, 8.0).is_empty(), "nothing moves");
         let few = unresolved(&wave(64, 2.0), 2, 24.0);
-        assert!(few.len() == 1 && few[0].contains("1/12.0 of the period of mesh order 2"), "{few:?}");
+        assert!(few.len() == 1 && few[0].text().contains("1/12.0 of the period of mesh order 2"), "{few:?}");
         let coarse = unresolved(&wave(16, 7.0), 2, 1000.0);
-        assert!(coarse.len() == 1 && coarse[0].contains("16 rows a mesh cycle"), "{coarse:?}");
+        assert!(coarse.len() == 1 && coarse[0].text().contains("16 rows a mesh cycle"), "{coarse:?}");
     }
 }

@@ -1,5 +1,6 @@
 //! What a user should hear of a motion.
 
+use answer::Remark;
 use dynamics::{Drive, PairMechanism, stable_step};
 use geometry::GearPair;
 use ltca::StaticError;
@@ -11,7 +12,7 @@ use super::{
     setup::{PreparedMotion, mesh_range_hz, refuse_unstable},
     step_estimate::{Pace, StepDemand, fastest_hz},
 };
-use crate::{failure::Failure, unstable_steps::Steps};
+use crate::{failure::Failure, remark, unstable_steps::Steps};
 
 /// More steps than this in a mesh cycle take half a minute or more.
 const SLOW: f64 = 20_000.0;
@@ -24,12 +25,12 @@ pub const NO_BACKLASH_UM: f64 = 1e-3;
 const COARSE: f64 = 12.0;
 
 /// A window that was too narrow.
-pub(super) fn widened(error: &StaticError, teeth: usize) -> String {
-    format!("{error}; the window was widened to {teeth} teeth and the motion begun again")
+pub(super) fn widened(error: &StaticError, teeth: usize) -> Remark {
+    remark::window_widened_in_motion(error.to_string(), teeth)
 }
 
 /// Steps that are too long for the mesh resonance, or for the highest mode that is kept.
-pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<Remark> {
     let fastest = fastest_hz(&prepared.system);
     let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
     let steps = f64::from(motion.steps_per_resonance).max(f64::from(motion.steps_per_mesh_cycle) * mesh / fastest);
@@ -42,13 +43,8 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
 }
 
 /// Steps that are too long for a motion of this name and frequency, Hz; `steps`: in a period of it.
-pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Option<String> {
-    (steps < COARSE).then(|| {
-        format!(
-            "a step is 1/{steps:.1} of the period of the {what} ({hz:.0} Hz), which it cannot show: take more \
-             `steps_per_mesh_cycle` or `steps_per_resonance`{or}"
-        )
-    })
+pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Option<Remark> {
+    (steps < COARSE).then(|| remark::coarse_steps(steps, what, hz, or))
 }
 
 /// Refuses steps of given length that are too long for an explicit method.
@@ -86,23 +82,17 @@ fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
 }
 
 /// Steps of a mesh cycle so many that a user should know why nothing seems to go on.
-pub(super) fn slow(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+pub(super) fn slow(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<Remark> {
     let mesh = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
     let fastest = fastest_hz(&prepared.system);
     let steps = f64::from(motion.steps_per_resonance) * fastest / mesh;
     let given = motion.ramp.is_none() && motion.sweep.is_none();
-    (given && steps > SLOW).then(|| {
-        format!(
-            "a mesh cycle lasts {:.0} periods of the fastest motion that steps have to show ({fastest:.3e} Hz), so it takes {steps:.0} steps; so slow a pair \
-             has nearly the answer of `kind = \"static\"`",
-            fastest / mesh
-        )
-    })
+    (given && steps > SLOW).then(|| remark::slow_pair(fastest / mesh, fastest, steps))
 }
 
 /// How many steps a motion with normal modes is going to take, if they are many: the highest mode says how long they
 /// are, the lowest how long it takes to settle.
-pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<String> {
+pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotion) -> Option<Remark> {
     scene.modes?;
     let mesh_hz = mesh_range_hz(scene, motion, None);
     let cycles = match motion.ramp {
@@ -110,32 +100,24 @@ pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
         None => motion.duration_s.map_or(f64::from(scene.analysis.cycles), |t| t * mesh_hz[1]),
     };
     let estimate = StepDemand::new(scene, motion, cycles, mesh_hz).as_it_is(&prepared.system);
-    (estimate.steps() > LONG).then(|| {
-        format!(
-            "with its normal modes this motion takes {}: the highest kept mode, {:.0} Hz, says how long they are, and the lowest settles slowly; fewer modes (`below_hz` in [modes]), more \
-             damping of them or a larger `periodic_tolerance` make it shorter",
-            estimate.describe(Pace { step_s: None }),
-            fastest_hz(&prepared.system)
-        )
-    })
+    (estimate.steps() > LONG)
+        .then(|| remark::many_steps(estimate.describe(Pace { step_s: None }), fastest_hz(&prepared.system)))
 }
 
 /// A pair without backlash in a motion in which flanks may part.
-pub(crate) fn no_backlash(scene: &Scene, pair: &GearPair) -> Option<String> {
+pub(crate) fn no_backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
     let backlash_um = 1e3 * pair.backlash();
     (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
         let what = match scene.contact.flanks {
             Flanks::Both => "where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
             Flanks::Driving => "with `flanks = \"driving\"` teeth that part fly as if there were room behind them",
         };
-        format!(
-            "the pair has no backlash: {what}; give `thickness_allowance_mm` in [pinion] and [wheel] (or a larger `centre_distance_mm` in [pair])"
-        )
+        remark::no_backlash(what)
     })
 }
 
 /// What the certificate says that a user should hear.
-pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headline: &MotionHeadline) -> Vec<String> {
+pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headline: &MotionHeadline) -> Vec<Remark> {
     let mut said = Vec::new();
     let c = &headline.certificate;
     let settles = matches!(motion.run, Run::Steady | Run::Shooting);
@@ -145,49 +127,29 @@ pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headlin
         let early = c.warm_up_cycles < u64::from(motion.warm_up_cycles.unwrap_or(1000)) && motion.run == Run::Steady;
         let after = c.warm_up_cycles;
         said.push(if early {
-            format!(
-                "the motion repeated itself to {asked:.0e} of its peak to peak after {after} mesh cycles, but those that were written do so to {found:.1e} only: \
-                 ask for a smaller `periodic_tolerance`, or give a transient more damping"
-            )
+            remark::repeats_and_drifts(asked, after, found)
         } else {
-            format!(
-                "the motion does not repeat itself: after {after} mesh cycles it is off by {found:.1e} of its peak to peak (asked: {asked:.0e}); \
-                 it may be chaotic, or need more `warm_up_cycles`"
-            )
+            remark::not_periodic(after, found, asked, "it may be chaotic, or need more `warm_up_cycles`")
         });
     } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
-        said.push(format!("the motion repeats itself after {period} mesh cycles: a subharmonic answer"));
+        said.push(remark::subharmonic(period));
     }
     if c.ledger_residual_over_work.abs() > 1e-6 {
-        said.push(format!(
-            "energy closes to {:.1e} of the work that goes through the pair only (asked: 1e-6): take smaller steps or `method = \"energy\"`",
-            c.ledger_residual_over_work.abs()
-        ));
+        said.push(remark::work_open(c.ledger_residual_over_work.abs()));
     }
     // Without coast flanks nothing stops teeth that have parted.
     let pair = prepared.system.pair();
     let backlash = 1e3 * pair.backlash() * pair.base_helix_angle().cos();
     if !prepared.system.has_coast_flanks() && c.largest_gap_um > backlash {
-        said.push(format!(
-            "the flanks part by {:.1} um, more than the backlash of {backlash:.1} um: the coast flanks would touch; use `flanks = \"both\"`",
-            c.largest_gap_um
-        ));
+        said.push(remark::gap_beyond_backlash(c.largest_gap_um, backlash));
     }
     if c.flank_coupling_bound_um > COUPLED * headline.peak_to_peak_dte_um {
-        said.push(format!(
-            "in {} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {:.3} um: \
-             a backlash keeps them apart",
-            c.rows_on_both_flanks, c.flank_coupling_bound_um
-        ));
+        said.push(remark::both_flanks_press(c.rows_on_both_flanks, c.flank_coupling_bound_um));
     }
     if let Drive::Torque { start, .. } = &prepared.system.options().drive {
         let asked = start * 30.0 / std::f64::consts::PI;
         if (headline.speed_rpm / asked - 1.0).abs() > 0.01 {
-            said.push(format!(
-                "the driver's mean speed is {:.1}/min, it began with {asked:.1}/min: mesh cycles, and orders of the spectrum, are those of the \
-                 start",
-                headline.speed_rpm
-            ));
+            said.push(remark::speed_has_changed(headline.speed_rpm, asked));
         }
     }
     said
@@ -197,22 +159,18 @@ pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headlin
 const COUPLED: f64 = 0.01;
 
 /// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.
-pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<String> {
+pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<Remark> {
     let mut said = Vec::new();
     let (missed, failed) = (&headline.not_periodic_rpm, &headline.failed);
     if !missed.is_empty() {
-        said.push(format!(
-            "no periodic state was found at {} of {speeds} speeds ({}): chaotic, of a longer period, or `warm_up_cycles` are too few",
-            missed.len(),
-            listed(missed.iter().copied())
-        ));
+        said.push(remark::speeds_not_periodic(missed.len(), speeds, listed(missed.iter().copied())));
     }
     if let Some(first) = failed.first() {
-        said.push(format!(
-            "{} of {speeds} speeds have no solution ({}); their rows in resonance.csv say why, the first: {}",
+        said.push(remark::speeds_unsolved(
             failed.len(),
+            speeds,
             listed(failed.iter().map(|f| f.speed_rpm)),
-            first.reason
+            &*first.reason,
         ));
     }
     said

@@ -2,15 +2,14 @@
 
 use std::f64::consts::PI;
 
+use answer::Remark;
 use scene::{
     gearbox::{Gearbox, GearboxBearing, GearboxGear, GearboxShaft},
     units::in_another_unit,
 };
 
-use super::{
-    material::{DENSITIES, SOFT},
-    refusal::digits,
-};
+use super::material::{DENSITIES, SOFT};
+use crate::remark::{self, rounded};
 
 /// Stiffer than cemented carbide, MPa.
 const HARD: f64 = 1e6;
@@ -25,7 +24,7 @@ const GYRATIONS: [f64; 2] = [0.05, 3.0];
 const MACHINE: f64 = 1e5;
 
 /// What is unlikely in a gearbox file, with the unit that may have been meant.
-pub fn gearbox_remarks(file: &Gearbox) -> Vec<String> {
+pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
     let moves = file.vibration.is_some() || file.motion.is_some();
     let shafts = file.shafts.iter().flat_map(|shaft| {
         let density = moves.then(|| density(shaft)).flatten();
@@ -40,27 +39,27 @@ pub fn gearbox_remarks(file: &Gearbox) -> Vec<String> {
     shafts.chain(bearings).chain(gears).chain(machines).collect()
 }
 
-/// What `value` is in another unit, behind other words; nothing where no unit fits.
+/// What `value` is in another unit; nothing where no unit fits.
 fn meant(key: &str, value: f64, fits: impl Fn(f64) -> bool) -> String {
-    in_another_unit(key, value, fits).map(|other| format!("; {}", other.said)).unwrap_or_default()
+    in_another_unit(key, value, fits).map(|other| other.said).unwrap_or_default()
 }
 
-fn young(shaft: &GearboxShaft) -> Option<String> {
+fn young(shaft: &GearboxShaft) -> Option<Remark> {
     let young = shaft.young_mpa;
     let usual = |x: f64| (SOFT..=HARD).contains(&x);
     (!usual(young)).then(|| {
         let than = if young < SOFT { "softer than plastics" } else { "stiffer than any metal" };
         let other = meant("young_mpa", young, usual);
-        format!("`young_mpa` of the shaft \"{}\" is {}, {than}{other}", shaft.name, digits(young))
+        remark::unlikely_shaft_modulus(shaft.name.as_str(), rounded(young), than, other)
     })
 }
 
-fn density(shaft: &GearboxShaft) -> Option<String> {
+fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let density = 1e12 * shaft.density;
     let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
     (!usual(density)).then(|| {
         let other = meant("density_kg_m3", density, usual);
-        format!("`density_kg_m3` of the shaft \"{}\" is {}, which no metal has{other}", shaft.name, digits(density))
+        remark::unlikely_shaft_density(shaft.name.as_str(), rounded(density), other)
     })
 }
 
@@ -74,19 +73,15 @@ fn diameter(shaft: &GearboxShaft, at: f64) -> Option<f64> {
 }
 
 /// The stiffness across the axis, over that of solid steel of the shaft's size.
-fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<String> {
+fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<Remark> {
     let across = (bearing.stiffness[0][0] * bearing.stiffness[1][1]).abs().sqrt();
     let solid = 2.06e5 * diameter(shaft, bearing.position)?;
     let usual = |x: f64| (STIFFNESSES[0]..=STIFFNESSES[1]).contains(&(x / solid));
     (across > 0.0 && bearing.rolling.is_none() && !shaft.held && !usual(across)).then(|| {
         let than = if across < STIFFNESSES[0] * solid { "softer than a seat of rubber" } else { "as good as rigid" };
         let other = meant("stiffness_n_per_mm", across, usual);
-        format!(
-            "the stiffness of the {} is {} N/mm across the axis, {than} for a shaft of {} mm{other}",
-            bearing.name,
-            digits(across),
-            digits(solid / 2.06e5)
-        )
+        let (across, diameter) = (rounded(across), rounded(solid / 2.06e5));
+        remark::unlikely_bearing_stiffness(bearing.name.as_str(), across, than, diameter, other)
     })
 }
 
@@ -107,39 +102,29 @@ fn disc(file: &Gearbox, gear: usize) -> Option<Disc> {
     Some(Disc { mass: own.material.density_kg_m3 * PI * radius * radius * width, radius })
 }
 
-fn inertias(gear: &GearboxGear, disc: Disc) -> Vec<String> {
+fn inertias(gear: &GearboxGear, disc: Disc) -> Vec<Remark> {
     let [mass, transverse, polar] = gear.inertia;
     let (mass, transverse, polar) = (mass.map(|t| 1e3 * t), transverse.map(|x| 1e-3 * x), polar.map(|x| 1e-3 * x));
     let mut all = Vec::new();
     let usual = |x: f64| (MASSES[0]..=MASSES[1]).contains(&(x / disc.mass));
     if let Some(own) = mass.filter(|&own| !usual(own)) {
-        all.push(format!(
-            "`mass_kg` of the gear \"{}\" is {}, a solid one has {}{}",
-            gear.name,
-            digits(own),
-            digits(disc.mass),
-            meant("mass_kg", own, usual)
-        ));
+        let other = meant("mass_kg", own, usual);
+        all.push(remark::unlikely_gear_mass(gear.name.as_str(), rounded(own), rounded(disc.mass), other));
     }
     let weight = mass.filter(|&own| usual(own)).unwrap_or(disc.mass);
     for (key, own) in [("polar_inertia_kg_m2", polar), ("transverse_inertia_kg_m2", transverse)] {
         let usual = |x: f64| (GYRATIONS[0]..=GYRATIONS[1]).contains(&((x / weight).sqrt() / disc.radius));
         if let Some(own) = own.filter(|&own| !usual(own)) {
             let solid = 0.5 * weight * disc.radius * disc.radius;
-            all.push(format!(
-                "`{key}` of the gear \"{}\" is {}, a solid disc has about {}{}",
-                gear.name,
-                digits(own),
-                digits(solid),
-                meant(key, own, usual)
-            ));
+            let other = meant(key, own, usual);
+            all.push(remark::unlikely_gear_inertia(gear.name.as_str(), key, rounded(own), rounded(solid), other));
         }
     }
     all
 }
 
 /// Machines whose inertia is far from that of the gears on their shaft.
-fn machines(file: &Gearbox) -> Vec<String> {
+fn machines(file: &Gearbox) -> Vec<Remark> {
     let of_shaft = |shaft: usize| {
         let gears = (0..file.gears.len()).filter(|&g| file.gears[g].shaft == shaft);
         gears.filter_map(|g| disc(file, g)).map(|d| 0.5 * d.mass * d.radius * d.radius).sum::<f64>()
@@ -151,11 +136,7 @@ fn machines(file: &Gearbox) -> Vec<String> {
         let (own, gears) = (1e-3 * inertia, of_shaft(shaft));
         (gears > 0.0 && own > MACHINE * gears).then(|| {
             let other = meant("inertia_kg_m2", own, |x| x < 1e3 * gears);
-            format!(
-                "`inertia_kg_m2` of {place} is {}, {} times that of the gears on its shaft{other}",
-                digits(own),
-                digits(own / gears)
-            )
+            remark::unlikely_machine_inertia(place, rounded(own), rounded(own / gears), other)
         })
     };
     std::iter::once(input).chain(torques).filter_map(unlikely).collect()
@@ -172,7 +153,7 @@ mod tests {
     }
 
     /// What is said of the two stages with one line otherwise.
-    fn said(old: &str, new: &str) -> Vec<String> {
+    fn said(old: &str, new: &str) -> Vec<Remark> {
         let file = file("two_stages.toml");
         let text = std::fs::read_to_string(&file).unwrap();
         assert!(text.contains(old), "{old}");
@@ -194,13 +175,13 @@ mod tests {
             ("inertia_kg_m2 = 0.5\n", "inertia_kg_m2 = 500000.0\n", "500000 kg mm^2 are 0.5 kg m^2"),
         ] {
             let said = said(old, new);
-            assert!(said.len() == 1 && said[0].ends_with(words), "{new}: {said:#?}");
+            assert!(said.len() == 1 && said[0].hint().as_deref() == Some(words), "{new}: {said:#?}");
         }
         for name in
             ["two_stages", "in_housing", "rolling_bearings", "run_up", "overhung_pinion", "nrel_5mw_third_stage"]
         {
             let file = Gearbox::read(&file(&format!("{name}.toml"))).unwrap();
-            assert_eq!(gearbox_remarks(&file), Vec::<String>::new(), "{name}");
+            assert_eq!(gearbox_remarks(&file), Vec::<Remark>::new(), "{name}");
         }
     }
 }

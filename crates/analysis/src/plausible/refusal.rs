@@ -50,10 +50,10 @@ pub fn beyond(scene: &Scene, pair: &GearPair) -> Option<Beyond> {
 }
 
 /// A load whose result is likely to fail its checks of size, in words; `None` of others and of those that are refused.
-pub(super) fn doubtful(scene: &Scene, pair: &GearPair) -> Option<String> {
+pub(super) fn doubtful(scene: &Scene, pair: &GearPair) -> Option<answer::Remark> {
     let found = above(scene, pair, [DEFLECTION_BOUND, PRESSURE_BOUND])?;
     let Beyond { said, hint, .. } = found;
-    beyond(scene, pair).is_none().then(|| format!("{said}; beyond {DEFLECTION_BOUND} modules a result is none; {hint}"))
+    beyond(scene, pair).is_none().then(|| crate::remark::doubtful_load(said, DEFLECTION_BOUND, hint))
 }
 
 /// A load that bends the teeth by more modules, or presses them with more times E*, than these.
@@ -174,7 +174,7 @@ fn length(mm: f64) -> String {
 }
 
 /// Three digits, without an exponent where that is short.
-pub(super) fn digits(value: f64) -> String {
+pub(crate) fn digits(value: f64) -> String {
     let decimals = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 5.0) as usize;
     if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) {
         format!("{value:.2e}")

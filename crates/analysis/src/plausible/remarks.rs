@@ -2,14 +2,16 @@
 
 use std::f64::consts::PI;
 
+use answer::Remark;
 use geometry::{Gear, GearPair, Side};
 use scene::{GearScene, Kind, Scene, units::in_another_unit};
 
 use super::{
     flanks::largest_depth,
     material::{DENSITIES, HEAVY, SOFT},
-    refusal::{digits, doubtful},
+    refusal::doubtful,
 };
+use crate::remark::{self, rounded};
 
 /// Helix angles that nobody makes, degrees: up to 45 degrees in rad.
 const FLAT: [f64; 2] = [0.02, 0.8];
@@ -30,7 +32,7 @@ const THIN_MM: f64 = 5e-4;
 const ROUND_RPM: f64 = 50.0;
 
 /// What is unlikely in a scene, with the unit that may have been meant.
-pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<String> {
+pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
     let gears = [("pinion", &scene.pinion, &pair.pinion), ("wheel", &scene.wheel, &pair.wheel)];
     let alike = scene.pinion.material == scene.wheel.material;
     let of_gears = gears.into_iter().flat_map(|(name, gear, exact)| {
@@ -39,7 +41,7 @@ pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<String> {
         own.into_iter().flatten().chain(flanks(scene, name, exact)).collect::<Vec<_>>()
     });
     let of_pair = [doubtful(scene, pair), helix(scene), width(scene), backlash(scene, pair), speed(scene)];
-    let mut all: Vec<String> = Vec::new();
+    let mut all: Vec<Remark> = Vec::new();
     for said in of_pair.into_iter().flatten().chain(of_gears) {
         if !all.contains(&said) {
             all.push(said);
@@ -48,104 +50,83 @@ pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<String> {
     all
 }
 
-/// What `value` is in another unit, behind other words; nothing where no unit fits.
+/// What `value` is in another unit; nothing where no unit fits.
 fn meant(key: &str, value: f64, fits: impl Fn(f64) -> bool) -> String {
-    in_another_unit(key, value, fits).map(|other| format!("; {}", other.said)).unwrap_or_default()
+    in_another_unit(key, value, fits).map(|other| other.said).unwrap_or_default()
 }
 
-fn material(name: &str, gear: &GearScene) -> Option<String> {
+fn material(name: &str, gear: &GearScene) -> Option<Remark> {
     let (young, density) = (gear.material.young_mpa, gear.material.density_kg_m3);
     (young < SOFT && density > HEAVY).then(|| {
         let other = meant("young_mpa", young, |x| x >= SOFT);
-        format!("`young_mpa` of the {name} is {}, softer than plastics{other}", digits(young))
+        remark::soft_material(name, rounded(young), other)
     })
 }
 
-fn density(scene: &Scene, name: &str, gear: &GearScene) -> Option<String> {
+fn density(scene: &Scene, name: &str, gear: &GearScene) -> Option<Remark> {
     let density = gear.material.density_kg_m3;
     let known = (DENSITIES[0]..=DENSITIES[1]).contains(&density);
     (scene.analysis.kind == Kind::Dynamic && !known).then(|| {
         let other = meant("density_kg_m3", density, |x| (DENSITIES[0]..=DENSITIES[1]).contains(&x));
-        format!("`density_kg_m3` of the {name} is {}, which no material of gears has{other}", digits(density))
+        remark::unlikely_density(name, rounded(density), other)
     })
 }
 
-fn bore(name: &str, gear: &GearScene, exact: &Gear) -> Option<String> {
+fn bore(name: &str, gear: &GearScene, exact: &Gear) -> Option<Remark> {
     let (bore, reference) = (gear.bore_diameter_mm, 2.0 * exact.reference_radius());
     (bore < BORE * reference).then(|| {
         let other = meant("bore_diameter_mm", bore, |x| (0.1 * reference..reference).contains(&x));
-        format!("the bore of the {name} is {} mm in a gear of {} mm{other}", digits(bore), digits(reference))
+        remark::small_bore(name, rounded(bore), rounded(reference), other)
     })
 }
 
-fn thinning(name: &str, gear: &GearScene) -> Option<String> {
+fn thinning(name: &str, gear: &GearScene) -> Option<Remark> {
     let thinner = gear.thickness_allowance_mm;
     (thinner > 0.0 && thinner < THIN_MM).then(|| {
         let other = meant("thickness_allowance_mm", thinner, |x| x > THIN_MM && x < 1.0);
-        format!("`thickness_allowance_mm` of the {name} is {}, less than can be measured{other}", digits(thinner))
+        remark::small_thinning(name, rounded(thinner), other)
     })
 }
 
-fn flanks(scene: &Scene, name: &str, exact: &Gear) -> Option<String> {
+fn flanks(scene: &Scene, name: &str, exact: &Gear) -> Option<Remark> {
     let module = scene.pair.normal_module_mm;
     let depth = [Side::Left, Side::Right].map(|side| largest_depth(exact, side)).into_iter().fold(0.0, f64::max);
     if depth > DEEP * module {
-        return Some(format!(
-            "the flanks of the {name} are {} um away from the involute, {} modules: micro-geometry is in um, and some 20 um \
-             a mm of module are usual",
-            digits(1e3 * depth),
-            digits(depth / module)
-        ));
+        return Some(remark::deep_flanks(name, rounded(1e3 * depth), rounded(depth / module)));
     }
-    (depth > 0.0 && depth < SHALLOW_MM.min(SHALLOW * module)).then(|| {
-        format!(
-            "the flanks of the {name} are {} um away from the involute at the most, less than can be ground; {0} mm are {} um",
-            digits(1e3 * depth),
-            digits(1e6 * depth)
-        )
-    })
+    (depth > 0.0 && depth < SHALLOW_MM.min(SHALLOW * module))
+        .then(|| remark::shallow_flanks(name, rounded(1e3 * depth), rounded(1e6 * depth)))
 }
 
-fn helix(scene: &Scene) -> Option<String> {
+fn helix(scene: &Scene) -> Option<Remark> {
     let helix = scene.pinion.helix_angle_deg;
     (FLAT[0]..FLAT[1]).contains(&helix.abs()).then(|| {
         let other = meant("helix_angle_deg", helix, |x| x.abs() < 60.0);
-        format!("`helix_angle_deg` is {helix}, nearly a spur gear{other}")
+        remark::small_helix(helix, other)
     })
 }
 
-fn width(scene: &Scene) -> Option<String> {
+fn width(scene: &Scene) -> Option<Remark> {
     let (width, module) = (scene.pair.face_width_mm, scene.pair.normal_module_mm);
     let ratio = width / module;
     let other = if ratio < WIDTHS[0] {
         meant("face_width_mm", width, |x| (module..100.0 * module).contains(&x))
     } else if ratio > WIDTHS[1] {
         let in_m = in_another_unit("normal_module_mm", module, |x| (1.0..50.0).contains(&(width / x)));
-        in_m.map(|own| format!("; {}", own.said)).unwrap_or_default()
+        in_m.map(|own| own.said).unwrap_or_default()
     } else {
         return None;
     };
-    Some(format!(
-        "`face_width_mm` is {}, {} times the module of {} mm{other}",
-        digits(width),
-        digits(ratio),
-        digits(module)
-    ))
+    Some(remark::unlikely_width(rounded(width), rounded(ratio), rounded(module), other))
 }
 
-fn backlash(scene: &Scene, pair: &GearPair) -> Option<String> {
+fn backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
     let (backlash, module) = (pair.backlash(), scene.pair.normal_module_mm);
-    (backlash > LOOSE * module).then(|| {
-        format!(
-            "the backlash is {} mm, {} modules: are `centre_distance_mm` and `thickness_allowance_mm` in mm?",
-            digits(backlash),
-            digits(backlash / module)
-        )
-    })
+    (backlash > LOOSE * module).then(|| remark::large_backlash(rounded(backlash), rounded(backlash / module)))
 }
 
 /// A speed in rad/s is the digits of a round number of turns a minute.
-fn speed(scene: &Scene) -> Option<String> {
+fn speed(scene: &Scene) -> Option<Remark> {
     let written = scene.operation.speed_rpm;
     if scene.analysis.kind != Kind::Dynamic || written.fract() == 0.0 {
         return None;
@@ -153,6 +134,5 @@ fn speed(scene: &Scene) -> Option<String> {
     let decimals = format!("{written}").split_once('.').map_or(0, |(_, digits)| digits.len());
     let round = (written * 30.0 / PI / ROUND_RPM).round() * ROUND_RPM;
     let same = format!("{:.decimals$}", round * PI / 30.0).parse() == Ok(written);
-    (same && round > 0.0 && decimals <= 4)
-        .then(|| format!("`speed_rpm` is {written}; {written} rad/s are {round} 1/min, was that meant?"))
+    (same && round > 0.0 && decimals <= 4).then(|| remark::speed_in_rad_per_s(written, round))
 }

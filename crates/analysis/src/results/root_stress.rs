@@ -95,15 +95,12 @@ pub fn error_percent(fillets: &[FilletStress]) -> f64 {
 /// What a user should hear of root stresses whose mesh is too coarse for them.
 ///
 /// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
-pub fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = String> {
-    ["pinion", "wheel"].into_iter().zip(largest).filter(|(_, (_, error))| *error > DOUBTFUL_PERCENT).map(
-        |(gear, (stress, error))| {
-            format!(
-                "the {gear}'s root stress of {stress:.1} MPa may be {error:.0} % off: its mesh is coarse in the fillet; \
-                 raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there"
-            )
-        },
-    )
+pub fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = answer::Remark> {
+    ["pinion", "wheel"]
+        .into_iter()
+        .zip(largest)
+        .filter(|(_, (_, error))| *error > DOUBTFUL_PERCENT)
+        .map(|(gear, (stress, error))| crate::remark::root_stress_coarse(gear, stress, error))
 }
 
 /// From this estimate on the user is told, %.

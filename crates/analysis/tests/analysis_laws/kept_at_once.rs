@@ -16,11 +16,14 @@ impl GearCache for Remembers {
         true
     }
 
-    fn load(&self, _: &RecordKey) -> (Option<analysis::Kept<RecordKey, ReductionRecord>>, Option<String>) {
+    fn load(
+        &self,
+        _: &RecordKey,
+    ) -> (Option<analysis::Kept<RecordKey, ReductionRecord>>, Option<analysis::remark::Remark>) {
         (None, None)
     }
 
-    fn save(&self, key: &RecordKey, _: &ReductionRecord) -> Option<String> {
+    fn save(&self, key: &RecordKey, _: &ReductionRecord) -> Option<analysis::remark::Remark> {
         self.0.lock().unwrap().push(key.to_string());
         None
     }

@@ -15,4 +15,5 @@ mod motion_accuracy;
 mod motion_in_memory;
 mod nominal_load;
 mod overhung;
+mod remarks;
 mod solved;

@@ -97,7 +97,7 @@ fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, Analy
     let without = || AnalysisError::WithAccuracy { file: file.to_owned() };
     let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
-    let mut warnings = solved.result.history.warnings;
+    let mut warnings: Vec<String> = solved.result.history.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(
         accuracy
             .not_covered
@@ -169,7 +169,7 @@ pub(super) fn in_motion(file: &str, text: &str, settings: &[String], finer: &[&s
         Ok(found) => found,
         Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
     };
-    let said = found.warnings.first().cloned();
+    let said = found.warnings.first().map(ToString::to_string);
     let mut better: Vec<String> = settings.to_vec();
     better.extend(finer.iter().map(|s| (*s).to_owned()));
     let exact = reference(file, &last_of_each(&better), || {

@@ -46,7 +46,7 @@ fn wedges(bench: &Bench) -> Result<Vec<String>, EnvelopeError> {
     let material = fem::Material::new(2000.0, 0.49, 1.2e-9).map_err(EnvelopeError::of(piece))?;
     let full = reduction::FullGear::new(parts.map_err(EnvelopeError::of(piece))?, material, &ElementOptions::default());
     let gear = reduction::ElasticGear::Full(full.map_err(EnvelopeError::of(piece))?);
-    Ok(analysis::locking_warning(&gear, "pinion").into_iter().collect())
+    Ok(analysis::locking_warning(&gear, "pinion").iter().map(ToString::to_string).collect())
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

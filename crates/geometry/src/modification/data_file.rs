@@ -2,8 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use files::{most, read_regular_text};
-
 /// A file of measured values that cannot be read or understood.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -81,11 +79,6 @@ impl DataFileError {
             Self::TooFew { .. } => "is the file complete?".into(),
         })
     }
-}
-
-/// The text of a file.
-pub(super) fn text(path: &Path) -> Result<String, DataFileError> {
-    read_regular_text(path, most::DATA).map_err(|source| DataFileError::Read { path: path.to_owned(), source })
 }
 
 /// Lines with anything on them: number from 1, words.

@@ -40,7 +40,7 @@ pub use data_file::DataFileError;
 pub(crate) use depth::FlankSize;
 pub use depth::{Depth, DepthField};
 pub use modified_flank::ModifiedFlank;
-pub use pitch::{parse_pitch_errors, read_pitch_errors};
+pub use pitch::parse_pitch_errors;
 pub use relief::{EndRelief, ProfilePlace, Relief, ReliefShape};
 pub use topography::{ProfileAxis, Topography};
 

@@ -2,15 +2,7 @@
 
 use std::path::Path;
 
-use super::data_file::{DataFileError, number, rows, text};
-
-/// Reads cumulative pitch deviations, um, tooth 0 first; see [`parse_pitch_errors`].
-///
-/// # Errors
-/// [`DataFileError`] with file and line.
-pub fn read_pitch_errors(path: &Path) -> Result<Vec<f64>, DataFileError> {
-    parse_pitch_errors(&text(path)?, path)
-}
+use super::data_file::{DataFileError, number, rows};
 
 /// Cumulative pitch deviations (um) from plain text, returned in mm: one number a tooth, tooth 0 first, in any number
 /// of lines, separated by commas, semicolons or blanks; `#` begins a comment.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
-use super::data_file::{DataFileError, number, rows, text};
+use super::data_file::{DataFileError, number, rows};
 
 /// Grid lines along the profile, ascending.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -40,14 +40,6 @@ pub struct Topography {
 }
 
 impl Topography {
-    /// Reads a file.
-    ///
-    /// # Errors
-    /// [`DataFileError`] with file and line.
-    pub fn read(path: &Path) -> Result<Self, DataFileError> {
-        Self::parse(&text(path)?, path)
-    }
-
     /// Reads the text of a file; `path` is what messages name.
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use analysis::remark;
 use answer::Answer;
 use serde_json::{Value, json};
 
@@ -104,7 +105,7 @@ fn without_mean(trace: &Trace) -> Trace {
 pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[WordRow], curves: &[Overlay]) -> Answer {
     let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
     let missed = runs.iter().enumerate().flat_map(|(i, run)| {
-        run.missed().into_iter().map(move |words| format!("{} DOES NOT HOLD: {words}", letter(i))).collect::<Vec<_>>()
+        run.missed().into_iter().map(move |words| remark::result_does_not_hold(letter(i), words)).collect::<Vec<_>>()
     });
     Answer {
         name: format!("{} runs side by side", runs.len()),

@@ -7,7 +7,10 @@ use std::{
     time::SystemTime,
 };
 
-use analysis::{GearCache, Kept, MAP_VERSION, MapKey};
+use analysis::{
+    GearCache, Kept, MAP_VERSION, MapKey,
+    remark::{self, Remark},
+};
 use contact_map::ContactMap;
 use files::{Kind, most, read_regular_file, take_away_left_overs, write_file};
 use reduction::{RecordKey, ReductionRecord};
@@ -75,31 +78,31 @@ impl GearCache for Cache {
         self.folder.is_some()
     }
 
-    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<String>) {
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
         let Some(file) = self.file(key) else { return (None, None) };
         let bytes = match read_regular_file(&file, most::RECORD) {
             Ok(bytes) => bytes,
             Err(e) if e.kind() == ErrorKind::NotFound => return (None, None),
-            Err(e) => return (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
+            Err(e) => return (None, Some(remark::gear_not_loaded(file.display().to_string(), e.to_string()))),
         };
         match ReductionRecord::from_bytes(&bytes, key) {
             Ok(record) => {
                 touch(&file);
                 (Some(Kept::new(*key, record)), None)
             }
-            Err(e) => (None, Some(format!("{}: {e}; the gear was reduced again", file.display()))),
+            Err(e) => (None, Some(remark::gear_not_loaded(file.display().to_string(), e.to_string()))),
         }
     }
 
-    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<String> {
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
         let file = self.file(key)?;
         let written = self.write(&file, &record.to_bytes(key));
-        written.err().map(|e| format!("{}: {e}; the next run will reduce the gear again", file.display()))
+        written.err().map(|e| remark::gear_not_stored(file.display().to_string(), e.to_string()))
     }
 
-    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<String>) {
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         let Some(file) = self.map_file(key) else { return (None, None) };
-        let complain = |what: String| (None, Some(format!("{}: {what}; the contact was mapped again", file.display())));
+        let complain = |what: String| (None, Some(remark::map_not_loaded(file.display().to_string(), what)));
         match read_regular_file(&file, most::RECORD) {
             Ok(bytes) => match maps_from(&bytes, key) {
                 Ok(maps) => {
@@ -113,10 +116,10 @@ impl GearCache for Cache {
         }
     }
 
-    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<String> {
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<Remark> {
         let file = self.map_file(key)?;
         let written = map_bytes(key, maps).map_err(std::io::Error::other).and_then(|bytes| self.write(&file, &bytes));
-        written.err().map(|e| format!("{}: {e}; the next run will map the contact again", file.display()))
+        written.err().map(|e| remark::map_not_stored(file.display().to_string(), e.to_string()))
     }
 }
 

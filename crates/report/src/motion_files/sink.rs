@@ -89,7 +89,7 @@ impl MotionSink for MotionFileSink<'_> {
         self.recorder.position(index, position, model);
     }
 
-    fn quasi_static(&mut self, model: &StaticModel, observer: &mut dyn Observer) -> Vec<String> {
+    fn quasi_static(&mut self, model: &StaticModel, observer: &mut dyn Observer) -> Vec<answer::Remark> {
         let recorder = std::mem::replace(&mut self.recorder, ViewRecorder::new(self.scene));
         let mut warnings = Vec::new();
         let view = run_phase(observer, "view", PhaseWork::Unknown, |_| {

@@ -3,7 +3,10 @@
 mod page;
 mod tables;
 
-use analysis::optimum::{Optimised, Optimum};
+use analysis::{
+    optimum::{Optimised, Optimum},
+    remark::{self, Remark},
+};
 use answer::{Answer, Cost};
 use scene::Scene;
 use serde::Serialize;
@@ -91,7 +94,7 @@ pub fn write_optimum(of: &OptimumResult<'_>, cost: Cost, results: &ResultDirecto
 }
 
 /// Which limits the optimum passes, and by how much; `None` where it holds them.
-pub fn passed_limits(optimum: &Optimum) -> Option<String> {
+pub fn passed_limits(optimum: &Optimum) -> Option<Remark> {
     let over = optimum.evaluation.over_limits();
     let limits = [(optimum.plan.max_pressure_mpa, ""), (optimum.plan.max_edge_pressure_mpa, " at edges")];
     let limits: Vec<String> =
@@ -100,7 +103,7 @@ pub fn passed_limits(optimum: &Optimum) -> Option<String> {
     let by =
         if over < 1.0 { format!("passed by {:.1} %", 100.0 * over) } else { format!("passed {:.1}-fold", 1.0 + over) };
     let limits = limits.join(" and ");
-    (over > HELD).then(|| format!("the limit of the pressure, {limits}, is {by}: no design was found that holds it"))
+    (over > HELD).then(|| remark::pressure_limit_passed(limits, by))
 }
 
 /// Share by which a limit may be passed.

@@ -257,7 +257,7 @@ impl Page {
             subtitle,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             failed: answer.checks.missed().map(answer::Check::words).collect(),
-            warnings: answer.remarks.clone(),
+            warnings: answer.remarks.iter().map(ToString::to_string).collect(),
             ..Self::default()
         }
     }

@@ -8,7 +8,7 @@ use analysis::{
     motion::{ElasticHeadline, InertiaHeadline},
     results::PressurePlace,
 };
-use answer::{Answer, Cost, Table};
+use answer::{Answer, Cost, Remark, Table};
 use minijinja::context;
 use scene::{Driver, Scene};
 use serde::Serialize;
@@ -27,7 +27,7 @@ pub(super) fn pair_answer<H: Serialize>(
     scene: &Scene,
     (facts, cost): (&Facts, &Cost),
     headline: &H,
-    warnings: &[String],
+    warnings: &[Remark],
     tables: Vec<Table>,
 ) -> Answer {
     // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.

@@ -1,5 +1,6 @@
 //! The answer about a plan.
 
+use analysis::remark;
 use answer::{Answer, Cost, Table};
 use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
@@ -68,10 +69,7 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
             "failed": known.failed,
             "outputs": known.outputs.iter().map(told).collect::<Map<_, _>>(),
         }),
-        remarks: (known.failed > 0)
-            .then(|| format!("{} of {} cases have no result: `reason` in cases.csv says why", known.failed, rows.len()))
-            .into_iter()
-            .collect(),
+        remarks: (known.failed > 0).then(|| remark::cases_unsolved(known.failed, rows.len())).into_iter().collect(),
         info: Map::from_iter([("reports".to_owned(), json!(reports))]),
         cost,
         ..Answer::default()

@@ -1,6 +1,10 @@
 //! What a study knows of its cases before they run, and what it warns of after.
 
-use analysis::{lumped::is_lumped, parameter_study::Findings};
+use analysis::{
+    lumped::is_lumped,
+    parameter_study::Findings,
+    remark::{self, Remark},
+};
 use scene::{Scene, study::Study};
 
 use super::{CaseResult, with_result};
@@ -41,12 +45,13 @@ pub fn study_digest(study: &Study, reports: bool) -> Result<String, ReportError>
 }
 
 /// Cases without a result first; then what the others warn of, each once, with their names.
-pub fn study_warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<String> {
+pub fn study_warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<Remark> {
     let failed = (0..study.cases.len()).filter_map(|i| {
         let reason = findings.reason(i)?;
-        Some(format!("{}: no result: {reason}; tables, charts and correlations are without it", study.cases[i].label))
+        Some(remark::case_unsolved(study.cases[i].label.as_str(), reason))
     });
-    let of_runs = with_result(study, runs, findings)
-        .flat_map(|(case, run, _)| run.warnings.iter().map(|w| format!("{}: {w}", case.label)).collect::<Vec<_>>());
-    failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
+    let of_runs = with_result(study, runs, findings).flat_map(|(case, run, _)| {
+        run.warnings.iter().map(|w| remark::case_said(case.label.as_str(), w.as_str())).collect::<Vec<_>>()
+    });
+    failed.chain(of_runs).chain(findings.warnings.iter().map(|said| remark::study_said(said.as_str()))).collect()
 }

@@ -59,7 +59,7 @@ pub struct StudyResult<'a> {
     /// The whole model, where it was run.
     pub speed_up: Option<&'a SpeedUp>,
     /// What a user should hear.
-    pub warnings: &'a [String],
+    pub warnings: &'a [answer::Remark],
     /// Whether every case was to have a report.
     pub reports: bool,
 }

@@ -28,8 +28,13 @@ const CHEAP_AGAIN: usize = 300_000;
 
 impl ViewRecorder {
     /// [`ViewRecorder::view`]; a picture that does not come out is a warning.
-    pub fn view_or_warning(self, scene: &Scene, model: &StaticModel, warnings: &mut Vec<String>) -> Option<View> {
-        self.view(scene, model).map_err(|e| warnings.push(format!("the report has no fields in space: {}", e))).ok()
+    pub fn view_or_warning(
+        self,
+        scene: &Scene,
+        model: &StaticModel,
+        warnings: &mut Vec<answer::Remark>,
+    ) -> Option<View> {
+        self.view(scene, model).map_err(|e| warnings.push(analysis::remark::no_view(e.to_string()))).ok()
     }
 
     /// What was remembered, with fields where they cost little beside what was solved.

@@ -1,9 +1,9 @@
 //! Pitch errors of a gear.
 
-use std::path::PathBuf;
+use geometry::modification::parse_pitch_errors;
 
 use super::Checked;
-use crate::inputs::named;
+use crate::data_file::DataFile;
 use crate::schema::RawGear;
 use crate::source::Source;
 
@@ -11,8 +11,13 @@ use crate::source::Source;
 const LARGEST: f64 = 1000.0;
 
 /// Pitch errors: a list, or a file.
-pub(super) fn pitch_errors(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<(Vec<f64>, Option<PathBuf>)> {
-    let in_file = raw.pitch_errors_file.as_ref().map(|word| named(s, "pitch_errors_file", word)).transpose()?;
+pub(super) fn pitch_errors(
+    s: &Source<'_>,
+    raw: &RawGear,
+    teeth: u32,
+) -> Checked<(Vec<f64>, Option<DataFile<Vec<f64>>>)> {
+    let in_file = raw.pitch_errors_file.as_ref();
+    let in_file = in_file.map(|word| DataFile::read(s, "pitch_errors_file", word, parse_pitch_errors)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };
     if in_file.is_some() {
         let what = "a gear has both `pitch_errors_um` and `pitch_errors_file`";

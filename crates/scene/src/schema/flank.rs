@@ -3,12 +3,11 @@
 //! A new kind of modification is a row of `flank_tables!` here, a line of `FlankScene::in_geometry`, and its formula in
 //! [`geometry::modification`].
 
-use std::path::PathBuf;
-
+use geometry::modification::Topography;
 use serde::Serialize;
 
+use crate::data_file::DataFile;
 use crate::error::SceneError;
-use crate::inputs::named;
 use crate::source::Source;
 use crate::table::{INF, Key, Table, bare, table, text, word};
 
@@ -50,7 +49,7 @@ const fn shape(name: &'static str, about: &'static str) -> Key {
     word(name, Shape::WORDS, about)
 }
 
-/// A file.
+/// A file of measured depths.
 const fn path(name: &'static str, about: &'static str) -> Key {
     text(name, about)
 }
@@ -61,7 +60,7 @@ macro_rules! flank_value {
         Shape
     };
     (path) => {
-        PathBuf
+        DataFile<Topography>
     };
     ($number:ident) => {
         f64
@@ -74,7 +73,7 @@ macro_rules! flank_read {
         $raw.$name.as_ref().map(|word| $s.meaning_of(stringify!($name), word)).transpose()?
     };
     (path, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
-        $raw.$name.as_ref().map(|word| named($s, stringify!($name), word)).transpose()?
+        $raw.$name.as_ref().map(|word| DataFile::read($s, stringify!($name), word, Topography::parse)).transpose()?
     };
     ($number:ident, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
         $s.optional_up_to(&MODIFICATION, stringify!($name), &$raw.$name, $face_width)?

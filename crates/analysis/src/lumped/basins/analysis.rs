@@ -1,5 +1,6 @@
 //! Runs of a scene from all states of a plane.
 
+use answer::Remark;
 use std::sync::Arc;
 
 use integrate::LONGEST_PERIOD;
@@ -47,7 +48,7 @@ pub struct BasinResult {
     /// The few numbers that it is made for.
     pub headline: BasinHeadline,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl<'a> BasinAnalysis<'a> {

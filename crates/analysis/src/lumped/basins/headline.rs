@@ -42,20 +42,12 @@ impl BasinHeadline {
     }
 
     /// What a user should hear.
-    pub(super) fn warnings(&self, starts: &[BasinStart]) -> Vec<String> {
-        let failed = starts.iter().find_map(|s| s.failed.as_ref()).map(|why| {
-            format!(
-                "{} of {} starts have no motion; their rows in basins.csv are empty, the first because {why}",
-                self.failed, self.starts
-            )
-        });
-        let lost = (self.not_periodic > 0).then(|| {
-            format!(
-                "from {} of {} starts the motion does not come back within eight mesh cycles: chaotic, quasi-periodic, or \
-                 `warm_up_cycles` are too few; they are counted as one",
-                self.not_periodic, self.starts
-            )
-        });
+    pub(super) fn warnings(&self, starts: &[BasinStart]) -> Vec<answer::Remark> {
+        let failed = starts
+            .iter()
+            .find_map(|s| s.failed.as_ref())
+            .map(|why| crate::remark::starts_unsolved(self.failed, self.starts, why.to_string()));
+        let lost = (self.not_periodic > 0).then(|| crate::remark::starts_not_periodic(self.not_periodic, self.starts));
         failed.into_iter().chain(lost).collect()
     }
 }

@@ -1,5 +1,6 @@
 //! The branch of periodic motions of a scene.
 
+use answer::Remark;
 use std::ops::ControlFlow;
 
 use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicMotion, Tracer};
@@ -59,7 +60,7 @@ pub struct ContinuationResult {
     /// The few numbers that it is made for.
     pub headline: ContinuationHeadline,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl<'a> ContinuationAnalysis<'a> {

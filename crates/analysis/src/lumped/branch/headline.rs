@@ -1,5 +1,6 @@
 //! What is read off a branch.
 
+use crate::remark;
 use periodic::Bifurcation;
 use scene::ContinuationScene;
 use serde::Serialize;
@@ -91,36 +92,13 @@ pub(super) fn headline(
 
 impl ContinuationHeadline {
     /// What a user should hear.
-    pub(super) fn warnings(&self) -> Vec<String> {
-        let ends = self.broken.as_ref().map(|why| {
-            format!(
-                "the branch ends within its range: {why}; more `motions`, `most_harmonics` or `phases`, or a \
-                 larger `tail`, may lead on"
-            )
-        });
-        let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| {
-            format!(
-                "a motion integrated in time differs from the branch by {:.1} %: near a fold it has jumped, else its \
-                 steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`)",
-                100.0 * d
-            )
-        });
-        let back = (self.broken.is_none() && self.returns).then(|| {
-            "the branch turns back and leaves the range where it began: another one leads on; begin at the other end \
-             (swap `from` and `to`)"
-                .to_owned()
-        });
-        let lost = (!self.torus_bifurcations.is_empty()).then(|| {
-            "beyond a torus bifurcation the motion has a second frequency: the branch goes on, unstable, and no \
-             periodic motion near it is seen in time"
-                .to_owned()
-        });
-        let doubled = self.period_doublings.first().map(|value| {
-            format!(
-                "a motion of twice the period begins at {value:.6}: `period_cycles` = {} follows it",
-                2 * self.period_cycles
-            )
-        });
+    pub(super) fn warnings(&self) -> Vec<answer::Remark> {
+        let ends = self.broken.as_ref().map(|why| remark::branch_ends(&**why));
+        let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| remark::branch_apart(100.0 * d));
+        let back = (self.broken.is_none() && self.returns).then(|| remark::branch_turns_back());
+        let lost = (!self.torus_bifurcations.is_empty()).then(|| remark::torus_bifurcation());
+        let doubled =
+            self.period_doublings.first().map(|value| remark::period_doubling(*value, 2 * self.period_cycles));
         ends.into_iter().chain(back).chain(apart).chain(lost).chain(doubled).collect()
     }
 }

@@ -99,24 +99,14 @@ fn hysteresis(options: &SweepOptions, points: &[SweepPoint]) -> Option<Vec<[f64;
 
 impl SweepHeadline {
     /// What a user should hear.
-    pub(super) fn warnings(&self) -> Vec<String> {
+    pub(super) fn warnings(&self) -> Vec<answer::Remark> {
         let silent = self.chaotic.is_none();
-        let failed = self.failed.first().map(|(_, _, reason)| {
-            format!(
-                "{} of {} points have no solution; their rows in sweep.csv say why, the first: {reason}",
-                self.failed.len(),
-                self.points
-            )
-        });
+        let failed = self
+            .failed
+            .first()
+            .map(|(_, _, reason)| crate::remark::points_unsolved(self.failed.len(), self.points, &**reason));
         (silent && !self.not_periodic.is_empty())
-            .then(|| {
-                format!(
-                    "at {} of {} points the section does not come back: chaotic, quasi-periodic, or `warm_up_cycles` are too few; a Lyapunov exponent \
-                     (`ale-gear sweep --lyapunov 200`) tells which",
-                    self.not_periodic.len(),
-                    self.points
-                )
-            })
+            .then(|| crate::remark::points_not_periodic(self.not_periodic.len(), self.points))
             .into_iter()
             .chain(failed)
             .collect()

@@ -12,6 +12,7 @@ mod options;
 mod point;
 mod ways;
 
+use answer::Remark;
 use std::sync::Arc;
 
 use rayon::prelude::*;
@@ -54,7 +55,7 @@ pub struct BifurcationAnalysis {
     /// What is read off them.
     pub headline: SweepHeadline,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl<'a> KeySweep<'a> {

@@ -140,22 +140,14 @@ impl Elasticity {
     }
 
     /// What a user should hear of the rotation.
-    pub fn rotation_warning(&self, found: &Vibration) -> Option<String> {
+    pub fn rotation_warning(&self, found: &Vibration) -> Option<answer::Remark> {
         let share = self.rotation(found);
-        (share > CHANGE_LIMIT).then(|| {
-            format!(
-                "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left \
-                 out, reach {:.0} % of the elastic ones (told from {:.1} % on): expect that much of an error in elastic \
-                 deflections and frequencies",
-                100.0 * share,
-                100.0 * CHANGE_LIMIT
-            )
-        })
+        (share > CHANGE_LIMIT).then(|| crate::remark::fast_rotation(100.0 * share, 100.0 * CHANGE_LIMIT))
     }
 
     /// What a user should hear of a run: what is not kept as a mode is quasi-static, in the whole gear or above its
     /// highest kept mode. The remedy has its price, at the pace of this run.
-    pub fn warning(&self, found: &Vibration, demand: &StepDemand, pace: Pace) -> Option<String> {
+    pub fn warning(&self, found: &Vibration, demand: &StepDemand, pace: Pace) -> Option<answer::Remark> {
         let change = self.beside(found);
         if !change.matters() {
             return None;
@@ -173,15 +165,16 @@ impl Elasticity {
             None => format!("take the model `reduced+modes` with `below_hz = {below_hz:.0}` in [modes]"),
             Some(_) => format!("keep more modes (`below_hz = {below_hz:.0}` in [modes])"),
         };
-        Some(format!(
-            "mesh harmonic {} at {:.0} Hz is {:.2} of the {gear}'s {which}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {:.3} um, {:.0} % \
-             of it (told from {:.1} % on): {remedy}, {}",
+        Some(crate::remark::quasi_static_elasticity(
             change.harmonic,
             change.harmonic_hz(),
             change.largest_ratio(),
+            gear,
+            which,
             change.share * found.peak_to_peak_um,
             100.0 * change.share,
             100.0 * CHANGE_LIMIT,
+            remedy,
             demand.with_modes(below_hz, lowest, self.kept.is_some()).describe(pace),
         ))
     }

@@ -1,5 +1,6 @@
 //! Everything before the first step: gears, the quasi-static cycle that the motion starts from, the mechanism.
 
+use answer::Remark;
 use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{MotionSettings, PairMechanism};
@@ -48,7 +49,7 @@ impl<'a> MotionInputs<'a> {
     ) -> Result<Self, AnalysisError> {
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
-        remarks(scene, &pair).into_iter().for_each(|said| observer.note(said));
+        remarks(scene, &pair).into_iter().for_each(|said| observer.note(said.to_string()));
         let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory))?;
         Ok(Self { scene, motion, pair, meshes, cache })
     }
@@ -67,7 +68,7 @@ pub(crate) struct PreparedMotion {
     pub quasi_static: QuasiStatic,
     pub elasticity: Elasticity,
     pub facts: Facts,
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
     /// What the cache knows the gears by; none where nothing is cached.
     pub keys: Vec<RecordKey>,
 }

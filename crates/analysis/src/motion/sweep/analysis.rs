@@ -1,6 +1,7 @@
 //! The steady states of a scene over speed.
 
 use ale::solve_widening;
+use answer::Remark;
 use dynamics::SweepOutcome;
 use ltca::StaticError;
 use mesh::Mesh;
@@ -49,7 +50,7 @@ pub struct SweepResult {
     /// What it was made of, with its certificate.
     pub facts: Facts,
     /// What a user should hear.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 impl SweepResult {
