@@ -107,6 +107,7 @@ pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[Wo
         run.missed().into_iter().map(move |words| format!("{} DOES NOT HOLD: {words}", letter(i))).collect::<Vec<_>>()
     });
     Answer {
+        kind: "comparison",
         name: format!("{} runs side by side", runs.len()),
         inputs: json!({ "runs": labels }),
         tables: vec![rows::numbers(runs.len(), numbers), rows::curves(curves)],

@@ -26,6 +26,7 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
         })
     });
     Answer {
+        kind: "study",
         name: study.name.clone(),
         inputs: json!({ "study": study.file.display().to_string(), "parameter": study.parameter }),
         tables: vec![study_rows(study, findings)],
