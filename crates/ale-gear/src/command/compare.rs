@@ -69,9 +69,10 @@ impl CompareArgs {
             None if runs.iter().all(ResultFolder::is_motion) => Axis::Time,
             None => Axis::Phase,
         };
-        let curves = overlays(&runs, axis);
+        // Curves go into files: a table on the terminal does without, and rows of a motion are many.
+        let curves = if self.out.is_some() { overlays(&runs, axis) } else { Vec::new() };
         let answer = compare_answer(&runs, &numbers, &inputs, &curves);
-        let charts = if self.out.is_some() { compare_charts(&curves) } else { Vec::new() };
+        let charts = compare_charts(&curves);
         let page = compare_page(&answer, &runs, (&numbers, &inputs), &charts);
         let mut text = if self.json {
             let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
