@@ -14,8 +14,6 @@ use scene::{
     study::{RefusedCase, Study, StudyCase},
 };
 
-use files::{most, read_regular_text};
-
 use crate::{
     certificate::Written, error::CommandError, gears, output::ResultDirectory, phases::Phases, scene::Scene, talk,
 };
@@ -121,7 +119,7 @@ fn has_report(folder: &Path) -> bool {
 
 /// The case that a folder holds which an earlier run has left; `None` where its result does not hold.
 fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandError> {
-    let summary = summary(folder)?;
+    let summary = report::compare::summary(folder)?;
     if summary["certificate"] == "failed" {
         return Ok(None);
     }
@@ -140,14 +138,4 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
 fn words(remark: &serde_json::Value) -> Option<String> {
     let text = remark["text"].as_str()?;
     Some(remark["hint"].as_str().map_or_else(|| text.to_owned(), |hint| format!("{text}; {hint}")))
-}
-
-/// The summary of a case.
-fn summary(folder: &Path) -> Result<serde_json::Value, CommandError> {
-    let path = folder.join("summary.json");
-    let text = read_regular_text(&path, most::SUMMARY).map_err(|e| CommandError::write(&path, &e))?;
-    serde_json::from_str(&text).map_err(|e| {
-        let hint = Some("does another program write into the folder?".into());
-        CommandError::failed(format_args!("{}: {e}", path.display()), hint)
-    })
 }

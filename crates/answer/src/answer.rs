@@ -7,6 +7,9 @@ use crate::{Checks, Cost, Remark, Table};
 /// The answer to one question, whatever its kind.
 #[derive(Debug, Clone, Default)]
 pub struct Answer {
+    /// Kind of question that it answers: `pair`, `gearbox`, `plan`, `study`, `optimum`, `chart`, `envelope`,
+    /// `comparison`. Answers of one kind can be compared.
+    pub kind: &'static str,
     /// Name of the document, for titles.
     pub name: String,
     /// The document with every default written out.

@@ -83,22 +83,31 @@ impl Table {
         if distinct.len() < names.len() {
             return Err(damaged("two columns of one name".to_owned()));
         }
-        let mut fields: Vec<Vec<String>> = names.iter().map(|_| Vec::new()).collect();
+        // First which columns are numbers, so that no number of a long file is kept as a text.
+        let mut are_numbers = vec![true; names.len()];
         for record in reader.records() {
             let record = record.map_err(|e| damaged(e.to_string()))?;
-            fields.iter_mut().zip(&record).for_each(|(column, field)| column.push(field.to_owned()));
+            for (are, field) in are_numbers.iter_mut().zip(&record) {
+                *are = *are && field.parse::<f64>().is_ok();
+            }
         }
-        let numbers = |column: &[String]| column.iter().map(|field| field.parse().ok()).collect::<Option<Vec<f64>>>();
-        let columns = fields.into_iter().map(|column| match numbers(&column) {
-            Some(list) => Values::Numbers(list),
-            None => Values::Texts(column),
-        });
+        let empty = |are: bool| if are { Values::Numbers(Vec::new()) } else { Values::Texts(Vec::new()) };
+        let mut columns: Vec<Values> = are_numbers.into_iter().map(empty).collect();
+        for record in ::csv::Reader::from_reader(text.as_bytes()).records() {
+            let record = record.map_err(|e| damaged(e.to_string()))?;
+            for (column, field) in columns.iter_mut().zip(&record) {
+                match column {
+                    Values::Numbers(list) => list.extend(field.parse::<f64>()),
+                    Values::Texts(list) => list.push(field.to_owned()),
+                }
+            }
+        }
         let columns = names.into_iter().zip(columns);
         let columns = columns.map(|(name, values)| Column { name: name.into(), meaning: "".into(), values }).collect();
         Ok(Self { columns, ..Self::new(name.to_owned()) })
     }
 
-    /// The same, its file with commas being there already.
+    /// A table whose file with commas is there already.
     #[must_use]
     pub fn written(self) -> Self {
         Self { is_written: true, ..self }

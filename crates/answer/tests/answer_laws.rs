@@ -89,3 +89,21 @@ fn rows_of_several_groups_read_back() {
         reader.get_row_iter(None).unwrap().map(|row| row.unwrap().get_double(0).unwrap().to_bits()).collect();
     assert!(read.iter().eq(values.iter().map(|v| v.to_bits()).collect::<Vec<_>>().iter()));
 }
+
+/// A table reads back from its file to the same names, bits and words; what is no such file is refused.
+#[test]
+fn a_table_reads_back_from_its_file() {
+    let table = Table::new("t")
+        .texts("way", "", ["up", "a, \"b\"\nc", ""])
+        .numbers("x_um", "", [0.1 + 0.2, -1e-300, f64::INFINITY])
+        .texts("label", "", ["1", "2", "three"]);
+    let read = Table::read("t", &table.csv(), 3).unwrap();
+    assert_eq!(read.columns.iter().map(|c| &c.name).collect::<Vec<_>>(), ["way", "x_um", "label"]);
+    assert!(read.columns.iter().zip(&table.columns).all(|(a, b)| a.values == b.values), "{read:?}");
+    let nan = Table::read("t", "x\nNaN\n", 1).unwrap();
+    assert!(nan.find("x").is_some_and(|x| x.len() == 1 && x[0].is_nan()));
+    for (text, most) in [("a,b\n1\n", 9), ("a,a\n1,2\n", 9), ("a,b\n1,2\n", 1)] {
+        let refused = Table::read("t", text, most).unwrap_err();
+        assert!(refused.to_string().starts_with("t.csv: ") && !refused.hint().is_empty(), "{refused}");
+    }
+}

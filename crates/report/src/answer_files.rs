@@ -15,6 +15,7 @@ struct Summary<'a> {
     program: &'static str,
     version: &'static str,
     schema: u32,
+    kind: &'static str,
     name: &'a str,
     inputs: &'a Value,
     #[serde(flatten)]
@@ -105,6 +106,7 @@ fn summary(answer: &Answer, files: &[String]) -> String {
         program: "ale-gear",
         version: env!("CARGO_PKG_VERSION"),
         schema: SUMMARY_SCHEMA,
+        kind: answer.kind,
         name: &answer.name,
         inputs: &answer.inputs,
         info: &answer.info,

@@ -47,10 +47,20 @@ impl CompareArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let runs = self.folders.iter().map(|f| ResultFolder::read(f)).collect::<Result<Vec<_>, _>>()?;
         let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
+        if let Some(other) = runs.iter().find(|run| run.kind() != runs[0].kind()) {
+            let [first, other] = [&runs[0], other].map(|run| (run.label(), run.kind()));
+            return Err(CommandError::input(
+                format_args!(
+                    "{} answers another kind of question than {}: {} and {}",
+                    other.0, first.0, other.1, first.1
+                ),
+                Some("compare answers to one kind of question".into()),
+            ));
+        }
         if let Some(alone) = without_a_number(&runs, &numbers) {
             return Err(CommandError::input(
                 format_args!("{} has no number of its headline in common with the others", alone.label()),
-                Some("compare answers to the same kind of question".into()),
+                Some("compare runs of which some numbers are the same".into()),
             ));
         }
         let axis = match self.over {
@@ -59,9 +69,10 @@ impl CompareArgs {
             None if runs.iter().all(ResultFolder::is_motion) => Axis::Time,
             None => Axis::Phase,
         };
-        let curves = overlays(&runs, axis);
+        // Curves go into files: a table on the terminal does without, and rows of a motion are many.
+        let curves = if self.out.is_some() { overlays(&runs, axis) } else { Vec::new() };
         let answer = compare_answer(&runs, &numbers, &inputs, &curves);
-        let charts = if self.out.is_some() { compare_charts(&curves) } else { Vec::new() };
+        let charts = compare_charts(&curves);
         let page = compare_page(&answer, &runs, (&numbers, &inputs), &charts);
         let mut text = if self.json {
             let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();

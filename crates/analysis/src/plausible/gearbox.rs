@@ -13,6 +13,8 @@ use crate::remark::{self, rounded};
 
 /// Stiffer than cemented carbide, MPa.
 const HARD: f64 = 1e6;
+/// Young's modulus of steel, MPa: what sizes are judged by where that of a shaft may be in another unit.
+const STEEL: f64 = 2.06e5;
 /// Stiffness of a bearing over Young's modulus times the diameter of its shaft: a ring of rolling elements has some 0.02
 /// to 0.3, a seat of rubber 1e-3.
 const STIFFNESSES: [f64; 2] = [3e-4, 10.0];
@@ -20,8 +22,9 @@ const STIFFNESSES: [f64; 2] = [3e-4, 10.0];
 const MASSES: [f64; 2] = [0.02, 20.0];
 /// Radius of gyration of a gear over its tip radius: 0.7 is a disc, 1 a rim.
 const GYRATIONS: [f64; 2] = [0.05, 3.0];
-/// Inertia of a machine over that of all gears on its shaft as solid discs, above: a flywheel has some thousand.
-const MACHINE: f64 = 1e5;
+/// Inertia of a machine over that of all gears on its shaft as solid discs, above: a generator on a small pinion
+/// has some million.
+const MACHINE: f64 = 1e7;
 
 /// What is unlikely in a gearbox file, with the unit that may have been meant.
 pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
@@ -75,12 +78,12 @@ fn diameter(shaft: &GearboxShaft, at: f64) -> Option<f64> {
 /// The stiffness across the axis, over that of solid steel of the shaft's size.
 fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<Remark> {
     let across = (bearing.stiffness[0][0] * bearing.stiffness[1][1]).abs().sqrt();
-    let solid = 2.06e5 * diameter(shaft, bearing.position)?;
+    let solid = STEEL * diameter(shaft, bearing.position)?;
     let usual = |x: f64| (STIFFNESSES[0]..=STIFFNESSES[1]).contains(&(x / solid));
     (across > 0.0 && bearing.rolling.is_none() && !shaft.held && !usual(across)).then(|| {
         let than = if across < STIFFNESSES[0] * solid { "softer than a seat of rubber" } else { "as good as rigid" };
         let other = meant("stiffness_n_per_mm", across, usual);
-        let (across, diameter) = (rounded(across), rounded(solid / 2.06e5));
+        let (across, diameter) = (rounded(across), rounded(solid / STEEL));
         remark::unlikely_bearing_stiffness(bearing.name.as_str(), across, than, diameter, other)
     })
 }

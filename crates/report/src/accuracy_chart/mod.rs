@@ -45,6 +45,7 @@ pub struct Chart {
 /// When the system refuses, or a picture was not drawn.
 pub fn write_chart(scene: &Scene, chart: Chart, cost: Cost, results: &ResultDirectory) -> Result<Written, ReportError> {
     let answer = Answer {
+        kind: "chart",
         name: scene.name.clone(),
         inputs: json!(scene),
         tables: chart.tables,

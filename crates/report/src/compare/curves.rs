@@ -124,12 +124,15 @@ fn places(table: &Table, axis: Axis) -> Option<(&str, Vec<(f64, usize)>)> {
     }
 }
 
-/// Kinds of row by the words of the first column, and the kind of each row; one without a name where that has numbers.
-/// `None` where they are too many.
+/// Kinds of row by the words of the first column, and the kind of each row; one without a name where that has numbers,
+/// or in each row another word, which tells no kinds apart. `None` where kinds are too many.
 fn kinds(table: &Table) -> Option<(Vec<&str>, Vec<usize>)> {
     let Some(Values::Texts(words)) = table.columns.first().map(|c| &c.values) else {
         return Some((vec![""], vec![0; table.rows()]));
     };
+    if words.iter().collect::<HashSet<_>>().len() == words.len() {
+        return Some((vec![""], vec![0; words.len()]));
+    }
     let mut kinds: Vec<&str> = Vec::new();
     let mut of_row = Vec::with_capacity(words.len());
     for word in words {
@@ -191,6 +194,11 @@ mod tests {
         assert_eq!(places(&table, Axis::Phase), Some(("speed_rpm", vec![(1.0, 0), (2.0, 1), (2.0, 2)])));
         assert_eq!(kinds(&Table::read("x", "a,b\n1,2\n", 9).unwrap()), Some((vec![""], vec![0])));
         let many: String = (0..=MOST_KINDS).map(|i| format!("w{i},1\n")).collect();
+        assert_eq!(
+            kinds(&Table::read("x", &format!("way,a\n{many}"), 9).unwrap()),
+            Some((vec![""], vec![0; 1 + MOST_KINDS]))
+        );
+        let many = many.repeat(2);
         assert_eq!(kinds(&Table::read("x", &format!("way,a\n{many}"), 9).unwrap()), None);
     }
 }

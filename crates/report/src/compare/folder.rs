@@ -47,7 +47,7 @@ impl ResultFolder {
         Ok(new)
     }
 
-    /// The same from the texts of `summary.json` and of its first table; `path` is what messages name.
+    /// A result from the texts of `summary.json` and of its first table; `path` is what messages name.
     ///
     /// # Errors
     /// As [`ResultFolder::read`].
@@ -81,6 +81,11 @@ impl ResultFolder {
     pub fn missed(&self) -> Vec<&str> {
         let listed = self.summary["certificate_missed"].as_array();
         listed.into_iter().flatten().filter_map(Value::as_str).collect()
+    }
+
+    /// Kind of question that it answers.
+    pub fn kind(&self) -> &str {
+        self.summary["kind"].as_str().unwrap_or_default()
     }
 
     /// Everything but the rows.

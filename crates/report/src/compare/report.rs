@@ -108,6 +108,7 @@ pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[Wo
         run.missed().into_iter().map(move |words| remark::result_does_not_hold(letter(i), words)).collect::<Vec<_>>()
     });
     Answer {
+        kind: "comparison",
         name: format!("{} runs side by side", runs.len()),
         inputs: json!({ "runs": labels }),
         tables: vec![rows::numbers(runs.len(), numbers), rows::curves(curves)],

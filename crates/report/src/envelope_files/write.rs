@@ -25,6 +25,7 @@ pub fn envelope_answer(of: &EnvelopeResult, cost: Cost) -> Answer {
     }
     let hint = "the table says why";
     Answer {
+        kind: "envelope",
         name: "Envelope: where such solvers fail".to_owned(),
         inputs: json!({
             "modes": of.modes.iter().map(|(mode, _)| mode.label()).collect::<Vec<_>>(),

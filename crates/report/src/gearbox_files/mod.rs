@@ -38,6 +38,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         }
     }
     Answer {
+        kind: "gearbox",
         name: file.name.clone(),
         inputs: json!({ "gearbox": file.file }),
         tables,

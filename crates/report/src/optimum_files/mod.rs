@@ -62,6 +62,7 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
     }
     let goals = Goals::of(optimum);
     Answer {
+        kind: "optimum",
         name: plan.name.clone(),
         inputs: json!({ "scene": plan.scene_file, "goal": plan.goal }),
         tables,

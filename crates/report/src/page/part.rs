@@ -111,13 +111,13 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// The same in a colour.
+    /// A cell in a colour: a class of `style.css`.
     #[must_use]
     pub fn toned(self, tone: &str) -> Self {
         Self { tone: tone.to_owned(), ..self }
     }
 
-    /// The same with words for a pointer.
+    /// A cell with words for a pointer.
     #[must_use]
     pub fn told(self, told: String) -> Self {
         Self { told, ..self }

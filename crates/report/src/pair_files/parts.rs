@@ -39,6 +39,7 @@ pub(super) fn pair_answer<H: Serialize>(
     // They stand by themselves.
     info.retain(|key, _| !key.starts_with("certificate"));
     Answer {
+        kind: "pair",
         name: scene.name.clone(),
         inputs: json(serde_json::to_value(scene)),
         tables,

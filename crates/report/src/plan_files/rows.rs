@@ -36,13 +36,13 @@ pub struct CaseLines {
     outputs: usize,
 }
 
-/// Status of a case with a result, and of one without.
+/// Status of a case with a result.
 pub const SOLVED: &str = "solved";
 /// Status of a case without a result.
 pub const FAILED: &str = "failed";
 
 impl CaseRow {
-    /// Its status in a word.
+    /// Status of the case in a word.
     pub fn status(&self) -> &'static str {
         if self.outcome.is_ok() { SOLVED } else { FAILED }
     }

@@ -56,6 +56,7 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
         (column.name.clone(), spread)
     };
     Answer {
+        kind: "plan",
         name: plan.name.clone(),
         inputs: json!({ "plan": {
             "scene": plan.scene_file,

@@ -26,6 +26,7 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
         })
     });
     Answer {
+        kind: "study",
         name: study.name.clone(),
         inputs: json!({ "study": study.file.display().to_string(), "parameter": study.parameter }),
         tables: vec![study_rows(study, findings)],
@@ -38,7 +39,7 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
         }),
         remarks: warnings.to_vec(),
         // What differs from run to run is no result.
-        info: Map::from_iter([("wall_s_by_case".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
+        info: Map::from_iter([("wall_s".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
         cost,
         ..Answer::default()
     }

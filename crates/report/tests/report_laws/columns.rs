@@ -59,7 +59,7 @@ fn columns_are_named_by_their_units_and_documented() {
     holds(&ENERGY, "energy.csv");
 }
 
-/// Set, it writes the lists again: `UPDATE_OUTPUTS=1 cargo test --workspace --test report_laws -- lists_of_columns`.
+/// Set to 1, the test writes the lists again.
 const UPDATE: &str = "UPDATE_OUTPUTS";
 
 /// Numbers of harmonics as `<h>`, of orders as `<n>`.
