@@ -10,6 +10,7 @@
 //! | `gearbox` | shafts, bearings and several meshes |
 //! | `at_rest` | a scene at rest: held in memory, written when it is asked for |
 //! | `result` | what a run gives: columns, headline numbers, files |
+//! | `remark` | what a result says beside its numbers |
 //! | `views` | arrays of the program as arrays of NumPy, without a copy |
 //! | `work` | runs without the interpreter's lock, with progress and Ctrl-C |
 //! | `error` | errors as exceptions with place, key and hint |
@@ -22,6 +23,7 @@ mod error;
 mod gearbox;
 mod mesh;
 mod pair;
+mod remark;
 mod result;
 mod scene;
 mod values;
@@ -34,7 +36,7 @@ use pyo3::prelude::*;
 #[pymodule(gil_used = false)]
 mod _native {
     #[pymodule_export]
-    use crate::{gearbox::Gearbox, mesh::Mesh, pair::Pair, result::Result, scene::Scene};
+    use crate::{gearbox::Gearbox, mesh::Mesh, pair::Pair, remark::Remark, result::Result, scene::Scene};
 
     /// Version of the program.
     #[pymodule_export]

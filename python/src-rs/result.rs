@@ -21,6 +21,7 @@ use crate::{
     arguments::{path, text},
     at_rest::{AtRest, names},
     error::{Complaint, Kind},
+    remark::Remark,
     scene::{of_json, of_value},
     views::view,
 };
@@ -33,7 +34,7 @@ pub struct Result {
     /// Its tables; the first one is that of its rows.
     tables: Vec<Table>,
     headline: Value,
-    warnings: Vec<String>,
+    remarks: Vec<answer::Remark>,
     files: Files,
     /// Why it does not hold; nothing where it does.
     failure: Option<Complaint>,
@@ -65,7 +66,7 @@ impl Result {
             name: name.to_owned(),
             tables: vec![solved.table()],
             headline: solved.headline()?,
-            warnings: solved.warnings().iter().map(ToString::to_string).collect(),
+            remarks: solved.warnings().to_vec(),
             failure: solved.verdict().err().map(Complaint::from),
             files: Files::Held(Box::new(solved), OnceLock::new()),
         })
@@ -74,8 +75,7 @@ impl Result {
     /// Of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
     pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
         let Answer { name, tables, headline, remarks, .. } = answer;
-        let warnings = remarks.iter().map(ToString::to_string).collect();
-        Self { kind, name, tables, headline, warnings, files: Files::Written(folder), failure }
+        Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure }
     }
 
     /// Its columns, in their order.
@@ -205,8 +205,8 @@ impl Result {
 
     /// What a user should hear.
     #[getter]
-    fn warnings(&self) -> Vec<String> {
-        self.warnings.clone()
+    fn remarks(&self) -> Vec<Remark> {
+        Remark::all(&self.remarks)
     }
 
     /// Whether the result holds: its certificate, and the accuracy that was asked for.

@@ -14,6 +14,7 @@ use crate::{
     arguments::{Given, path, text, whole},
     error::{Complaint, Kind},
     mesh::Mesh,
+    remark::Remark,
     values::settings,
 };
 
@@ -187,12 +188,12 @@ impl Scene {
     }
 
     /// What the command looks at before it begins: that a pair runs, and that memory is enough. What comes back are
-    /// warnings.
-    fn validate(&self) -> Result<Vec<String>, Complaint> {
+    /// remarks.
+    fn validate(&self) -> Result<Vec<Remark>, Complaint> {
         let scene = self.ready();
         let pair = scene.gear_pair()?;
         check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
-        Ok(gears::warnings(&pair).iter().map(ToString::to_string).collect())
+        Ok(Remark::all(&gears::warnings(&pair)))
     }
 
     /// Geometry of the pair as the summary has it: diameters, contact ratios, backlash.

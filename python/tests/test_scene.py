@@ -92,7 +92,9 @@ def test_a_pair_that_cannot_run_is_refused_by_validate():
     assert caught.value.hint
     assert Scene(TABLES).validate() == []
     told = Scene(TABLES).set({"pinion.teeth": 12, "pinion.mesher.order": 2}).validate()
-    assert any("undercut" in text for text in told), told
+    assert [said.code for said in told] == ["undercut"], told
+    assert told[0].values["gear"] == "pinion" and "profile_shift" in told[0].hint
+    assert str(told[0]) == f"{told[0].text}; {told[0].hint}"
 
 
 def test_a_scene_with_another_load_leaves_the_first_one_alone(scene):

@@ -5,6 +5,7 @@ use std::path::Path;
 use analysis::{
     PhaseWork, RestRequest, SharedModels, Solved, WarningsAtRest,
     parameter_study::{CaseFailure, CaseRecord},
+    remark::{self, Remark},
     run_phase, side_by_side, solve_at_rest,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
@@ -89,7 +90,7 @@ fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Res
         cost,
         steps: steps(&solved.headline()?),
         has_report: has_report(&folder),
-        warnings: solved.warnings().iter().map(ToString::to_string).collect(),
+        warnings: solved.warnings().to_vec(),
     }))
 }
 
@@ -130,12 +131,6 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
         cost: serde_json::from_value(summary["cost"].clone()).unwrap_or_default(),
         steps: steps(&summary["headline"]),
         has_report: has_report(folder),
-        warnings: remarks.iter().filter_map(words).collect(),
+        warnings: remarks.iter().filter_map(|said| Remark::read(said, remark::ALL)).collect(),
     }))
-}
-
-/// Sentence and hint of a remark in a summary.
-fn words(remark: &serde_json::Value) -> Option<String> {
-    let text = remark["text"].as_str()?;
-    Some(remark["hint"].as_str().map_or_else(|| text.to_owned(), |hint| format!("{text}; {hint}")))
 }

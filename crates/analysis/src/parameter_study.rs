@@ -6,7 +6,10 @@ use scene::{
 };
 use study::{Columns, correlation as study_correlation};
 
-use crate::facts::GeometryFacts;
+use crate::{
+    facts::GeometryFacts,
+    remark::{self, Remark},
+};
 
 /// What a case left behind.
 #[derive(Debug, Clone)]
@@ -42,7 +45,7 @@ pub struct Findings {
     /// Pairs of columns of which one may follow the other.
     pub followers: Vec<Follower>,
     /// What could not be read off rows that are there.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<Remark>,
 }
 
 /// Numbers of one case.
@@ -117,8 +120,8 @@ pub fn findings(study: &Study, runs: &[CaseOutcome<'_>]) -> Result<Findings, Cas
                 let found =
                     run.map(|run| study_correlation(run.rows.series(&follow.column)?, run.rows.series(beside)?));
                 if let Some(Err(e)) = &found {
-                    let label = &study.cases[i].label;
-                    all.warnings.push(format!("{label}: no correlation of {} with {beside}: {e}", follow.column));
+                    let said = remark::no_correlation(follow.column.as_str(), beside.as_str(), e.to_string());
+                    all.warnings.push(said.about(&study.cases[i].label));
                 }
                 correlation.push(found.and_then(Result::ok).flatten());
             }

@@ -4,14 +4,6 @@
 //! of it.
 
 pub use answer::Remark;
-use answer::RemarkValue;
-
-use crate::plausible::digits;
-
-/// A number of which words show the digits that a user would write.
-pub(crate) fn rounded(value: f64) -> RemarkValue {
-    RemarkValue::Rounded(value, digits(value))
-}
 
 answer::remarks! {
     // Bodies and meshes.
@@ -25,8 +17,8 @@ answer::remarks! {
         "the {gear}'s mesh has {element} elements, which lock at a Poisson's ratio of {poisson}: the body is too stiff, linear ones by a multiple",
         "mesh it with hexahedra";
     stiff_elements(gear, element)
-        "the {gear}'s mesh has linear {element} elements, which are several times too stiff in bending where few of them lie across a tooth: mesh it with second-order elements or with hexahedra",
-        "";
+        "the {gear}'s mesh has linear {element} elements, which are several times too stiff in bending where few of them lie across a tooth",
+        "mesh it with second-order elements or with hexahedra";
     mesh_finding(file, finding) "{file}: {finding}", "";
     flanks_found(file, flanks, deviation_um, turned)
         "{file}: no flank is named; {flanks} flanks found by fit, nodes within {deviation_um:.2} um{turned}",
@@ -41,8 +33,8 @@ answer::remarks! {
 
     // Resolution of the contact.
     few_face_elements(gear, elements, elements_enough)
-        "{elements} elements along the face of the {gear} are few for its width: {elements_enough} would do (`elements_face` in [{gear}.mesher]; left out, the program chooses)",
-        "";
+        "{elements} elements along the face of the {gear} are few for its width",
+        "{elements_enough} would do (`elements_face` in [{gear}.mesher]; left out, the program chooses)";
     few_slices(slices, mean_error_percent, swing_error_percent, peak_error_percent, slices_enough)
         "{slices} slices are few for this pair: a row of springs over its gaps is off by {mean_error_percent:.1} % in the mean, {swing_error_percent:.0} % in the peak to peak and {peak_error_percent:.0} % in the largest line load",
         "{slices_enough} would do (`slices` in [contact]; left out, the program chooses)";
@@ -103,8 +95,8 @@ answer::remarks! {
 
     // Motion.
     coarse_steps(steps_in_period, motion, frequency_hz, or)
-        "a step is 1/{steps_in_period:.1} of the period of the {motion} ({frequency_hz:.0} Hz), which it cannot show: take more `steps_per_mesh_cycle` or `steps_per_resonance`{or}",
-        "";
+        "a step is 1/{steps_in_period:.1} of the period of the {motion} ({frequency_hz:.0} Hz), which it cannot show",
+        "take more `steps_per_mesh_cycle` or `steps_per_resonance`{or}";
     slow_pair(periods, fastest_hz, steps)
         "a mesh cycle lasts {periods:.0} periods of the fastest motion that steps have to show ({fastest_hz:.3e} Hz), so it takes {steps:.0} steps; so slow a pair has nearly the answer of `kind = \"static\"`",
         "";
@@ -118,39 +110,39 @@ answer::remarks! {
         "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
         "give {or}`thickness_allowance_mm` in [pinion] and [wheel]";
     repeats_and_drifts(tolerance, mesh_cycles, off)
-        "the motion repeated itself to {tolerance:.0e} of its peak to peak after {mesh_cycles} mesh cycles, but those that were written do so to {off:.1e} only: ask for a smaller `periodic_tolerance`, or give a transient more damping",
-        "";
+        "the motion repeated itself to {tolerance:.0e} of its peak to peak after {mesh_cycles} mesh cycles, but those that were written do so to {off:.1e} only",
+        "ask for a smaller `periodic_tolerance`, or give a transient more damping";
     not_periodic(mesh_cycles, off, tolerance, why)
         "the motion does not repeat itself: after {mesh_cycles} mesh cycles it is off by {off:.1e} of its peak to peak (asked: {tolerance:.0e}); {why}",
         "";
     subharmonic(mesh_cycles) "the motion repeats itself after {mesh_cycles} mesh cycles: a subharmonic answer", "";
     work_open(share)
-        "energy closes to {share:.1e} of the work that goes through the pair only (asked: 1e-6): take smaller steps or `method = \"energy\"`",
-        "";
+        "energy closes to {share:.1e} of the work that goes through the pair only (asked: 1e-6)",
+        "take smaller steps or `method = \"energy\"`";
     vibration_energy_open(share, limit)
-        "energy closes to {share:.1e} of the energy of the vibration only (asked: {limit:.0e}): take smaller steps or `method = \"energy\"`",
-        "";
+        "energy closes to {share:.1e} of the energy of the vibration only (asked: {limit:.0e})",
+        "take smaller steps or `method = \"energy\"`";
     gap_beyond_backlash(gap_um, backlash_um)
         "the flanks part by {gap_um:.1} um, more than the backlash of {backlash_um:.1} um: the coast flanks would touch",
         "use `flanks = \"both\"`";
     both_flanks_press(rows, bound_um)
-        "in {rows} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {bound_um:.3} um: a backlash keeps them apart",
-        "";
+        "in {rows} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {bound_um:.3} um",
+        "a backlash keeps them apart";
     speed_has_changed(mean_rpm, start_rpm)
         "the driver's mean speed is {mean_rpm:.1}/min, it began with {start_rpm:.1}/min: mesh cycles, and orders of the spectrum, are those of the start",
         "";
     few_rows(rows, share_percent, from_order, to_order, limit_percent)
-        "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (told from {limit_percent:.0} % on); peaks fall between the rows: take more `steps_per_mesh_cycle`",
-        "";
+        "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (told from {limit_percent:.0} % on); peaks fall between the rows",
+        "take more `steps_per_mesh_cycle`";
     few_steps(steps_in_period, order, share_percent, steps_enough)
-        "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (told below 1/{steps_enough:.0}): take more `steps_per_mesh_cycle` or `steps_per_resonance`",
-        "";
+        "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (told below 1/{steps_enough:.0})",
+        "take more `steps_per_mesh_cycle` or `steps_per_resonance`";
     fast_rotation(share_percent, limit_percent)
         "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (told from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",
         "";
     quasi_static_elasticity(harmonic, harmonic_hz, ratio, gear, mode, change_um, change_percent, limit_percent, remedy, price)
-        "mesh harmonic {harmonic} at {harmonic_hz:.0} Hz is {ratio:.2} of the {gear}'s {mode}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {change_um:.3} um, {change_percent:.0} % of it (told from {limit_percent:.1} % on): {remedy}, {price}",
-        "";
+        "mesh harmonic {harmonic} at {harmonic_hz:.0} Hz is {ratio:.2} of the {gear}'s {mode}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {change_um:.3} um, {change_percent:.0} % of it (told from {limit_percent:.1} % on)",
+        "{remedy}, {price}";
     inertia_not_judged()
         "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed says so",
         "";
@@ -205,8 +197,8 @@ answer::remarks! {
         "bearing {bearing}: {pressure_mpa:.0} MPa on a {element}, beyond the {limit_mpa:.0} MPa of the static rating (ISO 76): steel no longer stays elastic",
         "";
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
-        "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm: say `seat_mm = {better_seat_mm:.3}`",
-        "";
+        "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
+        "say `seat_mm = {better_seat_mm:.3}`";
     gears_at_one_place(gear, other, shaft) "gears {gear} and {other} stand at one place of shaft {shaft}", "";
     gear_beyond_shaft(gear, beyond_mm, shaft)
         "gear {gear} reaches {beyond_mm:.3} mm beyond the end of shaft {shaft}", "";
@@ -234,10 +226,9 @@ answer::remarks! {
         "the limit of the pressure, {limits}, is {by}: no design was found that holds it", "";
     cases_unsolved(cases, of_cases)
         "{cases} of {of_cases} cases have no result: `reason` in cases.csv says why", "";
-    case_unsolved(case, reason)
-        "{case}: no result: {reason}; tables, charts and correlations are without it", "";
-    case_said(case, words) "{case}: {words}", "";
-    study_said(words) "{words}", "";
+    case_unsolved(reason) "no result: {reason}; tables, charts and correlations are without it", "";
+    no_correlation(column, beside, reason) "no correlation of {column} with {beside}: {reason}", "";
+    no_full_model(reason) "nothing to compare every degree of freedom with: {reason}", "";
     result_does_not_hold(run, words) "{run} DOES NOT HOLD: {words}", "";
 
     // Stores and pictures.

@@ -2,30 +2,26 @@
 
 use std::fmt;
 
-use serde::{Serialize, Serializer, ser::SerializeMap};
+use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
+use serde_json::Value;
 
 /// A number or a text of a remark.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]
 pub enum RemarkValue {
     /// A number, in the unit that its name ends with.
     Number(f64),
-    /// A number with the digits that words show of it.
-    #[serde(serialize_with = "number_alone")]
-    Rounded(f64, String),
     /// A name, a file, or the words of somebody else.
     Text(String),
 }
 
-fn number_alone<S: Serializer>(number: &f64, _: &str, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.serialize_f64(*number)
-}
-
+/// A number with [`digits`] where the sentence asks for no other.
 impl fmt::Display for RemarkValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Number(number) => number.fmt(f),
-            Self::Rounded(_, text) | Self::Text(text) => f.write_str(text),
+            Self::Number(number) if f.precision().is_some() => number.fmt(f),
+            Self::Number(number) => f.write_str(&digits(*number)),
+            Self::Text(text) => f.write_str(text),
         }
     }
 }
@@ -34,8 +30,19 @@ impl fmt::LowerExp for RemarkValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => fmt::LowerExp::fmt(number, f),
-            Self::Rounded(_, text) | Self::Text(text) => f.write_str(text),
+            Self::Text(text) => f.write_str(text),
         }
+    }
+}
+
+/// Three digits, all of a whole number below ten million, without an exponent where that is short.
+pub fn digits(value: f64) -> String {
+    let decimals = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 5.0) as usize;
+    if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) {
+        format!("{value:.2e}")
+    } else {
+        let text = format!("{value:.decimals$}");
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }
 }
 
@@ -92,6 +99,14 @@ impl Remark {
     #[doc(hidden)]
     pub fn new(kind: &'static RemarkKind, values: Vec<RemarkValue>) -> Self {
         Self { kind, values, about: None }
+    }
+
+    /// The remark that an entry of `remarks` in a summary is of, among `kinds`; `None` where it is none of them.
+    pub fn read(entry: &Value, kinds: &[&'static RemarkKind]) -> Option<Self> {
+        let kind = kinds.iter().find(|kind| entry["code"] == kind.code)?;
+        let value = |name: &&str| RemarkValue::deserialize(&entry["values"][*name]).ok();
+        let values = kind.values.iter().map(value).collect::<Option<_>>()?;
+        Some(Self { kind, values, about: entry["about"].as_str().map(str::to_owned) })
     }
 
     /// The same about one of several meshes or cases, whose name then stands before the sentence.
@@ -193,6 +208,8 @@ macro_rules! remarks {
 
 #[cfg(test)]
 mod tests {
+    use super::Remark;
+
     remarks! {
         off_limit(gear, share_percent) "the {gear} is {share_percent:.1} % off", "take fewer than {share_percent:.0}";
         nothing_to_do() "that is so", "";
@@ -209,6 +226,9 @@ mod tests {
             "hint": "take fewer than 12", "values": { "gear": "wheel", "share_percent": 12.345 },
         });
         assert_eq!(json, expected);
+        let about = said.clone().about("mesh 1");
+        assert_eq!(Remark::read(&json, ALL), Some(about), "it is read as it was written");
+        assert_eq!(Remark::read(&serde_json::json!({ "code": "off_limit", "values": {} }), ALL), None);
         assert_ne!(said, off_limit("wheel", 12.346));
         assert_eq!((nothing_to_do().to_string(), nothing_to_do().hint()), ("that is so".to_owned(), None));
         assert_eq!(ALL.iter().map(|kind| kind.code).collect::<Vec<_>>(), ["off_limit", "nothing_to_do"]);

@@ -68,4 +68,4 @@ pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.
-pub const SUMMARY_SCHEMA: u32 = 3;
+pub const SUMMARY_SCHEMA: u32 = 4;

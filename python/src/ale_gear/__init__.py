@@ -10,7 +10,7 @@
 Keys, columns and signs are those of the command: docs/scene.md, docs/outputs.md, docs/conventions.md.
 """
 
-from ._native import Gearbox, Mesh, Pair, Result, Scene, __version__
+from ._native import Gearbox, Mesh, Pair, Remark, Result, Scene, __version__
 from .errors import (
     AleGearError,
     ArgumentError,
@@ -31,6 +31,7 @@ __all__ = [
     "Mesh",
     "NoResultError",
     "Pair",
+    "Remark",
     "Result",
     "Scene",
     "SceneError",

@@ -6,6 +6,7 @@ use analysis::{
     SharedModels,
     accuracy_chart::{SpeedUp, speed_up},
     parameter_study::{Findings, findings},
+    remark::{self, Remark},
     resolution::with_slices,
 };
 use report::study_files::{StudyResult, columns_of, study_answer, study_digest, study_page, study_warnings};
@@ -88,7 +89,7 @@ impl StudyArgs {
         };
         let mut warnings = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
-            warnings.push(analysis::remark::study_said(said));
+            warnings.push(said);
             None
         });
         let of = StudyResult {
@@ -111,10 +112,10 @@ impl StudyArgs {
 
 /// The whole model beside one case, where the study asks for it; alone on the machine, after all cases. An error says
 /// why there is none.
-fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Result<Option<SpeedUp>, String> {
+fn against_full(study: &Study, findings: &Findings, phases: &mut Phases) -> Result<Option<SpeedUp>, Remark> {
     let Some(full) = study.full else { return Ok(None) };
     let label = &study.cases[full.case].label;
-    let none = |why: &str| format!("nothing to compare every degree of freedom with: {label}: {why}");
+    let none = |why: &str| remark::no_full_model(why).about(label);
     if let Some(reason) = findings.reason(full.case) {
         return Err(none(reason));
     }

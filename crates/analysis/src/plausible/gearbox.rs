@@ -9,7 +9,7 @@ use scene::{
 };
 
 use super::material::{DENSITIES, SOFT};
-use crate::remark::{self, rounded};
+use crate::remark;
 
 /// Stiffer than cemented carbide, MPa.
 const HARD: f64 = 1e6;
@@ -53,7 +53,7 @@ fn young(shaft: &GearboxShaft) -> Option<Remark> {
     (!usual(young)).then(|| {
         let than = if young < SOFT { "softer than plastics" } else { "stiffer than any metal" };
         let other = meant("young_mpa", young, usual);
-        remark::unlikely_shaft_modulus(shaft.name.as_str(), rounded(young), than, other)
+        remark::unlikely_shaft_modulus(shaft.name.as_str(), young, than, other)
     })
 }
 
@@ -62,7 +62,7 @@ fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
     (!usual(density)).then(|| {
         let other = meant("density_kg_m3", density, usual);
-        remark::unlikely_shaft_density(shaft.name.as_str(), rounded(density), other)
+        remark::unlikely_shaft_density(shaft.name.as_str(), density, other)
     })
 }
 
@@ -83,7 +83,7 @@ fn stiffness(bearing: &GearboxBearing, shaft: &GearboxShaft) -> Option<Remark> {
     (across > 0.0 && bearing.rolling.is_none() && !shaft.held && !usual(across)).then(|| {
         let than = if across < STIFFNESSES[0] * solid { "softer than a seat of rubber" } else { "as good as rigid" };
         let other = meant("stiffness_n_per_mm", across, usual);
-        let (across, diameter) = (rounded(across), rounded(solid / STEEL));
+        let (across, diameter) = (across, solid / STEEL);
         remark::unlikely_bearing_stiffness(bearing.name.as_str(), across, than, diameter, other)
     })
 }
@@ -112,7 +112,7 @@ fn inertias(gear: &GearboxGear, disc: Disc) -> Vec<Remark> {
     let usual = |x: f64| (MASSES[0]..=MASSES[1]).contains(&(x / disc.mass));
     if let Some(own) = mass.filter(|&own| !usual(own)) {
         let other = meant("mass_kg", own, usual);
-        all.push(remark::unlikely_gear_mass(gear.name.as_str(), rounded(own), rounded(disc.mass), other));
+        all.push(remark::unlikely_gear_mass(gear.name.as_str(), own, disc.mass, other));
     }
     let weight = mass.filter(|&own| usual(own)).unwrap_or(disc.mass);
     for (key, own) in [("polar_inertia_kg_m2", polar), ("transverse_inertia_kg_m2", transverse)] {
@@ -120,7 +120,7 @@ fn inertias(gear: &GearboxGear, disc: Disc) -> Vec<Remark> {
         if let Some(own) = own.filter(|&own| !usual(own)) {
             let solid = 0.5 * weight * disc.radius * disc.radius;
             let other = meant(key, own, usual);
-            all.push(remark::unlikely_gear_inertia(gear.name.as_str(), key, rounded(own), rounded(solid), other));
+            all.push(remark::unlikely_gear_inertia(gear.name.as_str(), key, own, solid, other));
         }
     }
     all
@@ -139,7 +139,7 @@ fn machines(file: &Gearbox) -> Vec<Remark> {
         let (own, gears) = (1e-3 * inertia, of_shaft(shaft));
         (gears > 0.0 && own > MACHINE * gears).then(|| {
             let other = meant("inertia_kg_m2", own, |x| x < 1e3 * gears);
-            remark::unlikely_machine_inertia(place, rounded(own), rounded(own / gears), other)
+            remark::unlikely_machine_inertia(place, own, own / gears, other)
         })
     };
     std::iter::once(input).chain(torques).filter_map(unlikely).collect()

@@ -11,7 +11,7 @@ use super::{
     material::{DENSITIES, HEAVY, SOFT},
     refusal::doubtful,
 };
-use crate::remark::{self, rounded};
+use crate::remark;
 
 /// Helix angles that nobody makes, degrees: up to 45 degrees in rad.
 const FLAT: [f64; 2] = [0.02, 0.8];
@@ -59,7 +59,7 @@ fn material(name: &str, gear: &GearScene) -> Option<Remark> {
     let (young, density) = (gear.material.young_mpa, gear.material.density_kg_m3);
     (young < SOFT && density > HEAVY).then(|| {
         let other = meant("young_mpa", young, |x| x >= SOFT);
-        remark::soft_material(name, rounded(young), other)
+        remark::soft_material(name, young, other)
     })
 }
 
@@ -68,7 +68,7 @@ fn density(scene: &Scene, name: &str, gear: &GearScene) -> Option<Remark> {
     let known = (DENSITIES[0]..=DENSITIES[1]).contains(&density);
     (scene.analysis.kind == Kind::Dynamic && !known).then(|| {
         let other = meant("density_kg_m3", density, |x| (DENSITIES[0]..=DENSITIES[1]).contains(&x));
-        remark::unlikely_density(name, rounded(density), other)
+        remark::unlikely_density(name, density, other)
     })
 }
 
@@ -76,7 +76,7 @@ fn bore(name: &str, gear: &GearScene, exact: &Gear) -> Option<Remark> {
     let (bore, reference) = (gear.bore_diameter_mm, 2.0 * exact.reference_radius());
     (bore < BORE * reference).then(|| {
         let other = meant("bore_diameter_mm", bore, |x| (0.1 * reference..reference).contains(&x));
-        remark::small_bore(name, rounded(bore), rounded(reference), other)
+        remark::small_bore(name, bore, reference, other)
     })
 }
 
@@ -84,7 +84,7 @@ fn thinning(name: &str, gear: &GearScene) -> Option<Remark> {
     let thinner = gear.thickness_allowance_mm;
     (thinner > 0.0 && thinner < THIN_MM).then(|| {
         let other = meant("thickness_allowance_mm", thinner, |x| x > THIN_MM && x < 1.0);
-        remark::small_thinning(name, rounded(thinner), other)
+        remark::small_thinning(name, thinner, other)
     })
 }
 
@@ -92,10 +92,10 @@ fn flanks(scene: &Scene, name: &str, exact: &Gear) -> Option<Remark> {
     let module = scene.pair.normal_module_mm;
     let depth = [Side::Left, Side::Right].map(|side| largest_depth(exact, side)).into_iter().fold(0.0, f64::max);
     if depth > DEEP * module {
-        return Some(remark::deep_flanks(name, rounded(1e3 * depth), rounded(depth / module)));
+        return Some(remark::deep_flanks(name, 1e3 * depth, depth / module));
     }
     (depth > 0.0 && depth < SHALLOW_MM.min(SHALLOW * module))
-        .then(|| remark::shallow_flanks(name, rounded(1e3 * depth), rounded(1e6 * depth)))
+        .then(|| remark::shallow_flanks(name, 1e3 * depth, 1e6 * depth))
 }
 
 fn helix(scene: &Scene) -> Option<Remark> {
@@ -117,12 +117,12 @@ fn width(scene: &Scene) -> Option<Remark> {
     } else {
         return None;
     };
-    Some(remark::unlikely_width(rounded(width), rounded(ratio), rounded(module), other))
+    Some(remark::unlikely_width(width, ratio, module, other))
 }
 
 fn backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
     let (backlash, module) = (pair.backlash(), scene.pair.normal_module_mm);
-    (backlash > LOOSE * module).then(|| remark::large_backlash(rounded(backlash), rounded(backlash / module)))
+    (backlash > LOOSE * module).then(|| remark::large_backlash(backlash, backlash / module))
 }
 
 /// A speed in rad/s is the digits of a round number of turns a minute.

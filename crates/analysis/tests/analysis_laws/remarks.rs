@@ -13,7 +13,7 @@ fn codes_are_unique_words() {
     assert!(codes.iter().all(is_word), "{codes:?}");
 }
 
-/// `docs/remarks.md` holds every row of the table as it is, in its order, and no other.
+/// `docs/remarks.md` holds every row of the table as it is, in its order, and no other; `UPDATE_OUTPUTS=1` writes it.
 #[test]
 fn the_page_of_remarks_is_that_of_the_table() {
     let mut rows = "|---|---|---|\n".to_owned();
@@ -23,6 +23,10 @@ fn the_page_of_remarks_is_that_of_the_table() {
         let _ = writeln!(rows, "| `{}` | {} | {} |", kind.code, plain(kind.text), plain(kind.hint));
     }
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/remarks.md");
-    let found = fs::read_to_string(&file).unwrap_or_default();
-    assert!(found.ends_with(&rows), "docs/remarks.md is not that of the table; its rows have to be:\n{rows}");
+    let found = fs::read_to_string(&file).unwrap();
+    if std::env::var_os("UPDATE_OUTPUTS").is_some() {
+        let introduction = &found[..found.find("|---|").unwrap()];
+        return fs::write(&file, format!("{introduction}{rows}")).unwrap();
+    }
+    assert!(found.ends_with(&rows), "docs/remarks.md is not that of the table; UPDATE_OUTPUTS=1 writes it");
 }

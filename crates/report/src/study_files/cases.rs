@@ -48,10 +48,9 @@ pub fn study_digest(study: &Study, reports: bool) -> Result<String, ReportError>
 pub fn study_warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<Remark> {
     let failed = (0..study.cases.len()).filter_map(|i| {
         let reason = findings.reason(i)?;
-        Some(remark::case_unsolved(study.cases[i].label.as_str(), reason))
+        Some(remark::case_unsolved(reason).about(&study.cases[i].label))
     });
-    let of_runs = with_result(study, runs, findings).flat_map(|(case, run, _)| {
-        run.warnings.iter().map(|w| remark::case_said(case.label.as_str(), w.as_str())).collect::<Vec<_>>()
-    });
-    failed.chain(of_runs).chain(findings.warnings.iter().map(|said| remark::study_said(said.as_str()))).collect()
+    let of_runs = with_result(study, runs, findings)
+        .flat_map(|(case, run, _)| run.warnings.iter().map(|said| said.clone().about(&case.label)));
+    failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
 }

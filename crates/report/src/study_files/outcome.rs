@@ -21,7 +21,7 @@ pub struct CaseRun {
     /// Steps in time; `None` at rest.
     pub steps: Option<u64>,
     /// What its summary warns of.
-    pub warnings: Vec<String>,
+    pub warnings: Vec<answer::Remark>,
     /// Whether its folder has a report.
     pub has_report: bool,
 }
