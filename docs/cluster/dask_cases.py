@@ -3,7 +3,7 @@
     python dask_cases.py plan.toml out                                    # two workers on this machine
     python dask_cases.py plan.toml out --scheduler tcp://head:8786        # workers that share this folder
 
-Each task is one call of `ale-gear case`, which may be made again without harm: a worker that dies costs the chunk that
+Each task is one call of `ale-gear vary --cases`, which may be made again without harm: a worker that dies costs the chunk that
 it was at, and Dask gives that to another one. At the end the parts are merged.
 """
 
@@ -16,7 +16,7 @@ from dask.distributed import Client, LocalCluster, as_completed
 
 
 def solve(program, plan, cases, part):
-    done = subprocess.run([program, "--quiet", "-j", "1", "case", plan, "--range", cases, "--out", part], text=True,
+    done = subprocess.run([program, "--quiet", "-j", "1", "vary", plan, "--cases", cases, "--out", part], text=True,
                           stderr=subprocess.PIPE)
     if done.returncode != 0:
         raise RuntimeError(done.stderr.strip())
@@ -33,7 +33,7 @@ def main():
     words.add_argument("--program", default="ale-gear")
     words = words.parse_args()
 
-    listed = subprocess.run([words.program, "case", words.plan, "--list", str(words.chunk)], check=True, text=True,
+    listed = subprocess.run([words.program, "vary", words.plan, "--list", str(words.chunk)], check=True, text=True,
                             stdout=subprocess.PIPE)
     ranges = listed.stdout.split()
     parts = words.out.with_name(words.out.name + ".parts").absolute()

@@ -3,7 +3,7 @@
     python hyperqueue_cases.py plan.toml out                              # two workers on this machine
     python hyperqueue_cases.py plan.toml out --server ~/.hq-server        # workers that share this folder
 
-Each task is one call of `ale-gear case`. A task that was killed is submitted again: the call may be made any number of
+Each task is one call of `ale-gear vary --cases`. A task that was killed is submitted again: the call may be made any number of
 times. At the end the parts are merged.
 """
 
@@ -27,7 +27,7 @@ def main():
     words.add_argument("--tries", type=int, default=5)
     words = words.parse_args()
 
-    listed = subprocess.run([words.program, "case", words.plan, "--list", str(words.chunk)], check=True, text=True,
+    listed = subprocess.run([words.program, "vary", words.plan, "--list", str(words.chunk)], check=True, text=True,
                             stdout=subprocess.PIPE)
     parts = words.out.with_name(words.out.name + ".parts").absolute()
     parts.mkdir(parents=True, exist_ok=True)
@@ -41,7 +41,7 @@ def main():
                 return
             job = Job()
             for cases, part in missing.items():
-                job.program([words.program, "--quiet", "-j", "1", "case", str(words.plan.absolute()), "--range", cases,
+                job.program([words.program, "--quiet", "-j", "1", "vary", str(words.plan.absolute()), "--cases", cases,
                              "--out", str(part)], name=cases)
             print("tasks", len(missing), flush=True)
             try:

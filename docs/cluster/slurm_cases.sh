@@ -15,9 +15,9 @@ if [ "${4:-}" = merge ]; then
 elif [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
     from=$((SLURM_ARRAY_TASK_ID * chunk))
     cases=$from..$((from + chunk))
-    exec "$program" --quiet -j "${SLURM_CPUS_PER_TASK:-1}" case "$plan" --range "$cases" --out "$parts/$cases.csv"
+    exec "$program" --quiet -j "${SLURM_CPUS_PER_TASK:-1}" vary "$plan" --cases "$cases" --out "$parts/$cases.csv"
 fi
 mkdir -p "$parts"
-count=$("$program" case "$plan" --list "$chunk" | wc -l)
+count=$("$program" vary "$plan" --list "$chunk" | wc -l)
 job=$(sbatch --parsable --array=0-$((count - 1)) "$0" "$plan" "$out" "$chunk")
 sbatch --dependency=afterok:"$job" "$0" "$plan" "$out" "$chunk" merge

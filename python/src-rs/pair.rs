@@ -372,8 +372,11 @@ fn varied(key: &str, any: &Bound<'_, PyAny>) -> Answer<String> {
     Ok(format!("{key}={}", values.join(",")))
 }
 
-/// Bounds of a parameter, and where the search begins: `(from, to)` or `(from, to, start)`.
+/// Bounds of a parameter: `(from, to)`, or the command's words (`"0:40"`); the search begins at the scene's own value.
 fn bounds(key: &str, any: &Bound<'_, PyAny>) -> Answer<String> {
+    if any.is_instance_of::<PyString>() {
+        return varied(key, any);
+    }
     let (values, _) = numbers(key, any)?;
     let values: Vec<String> = values.iter().map(f64::to_string).collect();
     Ok(format!("{key}={}", values.join(":")))

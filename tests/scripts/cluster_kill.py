@@ -76,7 +76,7 @@ def killed_once(recipe, worker, folder, program):
 def main():
     program = shutil.which(sys.argv[1]) or sys.argv[1]
     program = str(Path(program).resolve())
-    engines = {"dask": "spawn_main", "hyperqueue": " case "}
+    engines = {"dask": "spawn_main", "hyperqueue": " vary "}
     wanted = sys.argv[2:] or list(engines)
     with tempfile.TemporaryDirectory() as scratch:
         folder = Path(scratch)

@@ -48,7 +48,7 @@ pub fn tasks() -> Vec<Task> {
             ("a.toml", rest.replace("positions_per_cycle = 24", "positions_per_cycle = 8")),
             ("b.toml", rest.replace("torque_nm = 60.0", "torque_nm = 90.0")),
         ],
-        words: vec!["study", "study.toml"],
+        words: vec!["run", "study.toml"],
     };
     let task = |document, words: &[&'static str], resumes| Task { document, words: words.to_vec(), resumes };
     let scene = SmallDocument::scene;

@@ -178,9 +178,13 @@ fn other_than_scenes() -> Vec<SmallDocument> {
         SmallDocument::asked(
             "sweep",
             mapped.clone(),
-            &["sweep", "scene.toml", "--key", "operation.speed_rpm", "--from", "3000", "--to", "5000", "--points", "3"],
+            &["vary", "scene.toml", "--vary", "operation.speed_rpm=3000:5000:3", "--start", "carry"],
         ),
-        SmallDocument::asked("curve", mapped, &["curve", "scene.toml", "--from", "3000", "--to", "5000"]),
+        SmallDocument::asked(
+            "curve",
+            mapped,
+            &["vary", "scene.toml", "--vary", "operation.speed_rpm=3000:5000", "--start", "branch"],
+        ),
         SmallDocument {
             name: "study",
             files: vec![
@@ -188,7 +192,7 @@ fn other_than_scenes() -> Vec<SmallDocument> {
                 ("scene.toml", rest),
                 ("study.toml", study.to_owned()),
             ],
-            words: vec!["study", "study.toml"],
+            words: vec!["run", "study.toml"],
         },
     ]
 }

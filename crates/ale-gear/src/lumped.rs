@@ -24,7 +24,7 @@ pub(crate) fn quantity(scene: &Scene, name: &str) -> Result<LumpedQuantity, Comm
 
 /// Runs the model of a scene at each value, way by way; writes all files of the result, the text is the closing table.
 ///
-/// `scenes` in ascending order of the value; `again`: words of `ale-gear sweep` that make it again.
+/// `scenes` in ascending order of the value; `again`: the command that makes it again.
 ///
 /// # Errors
 /// Exit status 2 when the input is wrong, 1 when no motion comes out at any value: one value without a motion has its
@@ -32,11 +32,11 @@ pub(crate) fn quantity(scene: &Scene, name: &str) -> Result<LumpedQuantity, Comm
 pub(crate) fn sweep_key(
     scenes: &[(f64, Scene)],
     options: &SweepOptions,
-    again: Option<&str>,
+    again: &str,
     phases: &mut Phases,
     results: &ResultDirectory,
     cache: &Cache,
 ) -> Result<String, CommandError> {
     let found = KeySweep::new(scenes, options).with_cache(cache).solve_with(phases)?;
-    Ok(write_key_sweep_result(options, &found, again, &phases.cost(), results)?.table)
+    Ok(write_key_sweep_result(options, &found, Some(again), &phases.cost(), results)?.table)
 }

@@ -161,7 +161,7 @@ answer::remarks! {
         "{points} of {of_points} points have no solution; their rows in sweep.csv say why, the first: {reason}", "";
     points_not_periodic(points, of_points)
         "at {points} of {of_points} points the section does not come back: chaotic, quasi-periodic, or `warm_up_cycles` are too few",
-        "a Lyapunov exponent (`ale-gear sweep --lyapunov 200`) tells which";
+        "a Lyapunov exponent (`ale-gear vary --start carry --lyapunov 200`) tells which";
     starts_unsolved(starts, of_starts, reason)
         "{starts} of {of_starts} starts have no motion; their rows in basins.csv are empty, the first because {reason}", "";
     starts_not_periodic(starts, of_starts)

@@ -15,12 +15,19 @@ pub enum RemarkValue {
     Text(String),
 }
 
-/// A number with [`digits`] where the sentence asks for no other.
+/// Letters of a number that a user may have written.
+const SHORT: usize = 7;
+
+/// A number as it is where that is short, with [`digits`] else, where the sentence asks for no other.
 impl fmt::Display for RemarkValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) if f.precision().is_some() => number.fmt(f),
-            Self::Number(number) => f.write_str(&digits(*number)),
+            Self::Number(number) => {
+                let written = number.to_string();
+                let is_short = written.len() <= SHORT && (1e-3..1e7).contains(&number.abs());
+                f.write_str(&if is_short { written } else { digits(*number) })
+            }
             Self::Text(text) => f.write_str(text),
         }
     }

@@ -44,10 +44,8 @@ impl DocumentKind {
     /// The subcommand that takes such a file.
     pub fn command(self) -> &'static str {
         match self {
-            Self::Scene | Self::Gearbox => "run",
-            Self::Plan => "vary",
-            Self::Study => "study",
             Self::Optimisation => "optimise",
+            _ => "run",
         }
     }
 

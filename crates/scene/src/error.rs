@@ -299,13 +299,10 @@ impl SceneError {
 fn example(label: &str) -> &'static str {
     match label.split([' ', '=']).next().unwrap_or_default() {
         "--vary" => {
-            "write `--vary operation.torque_nm=50:200:7`, a list `=50,100`, or `~0:40` for values that are drawn"
+            "write `--vary operation.torque_nm=50:200:7`, a list `=50,100`, `~0:40` for values that are drawn, or `=0:40` for a search between bounds"
         }
         "--design" => "latin-hypercube, sobol and random are known",
         "--samples" => "100 are usual",
-        "--parameter" => {
-            "write `--parameter pinion.modification.tip_relief_um=0:40`: a key, its least and its largest value"
-        }
         "--torques" => "write torques of the pinion in N m with commas between them: `--torques 75,150,225`",
         "--measure" => "peak-to-peak, rms and harmonics are known",
         _ => "write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",

@@ -109,7 +109,7 @@ impl Starter {
             t,
             "# Written by `ale-gear init`. Run it, then open out/report.html in a browser:\n\
              #   ale-gear run {file} --out out\n\
-             # Every key has its unit in its name. All keys, ranges and defaults: docs/scene.md or `ale-gear schema`.\n\
+             # Every key has its unit in its name. All keys, ranges and defaults: docs/scene.md or `ale-gear print schema`.\n\
              # What is commented out stands at its default, or is an example.\n\
              name = {}\n\n",
             toml::Value::String(name)

@@ -129,7 +129,7 @@ class Pair:
     ) -> Result: ...
     def optimise(
         self,
-        parameters: Mapping[str, Sequence[float]] | None = None,
+        parameters: Mapping[str, Sequence[float] | str] | None = None,
         *,
         torques_nm: float | Sequence[float] | None = None,
         measure: Literal["peak-to-peak", "rms", "harmonics"] | None = None,

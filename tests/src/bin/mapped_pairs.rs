@@ -101,10 +101,11 @@ fn both_at(folder: &Path, speed_rpm: f64) -> Result<[f64; 2], Failure> {
 
 /// Largest and least fold of the branch through the resonance, 1/min; nothing without two.
 fn jumps(folder: &Path, model: &str, resonance_rpm: f64) -> Result<Option<[f64; 2]>, Failure> {
-    let [from, to] = FOLDS.map(|share| (share * resonance_rpm).to_string());
+    let [from, to] = FOLDS.map(|share| share * resonance_rpm);
+    let range = format!("operation.speed_rpm={from}:{to}");
     let model = format!("analysis.model={model}");
     let few = ["phases=192", "longest_step=0.1", "time_points=0"].map(|w| format!("motion.continuation.{w}"));
-    let words = ["curve", "--from", &from, "--to", &to, "--set", &model];
+    let words = ["vary", "--vary", &range, "--start", "branch", "--set", &model];
     let words: Vec<&str> = words.into_iter().chain(few.iter().flat_map(|w| ["--set", w.as_str()])).collect();
     let found = headline(folder, &words)?;
     let folds: Vec<f64> = found["folds"].as_array().into_iter().flatten().filter_map(Value::as_f64).collect();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use report::folder::Cache;
 
 /// Which cache is used.
-#[derive(Debug, Default, clap::Args)]
+#[derive(Debug, Clone, Default, clap::Args)]
 pub(super) struct CacheArgs {
     /// Folder of reduced gears [default: the user's cache folder]
     #[arg(long, value_name = "DIR")]

@@ -7,30 +7,67 @@ use std::{
 
 use analysis::side_by_side;
 use report::{
-    check_memory,
     folder::Cache,
     plan_files::{KnownCases, report_folder},
 };
 use scene::plan::Plan;
 
-use super::run::write_result;
-use crate::{
-    error::CommandError, memory, output::ResultDirectory, phases::Phases, resolution::with_slices, scene::Scene, talk,
+use super::{
+    plan_case::{is_one, scene_of},
+    run::write_result,
 };
+use crate::{error::CommandError, output::ResultDirectory, phases::Phases, scene::Scene, talk};
 
 /// Words that say which cases have a report of their own.
 #[derive(Debug, Default, clap::Args)]
 #[command(next_help_heading = "Reports of single cases")]
 pub(super) struct CaseReports {
-    /// A whole result, as `ale-gear run` writes it, of the N best cases (least first output), linked in the report
-    #[arg(long, value_name = "N", default_value = "0", hide_default_value = true)]
-    reports: usize,
+    /// A whole result, as `ale-gear run` writes it, of the N best cases (least first output), or of `all`; linked in the
+    /// report
+    #[arg(long, value_name = "N|all", value_parser = how_many)]
+    reports: Option<usize>,
     /// The same of these cases, by their numbers with commas between
     #[arg(long, value_name = "CASES", value_delimiter = ',')]
     report_case: Vec<usize>,
 }
 
+/// `all` as a number of cases.
+const ALL: usize = usize::MAX;
+
+fn how_many(word: &str) -> Result<usize, String> {
+    if word == "all" { Ok(ALL) } else { word.parse().map_err(|_| "say a number of cases, or `all`".to_owned()) }
+}
+
+fn said(count: usize) -> String {
+    if count == ALL { "all".to_owned() } else { count.to_string() }
+}
+
 impl CaseReports {
+    /// Whether those of the best are asked for.
+    pub(super) fn best(&self) -> bool {
+        self.reports.is_some()
+    }
+
+    /// Whether cases are listed.
+    pub(super) fn listed(&self) -> bool {
+        !self.report_case.is_empty()
+    }
+
+    /// Whether each of so many cases, which have no order, is to have one.
+    ///
+    /// # Errors
+    /// Exit status 2 where some are asked for.
+    pub(super) fn of_all(&self, cases: usize) -> Result<bool, CommandError> {
+        match self.reports {
+            None | Some(0) => Ok(false),
+            Some(n) if n >= cases => Ok(true),
+            Some(n) => {
+                let message = format_args!("`--reports {n}`: cases of a study have no order, so none of them is best");
+                Err(CommandError::input(message, Some("say `--reports all`, or leave it out".into())))
+            }
+        }
+    }
+
     /// Refuses numbers that are no cases.
     pub(super) fn check(&self, plan: &Plan) -> Result<(), CommandError> {
         self.report_case.iter().try_for_each(|&case| is_one(plan, case).map(|_| ()))
@@ -38,7 +75,7 @@ impl CaseReports {
 
     /// The words that ask for them again.
     pub(super) fn words(&self) -> String {
-        let best = if self.reports > 0 { format!(" --reports {}", self.reports) } else { String::new() };
+        let best = if let Some(n) = self.reports { format!(" --reports {}", said(n)) } else { String::new() };
         let list: Vec<String> = self.report_case.iter().map(usize::to_string).collect();
         if list.is_empty() { best } else { format!("{best} --report-case {}", list.join(",")) }
     }
@@ -46,7 +83,7 @@ impl CaseReports {
     /// Cases that are asked for and have a result, ascending.
     fn cases(&self, known: &KnownCases) -> Vec<usize> {
         let listed = self.report_case.iter().copied().filter(|&case| known.reasons[case].is_empty());
-        let mut cases: Vec<usize> = known.best().into_iter().take(self.reports).chain(listed).collect();
+        let mut cases: Vec<usize> = known.best().into_iter().take(self.reports.unwrap_or(0)).chain(listed).collect();
         cases.sort_unstable();
         cases.dedup();
         cases
@@ -78,23 +115,6 @@ impl CaseReports {
         });
         failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(cases), Err)
     }
-}
-
-/// A case of a plan, if it is one.
-fn is_one(plan: &Plan, case: usize) -> Result<usize, CommandError> {
-    let count = plan.cases.count();
-    if case < count {
-        return Ok(case);
-    }
-    let hint = format!("cases are numbered from 0 to {}", count.saturating_sub(1));
-    Err(CommandError::input(format_args!("{}: there is no case {case}", plan.file.display()), Some(hint)))
-}
-
-/// The scene of a case, as it is run by itself.
-pub(super) fn scene_of(plan: &Plan, case: usize) -> Result<Scene, CommandError> {
-    let scene = with_slices(plan.scene(is_one(plan, case)?)?);
-    check_memory(&scene, memory::available_bytes())?;
-    Ok(scene)
 }
 
 /// Runs the scene of a case into a folder; the text is the closing table.

@@ -4,10 +4,14 @@ use mesh::MshFormat;
 use std::path::{Path, PathBuf};
 
 use clap::{Subcommand, ValueEnum};
-use mesh::{GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity};
+use mesh::{GroupNames, Mesh, MeshInfo, MeshReport, Severity};
 use report::tables::{mesh_findings, mesh_findings_json, mesh_info_table};
 
-use super::target::Target;
+use super::{
+    group_args::{GroupArgs, complaint},
+    mesh_reduce::ReduceArgs,
+    target::Target,
+};
 use crate::{error::CommandError, meshes, scene::Scene};
 
 /// Subcommands of `ale-gear mesh`.
@@ -40,6 +44,8 @@ pub(super) enum MeshCommand {
         #[arg(long)]
         json: bool,
     },
+    /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
+    Reduce(ReduceArgs),
     /// Write the mesh that the built-in mesher makes of a scene's gear
     Generate {
         /// Scene file
@@ -59,54 +65,6 @@ pub(super) enum MeshCommand {
     },
 }
 
-/// The mesh's own names of the parts of the gear, as `[pinion.groups]` of a scene has them.
-#[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Names of the mesh's own groups")]
-pub(super) struct GroupArgs {
-    /// The bore [default: bore]
-    #[arg(long, value_name = "NAME")]
-    bore: Option<String>,
-    /// Counter-clockwise side of the teeth, {k} for the tooth number [default: flank_left_{k}]
-    #[arg(long, value_name = "NAME_{k}")]
-    flank_left: Option<String>,
-    /// Clockwise side [default: flank_right_{k}]
-    #[arg(long, value_name = "NAME_{k}")]
-    flank_right: Option<String>,
-    /// Clockwise cut face of a sector [default: cut_0]
-    #[arg(long, value_name = "NAME")]
-    cut_0: Option<String>,
-    /// Counter-clockwise cut face [default: cut_1]
-    #[arg(long, value_name = "NAME")]
-    cut_1: Option<String>,
-}
-
-impl GroupArgs {
-    /// Whether a name is given.
-    pub(super) fn any(&self) -> bool {
-        [&self.bore, &self.flank_left, &self.flank_right, &self.cut_0, &self.cut_1].iter().any(|n| n.is_some())
-    }
-
-    /// The names that the mesh has for the parts.
-    pub(super) fn names(self) -> Result<GroupNames, CommandError> {
-        let ours = GroupNames::default();
-        for (flag, name) in [("--flank-left", &self.flank_left), ("--flank-right", &self.flank_right)] {
-            if let Some(name) = name.as_ref().filter(|n| !n.contains("{k}")) {
-                return Err(CommandError::input(
-                    format_args!("`{flag}` is {name}, which has no place for the tooth number"),
-                    Some(format!("write {{k}} where the number stands, as in {flag} 'Left_{{k}}'")),
-                ));
-            }
-        }
-        Ok(GroupNames {
-            bore: self.bore.unwrap_or(ours.bore),
-            flank_left: self.flank_left.unwrap_or(ours.flank_left),
-            flank_right: self.flank_right.unwrap_or(ours.flank_right),
-            cut_0: self.cut_0.unwrap_or(ours.cut_0),
-            cut_1: self.cut_1.unwrap_or(ours.cut_1),
-        })
-    }
-}
-
 /// A gear of the pair.
 #[derive(Debug, Clone, Copy, ValueEnum)]
 pub(super) enum WhichGear {
@@ -124,6 +82,7 @@ impl MeshCommand {
             }
             Self::Check { file, scene: Some(scene), gear: Some(gear), json, .. } => check_as(&file, &scene, gear, json),
             Self::Check { file, teeth, groups, json, .. } => check(&file, teeth, &groups.names()?, json),
+            Self::Reduce(args) => args.execute(),
             Self::Generate { scene, gear, output, format, ascii } => {
                 let text = generate(&scene, gear, &output, &format, ascii)?;
                 Ok(if quiet { String::new() } else { text })
@@ -134,15 +93,6 @@ impl MeshCommand {
 
 fn read(file: &Path) -> Result<Mesh, CommandError> {
     Mesh::read(file).map_err(complaint)
-}
-
-/// A complaint about a file on the command line.
-pub(super) fn complaint(e: MeshError) -> CommandError {
-    let hint = match e {
-        MeshError::Read { .. } => Some("is the path right, as seen from here?".to_owned()),
-        _ => e.hint(),
-    };
-    CommandError::input(&e, hint)
 }
 
 /// As [`check`], and as a run of the scene does.

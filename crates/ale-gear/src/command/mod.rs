@@ -1,39 +1,40 @@
 //! The subcommands: typed words, then a checked plan, then work.
 
 mod cache_args;
-mod case;
 mod case_reports;
 mod chart;
 mod compare;
-mod curve;
 mod envelope;
 mod geometry;
+mod group_args;
 mod init;
 mod mesh;
+mod mesh_reduce;
 mod optimise;
 mod overrides;
-mod reduce;
+mod plan_case;
+mod print;
 mod report;
 mod run;
-mod schema;
 mod serve;
-mod shell;
-mod study;
-mod sweep;
 mod target;
 mod vary;
 
-use std::{ffi::OsString, io::Write};
+use std::{
+    ffi::OsString,
+    io::Write,
+    path::{Path, PathBuf},
+};
 
 use clap::{
     ArgAction, Args, Parser, Subcommand,
     error::{ContextKind, ContextValue},
 };
-use clap_complete::Shell;
 
 use crate::{
     error::CommandError,
     printed,
+    scene::{DocumentKind, DocumentText},
     stop::on_stop,
     talk::{Loudness, colours_on_stderr, read_progress_after, say, set_loudness},
 };
@@ -68,57 +69,51 @@ struct Everywhere {
 
 #[derive(Debug, Subcommand)]
 enum Command {
-    /// Run a scene of a pair, or a gearbox file, and write its result folder
+    /// Run a document: the scene of a pair, a gearbox file, a plan, a study or an optimisation
     Run(run::RunArgs),
-    /// Write a commented scene to begin with, from flags or from a few questions
-    Init(init::InitArgs),
-    /// Run every model and mesh density on a scene: accuracy against cost
-    Chart(chart::ChartArgs),
-    /// Run a scene at many values of a key: bifurcation diagrams and resonance curves of motions, curves of a pair at rest
-    Sweep(sweep::SweepArgs),
-    /// Follow the periodic motions of a pair along a key, around folds: resonance curves with their unstable parts
-    Curve(curve::CurveArgs),
-    /// Run several scenes and draw the same figures of all
-    Study(study::StudyArgs),
-    /// Run a scene with some of its keys varied, by list, grid or sample: a row of wanted numbers a case
+    /// Run a scene with some of its keys varied, by list, range or sample: each value alone, or from the last one's state
     Vary(vary::VaryArgs),
-    /// Solve some cases of a plan into a file: for many machines, in any order, as often as need be
-    Case(case::CaseArgs),
-    /// Put the files of `ale-gear case` together
-    Merge(case::MergeArgs),
     /// Search the micro-geometry that is quietest, within bounds and limits
     Optimise(optimise::OptimiseArgs),
+    /// Run every model and mesh density on a scene: accuracy against cost
+    Chart(chart::ChartArgs),
     /// Every way in which such solvers fail: naive and robust, and maps of where methods fail
     Envelope(envelope::EnvelopeArgs),
+    /// Put the files of `ale-gear vary --cases` together
+    Merge(vary::MergeArgs),
     /// Geometry sheet of a scene's pair on stdout: diameters, roll angles, span, balls, backlash, sliding
     Geometry(geometry::GeometryArgs),
-    /// Reduce the gears of a scene into the cache, or that of a mesh file, and tell what it takes
-    Reduce(reduce::ReduceArgs),
+    /// Look at, check, make or reduce meshes
+    #[command(subcommand)]
+    Mesh(mesh::MeshCommand),
     /// Result folders side by side: headline numbers with differences, curves over each other
     Compare(compare::CompareArgs),
     /// Make report.html of a result folder again, with the pages of this version
     Report(report::ReportArgs),
     /// A page on this machine where a pair is tried by hand: sliders, curves, pattern, gears in space
     Serve(serve::ServeArgs),
-    /// JSON Schema of the scene file, or of the gearbox file, on stdout, for completion and checks in editors
-    Schema(schema::SchemaArgs),
-    /// Script on stdout that completes words in a shell
-    Completions {
-        /// Which shell
-        shell: Shell,
-    },
-    /// Manual page on stdout (roff), as in `ale-gear man | man -l -`
-    Man,
-    /// Licences of the program, and of everything by others that it carries, on stdout
-    #[command(alias = "licenses")]
-    Licences,
-    /// Look at, check or make meshes
+    /// Write a commented scene to begin with, from flags or from a few questions
+    Init(init::InitArgs),
+    /// JSON Schema, completions of a shell, manual page or licences on stdout
     #[command(subcommand)]
-    Mesh(mesh::MeshCommand),
+    Print(print::PrintCommand),
 }
 
-/// Licences of everything that the program carries; `.ci/notices` writes the file.
-const NOTICES: &str = include_str!("../../../../NOTICES.txt");
+/// A file into a folder, with words that all documents know.
+#[derive(Debug, Default)]
+struct FileWords {
+    file: PathBuf,
+    out: PathBuf,
+    overrides: overrides::Overrides,
+    cache: cache_args::CacheArgs,
+    json: bool,
+}
+
+/// Kind of the document in a file; `None` where it has none of a known kind. A pipe, which can be read no second time, is
+/// left for who runs it.
+fn kind_of_file(file: &Path) -> Option<DocumentKind> {
+    if file.is_file() { DocumentText::read(file).ok()?.kind() } else { None }
+}
 
 /// What a command has to say when its work is done.
 #[derive(Debug, Default)]
@@ -127,6 +122,24 @@ pub struct Answer {
     pub text: String,
     /// For stderr: files are written, but the result does not hold.
     pub failure: Option<CommandError>,
+}
+
+impl Answer {
+    /// What stands on stdout where a folder was written: its summary, nothing, or the closing table.
+    fn of_folder(
+        out: &Path,
+        (table, failure): (String, Option<CommandError>),
+        (json, quiet): (bool, bool),
+    ) -> Result<Self, CommandError> {
+        let summary = out.join("summary.json");
+        let text = match (json, quiet) {
+            (true, _) => files::read_regular_text(&summary, files::most::SUMMARY)
+                .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None))?,
+            (_, true) => String::new(),
+            _ => format!("{table}\nresults: {}\n", out.display()),
+        };
+        Ok(Self { text, failure })
+    }
 }
 
 impl From<String> for Answer {
@@ -179,26 +192,26 @@ impl Cli {
         let told = |text: String| if quiet { String::new() } else { text };
         let text = match self.command {
             None => return run::RunArgs::for_default_scene().execute(quiet),
-            Some(Command::Run(args)) => return args.execute(quiet),
+            Some(Command::Run(args)) => match args.kind() {
+                Some(DocumentKind::Plan | DocumentKind::Study) => {
+                    return vary::VaryArgs::of_file(args.many()?).execute(quiet);
+                }
+                Some(DocumentKind::Optimisation) => {
+                    return optimise::OptimiseArgs::of_file(args.many()?).execute(quiet);
+                }
+                _ => return args.execute(quiet),
+            },
             Some(Command::Envelope(args)) => return args.execute(),
-            Some(Command::Curve(args)) => return args.execute(quiet),
             Some(Command::Optimise(args)) => return args.execute(quiet),
+            Some(Command::Vary(args)) => return args.execute(quiet),
             Some(Command::Chart(args)) => args.execute().map(told),
-            Some(Command::Study(args)) => args.execute().map(told),
-            Some(Command::Vary(args)) => args.execute().map(told),
-            Some(Command::Case(args)) => args.execute(told),
             Some(Command::Merge(args)) => args.execute().map(told),
-            Some(Command::Sweep(args)) => args.execute().map(told),
             Some(Command::Geometry(args)) => args.execute(),
             Some(Command::Init(args)) => args.execute(quiet),
-            Some(Command::Reduce(args)) => args.execute(),
             Some(Command::Compare(args)) => args.execute(),
             Some(Command::Report(args)) => args.execute(quiet),
             Some(Command::Serve(args)) => args.execute(),
-            Some(Command::Schema(args)) => Ok(args.execute()),
-            Some(Command::Licences) => Ok(NOTICES.to_owned()),
-            Some(Command::Completions { shell }) => Ok(shell::completions(shell)),
-            Some(Command::Man) => shell::man(),
+            Some(Command::Print(what)) => what.execute(),
             Some(Command::Mesh(command)) => command.execute(quiet),
         };
         text.map(Answer::from)
@@ -206,7 +219,23 @@ impl Cli {
 }
 
 /// Subcommands that are gone, and what does their work now; `{}` stands for the file.
-const OLD_WORDS: [(&str, &str); 1] = [("gearbox", "`ale-gear run {} --out DIR` takes it")];
+const OLD_WORDS: [(&str, &str); 12] = [
+    ("gearbox", "`ale-gear run {} --out DIR` takes it"),
+    ("study", "`ale-gear run {} --out DIR` takes it"),
+    ("sweep", "`ale-gear vary {} --out DIR --vary 'KEY=FROM:TO:COUNT' --start carry` takes it"),
+    ("curve", "`ale-gear vary {} --out DIR --vary 'KEY=FROM:TO' --start branch` takes it"),
+    (
+        "case",
+        "`ale-gear vary {} --cases FROM..TO --out PART` takes it; of one case `ale-gear run {} --case N --out DIR`",
+    ),
+    ("reduce", "`ale-gear mesh reduce {}` takes it"),
+    ("schema", "`ale-gear print schema` takes it"),
+    ("completions", "`ale-gear print completions SHELL` takes it"),
+    ("man", "`ale-gear print man` takes it"),
+    ("licences", "`ale-gear print licences` takes it"),
+    ("licenses", "`ale-gear print licences` takes it"),
+    ("optimize", "`ale-gear optimise {} --out DIR` takes it"),
+];
 
 /// What is said of a subcommand that is gone; `None` of any other mistake. `typed`: the whole command line.
 fn of_an_old_word(error: &clap::Error, mut typed: impl Iterator<Item = OsString>) -> Option<CommandError> {

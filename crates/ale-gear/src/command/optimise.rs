@@ -13,7 +13,7 @@ use scene::{
     read_text,
 };
 
-use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
+use super::{Answer, FileWords, cache_args::CacheArgs, overrides::Overrides};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
 /// Words of `ale-gear optimise`.
@@ -24,10 +24,10 @@ pub(super) struct OptimiseArgs {
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
-    /// A key that may change within bounds, `KEY=FROM:TO` or `KEY=FROM:TO:START`; may be given again [default: tip
-    /// reliefs, where they begin, lead crowning]
-    #[arg(long, value_name = "WORDS")]
-    parameter: Vec<String>,
+    /// A key that may change within bounds, `KEY=FROM:TO`; the search begins at the scene's own value; may be given again
+    /// [default: tip reliefs, where they begin, lead crowning]
+    #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
+    vary: Vec<String>,
     /// Torques at which it counts, N m, with commas between [default: the scene's]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     torques: Vec<f64>,
@@ -46,6 +46,9 @@ pub(super) struct OptimiseArgs {
     /// Points of the trade-off against a lower pressure [default: none]
     #[arg(long, value_name = "N")]
     front: Option<u32>,
+    /// The summary as JSON on stdout, instead of the closing table
+    #[arg(long)]
+    json: bool,
     #[command(flatten)]
     overrides: Overrides,
     #[command(flatten)]
@@ -53,26 +56,42 @@ pub(super) struct OptimiseArgs {
 }
 
 impl OptimiseArgs {
+    /// An optimisation file into a folder.
+    pub(super) fn of_file(FileWords { file, out, overrides, cache, json }: FileWords) -> Self {
+        let (vary, torques, measure, max_pressure, max_edge_pressure) = (Vec::new(), Vec::new(), None, None, None);
+        let (evaluations, front) = (None, None);
+        Self {
+            file,
+            out,
+            vary,
+            torques,
+            measure,
+            max_pressure,
+            max_edge_pressure,
+            evaluations,
+            front,
+            json,
+            overrides,
+            cache,
+        }
+    }
+
     /// Every complaint about the words and the files is made here, before any work starts or any file is written.
     fn plan(&self) -> Result<Optimisation, CommandError> {
-        let Self { file, parameter, torques, measure, max_pressure, evaluations, front, .. } = self;
+        let Self { file, vary, torques, measure, max_pressure, evaluations, front, .. } = self;
         let settings = self.overrides.settings()?;
-        let words = !parameter.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
-        let words = words
-            || self.max_edge_pressure.is_some()
-            || evaluations.is_some()
-            || front.is_some()
-            || !settings.is_empty();
+        let words = !vary.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
+        let words = words || self.max_edge_pressure.is_some() || evaluations.is_some() || front.is_some();
         // What cannot be read is complained about as a scene is.
         if read_text(file).is_ok_and(|text| Optimisation::is_one(&text)) {
             if words {
                 let hint = "write it into the file, or give a scene file";
                 return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
             }
-            return Ok(Optimisation::read(file)?);
+            return Ok(Optimisation::read_with(file, &settings)?);
         }
         let words = OptimisationWords {
-            parameters: parameter,
+            parameters: vary,
             torques_nm: torques,
             measure: measure.as_deref(),
             max_pressure_mpa: *max_pressure,
@@ -84,10 +103,10 @@ impl OptimiseArgs {
     }
 
     /// The words that make it again.
-    fn again(&self, optimum: &Optimum) -> String {
-        let Self { file, parameter, torques, measure, max_pressure, evaluations, front, .. } = self;
+    fn again(&self) -> String {
+        let Self { file, vary, torques, measure, max_pressure, evaluations, front, .. } = self;
         let mut words = vec![format!("ale-gear optimise {} --out DIR", file.display())];
-        words.extend(parameter.iter().map(|word| format!("--parameter '{word}'")));
+        words.extend(vary.iter().map(|word| format!("--vary '{word}'")));
         if !torques.is_empty() {
             let list: Vec<String> = torques.iter().map(f64::to_string).collect();
             words.push(format!("--torques {}", list.join(",")));
@@ -97,10 +116,7 @@ impl OptimiseArgs {
         words.extend(self.max_edge_pressure.iter().map(|limit| format!("--max-edge-pressure {limit}")));
         words.extend(evaluations.iter().map(|n| format!("--evaluations {n}")));
         words.extend(front.iter().map(|n| format!("--front {n}")));
-        // Those of a file stand in it.
-        if !words[1..].is_empty() || self.overrides.settings().is_ok_and(|own| !own.is_empty()) {
-            words.extend(optimum.plan.settings.iter().map(scene::Setting::word));
-        }
+        words.extend(self.overrides.settings().unwrap_or_default().iter().map(scene::Setting::word));
         words.join(" ")
     }
 
@@ -125,14 +141,13 @@ impl OptimiseArgs {
         })?;
         let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
-        let again = self.again(&optimum);
+        let again = self.again();
         let of = OptimumResult { optimum: &optimum, told: &told, scene: &scene, again: &again };
         let text = write_optimum(&of, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
-        let text = if quiet { String::new() } else { format!("{text}\nresults: {}\n", self.out.display()) };
-        let hint = "allow more, or let more parameters change, within wider bounds (`--parameter`)";
+        let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";
         let failure = passed_limits(&optimum)
             .map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
-        Ok(Answer { text, failure })
+        Answer::of_folder(&self.out, (text, failure), (self.json, quiet))
     }
 }

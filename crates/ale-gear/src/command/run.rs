@@ -1,11 +1,11 @@
-//! `ale-gear run`: a document in, the scene of a pair or a gearbox file; a result folder out.
+//! `ale-gear run`: a document in, a result folder out.
 
 use std::path::PathBuf;
 
 use analysis::{Solved, SolvedAtRest, in_time::TimeAnalysis, lumped::is_lumped};
-use scene::gearbox::Gearbox;
+use scene::{gearbox::Gearbox, plan::Plan};
 
-use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
+use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::scene_of};
 use report::{check_memory, solve_in_time, write_static_result};
 
 use report::folder::Cache;
@@ -35,8 +35,11 @@ enum Document {
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
 pub(super) struct RunArgs {
-    /// Scene of a pair, or gearbox file
+    /// Scene of a pair, gearbox file, plan, study or optimisation
     file: PathBuf,
+    /// Only this case of a plan, with a whole result of its own
+    #[arg(long, value_name = "N")]
+    case: Option<usize>,
     /// Whether it is the scene of the program instead.
     #[arg(skip)]
     default_scene: bool,
@@ -70,16 +73,60 @@ pub(super) struct RunArgs {
 
 impl RunArgs {
     /// A scene file into a folder.
-    pub(super) fn of_file([file, out]: [PathBuf; 2], (overrides, cache): (Overrides, CacheArgs), json: bool) -> Self {
-        let (default_scene, derivatives, vtu, no_view, resume, stop_after_cycles) =
-            (false, Vec::new(), false, false, false, None);
-        Self { file, default_scene, out, cache, overrides, json, derivatives, vtu, no_view, resume, stop_after_cycles }
+    pub(super) fn of_file(FileWords { file, out, overrides, cache, json }: FileWords) -> Self {
+        let (case, default_scene, derivatives, vtu, no_view, resume, stop_after_cycles) =
+            (None, false, Vec::new(), false, false, false, None);
+        Self {
+            file,
+            case,
+            default_scene,
+            out,
+            cache,
+            overrides,
+            json,
+            derivatives,
+            vtu,
+            no_view,
+            resume,
+            stop_after_cycles,
+        }
     }
 
     /// The default scene of the program into `out/default`.
     pub(super) fn for_default_scene() -> Self {
-        let files = [PathBuf::new(), PathBuf::from("out/default")];
-        Self { default_scene: true, ..Self::of_file(files, Default::default(), false) }
+        let out = PathBuf::from("out/default");
+        Self { default_scene: true, ..Self::of_file(FileWords { out, ..FileWords::default() }) }
+    }
+
+    /// Kind of the document; `None` where it has none of a known kind, and where one case of a plan is asked for.
+    pub(super) fn kind(&self) -> Option<DocumentKind> {
+        if self.default_scene || self.case.is_some() { None } else { kind_of_file(&self.file) }
+    }
+
+    /// File and words for a document of many runs.
+    ///
+    /// # Errors
+    /// Exit status 2 for words that only single runs have a use for.
+    pub(super) fn many(self) -> Result<FileWords, CommandError> {
+        self.fits_many()?;
+        let Self { file, out, overrides, cache, json, .. } = self;
+        Ok(FileWords { file, out, overrides, cache, json })
+    }
+
+    /// Refuses words that only a single run has a use for.
+    fn fits_many(&self) -> Result<(), CommandError> {
+        let goes_on = "leave it out: cases that are done are not run again";
+        let own = "leave it out, or write it into [output] of the scene";
+        let words = [
+            (!self.derivatives.is_empty(), "--derivatives", own),
+            (self.vtu, "--vtu", own),
+            (self.no_view, "--no-view", "leave it out: nothing is saved by it"),
+            (self.resume, "--resume", goes_on),
+            (self.stop_after_cycles.is_some(), "--stop-after-cycles", goes_on),
+        ];
+        let Some((_, word, hint)) = words.into_iter().find(|(given, ..)| *given) else { return Ok(()) };
+        let said = format_args!("{}: `{word}` is for single runs, and this file has many", self.file.display());
+        Err(CommandError::input(said, Some(hint.to_owned())))
     }
 
     /// The document with what is set beside it. Every complaint about the words is made here, before any work starts or
@@ -94,6 +141,11 @@ impl RunArgs {
                 )
             });
             return Ok(Document::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
+        }
+        if let Some(case) = self.case {
+            let plan = Plan::read_with(&self.file, &self.overrides.settings()?)?;
+            let scene = scene_of(&plan, case)?;
+            return Ok(Document::Pair(Box::new(self.plan(scene)?)));
         }
         let text = DocumentText::read(&self.file)?;
         if text.kind() == Some(DocumentKind::Gearbox) {
@@ -200,14 +252,7 @@ impl RunArgs {
 
     /// What stands on stdout at the end: the summary, nothing, or the closing table.
     fn answer(&self, (table, verdict): Closing, quiet: bool) -> Result<Answer, CommandError> {
-        let summary = self.out.join("summary.json");
-        let text = match (self.json, quiet) {
-            (true, _) => files::read_regular_text(&summary, files::most::SUMMARY)
-                .map_err(|e| CommandError::failed(format_args!("{}: {e}", summary.display()), None))?,
-            (_, true) => String::new(),
-            _ => format!("{table}\nresults: {}\n", self.out.display()),
-        };
-        Ok(Answer { text, failure: verdict.err() })
+        Answer::of_folder(&self.out, (table, verdict.err()), (self.json, quiet))
     }
 
     /// Runs a gearbox; the text is the closing table, or how to go on.

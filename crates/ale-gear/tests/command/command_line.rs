@@ -86,15 +86,15 @@ fn a_log_is_told_how_far_the_work_is() {
 #[test]
 fn shells_and_manuals_know_the_subcommands() {
     let scratch = Scratch::new();
-    let subcommands = ["run", "init", "chart", "compare", "reduce", "schema", "completions", "mesh"];
+    let subcommands = ["run", "init", "chart", "compare", "vary", "mesh", "print"];
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        let script = scratch.ale_gear(["completions", shell]);
+        let script = scratch.ale_gear(["print", "completions", shell]);
         fine(&script);
         for word in subcommands {
             assert!(script.stdout.contains(word), "{shell}: no {word}");
         }
     }
-    let page = scratch.ale_gear(["man"]);
+    let page = scratch.ale_gear(["print", "man"]);
     fine(&page);
     for word in subcommands {
         assert!(
@@ -108,7 +108,7 @@ fn shells_and_manuals_know_the_subcommands() {
 /// The schema is JSON, of the draft that it says, and knows a key with its range, default and unit.
 #[test]
 fn the_schema_is_data_on_stdout() {
-    let run = Scratch::new().ale_gear(["schema"]);
+    let run = Scratch::new().ale_gear(["print", "schema"]);
     fine(&run);
     let schema = json(&run.stdout);
     assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
@@ -157,7 +157,7 @@ fn reduce_fills_the_cache_that_a_run_reads() {
         .replace("[wheel]\n", &format!("{mesher}[wheel]\n{mesher}"))
         .replace("model = \"iso\"\n", "positions_per_cycle = 2\n");
     let scratch = Scratch::new().file("a.toml", scene);
-    let first = scratch.ale_gear(["reduce", "a.toml", "--cache", "kept", "--json"]);
+    let first = scratch.ale_gear(["mesh", "reduce", "a.toml", "--cache", "kept", "--json"]);
     fine(&first);
     let found = json(&first.stdout);
     let gears = found["gears"].as_array().unwrap();
@@ -166,20 +166,20 @@ fn reduce_fills_the_cache_that_a_run_reads() {
         assert!(scratch.path().join(gear["file"].as_str().unwrap()).is_file(), "{gear}");
         assert!(gear["coordinates"].as_u64() < gear["dof_before"].as_u64(), "{gear}");
     }
-    let second = scratch.ale_gear(["reduce", "a.toml", "--cache", "kept"]);
+    let second = scratch.ale_gear(["mesh", "reduce", "a.toml", "--cache", "kept"]);
     fine(&second);
     assert_eq!(second.stdout.matches("from the cache").count(), 2, "{}", second.stdout);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o", "--cache", "kept", "--json"]);
     fine(&run);
     assert_eq!(json(&run.stdout)["model"]["gears_from_cache"], 2);
-    let none = scratch.ale_gear(["reduce", "a.toml", "--set", "analysis.model=iso"]);
+    let none = scratch.ale_gear(["mesh", "reduce", "a.toml", "--set", "analysis.model=iso"]);
     assert_eq!(none.code, Some(2));
     assert!(none.stderr.contains("this model reduces nothing"), "{}", none.stderr);
     fine(&scratch.command(&["mesh", "generate", "a.toml", "--gear", "pinion", "--output", "p.msh"]));
-    let of_mesh = scratch.ale_gear(["reduce", "p.msh", "--window-teeth", "2"]);
+    let of_mesh = scratch.ale_gear(["mesh", "reduce", "p.msh", "--window-teeth", "2"]);
     fine(&of_mesh);
     assert!(of_mesh.stdout.contains("coordinates of 2 teeth"), "{}", of_mesh.stdout);
-    let both = scratch.ale_gear(["reduce", "a.toml", "--teeth", "30"]);
+    let both = scratch.ale_gear(["mesh", "reduce", "a.toml", "--teeth", "30"]);
     assert_eq!(both.code, Some(2), "{}", both.stdout);
 }
 

@@ -168,11 +168,11 @@ fn only_what_has_an_end_is_read() {
         (&["run", "grid.toml", "--out", "o"], "grid.toml:18: `topography` is \"/dev/zero\", but "),
         (&["run", "pipe", "--out", "o"], "pipe: cannot be read: "),
         (&["run", "/dev/zero", "--out", "o"], "/dev/zero: cannot be read: "),
-        (&["study", "pipe", "--out", "o"], "pipe: cannot be read: "),
-        (&["study", "study.toml", "--out", "o"], "study.toml:2: pipe cannot be read: "),
+        (&["vary", "pipe", "--out", "o"], "pipe: cannot be read: "),
+        (&["run", "study.toml", "--out", "o"], "study.toml:2: pipe cannot be read: "),
         (&["init", "new.toml", "--rexs", "pipe"], "pipe: cannot be read: "),
         (&["mesh", "info", "/dev/zero"], "/dev/zero: cannot be read: "),
-        (&["reduce", "zero.msh"], "zero.msh: cannot be read: "),
+        (&["mesh", "reduce", "zero.msh"], "zero.msh: cannot be read: "),
     ] {
         let run = scratch.command(words);
         assert_eq!(run.code, Some(2), "{words:?}: {}", run.stderr);

@@ -262,12 +262,12 @@ fn rows_beyond_any_memory_are_refused_before_the_work() {
     let ladder = with("model = \"iso\"", "model = \"impact\"\ncycles = 100000000");
     let ladder = ladder + "[motion]\nsteps_per_mesh_cycle = 100000\n";
     refused(&ladder, &run, &["1.0e13 rows (`cycles` 1.0e8 x `steps_per_mesh_cycle` 100000)"]);
-    let by_key = ["sweep", "a.toml", "--key", "operation.speed_rpm", "--from", "1000", "--to", "2000", "--points", "2"];
+    let by_key = ["vary", "a.toml", "--vary", "operation.speed_rpm=1000:2000:2", "--start", "carry"];
     let long = [&by_key[..], &["--cycles", "100000", "--once", "pinion-turn"]].concat();
     refused(&ladder, &long, &["(`--cycles` 100000 x `steps_per_mesh_cycle` 100000 x `mesh cycles of a turn` 30)"]);
     let study = "[[case]]\nscene = \"b.toml\"\nvalue = 1\n[[quantity]]\ncolumn = \"ste_um\"\n";
     let scratch = Scratch::new().file("b.toml", huge(ISO_SCENE)).file("a.toml", study);
-    let refused = scratch.ale_gear(["study", "a.toml", "--out", "o"]);
+    let refused = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert!(refused.stderr.starts_with("ale-gear: b.toml:18: 1.0e13 positions "), "{}", refused.stderr);
     assert_eq!(refused.code, Some(2));
 }

@@ -240,8 +240,8 @@ fn files_of_another_kind_name_their_subcommand() {
             "two_stages.toml: this is a gearbox file, and a scene is wanted\nhint: `ale-gear run two_stages.toml --out DIR` takes it\n",
         ),
         (
-            &["run", "plan.toml", "--out", "o"],
-            "plan.toml: this is a plan, and a scene is wanted\nhint: `ale-gear vary plan.toml --out DIR` takes it\n",
+            &["geometry", "plan.toml"],
+            "plan.toml: this is a plan, and a scene is wanted\nhint: `ale-gear run plan.toml --out DIR` takes it\n",
         ),
         (
             &["gearbox", "two_stages.toml", "--out", "o"],
@@ -249,8 +249,13 @@ fn files_of_another_kind_name_their_subcommand() {
         ),
         (&["-q", "gearbox"], "the subcommand `gearbox` is gone\nhint: `ale-gear run FILE.toml --out DIR` takes it\n"),
         (
-            &["study", "a.toml", "--out", "o"],
-            "a.toml: this is a scene, and a study is wanted\nhint: `ale-gear run a.toml --out DIR` takes it\n",
+            &["study", "plan.toml", "--out", "o"],
+            "the subcommand `study` is gone\nhint: `ale-gear run plan.toml --out DIR` takes it\n",
+        ),
+        (
+            &["sweep", "a.toml", "--key", "operation.speed_rpm"],
+            "the subcommand `sweep` is gone\n\
+             hint: `ale-gear vary a.toml --out DIR --vary 'KEY=FROM:TO:COUNT' --start carry` takes it\n",
         ),
         (
             &[
@@ -333,8 +338,18 @@ fn a_curve_of_a_scene_at_rest_covers_its_range_or_fails() {
         .replace("[analysis]\nmodel = \"iso\"\n", "");
     let scratch = Scratch::new().file("a.toml", scene);
     let curve = |motions: &str| {
-        let words =
-            ["curve", "a.toml", "--out", "o", "--from", "1500", "--to", "2000", "--set", "analysis.model=mapped"];
+        let words = [
+            "vary",
+            "a.toml",
+            "--out",
+            "o",
+            "--vary",
+            "operation.speed_rpm=1500:2000",
+            "--start",
+            "branch",
+            "--set",
+            "analysis.model=mapped",
+        ];
         let set =
             ["--set", "motion.mesh_damping_ratio=0.2", "--set", "motion.continuation.time_points=0", "--set", motions];
         scratch.command(&[&words[..], &set].concat())

@@ -68,7 +68,7 @@ const FILES: [(&str, &str); 6] = [
     ("init new.toml --force", "new.toml"),
     ("geometry iso.toml --rexs pair.rexs", "pair.rexs"),
     ("report one", "one/report.html"),
-    ("case plan.toml --range 0..2 --out part.csv --no-cache", "part.csv"),
+    ("vary plan.toml --cases 0..2 --out part.csv --no-cache", "part.csv"),
     ("envelope --only F1 --out o --into page.md", "page.md"),
 ];
 
@@ -254,7 +254,10 @@ fn what_stands_beside_a_result_is_not_taken_for_its_own() {
         ("vary plan.toml --out o", "--out o: o.cases holds no cases of this program\nhint: "),
         ("study study.toml --out s", "--out s: s.cases is no folder of cases\nhint: "),
         ("study study.toml --out o", "--out o: o.cases is no folder of cases\nhint: "),
-        ("case plan.toml --range 0..2 --out part.csv", "--out part.csv: is there, and is no file of `ale-gear case`\n"),
+        (
+            "vary plan.toml --cases 0..2 --out part.csv",
+            "--out part.csv: is there, and is no file of `ale-gear vary --cases`\n",
+        ),
         ("run motion.toml --out m --stop-after-cycles 2", "m.checkpoint: is there, and was not made by this program"),
     ] {
         let run = scratch.command(&words(line));

@@ -83,7 +83,7 @@ fn everything_that_is_carried_is_named_with_its_licence() {
 #[test]
 fn notices_go_with_what_is_handed_on() {
     let notices = fs::read_to_string(repository().join("NOTICES.txt")).unwrap();
-    let run = Scratch::new().ale_gear(["licences"]);
+    let run = Scratch::new().ale_gear(["print", "licences"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     assert!(run.stdout == notices, "other notices than the file");
     let python = fs::read_to_string(repository().join("python/src/ale_gear/NOTICES.txt")).unwrap();

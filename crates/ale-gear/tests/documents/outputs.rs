@@ -68,14 +68,10 @@ fn every_kind() -> Scratch {
         run(&[&["run", &seed(number), "--out", &format!("out-{number}")], words].concat());
     }
     let key = [
-        "--key",
-        "operation.speed_rpm",
-        "--from",
-        "900",
-        "--to",
-        "1000",
-        "--points",
-        "2",
+        "--vary",
+        "operation.speed_rpm=900:1000:2",
+        "--start",
+        "carry",
         "--cycles",
         "6",
         "--settle",
@@ -83,22 +79,20 @@ fn every_kind() -> Scratch {
         "--lyapunov",
         "10",
     ];
-    run(&[&["sweep", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
-    let curve = ["--from", "900", "--to", "1000", "--set", "motion.continuation.longest_step=1"];
+    run(&[&["vary", &seed("004"), "--out", "out-sweep"], &key[..]].concat());
+    let curve =
+        ["--vary", "operation.speed_rpm=900:1000", "--start", "branch", "--set", "motion.continuation.longest_step=1"];
     let lightly = ["--set", "motion.continuation.time_points=1"];
-    run(&[&["curve", &seed("004"), "--out", "out-curve"], &curve[..], &lightly].concat());
-    let plane = [("from_um", -1), ("to_um", 1), ("from_mm_s", 0), ("to_mm_s", 0), ("columns", 2), ("rows", 1)];
-    let words: Vec<String> =
-        plane.iter().flat_map(|(key, n)| ["--set".into(), format!("motion.basins.{key}={n}")]).collect();
-    let basins: Vec<&str> = words.iter().map(String::as_str).chain(["--set", "motion.run=basins"]).collect();
-    run(&[&["run", &seed("004"), "--out", "out-basins"], &basins[..]].concat());
-    run(&["study", "study.toml", "--out", "out-study"]);
-    let key = ["--key", "operation.torque_nm", "--from", "100", "--to", "200", "--points", "2"];
-    run(&[&["sweep", "iso.toml", "--out", "out-sweep-at-rest"], &key[..]].concat());
+    run(&[&["vary", &seed("004"), "--out", "out-curve"], &curve[..], &lightly].concat());
+    let basins = ["--start", "basin", "--vary", "start_um=-1:1:2", "--vary", "start_mm_s=-1:1:2"];
+    run(&[&["vary", &seed("004"), "--out", "out-basins"], &basins[..]].concat());
+    run(&["run", "study.toml", "--out", "out-study"]);
+    let key = ["--vary", "operation.torque_nm=100:200:2", "--of", "ste_um"];
+    run(&[&["vary", "iso.toml", "--out", "out-sweep-at-rest"], &key[..]].concat());
     let words = ["--vary", "operation.torque_nm~normal:200:5", "--output", "mean_ste_um", "--samples", "2"];
     run(&[&["vary", "iso.toml", "--out", "out-vary"], &words[..]].concat());
     let bounds = "pinion.modification.lead_crowning_um=0:10";
-    let words = ["--parameter", bounds, "--evaluations", "2", "--front", "1", "--set", "output.root_stress=false"];
+    let words = ["--vary", bounds, "--evaluations", "2", "--front", "1", "--set", "output.root_stress=false"];
     run(&[&["optimise", "rest.toml", "--out", "out-optimise"], &words[..]].concat());
     run(&["envelope", "--only", "F14,d", "--out", "out-envelope"]);
     let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();

@@ -219,8 +219,8 @@ fn page_of(browser: &Path, name: &str, scratch: &Scratch, commands: &[&[&str]], 
 pub fn sweep(browser: PathBuf) {
     let scene = std::fs::read_to_string(repository().join("scenes/seeds/004.toml")).unwrap();
     let scratch = Scratch::new().file("a.toml", scene);
-    let sweep = ["sweep", "a.toml", "--out", "o", "--key", "operation.speed_rpm", "--from", "800", "--to", "1000"];
-    let few = ["--points", "3", "--cycles", "6", "--settle", "20", "--lyapunov", "5"];
+    let sweep = ["vary", "a.toml", "--out", "o", "--vary", "operation.speed_rpm=800:1000:3", "--start", "carry"];
+    let few = ["--cycles", "6", "--settle", "20", "--lyapunov", "5"];
     let seen = page_of(&browser, "sweep", &scratch, &[&[&sweep[..], &few[..]].concat()], "o/report.html");
     check(&seen, "sweep");
     assert_eq!(seen["charts"].as_array().unwrap().len(), 5, "diagram, peak to peak, exponent, force, mean");
@@ -230,7 +230,7 @@ pub fn studies(browser: PathBuf) {
     let study = "[[case]]\nscene = \"a.toml\"\nlabel = \"light\"\nvalue = 1\n[[case]]\nscene = \"a.toml\"\nlabel = \"heavy\"\nvalue = 2\nset = [\"operation.torque_nm=300\"]\n\
         [[quantity]]\ncolumn = \"ste_um\"\n[[over_time]]\ncolumn = \"contact_line_length_mm\"\n[[follow]]\ncolumn = \"ste_um\"\nbeside = [\"pairs_in_contact\"]\n";
     let scratch = Scratch::new().file("a.toml", ISO_SCENE).file("s.toml", study);
-    let seen = page_of(&browser, "study", &scratch, &[&["study", "s.toml", "--out", "o"]], "o/report.html");
+    let seen = page_of(&browser, "study", &scratch, &[&["run", "s.toml", "--out", "o"]], "o/report.html");
     check_charts(&seen, "study");
     let cases = ["o/cases/01-light", "o/cases/02-heavy"];
     let compare = ["compare", cases[0], cases[1], "--out", "c"];

@@ -50,7 +50,7 @@ fn error_follows_the_contact_lines_and_moments_grow_with_the_helix_angle() {
     // The whole model takes half a minute.
     let study = study.replace("positions = 1", "positions = 0");
     let scratch = scratch.file("study.toml", study);
-    done(&scratch.ale_gear(["study", "study.toml", "--out", "o"]));
+    done(&scratch.ale_gear(["run", "study.toml", "--out", "o"]));
     let csv = scratch.read("o/study.csv");
     let numbers = csv.lines().map(|l| l.split_once(',').unwrap().1).collect::<Vec<_>>().join("\n");
 

@@ -106,16 +106,16 @@ fn wrong_words_are_refused() {
         assert!(run.stderr.contains(wanted), "`{wanted}` is not in {}", run.stderr);
         assert!(!scratch.path().join("o").exists());
     };
-    refused(&["a.toml", "--parameter", "operation.torque_nm=1:2"], "name torques in `torques_nm`");
-    refused(&["a.toml", "--parameter", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
-    refused(&["a.toml", "--parameter", "pinion.modification.bias_um=2:1"], "second bound is not above");
-    refused(&["a.toml", "--parameter", "pinion.modification.bias_um"], "has no `=`");
+    refused(&["a.toml", "--vary", "operation.torque_nm=1:2"], "name torques in `torques_nm`");
+    refused(&["a.toml", "--vary", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
+    refused(&["a.toml", "--vary", "pinion.modification.bias_um=2:1"], "second bound is not above");
+    refused(&["a.toml", "--vary", "pinion.modification.bias_um"], "has no `=`");
     refused(&["a.toml", "--torques", "0"], "is no torque above 0");
     refused(&["a.toml", "--max-pressure", "0"], "is no limit");
     refused(&["a.toml", "--max-edge-pressure", "0"], "is no limit");
     refused(&["a.toml", "--front", "1000"], "is more than 100");
     let own = ["--set", "pinion.modification.drive.lead_crowning_um=3"];
-    let both = ["--parameter", "pinion.modification.lead_crowning_um=0:10"];
+    let both = ["--vary", "pinion.modification.lead_crowning_um=0:10"];
     refused(
         &[&["a.toml"], &own[..], &both[..], &["--set", "pinion.modification.coast.lead_crowning_um=3"]].concat(),
         "which changes nothing",

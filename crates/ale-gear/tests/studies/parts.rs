@@ -1,4 +1,4 @@
-//! `ale-gear case` and `ale-gear merge`: the cases of a plan in pieces.
+//! `ale-gear vary --cases` and `ale-gear merge`: the cases of a plan in pieces.
 
 use crate::util::{ISO_SCENE, Scratch};
 
@@ -18,7 +18,7 @@ fn scratch() -> Scratch {
 }
 
 fn part(scratch: &Scratch, range: &str, out: &str) {
-    let run = scratch.ale_gear(["--quiet", "case", "plan.toml", "--range", range, "--out", out]);
+    let run = scratch.ale_gear(["--quiet", "vary", "plan.toml", "--cases", range, "--out", out]);
     assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (Some(0), "", ""), "{range}");
 }
 
@@ -27,14 +27,14 @@ fn part(scratch: &Scratch, range: &str, out: &str) {
 fn pieces_make_what_one_machine_makes() {
     let scratch = scratch();
     assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "whole"]).code, Some(0));
-    let listed = scratch.ale_gear(["--quiet", "case", "plan.toml", "--list", "20"]).stdout;
+    let listed = scratch.ale_gear(["--quiet", "vary", "plan.toml", "--list", "20"]).stdout;
     assert_eq!(listed, "0..20\n20..40\n40..50\n");
     for (range, out) in [("40..99", "c.csv"), ("0..20", "a.csv"), ("10..40", "b.csv")] {
         part(&scratch, range, out);
     }
     let before = scratch.read("a.csv");
     // Once more, with other threads: the same file.
-    let again = scratch.ale_gear(["-j", "1", "case", "plan.toml", "--range", "0..20", "--out", "a.csv"]);
+    let again = scratch.ale_gear(["-j", "1", "vary", "plan.toml", "--cases", "0..20", "--out", "a.csv"]);
     assert!(again.stdout.contains("cases 0..20 of 50 are there"), "{}", again.stdout);
     std::fs::remove_file(scratch.path().join("a.csv")).unwrap();
     part(&scratch, "0..20", "a.csv");
@@ -54,7 +54,7 @@ fn no_part_loses_its_rows() {
     let scratch = scratch();
     part(&scratch, "0..20", "a.csv");
     let whole = scratch.read("a.csv");
-    let run = |range: &str| scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", "a.csv"]);
+    let run = |range: &str| scratch.ale_gear(["vary", "plan.toml", "--cases", range, "--out", "a.csv"]);
     assert!(run("5..7").stdout.contains("cases 5..7 of 50 are there"));
     let others = run("10..30");
     assert_eq!(others.code, Some(2));
@@ -95,7 +95,7 @@ fn pieces_that_do_not_fit_are_refused() {
     std::fs::write(scratch.path().join("iso.toml"), other).unwrap();
     refused(&["a.csv", "b.csv"], "plan, scene or version of the program are others");
     for range in ["5..5", "7", "b..c"] {
-        let run = scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", "x.csv"]);
+        let run = scratch.ale_gear(["vary", "plan.toml", "--cases", range, "--out", "x.csv"]);
         assert_eq!(run.code, Some(2), "{range}");
     }
 }

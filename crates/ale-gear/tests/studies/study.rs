@@ -1,4 +1,4 @@
-//! `ale-gear study` end to end on small scenes: files, numbers, threads, and what wrong files are told.
+//! Study files end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
 use ale_gear::scene::{Setting, study::Study};
 use report::study_files::{columns_of, study_digest};
@@ -42,7 +42,7 @@ beside = ["contact_line_length_mm", "pairs_in_contact"]
 #[test]
 fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     let scratch = iso_cases().file("s.toml", ISO_STUDY);
-    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "s.toml", "--out", "o"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let csv = scratch.read("o/study.csv");
     assert_eq!(
@@ -76,7 +76,7 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
     assert_eq!(page.matches("<svg").count(), 8);
     assert!(!page.contains("src=") && !page.contains("href="));
     // With reports they are whole results, of the same rows, and linked.
-    let whole = scratch.ale_gear(["study", "s.toml", "--out", "w", "--reports"]);
+    let whole = scratch.ale_gear(["vary", "s.toml", "--out", "w", "--reports", "all"]);
     assert_eq!(whole.code, Some(0), "{}", whole.stderr);
     assert_eq!(scratch.read("w/study.csv"), csv);
     for folder in ["01-10-deg", "02-15-deg", "03-20-deg"] {
@@ -92,9 +92,9 @@ fn a_study_reads_its_numbers_off_the_rows_of_its_cases() {
         assert!(run.stdout.contains(text), "{text} is not in\n{}", run.stdout);
     }
     // An earlier study is replaced; a folder with somebody's file among the cases is not.
-    assert_eq!(scratch.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(scratch.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
     let scratch = scratch.file("o/cases/01-10-deg/thesis.tex", "years of work");
-    let refused = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    let refused = scratch.ale_gear(["run", "s.toml", "--out", "o"]);
     assert!(refused.stderr.contains("holds `cases/01-10-deg/thesis.tex`"), "{}", refused.stderr);
     assert_eq!(refused.code, Some(2));
 }
@@ -111,7 +111,7 @@ fn a_case_without_a_solution_stands_alone() {
     };
     let one = at(ISO_STUDY.to_owned(), "15 deg");
     let scratch = iso_cases().file("s.toml", &one);
-    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "s.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let reason = "[pair]: centre distance 80 mm is too small";
     assert!(run.stdout.contains("warning: 15 deg: no result: ") && run.stdout.contains(reason), "{}", run.stdout);
@@ -120,9 +120,9 @@ fn a_case_without_a_solution_stands_alone() {
     assert_eq!(rows.len(), 4, "{csv}");
     assert!(rows[2].starts_with("15 deg,15,NaN,NaN,NaN,NaN,NaN,NaN,NaN,") && rows[2].contains(reason), "{csv}");
     // The others are those of a study without it.
-    assert_eq!(scratch.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(scratch.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
     let whole = iso_cases().file("s.toml", ISO_STUDY);
-    assert_eq!(whole.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(whole.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
     let own = whole.read("o/study.csv");
     assert_eq!([rows[1], rows[3]], [own.lines().nth(1).unwrap(), own.lines().nth(3).unwrap()]);
     let folders: Vec<_> =
@@ -141,11 +141,11 @@ fn a_case_without_a_solution_stands_alone() {
     assert!(page.matches("Without 15 deg: no result.").count() == 2 && page.contains("<td>no result: "), "{page}");
     // Of a case that is drawn by itself the figure says so.
     let drawn = iso_cases().file("s.toml", at(ISO_STUDY.to_owned(), "20 deg"));
-    assert_eq!(drawn.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(drawn.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
     assert!(drawn.read("o/report.html").contains("20 deg has no result: ste_um is not drawn."));
     let none = ["10 deg", "15 deg", "20 deg"].iter().fold(ISO_STUDY.to_owned(), |study, label| at(study, label));
     let none = iso_cases().file("s.toml", none);
-    let run = none.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = none.ale_gear(["run", "s.toml", "--out", "o"]);
     assert!(run.stderr.starts_with("ale-gear: s.toml: none of 3 cases has a result; 10 deg: "), "{}", run.stderr);
     assert_eq!((run.code, none.names().len()), (Some(2), 4), "{:?}", none.names());
 }
@@ -161,7 +161,7 @@ fn a_study_of_motions_does_not_see_the_number_of_threads() {
                  [full]\ncase = \"heavy\"\npositions = 1\n";
     let scratch = Scratch::new().file("a.toml", motion_scene(2, "")).file("s.toml", study);
     for (out, threads) in [("one", "1"), ("two", "2")] {
-        let run = scratch.ale_gear(["study", "s.toml", "--out", out, "-j", threads]);
+        let run = scratch.ale_gear(["run", "s.toml", "--out", out, "-j", threads]);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     }
     for file in ["study.csv", "cases/01-light/history.csv", "cases/02-heavy/energy.csv"] {
@@ -190,7 +190,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
     let says = |old: &str, new: &str, text: &str| {
         assert!(ISO_STUDY.contains(old), "{old}");
         let scratch = iso_cases().file("s.toml", ISO_STUDY.replacen(old, new, 1));
-        let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+        let run = scratch.ale_gear(["run", "s.toml", "--out", "o"]);
         assert_eq!(run.complaint(), format!("ale-gear: {text}\n"), "for {new}");
         assert_eq!((run.code, scratch.names().len()), (Some(2), 4));
     };
@@ -248,7 +248,7 @@ fn wrong_studies_are_told_with_line_and_hint() {
         "s.toml:7: set operation.torqe_nm: unknown key `torqe_nm`\nhint: did you mean `torque_nm`?",
     );
     let nothing = iso_cases().file("s.toml", &ISO_STUDY[..ISO_STUDY.find("[[quantity]]").unwrap()]);
-    let run = nothing.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = nothing.ale_gear(["run", "s.toml", "--out", "o"]);
     assert_eq!(
         run.complaint(),
         "ale-gear: s.toml:1: a study that asks for nothing\nhint: say what to draw: [[quantity]], [[over_time]], [[follow]]\n"
@@ -260,14 +260,14 @@ fn wrong_studies_are_told_with_line_and_hint() {
 fn scenes_of_a_study_are_checked_before_any_of_them_runs() {
     let wrong =
         iso_cases().file("b.toml", ISO_SCENE.replace("face_width_mm", "face_widht_mm")).file("s.toml", ISO_STUDY);
-    let run = wrong.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = wrong.ale_gear(["run", "s.toml", "--out", "o"]);
     assert_eq!(
         run.complaint(),
         "ale-gear: b.toml:12: unknown key `face_widht_mm`\nhint: did you mean `face_width_mm`?\n"
     );
     let sweep = "run = \"sweep\"\nsweep = { from_rpm = 3000, to_rpm = 4000, speeds = 2 }\n";
     let sweep = iso_cases().file("b.toml", motion_scene(1, sweep)).file("s.toml", ISO_STUDY);
-    let run = sweep.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = sweep.ale_gear(["run", "s.toml", "--out", "o"]);
     assert!(
         run.stderr.starts_with("ale-gear: s.toml:8: b.toml is a sweep, which has no rows over time\n"),
         "{}",
@@ -286,7 +286,7 @@ fn a_case_that_does_not_hold_leaves_its_files() {
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     let scratch = Scratch::new().file("a.toml", scene).file("s.toml", study);
     let reason = |words: &[&str]| {
-        let run = scratch.command(&[&["study", "s.toml", "--out", "o"], words].concat());
+        let run = scratch.command(&[&["vary", "s.toml", "--out", "o"], words].concat());
         assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
         let mut summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
         let case = summary["headline"]["cases"][1].take();
@@ -295,7 +295,7 @@ fn a_case_that_does_not_hold_leaves_its_files() {
         case
     };
     assert!(reason(&[])["folder"].is_null(), "no reports, no files of it");
-    let case = reason(&["--reports"]);
+    let case = reason(&["--reports", "all"]);
     let folder = case["folder"].as_str().unwrap_or_else(|| panic!("no folder: {case}"));
     let own: serde_json::Value = serde_json::from_str(&scratch.read(&format!("o/{folder}/summary.json"))).unwrap();
     assert_eq!(own["certificate"], "failed");
@@ -307,7 +307,7 @@ fn a_case_that_does_not_hold_leaves_its_files() {
 fn a_value_that_is_none_takes_nothing_from_the_others() {
     let study = ISO_STUDY.replacen("value = 15\n", "value = 15\nset = [\"operation.torque_nm=-5\"]\n", 1);
     let scratch = iso_cases().file("s.toml", &study);
-    let run = scratch.ale_gear(["study", "s.toml", "--out", "o"]);
+    let run = scratch.ale_gear(["run", "s.toml", "--out", "o"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let csv = scratch.read("o/study.csv");
     let rows: Vec<&str> = csv.lines().collect();
@@ -338,7 +338,7 @@ fn a_killed_study_goes_on() {
     };
     let mut child = scratch
         .program()
-        .args(["study", "s.toml", "--out", "cut"])
+        .args(["run", "s.toml", "--out", "cut"])
         .stdout(std::process::Stdio::null())
         .stderr(std::process::Stdio::null())
         .spawn()
@@ -353,7 +353,7 @@ fn a_killed_study_goes_on() {
     let before: Vec<_> =
         done().into_iter().map(|path| (path.file_name().unwrap().to_owned(), written(&path))).collect();
     assert!(before.len() >= 5, "{} cases were done", before.len());
-    let run = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
+    let run = scratch.ale_gear(["run", "s.toml", "--out", "cut"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     for (name, time) in before {
         let now = written(&scratch.path().join("cut/cases").join(&name));
@@ -369,7 +369,7 @@ fn a_killed_study_goes_on() {
     // A folder of somebody else is left alone.
     std::fs::create_dir(&kept).unwrap();
     std::fs::write(kept.join("thesis.tex"), "years of work").unwrap();
-    let refused = scratch.ale_gear(["study", "s.toml", "--out", "cut"]);
+    let refused = scratch.ale_gear(["run", "s.toml", "--out", "cut"]);
     assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
 }
 
@@ -379,7 +379,7 @@ fn a_killed_study_goes_on() {
 fn keys_are_set_in_every_case() {
     let own = ISO_STUDY.replacen("value = 15\n", "value = 15\nset = [\"operation.torque_nm=70\"]\n", 1);
     let scratch = iso_cases().file("s.toml", &own);
-    let run = |words: &[&str]| scratch.command(&[&["study", "s.toml", "--out", "o"][..], words].concat());
+    let run = |words: &[&str]| scratch.command(&[&["run", "s.toml", "--out", "o"][..], words].concat());
     let set = run(&["--set", "operation.torque_nm=90", "--set", "analysis.cycles=2"]);
     assert_eq!((set.code, set.stderr.as_str()), (Some(0), ""), "{}", set.stdout);
     for (folder, torque) in [("01-10-deg", 90.0), ("02-15-deg", 70.0), ("03-20-deg", 90.0)] {
@@ -396,7 +396,7 @@ fn keys_are_set_in_every_case() {
     });
     let [a, b, c] = written;
     let by_hand = Scratch::new().file("a.toml", a).file("b.toml", b).file("c.toml", c).file("s.toml", ISO_STUDY);
-    assert_eq!(by_hand.ale_gear(["study", "s.toml", "--out", "o"]).code, Some(0));
+    assert_eq!(by_hand.ale_gear(["run", "s.toml", "--out", "o"]).code, Some(0));
     assert_eq!(scratch.read("o/study.csv"), by_hand.read("o/study.csv"));
     let wrong = |words: &[&str]| {
         let refused = run(words);
@@ -409,7 +409,7 @@ fn keys_are_set_in_every_case() {
     }
     let all = |torque: u32| format!("set = [\"operation.torque_nm={torque}\"]\nvalue = ");
     let scratch = iso_cases().file("s.toml", ISO_STUDY.replace("value = ", &all(70)));
-    let refused = scratch.ale_gear(["study", "s.toml", "--out", "o", "--torque-nm", "90"]);
+    let refused = scratch.ale_gear(["run", "s.toml", "--out", "o", "--torque-nm", "90"]);
     assert_eq!(
         refused.complaint(),
         "ale-gear: --torque-nm: every case of the study sets `operation.torque_nm` itself\n\

@@ -10,7 +10,7 @@ fn seed(number: &str) -> String {
 /// Runs a sweep into `o`; its folder and summary.
 fn sweep(scene: String, words: &[&str]) -> (Scratch, Value) {
     let scratch = Scratch::new().file("a.toml", scene);
-    let run = scratch.command(&[&["sweep", "a.toml", "--out", "o"], words].concat());
+    let run = scratch.command(&[&["vary", "a.toml", "--out", "o", "--start", "carry"], words].concat());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{words:?}: {}", run.stdout);
     let summary = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     (scratch, summary)
@@ -28,14 +28,8 @@ fn of_way(csv: &str, way: &str) -> String {
 #[test]
 fn a_linear_mesh_has_one_answer_everywhere() {
     let words = [
-        "--key",
-        "operation.speed_rpm",
-        "--from",
-        "700",
-        "--to",
-        "1300",
-        "--points",
-        "3",
+        "--vary",
+        "operation.speed_rpm=700:1300:3",
         "--ways",
         "up,down,apart",
         "--cycles",
@@ -75,14 +69,8 @@ fn a_linear_mesh_has_one_answer_everywhere() {
 #[test]
 fn a_free_turn_is_no_chaos() {
     let words = [
-        "--key",
-        "operation.speed_rpm",
-        "--from",
-        "2000",
-        "--to",
-        "5000",
-        "--points",
-        "2",
+        "--vary",
+        "operation.speed_rpm=2000:5000:2",
         "--ways",
         "apart",
         "--cycles",
@@ -110,14 +98,8 @@ fn a_free_turn_is_no_chaos() {
 #[test]
 fn backlash_brings_chaos_between_windows() {
     let words = [
-        "--key",
-        "operation.speed_rpm",
-        "--from",
-        "4774.648",
-        "--to",
-        "5729.578",
-        "--points",
-        "2",
+        "--vary",
+        "operation.speed_rpm=4774.648:5729.578:2",
         "--ways",
         "apart",
         "--cycles",
@@ -161,15 +143,8 @@ fn backlash_brings_chaos_between_windows() {
 #[test]
 fn any_key_may_change() {
     let words = [
-        "--key",
-        "mesh.stiffness_n_per_um",
-        "--from",
-        "2500",
-        "--to",
-        "10000",
-        "--points",
-        "3",
-        "--log",
+        "--vary",
+        "mesh.stiffness_n_per_um=2500:10000:3:log",
         "--ways",
         "apart",
         "--cycles",
@@ -210,34 +185,31 @@ fn a_scene_may_ask_for_its_sweep() {
 #[test]
 fn words_of_a_sweep_are_checked_first() {
     for (scene, words, text) in [
+        (seed("004"), ["--vary", "operation.speed=1:2:3"], "--vary operation.speed=1: unknown key `speed`"),
+        (seed("004"), ["--vary", "pinion.teeth=30:31.5:3"], "--vary pinion.teeth="),
+        (seed("004"), ["--vary", "operation.torque_nm=-1:2:3"], "--vary operation.torque_nm=-1: `torque_nm` is -1"),
+        (seed("004"), ["--vary", "operation.torque_nm=3:2:3"], "--vary operation.torque_nm=3:2:3: 3 is not below 2.5"),
         (
             seed("004"),
-            ["--key", "operation.speed", "--from", "1", "--to", "2"],
-            "--key operation.speed = 1: unknown key `speed`",
+            ["--vary", "operation.torque_nm=3:2"],
+            "--vary operation.torque_nm=3:2: motions carry on from value to value",
         ),
-        (seed("004"), ["--key", "pinion.teeth", "--from", "30", "--to", "31.5"], "--key pinion.teeth = "),
-        (
-            seed("004"),
-            ["--key", "operation.torque_nm", "--from", "-1", "--to", "2"],
-            "--key operation.torque_nm = -1: `torque_nm` is -1",
-        ),
-        (seed("004"), ["--key", "operation.torque_nm", "--from", "3", "--to", "2"], "`--from 3` is not below `--to 2`"),
     ] {
         let scratch = Scratch::new().file("a.toml", scene);
-        let run = scratch.command(&[&["sweep", "a.toml", "--out", "o", "--points", "3"], &words[..]].concat());
+        let run = scratch.command(&[&["vary", "a.toml", "--out", "o", "--start", "carry"], &words[..]].concat());
         assert_eq!(run.code, Some(2), "{text}: {}", run.stderr);
         assert!(run.stderr.starts_with(&format!("ale-gear: {text}")), "{text}: {}", run.stderr);
         assert_eq!(scratch.names(), ["a.toml"]);
     }
 }
 
-/// At rest a sweep is a plan: a row a value with the numbers of that plan, a load that no tooth stands among them; words
-/// of motions are refused.
+/// A column over a key is a plan: a row a value with the numbers of that plan, a load that no tooth stands among them;
+/// words of motions are refused.
 #[test]
-fn a_sweep_at_rest_is_a_plan() {
+fn a_column_over_a_key_is_a_plan() {
     let scratch = Scratch::new().file("a.toml", tiny_at_rest(8));
-    let key = ["--key", "operation.torque_nm", "--from", "100", "--to", "1e7", "--points", "2", "--log"];
-    let run = scratch.command(&[&["sweep", "a.toml", "--out", "o"], &key[..]].concat());
+    let key = ["--vary", "operation.torque_nm=100:1e7:2", "--log"];
+    let run = scratch.command(&[&["vary", "a.toml", "--out", "o", "--of", "ste_um"], &key[..]].concat());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let rows = chart_rows(&scratch.read("o/cases.csv"));
     let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
@@ -251,11 +223,12 @@ fn a_sweep_at_rest_is_a_plan() {
     assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "p"]).code, Some(0));
     assert_eq!(scratch.read("o/cases.csv"), scratch.read("p/cases.csv"));
     for (words, said) in [
-        (["--ways", "up"], "`--ways` is a word of motions"),
-        (["--lyapunov", "3"], "`--lyapunov` is a word of motions"),
-        (["--of", "ste_mm"], "`--of ste_mm` is no column of history.csv\nhint: did you mean \"ste_um\"?"),
+        (&["--of", "ste_um", "--ways", "up"][..], "`--ways` does not go with cases that are run each alone"),
+        (&["--of", "ste_um", "--lyapunov", "3"], "`--lyapunov` does not go with cases"),
+        (&["--of", "ste_um", "--start", "carry"], "only a motion of one model carries on"),
+        (&["--of", "ste_mm"], "`--of ste_mm` is no column of history.csv\nhint: did you mean \"ste_um\"?"),
     ] {
-        let run = scratch.command(&[&["sweep", "a.toml", "--out", "q"], &key[..], &words[..]].concat());
+        let run = scratch.command(&[&["vary", "a.toml", "--out", "q"], &key[..], words].concat());
         assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);
         assert!(!scratch.path().join("q").exists());
     }

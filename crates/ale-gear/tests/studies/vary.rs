@@ -55,7 +55,7 @@ fn numbers_that_no_case_will_have_are_told_before_any_work() {
         ),
     ] {
         let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan(wanted));
-        for words in [&["vary", "plan.toml", "--out", "o"][..], &["case", "plan.toml", "--range", "0..2", "--out", "o"]]
+        for words in [&["vary", "plan.toml", "--out", "o"][..], &["vary", "plan.toml", "--cases", "0..2", "--out", "o"]]
         {
             let run = scratch.command(words);
             assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
@@ -296,7 +296,7 @@ fn pitch_deviations_are_drawn_tooth_by_tooth() {
         }
     }
     for range in ["0..1", "1..4"] {
-        let run = scratch.ale_gear(["case", "plan.toml", "--range", range, "--out", &format!("{}.csv", &range[..1])]);
+        let run = scratch.ale_gear(["vary", "plan.toml", "--cases", range, "--out", &format!("{}.csv", &range[..1])]);
         assert_eq!(run.code, Some(0), "{}", run.stderr);
     }
     assert_eq!(scratch.ale_gear(["merge", "plan.toml", "1.csv", "0.csv", "--out", "m"]).code, Some(0));
@@ -376,7 +376,7 @@ fn the_report_of_a_case_has_the_numbers_of_its_row() {
         assert_eq!(own["ste_harmonics_um"][1].as_f64(), number(case, "harmonic_2_ste_um"), "case {case}");
     }
     // One case by itself, from the plan alone; the folder of a plan with reports may be replaced.
-    let single = scratch.ale_gear(["case", "plan.toml", "--report", "1", "--out", "one"]);
+    let single = scratch.ale_gear(["run", "plan.toml", "--case", "1", "--out", "one"]);
     assert_eq!(single.code, Some(0), "{}", single.stderr);
     assert_eq!(headline("one")["peak_to_peak_ste_um"].as_f64(), number(1, "peak_to_peak_ste_um"));
     assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "o"]).code, Some(0));

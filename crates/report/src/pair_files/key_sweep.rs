@@ -30,7 +30,7 @@ fn by_way(points: &[SweepPoint], values: impl Fn(&SweepPoint) -> Vec<f64>) -> Ve
     WAYS.iter().map(curve).collect()
 }
 
-/// Writes all files of motions at many values of a key; `again`: words of `ale-gear sweep` that make them again. What comes
+/// Writes all files of motions at many values of a key; `again`: the command that makes them again. What comes
 /// back is the closing table.
 ///
 /// # Errors
@@ -52,10 +52,6 @@ pub fn write_key_sweep_result(
     if let (Some(again), Some(headline)) = (again, answer.headline.as_object_mut()) {
         headline.insert("again".into(), again.into());
     }
-    let sweep = again.map(|words| {
-        let sweep = format!("ale-gear sweep {} --out DIR {words}", scene.file.display());
-        std::iter::once(sweep).chain(scene.set.iter().cloned()).collect::<Vec<_>>().join(" ")
-    });
     let shown = Shown {
         subtitle: format!(", motion over {}", h.key),
         key: vec![
@@ -65,7 +61,7 @@ pub fn write_key_sweep_result(
         over: format!("Over {}", h.key),
         charts: bifurcation_charts(&h.key, &h.section_of, points),
         headline: lines(h),
-        again: sweep,
+        again: again.map(str::to_owned),
         ..Shown::default()
     };
     let page = pair_page(scene, facts, &answer, shown)?;

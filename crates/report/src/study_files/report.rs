@@ -63,7 +63,7 @@ pub fn study_page(of: StudyResult<'_>, answer: &Answer) -> Result<Page, ReportEr
     page.push(cases(of));
     page.push(cost_part(&answer.cost));
     let words = if reports { " --reports" } else { "" };
-    page.push(again(&format!("ale-gear study {} --out DIR{words}", study.file.display())));
+    page.push(again(&format!("ale-gear vary {} --out DIR{words}", study.file.display())));
     Ok(page)
 }
 

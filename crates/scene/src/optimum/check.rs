@@ -12,7 +12,7 @@ use super::{
     raw::{RawOptimisation, RawParameter},
 };
 use crate::{
-    Scene, SceneError, Source, nearest,
+    Scene, SceneError, Setting, Source, nearest,
     plan::{DESIGNS, SEED, classed, setting, vary},
     read_text,
 };
@@ -28,7 +28,7 @@ pub(super) const FRONT: u32 = 100;
 /// Samples of the tolerances where none are stated.
 const SAMPLES: u32 = 20;
 
-pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisation> {
+pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Optimisation> {
     let nothing = |what: &str, advice: &str| s.conflict(&(0..0), what, advice);
     let scene = raw
         .scene
@@ -39,7 +39,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Optimisati
         let what = format!("{} cannot be read: {source}", scene_file.display());
         s.conflict(&scene.span(), what, "paths are relative to the optimisation file")
     })?;
-    let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    settings.extend_from_slice(more);
     let own = Scene::parse_with(&scene_text, &scene_file, &settings)?;
     let mut parameters = Vec::new();
     for table in &raw.parameter {

@@ -12,14 +12,14 @@ use super::{
 };
 use crate::{
     DocumentKind, Scene, SceneError, Setting, Source,
-    plan::{DESIGNS, SEED},
+    plan::{AxisValues, AxisWord, DESIGNS, SEED},
     read_text,
 };
 
 /// What a command line says of an optimisation.
 #[derive(Debug, Clone, Default)]
 pub struct OptimisationWords<'a> {
-    /// Keys that may change, `KEY=FROM:TO` or `KEY=FROM:TO:START`; a choice of tip reliefs and crowning without them.
+    /// Keys that may change, `KEY=FROM:TO`; a choice of tip reliefs and crowning without them.
     pub parameters: &'a [String],
     /// Torques, N m; the scene's own without them.
     pub torques_nm: &'a [f64],
@@ -41,8 +41,16 @@ impl Optimisation {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::read_with(file, &[])
+    }
+
+    /// The same, with some keys of its scene set otherwise, behind those that the file sets.
+    ///
+    /// # Errors
+    /// As [`Optimisation::read`].
+    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file)
+        Self::parse_with(&text, file, settings)
     }
 
     /// Checks the text of an optimisation file; `file` is what messages name and what paths are relative to.
@@ -50,11 +58,19 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::parse_with(text, file, &[])
+    }
+
+    /// As [`Optimisation::read_with`], of a text.
+    ///
+    /// # Errors
+    /// As [`Optimisation::read`].
+    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
         let raw: RawOptimisation = toml::from_str(text)
             .map_err(|e| source.explain(e.message(), e.span()))
             .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Optimisation))?;
-        check(&source, &raw)
+        check(&source, &raw, settings)
     }
 
     /// Whether a file's text is that of an optimisation: it names a scene or what may change.
@@ -92,7 +108,7 @@ impl Optimisation {
         let mut parameters = words
             .parameters
             .iter()
-            .map(|word| parameter(word, known).map_err(|what| wrong(format!("--parameter {word}"), what)))
+            .map(|word| parameter(word, known).map_err(|what| wrong(format!("--vary {word}"), what)))
             .collect::<Result<Vec<_>, _>>()?;
         if parameters.is_empty() {
             parameters = default_parameters(&own)?;
@@ -143,22 +159,17 @@ impl Optimisation {
     }
 }
 
-/// `KEY=FROM:TO`, or with `:START`; the error says what is wrong with it.
+/// What `KEY=FROM:TO` lets change, from the scene's own value on; the error says what is wrong with it.
 fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Result<DesignParameter, String> {
-    let (key, rest) = word.split_once('=').ok_or("it has no `=`: say KEY=FROM:TO")?;
-    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is no number", part.trim()));
-    let numbers = rest.split(':').map(number).collect::<Result<Vec<f64>, _>>()?;
-    let (bounds, start) = match numbers[..] {
-        [from, to] => ([from, to], None),
-        [from, to, start] => ([from, to], Some(start)),
-        _ => return Err("say KEY=FROM:TO, or KEY=FROM:TO:START".into()),
+    let AxisWord { keys, values } = AxisWord::parse(word)?;
+    let AxisValues::Between(bounds) = values else {
+        return Err("say KEY=FROM:TO; the search begins at the scene's own value".into());
     };
     if !(bounds[1] > bounds[0] && bounds.iter().all(|b| b.is_finite())) {
         return Err("its second bound is not above the first".into());
     }
-    let key = key.trim().to_owned();
     let middle = if bounds[0] <= 0.0 && bounds[1] >= 0.0 { 0.0 } else { 0.5 * (bounds[0] + bounds[1]) };
-    let start = start.or_else(|| known(&key)).unwrap_or(middle).clamp(bounds[0], bounds[1]);
-    let grain = grain(&key);
-    Ok(DesignParameter { keys: vec![key], bounds, start, grain })
+    let start = known(&keys[0]).unwrap_or(middle).clamp(bounds[0], bounds[1]);
+    let grain = grain(&keys[0]);
+    Ok(DesignParameter { keys, bounds, start, grain })
 }

@@ -31,7 +31,7 @@ const ORDERS: u32 = 1000;
 /// Word for a mesh harmonic among what may be taken of a column.
 const HARMONIC: &str = "harmonic";
 
-pub(super) fn check(s: &Source<'_>, raw: &RawPlan) -> Checked<Plan> {
+pub(super) fn check(s: &Source<'_>, raw: &RawPlan, more: &[Setting]) -> Checked<Plan> {
     let nothing = |what: &str, advice: &str| s.conflict(&(0..0), what, advice);
     let scene = raw.scene.as_ref().ok_or_else(|| nothing("a plan without `scene`", "give the path of a scene file"))?;
     if raw.vary.is_empty() {
@@ -49,7 +49,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan) -> Checked<Plan> {
         let what = format!("{} cannot be read: {source}", scene_file.display());
         s.conflict(&scene.span(), what, "paths are relative to the plan file")
     })?;
-    let settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    settings.extend_from_slice(more);
     let sampling = Sampling {
         design: s.choice("design", &raw.design, &DESIGNS)?,
         samples: s.whole("samples", &raw.samples, SAMPLES[0], 1, SAMPLES[1])?,

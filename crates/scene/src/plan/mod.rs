@@ -21,3 +21,4 @@ pub(crate) use raw::RawVary;
 pub use read::PlanWords;
 pub use tolerance::PitchTolerance;
 pub(crate) use tolerance::classed;
+pub use word::{AxisValues, AxisWord};

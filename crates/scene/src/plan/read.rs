@@ -10,7 +10,7 @@ use super::{
     classed,
     raw::{RawPlan, tables},
     tolerance::is_pitch,
-    word,
+    word::{AxisValues, AxisWord},
 };
 use crate::{DocumentKind, Scene, SceneError, Setting, Source, nearest, read_text};
 
@@ -21,6 +21,8 @@ pub struct PlanWords<'a> {
     pub vary: &'a [String],
     /// Wanted numbers of the headline.
     pub outputs: &'a [String],
+    /// Wanted numbers that are read off columns.
+    pub columns: &'a [PlanOutput],
     /// Design, samples, seed.
     pub design: Option<&'a str>,
     /// How many samples.
@@ -35,8 +37,16 @@ impl Plan {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the plan file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
+        Self::read_with(file, &[])
+    }
+
+    /// The same, with some keys of its scene set otherwise, behind those that the file sets.
+    ///
+    /// # Errors
+    /// As [`Plan::read`].
+    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file)
+        Self::parse_with(&text, file, settings)
     }
 
     /// Checks the text of a plan file; `file` is what messages name and what paths are relative to.
@@ -44,11 +54,19 @@ impl Plan {
     /// # Errors
     /// As [`Plan::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
+        Self::parse_with(text, file, &[])
+    }
+
+    /// As [`Plan::read_with`], of a text.
+    ///
+    /// # Errors
+    /// As [`Plan::read`].
+    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
         let source = Source::of(file, text, tables);
         let raw: RawPlan = toml::from_str(text)
             .map_err(|e| source.explain(e.message(), e.span()))
             .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Plan))?;
-        check(&source, &raw)
+        check(&source, &raw, settings)
     }
 
     /// The plan of a scene file that a command line says.
@@ -74,16 +92,21 @@ impl Plan {
         let (mut axes, mut kinds) = (Vec::new(), Vec::new());
         for written in words.vary {
             let complain = |what: String| wrong(format!("--vary {written}"), what);
-            let (keys, varied) = word::axis(written).map_err(complain)?;
-            let (pitch, axis) = match varied {
-                word::Varied::By(_) if keys.iter().any(|key| is_pitch(key)) => {
+            let AxisWord { keys, values } = AxisWord::parse(written).map_err(complain)?;
+            let (pitch, axis) = match values {
+                AxisValues::Between([from, to]) => {
+                    return Err(complain(format!(
+                        "say how many, as `={from}:{to}:9`, or draw them, as `~{from}:{to}`"
+                    )));
+                }
+                AxisValues::By(_) if keys.iter().any(|key| is_pitch(key)) => {
                     return Err(complain("pitch errors are drawn within a class, as `~iso1328:6`".into()));
                 }
-                word::Varied::By(axis) => (None, axis),
-                word::Varied::Class(_) if keys.len() > 1 && keys.iter().any(|key| is_pitch(key)) => {
+                AxisValues::By(axis) => (None, axis),
+                AxisValues::Class(_) if keys.len() > 1 && keys.iter().any(|key| is_pitch(key)) => {
                     return Err(complain("pitch errors of each gear are drawn by a `--vary` of its own".into()));
                 }
-                word::Varied::Class(class) => {
+                AxisValues::Class(class) => {
                     let known = Scene::parse_with(&scene_text, scene_file, settings)?;
                     let key = &keys[0];
                     let found = classed(&known, key, class, known.number_at(key));
@@ -113,7 +136,8 @@ impl Plan {
             seed: u64::from(words.seed.unwrap_or(SEED)),
         };
         let cases = Cases::new(kinds, &sampling).map_err(|e| wrong("--vary".into(), e.to_string()))?;
-        let outputs = words.outputs.iter().map(|key| PlanOutput::Headline(key.clone())).collect();
+        let outputs = words.outputs.iter().map(|key| PlanOutput::Headline(key.clone()));
+        let outputs = outputs.chain(words.columns.iter().cloned()).collect();
         let name = scene_file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
         let file = scene_file.to_owned();
         let scene_file = scene_file.to_owned();

@@ -3,25 +3,53 @@
 use cases::{Axis, Distribution};
 use geometry::TOLERANCE_CLASSES;
 
-/// How a word varies its key.
-pub(super) enum Varied {
-    /// By numbers that it says.
+/// Which values a word gives its keys.
+#[derive(Debug, Clone, PartialEq)]
+pub enum AxisValues {
+    /// Those that it says, or what they are drawn from.
     By(Axis),
+    /// Any between two ends, in the order in which they are written.
+    Between([f64; 2]),
     /// Within a tolerance class of ISO 1328-1.
     Class(u32),
 }
 
-/// Keys and how they are varied; several keys, with `+` between, get the same value.
+/// Keys and their values in one word; several keys, with `+` between, have the same value.
 ///
 /// ```text
 /// key=1,2,5              each of these            key~0:40                   drawn, uniform
 /// key=0:40:9             nine, evenly spaced      key~0.1:10:log             its logarithm uniform
 /// key=0.1:10:9:log       their logarithms are     key~normal:0:5             mean, standard deviation
-/// one+other=1,2,5        both of them             key~normal:0:5:-10:10      between limits
-///                                                 key~iso1328:6              within a class of ISO 1328-1
+/// key=0:40               any between              key~normal:0:5:-10:10      between limits
+/// one+other=1,2,5        both of them             key~iso1328:6              within a class of ISO 1328-1
 /// ```
-/// The error says what is wrong with it.
-pub(super) fn axis(word: &str) -> Result<(Vec<String>, Varied), String> {
+#[derive(Debug, Clone, PartialEq)]
+pub struct AxisWord {
+    /// At least one; the first one names the axis.
+    pub keys: Vec<String>,
+    /// Their values.
+    pub values: AxisValues,
+}
+
+impl AxisWord {
+    /// Reads a word.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        axis(word).map(|(keys, values)| Self { keys, values })
+    }
+
+    /// The values that it says; `None` where they are drawn, or any between two ends.
+    pub fn list(&self) -> Option<&[f64]> {
+        match &self.values {
+            AxisValues::By(Axis::Each(values)) => Some(values),
+            _ => None,
+        }
+    }
+}
+
+fn axis(word: &str) -> Result<(Vec<String>, AxisValues), String> {
     let at = word.find(['=', '~']).ok_or("it has neither `=` (each value) nor `~` (drawn)")?;
     let (key, rest) = word.split_at(at);
     let (drawn, values) = (rest.starts_with('~'), &rest[1..]);
@@ -36,6 +64,7 @@ pub(super) fn axis(word: &str) -> Result<(Vec<String>, Varied), String> {
             let count = count.trim().parse::<u32>().ok().filter(|n| *n > 0).ok_or_else(wrong)?;
             grid([number(from)?, number(to)?], count, logarithmic)?
         }
+        (false, [from, to]) => return Ok((keys(key), AxisValues::Between([number(from)?, number(to)?]))),
         (true, ["normal", rest @ ..]) => match numbers(rest)?[..] {
             [mean, deviation] => normal(mean, deviation, [f64::NEG_INFINITY, f64::INFINITY]),
             [mean, deviation, least, largest] => normal(mean, deviation, [least, largest]),
@@ -45,7 +74,7 @@ pub(super) fn axis(word: &str) -> Result<(Vec<String>, Varied), String> {
             let class = class.trim().parse().ok().filter(|class| TOLERANCE_CLASSES.contains(class));
             let (first, last) = (TOLERANCE_CLASSES.start(), TOLERANCE_CLASSES.end());
             let class = class.ok_or_else(|| format!("a tolerance class is a number, {first} to {last}"))?;
-            return Ok((keys(key), Varied::Class(class)));
+            return Ok((keys(key), AxisValues::Class(class)));
         }
         (true, [from, to, scale @ ..]) => {
             let (from, to) = (number(from)?, number(to)?);
@@ -58,7 +87,7 @@ pub(super) fn axis(word: &str) -> Result<(Vec<String>, Varied), String> {
         }
         _ => return Err("say `=A,B,C`, `=FROM:TO:COUNT`, `~FROM:TO` or `~normal:MEAN:DEVIATION`".into()),
     };
-    Ok((keys(key), Varied::By(axis)))
+    Ok((keys(key), AxisValues::By(axis)))
 }
 
 /// Keys of an axis, as a word says them.

@@ -46,7 +46,7 @@ fn gearboxes() -> Vec<std::path::PathBuf> {
 #[test]
 fn shipped_gearboxes_fit_their_schema() {
     let scratch = crate::util::Scratch::new();
-    let printed = scratch.ale_gear(["schema", "gearbox"]);
+    let printed = scratch.ale_gear(["print", "schema", "gearbox"]);
     assert_eq!(printed.code, Some(0), "{}", printed.stderr);
     let schema: serde_json::Value = serde_json::from_str(&printed.stdout).unwrap();
     assert_eq!(schema, Gearbox::json_schema());
@@ -57,7 +57,7 @@ fn shipped_gearboxes_fit_their_schema() {
         fits(&schema, &as_json(&text)).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     }
     fits(&schema, &as_json(crate::util::ISO_SCENE)).unwrap_err();
-    let scene = scratch.ale_gear(["schema"]);
+    let scene = scratch.ale_gear(["print", "schema"]);
     assert_eq!(serde_json::from_str::<serde_json::Value>(&scene.stdout).unwrap(), json_schema());
 }
 

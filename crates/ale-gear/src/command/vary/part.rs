@@ -1,46 +1,45 @@
-//! `ale-gear case` and `ale-gear merge`: the cases of a plan on many machines, and one of them by itself.
+//! Some cases of a plan into a file, for many machines; and `ale-gear merge`, which puts them together.
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
 use report::plan_files::{DoneCases, PageWords, Part, PartError, check_outputs, merged, plan_digest, write_cases};
 use scene::plan::Plan;
 
-use super::{
-    cache_args::CacheArgs,
-    case_reports::{scene_of, write_one},
-    vary::solve_range,
-};
+use super::{super::Answer, VaryArgs, each::solve_range};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
 
-/// Words of `ale-gear case`.
-#[derive(Debug, clap::Args)]
-pub(super) struct CaseArgs {
-    /// Plan file
-    plan: PathBuf,
-    /// Cases, from the first to before the last: `0..100`; those beyond the plan are none
-    #[arg(long, value_name = "FROM..TO", value_parser = range, required_unless_present_any = ["list", "report"],
-          requires = "out")]
-    range: Option<Range<usize>>,
-    /// File for the rows of these cases, left alone where it has them already; with `--report` a folder
-    #[arg(long, short, value_name = "PART", required_unless_present = "list")]
-    out: Option<PathBuf>,
+/// Words for a part of a plan's cases.
+#[derive(Debug, Default, clap::Args)]
+#[command(next_help_heading = "Many machines")]
+pub(super) struct PartArgs {
+    /// Only these cases of a plan, from the first to before the last: `0..100`; those beyond the plan are none. Their
+    /// rows go into the file `--out`, which is left alone where it has them already
+    #[arg(long, value_name = "FROM..TO", value_parser = range)]
+    cases: Option<Range<usize>>,
     /// Solve nothing, but say on stdout which ranges of so many cases the plan has
-    #[arg(long, value_name = "CASES", conflicts_with_all = ["range", "out"],
+    #[arg(long, value_name = "CASES", conflicts_with_all = ["cases", "out"],
           value_parser = clap::value_parser!(u32).range(1..))]
     list: Option<u32>,
-    /// A whole result of one case, as `ale-gear run` writes it, into the folder `--out`
-    #[arg(long, value_name = "CASE", conflicts_with_all = ["range", "list"], requires = "out")]
-    report: Option<usize>,
-    #[command(flatten)]
-    cache: CacheArgs,
+}
+
+impl PartArgs {
+    /// Whether a part is asked for.
+    pub(super) fn any(&self) -> bool {
+        self.cases.is_some() || self.list.is_some()
+    }
+
+    /// Words, and whether they were given.
+    pub(super) fn given(&self) -> [(&'static str, bool); 2] {
+        [("--cases", self.cases.is_some()), ("--list", self.list.is_some())]
+    }
 }
 
 /// Words of `ale-gear merge`.
 #[derive(Debug, clap::Args)]
-pub(super) struct MergeArgs {
+pub(in crate::command) struct MergeArgs {
     /// Plan file
     plan: PathBuf,
-    /// Files of `ale-gear case` that together have all cases
+    /// Files of `ale-gear vary --cases` that together have all cases
     #[arg(required = true)]
     parts: Vec<PathBuf>,
     /// Folder for the results; it appears when they are complete
@@ -54,20 +53,20 @@ fn range(word: &str) -> Result<Range<usize>, String> {
     if from < to { Ok(from..to) } else { Err(format!("there is no case in {from}..{to}")) }
 }
 
-impl CaseArgs {
+impl VaryArgs {
     /// Solves the cases of the range; the same words leave the same file, however often.
-    pub(super) fn execute(self, told: impl Fn(String) -> String) -> Result<String, CommandError> {
-        let (plan, mut phases) = (Plan::read(&self.plan)?, Phases::with_bars());
+    pub(super) fn part(&self, quiet: bool) -> Result<Answer, CommandError> {
+        self.only(&["--cases", "--list"], "a part of a plan file's cases")?;
+        let told = |text: String| Answer::from(if quiet { String::new() } else { text });
+        let (plan, mut phases) = (Plan::read_with(&self.file, &self.overrides.settings()?)?, Phases::with_bars());
         check_outputs(&plan).map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
-        if let (Some(case), Some(out)) = (self.report, &self.out) {
-            let table = write_one(&scene_of(&plan, case)?, &mut phases, out, &self.cache.open())?;
-            return Ok(told(format!("{table}\nresults: {}\n", out.display())));
-        }
         let count = plan.cases.count();
-        let (Some(range), Some(out)) = (&self.range, &self.out) else {
-            let chunk = self.list.unwrap_or(1) as usize;
+        let (Some(range), Some(out)) = (&self.part.cases, &self.out) else {
+            let chunk = self.part.list.unwrap_or(1) as usize;
             // What is asked for goes to stdout, however quiet.
-            return Ok((0..count).step_by(chunk).map(|a| format!("{a}..{}\n", (a + chunk).min(count))).collect());
+            let list: String =
+                (0..count).step_by(chunk).map(|a| format!("{a}..{}\n", (a + chunk).min(count))).collect();
+            return Ok(list.into());
         };
         let range = range.start.min(count)..range.end.min(count);
         let digest = plan_digest(&plan)?;
@@ -83,7 +82,7 @@ impl CaseArgs {
             Ok(part) => return refuse(format!("has the cases {}..{} of this plan", part.range.start, part.range.end)),
             Err(PartError::AnotherPlan { .. }) => return refuse("has cases of another plan or version".to_owned()),
             Err(_) if !Part::may_replace(out) => {
-                return refuse("is there, and is no file of `ale-gear case`".to_owned());
+                return refuse("is there, and is no file of `ale-gear vary --cases`".to_owned());
             }
             Err(_) => {}
         }
@@ -97,16 +96,16 @@ impl CaseArgs {
 
 impl MergeArgs {
     /// Puts the parts together; the files are those of `ale-gear vary`.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    pub(in crate::command) fn execute(self) -> Result<String, CommandError> {
         let (plan, phases) = (Plan::read(&self.plan)?, Phases::quiet());
         let rows = merged(&self.parts, &plan_digest(&plan)?, &plan).map_err(|e| {
             let hint = match &e {
                 PartError::Missing { missing } => missing.first().map(|range| {
                     let (plan, from, to) = (self.plan.display(), range.start, range.end);
-                    format!("make them: `ale-gear case {plan} --range {from}..{to} --out part-{from}.csv`")
+                    format!("make them: `ale-gear vary {plan} --cases {from}..{to} --out part-{from}.csv`")
                 }),
                 PartError::Read { .. } => None,
-                _ => Some("take the file away and make it again with `ale-gear case`".to_owned()),
+                _ => Some("take the file away and make it again with `ale-gear vary --cases`".to_owned()),
             };
             CommandError::input(&e, hint)
         })?;

@@ -1,6 +1,4 @@
-//! `ale-gear study`: several scenes in, the same figures of all out.
-
-use std::path::PathBuf;
+//! Several scenes with the same figures of all.
 
 use analysis::{
     SharedModels,
@@ -12,7 +10,10 @@ use analysis::{
 use report::study_files::{StudyResult, columns_of, study_answer, study_digest, study_page, study_warnings};
 use scene::study::Study;
 
-use super::{cache_args::CacheArgs, overrides::Overrides, run::write_result};
+use super::{
+    super::{Answer, run::write_result},
+    VaryArgs,
+};
 use report::{check_memory, folder::KeptCases, write_summary, write_tables_and_page};
 
 use crate::{
@@ -21,39 +22,15 @@ use crate::{
     memory,
     output::{CASES, ResultDirectory},
     phases::Phases,
-    scene::SceneError,
     study_cases::{CaseRunner, run_cases},
     talk,
 };
 
-/// Words of `ale-gear study`.
-#[derive(Debug, clap::Args)]
-pub(super) struct StudyArgs {
-    /// Study file
-    study: PathBuf,
-    /// Folder for the results; it appears when they are complete
-    #[arg(long, short, value_name = "DIR")]
-    out: PathBuf,
-    /// A whole result of every case, with a report and a view of its own, as `ale-gear run` writes it
-    #[arg(long)]
-    reports: bool,
-    #[command(flatten)]
-    overrides: Overrides,
-    #[command(flatten)]
-    cache: CacheArgs,
-}
-
-impl StudyArgs {
+impl VaryArgs {
     /// Every complaint about the words and about all files is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<Study, CommandError> {
+    fn study_of_file(&self) -> Result<Study, CommandError> {
         let settings = self.overrides.settings()?;
-        let mut study = Study::read(&self.study, &settings, &columns_of).map_err(|e| match &e {
-            SceneError::Read { .. } => CommandError::input(
-                &e,
-                Some("`ale-gear study STUDY.toml --out DIR` wants the path of a study file".into()),
-            ),
-            _ => e.into(),
-        })?;
+        let mut study = Study::read(&self.file, &settings, &columns_of)?;
         for case in &mut study.cases {
             case.scene = with_slices(case.scene.clone());
         }
@@ -62,17 +39,19 @@ impl StudyArgs {
         Ok(study)
     }
 
-    /// Runs the study; the text is the closing table.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
-        let mut phases = Phases::with_bars();
-        let study = self.plan()?;
-        let results = ResultDirectory::create(&self.out)?;
+    /// Runs the study.
+    pub(super) fn study(&self, quiet: bool) -> Result<Answer, CommandError> {
+        self.only(&["--reports", "--json"], "a study file")?;
+        let (mut phases, out) = (Phases::with_bars(), self.folder()?);
+        let study = self.study_of_file()?;
+        let reports = self.reports.of_all(study.cases.len())?;
+        let results = ResultDirectory::create(out)?;
         let cache = self.cache.open();
-        let kept = KeptCases::beside(&self.out, &study_digest(&study, self.reports)?)?;
+        let kept = KeptCases::beside(out, &study_digest(&study, reports)?)?;
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let models = SharedModels::new(&cache);
             let alone = |scene: &_, own: &_| write_result(scene, &mut Phases::quiet(), own, &cache);
-            let runner = CaseRunner { models: &models, alone: &alone, reports: self.reports };
+            let runner = CaseRunner { models: &models, alone: &alone, reports };
             run_cases(&study, &kept, runner, &|case| {
                 progress.say(case.label.clone());
                 progress.tick();
@@ -98,7 +77,7 @@ impl StudyArgs {
             findings: &findings,
             speed_up: speed_up.as_ref(),
             warnings: &warnings,
-            reports: self.reports,
+            reports,
         };
         let answer = study_answer(of, phases.cost());
         let table = write_tables_and_page(&answer, &study_page(of, &answer)?, false, &results)?;
@@ -106,7 +85,7 @@ impl StudyArgs {
         kept.move_into(&results.path(CASES), folders.iter().map(String::as_str))?;
         write_summary(&answer, &results)?;
         results.finish(talk::note)?;
-        Ok(format!("{table}\nresults: {}\n", self.out.display()))
+        Answer::of_folder(out, (table, None), (self.json, quiet))
     }
 }
 

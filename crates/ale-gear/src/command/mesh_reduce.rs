@@ -1,4 +1,4 @@
-//! `ale-gear reduce`: gears condensed to their flanks, without a run.
+//! `ale-gear mesh reduce`: gears condensed to their flanks, without a run.
 
 use std::{
     fmt::Write,
@@ -15,14 +15,14 @@ use serde_json::json;
 
 use super::{
     cache_args::CacheArgs,
-    mesh::{GroupArgs, complaint},
+    group_args::{GroupArgs, complaint},
     overrides::Overrides,
 };
 use report::folder::Cache;
 
 use crate::{error::CommandError, phases::Phases, scene::Scene};
 
-/// Words of `ale-gear reduce`.
+/// Words of `ale-gear mesh reduce`.
 #[derive(Debug, clap::Args)]
 pub(super) struct ReduceArgs {
     /// Scene file, whose gears go into the cache; or a Gmsh file (`.msh`), whose gear is reduced for its time and

@@ -1,119 +1,121 @@
-//! `ale-gear vary`: a scene with keys varied, a row a case.
+//! Every case alone: a row of wanted numbers a case.
 
-use std::{
-    ops::Range,
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use std::{ops::Range, path::Path, sync::Arc};
 
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
 use report::{
     folder::{Cache, beside_results},
     plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
+    study_files::columns_of,
 };
-use scene::plan::{Plan, PlanWords};
+use scene::{
+    plan::{Plan, PlanOutput, PlanTake, PlanWords},
+    study::{Take, column_advice},
+};
 
-use super::{cache_args::CacheArgs, case_reports::CaseReports, overrides::Overrides};
+use super::{
+    super::{Answer, case_reports::CaseReports},
+    DrawnArgs, VaryArgs,
+};
 use crate::{
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
-    scene::Scene,
+    resolution::with_slices,
+    scene::{Scene, Setting},
     talk::{self, Loudness},
 };
-
-/// Words of `ale-gear vary`.
-#[derive(Debug, clap::Args)]
-pub(super) struct VaryArgs {
-    /// Plan file; or a scene file, with `--vary` and `--output`, or `--harris`
-    plan: PathBuf,
-    /// Folder for the results; it appears when they are complete
-    #[arg(long, short, value_name = "DIR")]
-    out: PathBuf,
-    /// A key and its values: `KEY=1,2,5`, `KEY=0:40:9` (nine), `KEY~0:40` (drawn), `KEY~normal:0:5`, `KEY~iso1328:6` (a
-    /// tolerance class); several keys with the same value: `KEY+KEY=1,2,5`; may be given again
-    #[arg(long, value_name = "WORDS")]
-    vary: Vec<String>,
-    /// A number of the headline of `summary.json` that is wanted; may be given again
-    #[arg(long, value_name = "KEY")]
-    output: Vec<String>,
-    /// Harris map: peak-to-peak STE over the torque, from a tenth of the scene's to 1.4 times it; a curve for each value
-    /// of what `--vary` names beside
-    #[arg(long)]
-    harris: bool,
-    /// How samples of what is drawn are spread: latin-hypercube, sobol or random [default: latin-hypercube]
-    #[arg(long, value_name = "NAME")]
-    design: Option<String>,
-    /// How many samples of what is drawn [default: 100]
-    #[arg(long, value_name = "N")]
-    samples: Option<u32>,
-    /// Other samples for another seed [default: 1]
-    #[arg(long, value_name = "N")]
-    seed: Option<u32>,
-    #[command(flatten)]
-    reports: CaseReports,
-    #[command(flatten)]
-    overrides: Overrides,
-    #[command(flatten)]
-    cache: CacheArgs,
-}
 
 /// Torques of a Harris map over the scene's: the first, the last, how many.
 const HARRIS: (f64, f64, u32) = (0.1, 1.4, 14);
 
+/// What is taken of a column where `--of` names one.
+const TAKES: [PlanTake; 4] =
+    [PlanTake::Of(Take::Mean), PlanTake::Of(Take::PeakToPeak), PlanTake::Of(Take::Least), PlanTake::Of(Take::Largest)];
+
 impl VaryArgs {
+    /// Words that go with cases that are alone.
+    const EACH: [&str; 10] = [
+        "--vary",
+        "--output",
+        "--of",
+        "--harris",
+        "--design",
+        "--samples",
+        "--seed",
+        "--reports",
+        "--report-case",
+        "--json",
+    ];
+
     /// Every complaint about the words and the plan is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<Plan, CommandError> {
-        let Self { design, samples, seed, .. } = self;
+    pub(super) fn plan(&self) -> Result<Plan, CommandError> {
+        let DrawnArgs { design, samples, seed } = &self.drawn;
         let settings = self.overrides.settings()?;
         let refuse = |what: &str, hint: &str| Err(CommandError::input(what, Some(hint.into())));
         let (mut vary, mut outputs) = (self.vary.clone(), self.output.clone());
         if self.harris {
-            let scene = Scene::read_with(&self.plan, &settings)?;
+            let scene = Scene::read_with(&self.file, &settings)?;
             vary.push(harris_axis(scene.operation.torque_nm));
             outputs.insert(0, "peak_to_peak_ste_um".into());
         }
-        if !vary.is_empty() && !outputs.is_empty() {
+        let columns = self.outputs_of_column(&settings)?;
+        let asks = !outputs.is_empty() || !columns.is_empty();
+        if !vary.is_empty() && asks {
             let design = design.as_deref();
-            let words = PlanWords { vary: &vary, outputs: &outputs, design, samples: *samples, seed: *seed };
-            return Ok(Plan::of_words(&self.plan, &settings, &words)?);
+            let words =
+                PlanWords { vary: &vary, outputs: &outputs, columns: &columns, design, samples: *samples, seed: *seed };
+            return Ok(Plan::of_words(&self.file, &settings, &words)?);
         }
-        if !vary.is_empty() || !outputs.is_empty() {
+        if !vary.is_empty() || asks {
             return refuse(
                 "a scene is varied by `--vary`, and `--output` says what is wanted of each case",
                 "as `--vary 'operation.torque_nm=50:200:7' --output peak_to_peak_ste_um`; or give a plan file",
             );
         }
-        if !settings.is_empty() || design.is_some() || samples.is_some() || seed.is_some() {
+        if design.is_some() || samples.is_some() || seed.is_some() {
             let hint = "write them into the plan, or give a scene file with `--vary` and `--output`";
-            return refuse("a plan file says keys, samples and seed itself", hint);
+            return refuse("a plan file says samples and seed itself", hint);
         }
-        Ok(Plan::read(&self.plan)?)
+        Ok(Plan::read_with(&self.file, &settings)?)
+    }
+
+    /// What is wanted of the column that `--of` names.
+    fn outputs_of_column(&self, settings: &[Setting]) -> Result<Vec<PlanOutput>, CommandError> {
+        let Some(column) = &self.of else { return Ok(Vec::new()) };
+        let scene = with_slices(Scene::read_with(&self.file, settings)?);
+        if let Some(all) = columns_of(&scene).filter(|all| !all.iter().any(|name| name == column)) {
+            let names: Vec<&str> = all.iter().map(String::as_str).collect();
+            let what = format_args!("`--of {column}` is no column of history.csv");
+            return Err(CommandError::input(what, column_advice(column, &names)));
+        }
+        Ok(TAKES.map(|take| PlanOutput::Column { column: column.clone(), take }).into())
     }
 
     /// The command that makes it again.
-    fn again(&self, plan: &Plan) -> String {
-        let mut words = format!("ale-gear vary {} --out DIR", self.plan.display());
+    fn again(&self) -> String {
+        let mut words = format!("ale-gear vary {} --out DIR", self.file.display());
         let mut add = |word: String| words.push_str(&format!(" {word}"));
         if self.harris {
             add("--harris".into());
         }
         self.vary.iter().for_each(|word| add(format!("--vary '{word}'")));
         self.output.iter().for_each(|key| add(format!("--output {key}")));
-        self.design.iter().for_each(|name| add(format!("--design {name}")));
-        self.samples.iter().for_each(|n| add(format!("--samples {n}")));
-        self.seed.iter().for_each(|n| add(format!("--seed {n}")));
-        // Those of a file stand in it.
-        if self.harris || !self.vary.is_empty() {
-            plan.settings.iter().for_each(|setting| add(setting.word()));
-        }
+        self.of.iter().for_each(|column| add(format!("--of {column}")));
+        self.drawn.design.iter().for_each(|name| add(format!("--design {name}")));
+        self.drawn.samples.iter().for_each(|n| add(format!("--samples {n}")));
+        self.drawn.seed.iter().for_each(|n| add(format!("--seed {n}")));
+        self.overrides.settings().unwrap_or_default().iter().for_each(|setting| add(setting.word()));
         words + &self.reports.words()
     }
 
-    /// Runs the cases that are not done yet; the text is the closing table.
-    pub(super) fn execute(self) -> Result<String, CommandError> {
+    /// Runs the cases that are not done yet.
+    pub(super) fn each(&self, quiet: bool) -> Result<Answer, CommandError> {
+        self.only(&Self::EACH, "cases that are run each alone")?;
         let plan = self.plan()?;
-        run_plan(&plan, (&self.out, &self.again(&plan)), &self.reports, &self.cache.open())
+        let out = self.folder()?;
+        let table = run_plan(&plan, (out, &self.again()), &self.reports, &self.cache.open())?;
+        Answer::of_folder(out, (table, None), (self.json, quiet))
     }
 }
 
@@ -125,7 +127,7 @@ fn harris_axis(torque_nm: f64) -> String {
 
 /// Runs the cases of a plan into a folder, those that are not done yet; `again` makes it again, the text is the closing
 /// table.
-pub(super) fn run_plan(
+fn run_plan(
     plan: &Plan,
     (out, again): (&Path, &str),
     reports: &CaseReports,
@@ -155,7 +157,7 @@ pub(super) fn run_plan(
             let hint = format!("`cases.csv` in {} says of each case why", out.display());
             Err(CommandError::failed(format_args!("no case has a result; the first: {why}"), Some(hint)))
         }
-        _ => Ok(format!("{text}\nresults: {}\n", out.display())),
+        _ => Ok(text),
     }
 }
 

@@ -1,0 +1,169 @@
+//! `ale-gear vary`: many values of some keys of a scene, or several scenes: each value alone, or from the state of the
+//! last one.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `each` | every case alone: plans, and the words of a command line that say one |
+//! | `part` | some cases of a plan into a file, and files put together again |
+//! | `study` | several scenes with the same figures |
+//! | `carry` | motions that begin where the last one ended, up and down |
+//! | `branch` | periodic motions followed around folds |
+//! | `basin` | starts over a plane of displacement and rate |
+
+mod basin;
+mod branch;
+mod carry;
+mod each;
+mod part;
+mod study;
+
+pub(super) use part::MergeArgs;
+
+use std::path::PathBuf;
+
+use scene::DocumentKind;
+
+use super::{Answer, FileWords, cache_args::CacheArgs, case_reports::CaseReports, kind_of_file, overrides::Overrides};
+use crate::error::CommandError;
+
+/// Words of `ale-gear vary`.
+#[derive(Debug, clap::Args)]
+pub(super) struct VaryArgs {
+    /// Plan or study file; or a scene file, with `--vary` and `--output`, or `--harris`
+    file: PathBuf,
+    /// Folder for the results; it appears when they are complete. With `--cases` the file for their rows
+    #[arg(long, short, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// A key and its values: `KEY=1,2,5`, `KEY=0:40:9` (nine), `KEY=1:100:9:log`, `KEY~0:40` (drawn), `KEY~normal:0:5`,
+    /// `KEY~iso1328:6` (a tolerance class), `KEY=0:40` (any between, with `--start branch`); several keys with the same
+    /// value: `KEY+KEY=1,2,5`; may be given again
+    #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
+    vary: Vec<String>,
+    /// How the next value starts
+    #[arg(long, value_enum, default_value_t = Start::Each)]
+    start: Start,
+    /// A number of the headline of `summary.json` that is wanted; may be given again
+    #[arg(long, value_name = "KEY")]
+    output: Vec<String>,
+    /// Column of `history.csv`: of cases its mean, peak to peak, least and largest value are wanted, of motions that carry
+    /// on its section is taken [default of those: dte_um]
+    #[arg(long, value_name = "COLUMN")]
+    of: Option<String>,
+    /// Harris map: peak-to-peak STE over the torque, from a tenth of the scene's to 1.4 times it; a curve for each value
+    /// of what `--vary` names beside
+    #[arg(long)]
+    harris: bool,
+    #[command(flatten)]
+    drawn: DrawnArgs,
+    #[command(flatten)]
+    sections: carry::SectionArgs,
+    #[command(flatten)]
+    part: part::PartArgs,
+    #[command(flatten)]
+    reports: CaseReports,
+    /// The summary as JSON on stdout, instead of the closing table
+    #[arg(long)]
+    json: bool,
+    #[command(flatten)]
+    overrides: Overrides,
+    #[command(flatten)]
+    cache: CacheArgs,
+}
+
+/// How a value starts.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, clap::ValueEnum)]
+enum Start {
+    /// Each alone: a row of wanted numbers a case
+    #[default]
+    Each,
+    /// A motion from the state of the last value's, up and down: bifurcation diagrams
+    Carry,
+    /// A periodic motion from its neighbours, around folds: resonance curves with their unstable parts
+    Branch,
+    /// A motion from each state of a plane: `start_um` and `start_mm_s` are varied
+    Basin,
+}
+
+/// How values are drawn.
+#[derive(Debug, Default, clap::Args)]
+#[command(next_help_heading = "What is drawn")]
+struct DrawnArgs {
+    /// How samples are spread: latin-hypercube, sobol or random [default: latin-hypercube]
+    #[arg(long, value_name = "NAME")]
+    design: Option<String>,
+    /// How many samples [default: 100]
+    #[arg(long, value_name = "N")]
+    samples: Option<u32>,
+    /// Other samples for another seed [default: 1]
+    #[arg(long, value_name = "N")]
+    seed: Option<u32>,
+}
+
+impl VaryArgs {
+    /// A plan or study file into a folder.
+    pub(super) fn of_file(FileWords { file, out, overrides, cache, json }: FileWords) -> Self {
+        Self {
+            file,
+            out: Some(out),
+            vary: Vec::new(),
+            start: Start::Each,
+            output: Vec::new(),
+            of: None,
+            harris: false,
+            drawn: DrawnArgs::default(),
+            sections: carry::SectionArgs::default(),
+            part: part::PartArgs::default(),
+            reports: CaseReports::default(),
+            json,
+            overrides,
+            cache,
+        }
+    }
+
+    /// Every optional word, and whether it was given.
+    fn given(&self) -> Vec<(&'static str, bool)> {
+        let DrawnArgs { design, samples, seed } = &self.drawn;
+        let mut all = vec![
+            ("--vary", !self.vary.is_empty()),
+            ("--output", !self.output.is_empty()),
+            ("--of", self.of.is_some()),
+            ("--harris", self.harris),
+            ("--design", design.is_some()),
+            ("--samples", samples.is_some()),
+            ("--seed", seed.is_some()),
+            ("--reports", self.reports.best()),
+            ("--report-case", self.reports.listed()),
+            ("--json", self.json),
+        ];
+        all.extend(self.sections.given());
+        all.extend(self.part.given());
+        all
+    }
+
+    /// Refuses every optional word but these.
+    fn only(&self, words: &[&str], whose: &str) -> Result<(), CommandError> {
+        let Some((word, _)) = self.given().into_iter().find(|(word, given)| *given && !words.contains(word)) else {
+            return Ok(());
+        };
+        let message = format_args!("{}: `{word}` does not go with {whose}", self.file.display());
+        Err(CommandError::input(message, Some("leave it out; `ale-gear vary --help` tells what goes with what".into())))
+    }
+
+    /// Does what the file and the words ask for.
+    pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
+        let kind = kind_of_file(&self.file);
+        match (kind, self.start) {
+            (Some(DocumentKind::Study), _) => self.study(quiet),
+            (_, Start::Each) if self.part.any() => self.part(quiet),
+            (_, Start::Each) => self.each(quiet),
+            (_, Start::Carry) => self.carry(quiet),
+            (_, Start::Branch) => self.branch(quiet),
+            (_, Start::Basin) => self.basin(quiet),
+        }
+    }
+
+    /// The folder of the results.
+    fn folder(&self) -> Result<&PathBuf, CommandError> {
+        self.out.as_ref().ok_or_else(|| CommandError::input("no `--out DIR`", Some("say where results go".into())))
+    }
+}
