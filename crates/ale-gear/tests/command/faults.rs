@@ -61,7 +61,7 @@ fn a_full_disk_leaves_no_half_result() {
 fn a_full_disk_below_the_cache_costs_a_warning() {
     let scratch = Scratch::new().file("a.toml", reduced());
     // The results go to where there is room: the shell's limit is for both, so the run is of the gears alone.
-    let run = on_a_full_disk(&scratch, 4, "reduce a.toml --cache kept");
+    let run = on_a_full_disk(&scratch, 4, "mesh reduce a.toml --cache kept");
     assert!(matches!(run.code, Some(0 | 1)), "{:?}: {}", run.code, run.stderr);
     let next = scratch.ale_gear(["run", "a.toml", "--out", "o", "--cache", "kept"]);
     assert_eq!((next.code, next.stderr.as_str()), (Some(0), ""), "{}", next.stdout);

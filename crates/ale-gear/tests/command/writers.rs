@@ -55,8 +55,8 @@ const FOLDERS: [&str; 9] = [
     "run rest.toml --no-cache",
     "run motion.toml --no-cache",
     "vary plan.toml --no-cache",
-    "study study.toml --no-cache",
-    "sweep rest.toml --key operation.torque_nm --from 50 --to 100 --points 2 --no-cache",
+    "run study.toml --no-cache",
+    "vary rest.toml --vary operation.torque_nm=50:100:2 --of ste_um --no-cache",
     "optimise rest.toml --evaluations 1 --no-cache",
     "envelope --only F1",
     "compare one one",
@@ -207,7 +207,7 @@ fn only_files_of_the_same_kind_are_replaced() {
         "report one -o one/history.csv",
         "report one -o one/summary.json",
         "report one -o iso.toml",
-        "case plan.toml --range 0..2 --out thesis.tex --no-cache",
+        "vary plan.toml --cases 0..2 --out thesis.tex --no-cache",
     ] {
         let run = scratch.command(&words(line));
         assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
@@ -252,8 +252,8 @@ fn what_stands_beside_a_result_is_not_taken_for_its_own() {
     let before = tree(scratch.path());
     for (line, said) in [
         ("vary plan.toml --out o", "--out o: o.cases holds no cases of this program\nhint: "),
-        ("study study.toml --out s", "--out s: s.cases is no folder of cases\nhint: "),
-        ("study study.toml --out o", "--out o: o.cases is no folder of cases\nhint: "),
+        ("run study.toml --out s", "--out s: s.cases is no folder of cases\nhint: "),
+        ("run study.toml --out o", "--out o: o.cases is no folder of cases\nhint: "),
         (
             "vary plan.toml --cases 0..2 --out part.csv",
             "--out part.csv: is there, and is no file of `ale-gear vary --cases`\n",
@@ -380,8 +380,8 @@ fn a_command_that_is_stopped_leaves_nothing_half_written() {
     let scratch = scratch().file("general.toml", general + &meshers.concat());
     let lines = [
         "run general.toml --no-cache --out o",
-        "reduce general.toml --cache kept",
-        "study study.toml --no-cache --out o",
+        "mesh reduce general.toml --cache kept",
+        "run study.toml --no-cache --out o",
         "vary general.toml --vary operation.torque_nm=10:400:400 --output mean_ste_um --no-cache --out o",
         "optimise general.toml --no-cache --out o",
         "chart rest.toml --out o",
@@ -428,7 +428,7 @@ fn a_second_run_into_a_folder_of_cases_is_told() {
         file.lock().unwrap();
         file
     });
-    for (line, out) in [("vary plan.toml --out o", "o"), ("study study.toml --out s", "s")] {
+    for (line, out) in [("vary plan.toml --out o", "o"), ("run study.toml --out s", "s")] {
         let run = scratch.command(&words(line));
         assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
         let said = format!(
@@ -437,7 +437,7 @@ fn a_second_run_into_a_folder_of_cases_is_told() {
         assert!(run.stderr.starts_with(&said), "{line}: {}", run.stderr);
     }
     drop(held);
-    for line in ["vary plan.toml --out o -q", "study study.toml --out s -q"] {
+    for line in ["vary plan.toml --out o -q", "run study.toml --out s -q"] {
         assert_eq!(scratch.command(&words(line)).code, Some(0), "{line}");
     }
 }

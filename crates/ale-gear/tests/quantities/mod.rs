@@ -76,13 +76,14 @@ pub fn generalised(name: &str) -> String {
     words.join("_")
 }
 
-/// Keys of an object and of all objects in it; the scene that is echoed has a document of its own.
+/// Keys of an object and of all objects in it; the scene that is echoed and the values of remarks have documents of their own.
 fn keys(value: &serde_json::Value) -> BTreeSet<String> {
     match value {
         serde_json::Value::Object(map) => map
             .iter()
             .flat_map(|(key, inside)| {
-                let below = if key == "inputs" { BTreeSet::new() } else { keys(inside) };
+                let elsewhere = key == "inputs" || key == "values" && map.contains_key("code");
+                let below = if elsewhere { BTreeSet::new() } else { keys(inside) };
                 below.into_iter().chain([key.clone()])
             })
             .collect(),

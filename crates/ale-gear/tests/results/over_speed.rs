@@ -163,9 +163,10 @@ fn a_value_without_a_solution_leaves_the_others_alone() {
         .collect();
     let swept = |from: &str| {
         let scratch = Scratch::new().file("a.toml", &own);
-        let words = "sweep a.toml --out o --quiet --key mesh.stiffness_n_per_um --to 1e9 --points 3 --log --cycles 2 --settle 20 --lyapunov 0 --set motion.steps_per_resonance=0";
+        let words = "vary a.toml --out o --quiet --start carry --cycles 2 --settle 20 --lyapunov 0 --set motion.steps_per_resonance=0";
         let mut words: Vec<&str> = words.split(' ').collect();
-        words.extend(["--from", from, "--set", "motion.method=\"rk4\""]);
+        let range = format!("mesh.stiffness_n_per_um={from}:1e9:3:log");
+        words.extend(["--vary", &range, "--set", "motion.method=\"rk4\""]);
         let done = scratch.command(&words);
         (scratch, done)
     };

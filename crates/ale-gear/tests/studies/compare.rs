@@ -86,7 +86,7 @@ fn what_is_no_result_is_refused() {
             std::fs::write(scratch.path().join(name).join("summary.json"), text).unwrap();
         }
     }
-    let newer = scratch.read("a/summary.json").replacen("\"schema\": 3", "\"schema\": 999", 1);
+    let newer = scratch.read("a/summary.json").replacen("\"schema\": 4", "\"schema\": 999", 1);
     std::fs::create_dir(scratch.path().join("newer")).unwrap();
     std::fs::write(scratch.path().join("newer/summary.json"), newer).unwrap();
     for (folder, said) in [
@@ -95,7 +95,7 @@ fn what_is_no_result_is_refused() {
         ("empty", "empty: has no summary.json"),
         ("other", "other: summary.json is of another program"),
         ("broken", "broken: summary.json is no JSON"),
-        ("newer", "newer: summary.json has schema 999, this program reads 3"),
+        ("newer", "newer: summary.json has schema 999, this program reads 4"),
     ] {
         let run = scratch.ale_gear(["compare", "a", folder]);
         assert!(run.stderr.starts_with(&format!("ale-gear: {said}")), "{}", run.stderr);
