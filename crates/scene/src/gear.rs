@@ -1,8 +1,6 @@
 //! The gears, and what they share.
 
-use std::path::PathBuf;
-
-use mesh::{FaceResolution, GroupNames};
+use mesh::{FaceResolution, GroupNames, Mesh};
 use serde::Serialize;
 
 use crate::data_file::DataFile;
@@ -38,9 +36,9 @@ pub struct GearScene {
     /// File of them, with their values in mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch_errors_file: Option<DataFile<Vec<f64>>>,
-    /// Mesh file as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it a path.
+    /// Its mesh, with the path as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it one from here.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh: Option<PathBuf>,
+    pub mesh: Option<DataFile<Mesh>>,
     /// The built-in mesher; set exactly when `mesh` is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesher: Option<MesherScene>,

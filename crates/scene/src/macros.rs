@@ -134,7 +134,7 @@ macro_rules! read_as {
 /// The value of a key with range and default of its row; the names of key and field are one.
 macro_rules! value {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
-        $crate::source::Entry::value(&$raw.$key, $s, &$crate::schema::$table, stringify!($key))
+        $crate::source_values::Entry::value(&$raw.$key, $s, &$crate::schema::$table, stringify!($key))
     };
 }
 

@@ -9,8 +9,8 @@ use analysis::{
 };
 use report::optimum_files::{OptimumResult, passed_limits, write_optimum};
 use scene::{
+    Document,
     optimum::{Optimisation, OptimisationWords},
-    read_text,
 };
 
 use super::{Answer, cache_args::CacheArgs, overrides::Overrides};
@@ -64,12 +64,13 @@ impl OptimiseArgs {
             || front.is_some()
             || !settings.is_empty();
         // What cannot be read is complained about as a scene is.
-        if read_text(file).is_ok_and(|text| Optimisation::is_one(&text)) {
+        let document = Document::read(file)?;
+        if Optimisation::is_one(&document) {
             if words {
                 let hint = "write it into the file, or give a scene file";
                 return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
             }
-            return Ok(Optimisation::read(file)?);
+            return Ok(Optimisation::of(&document)?);
         }
         let words = OptimisationWords {
             parameters: parameter,
@@ -80,7 +81,7 @@ impl OptimiseArgs {
             evaluations: evaluations.unwrap_or(20),
             front: front.unwrap_or(0),
         };
-        Ok(Optimisation::of_words(file, &settings, &words)?)
+        Ok(Optimisation::of_scene(document, &settings, &words)?)
     }
 
     /// The words that make it again.

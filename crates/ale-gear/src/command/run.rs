@@ -20,7 +20,7 @@ use crate::{
     progression::{Outcome, Progression},
     resolution::with_slices,
     run::{self, InSpace},
-    scene::{DocumentKind, DocumentText, Kind, Model, Run, Scene},
+    scene::{DocumentKind, Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
 
@@ -95,7 +95,7 @@ impl RunArgs {
             });
             return Ok(Document::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
         }
-        let text = DocumentText::read(&self.file)?;
+        let text = scene::Document::read(&self.file)?;
         if text.kind() == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
             let file = text.gearbox(&self.overrides.settings()?)?;

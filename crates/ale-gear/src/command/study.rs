@@ -67,7 +67,7 @@ impl StudyArgs {
         let study = self.plan()?;
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
-        let kept = KeptCases::beside(&self.out, &study_digest(&study, self.reports)?)?;
+        let kept = KeptCases::beside(&self.out, &study_digest(&study, self.reports))?;
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let models = SharedModels::new(&cache);
             let alone = |scene: &_, own: &_| write_result(scene, &mut Phases::quiet(), own, &cache);

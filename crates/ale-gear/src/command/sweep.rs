@@ -16,7 +16,7 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    scene::{Kind, Scene, Setting, SweepWay},
+    scene::{Document, Kind, Scene, Setting, SweepWay},
     talk,
 };
 
@@ -170,13 +170,13 @@ impl SweepArgs {
     }
 
     /// Every complaint about words and scenes is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
+    fn plan(&self, document: &Document) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
         let (values, settings) = (self.values()?, self.overrides.settings()?);
         let mut scenes = Vec::with_capacity(values.len());
         for value in values {
             let own = Setting::number(&self.key, value)?.called(&format!("--key {} = {value}", self.key));
             let all: Vec<Setting> = settings.iter().cloned().chain([own]).collect();
-            let mut scene = with_slices(Scene::read_with(&self.scene, &all)?);
+            let mut scene = with_slices(document.scene(&all)?);
             self.fits(&scene)?;
             if let Some(motion) = &mut scene.motion {
                 let settle = self.settle.or(motion.warm_up_cycles).unwrap_or(SETTLE);
@@ -253,14 +253,15 @@ impl SweepArgs {
     /// Runs all values; the text is the closing table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let settings = self.overrides.settings()?;
+        let document = Document::read(&self.scene)?;
         // As it stands first: what is wrong with the scene is not wrong with the key.
-        let scene = with_slices(Scene::read_with(&self.scene, &settings)?);
+        let scene = with_slices(document.scene(&settings)?);
         if scene.analysis.kind == Kind::Static {
-            return self.run_at_rest(&scene);
+            return self.run_at_rest(document, &scene);
         }
         self.fits(&scene)?;
         let mut phases = Phases::with_bars();
-        let (scenes, options) = self.plan()?;
+        let (scenes, options) = self.plan(&document)?;
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let again = self.again();

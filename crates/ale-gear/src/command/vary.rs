@@ -11,14 +11,16 @@ use report::{
     folder::{Cache, beside_results},
     plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
 };
-use scene::plan::{Plan, PlanWords};
+use scene::{
+    Document,
+    plan::{Plan, PlanWords},
+};
 
 use super::{cache_args::CacheArgs, case_reports::CaseReports, overrides::Overrides};
 use crate::{
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
-    scene::Scene,
     talk::{self, Loudness},
 };
 
@@ -68,15 +70,16 @@ impl VaryArgs {
         let settings = self.overrides.settings()?;
         let refuse = |what: &str, hint: &str| Err(CommandError::input(what, Some(hint.into())));
         let (mut vary, mut outputs) = (self.vary.clone(), self.output.clone());
+        let document = Document::read(&self.plan)?;
         if self.harris {
-            let scene = Scene::read_with(&self.plan, &settings)?;
+            let scene = document.scene(&settings)?;
             vary.push(harris_axis(scene.operation.torque_nm));
             outputs.insert(0, "peak_to_peak_ste_um".into());
         }
         if !vary.is_empty() && !outputs.is_empty() {
             let design = design.as_deref();
             let words = PlanWords { vary: &vary, outputs: &outputs, design, samples: *samples, seed: *seed };
-            return Ok(Plan::of_words(&self.plan, &settings, &words)?);
+            return Ok(Plan::of_scene(document, &settings, &words)?);
         }
         if !vary.is_empty() || !outputs.is_empty() {
             return refuse(
@@ -88,7 +91,7 @@ impl VaryArgs {
             let hint = "write them into the plan, or give a scene file with `--vary` and `--output`";
             return refuse("a plan file says keys, samples and seed itself", hint);
         }
-        Ok(Plan::read(&self.plan)?)
+        Ok(Plan::of(&document)?)
     }
 
     /// The command that makes it again.
@@ -138,7 +141,7 @@ pub(super) fn run_plan(
     // Beside the results, so that a run that is cut short goes on from there.
     let done_file = beside_results(out);
     let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
-    let done = DoneCases::open(out, &plan_digest(plan)?, CaseLines::of(plan))?;
+    let done = DoneCases::open(out, &plan_digest(plan), CaseLines::of(plan))?;
     let (count, before) = (plan.cases.count(), done.count());
     if before > 0 {
         talk::note(format!("{before} of {count} cases were done before"));

@@ -1,7 +1,5 @@
 //! From the words of a gearbox file to a gearbox. Every complaint is made here, before any work starts.
 
-use std::path::Path;
-
 use toml::Spanned;
 
 use super::bearing::bearing;
@@ -14,7 +12,7 @@ use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, PairScene, Scene, SceneError, Setting, Source, Word, study::setting};
+use crate::{Kind, Method, Model, PairScene, Setting, Source, Word, study::setting};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
@@ -105,25 +103,16 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
     let Some(word) = &raw.scene else {
         return Err(missing(s, table, "[[mesh]]", "scene", "the path of the scene of this pair"));
     };
-    let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     if let Some(own) = raw.set.iter().flatten().nth(SETTINGS) {
         let said = format!("a mesh sets more than {SETTINGS} keys");
         return Err(s.conflict(&own.span(), said, "change the scene of the pair instead"));
     }
     let settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
-    let unwritten = s.beside.iter().find(|(name, _)| name == word.get_ref());
-    let read = match unwritten {
-        Some((_, text)) => Scene::parse_with(text, &path, &settings),
-        None => Scene::read_with(&path, &settings),
+    let document = s.named(word, "gearbox file")?;
+    let scene = document.scene(&settings)?;
+    let unfit = |what: &str, advice: &str| {
+        Err(s.conflict(&word.span(), format!("{} {what}", document.file().display()), advice))
     };
-    let scene = read.map_err(|e| match e {
-        SceneError::Read { file, source } => {
-            let said = format!("{} cannot be read: {source}", file.display());
-            s.conflict(&word.span(), said, "paths are relative to the gearbox file")
-        }
-        other => other,
-    })?;
-    let unfit = |what: &str, advice: &str| Err(s.conflict(&word.span(), format!("{} {what}", path.display()), advice));
     if scene.analysis.kind != Kind::Static || scene.analysis.model != Model::Reduced {
         return unfit(
             "is not at rest with the model \"reduced\"",

@@ -73,7 +73,7 @@ macro_rules! flank_read {
         $raw.$name.as_ref().map(|word| $s.meaning_of(stringify!($name), word)).transpose()?
     };
     (path, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
-        $raw.$name.as_ref().map(|word| DataFile::read($s, stringify!($name), word, Topography::parse)).transpose()?
+        $raw.$name.as_ref().map(|word| crate::inputs::named($s, stringify!($name), word)).transpose()?
     };
     ($number:ident, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
         $s.optional_up_to(&MODIFICATION, stringify!($name), &$raw.$name, $face_width)?

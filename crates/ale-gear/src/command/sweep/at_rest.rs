@@ -2,7 +2,7 @@
 
 use report::study_files::columns_of;
 use scene::{
-    Scene,
+    Document, Scene,
     plan::{Plan, PlanOutput, PlanTake, PlanWords},
     study::{Take, column_advice},
 };
@@ -15,7 +15,7 @@ use crate::error::CommandError;
 
 impl SweepArgs {
     /// The plan of a sweep at rest. Its cases know nothing of each other: ways and sections are words of motions.
-    fn plan_at_rest(&self, scene: &Scene) -> Result<Plan, CommandError> {
+    fn plan_at_rest(&self, document: Document, scene: &Scene) -> Result<Plan, CommandError> {
         let of_motions = [
             ("--ways", !self.ways.is_empty()),
             ("--once", self.once.is_some()),
@@ -42,13 +42,13 @@ impl SweepArgs {
         let outputs: Vec<PlanOutput> =
             Take::ALL.map(|take| PlanOutput::Column { column: column.to_owned(), take: PlanTake::Of(take) }).into();
         let words = PlanWords { vary: &vary, ..PlanWords::default() };
-        Ok(Plan { outputs, ..Plan::of_words(&self.scene, &self.overrides.settings()?, &words)? })
+        Ok(Plan { outputs, ..Plan::of_scene(document, &self.overrides.settings()?, &words)? })
     }
 
     /// Runs all values; the text is the closing table.
-    pub(super) fn run_at_rest(&self, scene: &Scene) -> Result<String, CommandError> {
+    pub(super) fn run_at_rest(&self, document: Document, scene: &Scene) -> Result<String, CommandError> {
         self.values()?;
-        let plan = self.plan_at_rest(scene)?;
+        let plan = self.plan_at_rest(document, scene)?;
         let of = self.of.as_ref().map(|column| format!(" --of {column}")).unwrap_or_default();
         let (key, from, to, points) = (&self.key, self.from, self.to, self.points);
         let log = if self.log { " --log" } else { "" };
