@@ -347,7 +347,7 @@ impl Pair {
 impl Pair {
     /// Text, name and settings of the scene with more keys set.
     fn parts(&self, set: Given<'_, '_>) -> Answer<(Document, Vec<Setting>)> {
-        self.scene.with(set_of(set)?)?.parts()
+        Ok(self.scene.with(set_of(set)?)?.parts())
     }
 }
 

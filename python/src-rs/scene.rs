@@ -49,8 +49,8 @@ impl Scene {
     }
 
     /// What was read, and the settings, for many cases of it.
-    pub fn parts(&self) -> Result<(Document, Vec<Setting>), Complaint> {
-        Ok((self.document.clone(), self.settings.clone()))
+    pub fn parts(&self) -> (Document, Vec<Setting>) {
+        (self.document.clone(), self.settings.clone())
     }
 
     /// What it says, wherever it stands.
