@@ -8,7 +8,7 @@ use mesh::{
     generate,
 };
 
-use scene::{Coupling, GearScene, MesherScene, Reduction, Scene};
+use scene::{Coupling, GearScene, MesherScene, Scene};
 
 use crate::{
     AnalysisError,
@@ -112,9 +112,7 @@ fn options_of(gear: &GearScene) -> StructuredOptions {
 
 /// Whether one sector tells all: nobody asks for the mesh of the whole gear.
 fn sector_is_enough(scene: &Scene) -> bool {
-    scene.analysis.model.has_reduced_gears()
-        && scene.analysis.reduction != Some(Reduction::General)
-        && !scene.output.vtu
+    scene.analysis.model.has_reduced_gears() && !scene.analysis.is_general() && !scene.output.vtu
 }
 
 fn generated_with(

@@ -151,13 +151,6 @@ impl MisalignmentScene {
     }
 }
 
-impl Material {
-    /// Density, t/mm^3.
-    pub fn density(&self) -> f64 {
-        self.density_kg_m3 * 1e-12
-    }
-}
-
 impl GearScene {
     /// Helix angle, rad.
     pub fn helix_angle(&self) -> f64 {
@@ -171,11 +164,6 @@ impl GearScene {
 }
 
 impl PairScene {
-    /// Normal pressure angle, rad.
-    pub fn normal_pressure_angle(&self) -> f64 {
-        self.normal_pressure_angle_deg.to_radians()
-    }
-
     /// Heights between which gears of some face widths (mm) both have flanks, over the pinion's mid-face, mm; the first
     /// is above the second where they pass each other.
     pub fn common_face_mm(&self, [pinion, wheel]: [f64; 2]) -> [f64; 2] {

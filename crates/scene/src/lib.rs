@@ -11,7 +11,7 @@
 //! | words | `units`, `hints`, `keys`, `spanned`, `excerpt`, `error`, `table` (what a row of keys is) |
 //! | text | `tree` (tables and values with their places), `setting`, `document` (a file, read once), `places` (of keys), `source` and `source_values` (words, ranges, complaints), `data_file`, `inputs` (files that it names) |
 //! | schema | `schema` (every key with its type, range, default and choices), `raw` (what is read) |
-//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ... |
+//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ...; `solver_units` (their numbers in mm, N, t, s, rad) |
 //! | scene | [`Scene`], `check`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
@@ -40,7 +40,6 @@ mod keys;
 mod ladder;
 mod modification;
 mod motion;
-mod operation;
 pub mod optimum;
 mod origin;
 mod output;
@@ -50,6 +49,7 @@ mod raw;
 mod rexs;
 mod schema;
 mod setting;
+mod solver_units;
 mod source;
 mod source_values;
 mod spanned;
@@ -74,6 +74,7 @@ pub use document::Document;
 pub use document_kind::DocumentKind;
 pub use error::{Line, Place, SceneError};
 pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene};
+pub use geometry::{Driver, Sense};
 pub use input_text::read_text;
 pub use keys::{Tables, nearest};
 pub use ladder::{DiscScene, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene};
@@ -83,12 +84,13 @@ pub use output::OutputScene;
 pub use places::Written;
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, Driver, FieldName, FlankScene,
-    Flanks, Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation,
-    Quantity, RampScene, Reduction, Rotation, Run, ShaftCoordinate, Shape, Sharing, SteadyBy, StiffnessFrom,
-    SupportScene, SweepWay, all_keys, json_schema,
+    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, FieldName, FlankScene, Flanks,
+    Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation, Quantity,
+    RampScene, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepWay, all_keys,
+    json_schema,
 };
 pub use setting::Setting;
+pub use solver_units::RPM;
 pub use source::Source;
 pub use spanned::{Number, Whole, Word};
 pub use starter::{Starter, Steel};
@@ -265,12 +267,14 @@ impl Scene {
         [&self.pinion, &self.wheel]
     }
 
+    /// Young's modulus (MPa) and Poisson's ratio of pinion and wheel.
+    pub fn elasticity(&self) -> [(f64, f64); 2] {
+        self.gears().map(|gear| (gear.material.young_mpa, gear.material.poisson))
+    }
+
     /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
     pub fn side(&self) -> Side {
-        match (self.operation.driver, self.operation.rotation) {
-            (Driver::Pinion, Rotation::Ccw) | (Driver::Wheel, Rotation::Cw) => Side::Left,
-            (Driver::Pinion, Rotation::Cw) | (Driver::Wheel, Rotation::Ccw) => Side::Right,
-        }
+        self.operation.side()
     }
 
     /// Teeth of the gear that drives.

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use scene::{
-    Rotation, SceneError,
+    SceneError, Sense,
     gearbox::{Gearbox, GearboxDrive, MeshModel},
 };
 
@@ -37,7 +37,7 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert_eq!(file.bearings[3].stiffness[3][3], 2.0e7);
     assert_eq!((file.gears[2].shaft, file.gears[2].key), (1, 5f64.to_radians()));
     assert_eq!(file.meshes[0].scene.contact.slices, Some(16), "what is set holds");
-    assert_eq!(file.input.rotation, Rotation::Cw);
+    assert_eq!(file.input.rotation, Sense::Cw);
     assert_eq!(file.torques[0].torque, 740e3);
     assert_eq!((file.positions_per_cycle, file.cycles), (8, 1));
     let motion = file.motion.unwrap();

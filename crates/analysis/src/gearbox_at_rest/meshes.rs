@@ -9,11 +9,10 @@ use gearbox::{
     ExactMesh, GearboxError, GearboxPosition, Mesh, MeshElement, MeshState, Meshing, Train,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
-use geometry::Sense;
 use ltca::StaticOptions;
 use reduction::ElasticGear;
 use scene::{
-    Driver, Rotation, Scene,
+    Scene,
     gearbox::{Gearbox, GearboxGear, GearboxMesh},
 };
 
@@ -42,14 +41,7 @@ pub(super) fn mesh(own: &GearboxMesh, scene: &Scene) -> Result<Mesh, AnalysisErr
 pub(super) fn running(file: &Gearbox, train: &Train) -> Vec<Scene> {
     let one = |(own, meshing): (&GearboxMesh, &Meshing)| {
         let mut scene = own.scene.clone();
-        scene.operation.driver = match meshing.driver {
-            geometry::Driver::Pinion => Driver::Pinion,
-            geometry::Driver::Wheel => Driver::Wheel,
-        };
-        scene.operation.rotation = match meshing.sense {
-            Sense::Ccw => Rotation::Ccw,
-            Sense::Cw => Rotation::Cw,
-        };
+        (scene.operation.driver, scene.operation.rotation) = (meshing.driver, meshing.sense);
         // Slices follow the flanks that press.
         settled_scene(&scene, false)
     };

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{GearboxMotion, raw::RollingKind};
-use crate::{Rotation, Scene};
+use crate::{Scene, Sense};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -202,7 +202,7 @@ pub struct GearboxInput {
     /// mm from the shaft's z = 0.
     pub position: f64,
     /// Sense in which it turns.
-    pub rotation: Rotation,
+    pub rotation: Sense,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }
