@@ -1,10 +1,10 @@
 //! A pair with its reduction held in memory, and what it can be asked.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
 use ::mesh::Mesh as GearMesh;
 use ::scene::{
-    Kind as SceneKind, Setting,
+    Document, Kind as SceneKind, Setting,
     optimum::{Optimisation, OptimisationWords},
     plan::{Plan, PlanWords},
 };
@@ -278,8 +278,8 @@ impl Pair {
             samples: samples.map(|any| whole("samples", any, 1)).transpose()?,
             seed: seed.map(|any| whole("seed", any, 0)).transpose()?,
         };
-        let (text, file, settings) = self.parts(set)?;
-        let plan = Plan::of_scene_text(text, &file, &settings, &words).map_err(Complaint::from)?;
+        let (document, settings) = self.parts(set)?;
+        let plan = Plan::of_scene(document, &settings, &words).map_err(Complaint::from)?;
         let again = format!("ale_gear.Pair(scene).vary({:?}, {outputs:?})", words.vary);
         let held = Arc::clone(&self.held);
         let result = run(py, progress, self.threads, move |watch| analyses::vary(&plan, &again, held.held(), watch))?;
@@ -316,8 +316,8 @@ impl Pair {
             evaluations: evaluations.map_or(Ok(20), |any| whole("evaluations", any, 1))?,
             front: front.map_or(Ok(0), |any| whole("front", any, 0))?,
         };
-        let (text, file, settings) = self.parts(set)?;
-        let plan = Optimisation::of_scene_text(text, &file, &settings, &words).map_err(Complaint::from)?;
+        let (document, settings) = self.parts(set)?;
+        let plan = Optimisation::of_scene(document, &settings, &words).map_err(Complaint::from)?;
         let again = format!("ale_gear.Pair(scene).optimise({parameters:?}, measure={measure:?})");
         let held = Arc::clone(&self.held);
         let result =
@@ -346,8 +346,8 @@ impl Pair {
 
 impl Pair {
     /// Text, name and settings of the scene with more keys set.
-    fn parts(&self, set: Given<'_, '_>) -> Answer<(String, PathBuf, Vec<Setting>)> {
-        self.scene.with(set_of(set)?)?.parts()
+    fn parts(&self, set: Given<'_, '_>) -> Answer<(Document, Vec<Setting>)> {
+        Ok(self.scene.with(set_of(set)?)?.parts())
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use ::scene::{SceneError, Setting, Starter, all_keys, json_schema, read_pair, read_rexs, read_text};
+use ::scene::{Document, Setting, Starter, all_keys, json_schema, read_pair, read_rexs};
 use analysis::{gears, resolution::with_slices};
 use pyo3::{
     prelude::*,
@@ -18,20 +18,11 @@ use crate::{
     values::settings,
 };
 
-/// What a scene was made of, so that some of its keys can be set otherwise.
-#[derive(Debug, Clone)]
-pub enum Written {
-    /// Text, and the name that messages give it; paths in it are relative to its folder.
-    Text(String, PathBuf),
-    /// The scene of the program.
-    Program,
-}
-
 /// A scene that was checked: a pair, its load, and what is computed.
 #[pyclass(frozen, module = "ale_gear")]
 #[derive(Debug, Clone)]
 pub struct Scene {
-    written: Written,
+    document: Document,
     settings: Vec<Setting>,
     scene: ::scene::Scene,
 }
@@ -40,21 +31,17 @@ pub struct Scene {
 const NAME: &str = "scene";
 
 impl Scene {
-    fn checked(written: Written, settings: Vec<Setting>) -> Result<Self, Complaint> {
-        let scene = match &written {
-            Written::Text(text, file) => ::scene::Scene::parse_with(text, file, &settings)?,
-            Written::Program => ::scene::Scene::default_scene_with(&settings)?,
-        };
+    fn checked(document: Document, settings: Vec<Setting>) -> Result<Self, Complaint> {
+        let scene = document.scene(&settings)?;
         // Of tables alone the settings are the scene, and nothing was set beside it.
-        let alone = matches!(&written, Written::Text(text, _) if text.is_empty());
-        let scene = if alone { ::scene::Scene { set: Vec::new(), ..scene } } else { scene };
-        Ok(Self { written, settings, scene })
+        let scene = if document.is_empty() { ::scene::Scene { set: Vec::new(), ..scene } } else { scene };
+        Ok(Self { document, settings, scene })
     }
 
     /// The same with more keys set.
     pub fn with(&self, more: impl IntoIterator<Item = Setting>) -> Result<Self, Complaint> {
         let all = self.settings.iter().cloned().chain(more).collect();
-        Self::checked(self.written.clone(), all)
+        Self::checked(self.document.clone(), all)
     }
 
     /// As the command runs it.
@@ -62,16 +49,9 @@ impl Scene {
         with_slices(self.scene.clone())
     }
 
-    /// Text, name and settings, for many cases of it.
-    pub fn parts(&self) -> Result<(String, PathBuf, Vec<Setting>), Complaint> {
-        match &self.written {
-            Written::Text(text, file) => Ok((text.clone(), file.clone(), self.settings.clone())),
-            Written::Program => {
-                let hint = "write one of your own, or read `scenes/default.toml` of the repository";
-                let said = "the default scene of the program has no text to be varied";
-                Err(Complaint::new(Kind::Input, said, Some(hint.into())))
-            }
-        }
+    /// What was read, and the settings, for many cases of it.
+    pub fn parts(&self) -> (Document, Vec<Setting>) {
+        (self.document.clone(), self.settings.clone())
     }
 
     /// What it says, wherever it stands.
@@ -135,7 +115,7 @@ impl Scene {
         if let Some(keywords) = keywords {
             all.extend(settings(keywords.as_any())?);
         }
-        Self::checked(Written::Text(String::new(), folder.join(NAME)), all)
+        Self::checked(Document::new(String::new(), &folder.join(NAME)), all)
     }
 
     /// A scene file.
@@ -143,8 +123,7 @@ impl Scene {
     #[pyo3(signature = (file, *, set = None))]
     fn read(file: &Bound<'_, PyAny>, set: Given<'_, '_>) -> Result<Self, Complaint> {
         let file = path("file", file)?;
-        let text = read_text(&file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
-        Self::checked(Written::Text(text, file), set_of(set)?)
+        Self::checked(Document::read(&file)?, set_of(set)?)
     }
 
     /// The text of a scene file; `file` is what messages name and what paths are relative to.
@@ -152,7 +131,7 @@ impl Scene {
     #[pyo3(signature = (toml, *, file = None, set = None))]
     fn from_toml(toml: &Bound<'_, PyAny>, file: Given<'_, '_>, set: Given<'_, '_>) -> Result<Self, Complaint> {
         let file = file.map_or_else(|| Ok(PathBuf::from("scene.toml")), |any| path("file", any))?;
-        Self::checked(Written::Text(text("toml", toml)?, file), set_of(set)?)
+        Self::checked(Document::new(text("toml", toml)?, &file), set_of(set)?)
     }
 
     /// The pair of a stage of a REXS file, with torque and speed of `set`.
@@ -167,14 +146,14 @@ impl Scene {
         let text = read_rexs(&file).map_err(wrong)?;
         let starter = read_pair(&text, stage, 1, &Starter::default()).map_err(wrong)?.starter;
         let name = file.with_extension("toml");
-        Self::checked(Written::Text(starter.text(&name.display().to_string()), name), set_of(set)?)
+        Self::checked(Document::new(starter.text(&name.display().to_string()), &name), set_of(set)?)
     }
 
     /// The scene of the program, with its meshes: 30/30 teeth, module 3 mm, helix angle 20 degrees, 150 N m.
     #[staticmethod]
     #[pyo3(signature = (*, set = None))]
     fn default(set: Given<'_, '_>) -> Result<Self, Complaint> {
-        Self::checked(Written::Program, set_of(set)?)
+        Self::checked(Document::default_scene(), set_of(set)?)
     }
 
     /// The same with some keys set otherwise.

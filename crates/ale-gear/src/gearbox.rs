@@ -36,7 +36,7 @@ pub(crate) fn solve(
             analysis = analysis.resume(stored.state.motion.clone(), rows);
         }
         let mut sink: Box<dyn GearboxSink> = match checkpoints {
-            Some(checkpoints) => Box::new(GearboxFileSink::new(file, checkpoints, from.as_ref())),
+            Some(checkpoints) => Box::new(GearboxFileSink::new(checkpoints, from.as_ref())),
             None => Box::new(NoGearboxSink),
         };
         let result = match analysis.solve_into(phases, &mut *sink)? {

@@ -58,7 +58,7 @@ impl Progression {
         }
         let alone = folder.hold()?;
         let begin = || {
-            let inputs = InputDigests::of(document)?;
+            let inputs = InputDigests::of(document);
             let from = if self.resume { going_on(folder, document, &inputs)? } else { None };
             Ok((inputs, from))
         };

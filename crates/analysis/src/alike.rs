@@ -34,7 +34,9 @@ pub(crate) fn kind(scene: &Scene) -> Scene {
         gear.pitch_errors_um.clear();
         gear.pitch_errors_file = None;
         // Paths as the scene means them.
-        gear.mesh = gear.mesh.take().map(|path| scene.resolve(&path));
+        if let Some(mesh) = &mut gear.mesh {
+            mesh.set_path(scene.resolve(mesh.path()));
+        }
     }
     kind.pair.misalignment = Default::default();
     (kind.operation.torque_nm, kind.operation.speed_rpm) = (0.0, 0.0);

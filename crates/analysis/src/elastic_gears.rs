@@ -8,7 +8,7 @@ use reduction::{
     ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, ReductionStage, ReductionWatch, record_key,
 };
 
-use scene::{Model, Reduction, Scene};
+use scene::{Model, Scene};
 
 use crate::{AnalysisError, GearCache, Progress, error::solver_error, foreseen::foreseen_gear_s, meshes::SceneMesh};
 
@@ -91,7 +91,7 @@ fn one(
         return Ok((gear.map(ElasticGear::Full).map_err(|e| blame(scene, mesh, i, e))?, None, None));
     }
     let geometry = [&pair.pinion, &pair.wheel][i];
-    let general = scene.analysis.reduction == Some(Reduction::General);
+    let general = scene.analysis.is_general();
     let asked = if general { "general" } else { "auto" };
     let key = cache.is_on().then(|| record_key(&mesh.gear, geometry, &material, &options, asked));
     let (found, warning) = key.as_ref().map_or((None, None), |key| {
@@ -108,7 +108,7 @@ fn one(
         None => {
             let watch = ReductionWatch { tell: &tell, wanted };
             let made = GearReducer::watched(mesh.gear.clone(), material, options, general, watch);
-            let long = foreseen_gear_s(scene, mesh) >= LONG_S;
+            let long = foreseen_gear_s(general, mesh) >= LONG_S;
             let kept = made.as_ref().ok().filter(|_| long).and_then(|gear| Some((key.as_ref()?, gear.record()?)));
             let said = kept.and_then(|(key, record)| cache.save(key, &record));
             (made, said)

@@ -9,6 +9,7 @@ use crate::{
     accuracy::Accuracy,
     certificate::{self, Checks},
     gears, iso_root,
+    loaded_pair::LoadedPair,
     nominal_pressure::{NominalPressure, nominal_pressure},
 };
 pub use crate::{
@@ -63,11 +64,12 @@ pub struct Facts {
 impl Facts {
     /// What follows from the pair and its nominal load alone.
     pub fn of_pair(scene: &Scene, pair: &GearPair) -> Self {
+        let loaded = LoadedPair::of(scene, pair);
         Self {
             geometry: gears::geometry_facts(pair),
             geometry_sheet: Some(pair.sheet()),
-            nominal_pressure: Some(nominal_pressure(scene, pair)),
-            iso_root_stress: iso_root::root_stress(scene, pair).ok(),
+            nominal_pressure: Some(nominal_pressure(&loaded)),
+            iso_root_stress: iso_root::root_stress(&loaded).ok(),
             ..Self::default()
         }
     }

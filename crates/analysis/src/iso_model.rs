@@ -11,14 +11,9 @@ use lumped::{
     iso::{body_compliance, mean_transmission_error_um},
 };
 
-use scene::{Driver, Scene};
+use scene::Scene;
 
-use crate::{
-    AnalysisError,
-    facts::Facts,
-    iso_root,
-    nominal_load::{base_force, iso_stiffness},
-};
+use crate::{AnalysisError, facts::Facts, iso_root, loaded_pair::LoadedPair};
 
 /// Solves the scene in closed form.
 ///
@@ -30,18 +25,19 @@ use crate::{
 /// # Errors
 /// [`AnalysisError::Iso`] where ISO 6336-1 does not hold.
 pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
-    let base_force = base_force(scene, pair);
+    let loaded = LoadedPair::of(scene, pair);
+    let base_force = loaded.base_force();
     let fail =
         |source: LumpedError| AnalysisError::Iso { file: scene.file.display().to_string(), source: Box::new(source) };
-    let iso = iso_stiffness(scene, pair).map_err(fail)?;
-    let bodies = bodies(scene, pair);
+    let iso = loaded.iso_stiffness().map_err(fail)?;
+    let bodies = bodies(&loaded);
     let mesh = Mesh { base_force, c_mesh: iso.c_mesh, bodies: bodies.iter().sum() };
     let per_cycle = scene.analysis.positions_per_cycle;
     let positions = (0..u64::from(per_cycle) * u64::from(scene.analysis.cycles))
         .map(|index| {
             let phase = (index % u64::from(per_cycle)) as f64 / f64::from(per_cycle);
             let cycle = index / u64::from(per_cycle);
-            position(scene, pair, mesh, cycle, phase)
+            position(&loaded, mesh, cycle, phase)
         })
         .collect();
 
@@ -61,7 +57,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
     let mut warnings = vec![remark::iso_model(bending)];
     warnings.extend(doubts(pair, bending / mean_te));
     let facts = Facts { model, ..Facts::of_pair(scene, pair) };
-    warnings.extend(iso_root::warning(scene, pair));
+    warnings.extend(iso_root::warning(&loaded));
     Ok((StaticHistory { positions, warnings, ..StaticHistory::default() }, facts))
 }
 
@@ -80,9 +76,8 @@ fn doubts(pair: &GearPair, bending: f64) -> Vec<answer::Remark> {
 }
 
 /// What the axial force adds on the line of action by bending the bodies of pinion and wheel, mm/N.
-pub fn bodies(scene: &Scene, pair: &GearPair) -> [f64; 2] {
-    let materials = scene.gears().map(|g| g.material);
-    body_compliance(pair, materials.map(|m| m.young_mpa), materials.map(|m| m.poisson))
+pub(crate) fn bodies(loaded: &LoadedPair<'_>) -> [f64; 2] {
+    body_compliance(loaded.pair, loaded.young(), loaded.poisson())
 }
 
 /// What deflects under the load.
@@ -96,9 +91,9 @@ struct Mesh {
     bodies: f64,
 }
 
-fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) -> StaticPosition {
-    let side = scene.side();
-    let sense = scene.operation.rotation.sign();
+fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> StaticPosition {
+    let (pair, side) = (loaded.pair, loaded.side());
+    let sense = loaded.sense.sign() as f64;
     let pinion_angle = (cycle as f64 + phase - 0.5) * pair.pinion.pitch_angle();
     let turned = pair.middle_angle(side) + sense * pinion_angle;
     let lines = pair.contact_lines(side, turned);
@@ -112,16 +107,16 @@ fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) 
     let mut sliding_work = 0.0;
     for line in &lines {
         let force = normal_force * line.length / length;
-        push(&mut wrench, scene, pair, turned, line, force);
+        push(&mut wrench, loaded, turned, line, force);
         sliding_work += force * pair.mean_sliding(side, turned, line);
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
         pairs.push(PairResult {
             pair: number,
-            pinion_tooth: wrap(line.tooth, scene.pinion.teeth),
-            wheel_tooth: wrap(-line.tooth, scene.wheel.teeth),
+            pinion_tooth: wrap(line.tooth, pair.pinion.teeth()),
+            wheel_tooth: wrap(-line.tooth, pair.wheel.teeth()),
             normal_force: force,
-            max_pressure: pressure(scene, pair, turned, line, normal_force / length),
+            max_pressure: pressure(loaded, turned, line, normal_force / length),
             contact_line_length: line.length,
             geometric_line_length: line.length,
             points_in_contact: 1,
@@ -147,13 +142,13 @@ fn position(scene: &Scene, pair: &GearPair, mesh: Mesh, cycle: u64, phase: f64) 
         sliding_work,
         strain_energy: 0.5 * base_force * transmission_error,
         tooth_changes: 0, // there is no window that could slide
-        certificate: certificate(scene, &wrench),
+        certificate: certificate(loaded, &wrench),
     }
 }
 
 /// Adds a line's force, at its middle, to both gears.
-fn push(wrench: &mut [Wrench; 2], scene: &Scene, pair: &GearPair, turned: f64, line: &ContactLine, force: f64) {
-    let side = scene.side();
+fn push(wrench: &mut [Wrench; 2], loaded: &LoadedPair<'_>, turned: f64, line: &ContactLine, force: f64) {
+    let (pair, side) = (loaded.pair, loaded.side());
     let z = 0.5 * (line.z[0] + line.z[1]);
     let roll = pair.path_coordinate(side, turned, line.tooth, z) / pair.pinion.base_radius();
     let flank = pair.pinion.flank_of(side, line.tooth);
@@ -173,13 +168,13 @@ fn push(wrench: &mut [Wrench; 2], scene: &Scene, pair: &GearPair, turned: f64, l
 /// Hertz pressure at the end of the line where the flanks are more curved, MPa.
 ///
 /// `p0 = sqrt(F' E* / (pi rho_n))`, `rho_n = xi (T - xi) / (T cos b_b)`, `1/E* = sum (1 - nu^2)/E`.
-fn pressure(scene: &Scene, pair: &GearPair, turned: f64, line: &ContactLine, line_load: f64) -> f64 {
-    let compliance: f64 = scene.gears().map(|g| (1.0 - g.material.poisson.powi(2)) / g.material.young_mpa).iter().sum();
+fn pressure(loaded: &LoadedPair<'_>, turned: f64, line: &ContactLine, line_load: f64) -> f64 {
+    let (pair, compliance) = (loaded.pair, loaded.compliance());
     let total = pair.tangent_length();
     let radius = line
         .z
         .map(|z| {
-            let xi = pair.path_coordinate(scene.side(), turned, line.tooth, z);
+            let xi = pair.path_coordinate(loaded.side(), turned, line.tooth, z);
             xi * (total - xi) / (total * pair.base_helix_angle().cos())
         })
         .into_iter()
@@ -187,12 +182,8 @@ fn pressure(scene: &Scene, pair: &GearPair, turned: f64, line: &ContactLine, lin
     (line_load / (PI * compliance * radius)).sqrt()
 }
 
-fn certificate(scene: &Scene, wrench: &[Wrench; 2]) -> Certificate {
-    let driven = match scene.operation.driver {
-        Driver::Pinion => 1,
-        Driver::Wheel => 0,
-    };
-    let applied = scene.operation.torque();
+fn certificate(loaded: &LoadedPair<'_>, wrench: &[Wrench; 2]) -> Certificate {
+    let (driven, applied) = (loaded.driver.driven(), loaded.torque);
     let largest = wrench[0].force.iter().map(|f| f.abs()).fold(0.0, f64::max);
     let sum = (0..3).map(|k| (wrench[0].force[k] + wrench[1].force[k]).abs()).fold(0.0, f64::max);
     Certificate {

@@ -1,14 +1,13 @@
 //! The nominal tooth root stress of ISO 6336-3 of a scene's pair, to stand beside what finite elements say.
 
-use geometry::{Gear, GearPair};
+use geometry::Gear;
 use lumped::{
     LumpedError,
     iso::{IsoRoot, IsoRootPair},
 };
-use scene::Scene;
 use serde::Serialize;
 
-use crate::nominal_load::base_force;
+use crate::loaded_pair::LoadedPair;
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
@@ -41,18 +40,19 @@ pub struct IsoGearRoot {
 }
 
 /// Says why there is no nominal root stress, to those who asked for root stress.
-pub fn warning(scene: &Scene, pair: &GearPair) -> Option<answer::Remark> {
-    root_stress(scene, pair).err().map(|e| crate::remark::no_iso_root_stress(e.to_string()))
+pub(crate) fn warning(loaded: &LoadedPair<'_>) -> Option<answer::Remark> {
+    root_stress(loaded).err().map(|e| crate::remark::no_iso_root_stress(e.to_string()))
 }
 
 /// As the standard has it, with the torque of the scene.
 ///
 /// # Errors
 /// [`LumpedError`] where the standard has no value.
-pub fn root_stress(scene: &Scene, pair: &GearPair) -> Result<IsoRootStress, LumpedError> {
+pub(crate) fn root_stress(loaded: &LoadedPair<'_>) -> Result<IsoRootStress, LumpedError> {
+    let pair = loaded.pair;
     let ratios =
         IsoRootPair { eps_alpha: pair.transverse_contact_ratio(), eps_beta: pair.overlap_ratio(), fine: false };
-    let tangential = base_force(scene, pair) * pair.pinion.transverse_pressure_angle().cos();
+    let tangential = loaded.tangential_force();
     let one = |gear: &Gear| -> Result<IsoGearRoot, LumpedError> {
         let root = IsoRoot::new(gear, ratios)?;
         Ok(IsoGearRoot {

@@ -1,11 +1,10 @@
 //! Loads too light for places of flanks to have digits: refused before the work.
 
-use contact::hertz;
 use geometry::GearPair;
 use ltca::{GUESSED_LINE_STIFFNESS, round_off_of_places};
 use scene::Scene;
 
-use crate::{AnalysisError, error::MeshMismatch, nominal_load::base_force, static_certificate::ROUND_OFF};
+use crate::{AnalysisError, error::MeshMismatch, loaded_pair::LoadedPair, static_certificate::ROUND_OFF};
 
 /// What the guessed stiffness may be off by.
 const GUESS: f64 = 3.0;
@@ -22,13 +21,12 @@ const STEEL_MPA: f64 = 2.06e5 / (2.0 * (1.0 - 0.3 * 0.3));
 /// # Errors
 /// [`AnalysisError::Mismatch`] at the torque's place in the scene.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
-    let force = base_force(scene, pair);
+    let loaded = LoadedPair::of(scene, pair);
+    let force = loaded.base_force();
     if force == 0.0 {
         return Ok(());
     }
-    let gears = scene.gears();
-    let modulus = hertz::effective_modulus(gears.map(|g| (g.material.young_mpa, g.material.poisson)));
-    let stiffness = GUESSED_LINE_STIFFNESS * modulus / STEEL_MPA * pair.face_width();
+    let stiffness = GUESSED_LINE_STIFFNESS * loaded.effective_modulus() / STEEL_MPA * pair.face_width();
     let (approach, places) = (force / stiffness, round_off_of_places(pair.centre_distance()));
     let share = places / approach;
     if share <= GUESS * ROUND_OFF {

@@ -8,7 +8,7 @@ use mesh::{
     generate,
 };
 
-use scene::{Coupling, GearScene, MesherScene, Reduction, Scene};
+use scene::{Coupling, GearScene, MesherScene, Scene};
 
 use crate::{
     AnalysisError,
@@ -46,16 +46,9 @@ pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], Ana
 /// another gear; when the built-in mesher cannot make the one asked for.
 pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
     match &gear.mesh {
-        Some(path) => {
-            let file = scene.resolve(path);
-            let complain =
-                |source: MeshError| AnalysisError::Mesh { place: file.display().to_string(), source: Box::new(source) };
-            let content =
-                scene.content(path).map_err(|source| complain(MeshError::Read { path: file.clone(), source }))?;
-            let mesh = Mesh::parse(&content, &file).map_err(complain)?;
-            drop(content);
-            let names = [file.display().to_string(), path.display().to_string()];
-            checked_mesh(scene, whose, (gear, exact), mesh, names)
+        Some(file) => {
+            let names = [scene.resolve(file.path()).display().to_string(), file.path().display().to_string()];
+            checked_mesh(scene, whose, (gear, exact), file.values().clone(), names)
         }
         None => {
             let mut options = options_of(gear);
@@ -119,9 +112,7 @@ fn options_of(gear: &GearScene) -> StructuredOptions {
 
 /// Whether one sector tells all: nobody asks for the mesh of the whole gear.
 fn sector_is_enough(scene: &Scene) -> bool {
-    scene.analysis.model.has_reduced_gears()
-        && scene.analysis.reduction != Some(Reduction::General)
-        && !scene.output.vtu
+    scene.analysis.model.has_reduced_gears() && !scene.analysis.is_general() && !scene.output.vtu
 }
 
 fn generated_with(

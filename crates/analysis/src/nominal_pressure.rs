@@ -4,10 +4,9 @@
 use contact::hertz;
 use geometry::{GearPair, Side};
 use lumped::iso::IsoFlank;
-use scene::Scene;
 use serde::Serialize;
 
-use crate::nominal_load::base_force;
+use crate::loaded_pair::LoadedPair;
 
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "Hertz pressure of nominal involutes under the torque of the scene, spread evenly over the contact lines of the position \
@@ -41,21 +40,18 @@ pub struct PointPressure {
     pub pressure_mpa: f64,
 }
 
-/// Of the pair of a scene, under its torque.
+/// Of a pair under its torque.
 ///
 /// ```text
 /// p = sqrt(F_bn E* / (pi L rho_n)),   rho_n = xi (T - xi) / (T cos b_b),   F_bn = T_driven / (r_b cos b_b)
 /// ```
 /// L is the total length of the analytic contact lines when one of them passes xi at mid-face: of a spur pair at B and
 /// D the face width, for one pair of teeth carries all on the inner side of these points.
-pub fn nominal_pressure(scene: &Scene, pair: &GearPair) -> NominalPressure {
-    let gears = scene.gears();
-    let (young, poisson) = (gears.map(|g| g.material.young_mpa), gears.map(|g| g.material.poisson));
-    let force = base_force(scene, pair);
-    let tangential = force * pair.pinion.transverse_pressure_angle().cos();
+pub(crate) fn nominal_pressure(loaded: &LoadedPair<'_>) -> NominalPressure {
+    let (pair, force, tangential) = (loaded.pair, loaded.base_force(), loaded.tangential_force());
     let normal = force / pair.base_helix_angle().cos();
-    let iso = IsoFlank::new(pair, young, poisson);
-    let modulus = hertz::effective_modulus([0, 1].map(|i| (young[i], poisson[i])));
+    let iso = IsoFlank::new(pair, loaded.young(), loaded.poisson());
+    let modulus = loaded.effective_modulus();
     let hertz = points(pair)
         .map(|(name, xi)| {
             let line_length_mm = length_at(pair, xi);

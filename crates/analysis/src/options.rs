@@ -4,18 +4,13 @@ use contact::{GapSource, Law, Misalignment, Offset};
 use geometry::GearPair;
 use ltca::StaticOptions;
 
-use scene::{Driver, Flanks, Gap, Method, Rotation, Scene};
+use scene::{Flanks, Gap, Method, Scene};
 
 /// What a scene asks of the analysis.
 pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     let defaults = StaticOptions::new(scene.operation.torque(), pair);
-    let m = scene.pair.misalignment;
-    let misalignment = Misalignment {
-        deviation: 1e-3 * m.deviation_um,
-        inclination: 1e-3 * m.inclination_um,
-        in_plane_of_action: 1e-3 * m.in_plane_of_action_um,
-        across_plane_of_action: 1e-3 * m.across_plane_of_action_um,
-    };
+    let [deviation, inclination, in_plane_of_action, across_plane_of_action] = scene.pair.misalignment.in_mm();
+    let misalignment = Misalignment { deviation, inclination, in_plane_of_action, across_plane_of_action };
     StaticOptions {
         window: scene.analysis.window_teeth.map(|w| w as usize),
         root_stress: scene.output.root_stress,
@@ -23,14 +18,7 @@ pub fn options(scene: &Scene, pair: &GearPair) -> StaticOptions {
     }
     .with_contact(|c| {
         c.offsets = [Offset::default(), misalignment.wheel_offset(pair, scene.side())];
-        c.driver = match scene.operation.driver {
-            Driver::Pinion => geometry::Driver::Pinion,
-            Driver::Wheel => geometry::Driver::Wheel,
-        };
-        c.sense = match scene.operation.rotation {
-            Rotation::Ccw => geometry::Sense::Ccw,
-            Rotation::Cw => geometry::Sense::Cw,
-        };
+        (c.driver, c.sense) = (scene.operation.driver, scene.operation.rotation);
         c.method = match scene.contact.method {
             Method::Slice => contact::Method::Slice,
             Method::Nodal => contact::Method::Nodal,

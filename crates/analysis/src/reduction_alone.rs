@@ -61,7 +61,7 @@ pub fn reduce_scene(
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
     let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;
     let options = options(scene, &pair);
-    let work = PhaseWork::Seconds(announced_s(observer, (scene, &meshes), 1.0));
+    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), &meshes), 1.0));
     let ElasticGears { gears, keys, mut warnings } = run_phase(observer, "reduce", work, |progress| {
         elastic_gears(scene, &pair, &options, &meshes, (cache, progress, &|| true))
     })?;

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
 
-use crate::{options, waves::unresolved_waves};
+use crate::{loaded_pair::LoadedPair, options, waves::unresolved_waves};
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -76,7 +76,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
         said.extend(few_slices(options.contact.slices, needed.count, &errors));
     }
     said.extend(few_elements(face_elements, would_do));
-    said.extend(unresolved_waves(scene, pair, options));
+    said.extend(unresolved_waves(&LoadedPair::of(scene, pair), options));
     let resolution = Resolution {
         slices: sliced.then_some(options.contact.slices),
         slices_chosen,
@@ -96,7 +96,7 @@ pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &Stat
     }
     let (face_elements, would_do) = face_elements(scene);
     let mut said = few_elements(face_elements, would_do);
-    said.extend(unresolved_waves(scene, pair, options));
+    said.extend(unresolved_waves(&LoadedPair::of(scene, pair), options));
     said
 }
 

@@ -6,7 +6,7 @@ use scene::Scene;
 
 use crate::{
     certificate::{Check, Checks},
-    plausible::{deflection_check, pressure_check},
+    plausible::{deflection_check, effective_modulus, pressure_check},
 };
 
 /// Moment of the contact forces on the driven gear against the torque on it.
@@ -34,7 +34,10 @@ pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Checks
         check("round_off_share", worst(|p| p.certificate.round_off_share), ROUND_OFF),
         check("pose_residual", worst(|p| p.certificate.pose_residual), POSE),
     ])
-    .and(Checks::new([deflection_check(scene, worst(deflection)), pressure_check(scene, worst(|p| p.max_pressure))]))
+    .and(Checks::new([
+        deflection_check(scene.pair.normal_module_mm, worst(deflection)),
+        pressure_check(effective_modulus(scene), worst(|p| p.max_pressure)),
+    ]))
 }
 
 /// Deflection along the line of action, mm: the transmission error without that of the unloaded flanks.

@@ -85,7 +85,7 @@ fn attempt(
 ) -> Result<(StaticModel, StaticHistory), Failure> {
     let CycleInputs { scene, cache, shared, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let work = PhaseWork::Seconds(announced_s(observer, (scene, meshes), 1.0));
+    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), meshes), 1.0));
     let (base, mut warnings) = run_phase(observer, name, work, |progress| match shared {
         Some(models) => {
             models.base(scene, pair, options.clone(), &|| true).map(|base| (GearsOf::Shared(base), Vec::new()))

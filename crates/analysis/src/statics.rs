@@ -15,6 +15,7 @@ use crate::{
     gears,
     inputs::{meshes_of, settled_scene},
     iso_model, iso_root, light_load,
+    loaded_pair::LoadedPair,
     meshes::SceneMesh,
     options::options,
     plausible::{refuse, remarks},
@@ -157,7 +158,7 @@ impl<'a> StaticAnalysis<'a> {
         let mut facts = facts_of(scene, &model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
-            warnings.extend(iso_root::warning(scene, &pair));
+            warnings.extend(iso_root::warning(&LoadedPair::of(scene, &pair)));
         }
         warnings.extend(body_warnings(&model));
         warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));

@@ -7,8 +7,8 @@ use std::f64::consts::{PI, TAU};
 use contact::Method;
 use geometry::{FlankModification, Gear, GearModifications, GearPair, Side};
 use ltca::StaticOptions;
-use scene::Scene;
 
+use crate::loaded_pair::LoadedPair;
 use crate::nominal_pressure::{PointPressure, nominal_pressure};
 
 /// k a up to which value and curvature at one point say what the whole band sees: J_0(k a) is 0.94 there.
@@ -23,17 +23,17 @@ const HEIGHTS: usize = 9;
 
 /// What a user should hear of topographies under the load of a scene: where contact is made of slices, one remark for each
 /// flank that bears waves shorter than its contact band resolves.
-pub(crate) fn unresolved_waves(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
+pub(crate) fn unresolved_waves(loaded: &LoadedPair<'_>, options: &StaticOptions) -> Vec<Remark> {
     if options.contact.method != Method::Slice || options.torque == 0.0 {
         return Vec::new();
     }
-    let nominal = nominal_pressure(scene, pair);
+    let nominal = nominal_pressure(loaded);
     // p = 2 w / (pi a), at the point of the path whose band is widest.
     let of = |p: &PointPressure| 2.0 * nominal.normal_force_n / (p.line_length_mm * PI * p.pressure_mpa);
     let widest = nominal.hertz.iter().map(of).filter(|a| a.is_finite()).fold(0.0, f64::max);
     let sides = [(options.side(), true), (options.side().opposite(), options.contact.both_flanks)];
     let touching = sides.into_iter().filter(|(_, touches)| *touches).map(|(side, _)| side);
-    touching.flat_map(|side| waves_on(pair, side, widest)).collect()
+    touching.flat_map(|side| waves_on(loaded.pair, side, widest)).collect()
 }
 
 /// What is said of the flanks on `side` beside a band of half-width a, mm.

@@ -21,6 +21,6 @@ mod write;
 
 pub use lock::Lock;
 pub use partial::{Partial, hold_still};
-pub use read::{read_regular_file, read_regular_text, regular};
+pub use read::{no_text, read_regular_file, read_regular_text, regular};
 pub use work_folder::{Judge, Kind, Scratch, WorkFolder, is_left_over, is_work_folder, stranger, take_away_left_overs};
 pub use write::{behind_links, write_file, write_new_file};

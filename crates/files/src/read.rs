@@ -35,7 +35,12 @@ pub fn read_regular_file(path: &Path, most: u64) -> Result<Vec<u8>> {
 /// # Errors
 /// As [`read_regular_file`], and [`ErrorKind::InvalidData`] for what is not UTF-8.
 pub fn read_regular_text(path: &Path, most: u64) -> Result<String> {
-    String::from_utf8(read_regular_file(path, most)?).map_err(|_| Error::new(ErrorKind::InvalidData, NO_TEXT))
+    String::from_utf8(read_regular_file(path, most)?).map_err(|_| no_text())
+}
+
+/// That a file is no text.
+pub fn no_text() -> Error {
+    Error::new(ErrorKind::InvalidData, NO_TEXT)
 }
 
 /// As the standard library says it of a file of another encoding.

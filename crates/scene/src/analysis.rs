@@ -28,6 +28,13 @@ pub struct Analysis {
     pub window_teeth: Option<u32>,
 }
 
+impl Analysis {
+    /// Whether gears are to be condensed without the symmetry of their teeth.
+    pub fn is_general(&self) -> bool {
+        self.reduction == Some(Reduction::General)
+    }
+}
+
 impl Model {
     /// Whether gears are known from their flanks, and contact is solved between them.
     pub fn is_reduced(self) -> bool {

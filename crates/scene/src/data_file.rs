@@ -1,75 +1,67 @@
-//! Topographies and pitch errors that a scene names: read once, with the scene.
+//! Meshes, topographies and pitch errors that a document names: each file is read once.
 
 use std::{
-    borrow::Cow,
+    collections::BTreeMap,
+    fmt,
     path::{Path, PathBuf},
-    sync::Arc,
+    str::from_utf8,
+    sync::{Arc, Mutex, PoisonError},
 };
 
-use files::{most, read_regular_text};
-use geometry::modification::DataFileError;
+use files::most;
+use geometry::modification::{DataFileError, Topography, parse_pitch_errors};
+use mesh::{Mesh, MeshError};
 use serde::{Serialize, Serializer};
-use toml::Spanned;
 
-use crate::{SceneError, Source, inputs};
+use crate::{
+    SceneError,
+    origin::{Origin, resolved},
+};
 
-/// A data file with its values. In a scene it is its path, as the user wrote it; two are equal when path and text are.
-#[derive(Debug, Clone)]
+/// A file with what it says. In a scene it is its path, as the user wrote it; two are equal when path and bytes are.
 pub struct DataFile<T> {
     path: PathBuf,
-    text: Arc<str>,
+    blake3: blake3::Hash,
     values: Arc<T>,
 }
 
 impl<T> DataFile<T> {
-    /// Reads the file that a key names. A file that several keys of a scene name is opened once.
-    pub(crate) fn read(
-        s: &Source<'_>,
-        key: &str,
-        word: &Spanned<String>,
-        parse: fn(&str, &Path) -> Result<T, DataFileError>,
-    ) -> Result<Self, SceneError> {
-        let path = inputs::named(s, key, word)?;
-        let whole = inputs::resolved(s.file, &path);
-        let known = s.data_files.borrow().get(&path).cloned();
-        let text = match known {
-            Some(text) => text,
-            None => {
-                let text: Arc<str> = read_regular_text(&whole, most::DATA)
-                    .map_err(|source| DataFileError::Read { path: whole.clone(), source })?
-                    .into();
-                s.data_files.borrow_mut().insert(path.clone(), Arc::clone(&text));
-                text
-            }
-        };
-        let values = Arc::new(parse(&text, &whole)?);
-        Ok(Self { path, text, values })
-    }
-
     /// The path as the scene names it.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// What the file says, in mm and rad.
+    /// What the file said when it was read, in mm and rad.
     pub fn values(&self) -> &T {
         &self.values
     }
 
-    /// The bytes of the file as they were read.
-    pub(crate) fn content(&self) -> Cow<'_, [u8]> {
-        Cow::Borrowed(self.text.as_bytes())
+    /// BLAKE3 of its bytes as they were read, hexadecimal.
+    pub fn blake3(&self) -> String {
+        self.blake3.to_hex().to_string()
     }
 
     /// Replaces the path by another one of the same file.
-    pub(crate) fn set_path(&mut self, path: PathBuf) {
+    pub fn set_path(&mut self, path: PathBuf) {
         self.path = path;
+    }
+}
+
+impl<T> Clone for DataFile<T> {
+    fn clone(&self) -> Self {
+        Self { path: self.path.clone(), blake3: self.blake3, values: Arc::clone(&self.values) }
+    }
+}
+
+impl<T> fmt::Debug for DataFile<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("DataFile").field("path", &self.path).field("blake3", &self.blake3()).finish()
     }
 }
 
 impl<T> PartialEq for DataFile<T> {
     fn eq(&self, other: &Self) -> bool {
-        self.path == other.path && self.text == other.text
+        self.path == other.path && self.blake3 == other.blake3
     }
 }
 
@@ -79,18 +71,121 @@ impl<T> Serialize for DataFile<T> {
     }
 }
 
+/// What the files say that a document and those beside it have named so far. One that cannot be read is looked for again
+/// when it is named again.
+#[derive(Debug, Default)]
+pub(crate) struct DataFiles {
+    topographies: Known<Topography>,
+    pitch_errors: Known<Vec<f64>>,
+    meshes: Known<Mesh>,
+}
+
+/// Files of one kind by where they are.
+#[derive(Debug)]
+pub(crate) struct Known<T>(Mutex<BTreeMap<PathBuf, DataFile<T>>>);
+
+impl<T> Default for Known<T> {
+    fn default() -> Self {
+        Self(Mutex::default())
+    }
+}
+
+impl DataFiles {
+    /// A file that was read, by where it is; `path` is its name in the document.
+    pub fn known<T: Content>(&self, whole: &Path, path: &Path) -> Option<DataFile<T>> {
+        // An entry is whole or missing, whatever became of the thread that held the lock.
+        let known = T::known(self).0.lock().unwrap_or_else(PoisonError::into_inner);
+        Some(DataFile { path: path.to_owned(), ..known.get(whole)?.clone() })
+    }
+
+    /// The file that `path` is in a document at `document`, read now.
+    ///
+    /// # Errors
+    /// [`SceneError::DataFile`], [`SceneError::Mesh`]: it cannot be read or understood.
+    pub fn read<T: Content>(&self, origin: Origin, document: &Path, path: PathBuf) -> Result<DataFile<T>, SceneError> {
+        let whole = resolved(document, &path);
+        let bytes = origin.read(document, &path, T::MOST).map_err(|source| T::unread(&whole, source))?;
+        let said = DataFile { path, blake3: blake3::hash(&bytes), values: Arc::new(T::parse(&bytes, &whole)?) };
+        T::known(self).0.lock().unwrap_or_else(PoisonError::into_inner).insert(whole, said.clone());
+        Ok(said)
+    }
+}
+
+/// What a kind of file says.
+pub(crate) trait Content: Sized {
+    /// Largest file, bytes.
+    const MOST: u64 = most::DATA;
+
+    /// Files of this kind.
+    fn known(all: &DataFiles) -> &Known<Self>;
+
+    /// What bytes say; `path` is for messages.
+    ///
+    /// # Errors
+    /// [`SceneError::DataFile`], [`SceneError::Mesh`].
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError>;
+
+    /// That a file cannot be read.
+    fn unread(path: &Path, source: std::io::Error) -> SceneError {
+        DataFileError::Read { path: path.to_owned(), source }.into()
+    }
+}
+
+impl Content for Topography {
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.topographies
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Ok(Self::parse(text(bytes, path)?, path)?)
+    }
+}
+
+/// Cumulative pitch deviation of each tooth, mm.
+impl Content for Vec<f64> {
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.pitch_errors
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Ok(parse_pitch_errors(text(bytes, path)?, path)?)
+    }
+}
+
+impl Content for Mesh {
+    const MOST: u64 = most::MESH;
+
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.meshes
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Ok(Self::parse(bytes, path)?)
+    }
+
+    fn unread(path: &Path, source: std::io::Error) -> SceneError {
+        MeshError::Read { path: path.to_owned(), source }.into()
+    }
+}
+
+fn text<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, DataFileError> {
+    from_utf8(bytes).map_err(|_| DataFileError::Read { path: path.to_owned(), source: files::no_text() })
+}
+
 #[cfg(test)]
 mod tests {
-    use std::fs;
+    use std::{fs, path::PathBuf};
 
-    use crate::{Scene, SceneError};
+    use crate::{Document, Scene, SceneError};
 
     const TEXT: &str = "[pinion]\nteeth = 21\nhelix_angle_deg = 0.0\npitch_errors_file = \"errors.txt\"\n\
                         modification.topography = \"depths.csv\"\n[wheel]\nteeth = 32\n[pair]\n\
                         normal_module_mm = 3.0\nface_width_mm = 30.0\n[operation]\ntorque_nm = 100.0\n";
+    const MESHED: &str = "[pinion]\nteeth = 30\nhelix_angle_deg = 20.0\nmesh = \"p.msh\"\n[wheel]\nteeth = 30\n\
+                          [pair]\nnormal_module_mm = 3.0\nface_width_mm = 20.0\n[operation]\ntorque_nm = 100.0\n";
 
-    /// A scene holds what its files said when it was read, whatever becomes of them: values, bytes, copies. A scene
-    /// that is read again has the new values, and without the file it is refused.
+    /// A scene holds what its files said when it was read, whatever becomes of them: values, digests, copies, scenes with
+    /// another number. A scene that is read again has the new values, and without the file it is refused.
     #[test]
     fn a_scene_reads_its_data_files_once() {
         let folder = tempfile::tempdir().unwrap();
@@ -108,22 +203,40 @@ mod tests {
         };
 
         write(7.0, 3.0);
-        let scene = read().unwrap();
+        let document = Document::new(TEXT.to_owned(), &folder.path().join("a.toml"));
+        let scene = document.scene(&[]).unwrap();
+        let digests = scene.files();
         write(8.0, 4.0);
         assert_eq!(of(&scene), [7.0, 3.0, 3.0], "written over");
         let again = read().unwrap();
         assert_eq!(of(&again), [8.0, 4.0, 4.0], "read again");
         assert_ne!(scene, again);
+        assert!(again.files().iter().zip(&digests).all(|(new, old)| new.0 == old.0 && new.1 != old.1));
 
         fs::remove_file(&errors).unwrap();
         fs::remove_file(&depths).unwrap();
         let alone = scene.standing_alone();
         assert_eq!((of(&scene), of(&alone)), ([7.0, 3.0, 3.0], [7.0, 3.0, 3.0]), "removed");
-        for scene in [&scene, &alone] {
-            let bytes: Vec<_> = scene.files().into_iter().map(|path| scene.content(path).unwrap()).collect();
-            assert!(bytes.len() == 2 && bytes[0].starts_with(b"roll_deg") && bytes[1].starts_with(b"7 0"));
-        }
+        assert_eq!(alone.files().len(), 2);
         assert!(matches!(read(), Err(SceneError::Conflict { .. })));
+    }
+
+    /// The mesh of a gear is read with the document: for its bore, for all cases, and for who computes with it.
+    #[test]
+    fn a_mesh_is_read_with_its_document() {
+        let folder = tempfile::tempdir().unwrap();
+        let mesh = folder.path().join("p.msh");
+        let shipped = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../meshes/coarse_hex8_pinion.msh");
+        fs::copy(shipped, &mesh).unwrap();
+        let document = Document::new(MESHED.to_owned(), &folder.path().join("a.toml"));
+        let torque = |nm: f64| crate::Setting::number("operation.torque_nm", nm).unwrap();
+        let scenes = [document.scene(&[]), document.scene(&[torque(200.0)])].map(Result::unwrap);
+        let held = |scene: &Scene| scene.pinion.mesh.as_ref().unwrap().values() as *const mesh::Mesh;
+        assert_eq!(held(&scenes[0]), held(&scenes[1]), "one copy for all cases");
+        assert_eq!(held(&scenes[0]), held(&scenes[0].with_number("operation.torque_nm", 1.0).unwrap()));
+        fs::write(&mesh, "no mesh").unwrap();
+        let refused = Scene::parse(MESHED, &folder.path().join("a.toml")).unwrap_err();
+        assert!(matches!(refused, SceneError::Mesh { .. }), "{refused}");
     }
 
     /// A complaint about a data file comes with the scene, and names the file and its line.

@@ -1,6 +1,8 @@
 //! Keys of what neither meshes nor matrices know, and scenes that differ in one of them.
 
-use crate::{OutputScene, Scene, SceneError, Setting};
+use std::sync::Arc;
+
+use crate::{Document, OutputScene, Scene, SceneError, Setting};
 
 impl Scene {
     /// Whether a key is of micro-geometry or misalignment.
@@ -26,7 +28,8 @@ impl Scene {
         }
         let own = Self { output: OutputScene { derivatives: Vec::new(), ..self.output.clone() }, ..self.clone() };
         let setting = Setting::number(&parts.join("."), value)?;
-        let scene = Self::parse_with(&own.to_toml(), &self.file, &[setting])?;
+        let (origin, files) = (self.written.origin(), Arc::clone(self.written.files()));
+        let scene = Document::made(own.to_toml(), &self.file, origin, files).scene(&[setting])?;
         Ok(Self { set: self.set.clone(), ..scene })
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use toml::de::DeTable;
+use crate::tree::Node;
 
 /// A kind of TOML file that the program reads.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,10 +49,9 @@ impl DocumentKind {
         }
     }
 
-    /// The kind with most names of its own in the text; `None` where there is none, or the text is no TOML.
-    pub(crate) fn of(text: &str) -> Option<Self> {
-        let root = DeTable::parse(text).ok()?;
-        let count = |names: &[&str]| names.iter().filter(|name| root.get_ref().contains_key(**name)).count();
+    /// The kind with most names of its own at the top of a document; `None` where there is none.
+    pub(crate) fn of(root: &Node) -> Option<Self> {
+        let count = |names: &[&str]| root.entries().filter(|(key, _)| names.contains(&key.as_str())).count();
         let counts = NAMES.iter().map(|(kind, names)| (count(names), *kind));
         counts.filter(|(n, _)| *n > 0).reduce(|best, own| if own.0 > best.0 { own } else { best }).map(|(_, kind)| kind)
     }
@@ -64,7 +63,7 @@ mod tests {
 
     #[test]
     fn kinds_are_told_by_their_tables() {
-        let of = DocumentKind::of;
+        let of = |text: &str| Node::of_text(text).ok().and_then(|root| DocumentKind::of(&root));
         assert_eq!(of("[pinion]\n[wheel]\n[pair]\n[mesh]\n[analysis]\n"), Some(DocumentKind::Scene));
         assert_eq!(of("name = \"x\"\n[[shaft]]\n[[mesh]]\n[input]\n[motion]\n"), Some(DocumentKind::Gearbox));
         assert_eq!(of("scene = \"x\"\n[[vary]]\n[[output]]\n"), Some(DocumentKind::Plan));

@@ -3,17 +3,19 @@
 use std::borrow::Cow;
 use std::fmt;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use geometry::GeometryError;
 use geometry::modification::DataFileError;
+use mesh::MeshError;
 
 use crate::DocumentKind;
 
 /// Where a value was said.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Place {
-    /// A line of a file; boxed, as every check hands a place about.
-    Line(Box<Line>),
+    /// A line of a file; shared by all who name it.
+    Line(Arc<Line>),
     /// Beside the file.
     Setting {
         /// As `--set operation.torque_nm`.
@@ -190,6 +192,15 @@ pub enum SceneError {
     /// A topography or a list of pitch errors that cannot be read.
     #[error(transparent)]
     DataFile(Box<DataFileError>),
+    /// A mesh that cannot be read.
+    #[error(transparent)]
+    Mesh(Box<MeshError>),
+}
+
+impl From<MeshError> for SceneError {
+    fn from(error: MeshError) -> Self {
+        Self::Mesh(Box::new(error))
+    }
 }
 
 impl From<DataFileError> for SceneError {
@@ -204,10 +215,10 @@ fn at(place: Option<&Place>, file: &Path) -> String {
 }
 
 impl SceneError {
-    /// The complaint about the text of a file that was to be a `wanted` one: that it is another kind of file, where it is.
-    pub(crate) fn unless_another_kind(self, text: &str, file: &Path, wanted: DocumentKind) -> Self {
+    /// The complaint about a document that was to be a `wanted` one: that it is another kind of file, where it is.
+    pub(crate) fn unless_another_kind(self, found: Option<DocumentKind>, file: &Path, wanted: DocumentKind) -> Self {
         let of_keys = matches!(self, Self::UnknownKey { .. } | Self::WrongType { .. } | Self::Missing { .. });
-        match DocumentKind::of(text).filter(|found| of_keys && *found != wanted) {
+        match found.filter(|found| of_keys && *found != wanted) {
             Some(found) => Self::AnotherKind { file: file.to_owned(), found, wanted },
             None => self,
         }
@@ -234,6 +245,7 @@ impl SceneError {
             | Self::Missing { .. }
             | Self::Setting { .. }
             | Self::NoKey { .. }
+            | Self::Mesh(_)
             | Self::DataFile(_) => None,
             Self::Geometry { place, .. } => place.as_ref(),
             Self::Syntax { place, .. }
@@ -260,7 +272,7 @@ impl SceneError {
             Self::Missing { keys, .. } => keys.first().map(|key| key.trim_matches('`')),
             Self::Geometry { table, .. } => Some(table),
             Self::Read { .. } | Self::AnotherKind { .. } | Self::Twice { .. } | Self::Syntax { .. } => None,
-            Self::Conflict { .. } | Self::DataFile(_) => None,
+            Self::Conflict { .. } | Self::DataFile(_) | Self::Mesh(_) => None,
         }
     }
 
@@ -291,6 +303,7 @@ impl SceneError {
             Self::NotYet { instead, .. } => Some(instead.clone()),
             Self::Geometry { source, .. } => source.hint(),
             Self::DataFile(error) => error.hint(),
+            Self::Mesh(error) => error.hint(),
         }
     }
 }

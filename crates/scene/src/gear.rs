@@ -1,8 +1,6 @@
 //! The gears, and what they share.
 
-use std::path::PathBuf;
-
-use mesh::{FaceResolution, GroupNames};
+use mesh::{FaceResolution, GroupNames, Mesh};
 use serde::Serialize;
 
 use crate::data_file::DataFile;
@@ -38,9 +36,9 @@ pub struct GearScene {
     /// File of them, with their values in mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pitch_errors_file: Option<DataFile<Vec<f64>>>,
-    /// Mesh file as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it a path.
+    /// Its mesh, with the path as written in the scene; [`Scene::resolve`](super::Scene::resolve) makes it one from here.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh: Option<PathBuf>,
+    pub mesh: Option<DataFile<Mesh>>,
     /// The built-in mesher; set exactly when `mesh` is not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mesher: Option<MesherScene>,
@@ -153,13 +151,6 @@ impl MisalignmentScene {
     }
 }
 
-impl Material {
-    /// Density, t/mm^3.
-    pub fn density(&self) -> f64 {
-        self.density_kg_m3 * 1e-12
-    }
-}
-
 impl GearScene {
     /// Helix angle, rad.
     pub fn helix_angle(&self) -> f64 {
@@ -173,11 +164,6 @@ impl GearScene {
 }
 
 impl PairScene {
-    /// Normal pressure angle, rad.
-    pub fn normal_pressure_angle(&self) -> f64 {
-        self.normal_pressure_angle_deg.to_radians()
-    }
-
     /// Heights between which gears of some face widths (mm) both have flanks, over the pinion's mid-face, mm; the first
     /// is above the second where they pass each other.
     pub fn common_face_mm(&self, [pinion, wheel]: [f64; 2]) -> [f64; 2] {

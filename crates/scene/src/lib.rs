@@ -9,10 +9,10 @@
 //! | layer | files |
 //! |---|---|
 //! | words | `units`, `hints`, `keys`, `spanned`, `excerpt`, `error`, `table` (what a row of keys is) |
-//! | text | `setting`, `source` (places and complaints), `inputs` (files that a text names) |
+//! | text | `tree` (tables and values with their places), `setting`, `document` (a file, read once), `places` (of keys), `source` and `source_values` (words, ranges, complaints), `data_file`, `inputs` (files that it names) |
 //! | schema | `schema` (every key with its type, range, default and choices), `raw` (what is read) |
-//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ... |
-//! | scene | [`Scene`], `check`, `written`, `default_scene`, `builder`, and the readers of the other kinds of file |
+//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ...; `solver_units` (their numbers in mm, N, t, s, rad) |
+//! | scene | [`Scene`], `check`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
 mod macros;
@@ -25,8 +25,8 @@ mod contact;
 mod data_file;
 mod default_scene;
 mod design_key;
+mod document;
 mod document_kind;
-mod document_text;
 mod error;
 mod excerpt;
 mod gear;
@@ -40,22 +40,24 @@ mod keys;
 mod ladder;
 mod modification;
 mod motion;
-mod operation;
 pub mod optimum;
 mod origin;
 mod output;
+mod places;
 pub mod plan;
 mod raw;
 mod rexs;
 mod schema;
 mod setting;
+mod solver_units;
 mod source;
+mod source_values;
 mod spanned;
 mod starter;
 pub mod study;
 mod table;
+mod tree;
 pub mod units;
-mod written;
 
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
@@ -68,29 +70,42 @@ pub use analysis::Analysis;
 pub use builder::{SceneBuilder, Value};
 pub use contact::ContactScene;
 pub use data_file::DataFile;
+pub use document::Document;
 pub use document_kind::DocumentKind;
-pub use document_text::DocumentText;
 pub use error::{Line, Place, SceneError};
 pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene};
+pub use geometry::{Driver, Sense};
 pub use input_text::read_text;
 pub use keys::{Tables, nearest};
 pub use ladder::{DiscScene, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene};
 pub use modification::ModificationScene;
 pub use motion::{BearingScene, BodyScene, DriveScene, ModesScene, MotionScene, SweepScene, TorqueScene};
-use origin::Origin;
 pub use output::OutputScene;
+pub use places::Written;
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, Driver, FieldName, FlankScene,
-    Flanks, Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation,
-    Quantity, RampScene, Reduction, Rotation, Run, ShaftCoordinate, Shape, Sharing, SteadyBy, StiffnessFrom,
-    SupportScene, SweepWay, all_keys, json_schema,
+    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, FieldName, FlankScene, Flanks,
+    Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation, Quantity,
+    RampScene, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepWay, all_keys,
+    json_schema,
 };
 pub use setting::Setting;
+pub use solver_units::RPM;
 pub use source::Source;
 pub use spanned::{Number, Whole, Word};
 pub use starter::{Starter, Steel};
-pub use written::Written;
+
+impl Document {
+    /// The scene that it is, with some of its keys set otherwise; of two settings of a key the last one holds.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn scene(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
+        let source = raw::source(self, settings);
+        let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
+        checked.map_err(|e| source.of_kind(e, DocumentKind::Scene))
+    }
+}
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -100,7 +115,7 @@ pub struct Scene {
     /// Where the scene stands; paths in it are relative to its folder.
     #[serde(skip)]
     pub file: PathBuf,
-    /// What was written.
+    /// Where its keys stand, and what was read of the files that it names.
     #[serde(skip)]
     pub written: Written,
     /// Words of a command line that set keys beside the file.
@@ -170,8 +185,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse_with(&text, file, settings)
+        Document::read(file)?.scene(settings)
     }
 
     /// Checks the text of a scene; `file` is what messages name and what paths are relative to.
@@ -187,16 +201,7 @@ impl Scene {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        Self::parse_from(text, file, settings, Origin::Disk)
-    }
-
-    fn parse_from(text: &str, file: &Path, settings: &[Setting], origin: Origin) -> Result<Self, SceneError> {
-        setting::few_enough(text, settings)?;
-        let (all, ranges) = setting::below(text, settings);
-        let source = raw::source(file, &all, settings, &ranges).standing(origin);
-        let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
-        let scene = checked.map_err(|e| e.unless_another_kind(text, file, DocumentKind::Scene))?;
-        Ok(Self { set: settings.iter().map(Setting::word).collect(), ..scene })
+        Document::new(text.to_owned(), file).scene(settings)
     }
 
     /// The scene file that says the same with every default written out.
@@ -220,8 +225,8 @@ impl Scene {
             if let Some(file) = pitch_errors_file {
                 file.set_path(absolute(file.path()));
             }
-            if let Some(path) = mesh {
-                *path = absolute(path);
+            if let Some(file) = mesh {
+                file.set_path(absolute(file.path()));
             }
         }
         all
@@ -254,7 +259,7 @@ impl Scene {
 
     /// The path that a path written in the scene stands for.
     pub fn resolve(&self, path: &Path) -> PathBuf {
-        inputs::resolved(&self.file, path)
+        origin::resolved(&self.file, path)
     }
 
     /// Pinion and wheel.
@@ -262,12 +267,14 @@ impl Scene {
         [&self.pinion, &self.wheel]
     }
 
+    /// Young's modulus (MPa) and Poisson's ratio of pinion and wheel.
+    pub fn elasticity(&self) -> [(f64, f64); 2] {
+        self.gears().map(|gear| (gear.material.young_mpa, gear.material.poisson))
+    }
+
     /// The side of the pinion's teeth that the torque presses: its left flanks when it drives counter-clockwise.
     pub fn side(&self) -> Side {
-        match (self.operation.driver, self.operation.rotation) {
-            (Driver::Pinion, Rotation::Ccw) | (Driver::Wheel, Rotation::Cw) => Side::Left,
-            (Driver::Pinion, Rotation::Cw) | (Driver::Wheel, Rotation::Ccw) => Side::Right,
-        }
+        self.operation.side()
     }
 
     /// Teeth of the gear that drives.

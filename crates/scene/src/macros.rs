@@ -72,13 +72,13 @@ macro_rules! key {
     ($name:ident always ($of:ident: $raw:ident)) => { $crate::table::table(stringify!($name), &$of) };
     ($name:ident list ($of:ident: $raw:ident)) => { $crate::table::list(stringify!($name), &$of) };
     ($name:ident word ($choice:ident) $about:literal) => {
-        $crate::table::word(stringify!($name), $choice::WORDS, $about)
+        $crate::table::word(stringify!($name), <$choice as $crate::table::Choice>::WORDS, $about)
     };
     ($name:ident bare_word ($choice:ident) $about:literal) => {
-        $crate::table::bare_word(stringify!($name), $choice::WORDS, $about)
+        $crate::table::bare_word(stringify!($name), <$choice as $crate::table::Choice>::WORDS, $about)
     };
     ($name:ident words ($choice:ident) $about:literal) => {
-        $crate::table::words(stringify!($name), $choice::WORDS, $about)
+        $crate::table::words(stringify!($name), <$choice as $crate::table::Choice>::WORDS, $about)
     };
     ($name:ident $kind:ident ($($args:expr),*) $about:literal) => {
         $crate::table::$kind(stringify!($name), $($args,)* $about)
@@ -134,7 +134,7 @@ macro_rules! read_as {
 /// The value of a key with range and default of its row; the names of key and field are one.
 macro_rules! value {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
-        $crate::source::Entry::value(&$raw.$key, $s, &$crate::schema::$table, stringify!($key))
+        $crate::source_values::Entry::value(&$raw.$key, $s, &$crate::schema::$table, stringify!($key))
     };
 }
 
@@ -163,16 +163,15 @@ macro_rules! choices {
         }
 
         impl $name {
-            pub(crate) const WORDS: &'static [&'static str] = &[$($word),*];
-
             /// As files write it.
             #[allow(dead_code, reason = "some are read alone")]
             pub fn word(self) -> &'static str {
-                Self::WORDS[self as usize]
+                <Self as $crate::table::Choice>::WORDS[self as usize]
             }
         }
 
         impl $crate::table::Choice for $name {
+            const WORDS: &'static [&'static str] = &[$($word),*];
             const CHOICES: &'static [(&'static str, Self)] = &[$(($word, Self::$variant)),*];
         }
 

@@ -5,7 +5,7 @@ use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
 use serde::Serialize;
 
 use crate::error::SceneError;
-use crate::schema::{FlankScene, RawFlank, RawModification, Shape};
+use crate::schema::{FlankScene, RawFlank, RawModification};
 use crate::source::Source;
 use crate::spanned::{Number, Word};
 
@@ -48,16 +48,16 @@ impl FlankScene {
     /// The depths that are ground off, in mm and rad.
     pub(crate) fn in_geometry(&self) -> FlankModification {
         let mm = |um: Option<f64>| 1e-3 * um.unwrap_or(0.0);
-        let grows = |shape: Option<Shape>| match shape {
-            None | Some(Shape::Linear) => ReliefShape::Linear,
-            Some(Shape::Parabolic) => ReliefShape::Parabolic,
-        };
-        let relief = |amount: Option<f64>, diameter: Option<f64>, roll_deg: Option<f64>, shape| {
+        let relief = |amount: Option<f64>, diameter: Option<f64>, roll_deg: Option<f64>, shape: Option<ReliefShape>| {
             let start = diameter.map(ProfilePlace::Diameter).or(roll_deg.map(|u| ProfilePlace::Roll(u.to_radians())))?;
-            Some(Relief { amount: 1e-3 * amount?, start, shape: grows(shape) })
+            Some(Relief { amount: 1e-3 * amount?, start, shape: shape.unwrap_or_default() })
         };
         let end = |amount: Option<f64>, length: Option<f64>| {
-            Some(EndRelief { amount: 1e-3 * amount?, length: length?, shape: grows(self.end_relief_shape) })
+            Some(EndRelief {
+                amount: 1e-3 * amount?,
+                length: length?,
+                shape: self.end_relief_shape.unwrap_or_default(),
+            })
         };
         FlankModification {
             tip_relief: relief(

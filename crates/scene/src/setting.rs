@@ -1,13 +1,8 @@
 //! Keys that are set beside a file: `--set key=value`, and studies that vary a key.
 
-use std::ops::Range;
+use toml::de::{DeTable, DeValue};
 
-use toml::{
-    Spanned,
-    de::{DeTable, DeValue},
-};
-
-use super::SceneError;
+use super::{SceneError, tree::Node};
 
 /// A key of a scene or a gearbox file with the value that takes the place of the file's.
 ///
@@ -15,11 +10,16 @@ use super::SceneError;
 /// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`,
 /// `gear.0.position_mm`). The
 /// value is TOML; what is no TOML is a text (`contact.method=slice`).
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     label: String,
     key: String,
-    value: String,
+    /// The parts of the key.
+    path: Vec<String>,
+    /// The value as TOML.
+    written: String,
+    /// What that says; places are those in it.
+    value: Node,
 }
 
 impl Setting {
@@ -51,10 +51,11 @@ impl Setting {
     /// # Errors
     /// [`SceneError::NoKey`] where `key` is none.
     pub fn of(key: &str, value: &toml::Value) -> Result<Self, SceneError> {
-        match path(key) {
-            None => Err(SceneError::NoKey { key: key.to_owned() }),
-            Some(_) => Ok(Self { label: key.to_owned(), key: key.to_owned(), value: value.to_string() }),
-        }
+        let no_key = || SceneError::NoKey { key: key.to_owned() };
+        let path = path(key).ok_or_else(no_key)?;
+        let written = value.to_string();
+        let value = Node::of_value(&written).map_err(|fault| complaint(key, &fault.message))?;
+        Ok(Self { label: key.to_owned(), key: key.to_owned(), path, written, value })
     }
 
     /// The same setting, named otherwise in messages: by a word of its own, as `--torque-nm`.
@@ -63,14 +64,14 @@ impl Setting {
     }
 
     fn labelled(label: String, key: &str, value: &str) -> Result<Self, SceneError> {
-        if path(key).is_none() {
+        let Some(path) = path(key) else {
             return Err(complaint(&label, &format!("`{key}` is no key")));
-        }
-        let value = match toml_value(value) {
-            Some(value) => value,
-            None => return Err(complaint(&label, &format!("`{value}` is neither a TOML value nor a bare word"))),
         };
-        Ok(Self { label, key: key.to_owned(), value })
+        let read = toml_value(value).and_then(|written| Some((Node::of_value(&written).ok()?, written)));
+        match read {
+            Some((value, written)) => Ok(Self { label, key: key.to_owned(), path, written, value }),
+            None => Err(complaint(&label, &format!("`{value}` is neither a TOML value nor a bare word"))),
+        }
     }
 
     /// The key.
@@ -83,14 +84,29 @@ impl Setting {
         &self.label
     }
 
+    /// The parts of the key.
+    pub(crate) fn path(&self) -> &[String] {
+        &self.path
+    }
+
+    /// The value; places are those in [`Setting::written`].
+    pub(crate) fn value(&self) -> &Node {
+        &self.value
+    }
+
+    /// The value as TOML.
+    pub(super) fn written(&self) -> &str {
+        &self.written
+    }
+
     /// The word of a command line that sets it, quoted for a shell.
     pub fn word(&self) -> String {
-        format!("--set '{}={}'", self.key, self.value.replace('\'', "'\\''"))
+        format!("--set '{}={}'", self.key, self.written.replace('\'', "'\\''"))
     }
 
     /// The line of TOML that says it.
     pub(super) fn line(&self) -> String {
-        format!("{} = {}", self.key, self.value)
+        format!("{} = {}", self.key, self.written)
     }
 }
 
@@ -128,78 +144,6 @@ fn toml_value(written: &str) -> Option<String> {
         .then(|| format!("\"{}\"", written.replace('\\', "\\\\")))
 }
 
-/// What the settings of a file take at the most, bytes: each is read as far from the beginning as its line is.
-const MOST: usize = 256 << 20;
-
-/// Refuses more settings than any file has keys, which would take memory without bound.
-pub(crate) fn few_enough(text: &str, settings: &[Setting]) -> Result<(), SceneError> {
-    let length = settings.iter().fold(text.len(), |sum, s| sum.saturating_add(s.key.len() + s.value.len() + 4));
-    match settings.last() {
-        Some(last) if length.saturating_mul(settings.len()) > MOST => {
-            let what = format!("is the last of {} settings, which is more than can be taken in", settings.len());
-            Err(complaint(&last.label, &what))
-        }
-        _ => Ok(()),
-    }
-}
-
-/// The file's text, and below it a line for each setting, so that every place in either has an offset of its own.
-pub(crate) fn below(text: &str, settings: &[Setting]) -> (String, Vec<Range<usize>>) {
-    let mut all = text.to_owned();
-    let mut ranges = Vec::with_capacity(settings.len());
-    for setting in settings {
-        all.push('\n');
-        let start = all.len();
-        all.push_str(&setting.line());
-        ranges.push(start..all.len());
-    }
-    (all, ranges)
-}
-
-/// Puts the line at `range` of `text` into the tables of the file.
-pub(super) fn put<'i>(root: &mut DeTable<'i>, padded: &'i str, key: &str) -> Result<(), toml::de::Error> {
-    let mut table = DeTable::parse(padded)?.into_inner();
-    let Some(parts) = path(key) else { return Ok(()) };
-    insert(root, &mut table, &parts);
-    Ok(())
-}
-
-/// Moves the value at `parts` of `from` to the same place of `into`, making tables on the way.
-fn insert<'i>(into: &mut DeTable<'i>, from: &mut DeTable<'i>, parts: &[String]) {
-    let Some((key, value)) = std::mem::take(from).into_iter().next() else { return };
-    match into.get_mut(key.get_ref().as_ref()) {
-        Some(there) => replace(there, value, parts.get(1..).unwrap_or_default()),
-        None => {
-            into.insert(key, value);
-        }
-    }
-}
-
-/// Puts `value`, which lies below `parts` of its own tables, into what is there.
-fn replace<'i>(there: &mut Spanned<DeValue<'i>>, value: Spanned<DeValue<'i>>, parts: &[String]) {
-    let Some(part) = parts.first() else {
-        *there = value;
-        return;
-    };
-    let span = value.span();
-    match (there.get_mut(), value.into_inner()) {
-        (DeValue::Table(inner), DeValue::Table(mut from)) => insert(inner, &mut from, parts),
-        (DeValue::Array(list), DeValue::Table(from)) => {
-            let entry = part.parse::<usize>().ok().and_then(|i| list.get_mut(i));
-            match (entry, from.into_iter().next()) {
-                (Some(entry), Some((_, value))) => replace(entry, value, parts.get(1..).unwrap_or_default()),
-                (None, Some((key, value))) => {
-                    // No such entry: the complaint about a table where a list is wanted names the setting.
-                    let table = DeTable::from_iter([(key, value)]);
-                    *there = Spanned::new(span, DeValue::Table(table));
-                }
-                (_, None) => {}
-            }
-        }
-        (_, value) => *there = Spanned::new(span, value),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,7 +159,7 @@ mod tests {
             ("a=true", "true"),
             ("a=\"=\"", "\"=\""),
         ] {
-            assert_eq!(Setting::parse(written).unwrap().value, value, "{written}");
+            assert_eq!(Setting::parse(written).unwrap().written, value, "{written}");
         }
         for wrong in ["a", "=3", "a b=3", "a=", "a=[1", "a=1\nb=2", "a#=3", "[a]b=3", "a..b=3"] {
             assert!(Setting::parse(wrong).is_err(), "`{wrong}` is taken");
@@ -223,17 +167,9 @@ mod tests {
     }
 
     #[test]
-    fn settings_without_end_are_refused() {
-        let many = vec![Setting::parse("operation.torque_nm=1").unwrap(); 20_000];
-        let said = few_enough("", &many).unwrap_err().to_string();
-        assert!(said.contains("the last of 20000 settings"), "{said}");
-        assert!(few_enough("", &many[..1000]).is_ok());
-    }
-
-    #[test]
     fn numbers_of_studies_read_back_to_the_last_bit() {
         for number in [0.1 + 0.2, 1e300, -3.0, 5e-324, 1e16] {
-            let value = Setting::number("a", number).unwrap().value;
+            let value = Setting::number("a", number).unwrap().written;
             assert_eq!(value.parse::<f64>().unwrap().to_bits(), number.to_bits(), "{value}");
         }
     }

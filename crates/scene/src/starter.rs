@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::{Driver, Kind, Rotation};
+use crate::{Driver, Kind, Sense};
 
 /// What a gear is made of, where it is stated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -57,7 +57,7 @@ pub struct Starter {
     /// The gear that drives.
     pub driver: Driver,
     /// Sense of rotation of the pinion, seen from +z.
-    pub rotation: Rotation,
+    pub rotation: Sense,
     /// Equilibrium at every position, or motion in time.
     pub kind: Kind,
 }
@@ -85,7 +85,7 @@ impl Default for Starter {
             dedendum_coefficient: None,
             root_radius_coefficient: None,
             driver: Driver::Pinion,
-            rotation: Rotation::Ccw,
+            rotation: Sense::Ccw,
             kind: Kind::Static,
         }
     }
@@ -214,8 +214,8 @@ impl Starter {
             Driver::Wheel => "driver = \"wheel\"\n",
         });
         t.push_str(match self.rotation {
-            Rotation::Ccw => "# rotation = \"ccw\"                # of the pinion, seen from +z; or \"cw\"\n",
-            Rotation::Cw => "rotation = \"cw\"                  # of the pinion, seen from +z\n",
+            Sense::Ccw => "# rotation = \"ccw\"                # of the pinion, seen from +z; or \"cw\"\n",
+            Sense::Cw => "rotation = \"cw\"                  # of the pinion, seen from +z\n",
         });
         let _ = write!(
             t,
@@ -295,7 +295,7 @@ mod tests {
                 dedendum_coefficient: Some(1.2),
                 root_radius_coefficient: Some(0.3),
                 driver: Driver::Wheel,
-                rotation: Rotation::Cw,
+                rotation: Sense::Cw,
                 own_face_width_mm: [Some(20.0), None],
                 mid_face_offset_mm: Some(0.5),
                 kind,
@@ -309,7 +309,7 @@ mod tests {
             assert_eq!((scene.face_widths_mm(), scene.pair.mid_face_offset_mm), ([20.0, 18.0], Some(0.5)));
             assert_eq!((scene.pair.centre_distance_mm, scene.operation.torque_nm), (Some(84.0), 80.0));
             assert_eq!(scene.operation.speed_rpm, 1500.0);
-            assert_eq!((scene.operation.driver, scene.operation.rotation), (Driver::Wheel, Rotation::Cw));
+            assert_eq!((scene.operation.driver, scene.operation.rotation), (Driver::Wheel, Sense::Cw));
             assert_eq!((scene.pinion.bore_diameter_mm, scene.wheel.thickness_allowance_mm), (25.0, 0.05));
             assert_eq!((scene.wheel.material.poisson, scene.pinion.material.poisson), (0.29, 0.3));
             assert_eq!((scene.pair.dedendum_coefficient, scene.pair.root_radius_coefficient), (1.2, 0.3));

@@ -1,12 +1,31 @@
 //! What a table of keys is: of each key type, range, default and meaning; and enums whose values are words of a file.
 
+use geometry::{Driver, Sense, modification::ReliefShape};
+
 /// An end of a range that depends on the rest of the scene.
 pub(crate) const INF: f64 = f64::INFINITY;
 
 /// An enum of which each value is a word of the scene file.
 pub(crate) trait Choice: Copy + 'static {
+    /// Words alone, in the same order.
+    const WORDS: &'static [&'static str];
     /// Words and values; the first one is the default.
     const CHOICES: &'static [(&'static str, Self)];
+}
+
+impl Choice for Driver {
+    const WORDS: &'static [&'static str] = &["pinion", "wheel"];
+    const CHOICES: &'static [(&'static str, Self)] = &[("pinion", Self::Pinion), ("wheel", Self::Wheel)];
+}
+
+impl Choice for Sense {
+    const WORDS: &'static [&'static str] = &["ccw", "cw"];
+    const CHOICES: &'static [(&'static str, Self)] = &[("ccw", Self::Ccw), ("cw", Self::Cw)];
+}
+
+impl Choice for ReliefShape {
+    const WORDS: &'static [&'static str] = &["linear", "parabolic"];
+    const CHOICES: &'static [(&'static str, Self)] = &[("linear", Self::Linear), ("parabolic", Self::Parabolic)];
 }
 
 /// A field of a checked table.
@@ -18,6 +37,8 @@ pub(crate) trait Field {
 }
 
 impl Field for f64 {}
+impl Field for Driver {}
+impl Field for Sense {}
 impl Field for u32 {}
 impl<T> Field for Option<T> {
     fn is_absent(&self) -> bool {

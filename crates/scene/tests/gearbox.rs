@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use scene::{
-    Rotation, SceneError,
+    SceneError, Sense,
     gearbox::{Gearbox, GearboxDrive, MeshModel},
 };
 
@@ -37,7 +37,7 @@ fn a_gearbox_is_read_as_it_is_written() {
     assert_eq!(file.bearings[3].stiffness[3][3], 2.0e7);
     assert_eq!((file.gears[2].shaft, file.gears[2].key), (1, 5f64.to_radians()));
     assert_eq!(file.meshes[0].scene.contact.slices, Some(16), "what is set holds");
-    assert_eq!(file.input.rotation, Rotation::Cw);
+    assert_eq!(file.input.rotation, Sense::Cw);
     assert_eq!(file.torques[0].torque, 740e3);
     assert_eq!((file.positions_per_cycle, file.cycles), (8, 1));
     let motion = file.motion.unwrap();
@@ -56,10 +56,10 @@ fn positions_say_the_offset_of_mid_faces() {
     let text = text();
     let level = of(&text);
     let shifted = text.replacen("origin_mm = [91.0, 0.0, 0.0]", "origin_mm = [91.0, 0.0, 3.0]", 1);
-    assert_eq!(level.mid_face_offset([0, 1]), Some(0.5));
-    assert_eq!(level.mid_face_offset([2, 3]), None);
+    assert_eq!(level.meshes.iter().map(|m| m.scene.pair.mid_face_offset_mm).collect::<Vec<_>>(), [Some(0.5), None]);
+    assert_eq!(level.meshes[0].scene.pair.centre_distance_mm, Some(91.0));
     let moved = of(&shifted.replacen("[\"contact.slices=16\"]", "[\"pair.mid_face_offset_mm=3.5\"]", 1));
-    let apart = |file: &Gearbox, mesh: usize| file.mid_face_offset(file.meshes[mesh].gears).unwrap_or(0.0);
+    let apart = |file: &Gearbox, mesh: usize| file.meshes[mesh].scene.pair.mid_face_offset_mm.unwrap_or(0.0);
     // The second stage has its pinion on the shaft that moved.
     let said = [apart(&moved, 0) - apart(&level, 0), apart(&moved, 1) - apart(&level, 1)];
     assert!((said[0] - 3.0).abs() < 1e-12 && (said[1] + 3.0).abs() < 1e-12, "{said:?} mm");

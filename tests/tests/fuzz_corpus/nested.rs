@@ -59,7 +59,7 @@ fn every_reader_has_a_limit_of_depth() {
                 }
                 let _ = Plan::parse(&input, Path::new("plan.toml")).map_err(|e| (e.to_string(), e.hint()));
                 let _ = Optimisation::parse(&input, Path::new("plan.toml")).map_err(|e| (e.to_string(), e.hint()));
-                let _ = Optimisation::is_one(&input);
+                let _ = Optimisation::is_one(&scene::Document::new(input.clone(), Path::new("plan.toml")));
             }
         }
     };

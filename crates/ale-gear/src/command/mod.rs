@@ -34,7 +34,7 @@ use clap::{
 use crate::{
     error::CommandError,
     printed,
-    scene::{DocumentKind, DocumentText},
+    scene::{Document, DocumentKind},
     stop::on_stop,
     talk::{Loudness, colours_on_stderr, read_progress_after, say, set_loudness},
 };
@@ -112,7 +112,7 @@ struct FileWords {
 /// Kind of the document in a file; `None` where it has none of a known kind. A pipe, which can be read no second time, is
 /// left for who runs it.
 fn kind_of_file(file: &Path) -> Option<DocumentKind> {
-    if file.is_file() { DocumentText::read(file).ok()?.kind() } else { None }
+    if file.is_file() { Document::read(file).ok()?.kind() } else { None }
 }
 
 /// What a command has to say when its work is done.

@@ -9,8 +9,8 @@ use analysis::{
 };
 use report::optimum_files::{OptimumResult, passed_limits, write_optimum};
 use scene::{
+    Document,
     optimum::{Optimisation, OptimisationWords},
-    read_text,
 };
 
 use super::{Answer, FileWords, cache_args::CacheArgs, overrides::Overrides};
@@ -83,12 +83,13 @@ impl OptimiseArgs {
         let words = !vary.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
         let words = words || self.max_edge_pressure.is_some() || evaluations.is_some() || front.is_some();
         // What cannot be read is complained about as a scene is.
-        if read_text(file).is_ok_and(|text| Optimisation::is_one(&text)) {
+        let document = Document::read(file)?;
+        if Optimisation::is_one(&document) {
             if words {
                 let hint = "write it into the file, or give a scene file";
                 return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
             }
-            return Ok(Optimisation::read_with(file, &settings)?);
+            return Ok(Optimisation::of(&document, &settings)?);
         }
         let words = OptimisationWords {
             parameters: vary,
@@ -99,7 +100,7 @@ impl OptimiseArgs {
             evaluations: evaluations.unwrap_or(20),
             front: front.unwrap_or(0),
         };
-        Ok(Optimisation::of_words(file, &settings, &words)?)
+        Ok(Optimisation::of_scene(document, &settings, &words)?)
     }
 
     /// The words that make it again.

@@ -20,7 +20,7 @@ use crate::{
     progression::{Outcome, Progression},
     resolution::with_slices,
     run::{self, InSpace},
-    scene::{DocumentKind, DocumentText, Kind, Model, Run, Scene},
+    scene::{DocumentKind, Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
 
@@ -142,12 +142,12 @@ impl RunArgs {
             });
             return Ok(Document::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
         }
+        let text = scene::Document::read(&self.file)?;
         if let Some(case) = self.case {
-            let plan = Plan::read_with(&self.file, &self.overrides.settings()?)?;
+            let plan = Plan::of(&text, &self.overrides.settings()?)?;
             let scene = scene_of(&plan, case)?;
             return Ok(Document::Pair(Box::new(self.plan(scene)?)));
         }
-        let text = DocumentText::read(&self.file)?;
         if text.kind() == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
             let file = text.gearbox(&self.overrides.settings()?)?;

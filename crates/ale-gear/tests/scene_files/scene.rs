@@ -4,7 +4,7 @@ use std::path::Path;
 
 use crate::util::{ISO_SCENE, repository};
 use ale_gear::resolution::with_slices;
-use ale_gear::scene::{Driver, Model, Rotation, Scene};
+use ale_gear::scene::{Driver, Model, Scene, Sense};
 use geometry::Side;
 
 /// Every scene of the repository, with its defaults written out, reads back as itself.
@@ -70,10 +70,10 @@ fn slices_and_face_elements_follow_the_pair() {
 fn driver_and_rotation_choose_the_flanks() {
     let mut scene = Scene::parse(ISO_SCENE, Path::new("a.toml")).unwrap();
     for (driver, rotation, side) in [
-        (Driver::Pinion, Rotation::Ccw, Side::Left),
-        (Driver::Pinion, Rotation::Cw, Side::Right),
-        (Driver::Wheel, Rotation::Ccw, Side::Right),
-        (Driver::Wheel, Rotation::Cw, Side::Left),
+        (Driver::Pinion, Sense::Ccw, Side::Left),
+        (Driver::Pinion, Sense::Cw, Side::Right),
+        (Driver::Wheel, Sense::Ccw, Side::Right),
+        (Driver::Wheel, Sense::Cw, Side::Left),
     ] {
         scene.operation.driver = driver;
         scene.operation.rotation = rotation;

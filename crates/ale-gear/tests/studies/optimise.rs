@@ -109,7 +109,7 @@ fn wrong_words_are_refused() {
     refused(&["a.toml", "--vary", "operation.torque_nm=1:2"], "name torques in `torques_nm`");
     refused(&["a.toml", "--vary", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
     refused(&["a.toml", "--vary", "pinion.modification.bias_um=2:1"], "second bound is not above");
-    refused(&["a.toml", "--vary", "pinion.modification.bias_um"], "has no `=`");
+    refused(&["a.toml", "--vary", "pinion.modification.bias_um"], "it has neither `=`");
     refused(&["a.toml", "--torques", "0"], "is no torque above 0");
     refused(&["a.toml", "--max-pressure", "0"], "is no limit");
     refused(&["a.toml", "--max-edge-pressure", "0"], "is no limit");

@@ -240,7 +240,7 @@ fn words_of_a_plan_are_checked_first() {
         (&["--vary", "operation.torque_nm", "--output", "mean_ste_um"], "neither `=` (each value) nor `~` (drawn)"),
         (&["--vary", "operation.torque_nm=1:2:0", "--output", "mean_ste_um"], "`0` is no number of values"),
         (&["--vary", "operation.torque_nm~a:2", "--output", "mean_ste_um"], "`a` is no number"),
-        (&["--samples", "3"], "a plan file says keys, samples and seed itself"),
+        (&["--samples", "3"], "a plan file says samples and seed itself"),
         (
             &["--vary", "operation.torque_nm~1:2", "--samples", "0", "--output", "mean_ste_um"],
             "--samples 0: allowed is 1 .. 10000000",
@@ -250,6 +250,29 @@ fn words_of_a_plan_are_checked_first() {
         assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);
     }
     assert_eq!(scratch.names(), ["a.toml", "plan.toml"]);
+}
+
+/// `run` takes a plan as `vary` does; `--set` holds for the scene of all cases, behind what the plan sets itself; words of
+/// a single run are refused.
+#[test]
+fn a_plan_is_run_as_any_document() {
+    let plan = "scene = \"a.toml\"\nset = [\"operation.torque_nm=70\"]\n[[vary]]\nkey = \"contact.friction\"\nvalues = [0, 0.05]\n\
+                [[output]]\nheadline = \"mean_ste_um\"\n";
+    let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan);
+    for words in [&["vary", "plan.toml", "--out", "v"][..], &["run", "plan.toml", "--out", "r"]] {
+        let done = scratch.command(words);
+        assert_eq!((done.code, done.stderr.as_str()), (Some(0), ""), "{words:?}");
+    }
+    assert_eq!(scratch.read("v/cases.csv"), scratch.read("r/cases.csv"));
+    let set = scratch.ale_gear(["run", "plan.toml", "--out", "s", "--set", "operation.torque_nm=90", "--json"]);
+    let summary: serde_json::Value =
+        serde_json::from_str(&set.stdout).unwrap_or_else(|e| panic!("{e}: {}", set.stderr));
+    assert_eq!(summary["kind"], "plan");
+    let ste = |folder: &str| crate::util::column(&scratch.read(&format!("{folder}/cases.csv")), "mean_ste_um")[0];
+    assert!(ste("s") > 1.1 * ste("r"), "{} {}", ste("s"), ste("r"));
+    let refused = scratch.ale_gear(["run", "plan.toml", "--out", "t", "--resume"]);
+    assert!(refused.code == Some(2) && refused.stderr.contains("`--resume` is for single runs"), "{}", refused.stderr);
+    assert!(!scratch.path().join("t").exists());
 }
 
 /// A number that the headline has not is named with what may have been meant, and a plan without any result is none.

@@ -3,12 +3,11 @@
 use std::{f64::consts::PI, ops::RangeInclusive};
 
 use fem::mass_properties;
-use geometry::GearPair;
 use mesh::GearMesh;
-use scene::{Driver, GearScene, Scene};
+use scene::{GearScene, Scene};
 
 use super::{Rung, companion::Standing, coverage_flanks::other_flanks};
-use crate::{AnalysisError, StaticResult, elastic_gears::material, meshes};
+use crate::{AnalysisError, StaticResult, elastic_gears::material, loaded_pair::LoadedPair, meshes};
 
 /// Ranges of the random pairs of the calibration (`tests/src/random_scene.rs`).
 const TEETH: RangeInclusive<u32> = 12..=120;
@@ -72,7 +71,11 @@ fn beyond_ranges(scene: &Scene, result: &StaticResult) -> Vec<String> {
     check("a helix angle", scene.pinion.helix_angle_deg.abs(), HELIX_DEG);
     check("b/m_n", result.pair.face_width() / module, WIDTH_MODULES);
     check("a normal pressure angle", scene.pair.normal_pressure_angle_deg, PRESSURE_ANGLE_DEG);
-    check("a Hertz pressure at the pitch point (MPa)", nominal_pressure(scene, &result.pair), PRESSURE_MPA);
+    check(
+        "a Hertz pressure at the pitch point (MPa)",
+        nominal_pressure(&LoadedPair::of(scene, &result.pair)),
+        PRESSURE_MPA,
+    );
     let positions = f64::from(scene.analysis.positions_per_cycle);
     check("positions a cycle", positions, f64::from(*POSITIONS.start())..=f64::from(*POSITIONS.end()));
     for (name, gear, exact) in
@@ -114,16 +117,12 @@ fn few_slices(result: &StaticResult) -> Option<String> {
 }
 
 /// p = sqrt(F' E* / (pi rho)) of the mean line load, rho of both flanks at the pitch point, MPa.
-fn nominal_pressure(scene: &Scene, pair: &GearPair) -> f64 {
-    let driven = match scene.operation.driver {
-        Driver::Pinion => &pair.wheel,
-        Driver::Wheel => &pair.pinion,
-    };
+fn nominal_pressure(loaded: &LoadedPair<'_>) -> f64 {
+    let pair = loaded.pair;
     let cos = pair.base_helix_angle().cos();
-    let line_load = scene.operation.torque() / (driven.base_radius() * cos * pair.mean_contact_line_length());
+    let line_load = loaded.torque / (loaded.driven_base_radius() * cos * pair.mean_contact_line_length());
     let [r1, r2] = pair.working_radii().map(|r| r * pair.working_pressure_angle().sin());
-    let compliance: f64 = scene.gears().map(|g| (1.0 - g.material.poisson.powi(2)) / g.material.young_mpa).iter().sum();
-    (line_load * (r1 + r2) * cos / (PI * compliance * r1 * r2)).sqrt()
+    (line_load * (r1 + r2) * cos / (PI * loaded.compliance() * r1 * r2)).sqrt()
 }
 
 /// Gears whose mesh is of another body than that of the built-in mesher, which it is held against.

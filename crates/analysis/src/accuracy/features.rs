@@ -2,9 +2,10 @@
 
 use geometry::GearPair;
 use lumped::iso::rim_ratio;
-use scene::{Driver, Quantity, Scene};
+use scene::{Quantity, Scene};
 
 use super::Sample;
+use crate::loaded_pair::LoadedPair;
 
 /// How many there are.
 pub const FEATURES: usize = 12;
@@ -32,7 +33,7 @@ const LEAST_SHARE: f64 = 1e-4;
 /// | 10 | 1 with crowning or misalignment |
 /// | 11 | ln of b / (10 m_n) |
 pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
-    let helix = scene.pinion.helix_angle_deg.to_radians();
+    let helix = scene.pinion.helix_angle();
     let gears = [&pair.pinion, &pair.wheel];
     let mean = |of: [f64; 2]| 0.5 * (of[0] + of[1]);
     let rim = mean(gears.map(|gear| (1.0 / rim_ratio(gear).max(1e-3)).min(3.0)));
@@ -40,11 +41,8 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     let overlap = pair.overlap_ratio();
     let logarithm = |share: f64| share.clamp(LEAST_SHARE, 10.0).ln();
     let of = |quantity| sample.get(quantity).unwrap_or(0.0);
-    let driven = match scene.operation.driver {
-        Driver::Pinion => &pair.wheel,
-        Driver::Wheel => &pair.pinion,
-    };
-    let force = scene.operation.torque() / (driven.base_radius() * pair.base_helix_angle().cos());
+    let loaded = LoadedPair::of(scene, pair);
+    let force = loaded.torque / (loaded.driven_base_radius() * pair.base_helix_angle().cos());
     let flanks = [&scene.pinion, &scene.wheel].map(|gear| &gear.modification.drive);
     let given = |um: Option<f64>| um.is_some_and(|um| um != 0.0);
     let flag = |is: bool| f64::from(u8::from(is));

@@ -63,7 +63,7 @@ impl Rung {
     /// Lines of contact run oblique over helical flanks: the more so, the more elements along the face.
     pub fn mesher(self, scene: &Scene) -> MesherScene {
         let n = self.elements_profile;
-        let slope = scene.pinion.helix_angle_deg.to_radians().tan().abs();
+        let slope = scene.pinion.helix_angle().tan().abs();
         // Gears of two widths have one mesh, fine enough for the wider one.
         let [first, second] = scene.face_widths_mm();
         let modules = first.max(second) / scene.pair.normal_module_mm;

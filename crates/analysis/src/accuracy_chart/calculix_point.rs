@@ -3,7 +3,7 @@
 use ale::ToothWindow;
 use geometry::{GearPair, Side};
 use ltca::StaticOptions;
-use scene::{MisalignmentScene, ModificationScene, Rotation, Scene};
+use scene::{MisalignmentScene, ModificationScene, Scene, Sense};
 use study::{
     Answer, Work,
     calculix::{Body, Calculix, Deck},
@@ -80,19 +80,19 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
 
 /// Angle of the pinion at a phase of the first cycle, rad.
 fn pinion_angle(scene: &Scene, pair: &GearPair, side: Side, phase: f64) -> f64 {
-    pair.middle_angle(side) + scene.operation.rotation.sign() * (phase - 0.5) * pair.pinion.pitch_angle()
+    pair.middle_angle(side) + scene.operation.rotation.sign() as f64 * (phase - 0.5) * pair.pinion.pitch_angle()
 }
 
 /// Teeth of the pairs of the window that stands at a phase of the first cycle.
 fn pairs_near(
     pair: &GearPair,
     options: &StaticOptions,
-    rotation: Rotation,
+    rotation: Sense,
     phase: f64,
     teeth: [u32; 2],
 ) -> Result<Vec<[u32; 2]>, AnalysisError> {
     let count = options.window_teeth(pair);
-    let first = ToothWindow::nominal_first(-rotation.sign() * (phase - 0.5), count);
+    let first = ToothWindow::nominal_first(-(rotation.sign() as f64) * (phase - 0.5), count);
     let window = ToothWindow::new(first, count, teeth)?;
     Ok(window.pairs().map(|running| window.teeth_of(running)).collect())
 }

@@ -2,12 +2,11 @@
 
 use gearbox::{GearboxError, Mesh, Operation, Structure, Train, mesh_torques};
 use scene::{
-    Driver,
+    Driver, Scene,
     gearbox::{Gearbox, GearboxBearing, RollingKind},
     units::{OtherUnit, in_another_unit},
 };
 
-use super::meshes::scene_of;
 use crate::{
     AnalysisError,
     plausible::{Implausible, beyond, remarks},
@@ -20,6 +19,7 @@ const BALLS: f64 = 0.5;
 #[derive(Clone, Copy)]
 pub(super) struct Loaded<'a> {
     pub file: &'a Gearbox,
+    pub scenes: &'a [Scene],
     pub structure: &'a Structure,
     pub meshes: &'a [Mesh],
     pub train: &'a Train,
@@ -34,8 +34,8 @@ impl Loaded<'_> {
     pub fn judge(&self) -> Result<Vec<answer::Remark>, AnalysisError> {
         let mut said = Vec::new();
         let torques = mesh_torques(self.structure, self.meshes, self.operation);
-        for (i, mesh) in self.meshes.iter().enumerate() {
-            let mut scene = scene_of(self.file, i, Some(&self.train.meshing()[i]));
+        for (i, (mesh, scene)) in self.meshes.iter().zip(self.scenes).enumerate() {
+            let mut scene = scene.clone();
             if let Some(all) = &torques {
                 let driven = usize::from(scene.operation.driver == Driver::Pinion);
                 scene.operation.torque_nm = 1e-3 * all[i][driven].abs();

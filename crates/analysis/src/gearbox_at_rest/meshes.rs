@@ -9,12 +9,11 @@ use gearbox::{
     ExactMesh, GearboxError, GearboxPosition, Mesh, MeshElement, MeshState, Meshing, Train,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
-use geometry::Sense;
 use ltca::StaticOptions;
 use reduction::ElasticGear;
 use scene::{
-    Driver, Rotation, Scene,
-    gearbox::{Gearbox, GearboxGear},
+    Scene,
+    gearbox::{Gearbox, GearboxGear, GearboxMesh},
 };
 
 use crate::{
@@ -28,44 +27,30 @@ use crate::{
     warnings::{PressedMesh, jam_warning},
 };
 
-/// The scene of a mesh with the axes where the shafts have them, and, once it is known, as the mesh runs.
-pub(super) fn scene_of(file: &Gearbox, mesh: usize, meshing: Option<&Meshing>) -> Scene {
-    let own = &file.meshes[mesh];
-    let mut scene = own.scene.clone();
-    let [a, b] = own.gears.map(|g| file.shafts[file.gears[g].shaft].origin);
-    let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
-    // A stated distance stands, and is held against that of the shafts; digits of a file are no difference.
-    if scene.pair.centre_distance_mm.is_none_or(|stated| (stated - apart).abs() < 1e-6 * apart) {
-        scene.pair.centre_distance_mm = Some(apart);
-    }
-    // What the scene states of it was held against this where the file was read.
-    scene.pair.mid_face_offset_mm = file.mid_face_offset(own.gears);
-    if let Some(meshing) = meshing {
-        scene.operation.driver = match meshing.driver {
-            geometry::Driver::Pinion => Driver::Pinion,
-            geometry::Driver::Wheel => Driver::Wheel,
-        };
-        scene.operation.rotation = match meshing.sense {
-            Sense::Ccw => Rotation::Ccw,
-            Sense::Cw => Rotation::Cw,
-        };
-    }
-    settled_scene(&scene, false)
+/// Pairs before it is known which way they turn.
+pub(super) fn pairs(file: &Gearbox) -> Result<Vec<Mesh>, AnalysisError> {
+    file.meshes.iter().map(|own| mesh(own, &own.scene)).collect()
 }
 
-/// All meshes.
-pub(super) fn meshes(file: &Gearbox, train: Option<&Train>) -> Result<Vec<Mesh>, AnalysisError> {
-    let one = |i: usize| {
-        let pair = scene_of(file, i, train.map(|t| &t.meshing()[i])).gear_pair()?;
-        let own = &file.meshes[i];
-        Ok(Mesh { name: own.name.clone(), discs: own.gears, pair })
+/// A mesh with the shape that its scene says.
+pub(super) fn mesh(own: &GearboxMesh, scene: &Scene) -> Result<Mesh, AnalysisError> {
+    Ok(Mesh { name: own.name.clone(), discs: own.gears, pair: scene.gear_pair()? })
+}
+
+/// The scenes of all meshes as they run: driver, rotation and slices are settled, once.
+pub(super) fn running(file: &Gearbox, train: &Train) -> Vec<Scene> {
+    let one = |(own, meshing): (&GearboxMesh, &Meshing)| {
+        let mut scene = own.scene.clone();
+        (scene.operation.driver, scene.operation.rotation) = (meshing.driver, meshing.sense);
+        // Slices follow the flanks that press.
+        settled_scene(&scene, false)
     };
-    (0..file.meshes.len()).map(one).collect()
+    file.meshes.iter().zip(train.meshing()).map(one).collect()
 }
 
 /// Solves with the windows of the meshes as they are, and again with one more tooth where one of them starves.
 pub(super) fn widening<T>(
-    (file, meshes): (&Gearbox, &[Mesh]),
+    meshes: &[Mesh],
     reduced: &mut [ReducedMesh],
     cache: &dyn GearCache,
     warnings: &mut Vec<Remark>,
@@ -82,7 +67,7 @@ pub(super) fn widening<T>(
         };
         let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
         let Some(i) = which else { return Err(error) };
-        if !reduced[i].widen(file, i, &meshes[i], cache)? {
+        if !reduced[i].widen(&meshes[i], cache)? {
             return Err(error);
         }
         warnings.push(remark::window_widened(error.to_string(), reduced[i].window()));
@@ -105,13 +90,10 @@ pub(super) struct ReducedMesh {
 
 impl ReducedMesh {
     pub fn new(
-        file: &Gearbox,
-        i: usize,
-        meshing: &Meshing,
+        scene: Scene,
         mesh: &Mesh,
         (cache, progress): (&dyn GearCache, &dyn Progress),
     ) -> Result<Self, AnalysisError> {
-        let scene = scene_of(file, i, Some(meshing));
         let meshes = meshes_of(&scene, &mesh.pair, None)?;
         let options = options(&scene, &mesh.pair);
         let ElasticGears { gears, keys, warnings } =
@@ -183,19 +165,13 @@ impl ReducedMesh {
     }
 
     /// Reduces anew with one more tooth in the window; whether there was one.
-    pub fn widen(
-        &mut self,
-        file: &Gearbox,
-        i: usize,
-        mesh: &Mesh,
-        cache: &dyn GearCache,
-    ) -> Result<bool, AnalysisError> {
+    pub fn widen(&mut self, mesh: &Mesh, cache: &dyn GearCache) -> Result<bool, AnalysisError> {
         let teeth = self.options.window_teeth(&mesh.pair) + 1;
         let room = self.meshes.iter().all(|m| {
             let there = if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() };
             teeth < there
         });
-        if file.meshes[i].scene.analysis.window_teeth.is_some() || !room {
+        if self.scene.analysis.window_teeth.is_some() || !room {
             return Ok(false);
         }
         self.options.window = Some(teeth);

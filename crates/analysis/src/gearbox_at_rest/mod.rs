@@ -31,7 +31,7 @@ use gearbox::{
     GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train,
     motion::{GearboxCheckpoint, GearboxInstant},
 };
-use scene::gearbox::Gearbox;
+use scene::{Scene, gearbox::Gearbox};
 
 use crate::{
     AnalysisError, GearCache, NoCache, Observer, PhaseWork, plausible::gearbox_remarks, run_phase, unless_cancelled,
@@ -142,32 +142,40 @@ fn solve(
     let structure = parts::structure(file).map_err(failed)?;
     let mut warnings = Vec::new();
     // First with the pairs as they are: which flanks press is known once all turn.
-    let rough = meshes::meshes(file, None)?;
+    let rough = meshes::pairs(file)?;
     let (input, sense, keys) = parts::input(file);
     let train = Train::new(&structure, &rough, &keys, input, sense).map_err(failed)?;
     let operation = parts::operation(file, &train);
-    let meshes = meshes::meshes(file, Some(&train))?;
-    let loaded = loads::Loaded { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
+    let scenes = meshes::running(file, &train);
+    let meshes = file.meshes.iter().zip(&scenes).map(|(own, scene)| meshes::mesh(own, scene));
+    let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
+    let loaded = loads::Loaded {
+        file,
+        scenes: &scenes,
+        structure: &structure,
+        meshes: &meshes,
+        train: &train,
+        operation: &operation,
+    };
     for said in gearbox_remarks(file).into_iter().chain(loaded.judge()?) {
         observer.note(said.to_string());
         warnings.push(said);
     }
     let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
-        let one = |(i, mesh): (usize, &gearbox::Mesh)| {
+        let one = |(mesh, scene): (&gearbox::Mesh, Scene)| {
             progress.say(mesh.name.clone());
-            let own = ReducedMesh::new(file, i, &train.meshing()[i], mesh, (cache, progress))?;
+            let own = ReducedMesh::new(scene, mesh, (cache, progress))?;
             progress.tick();
             unless_cancelled(progress)?;
             Ok(own)
         };
-        meshes.iter().enumerate().map(one).collect::<Result<Vec<_>, AnalysisError>>()
+        meshes.iter().zip(scenes).map(one).collect::<Result<Vec<_>, AnalysisError>>()
     })?;
     for (i, own) in reduced.iter().enumerate() {
         warnings.extend(own.warnings.clone());
         warnings.extend(own.seats(file, i));
     }
-    let all = (file, &meshes[..]);
-    let (positions, samples) = widening(all, &mut reduced, cache, &mut warnings, |reduced| {
+    let (positions, samples) = widening(&meshes, &mut reduced, cache, &mut warnings, |reduced| {
         run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
             let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
                 reduced[i].element(mesh)
@@ -202,7 +210,7 @@ fn solve(
         None => None,
         Some(asked) => {
             let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
-            let found = widening(all, &mut reduced, cache, &mut warnings, |reduced| {
+            let found = widening(&meshes, &mut reduced, cache, &mut warnings, |reduced| {
                 vibration::vibration(&parts, asked, reduced, &samples, observer)
             });
             Some(found?)

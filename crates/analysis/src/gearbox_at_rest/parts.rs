@@ -7,7 +7,7 @@ use fem::{
 use gearbox::{Disc, GearboxError, Operation, Shaft, Structure, Torque, Train};
 use geometry::Sense;
 use nalgebra::DMatrix;
-use scene::{Rotation, gearbox::Gearbox};
+use scene::gearbox::Gearbox;
 
 use super::bearings::bearings;
 
@@ -39,10 +39,7 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
 
 /// Disc of the input, its sense, and the keys of all discs.
 pub(super) fn input(file: &Gearbox) -> (usize, Sense, Vec<f64>) {
-    let sense = match file.input.rotation {
-        Rotation::Ccw => Sense::Ccw,
-        Rotation::Cw => Sense::Cw,
-    };
+    let sense = file.input.rotation;
     let mut keys: Vec<f64> = file.gears.iter().map(|g| g.key).collect();
     keys.resize(file.gears.len() + 1 + file.torques.len(), 0.0);
     (file.gears.len(), sense, keys)

@@ -3,16 +3,16 @@
 use ::lumped::{Fourier, FourierTorque, lumped8::Support8, lumped12::Support12};
 use dynamics::{Bearing, Drive, RigidBody, Torque};
 use geometry::GearPair;
-use scene::{Axis, Scene, TorqueScene};
+use scene::{Axis, GearScene, Scene, TorqueScene};
 use std::f64::consts::{PI, TAU};
 
 use crate::motion::{bearing, drive, stated_body, torque};
 
 /// Pinion and wheel: what the scene states, else a ring from bore to reference diameter.
-pub(super) fn bodies(scene: &Scene, pair: &GearPair) -> [RigidBody; 2] {
+pub(super) fn bodies(stated: [&GearScene; 2], pair: &GearPair) -> [RigidBody; 2] {
     let gears = [&pair.pinion, &pair.wheel];
     [0, 1].map(|i| {
-        let (gear, stated) = (gears[i], scene.gears()[i]);
+        let (gear, stated) = (gears[i], stated[i]);
         let (outer, inner) = (gear.reference_radius(), 0.5 * stated.bore_diameter_mm);
         let (b, squares) = (gear.face_width(), outer * outer + inner * inner);
         let mass = stated.material.density() * PI * (outer * outer - inner * inner) * b;
@@ -26,19 +26,19 @@ pub(super) fn bodies(scene: &Scene, pair: &GearPair) -> [RigidBody; 2] {
 }
 
 /// Bearings of pinion and wheel.
-pub(super) fn bearings(scene: &Scene, bodies: &[RigidBody; 2]) -> [Bearing; 2] {
+pub(super) fn bearings(gears: [&GearScene; 2], bodies: &[RigidBody; 2]) -> [Bearing; 2] {
     [0, 1].map(|i| {
-        let gear = scene.gears()[i];
+        let gear = gears[i];
         let free: &[Axis] = gear.body.as_ref().map_or(&[], |b| &b.free);
         bearing(&gear.bearing, free, &bodies[i])
     })
 }
 
 /// Supports with eight coordinates, of pinion and wheel.
-pub(super) fn supports8(scene: &Scene, bodies: &[RigidBody; 2]) -> [Support8; 2] {
-    let all = bearings(scene, bodies);
+pub(super) fn supports8(gears: [&GearScene; 2], bodies: &[RigidBody; 2]) -> [Support8; 2] {
+    let all = bearings(gears, bodies);
     [0, 1].map(|i| {
-        let (stated, b) = (&scene.gears()[i].bearing, &all[i]);
+        let (stated, b) = (&gears[i].bearing, &all[i]);
         Support8 {
             stiffness: [0, 1, 2].map(|k| b.stiffness[(k, k)]),
             damping: [0, 1, 2].map(|k| b.damping[(k, k)]),
@@ -49,8 +49,8 @@ pub(super) fn supports8(scene: &Scene, bodies: &[RigidBody; 2]) -> [Support8; 2]
 }
 
 /// Supports with twelve.
-pub(super) fn supports12(scene: &Scene) -> [Support12; 2] {
-    scene.gears().map(|gear| {
+pub(super) fn supports12(gears: [&GearScene; 2]) -> [Support12; 2] {
+    gears.map(|gear| {
         let [x, y, z, rx, ry] = gear.bearing.stiffnesses().map(|k| k.unwrap_or(0.0));
         Support12 { stiffness: [x, y, z, rx, ry, gear.bearing.stiffness_rz_nmm_per_rad.unwrap_or(0.0)] }
     })

@@ -10,12 +10,14 @@ use ::lumped::{Fourier, LumpedError, MeshCycle, PlaneOfAction};
 use geometry::GearPair;
 use ltca::StaticPosition;
 use scene::{
-    AccuracyScene, Analysis, BearingScene, ContactScene, Driver, Flanks, GearScene, Kind, Law, MeshScene, Model,
-    Operation, OutputScene, Reduction, Scene, StiffnessFrom,
+    AccuracyScene, Analysis, BearingScene, ContactScene, Flanks, GearScene, Kind, Law, MeshScene, Model, Operation,
+    OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
 use super::elastic_pair::{ElasticPair, without_speed};
-use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, nominal_load, static_certificate};
+use crate::{
+    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, loaded_pair::LoadedPair, static_certificate,
+};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
 #[derive(Debug, Clone)]
@@ -52,11 +54,8 @@ impl<'a> ExcitationSource<'a> {
         plane: &PlaneOfAction,
     ) -> Result<MeshExcitation, AnalysisError> {
         let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
-        let error = Fourier {
-            mean: 0.0,
-            cosine: mesh.error_cos_um.iter().map(|x| 1e-3 * x).collect(),
-            sine: mesh.error_sin_um.iter().map(|x| 1e-3 * x).collect(),
-        };
+        let [cosine, sine] = mesh.error();
+        let error = Fourier { mean: 0.0, cosine, sine };
         match mesh.stiffness_from {
             StiffnessFrom::Series => {
                 let along_normal = Fourier {
@@ -68,8 +67,9 @@ impl<'a> ExcitationSource<'a> {
                 Ok(MeshExcitation { cycle: MeshCycle::new(stiffness, error), warnings: Vec::new() })
             }
             StiffnessFrom::Iso => {
-                let iso = nominal_load::iso_stiffness(scene, pair).map_err(complain)?;
-                let bodies: f64 = iso_model::bodies(scene, pair).iter().sum();
+                let loaded = LoadedPair::of(scene, pair);
+                let iso = loaded.iso_stiffness().map_err(complain)?;
+                let bodies: f64 = iso_model::bodies(&loaded).iter().sum();
                 let mean = 1.0 / (1.0 / (1e3 * iso.c_mesh * pair.face_width()) + bodies);
                 let own = MeshCycle::by_contact_lines(plane, mean).map_err(complain)?;
                 Ok(MeshExcitation { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
@@ -105,12 +105,11 @@ impl<'a> ExcitationSource<'a> {
         // Nothing is fed by what does not hold.
         crate::certificate::verdict(&static_certificate(scene, &solved.history.positions), scene)?;
         let column = |f: fn(&StaticPosition) -> f64| solved.history.positions.iter().map(f).collect::<Vec<f64>>();
-        let driven = [&pair.wheel, &pair.pinion][usize::from(scene.operation.driver == Driver::Wheel)];
         let cycle = MeshCycle::fed(
             &column(|p| p.tangent_stiffness),
             &column(|p| p.contact_line_length),
             &column(|p| p.transmission_error),
-            scene.operation.torque() / driven.base_radius(),
+            LoadedPair::of(scene, pair).base_force(),
         )
         .map_err(|e| AnalysisError::lumped(scene, e))?;
         let excitation = MeshExcitation { cycle, warnings: solved.history.warnings };

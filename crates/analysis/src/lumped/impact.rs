@@ -35,7 +35,7 @@ pub(super) fn impact(
         Some(given) => (given, Vec::new()),
         None => formula(scene, own, gears)?,
     };
-    let bodies = bodies(scene, gears);
+    let bodies = bodies(scene.gears(), gears);
     let free = [0, 1].map(|i| {
         let mut free = [false; COORDINATES];
         scene.gears()[i].body.iter().flat_map(|b| &b.free).for_each(|axis| free[axis.number()] = true);
@@ -45,7 +45,7 @@ pub(super) fn impact(
     let impact = ImpactOptions {
         driver: running.contact.driver,
         sense: running.contact.sense,
-        bearings: bearings(scene, &bodies),
+        bearings: bearings(scene.gears(), &bodies),
         bodies,
         free,
         drive: drive(scene, gears),

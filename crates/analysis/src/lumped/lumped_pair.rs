@@ -21,7 +21,7 @@ use super::{
     excitation::{MeshExcitation, half_a_cycle_on},
     mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint},
 };
-use crate::{motion::RPM, options};
+use crate::options;
 
 /// Mesh cycles at t = 0: the pinion begins half a pitch before the middle of pair 0, as everywhere in this program.
 const START: f64 = -0.5;
@@ -51,11 +51,11 @@ pub(super) fn lumped_pair(
     pair: &GearPair,
     excitation: &MeshExcitation,
 ) -> Result<(LumpedPair, [RigidBody; 2]), LumpedError> {
-    let bodies = bodies(scene, pair);
+    let bodies = bodies(scene.gears(), pair);
     let operation = Operation {
         driver: options(scene, pair).contact.driver,
         sense: driver_sense(scene, pair),
-        speed: scene.operation.speed_rpm * RPM,
+        speed: scene.operation.speed(),
         torque: scene.operation.torque(),
         friction: scene.contact.friction,
     };
@@ -84,25 +84,25 @@ pub(super) fn eight(
     bodies: &[RigidBody; 2],
 ) -> Result<Motion8, LumpedError> {
     if let Some(hz) = own.speed_fluctuation_hz {
-        pair.clock.fluctuation = own.speed_fluctuation_rpm * RPM;
+        pair.clock.fluctuation = own.speed_fluctuation();
         pair.clock.fluctuation_frequency = TAU * hz;
     }
     let law = match own.law {
         Law::Normal => MeshLaw::Normal,
         Law::Projected => MeshLaw::Projected,
     };
-    let half_backlash = mesh.half_backlash_um.map_or_else(|| law.half_backlash(gears), |b| 1e-3 * b);
-    let supports = by_role(&pair, supports8(scene, bodies));
+    let half_backlash = mesh.half_backlash().unwrap_or_else(|| law.half_backlash(gears));
+    let supports = by_role(&pair, supports8(scene.gears(), bodies));
     let ratio = scene.motion.as_ref().and_then(|m| m.mesh_damping_ratio).unwrap_or(0.0);
     Lumped8::new(pair, supports, ratio, half_backlash, law)?.motion()
 }
 
 /// The model with twelve.
 pub(super) fn twelve(scene: &Scene, own: &Lumped12Scene, mut pair: LumpedPair) -> Result<Motion12, LumpedError> {
-    if let Some(degrees) = own.orientation_deg {
-        pair.frame.orientation = degrees.to_radians();
+    if let Some(orientation) = own.orientation() {
+        pair.frame.orientation = orientation;
     }
-    let supports = by_role(&pair, supports12(scene));
+    let supports = by_role(&pair, supports12(scene.gears()));
     let between = [own.damping_from_hz, own.damping_to_hz].map(|f| TAU * f);
     Lumped12::new(pair, supports, own.damping_ratio, between)?.motion()
 }

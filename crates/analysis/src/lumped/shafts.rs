@@ -12,7 +12,7 @@ use geometry::GearPair;
 use integrate::State;
 use ltca::StaticError;
 use nalgebra::DVector;
-use scene::{DiscScene, Driver, GearScene, MeshScene, Scene, Shaft18Scene, ShaftScene, SupportScene};
+use scene::{DiscScene, Driver, GearScene, MeshScene, Operation, Scene, Shaft18Scene, ShaftScene, SupportScene};
 
 use super::{
     LumpedRow,
@@ -45,16 +45,17 @@ pub(super) fn system(
     pair: &GearPair,
     excitation: &MeshExcitation,
 ) -> Result<(ShaftSystem, f64), LumpedError> {
-    let bodies = bodies(scene, pair);
+    let bodies = bodies(scene.gears(), pair);
     let (mut shafts, mut torques) = (Vec::new(), Vec::new());
-    let sense = scene.operation.rotation.sign();
+    let sense = scene.operation.rotation.sign() as f64;
+    let teeth = scene.gears().map(|gear| f64::from(gear.teeth));
     for (i, gear) in scene.gears().into_iter().enumerate() {
         let Some(stated) = &gear.shaft else { continue };
         let (shaft, at) = shaft(gear, stated, &bodies[i]);
         shafts.push(shaft);
         torques.push(ShaftTorque {
             place: ShaftStation { shaft: i, station: at },
-            torque: sense * torque_about_z(scene, i),
+            torque: sense * torque_about_z(&scene.operation, teeth, i),
         });
     }
     let mesh = live_mesh(scene, mesh, pair, &excitation.cycle)?;
@@ -72,7 +73,7 @@ pub(super) fn system(
         speed: sense * scene.pinion_speed(),
         mass_damping: own.mass_damping_per_s,
         stiffness_damping: own.stiffness_damping_s,
-        gravity: own.gravity_m_per_s2.map(|g| 1e3 * g),
+        gravity: own.gravity(),
     };
     Ok((system, resonance))
 }
@@ -82,7 +83,7 @@ pub(super) fn system(
 /// # Errors
 /// [`LumpedError::Loose`].
 pub(super) fn check_held(scene: &Scene, own: &Shaft18Scene, pair: &GearPair) -> Result<(), LumpedError> {
-    let bodies = bodies(scene, pair);
+    let bodies = bodies(scene.gears(), pair);
     let thrust = own.gravity_m_per_s2[2] != 0.0 || pair.base_helix_angle() != 0.0;
     for (i, gear) in scene.gears().into_iter().enumerate() {
         let motion = gear.shaft.as_ref().and_then(|stated| shaft(gear, stated, &bodies[i]).0.loose_motion(thrust));
@@ -95,21 +96,20 @@ pub(super) fn check_held(scene: &Scene, own: &Shaft18Scene, pair: &GearPair) -> 
 
 /// Torque on a gear's shaft about +z, N mm, for a pinion that turns counter-clockwise. The driver is pushed the way
 /// it turns, the driven gear held back; the gears turn against each other, so both torques have one sign.
-fn torque_about_z(scene: &Scene, gear: usize) -> f64 {
-    let teeth = [scene.pinion.teeth, scene.wheel.teeth].map(f64::from);
-    let (driven, sign) = match scene.operation.driver {
-        Driver::Pinion => (1, 1.0),
-        Driver::Wheel => (0, -1.0),
+fn torque_about_z(operation: &Operation, teeth: [f64; 2], gear: usize) -> f64 {
+    let sign = match operation.driver {
+        Driver::Pinion => 1.0,
+        Driver::Wheel => -1.0,
     };
-    sign * scene.operation.torque() * teeth[gear] / teeth[driven]
+    sign * operation.torque() * teeth[gear] / teeth[operation.driver.driven()]
 }
 
 fn live_mesh(scene: &Scene, mesh: &MeshScene, pair: &GearPair, cycle: &MeshCycle) -> Result<Mesh, LumpedError> {
     let cos = pair.base_helix_angle().cos();
     let run_out = scene.gears().map(|g| {
-        g.shaft.as_ref().map_or_else(RunOut::default, |s| RunOut {
-            eccentricity: 1e-3 * s.run_out_um,
-            phase: s.run_out_phase_deg.to_radians(),
+        g.shaft.as_ref().map_or_else(RunOut::default, |s| {
+            let [eccentricity, phase] = s.run_out();
+            RunOut { eccentricity, phase }
         })
     });
     Mesh {
@@ -117,7 +117,7 @@ fn live_mesh(scene: &Scene, mesh: &MeshScene, pair: &GearPair, cycle: &MeshCycle
         geometry: MeshGeometry::of_pair(pair, scene.side()),
         stiffness: cycle.stiffness.clone(),
         damping_ratio: scene.motion.as_ref().and_then(|m| m.mesh_damping_ratio).unwrap_or(0.0),
-        half_backlash: mesh.half_backlash_um.map_or(0.5 * pair.backlash().max(0.0) * cos, |b| 1e-3 * b),
+        half_backlash: mesh.half_backlash().unwrap_or(0.5 * pair.backlash().max(0.0) * cos),
         error: cycle.error.clone(),
         run_out,
     }
@@ -160,13 +160,8 @@ fn shaft(gear: &GearScene, stated: &ShaftScene, body: &RigidBody) -> (Shaft, usi
 fn disc(stated: &DiscScene) -> Station {
     let mut kept = [false; 6];
     stated.keeps.iter().for_each(|&k| kept[k as usize] = true);
-    Station {
-        position: stated.at_mm,
-        mass: 1e-3 * stated.mass_kg,
-        polar_inertia: 1e3 * stated.polar_inertia_kg_m2,
-        transverse_inertia: 1e3 * stated.transverse_inertia_kg_m2,
-        kept,
-    }
+    let [transverse_inertia, polar_inertia] = stated.inertias();
+    Station { position: stated.at_mm, mass: stated.mass(), polar_inertia, transverse_inertia, kept }
 }
 
 /// Places of the gears' coordinates among those of the model; a gear keeps all of its six.

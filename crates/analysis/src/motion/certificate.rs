@@ -7,7 +7,7 @@ use scene::Scene;
 use super::{MotionHeadline, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
 use crate::{
     certificate::{Check, Checks},
-    plausible::pressure_check,
+    plausible::{effective_modulus, pressure_check},
 };
 
 /// What must hold of one speed of a sweep: the same as of a motion alone.
@@ -32,7 +32,10 @@ impl MotionHeadline {
             pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
             force_jump_check(c.force_jump_at_tooth_change_n, force),
             deflection_check_in_motion(scene, pair, errors.into_iter()),
-            Check { name: "dynamic_pressure_over_modulus".into(), ..pressure_check(scene, self.max_pressure_mpa) },
+            Check {
+                name: "dynamic_pressure_over_modulus".into(),
+                ..pressure_check(effective_modulus(scene), self.max_pressure_mpa)
+            },
         ])
     }
 }

@@ -56,8 +56,8 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
     let ends = errors.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, largest], e| {
         if e.is_nan() { [e; 2] } else { [if e < least { e } else { least }, if e > largest { e } else { largest }] }
     });
-    let deflection = deflection_in_motion(scene, pair, ends);
-    Check { name: "dynamic_deflection_over_module".into(), ..deflection_check(scene, deflection) }
+    let deflection = deflection_in_motion(&scene.pair.misalignment, pair, ends);
+    Check { name: "dynamic_deflection_over_module".into(), ..deflection_check(scene.pair.normal_module_mm, deflection) }
 }
 
 /// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on

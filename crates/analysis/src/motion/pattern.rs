@@ -33,7 +33,7 @@ impl PatternRecord {
             None => [untouched(scene, pair, 0)?, untouched(scene, pair, 1)?],
         };
         let reach = 1.5 / f64::from(motion.steps_per_mesh_cycle);
-        Ok(Self { sense: scene.operation.rotation.sign(), reach, touches: Default::default(), grids })
+        Ok(Self { sense: scene.operation.rotation.sign() as f64, reach, touches: Default::default(), grids })
     }
 
     /// A row of the cycle.

@@ -143,7 +143,7 @@ impl MotionLayout {
         Self {
             pitch: TAU / f64::from(scene.pinion.teeth),
             base_radius: base_radius_mm(scene, 0),
-            sense: scene.operation.rotation.sign() as i64,
+            sense: scene.operation.rotation.sign(),
             free,
             root_stress: scene.output.root_stress,
             reach: window as i64 / 2 + 1,

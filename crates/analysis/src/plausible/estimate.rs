@@ -1,13 +1,6 @@
 //! Deflection and pressure of a pair under its torque in closed form.
 
-use geometry::GearPair;
-use scene::Scene;
-
-use super::limits::effective_modulus;
-use crate::{
-    nominal_load::{base_force, iso_stiffness},
-    nominal_pressure::nominal_pressure,
-};
+use crate::{loaded_pair::LoadedPair, nominal_pressure::nominal_pressure};
 
 /// Stiffness where ISO 6336-1 has none, of steel: its own mean value, N/(mm um).
 const MEAN_STIFFNESS: f64 = 20.0;
@@ -33,20 +26,19 @@ pub struct LoadEstimate {
 }
 
 impl LoadEstimate {
-    /// Of the pair of a scene.
-    pub fn of(scene: &Scene, pair: &GearPair) -> Self {
-        let force = base_force(scene, pair);
-        let young = scene.gears().map(|g| g.material.young_mpa);
+    /// Of a loaded pair.
+    pub(crate) fn of(loaded: &LoadedPair<'_>) -> Self {
+        let (pair, force, young) = (loaded.pair, loaded.base_force(), loaded.young());
         let mean = 2.0 * young[0] * young[1] / (young[0] + young[1]);
-        let stiffness = iso_stiffness(scene, pair).map_or(MEAN_STIFFNESS * mean / STEEL, |iso| iso.c_mesh);
+        let stiffness = loaded.iso_stiffness().map_or(MEAN_STIFFNESS * mean / STEEL, |iso| iso.c_mesh);
         let deflection_mm = if force > 0.0 { 1e-3 * force / (pair.face_width() * stiffness) } else { 0.0 };
-        let points = nominal_pressure(scene, pair).hertz;
+        let points = nominal_pressure(loaded).hertz;
         let pressure_mpa = points.iter().map(|p| p.pressure_mpa).filter(|p| p.is_finite()).fold(0.0, f64::max);
         Self {
-            modules: deflection_mm / scene.pair.normal_module_mm,
+            modules: deflection_mm / pair.pinion.data().normal_module,
             deflection_mm,
             pressure_mpa,
-            pressure_over_modulus: pressure_mpa / effective_modulus(scene),
+            pressure_over_modulus: pressure_mpa / loaded.effective_modulus(),
         }
     }
 }

@@ -17,34 +17,35 @@ pub(super) const PRESSURE_BOUND: f64 = 0.3;
 const WAY_OUT: &str = "elasticity here is linear and holds for small deflections: is the torque in N m, Young's modulus in MPa, the face width in mm, micro-geometry in um?";
 
 /// E* of the materials of both gears, MPa: `1/E* = sum (1 - nu^2)/E`.
-pub fn effective_modulus(scene: &Scene) -> f64 {
-    hertz::effective_modulus(scene.gears().map(|g| (g.material.young_mpa, g.material.poisson)))
+pub(crate) fn effective_modulus(scene: &Scene) -> f64 {
+    hertz::effective_modulus(scene.elasticity())
 }
 
-/// The largest deflection of a pair (mm) over its module.
-pub fn deflection_check(scene: &Scene, deflection_mm: f64) -> Check {
-    let value = deflection_mm / scene.pair.normal_module_mm;
+/// The largest deflection of a pair over its module (both mm).
+pub(crate) fn deflection_check(module_mm: f64, deflection_mm: f64) -> Check {
+    let value = deflection_mm / module_mm;
     Check { name: "deflection_over_module".into(), value, bound: DEFLECTION_BOUND, hint: WAY_OUT }
 }
 
-/// The largest pressure (MPa) over E*.
-pub fn pressure_check(scene: &Scene, pressure_mpa: f64) -> Check {
-    let value = pressure_mpa / effective_modulus(scene);
+/// The largest pressure over E* (both MPa).
+pub(crate) fn pressure_check(modulus_mpa: f64, pressure_mpa: f64) -> Check {
+    let value = pressure_mpa / modulus_mpa;
     Check { name: "pressure_over_modulus".into(), value, bound: PRESSURE_BOUND, hint: WAY_OUT }
 }
 
 /// Deflection (mm) at the least that a transmission error between two values (mm) stands for in a motion, whose flanks
 /// may part: what backlash, micro-geometry, pitch errors and misalignment can bring at the most is left out.
-pub fn deflection_in_motion(scene: &Scene, pair: &GearPair, [least, largest]: [f64; 2]) -> f64 {
+pub(crate) fn deflection_in_motion(
+    misalignment: &MisalignmentScene,
+    pair: &GearPair,
+    [least, largest]: [f64; 2],
+) -> f64 {
     let depth = |gear: &Gear| {
         let flanks = [Side::Left, Side::Right].map(|side| largest_depth(gear, side)).into_iter().fold(0.0, f64::max);
         let pitch = gear.modifications().pitch_errors.iter().fold(0.0, |most: f64, e| most.max(e.abs()));
         flanks + 2.0 * pitch
     };
-    let MisalignmentScene { deviation_um, inclination_um, in_plane_of_action_um, across_plane_of_action_um } =
-        scene.pair.misalignment;
-    let tilted = [deviation_um, inclination_um, in_plane_of_action_um, across_plane_of_action_um];
-    let rigid = depth(&pair.pinion) + depth(&pair.wheel) + 1e-3 * tilted.iter().map(|um| um.abs()).sum::<f64>();
+    let rigid = depth(&pair.pinion) + depth(&pair.wheel) + misalignment.size_mm();
     // What is no number is not lost.
     if least.is_nan() || largest.is_nan() {
         return f64::NAN;

@@ -24,6 +24,6 @@ mod remarks;
 pub use estimate::LoadEstimate;
 pub use gearbox::gearbox_remarks;
 pub use implausible::Implausible;
-pub use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};
+pub(crate) use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};
 pub use refusal::{beyond, refuse};
 pub use remarks::remarks;

@@ -10,7 +10,7 @@ use super::{
     implausible::Implausible,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},
 };
-use crate::AnalysisError;
+use crate::{AnalysisError, loaded_pair::LoadedPair};
 
 /// Deflection in modules that is refused before the work, thrice that which fails after it: an estimate is no result.
 const MODULES: f64 = 1.0;
@@ -59,7 +59,7 @@ pub(super) fn doubtful(scene: &Scene, pair: &GearPair) -> Option<answer::Remark>
 
 /// A load that bends the teeth by more modules, or presses them with more times E*, than these.
 fn above(scene: &Scene, pair: &GearPair, [modules, pressure]: [f64; 2]) -> Option<Beyond> {
-    let found = LoadEstimate::of(scene, pair);
+    let found = LoadEstimate::of(&LoadedPair::of(scene, pair));
     if found.modules <= modules && found.pressure_over_modulus <= pressure {
         return None;
     }
@@ -99,7 +99,7 @@ impl Cause {
     /// Whether the scene makes sense this way.
     fn cures(&self) -> bool {
         let Ok(pair) = self.scene.gear_pair() else { return false };
-        let found = LoadEstimate::of(&self.scene, &pair);
+        let found = LoadEstimate::of(&LoadedPair::of(&self.scene, &pair));
         found.modules < USUAL[0] && found.pressure_over_modulus < USUAL[1]
     }
 }

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use answer::Remark;
 use geometry::{Gear, GearPair, Side};
-use scene::{GearScene, Kind, Scene, units::in_another_unit};
+use scene::{GearScene, Kind, Operation, PairScene, Scene, units::in_another_unit};
 
 use super::{
     flanks::largest_depth,
@@ -34,15 +34,17 @@ const ROUND_RPM: f64 = 50.0;
 /// What is unlikely in a scene, with the unit that may have been meant.
 pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
     let gears = [("pinion", &scene.pinion, &pair.pinion), ("wheel", &scene.wheel, &pair.wheel)];
-    let alike = scene.pinion.material == scene.wheel.material;
+    let (alike, dynamic) = (scene.pinion.material == scene.wheel.material, scene.analysis.kind == Kind::Dynamic);
+    let module = scene.pair.normal_module_mm;
     let of_gears = gears.into_iter().flat_map(|(name, gear, exact)| {
         let of = if alike { "gears" } else { name };
-        let own = [material(of, gear), density(scene, of, gear), bore(name, gear, exact), thinning(name, gear)];
-        own.into_iter().flatten().chain(flanks(scene, name, exact)).collect::<Vec<_>>()
+        let own = [material(of, gear), density(dynamic, of, gear), bore(name, gear, exact), thinning(name, gear)];
+        own.into_iter().flatten().chain(flanks(module, name, exact)).collect::<Vec<_>>()
     });
-    let of_pair = [doubtful(scene, pair), helix(scene), width(scene), backlash(scene, pair), speed(scene)];
+    let of_pair = [doubtful(scene, pair), helix(&scene.pinion), width(&scene.pair), backlash(module, pair)];
     let mut all: Vec<Remark> = Vec::new();
-    for said in of_pair.into_iter().flatten().chain(of_gears) {
+    let speed = if dynamic { speed(&scene.operation) } else { None };
+    for said in of_pair.into_iter().chain([speed]).flatten().chain(of_gears) {
         if !all.contains(&said) {
             all.push(said);
         }
@@ -63,10 +65,10 @@ fn material(name: &str, gear: &GearScene) -> Option<Remark> {
     })
 }
 
-fn density(scene: &Scene, name: &str, gear: &GearScene) -> Option<Remark> {
+fn density(dynamic: bool, name: &str, gear: &GearScene) -> Option<Remark> {
     let density = gear.material.density_kg_m3;
     let known = (DENSITIES[0]..=DENSITIES[1]).contains(&density);
-    (scene.analysis.kind == Kind::Dynamic && !known).then(|| {
+    (dynamic && !known).then(|| {
         let other = meant("density_kg_m3", density, |x| (DENSITIES[0]..=DENSITIES[1]).contains(&x));
         remark::unlikely_density(name, density, other)
     })
@@ -88,8 +90,7 @@ fn thinning(name: &str, gear: &GearScene) -> Option<Remark> {
     })
 }
 
-fn flanks(scene: &Scene, name: &str, exact: &Gear) -> Option<Remark> {
-    let module = scene.pair.normal_module_mm;
+fn flanks(module: f64, name: &str, exact: &Gear) -> Option<Remark> {
     let depth = [Side::Left, Side::Right].map(|side| largest_depth(exact, side)).into_iter().fold(0.0, f64::max);
     if depth > DEEP * module {
         return Some(remark::deep_flanks(name, 1e3 * depth, depth / module));
@@ -98,16 +99,16 @@ fn flanks(scene: &Scene, name: &str, exact: &Gear) -> Option<Remark> {
         .then(|| remark::shallow_flanks(name, 1e3 * depth, 1e6 * depth))
 }
 
-fn helix(scene: &Scene) -> Option<Remark> {
-    let helix = scene.pinion.helix_angle_deg;
+fn helix(pinion: &GearScene) -> Option<Remark> {
+    let helix = pinion.helix_angle_deg;
     (FLAT[0]..FLAT[1]).contains(&helix.abs()).then(|| {
         let other = meant("helix_angle_deg", helix, |x| x.abs() < 60.0);
         remark::small_helix(helix, other)
     })
 }
 
-fn width(scene: &Scene) -> Option<Remark> {
-    let (width, module) = (scene.pair.face_width_mm, scene.pair.normal_module_mm);
+fn width(pair: &PairScene) -> Option<Remark> {
+    let (width, module) = (pair.face_width_mm, pair.normal_module_mm);
     let ratio = width / module;
     let other = if ratio < WIDTHS[0] {
         meant("face_width_mm", width, |x| (module..100.0 * module).contains(&x))
@@ -120,15 +121,15 @@ fn width(scene: &Scene) -> Option<Remark> {
     Some(remark::unlikely_width(width, ratio, module, other))
 }
 
-fn backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
-    let (backlash, module) = (pair.backlash(), scene.pair.normal_module_mm);
+fn backlash(module: f64, pair: &GearPair) -> Option<Remark> {
+    let backlash = pair.backlash();
     (backlash > LOOSE * module).then(|| remark::large_backlash(backlash, backlash / module))
 }
 
 /// A speed in rad/s is the digits of a round number of turns a minute.
-fn speed(scene: &Scene) -> Option<Remark> {
-    let written = scene.operation.speed_rpm;
-    if scene.analysis.kind != Kind::Dynamic || written.fract() == 0.0 {
+fn speed(operation: &Operation) -> Option<Remark> {
+    let written = operation.speed_rpm;
+    if written.fract() == 0.0 {
         return None;
     }
     let decimals = format!("{written}").split_once('.').map_or(0, |(_, digits)| digits.len());

@@ -1,7 +1,7 @@
 //! The few numbers that a run is made for.
 
 use ltca::{StaticHistory, StaticPosition};
-use scene::{Driver, Scene};
+use scene::Scene;
 use serde::Serialize;
 use study::{Harmonic, StudyError, cycle_statistics, mesh_harmonics};
 
@@ -71,6 +71,9 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
     let harmonics = mesh_harmonics(&ste, cycles, ORDERS)?;
     let mean = |f: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(f).sum::<f64>() / positions.len() as f64;
     let worst = |f: &dyn Fn(&StaticPosition) -> f64| positions.iter().map(f).fold(0.0_f64, worse);
+    // The gear that drives, and its turns a turn of the pinion.
+    let driver = scene.operation.driver.opposite().driven();
+    let driver = (driver, [1.0, f64::from(scene.pinion.teeth) / f64::from(scene.wheel.teeth)][driver]);
     Ok(StaticHeadline {
         mean_ste_um: statistics.mean,
         peak_to_peak_ste_um: statistics.peak_to_peak,
@@ -88,8 +91,8 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         mean_pinion_tilting_moment_nmm: mean(&|p| p.wrench[0].moment[1]),
         mean_wheel_tilting_moment_nmm: mean(&|p| p.wrench[1].moment[1]),
         mean_friction_power_loss_w: mean(&|p| 1e-3 * p.friction_work * scene.pinion_speed()),
-        efficiency: 1.0 - share_lost(scene, positions, |p| p.friction_work).unwrap_or(0.0),
-        tooth_loss_factor: share_lost(scene, positions, |p| p.sliding_work),
+        efficiency: 1.0 - share_lost(driver, positions, |p| p.friction_work).unwrap_or(0.0),
+        tooth_loss_factor: share_lost(driver, positions, |p| p.sliding_work),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
         face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
         transverse_load_factor: transverse_load_factor(history),
@@ -108,14 +111,13 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
     })
 }
 
-/// Work per radian of the pinion (N mm) over that of the driver, over the mesh cycles; `None` without torque.
+/// Work per radian of the pinion (N mm) over that of the driver, which is given with its turns a turn of the pinion, over the mesh cycles; `None` without torque.
 /// Theory (34b).
-fn share_lost(scene: &Scene, positions: &[StaticPosition], lost: impl Fn(&StaticPosition) -> f64) -> Option<f64> {
-    let driver = match scene.operation.driver {
-        Driver::Pinion => 0,
-        Driver::Wheel => 1,
-    };
-    let ratio = [1.0, f64::from(scene.pinion.teeth) / f64::from(scene.wheel.teeth)][driver];
+fn share_lost(
+    (driver, ratio): (usize, f64),
+    positions: &[StaticPosition],
+    lost: impl Fn(&StaticPosition) -> f64,
+) -> Option<f64> {
     let put_in: f64 = positions.iter().map(|p| ratio * p.wrench[driver].moment[2].abs()).sum();
     (put_in > 0.0).then(|| positions.iter().map(lost).sum::<f64>() / put_in)
 }

@@ -12,7 +12,7 @@ use fem::{
 use gearbox::{Disc, MeshState, Shaft, Structure, Train};
 use geometry::Sense;
 use ltca::StaticPosition;
-use scene::{Driver, Rotation, Scene, gearbox::Gearbox};
+use scene::{Driver, Scene, gearbox::Gearbox};
 
 /// Positions of a mesh cycle.
 const POSITIONS: usize = 3;
@@ -64,7 +64,7 @@ fn driver(scene: &Scene) -> usize {
 }
 
 fn sense_of_input(scene: &Scene) -> Sense {
-    let ccw = (scene.operation.rotation == Rotation::Ccw) == (driver(scene) == 0);
+    let ccw = (scene.operation.rotation == Sense::Ccw) == (driver(scene) == 0);
     if ccw { Sense::Ccw } else { Sense::Cw }
 }
 

@@ -5,23 +5,9 @@ use std::{io, path::PathBuf};
 /// Why a run cannot go on from a checkpoint, and which file says so.
 #[derive(Debug, thiserror::Error)]
 pub enum CheckpointError {
-    /// A file that the scene names cannot be read.
-    #[error("{}: cannot be read: {cause}", file.display())]
-    Input {
-        /// The file.
-        file: PathBuf,
-        /// What the system says.
-        cause: io::Error,
-    },
     /// A file that the scene names has other content than when the checkpoint was written.
     #[error("{}: is not the file that the checkpoint was written with", file.display())]
     OtherFile {
-        /// The file.
-        file: PathBuf,
-    },
-    /// Somebody writes to a file of the scene.
-    #[error("{}: has changed while it was read", file.display())]
-    Changing {
         /// The file.
         file: PathBuf,
     },
@@ -68,9 +54,7 @@ impl CheckpointError {
     pub fn hint(&self) -> Option<String> {
         let beginning = "run without `--resume` to start from the beginning";
         let said = match self {
-            Self::Input { .. } => "paths are relative to the scene file".to_owned(),
             Self::OtherFile { .. } => format!("put that one back, or {beginning}"),
-            Self::Changing { .. } => "run again when nobody writes to it".to_owned(),
             Self::Foreign { .. } | Self::Damaged { .. } => beginning.to_owned(),
             Self::InUse { .. } => "wait for its end, or give another `--out`".to_owned(),
             Self::NotOurs { .. } => "checkpoints of a run go there: give another `--out`, or move it away".to_owned(),

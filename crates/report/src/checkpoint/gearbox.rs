@@ -4,11 +4,10 @@ use std::path::Path;
 
 use analysis::{SinkResult, gearbox_at_rest::GearboxSink};
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
-use scene::gearbox::Gearbox;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Change, CheckpointError, Checkpoints, InputDigests,
+    CheckpointError, Checkpoints,
     growing::{Growing, Kept, digested},
     store::{GEARBOX_ROWS, Stored, StoredState},
 };
@@ -59,7 +58,6 @@ impl GearboxState {
 
 /// Where rows and states of a gearbox's motion go.
 pub struct GearboxFileSink<'a> {
-    file: &'a Gearbox,
     checkpoints: Checkpoints<'a>,
     /// State that the run goes on from.
     from: Option<&'a Stored<GearboxState>>,
@@ -67,17 +65,13 @@ pub struct GearboxFileSink<'a> {
 }
 
 impl<'a> GearboxFileSink<'a> {
-    /// Of a gearbox file; `from` is what the run goes on from.
-    pub fn new(file: &'a Gearbox, checkpoints: Checkpoints<'a>, from: Option<&'a Stored<GearboxState>>) -> Self {
-        Self { file, checkpoints, from, rows: None }
+    /// `from` is what the run goes on from.
+    pub fn new(checkpoints: Checkpoints<'a>, from: Option<&'a Stored<GearboxState>>) -> Self {
+        Self { checkpoints, from, rows: None }
     }
 
     fn open(&self, resumes: bool) -> Result<Growing, ReportError> {
-        let Checkpoints { folder, inputs } = self.checkpoints;
-        // Nobody may have written to a file while it was read.
-        if let Some(Change::File(file)) = inputs.change(&InputDigests::of(self.file)?, self.file) {
-            return Err(CheckpointError::Changing { file }.into());
-        }
+        let folder = self.checkpoints.folder;
         let path = folder.path().join(GEARBOX_ROWS);
         if let (true, Some(stored)) = (resumes, self.from) {
             let digest = digested(&path, &stored.state.rows)?;

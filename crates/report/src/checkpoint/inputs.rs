@@ -5,8 +5,6 @@ use std::path::{Path, PathBuf};
 use scene::{Scene, gearbox::Gearbox};
 use serde::{Deserialize, Serialize};
 
-use super::CheckpointError;
-
 /// A document whose run can be gone on from: what it is made of.
 pub trait Resumable {
     /// Where it stands; messages name it.
@@ -18,8 +16,8 @@ pub trait Resumable {
     /// What it says, but for how long it runs where that changes nothing before, and for how often it leaves a checkpoint.
     fn text(&self) -> String;
 
-    /// Files that it names, each with the scene that names it.
-    fn files(&self) -> Vec<(&Scene, &Path)>;
+    /// Files that it names, each with the scene that names it and the BLAKE3 of its bytes.
+    fn files(&self) -> Vec<(&Scene, &Path, String)>;
 }
 
 impl Resumable for Scene {
@@ -40,8 +38,8 @@ impl Resumable for Scene {
         same.to_toml()
     }
 
-    fn files(&self) -> Vec<(&Scene, &Path)> {
-        Scene::files(self).into_iter().map(|path| (self, path)).collect()
+    fn files(&self) -> Vec<(&Scene, &Path, String)> {
+        Scene::files(self).into_iter().map(|(path, blake3)| (self, path, blake3)).collect()
     }
 }
 
@@ -69,8 +67,8 @@ impl Resumable for Gearbox {
         format!("{:?}", ((name, shafts, bearings, gears), pairs, (input, torques, housing), rest))
     }
 
-    fn files(&self) -> Vec<(&Scene, &Path)> {
-        let of = |scene| Scene::files(scene).into_iter().map(move |path| (scene, path));
+    fn files(&self) -> Vec<(&Scene, &Path, String)> {
+        let of = |scene| Scene::files(scene).into_iter().map(move |(path, blake3)| (scene, path, blake3));
         self.meshes.iter().flat_map(|mesh| of(&mesh.scene)).collect()
     }
 }
@@ -101,18 +99,11 @@ pub(crate) enum Change {
 }
 
 impl InputDigests {
-    /// Of a document as everything is now.
-    ///
-    /// # Errors
-    /// [`CheckpointError::Input`].
-    pub fn of(document: &dyn Resumable) -> Result<Self, CheckpointError> {
-        let digest = |(scene, path): (&Scene, &Path)| -> Result<FileDigest, CheckpointError> {
-            let unreadable = |cause| CheckpointError::Input { file: scene.resolve(path), cause };
-            let content = scene.content(path).map_err(unreadable)?;
-            Ok(FileDigest { path: path.display().to_string(), blake3: blake3::hash(&content).to_hex().to_string() })
-        };
-        let files = document.files().into_iter().map(digest).collect::<Result<_, _>>()?;
-        Ok(Self { text: document.text(), files })
+    /// Of a document as everything was when it was read.
+    pub fn of(document: &dyn Resumable) -> Self {
+        let digest =
+            |(_, path, blake3): (&Scene, &Path, String)| FileDigest { path: path.display().to_string(), blake3 };
+        Self { text: document.text(), files: document.files().into_iter().map(digest).collect() }
     }
 
     /// What is another now, if anything, of the document that both are of.
@@ -122,6 +113,6 @@ impl InputDigests {
         }
         // Of the same document the names are the same.
         let at = self.files.iter().zip(&now.files).position(|(then, now)| then != now)?;
-        document.files().get(at).map(|(scene, path)| Change::File(scene.resolve(path)))
+        document.files().get(at).map(|(scene, path, _)| Change::File(scene.resolve(path)))
     }
 }

@@ -64,7 +64,7 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
     Answer {
         kind: "optimum",
         name: plan.name.clone(),
-        inputs: json!({ "scene": plan.scene_file, "goal": plan.goal }),
+        inputs: json!({ "scene": plan.scene_file(), "goal": plan.goal }),
         tables,
         headline: json!({
             "goal_start_um": goals.goal_start_um,

@@ -10,31 +10,21 @@ use super::{CaseRow, Column, DoneCases, KnownCases, PageWords, page, spread::Spr
 use crate::{ReportError, Written, checkpoint::InputDigests, folder::ResultDirectory, write_result};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
-///
-/// # Errors
-/// When a file that the scene names cannot be read.
-pub fn plan_digest(plan: &Plan) -> Result<String, ReportError> {
+pub fn plan_digest(plan: &Plan) -> String {
     let mut hasher = blake3::Hasher::new();
     let mut take = |text: &str| {
         hasher.update(text.as_bytes());
         hasher.update(&[0]);
     };
     take(env!("CARGO_PKG_VERSION"));
-    take(&plan.scene_text);
+    take(&plan.document.blake3());
     plan.settings.iter().for_each(|setting| take(&setting.word()));
     take(&format!("{:?} {:?} {:?} {:?}", plan.axes, plan.cases.axes(), plan.sampling, plan.outputs));
     // Files of a case may be varied as little as their names: those of the first stand for all.
     if let Ok(scene) = plan.scene(0) {
-        take(&format!(
-            "{:?}",
-            InputDigests::of(&scene).map_err(|e| ReportError::NoResult {
-                file: plan.scene_file.clone(),
-                what: e.to_string(),
-                hint: "is a file that the scene names still there?"
-            })?
-        ));
+        take(&format!("{:?}", InputDigests::of(&scene)));
     }
-    Ok(hasher.finalize().to_hex().to_string())
+    hasher.finalize().to_hex().to_string()
 }
 
 /// The answer about a plan whose cases are done: the table `cases`.
@@ -59,7 +49,7 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
         kind: "plan",
         name: plan.name.clone(),
         inputs: json!({ "plan": {
-            "scene": plan.scene_file,
+            "scene": plan.scene_file(),
             "axes": plan.axes.iter().map(|axis| &axis.keys).collect::<Vec<_>>(),
             "values": plan.axes.iter().zip(plan.cases.axes()).map(|(axis, of)| values_of(axis, of)).collect::<Vec<_>>(),
             "sampling": plan.sampling,

@@ -9,7 +9,6 @@ use scene::{Scene, study::Study};
 
 use super::{CaseResult, with_result};
 use crate::{
-    ReportError,
     checkpoint::{InputDigests, motion_column_names},
     columns::{LumpedLayout, history_columns},
 };
@@ -25,23 +24,16 @@ pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {
 
 /// What says that two studies have the same cases: scenes, files that they name, program; and whether cases have
 /// reports.
-///
-/// # Errors
-/// When a file that a scene names cannot be read.
-pub fn study_digest(study: &Study, reports: bool) -> Result<String, ReportError> {
+pub fn study_digest(study: &Study, reports: bool) -> String {
     let mut hasher = blake3::Hasher::new();
     hasher.update(format!("{} {reports}", env!("CARGO_PKG_VERSION")).as_bytes());
     for case in &study.cases {
-        let digests = InputDigests::of(&case.scene).map_err(|e| ReportError::NoResult {
-            file: case.scene.file.clone(),
-            what: e.to_string(),
-            hint: "is a file that the scene names still there?",
-        })?;
+        let digests = InputDigests::of(&case.scene);
         // A motion that is made longer goes on from its checkpoint; a case that is done does not.
         let cycles = case.scene.analysis.cycles;
         hasher.update(format!("{} {digests:?} {cycles}\n", case.label).as_bytes());
     }
-    Ok(hasher.finalize().to_hex().to_string())
+    hasher.finalize().to_hex().to_string()
 }
 
 /// Cases without a result first; then what the others warn of, each once, with their names.

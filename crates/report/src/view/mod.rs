@@ -182,6 +182,6 @@ impl GearView {
 /// of pair 0.
 fn angles(scene: &Scene, pair: &GearPair, turned: f64) -> Numbers {
     let side = scene.side();
-    let pinion = pair.middle_angle(side) + scene.operation.rotation.sign() * turned;
+    let pinion = pair.middle_angle(side) + scene.operation.rotation.sign() as f64 * turned;
     Numbers(vec![pinion, pair.wheel_angle(side, pinion)], ANGLE_DIGITS)
 }

@@ -1,7 +1,5 @@
 //! The gears, and what they share.
 
-use std::path::{Path, PathBuf};
-
 use geometry::GearData;
 use mesh::{GroupNames, Mesh};
 use toml::Spanned;
@@ -9,7 +7,7 @@ use toml::Spanned;
 use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
+    BoreScene, DataFile, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
     schema::{MATERIAL, MESHER, RawBore, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
     source::Source,
     spanned::Word,
@@ -86,9 +84,8 @@ fn fitting_root_radius(pair: &PairScene) -> f64 {
 }
 
 /// Diameter (mm) of the bore of a mesh: of the group that has its name, or of the innermost cylinder where no group has;
-/// `None` where there is none or the mesh cannot be read, which is told where it is needed.
-fn bore_diameter(content: &[u8], file: &Path, names: &GroupNames) -> Option<f64> {
-    let mesh = Mesh::parse(content, file).ok()?;
+/// `None` where there is none.
+fn bore_diameter(mesh: &Mesh, names: &GroupNames) -> Option<f64> {
     let [low, high] = match mesh.surface(&names.bore) {
         Some(bore) => mesh.radii(&bore.nodes()),
         None => mesh.bore_radii()?,
@@ -125,9 +122,8 @@ pub(super) fn gear(
     let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
     let bore_of_mesh = match &mesh {
         // A mesh in another unit, or of another gear, is told where it is read.
-        Some(path) if raw.bore_diameter_mm.is_none() => {
-            let content = inputs::content(s.origin, s.file, path).ok();
-            content.and_then(|mesh| bore_diameter(&mesh, path, &groups)).filter(|bore| *bore < root)
+        Some(mesh) if raw.bore_diameter_mm.is_none() => {
+            bore_diameter(mesh.values(), &groups).filter(|bore| *bore < root)
         }
         _ => None,
     };
@@ -205,7 +201,7 @@ fn mesh_source(
     raw: &RawGear,
     teeth: u32,
     face_elements: impl Fn(u32) -> u32,
-) -> Checked<(Option<PathBuf>, Option<MesherScene>)> {
+) -> Checked<(Option<DataFile<Mesh>>, Option<MesherScene>)> {
     match (&raw.mesh, &raw.mesher) {
         (Some(_), Some(mesher)) => Err(s.conflict(
             &mesher.span(),

@@ -9,7 +9,7 @@ mod pitch_errors;
 mod tables;
 mod together;
 
-use super::{Analysis, Kind, Run, Scene, SceneError, Written, ladder, schema::RawScene, source::Source};
+use super::{Analysis, Kind, Run, Scene, SceneError, Setting, ladder, schema::RawScene, source::Source};
 use gear::{Hand, gear, material, pair, steel};
 use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
 use tables::{accuracy, analysis, contact, operation, output};
@@ -49,8 +49,8 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let scene = Scene {
         name: raw.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| default_name(source)),
         file: source.file.to_owned(),
-        written: Written::new(source),
-        set: Vec::new(),
+        written: source.written(),
+        set: source.settings.iter().map(Setting::word).collect(),
         operation: operation(source, &raw.operation)?,
         contact: contact(source, &raw.contact, analysis.kind)?,
         drive: dynamic.then(|| drive(source, &raw, analysis.model)).transpose()?,

@@ -1,9 +1,8 @@
 //! Pitch errors of a gear.
 
-use geometry::modification::parse_pitch_errors;
-
 use super::Checked;
 use crate::data_file::DataFile;
+use crate::inputs::named;
 use crate::schema::RawGear;
 use crate::source::Source;
 
@@ -17,7 +16,7 @@ pub(super) fn pitch_errors(
     teeth: u32,
 ) -> Checked<(Vec<f64>, Option<DataFile<Vec<f64>>>)> {
     let in_file = raw.pitch_errors_file.as_ref();
-    let in_file = in_file.map(|word| DataFile::read(s, "pitch_errors_file", word, parse_pitch_errors)).transpose()?;
+    let in_file = in_file.map(|word| named(s, "pitch_errors_file", word)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };
     if in_file.is_some() {
         let what = "a gear has both `pitch_errors_um` and `pitch_errors_file`";

@@ -1,7 +1,5 @@
 //! From the words of a gearbox file to a gearbox. Every complaint is made here, before any work starts.
 
-use std::path::Path;
-
 use toml::Spanned;
 
 use super::bearing::bearing;
@@ -14,7 +12,7 @@ use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, PairScene, Scene, SceneError, Setting, Source, Word, study::setting};
+use crate::{Kind, Method, Model, PairScene, Setting, Source, Word, study::setting};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
@@ -31,7 +29,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     let bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
-    let meshes = all(&raw.mesh, |t| mesh(s, t, &gears))?;
+    let mut meshes = all(&raw.mesh, |t| mesh(s, t, &gears))?;
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
     if meshes.is_empty() {
@@ -43,7 +41,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     let input = input(s, table, &names)?;
     let torques = all(&raw.torque, |t| torque(s, t, &names))?;
     apart(s, &raw.mesh, &meshes)?;
-    meshes.iter().zip(&raw.mesh).try_for_each(|(mesh, table)| facing(s, table, mesh, (&shafts, &gears)))?;
+    meshes.iter_mut().zip(&raw.mesh).try_for_each(|(mesh, table)| place_axes(s, table, mesh, (&shafts, &gears)))?;
     loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
@@ -105,25 +103,16 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
     let Some(word) = &raw.scene else {
         return Err(missing(s, table, "[[mesh]]", "scene", "the path of the scene of this pair"));
     };
-    let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     if let Some(own) = raw.set.iter().flatten().nth(SETTINGS) {
         let said = format!("a mesh sets more than {SETTINGS} keys");
         return Err(s.conflict(&own.span(), said, "change the scene of the pair instead"));
     }
     let settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
-    let unwritten = s.beside.iter().find(|(name, _)| name == word.get_ref());
-    let read = match unwritten {
-        Some((_, text)) => Scene::parse_with(text, &path, &settings),
-        None => Scene::read_with(&path, &settings),
+    let document = s.named(word, "gearbox file")?;
+    let scene = document.scene(&settings)?;
+    let unfit = |what: &str, advice: &str| {
+        Err(s.conflict(&word.span(), format!("{} {what}", document.file().display()), advice))
     };
-    let scene = read.map_err(|e| match e {
-        SceneError::Read { file, source } => {
-            let said = format!("{} cannot be read: {source}", file.display());
-            s.conflict(&word.span(), said, "paths are relative to the gearbox file")
-        }
-        other => other,
-    })?;
-    let unfit = |what: &str, advice: &str| Err(s.conflict(&word.span(), format!("{} {what}", path.display()), advice));
     if scene.analysis.kind != Kind::Static || scene.analysis.model != Model::Reduced {
         return unfit(
             "is not at rest with the model \"reduced\"",
@@ -159,17 +148,23 @@ fn in_mesh(s: &Source<'_>, tables: &[Spanned<RawGear>], gears: &[GearboxGear], m
     ))
 }
 
-/// Digits of a file by which a stated offset may differ from that of the positions, mm.
+/// Digits of a file by which a stated offset may differ from that of the positions, mm, and a stated centre distance from
+/// that of the shafts, relative.
 const DIGITS: f64 = 1e-6;
 
-/// That the faces of two gears overlap where their shafts have them, and that the scene says nothing else.
-fn facing(
+/// Gives the scene of a pair the axes and the mid-faces that its shafts have.
+///
+/// # Errors
+/// [`SceneError::Conflict`](crate::SceneError::Conflict): faces that do not overlap there, and a scene that states
+/// another offset. A stated centre distance stands, and is held against that of the shafts where the gearbox is built.
+fn place_axes(
     s: &Source<'_>,
     table: &Spanned<RawMesh>,
-    mesh: &GearboxMesh,
+    mesh: &mut GearboxMesh,
     (shafts, gears): (&[GearboxShaft], &[GearboxGear]),
 ) -> Checked<()> {
-    let placed = mid_face_offset(shafts, gears, mesh.gears).unwrap_or(0.0);
+    let offset = mid_face_offset(shafts, gears, mesh.gears);
+    let placed = offset.unwrap_or(0.0);
     let [pinion, wheel] = mesh.gears.map(|g| gears[g].name.as_str());
     if let Some(stated) = mesh.scene.pair.mid_face_offset_mm
         && (stated - placed).abs() > DIGITS
@@ -182,6 +177,14 @@ fn facing(
     let widths = mesh.scene.face_widths_mm();
     let common = PairScene { mid_face_offset_mm: Some(placed), ..mesh.scene.pair }.common_face_mm(widths);
     if common[1] > common[0] {
+        let [a, b] = mesh.gears.map(|g| shafts[gears[g].shaft].origin);
+        let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
+        let own = &mut mesh.scene.pair;
+        // Digits of a file are no difference.
+        if own.centre_distance_mm.is_none_or(|stated| (stated - apart).abs() < DIGITS * apart) {
+            own.centre_distance_mm = Some(apart);
+        }
+        own.mid_face_offset_mm = offset;
         return Ok(());
     }
     let said = format!(

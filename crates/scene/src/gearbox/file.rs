@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{GearboxMotion, raw::RollingKind};
-use crate::{Rotation, Scene};
+use crate::{Scene, Sense};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -43,14 +43,8 @@ pub struct Gearbox {
 /// Heights nearer than this are one: round-off of sums of positions, mm.
 const ONE_HEIGHT: f64 = 1e-9;
 
-impl Gearbox {
-    /// Height of the mid-face of the second gear over that of the first one, along +z, mm; `None` where they are at one
-    /// height.
-    pub fn mid_face_offset(&self, gears: [usize; 2]) -> Option<f64> {
-        mid_face_offset(&self.shafts, &self.gears, gears)
-    }
-}
-
+/// Height of the mid-face of the second gear over that of the first one, along +z, mm; `None` where they are at one
+/// height.
 pub(super) fn mid_face_offset(shafts: &[GearboxShaft], all: &[GearboxGear], gears: [usize; 2]) -> Option<f64> {
     let [a, b] = gears.map(|g| shafts[all[g].shaft].origin[2] + all[g].position);
     Some(b - a).filter(|offset| offset.abs() > ONE_HEIGHT)
@@ -196,7 +190,7 @@ pub struct GearboxMesh {
     /// The gears that are pinion and wheel of the scene.
     pub gears: [usize; 2],
     /// What shape they are, how they are meshed and how contact is solved: a scene at rest of the model `reduced` with
-    /// slices. Torque, driver and rotation are the gearbox's.
+    /// slices. Its axes and mid-faces are where the shafts have them. Torque, driver and rotation are the gearbox's.
     pub scene: Scene,
 }
 
@@ -208,7 +202,7 @@ pub struct GearboxInput {
     /// mm from the shaft's z = 0.
     pub position: f64,
     /// Sense in which it turns.
-    pub rotation: Rotation,
+    pub rotation: Sense,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }

@@ -1,7 +1,7 @@
 //! Every key of a gearbox file once: type, range, default, meaning; and the words of a file, nothing checked yet. Checks take
 //! ranges and defaults from here, and so does the JSON Schema.
 
-use crate::{Integration, Rotation, table::INF};
+use crate::{Integration, Sense, table::INF};
 
 table! {
     /// The whole file.
@@ -157,7 +157,7 @@ table! {
     INPUT, RawInput: "where the turn is given", needed ["shaft", "position_mm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0";
-        rotation: word(Rotation), "sense, seen from +z";
+        rotation: word(Sense), "sense, seen from +z";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2";
     }
 }

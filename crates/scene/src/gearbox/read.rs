@@ -2,20 +2,12 @@
 
 use std::path::Path;
 
-use serde::Deserialize;
-
 use super::{
     Gearbox,
     check::check,
     raw::{GEARBOX, RawGearbox, tables},
 };
-use crate::{
-    DocumentKind, SceneError, Setting, Source,
-    raw::with_tables,
-    read_text,
-    schema::schema_of,
-    setting::{below, few_enough},
-};
+use crate::{Document, DocumentKind, SceneError, Setting, Source, schema::schema_of};
 
 impl Gearbox {
     /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
@@ -37,8 +29,7 @@ impl Gearbox {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the gearbox file or in a scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse(&text, file)
+        Document::read(file)?.gearbox(&[])
     }
 
     /// Checks the text of a gearbox file; `file` is what messages name and what paths are relative to.
@@ -55,22 +46,27 @@ impl Gearbox {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        Self::parse_beside(text, file, settings, &[])
+        Document::new(text.to_owned(), file).gearbox(settings)
     }
 
     /// The same with the scenes of some names as texts: before they are written.
-    pub(crate) fn parse_beside(
-        text: &str,
-        file: &Path,
-        settings: &[Setting],
-        beside: &[(String, String)],
-    ) -> Result<Self, SceneError> {
-        few_enough(text, settings)?;
-        let (all, ranges) = below(text, settings);
-        let source = Source::of(file, &all, tables).with_settings(settings, &ranges).with_beside(beside);
-        let explain = |e: toml::de::Error| source.explain(e.message(), e.span());
-        with_tables(&source, |root| RawGearbox::deserialize(toml::Deserializer::from(root)).map_err(explain))
-            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Gearbox))
-            .and_then(|raw| check(&source, raw))
+    pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
+        let document = Document::new(text.to_owned(), file);
+        read(&Source::of(&document, tables).with_beside(beside))
     }
+}
+
+impl Document {
+    /// The gearbox that it is, with some of its keys set otherwise.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place in the file or the setting.
+    pub fn gearbox(&self, settings: &[Setting]) -> Result<Gearbox, SceneError> {
+        read(&Source::of(self, tables).with_settings(settings))
+    }
+}
+
+fn read(source: &Source<'_>) -> Result<Gearbox, SceneError> {
+    let raw: RawGearbox = source.words(DocumentKind::Gearbox)?;
+    check(source, raw)
 }

@@ -76,7 +76,11 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
     let (raw, name) = (table.get_ref(), word.get_ref().as_str());
     if OTHERS.contains(&name) {
         let said = format!("there is no law of a \"{name}\" bearing here");
-        let known = RollingKind::WORDS.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(", ");
+        let known = <RollingKind as crate::table::Choice>::WORDS
+            .iter()
+            .map(|word| format!("\"{word}\""))
+            .collect::<Vec<_>>()
+            .join(", ");
         return Err(s.conflict(&word.span(), said, format!("give its stiffness, or take one of {known}")));
     }
     let kind: RollingKind = s.meaning_of("type", word)?;

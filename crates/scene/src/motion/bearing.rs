@@ -106,14 +106,20 @@ fn held(
         for (key, value) in [stiffness[i], damping[i]] {
             if let Some(value) = value.as_ref().filter(|_| !is_free) {
                 let what = format!("`{key}` holds a coordinate of the {whose} that is not free");
-                let advice = format!("add \"{}\" to `free` in [{whose}.body], or leave it out", Axis::WORDS[i]);
+                let advice = format!(
+                    "add \"{}\" to `free` in [{whose}.body], or leave it out",
+                    <Axis as crate::table::Choice>::WORDS[i]
+                );
                 return Err(s.conflict(&value.span(), what, advice));
             }
         }
         if let (true, None, None, Some(span)) =
             (is_free, stiffness[i].1, &raw.stiffness_matrix_n_mm_rad, free_at.as_ref())
         {
-            let what = format!("\"{}\" of the {whose} is free, but no bearing holds it", Axis::WORDS[i]);
+            let what = format!(
+                "\"{}\" of the {whose} is free, but no bearing holds it",
+                <Axis as crate::table::Choice>::WORDS[i]
+            );
             return Err(s.conflict(span, what, format!("give `{}` in [{whose}.bearing]", stiffness[i].0)));
         }
     }

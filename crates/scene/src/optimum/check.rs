@@ -14,7 +14,6 @@ use super::{
 use crate::{
     Scene, SceneError, Setting, Source, nearest,
     plan::{DESIGNS, SEED, classed, setting, vary},
-    read_text,
 };
 
 type Checked<T> = Result<T, SceneError>;
@@ -34,14 +33,10 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> 
         .scene
         .as_ref()
         .ok_or_else(|| nothing("an optimisation without `scene`", "give the path of a scene file"))?;
-    let scene_file = s.file.parent().unwrap_or(Path::new("")).join(scene.get_ref());
-    let scene_text = read_text(&scene_file).map_err(|source| {
-        let what = format!("{} cannot be read: {source}", scene_file.display());
-        s.conflict(&scene.span(), what, "paths are relative to the optimisation file")
-    })?;
+    let document = s.named(scene, "optimisation file")?;
     let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     settings.extend_from_slice(more);
-    let own = Scene::parse_with(&scene_text, &scene_file, &settings)?;
+    let own = document.scene(&settings)?;
     let mut parameters = Vec::new();
     for table in &raw.parameter {
         parameters.push(parameter(s, table, |key| own.number_at(key))?);
@@ -82,8 +77,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> 
     finish(Optimisation {
         name,
         file: s.file.to_owned(),
-        scene_file,
-        scene_text,
+        document,
+        drawn: own,
         settings,
         parameters,
         torques,

@@ -1,11 +1,11 @@
 //! A checked optimisation, and the scenes of its designs.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use cases::{Cases, Sampling};
 use design::Goal;
 
-use crate::{Scene, SceneError, Setting, plan::PlanAxis};
+use crate::{Document, Scene, SceneError, Setting, plan::PlanAxis};
 
 /// A scene, what of it may change, and what shall be small.
 #[derive(Debug, Clone)]
@@ -14,10 +14,10 @@ pub struct Optimisation {
     pub name: String,
     /// Where it stands; the path of the scene is relative to its folder.
     pub file: PathBuf,
-    /// The scene file.
-    pub scene_file: PathBuf,
-    /// Its text.
-    pub scene_text: String,
+    /// The scene.
+    pub document: Document,
+    /// The scene without any design.
+    pub drawn: Scene,
     /// Keys that all designs have otherwise.
     pub settings: Vec<Setting>,
     /// What may change.
@@ -124,17 +124,14 @@ impl Optimisation {
         Ok(all)
     }
 
-    /// The scene without any design.
-    ///
-    /// # Errors
-    /// As [`Optimisation::scene`].
-    pub fn drawn_scene(&self) -> Result<Scene, SceneError> {
-        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings)
+    /// The scene file.
+    pub fn scene_file(&self) -> &Path {
+        self.document.file()
     }
 
     /// What the scene without any design says of a key.
     fn drawn(&self, key: &str) -> Result<f64, SceneError> {
-        self.drawn_scene()?.number_at(key).ok_or_else(|| SceneError::NoKey { key: key.to_owned() })
+        self.drawn.number_at(key).ok_or_else(|| SceneError::NoKey { key: key.to_owned() })
     }
 
     /// The scene of a design at a torque: of a sample, or as it is drawn.
@@ -142,7 +139,7 @@ impl Optimisation {
     /// # Errors
     /// [`SceneError`]: what the scene does not allow.
     pub fn scene(&self, values: &[f64], torque_nm: f64, sample: Option<usize>) -> Result<Scene, SceneError> {
-        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings_of(values, torque_nm, sample)?)
+        self.document.scene(&self.settings_of(values, torque_nm, sample)?)
     }
 
     /// The scene of a design as the file has it: at its own torque.
@@ -150,8 +147,7 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::scene`].
     pub fn own_scene(&self, values: &[f64]) -> Result<Scene, SceneError> {
-        let torque = self.drawn_scene()?.operation.torque_nm;
-        self.scene(values, torque, None)
+        self.scene(values, self.drawn.operation.torque_nm, None)
     }
 
     /// The values at which the search begins.

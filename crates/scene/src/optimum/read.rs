@@ -11,9 +11,8 @@ use super::{
     raw::{RawOptimisation, tables},
 };
 use crate::{
-    DocumentKind, Scene, SceneError, Setting, Source,
+    Document, DocumentKind, SceneError, Setting, Source,
     plan::{AxisValues, AxisWord, DESIGNS, SEED},
-    read_text,
 };
 
 /// What a command line says of an optimisation.
@@ -41,16 +40,7 @@ impl Optimisation {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        Self::read_with(file, &[])
-    }
-
-    /// The same, with some keys of its scene set otherwise, behind those that the file sets.
-    ///
-    /// # Errors
-    /// As [`Optimisation::read`].
-    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse_with(&text, file, settings)
+        Self::of(&Document::read(file)?, &[])
     }
 
     /// Checks the text of an optimisation file; `file` is what messages name and what paths are relative to.
@@ -58,52 +48,35 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        Self::parse_with(text, file, &[])
+        Self::of(&Document::new(text.to_owned(), file), &[])
     }
 
-    /// As [`Optimisation::read_with`], of a text.
+    /// Checks a document; `settings`: keys of its scene that are set otherwise, behind those that it sets itself.
     ///
     /// # Errors
     /// As [`Optimisation::read`].
-    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, tables);
-        let raw: RawOptimisation = toml::from_str(text)
-            .map_err(|e| source.explain(e.message(), e.span()))
-            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Optimisation))?;
+    pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        let source = Source::of(document, tables);
+        let raw: RawOptimisation = source.words(DocumentKind::Optimisation)?;
         check(&source, &raw, settings)
     }
 
-    /// Whether a file's text is that of an optimisation: it names a scene or what may change.
-    pub fn is_one(text: &str) -> bool {
-        toml::from_str::<toml::Table>(text)
-            .is_ok_and(|table| ["scene", "parameter", "tolerance"].iter().any(|key| table.contains_key(*key)))
+    /// Whether a document is an optimisation: it names a scene or what may change.
+    pub fn is_one(document: &Document) -> bool {
+        ["scene", "parameter", "tolerance"].iter().any(|key| document.has(key))
     }
 
-    /// The optimisation of a scene file that a command line says.
+    /// The optimisation of a scene that a command line says.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, by the word that it is about.
-    pub fn of_words(
-        scene_file: &Path,
-        settings: &[Setting],
-        words: &OptimisationWords<'_>,
-    ) -> Result<Self, SceneError> {
-        let text = read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
-        Self::of_scene_text(text, scene_file, settings, words)
-    }
-
-    /// The same of a scene's text; `scene_file` is what messages name and what paths are relative to.
-    ///
-    /// # Errors
-    /// As [`Optimisation::of_words`].
-    pub fn of_scene_text(
-        scene_text: String,
-        scene_file: &Path,
+    pub fn of_scene(
+        document: Document,
         settings: &[Setting],
         words: &OptimisationWords<'_>,
     ) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
-        let own = Scene::parse_with(&scene_text, scene_file, settings)?;
+        let own = document.scene(settings)?;
         let known = |key: &str| own.number_at(key);
         let mut parameters = words
             .parameters
@@ -139,10 +112,10 @@ impl Optimisation {
         let sampling = Sampling { design: DESIGNS[0].1, samples: 1, seed: u64::from(SEED) };
         let samples = Cases::new(Vec::new(), &sampling).map_err(|e| wrong("samples".into(), e.to_string()))?;
         finish(Self {
-            name: stem(scene_file),
-            file: scene_file.to_owned(),
-            scene_file: scene_file.to_owned(),
-            scene_text,
+            name: stem(document.file()),
+            file: document.file().to_owned(),
+            document,
+            drawn: own,
             settings: settings.to_vec(),
             parameters,
             torques: list.into_iter().map(|torque_nm| TorqueWeight { torque_nm, weight: 1.0 }).collect(),

@@ -1,7 +1,5 @@
 //! From the words of a plan file to a plan. Every complaint is made here, before any work starts.
 
-use std::path::Path;
-
 use cases::{Axis, Cases, CasesError, Design, Distribution, Sampling};
 use geometry::TOLERANCE_CLASSES;
 use toml::Spanned;
@@ -12,7 +10,7 @@ use super::{
     tolerance::is_pitch,
     word,
 };
-use crate::{Scene, SceneError, Setting, Source, Word, read_text, study::Take};
+use crate::{SceneError, Setting, Source, Word, study::Take};
 
 type Checked<T> = Result<T, SceneError>;
 
@@ -44,11 +42,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, more: &[Setting]) -> Checked<
         let advice = "name a number: [[output]] with `headline = \"peak_to_peak_ste_um\"`, or `column` and `take`";
         return Err(nothing("a plan that asks for nothing", advice));
     }
-    let scene_file = s.file.parent().unwrap_or(Path::new("")).join(scene.get_ref());
-    let scene_text = read_text(&scene_file).map_err(|source| {
-        let what = format!("{} cannot be read: {source}", scene_file.display());
-        s.conflict(&scene.span(), what, "paths are relative to the plan file")
-    })?;
+    let document = s.named(scene, "plan file")?;
     let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     settings.extend_from_slice(more);
     let sampling = Sampling {
@@ -57,8 +51,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, more: &[Setting]) -> Checked<
         seed: u64::from(s.whole("seed", &raw.seed, SEED, 0, u32::MAX)?),
     };
     let (mut axes, mut kinds) = (Vec::new(), Vec::new());
+    let known = document.scene(&settings).ok();
     for table in &raw.vary {
-        let known = Scene::parse_with(&scene_text, &scene_file, &settings).ok();
         let tolerance = |key: &str, class: u32| {
             let known = known.as_ref()?;
             classed(known, key, class, known.number_at(key))
@@ -79,7 +73,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, more: &[Setting]) -> Checked<
         s.file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned())
     });
     let file = s.file.to_owned();
-    finish(Plan { name, file, scene_file, scene_text, settings, axes, sampling, cases, outputs })
+    finish(Plan { name, file, document, settings, axes, sampling, cases, outputs })
 }
 
 /// What the whole of a plan must be: keys and outputs are there once, and the scene is one.
@@ -110,7 +104,7 @@ pub(super) fn finish(plan: Plan) -> Checked<Plan> {
     match plan.scene(0) {
         Ok(_) | Err(SceneError::OutOfRange { .. } | SceneError::Geometry { .. }) => Ok(plan),
         Err(e) => {
-            Scene::parse_with(&plan.scene_text, &plan.scene_file, &plan.settings)?;
+            plan.document.scene(&plan.settings)?;
             Err(e)
         }
     }

@@ -1,11 +1,11 @@
 //! A checked plan.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use cases::{Cases, Sampling};
 
 use super::PitchTolerance;
-use crate::{Scene, SceneError, Setting, study::Take};
+use crate::{Document, Scene, SceneError, Setting, study::Take};
 
 /// A scene, what of it is varied, and what is wanted of each case.
 #[derive(Debug, Clone)]
@@ -14,10 +14,8 @@ pub struct Plan {
     pub name: String,
     /// Where it stands; the path of the scene is relative to its folder.
     pub file: PathBuf,
-    /// The scene file.
-    pub scene_file: PathBuf,
-    /// Its text.
-    pub scene_text: String,
+    /// The scene.
+    pub document: Document,
     /// Keys that all cases have otherwise.
     pub settings: Vec<Setting>,
     /// What is varied.
@@ -94,6 +92,11 @@ impl PlanOutput {
 }
 
 impl Plan {
+    /// The scene file.
+    pub fn scene_file(&self) -> &Path {
+        self.document.file()
+    }
+
     /// The settings of a case: its keys and their values.
     ///
     /// # Errors
@@ -117,6 +120,6 @@ impl Plan {
     /// # Errors
     /// [`SceneError`]: what the scene does not allow.
     pub fn scene(&self, case: usize) -> Result<Scene, SceneError> {
-        Scene::parse_with(&self.scene_text, &self.scene_file, &self.settings_of(case)?)
+        self.document.scene(&self.settings_of(case)?)
     }
 }

@@ -12,7 +12,7 @@ use super::{
     tolerance::is_pitch,
     word::{AxisValues, AxisWord},
 };
-use crate::{DocumentKind, Scene, SceneError, Setting, Source, nearest, read_text};
+use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 
 /// What a command line says of a plan.
 #[derive(Debug, Clone, Default)]
@@ -37,16 +37,7 @@ impl Plan {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the plan file or in the scene.
     pub fn read(file: &Path) -> Result<Self, SceneError> {
-        Self::read_with(file, &[])
-    }
-
-    /// The same, with some keys of its scene set otherwise, behind those that the file sets.
-    ///
-    /// # Errors
-    /// As [`Plan::read`].
-    pub fn read_with(file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let text = read_text(file).map_err(|source| SceneError::Read { file: file.to_owned(), source })?;
-        Self::parse_with(&text, file, settings)
+        Self::of(&Document::read(file)?, &[])
     }
 
     /// Checks the text of a plan file; `file` is what messages name and what paths are relative to.
@@ -54,40 +45,24 @@ impl Plan {
     /// # Errors
     /// As [`Plan::read`].
     pub fn parse(text: &str, file: &Path) -> Result<Self, SceneError> {
-        Self::parse_with(text, file, &[])
+        Self::of(&Document::new(text.to_owned(), file), &[])
     }
 
-    /// As [`Plan::read_with`], of a text.
+    /// Checks a document; `settings`: keys of its scene that are set otherwise, behind those that it sets itself.
     ///
     /// # Errors
     /// As [`Plan::read`].
-    pub fn parse_with(text: &str, file: &Path, settings: &[Setting]) -> Result<Self, SceneError> {
-        let source = Source::of(file, text, tables);
-        let raw: RawPlan = toml::from_str(text)
-            .map_err(|e| source.explain(e.message(), e.span()))
-            .map_err(|e| e.unless_another_kind(text, file, DocumentKind::Plan))?;
+    pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        let source = Source::of(document, tables);
+        let raw: RawPlan = source.words(DocumentKind::Plan)?;
         check(&source, &raw, settings)
     }
 
-    /// The plan of a scene file that a command line says.
+    /// The plan of a scene that a command line says.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, by the word that it is about.
-    pub fn of_words(scene_file: &Path, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
-        let text = read_text(scene_file).map_err(|source| SceneError::Read { file: scene_file.to_owned(), source })?;
-        Self::of_scene_text(text, scene_file, settings, words)
-    }
-
-    /// The same of a scene's text; `scene_file` is what messages name and what paths are relative to.
-    ///
-    /// # Errors
-    /// As [`Plan::of_words`].
-    pub fn of_scene_text(
-        scene_text: String,
-        scene_file: &Path,
-        settings: &[Setting],
-        words: &PlanWords<'_>,
-    ) -> Result<Self, SceneError> {
+    pub fn of_scene(document: Document, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
         let (mut axes, mut kinds) = (Vec::new(), Vec::new());
         for written in words.vary {
@@ -107,7 +82,7 @@ impl Plan {
                     return Err(complain("pitch errors of each gear are drawn by a `--vary` of its own".into()));
                 }
                 AxisValues::Class(class) => {
-                    let known = Scene::parse_with(&scene_text, scene_file, settings)?;
+                    let known = document.scene(settings)?;
                     let key = &keys[0];
                     let found = classed(&known, key, class, known.number_at(key));
                     found.ok_or_else(|| complain(format!("ISO 1328 has no tolerance for it: {CLASSED}")))?
@@ -138,10 +113,9 @@ impl Plan {
         let cases = Cases::new(kinds, &sampling).map_err(|e| wrong("--vary".into(), e.to_string()))?;
         let outputs = words.outputs.iter().map(|key| PlanOutput::Headline(key.clone()));
         let outputs = outputs.chain(words.columns.iter().cloned()).collect();
-        let name = scene_file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
-        let file = scene_file.to_owned();
-        let scene_file = scene_file.to_owned();
+        let file = document.file().to_owned();
+        let name = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
         let settings = settings.to_vec();
-        finish(Self { name, file, scene_file, scene_text, settings, axes, sampling, cases, outputs })
+        finish(Self { name, file, document, settings, axes, sampling, cases, outputs })
     }
 }

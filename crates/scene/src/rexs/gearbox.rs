@@ -105,7 +105,7 @@ impl RexsGearbox {
     /// [`SceneError`], of which [`RexsGearbox::blamed`] says what it is in the REXS file.
     pub fn check(&self, file: &Path) -> Result<Gearbox, SceneError> {
         let beside: Vec<_> = self.scenes.iter().map(|(name, text, _)| (name.clone(), text.clone())).collect();
-        let whole = Gearbox::parse_beside(&self.text, file, &[], &beside)?;
+        let whole = Gearbox::parse_beside(&self.text, file, &beside)?;
         whole.meshes.iter().try_for_each(|mesh| mesh.scene.gear_pair().map(|_| ()))?;
         Ok(whole)
     }

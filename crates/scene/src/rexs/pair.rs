@@ -13,7 +13,7 @@ use super::{
     left::left,
     train::Train,
 };
-use crate::{Driver, Rotation, SceneError, Starter, Steel};
+use crate::{Driver, SceneError, Sense, Starter, Steel};
 
 /// A pair out of a REXS file.
 #[derive(Debug, Clone)]
@@ -252,7 +252,7 @@ fn loaded(
     if let Some(load) = &carried {
         let first = own.map_or(0.0, |k| train.speeds[train.stages[k].shafts[0]].unwrap_or(0.0));
         starter.driver = if load.driver == 0 { Driver::Pinion } else { Driver::Wheel };
-        starter.rotation = if first < 0.0 { Rotation::Cw } else { Rotation::Ccw };
+        starter.rotation = if first < 0.0 { Sense::Cw } else { Sense::Ccw };
         (starter.torque_nm, starter.speed_rpm) = (load.torque, load.driver_speed.abs());
         return (starter, Vec::new());
     }

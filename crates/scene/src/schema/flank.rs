@@ -3,23 +3,13 @@
 //! A new kind of modification is a row of `flank_tables!` here, a line of `FlankScene::in_geometry`, and its formula in
 //! [`geometry::modification`].
 
-use geometry::modification::Topography;
+use geometry::modification::{ReliefShape, Topography};
 use serde::Serialize;
 
 use crate::data_file::DataFile;
 use crate::error::SceneError;
 use crate::source::Source;
-use crate::table::{INF, Key, Table, bare, table, text, word};
-
-choices! {
-    /// How a relief grows from its start.
-    pub enum Shape {
-        /// With the distance.
-        Linear = "linear",
-        /// With its square.
-        Parabolic = "parabolic",
-    }
-}
+use crate::table::{Choice, INF, Key, Table, bare, table, text, word};
 
 /// Largest amount of any modification, um: a millimetre is no micro-geometry.
 const LARGEST: f64 = 1000.0;
@@ -46,7 +36,7 @@ const fn length(name: &'static str, about: &'static str) -> Key {
 
 /// How a relief grows.
 const fn shape(name: &'static str, about: &'static str) -> Key {
-    word(name, Shape::WORDS, about)
+    word(name, ReliefShape::WORDS, about)
 }
 
 /// A file of measured depths.
@@ -57,7 +47,7 @@ const fn path(name: &'static str, about: &'static str) -> Key {
 /// What a key of a flank is when it is checked.
 macro_rules! flank_value {
     (shape) => {
-        Shape
+        ReliefShape
     };
     (path) => {
         DataFile<Topography>
@@ -73,7 +63,7 @@ macro_rules! flank_read {
         $raw.$name.as_ref().map(|word| $s.meaning_of(stringify!($name), word)).transpose()?
     };
     (path, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
-        $raw.$name.as_ref().map(|word| DataFile::read($s, stringify!($name), word, Topography::parse)).transpose()?
+        $raw.$name.as_ref().map(|word| crate::inputs::named($s, stringify!($name), word)).transpose()?
     };
     ($number:ident, $s:ident, $raw:ident.$name:ident, $face_width:ident) => {
         $s.optional_up_to(&MODIFICATION, stringify!($name), &$raw.$name, $face_width)?

@@ -25,7 +25,7 @@ use crate::table::{Key, ValueKind};
 
 pub use accuracy::Quantity;
 pub(crate) use accuracy::RawAccuracy;
-pub use flank::{FlankScene, Shape};
+pub use flank::FlankScene;
 pub(crate) use flank::{RawFlank, RawModification};
 pub use gear::Coupling;
 pub(crate) use gear::*;
@@ -39,9 +39,7 @@ pub use motion::{
     SweepWay,
 };
 pub(crate) use scene::*;
-pub use scene::{
-    Driver, FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, Reduction, Rotation,
-};
+pub use scene::{FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, Reduction};
 
 /// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`,
 /// `pinion.shaft.discs.0.at_mm`.

@@ -7,6 +7,7 @@ use super::ladder::{
 };
 use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};
 use crate::table::INF;
+use geometry::{Driver, Sense};
 
 table! {
     /// The whole file.
@@ -62,29 +63,9 @@ table! {
     /// `[operation]`
     OPERATION, RawOperation => Operation: "load and motion", needed ["torque_nm"]; {
         driver: word(Driver), "the gear that drives";
-        rotation: word(Rotation), "sense of rotation of the pinion, seen from +z";
+        rotation: word(Sense), "sense of rotation of the pinion, seen from +z";
         torque_nm: must(0.0, 1e9), "torque on the driven gear, N m, against its motion; `driver` and `rotation` say which flanks it presses";
         speed_rpm: number(1e-6, 1e7, 1000.0), "speed of the driver, 1/min";
-    }
-}
-
-choices! {
-    /// The gear that drives.
-    pub enum Driver {
-        /// Gear 1.
-        Pinion = "pinion",
-        /// Gear 2.
-        Wheel = "wheel",
-    }
-}
-
-choices! {
-    /// Sense of rotation seen from +z.
-    pub enum Rotation {
-        /// Counter-clockwise.
-        Ccw = "ccw",
-        /// Clockwise.
-        Cw = "cw",
     }
 }
 

@@ -1,13 +1,11 @@
 //! From the words of a study file to a study. Every complaint is made here, before any work starts.
 
-use std::path::Path;
-
 use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
 use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
 use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
-use crate::{Place, Run, Scene, SceneError, Setting, Source, Whole, Word};
+use crate::{Place, Run, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
 /// The cases so far, and which columns their rows will have.
@@ -79,26 +77,19 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
         return Err(missing(s, table, "[[case]]", "value", "its place on the axis of the parameter"));
     }
     let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
-    let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     if let Some(word) = raw.set.get(SETTINGS) {
         let what = format!("a case sets {} keys", raw.set.len());
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
     let own = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    let told = |e: SceneError| match e {
-        SceneError::Read { file, source } => {
-            let what = format!("{} cannot be read: {source}", file.display());
-            s.conflict(&word.span(), what, "paths are relative to the study file")
-        }
-        other => other,
-    };
-    let (scene, refused) = match Scene::read_with(&path, &[settings, &own].concat()) {
+    let document = s.named(word, "study file")?;
+    let (scene, refused) = match document.scene(&[settings, &own].concat()) {
         Ok(scene) => (scene, None),
         // A value may be wrong in one case alone; a scene that is wrong without it is wrong in all.
         Err(e @ (SceneError::OutOfRange { .. } | SceneError::Geometry { .. })) if !own.is_empty() => {
-            (Scene::read_with(&path, settings).map_err(told)?, Some(refusal(&e)))
+            (document.scene(settings)?, Some(refusal(&e)))
         }
-        Err(e) => return Err(told(e)),
+        Err(e) => return Err(e),
     };
     if let Some(motion) = &scene.motion {
         let which = match motion.run {
@@ -108,7 +99,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
             _ => None,
         };
         if let Some(which) = which {
-            let what = format!("{} is a {which}, which has no rows over time", path.display());
+            let what = format!("{} is a {which}, which has no rows over time", document.file().display());
             return Err(s.conflict(
                 &word.span(),
                 what,
@@ -116,7 +107,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
             ));
         }
         if motion.checkpoint_every_cycles.is_some_and(|every| every > 0) {
-            let what = format!("{} asks for checkpoints, which a study has none of", path.display());
+            let what = format!("{} asks for checkpoints, which a study has none of", document.file().display());
             return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
         }
     }

@@ -11,7 +11,7 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    scene::{Kind, Scene, Setting, SweepWay},
+    scene::{Document, Kind, Scene, Setting, SweepWay},
     talk,
 };
 
@@ -159,7 +159,7 @@ impl VaryArgs {
     }
 
     /// Every complaint about words and scenes is made here, before any work starts or any file is written.
-    fn sweep(&self) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
+    fn sweep(&self, document: &Document) -> Result<(Vec<(f64, Scene)>, SweepOptions), CommandError> {
         let ((keys, values), settings) = (self.carried()?, self.overrides.settings()?);
         let words = &self.sections;
         let mut scenes = Vec::with_capacity(values.len());
@@ -168,7 +168,7 @@ impl VaryArgs {
             for key in &keys {
                 all.push(Setting::number(key, value)?.called(&format!("--vary {key}={value}")));
             }
-            let mut scene = with_slices(Scene::read_with(&self.file, &all)?);
+            let mut scene = with_slices(document.scene(&all)?);
             self.fits(&scene)?;
             if let Some(motion) = &mut scene.motion {
                 let settle = words.settle.or(motion.warm_up_cycles).unwrap_or(SETTLE);
@@ -245,9 +245,10 @@ impl VaryArgs {
     pub(super) fn carry(&self, quiet: bool) -> Result<Answer, CommandError> {
         self.only(&Self::CARRY, "motions that carry on")?;
         // As it stands first: what is wrong with the scene is not wrong with the key.
-        self.fits(&self.overrides.read(&self.file)?)?;
+        let document = Document::read(&self.file)?;
+        self.fits(&with_slices(document.scene(&self.overrides.settings()?)?))?;
         let (mut phases, out) = (Phases::with_bars(), self.folder()?);
-        let (scenes, options) = self.sweep()?;
+        let (scenes, options) = self.sweep(&document)?;
         let results = ResultDirectory::create(out)?;
         let again = self.again_carried(&options);
         let table = lumped::sweep_key(&scenes, &options, &again, &mut phases, &results, &self.cache.open())?;

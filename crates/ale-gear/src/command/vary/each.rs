@@ -9,6 +9,7 @@ use report::{
     study_files::columns_of,
 };
 use scene::{
+    Document,
     plan::{Plan, PlanOutput, PlanTake, PlanWords},
     study::{Take, column_advice},
 };
@@ -22,7 +23,7 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     resolution::with_slices,
-    scene::{Scene, Setting},
+    scene::Setting,
     talk::{self, Loudness},
 };
 
@@ -54,18 +55,19 @@ impl VaryArgs {
         let settings = self.overrides.settings()?;
         let refuse = |what: &str, hint: &str| Err(CommandError::input(what, Some(hint.into())));
         let (mut vary, mut outputs) = (self.vary.clone(), self.output.clone());
+        let document = Document::read(&self.file)?;
         if self.harris {
-            let scene = Scene::read_with(&self.file, &settings)?;
+            let scene = document.scene(&settings)?;
             vary.push(harris_axis(scene.operation.torque_nm));
             outputs.insert(0, "peak_to_peak_ste_um".into());
         }
-        let columns = self.outputs_of_column(&settings)?;
+        let columns = self.outputs_of_column(&document, &settings)?;
         let asks = !outputs.is_empty() || !columns.is_empty();
         if !vary.is_empty() && asks {
             let design = design.as_deref();
             let words =
                 PlanWords { vary: &vary, outputs: &outputs, columns: &columns, design, samples: *samples, seed: *seed };
-            return Ok(Plan::of_words(&self.file, &settings, &words)?);
+            return Ok(Plan::of_scene(document, &settings, &words)?);
         }
         if !vary.is_empty() || asks {
             return refuse(
@@ -77,13 +79,13 @@ impl VaryArgs {
             let hint = "write them into the plan, or give a scene file with `--vary` and `--output`";
             return refuse("a plan file says samples and seed itself", hint);
         }
-        Ok(Plan::read_with(&self.file, &settings)?)
+        Ok(Plan::of(&document, &settings)?)
     }
 
     /// What is wanted of the column that `--of` names.
-    fn outputs_of_column(&self, settings: &[Setting]) -> Result<Vec<PlanOutput>, CommandError> {
+    fn outputs_of_column(&self, document: &Document, settings: &[Setting]) -> Result<Vec<PlanOutput>, CommandError> {
         let Some(column) = &self.of else { return Ok(Vec::new()) };
-        let scene = with_slices(Scene::read_with(&self.file, settings)?);
+        let scene = with_slices(document.scene(settings)?);
         if let Some(all) = columns_of(&scene).filter(|all| !all.iter().any(|name| name == column)) {
             let names: Vec<&str> = all.iter().map(String::as_str).collect();
             let what = format_args!("`--of {column}` is no column of history.csv");
@@ -140,7 +142,7 @@ fn run_plan(
     // Beside the results, so that a run that is cut short goes on from there.
     let done_file = beside_results(out);
     let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
-    let done = DoneCases::open(out, &plan_digest(plan)?, CaseLines::of(plan))?;
+    let done = DoneCases::open(out, &plan_digest(plan), CaseLines::of(plan))?;
     let (count, before) = (plan.cases.count(), done.count());
     if before > 0 {
         talk::note(format!("{before} of {count} cases were done before"));

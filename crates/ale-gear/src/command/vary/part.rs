@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
 use report::plan_files::{DoneCases, PageWords, Part, PartError, check_outputs, merged, plan_digest, write_cases};
-use scene::plan::Plan;
+use scene::{Document, plan::Plan};
 
 use super::{super::Answer, VaryArgs, each::solve_range};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
@@ -58,7 +58,8 @@ impl VaryArgs {
     pub(super) fn part(&self, quiet: bool) -> Result<Answer, CommandError> {
         self.only(&["--cases", "--list"], "a part of a plan file's cases")?;
         let told = |text: String| Answer::from(if quiet { String::new() } else { text });
-        let (plan, mut phases) = (Plan::read_with(&self.file, &self.overrides.settings()?)?, Phases::with_bars());
+        let (plan, mut phases) =
+            (Plan::of(&Document::read(&self.file)?, &self.overrides.settings()?)?, Phases::with_bars());
         check_outputs(&plan).map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
         let count = plan.cases.count();
         let (Some(range), Some(out)) = (&self.part.cases, &self.out) else {
@@ -69,7 +70,7 @@ impl VaryArgs {
             return Ok(list.into());
         };
         let range = range.start.min(count)..range.end.min(count);
-        let digest = plan_digest(&plan)?;
+        let digest = plan_digest(&plan);
         let (from, to) = (range.start, range.end);
         let refuse = |what: String| {
             let hint = "give the name of a new file, or take that one away".to_owned();
@@ -98,7 +99,7 @@ impl MergeArgs {
     /// Puts the parts together; the files are those of `ale-gear vary`.
     pub(in crate::command) fn execute(self) -> Result<String, CommandError> {
         let (plan, phases) = (Plan::read(&self.plan)?, Phases::quiet());
-        let rows = merged(&self.parts, &plan_digest(&plan)?, &plan).map_err(|e| {
+        let rows = merged(&self.parts, &plan_digest(&plan), &plan).map_err(|e| {
             let hint = match &e {
                 PartError::Missing { missing } => missing.first().map(|range| {
                     let (plan, from, to) = (self.plan.display(), range.start, range.end);

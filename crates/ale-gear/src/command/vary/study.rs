@@ -47,7 +47,7 @@ impl VaryArgs {
         let reports = self.reports.of_all(study.cases.len())?;
         let results = ResultDirectory::create(out)?;
         let cache = self.cache.open();
-        let kept = KeptCases::beside(out, &study_digest(&study, reports)?)?;
+        let kept = KeptCases::beside(out, &study_digest(&study, reports))?;
         let runs = phases.run_steps("cases", study.cases.len() as u64, |progress| {
             let models = SharedModels::new(&cache);
             let alone = |scene: &_, own: &_| write_result(scene, &mut Phases::quiet(), own, &cache);

@@ -8,12 +8,6 @@ use scene::{Axis, BearingScene, BodyScene, DriveBy, Driver, MotionScene, Scene, 
 
 use crate::{AnalysisError, elastic_gears::material, meshes::SceneMesh};
 
-/// kg in t, kg m^2 in t mm^2.
-const KILOGRAM: f64 = 1e-3;
-const KILOGRAM_METRE2: f64 = 1e3;
-/// 1/min in rad/s.
-pub const RPM: f64 = std::f64::consts::PI / 30.0;
-
 /// Bodies, bearings, drive and load of the scene; contact as given.
 ///
 /// # Errors
@@ -51,7 +45,7 @@ pub(crate) fn pair_drive(scene: &Scene, pair: &GearPair) -> Drive {
 
 /// What drives the driver: its speed, or a torque that balances the load in the mean unless the scene states another.
 pub fn drive(scene: &Scene, pair: &GearPair) -> Drive {
-    let start = scene.operation.speed_rpm * RPM;
+    let start = scene.operation.speed();
     if let Some(drive) = scene.drive.as_ref().filter(|d| d.by == DriveBy::Torque) {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
         let ratio = match scene.operation.driver {
@@ -66,29 +60,21 @@ pub fn drive(scene: &Scene, pair: &GearPair) -> Drive {
 /// Speed of the driver that the scene asks for, rad/s.
 pub fn speed(scene: &Scene) -> Speed {
     match scene.motion.as_ref().and_then(|m| m.ramp) {
-        None => Speed::Constant(scene.operation.speed_rpm * RPM),
-        Some(ramp) => Speed::Ramp {
-            from: ramp.from_rpm * RPM,
-            to: ramp.to_rpm * RPM,
-            start: ramp.before_s,
-            duration: ramp.duration_s,
-        },
+        None => Speed::Constant(scene.operation.speed()),
+        Some(ramp) => {
+            let [from, to] = ramp.speeds();
+            Speed::Ramp { from, to, start: ramp.before_s, duration: ramp.duration_s }
+        }
     }
 }
 
-/// N m in N mm; `mean` where the scene states none.
+/// Torque over time, N mm; `mean` where the scene states none.
 pub fn torque(stated: &TorqueScene, mean: f64) -> Torque {
-    let mean = stated.torque_nm.map_or(mean, |t| 1e3 * t);
-    match (&stated.table_s_nm, stated.amplitude_nm, stated.frequency_hz) {
-        (Some(table), ..) => Torque::Table {
-            times: table.iter().map(|row| row[0]).collect(),
-            values: table.iter().map(|row| 1e3 * row[1]).collect(),
-        },
-        (None, Some(amplitude), Some(frequency_hz)) => {
-            let phase = stated.phase_deg.unwrap_or(0.0).to_radians();
-            Torque::Harmonic { mean, amplitude: 1e3 * amplitude, frequency_hz, phase }
-        }
-        _ => Torque::Constant(mean),
+    let mean = stated.mean().unwrap_or(mean);
+    match (stated.table(), stated.harmonic()) {
+        (Some([times, values]), _) => Torque::Table { times, values },
+        (None, Some([amplitude, frequency_hz, phase])) => Torque::Harmonic { mean, amplitude, frequency_hz, phase },
+        (None, None) => Torque::Constant(mean),
     }
 }
 
@@ -115,13 +101,13 @@ pub(crate) fn body(
 
 /// What the scene states of a body, and `own` where it says nothing.
 pub fn stated_body(stated: &BodyScene, own: RigidBody) -> RigidBody {
-    let or = |stated: Option<f64>, unit: f64, own: f64| stated.map_or(own, |value| unit * value);
+    let [transverse, polar] = stated.inertias();
     RigidBody {
-        mass: or(stated.mass_kg, KILOGRAM, own.mass),
-        transverse_inertia: or(stated.transverse_inertia_kg_m2, KILOGRAM_METRE2, own.transverse_inertia),
-        polar_inertia: or(stated.polar_inertia_kg_m2, KILOGRAM_METRE2, own.polar_inertia),
+        mass: stated.mass().unwrap_or(own.mass),
+        transverse_inertia: transverse.unwrap_or(own.transverse_inertia),
+        polar_inertia: polar.unwrap_or(own.polar_inertia),
     }
-    .with_polar(KILOGRAM_METRE2 * stated.added_inertia_kg_m2)
+    .with_polar(stated.added_inertia())
 }
 
 /// Damping of a direction is what the scene states, or the ratio's: c = 2 zeta sqrt(k m).

@@ -21,6 +21,7 @@ use crate::{
     gears,
     inputs::meshes_of,
     iso_root,
+    loaded_pair::LoadedPair,
     meshes::SceneMesh,
     motion::{MotionSink, step_estimate::fastest_hz},
     options::options,
@@ -121,7 +122,7 @@ pub(crate) fn prepare(
     let mut facts = facts_of(&model, inputs, &history);
     facts.resolution = Some(resolution);
     if scene.output.root_stress {
-        warnings.extend(iso_root::warning(scene, pair));
+        warnings.extend(iso_root::warning(&LoadedPair::of(scene, pair)));
     }
     let gears = model.into_gears();
     let (coast, coast_keys) = match coast {
@@ -162,7 +163,7 @@ fn reduce(
     let MotionInputs { scene, pair, meshes, cache, .. } = inputs;
     let both = scene.contact.flanks == Flanks::Both;
     let sides = if both { 2.0 } else { 1.0 };
-    let work = PhaseWork::Seconds(announced_s(observer, (scene, meshes), sides));
+    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), meshes), sides));
     run_phase(observer, "reduce", work, |progress| {
         let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true))?;
         let backwards =

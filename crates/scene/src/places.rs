@@ -1,0 +1,84 @@
+//! Where the keys of a scene stand: made once, for complaints that come later than the checks of the scene.
+
+use std::{collections::BTreeMap, ops::Range, sync::Arc};
+
+use crate::{Place, Scene, Setting, data_file::DataFiles, origin::Origin, tree::Node};
+
+/// Places by keys with dots; a table's own name stands for its heading.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Places(BTreeMap<String, Place>);
+
+impl Places {
+    /// Of all that a table holds but entries of lists.
+    pub fn of(root: &Node, place: &dyn Fn(&Range<usize>) -> Place) -> Self {
+        let mut all = Self::default();
+        all.take(root, "", place);
+        all
+    }
+
+    fn take(&mut self, table: &Node, before: &str, place: &dyn Fn(&Range<usize>) -> Place) {
+        for (key, entry) in table.entries() {
+            let key = if before.is_empty() { key.clone() } else { format!("{before}.{key}") };
+            self.take(&entry.node, &key, place);
+            self.0.insert(key, place(&entry.node.span));
+        }
+    }
+
+    /// The same with what was set beside the file: of two settings of a key the last one holds.
+    pub fn with(&self, settings: &[Setting]) -> Self {
+        let mut all = self.clone();
+        for setting in settings {
+            let place = Place::Setting { label: setting.label().into() };
+            let (key, parts) = (setting.path().join("."), setting.path());
+            all.0.retain(|own, _| !own.strip_prefix(&key).is_some_and(|rest| rest.starts_with('.')));
+            all.take(setting.value(), &key, &|_| place.clone());
+            for n in 1..parts.len() {
+                all.0.entry(parts[..n].join(".")).or_insert_with(|| place.clone());
+            }
+            all.0.insert(key, place);
+        }
+        all
+    }
+}
+
+/// Where a scene came from: places of its keys, and the files that it names as they were read. It holds no text, and is
+/// equal to any other: scenes are compared by what they mean.
+#[derive(Debug, Clone)]
+pub struct Written(Arc<Provenance>);
+
+#[derive(Debug)]
+struct Provenance {
+    places: Places,
+    origin: Origin,
+    files: Arc<DataFiles>,
+}
+
+impl PartialEq for Written {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Written {
+    pub(super) fn new(places: Places, origin: Origin, files: Arc<DataFiles>) -> Self {
+        Self(Arc::new(Provenance { places, origin, files }))
+    }
+
+    /// Whether the scene stands in files or in the program.
+    pub(super) fn origin(&self) -> Origin {
+        self.0.origin
+    }
+
+    /// What was read of the files that it names.
+    pub(super) fn files(&self) -> &Arc<DataFiles> {
+        &self.0.files
+    }
+}
+
+impl Scene {
+    /// Where the first of these keys is written that is: keys have dots (`pair.centre_distance_mm`), a table's own name
+    /// stands for its heading. `None` where none of them is.
+    pub fn place_of(&self, keys: &[&str]) -> Option<Place> {
+        keys.iter().find_map(|key| self.written.0.places.0.get(*key)).cloned()
+    }
+}
