@@ -74,7 +74,12 @@ impl Result {
 
     /// Of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
     pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
-        let Answer { name, tables, headline, remarks, .. } = answer;
+        let Answer { name, tables, headline, remarks, checks, .. } = answer;
+        let failure = failure.or_else(|| {
+            let failed = checks.failed()?;
+            let message = format!("{name}: the result does not hold: {}", failed.missed);
+            Some(Complaint::new(Kind::NoResult, message, Some(failed.hint.to_owned())))
+        });
         Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure }
     }
 

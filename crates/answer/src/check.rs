@@ -30,6 +30,12 @@ impl Check {
         Self { name: name.into(), value, bound, hint }
     }
 
+    /// Of many cases the share without a result, which is to leave one.
+    pub fn cases_without_result(failed: usize, cases: usize, hint: &'static str) -> Self {
+        let cases = cases.max(1) as f64;
+        Self::new("cases_without_result", failed as f64 / cases, 1.0 - 1.0 / cases, hint)
+    }
+
     /// Whether the value is within its bound; what is no number is not.
     pub fn holds(&self) -> bool {
         self.value <= self.bound
@@ -136,6 +142,13 @@ mod tests {
 
     fn check(value: f64) -> Check {
         Check::new("torque_residual", value, 1e-8, "")
+    }
+
+    /// One case with a result is enough.
+    #[test]
+    fn many_cases_hold_with_one_result() {
+        let holds = |failed, cases| Check::cases_without_result(failed, cases, "").holds();
+        assert!(holds(0, 1) && holds(2, 3) && holds(9, 10) && !holds(1, 1) && !holds(10, 10));
     }
 
     /// Up to its bound a check holds; beyond, and without a number, it does not.

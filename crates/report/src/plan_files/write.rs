@@ -1,7 +1,7 @@
 //! The answer about a plan.
 
 use analysis::remark;
-use answer::{Answer, Cost, Table};
+use answer::{Answer, Check, Checks, Cost, Table};
 use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
@@ -60,6 +60,11 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
             "failed": known.failed,
             "outputs": known.outputs.iter().map(told).collect::<Map<_, _>>(),
         }),
+        checks: Checks::new([Check::cases_without_result(
+            known.failed,
+            known.count(),
+            "`reason` in cases.csv says of each case why",
+        )]),
         remarks: (known.failed > 0).then(|| remark::cases_unsolved(known.failed, rows.len())).into_iter().collect(),
         info: Map::from_iter([("reports".to_owned(), json!(reports))]),
         cost,

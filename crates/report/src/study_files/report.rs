@@ -1,6 +1,6 @@
 //! The answer about a study, and its page.
 
-use answer::{Answer, Cost};
+use answer::{Answer, Check, Checks, Cost};
 use serde_json::{Map, Value, json};
 
 use super::{
@@ -37,6 +37,11 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
             })).collect::<Vec<_>>(),
             "full": full,
         }),
+        checks: Checks::new([Check::cases_without_result(
+            runs.iter().filter(|run| run.is_err()).count(),
+            runs.len(),
+            "`reason` of each case says why",
+        )]),
         remarks: warnings.to_vec(),
         // What differs from run to run is no result.
         info: Map::from_iter([("wall_s".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
@@ -62,7 +67,7 @@ pub fn study_page(of: StudyResult<'_>, answer: &Answer) -> Result<Page, ReportEr
     }
     page.push(cases(of));
     page.push(cost_part(&answer.cost));
-    let words = if reports { " --reports" } else { "" };
+    let words = if reports { " --reports all" } else { "" };
     page.push(again(&format!("ale-gear vary {} --out DIR{words}", study.file.display())));
     Ok(page)
 }

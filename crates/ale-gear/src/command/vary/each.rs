@@ -4,6 +4,7 @@ use std::{ops::Range, path::Path, sync::Arc};
 
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
 use report::{
+    Written,
     folder::{Cache, beside_results},
     plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
     study_files::columns_of,
@@ -151,15 +152,15 @@ fn run_plan(
     let known = KnownCases::of(plan, &done.all());
     let written = reports.write((plan, &known), &mut phases, &results, cache)?;
     let words = PageWords { again, reports: &written };
-    let text = write_cases((plan, &done), words, phases.cost(), &results)?.table;
+    let Written { answer, table } = write_cases((plan, &done), words, phases.cost(), &results)?;
     results.finish(talk::note)?;
     done.remove().map_err(complain)?;
-    match known.reasons.first() {
-        Some(why) if known.failed == known.count() => {
+    match (answer.checks.failed(), known.reasons.first()) {
+        (Some(_), Some(why)) => {
             let hint = format!("`cases.csv` in {} says of each case why", out.display());
             Err(CommandError::failed(format_args!("no case has a result; the first: {why}"), Some(hint)))
         }
-        _ => Ok(text),
+        _ => Ok(table),
     }
 }
 
