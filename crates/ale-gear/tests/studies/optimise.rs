@@ -68,7 +68,7 @@ fn pressure_is_limited() {
     let (said, complaint) = ends(3, &["--out", "none", "--max-pressure", "500"]);
     assert!(complaint.contains("the limit of the pressure, 500 MPa, is passed by"), "{complaint}");
     assert!(said.contains("the limit of the pressure, 500 MPa, is passed by"), "{said}");
-    assert!(summary(&scratch, "none")["warnings"][0].as_str().unwrap().contains("is passed by"));
+    assert!(summary(&scratch, "none")["remarks"][0]["text"].as_str().unwrap().contains("is passed by"));
 }
 
 /// A limit of the pressure at the edges is held where teeth are misaligned: a crowning takes them off the end faces.
