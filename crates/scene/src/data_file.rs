@@ -2,10 +2,11 @@
 
 use std::{
     collections::BTreeMap,
-    fmt,
+    fmt, fs,
     path::{Path, PathBuf},
     str::from_utf8,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::SystemTime,
 };
 
 use files::most;
@@ -82,7 +83,39 @@ pub(crate) struct DataFiles {
 
 /// Files of one kind by where they are.
 #[derive(Debug)]
-pub(crate) struct Known<T>(Mutex<BTreeMap<PathBuf, DataFile<T>>>);
+pub(crate) struct Known<T>(Mutex<BTreeMap<PathBuf, Entry<T>>>);
+
+#[derive(Debug)]
+struct Entry<T> {
+    file: DataFile<T>,
+    /// Before it was read; none of a file of the program.
+    stamp: Option<Stamp>,
+    /// Whether this document names it, and not only one before it.
+    named: bool,
+}
+
+/// Size and time of a file.
+type Stamp = (u64, SystemTime);
+
+fn stamp(path: &Path) -> Option<Stamp> {
+    let data = fs::metadata(path).ok()?;
+    Some((data.len(), data.modified().ok()?))
+}
+
+impl<T> Known<T> {
+    /// An entry is whole or missing, whatever became of the thread that held the lock.
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<PathBuf, Entry<T>>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Those that the document names and that nobody has written to since.
+    fn unchanged(&self) -> Self {
+        let all = self.lock();
+        let same = all.iter().filter(|(path, own)| own.named && (own.stamp.is_none() || own.stamp == stamp(path)));
+        let kept = |own: &Entry<T>| Entry { file: own.file.clone(), stamp: own.stamp, named: false };
+        Self(Mutex::new(same.map(|(path, own)| (path.clone(), kept(own))).collect()))
+    }
+}
 
 impl<T> Default for Known<T> {
     fn default() -> Self {
@@ -91,11 +124,21 @@ impl<T> Default for Known<T> {
 }
 
 impl DataFiles {
+    /// The files that the document names and that nobody has written to since they were read: for the next text of it.
+    pub fn unchanged(&self) -> Self {
+        Self {
+            topographies: self.topographies.unchanged(),
+            pitch_errors: self.pitch_errors.unchanged(),
+            meshes: self.meshes.unchanged(),
+        }
+    }
+
     /// A file that was read, by where it is; `path` is its name in the document.
     pub fn known<T: Content>(&self, whole: &Path, path: &Path) -> Option<DataFile<T>> {
-        // An entry is whole or missing, whatever became of the thread that held the lock.
-        let known = T::known(self).0.lock().unwrap_or_else(PoisonError::into_inner);
-        Some(DataFile { path: path.to_owned(), ..known.get(whole)?.clone() })
+        let mut all = T::known(self).lock();
+        let own = all.get_mut(whole)?;
+        own.named = true;
+        Some(DataFile { path: path.to_owned(), ..own.file.clone() })
     }
 
     /// The file that `path` is in a document at `document`, read now.
@@ -104,9 +147,13 @@ impl DataFiles {
     /// [`SceneError::DataFile`], [`SceneError::Mesh`]: it cannot be read or understood.
     pub fn read<T: Content>(&self, origin: Origin, document: &Path, path: PathBuf) -> Result<DataFile<T>, SceneError> {
         let whole = resolved(document, &path);
+        let before = match origin {
+            Origin::Disk => stamp(&whole),
+            Origin::Program => None,
+        };
         let bytes = origin.read(document, &path, T::MOST).map_err(|source| T::unread(&whole, source))?;
         let said = DataFile { path, blake3: blake3::hash(&bytes), values: Arc::new(T::parse(&bytes, &whole)?) };
-        T::known(self).0.lock().unwrap_or_else(PoisonError::into_inner).insert(whole, said.clone());
+        T::known(self).lock().insert(whole, Entry { file: said.clone(), stamp: before, named: true });
         Ok(said)
     }
 }
@@ -234,7 +281,10 @@ mod tests {
         let held = |scene: &Scene| scene.pinion.mesh.as_ref().unwrap().values() as *const mesh::Mesh;
         assert_eq!(held(&scenes[0]), held(&scenes[1]), "one copy for all cases");
         assert_eq!(held(&scenes[0]), held(&scenes[0].with_number("operation.torque_nm", 1.0).unwrap()));
+        let edited = document.edited(MESHED.replace("100.0", "50.0")).scene(&[]).unwrap();
+        assert_eq!((held(&edited), edited.operation.torque_nm), (held(&scenes[0]), 50.0), "the file is the same");
         fs::write(&mesh, "no mesh").unwrap();
+        assert!(matches!(document.edited(MESHED.to_owned()).scene(&[]), Err(SceneError::Mesh { .. })));
         let refused = Scene::parse(MESHED, &folder.path().join("a.toml")).unwrap_err();
         assert!(matches!(refused, SceneError::Mesh { .. }), "{refused}");
     }

@@ -54,6 +54,12 @@ impl Document {
         Self::made(text, file, Origin::Disk, Arc::default())
     }
 
+    /// The document with another text, as an editor has it. Of the files that both name those are read again that somebody
+    /// has written to.
+    pub fn edited(&self, text: String) -> Self {
+        Self::made(text, self.file(), self.origin(), Arc::new(self.files().unchanged()))
+    }
+
     pub(crate) fn made(text: String, file: &Path, origin: Origin, files: Arc<DataFiles>) -> Self {
         let root = Node::of_text(&text);
         Self(Arc::new(Read { file: file.to_owned(), text, root, origin, files, places: OnceLock::new() }))

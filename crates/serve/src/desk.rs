@@ -2,8 +2,8 @@
 
 use std::{
     collections::BTreeMap,
-    path::{Path, PathBuf},
-    sync::Arc,
+    path::Path,
+    sync::{Arc, Mutex, PoisonError},
     time::Instant,
 };
 
@@ -19,7 +19,7 @@ use report::{
     check_memory, static_charts,
     view::View,
 };
-use scene::{Model, Scene};
+use scene::{Document, Model, Scene};
 use serde::{Deserialize, Serialize};
 
 use crate::{
@@ -82,7 +82,8 @@ struct Outcome<'a> {
 /// Where scenes are tried, all on the same reduced gears.
 pub(crate) struct Desk<'a> {
     start: &'a str,
-    file: PathBuf,
+    /// The text that was read last, with the files that it names.
+    last: Mutex<Document>,
     limits: Limits,
     models: SharedModels<'a>,
     schema: serde_json::Value,
@@ -112,7 +113,8 @@ impl<'a> Desk<'a> {
     /// With the text of a scene to begin with.
     pub fn new(start: &'a str, file: &Path, limits: Limits, cache: &'a dyn GearCache) -> Self {
         let (models, schema) = (SharedModels::new(cache), scene::json_schema());
-        Self { start, file: file.to_owned(), limits, models, schema }
+        let last = Mutex::new(Document::new(start.to_owned(), file));
+        Self { start, last, limits, models, schema }
     }
 
     /// The scene to begin with, where this page can show it.
@@ -170,7 +172,12 @@ impl<'a> Desk<'a> {
 
     /// The checked scene of a text, where this page can show it.
     fn scene(&self, text: &str) -> Result<Scene, Fault> {
-        let scene = Scene::parse(text, &self.file).map_err(|e| Fault::of_scene(text, &e))?;
+        let document = {
+            let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+            *last = last.edited(text.to_owned());
+            last.clone()
+        };
+        let scene = document.scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
         if scene.motion.is_some() || is_lumped(&scene) {
             let fault = Fault::new("this page shows a pair at rest, and the scene asks for a motion", AT_REST);
             return Err(fault.about(if is_lumped(&scene) { "analysis.model" } else { "analysis.kind" }));
