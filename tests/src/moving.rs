@@ -4,7 +4,7 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{
     Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
-    SweepPoint, Torque, equivalent_mass, quasi_static_start, sweep,
+    SweepPoint, Torque, equivalent_mass, instants, quasi_static_start, sweep,
 };
 use integrate::Scheme;
 use ltca::{StaticOptions, StaticPosition};
@@ -102,7 +102,9 @@ impl MovingPair {
 pub fn rows(motion: &mut Motion, cycles: u64) -> Vec<f64> {
     let mut all = Vec::new();
     for _ in 0..cycles {
-        motion.run_cycle(Some(&mut |now, _, _| all.push(now.transmission_error))).unwrap_or_else(|e| panic!("{e}"));
+        motion
+            .run_cycle(Some(&mut instants(|now, _, _| all.push(now.transmission_error))))
+            .unwrap_or_else(|e| panic!("{e}"));
     }
     all
 }

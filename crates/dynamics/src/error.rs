@@ -32,22 +32,6 @@ pub enum PairMotionError {
         /// Force that round-off makes, N.
         lost_n: f64,
     },
-    /// A checkpoint of a pair with another number of coordinates.
-    #[error(
-        "the checkpoint belongs to a motion with other free coordinates: it has {checkpoint}, this motion has {motion}"
-    )]
-    OtherCoordinates {
-        /// Coordinates of the checkpoint.
-        checkpoint: usize,
-        /// Coordinates of the motion.
-        motion: usize,
-    },
-    /// The driver's speed falls to zero within a mesh cycle.
-    #[error("the gears stand still before mesh cycle {cycle} is over")]
-    StandsStill {
-        /// Mesh cycle, counted from the start of the motion.
-        cycle: u64,
-    },
     /// Shooting with a driver whose speed is free.
     #[error("a driver that a torque turns has no period of its own: shooting needs a given speed")]
     FreeDriver,
@@ -111,8 +95,6 @@ impl PairMotionError {
             Self::LostLoad { .. } => {
                 "give a larger torque: teeth that bear next to nothing are not known well enough to move under it".into()
             }
-            Self::OtherCoordinates { .. } => "go on with the scene that the checkpoint was written for".into(),
-            Self::StandsStill { .. } => "ask for fewer mesh cycles, or let the speed end above zero".into(),
             Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
                 "wait for the motion to settle instead of shooting for its periodic state".into()
             }

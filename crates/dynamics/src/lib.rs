@@ -22,7 +22,6 @@ mod shooting;
 mod side_loads;
 mod stable_step;
 mod start;
-mod steady;
 mod sweep;
 
 pub use body::{Bearing, COORDINATES, RigidBody};
@@ -40,13 +39,11 @@ pub use modal::GearVibration;
 pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};
 pub use rotation::rotation_share;
-pub use run::{Checkpoint, Counts, Motion, MotionSettings, RowObserver};
+pub use run::{Motion, MotionSettings, compared, instants, run_to_steady};
 pub use shooting::{ShootingResult, shoot};
 pub use side_loads::SideLoads;
 pub use stable_step::stable_step;
 pub use start::quasi_static_start;
-pub use steady::run_to_steady;
 pub use sweep::{
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepDirection, SweepMiss, SweepOutcome, SweepPlan, SweepPoint,
-    sweep,
+    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
 };

@@ -9,7 +9,7 @@
 //! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
 //! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.
 
-use integrate::{MotionError, State, difference};
+use integrate::{MotionError, Resumable, State, difference};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
@@ -54,7 +54,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
         return Err(PairMotionError::ModesWithoutPeriod);
     };
     let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
-    let mut search = Search { start: motion.system().mechanism_state(), period, back, periods: 0 };
+    let mut search = Search { start: motion.system().memory(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
     motion.rewind(&search.start, here.clone())?;
@@ -123,7 +123,7 @@ impl Search {
     fn monodromy(&mut self, motion: &Motion, here: &State, end: &End) -> Result<DMatrix<f64>, PairMotionError> {
         let (n, parts) = (here.q.len(), parts(motion));
         self.periods += parts * n;
-        let scale = &motion.settings().scale;
+        let scale = &motion.timetable().scale;
         let omega = std::f64::consts::TAU * motion.system().mesh_resonance_hz();
         let base = stacked(&end.state, parts);
         let column = |j: usize| {
@@ -133,7 +133,7 @@ impl Search {
             offset[j] = size;
             let system = motion.system().with_drive(motion.system().options().drive.clone());
             let system = system.map_err(|source| PairMotionError::contact(here.time, source))?;
-            let mut own = Motion::new(system, motion.settings().clone(), here.clone());
+            let mut own = Motion::new(system, motion.timetable().clone(), here.clone());
             let there = self.over_period(&mut own, &moved(here, &offset))?;
             Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)
         };
@@ -145,7 +145,7 @@ impl Search {
         motion.rewind(&self.start, from.clone())?;
         let mut size: Option<[DVector<f64>; 2]> = None;
         for _ in 0..self.period {
-            let envelope = motion.run_cycle(None)?.peak_to_peak();
+            let envelope = motion.run_cycle::<PairMotionError>(None)?.peak_to_peak();
             size = Some(match size {
                 None => envelope,
                 Some(before) => [0, 1].map(|i| before[i].sup(&envelope[i])),
@@ -156,7 +156,7 @@ impl Search {
             *part = &self.back * &*part;
         }
         let both = [[state.q.clone(), state.v.clone()], [from.q.clone(), from.v.clone()]];
-        let scale = &motion.settings().scale;
+        let scale = &motion.timetable().scale;
         let residual = size.map_or(f64::INFINITY, |s| difference([&both[0], &both[1]], &s, scale, None));
         Ok(End { state, residual })
     }
@@ -164,7 +164,7 @@ impl Search {
 
 /// Parts of x: coordinates, velocities, and the integrator's own acceleration where it has one.
 fn parts(motion: &Motion) -> usize {
-    if motion.carries_acceleration() { 3 } else { 2 }
+    if motion.timetable().scheme.carries_acceleration() { 3 } else { 2 }
 }
 
 fn stacked(state: &State, parts: usize) -> DVector<f64> {

@@ -2,25 +2,13 @@
 
 use std::ops::ControlFlow;
 
-use integrate::{Ledger, Periodicity, State};
+use integrate::{Ledger, OnlyRows, Periodicity, State, SweepDirection};
 use ltca::StaticError;
-use rayon::prelude::*;
 
 use crate::{
-    Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, ToothChanges, quasi_static_start,
-    run_to_steady, shoot,
+    Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, ToothChanges, instants,
+    quasi_static_start, run::steady_goal, shoot,
 };
-
-/// Order in which a sweep goes through its speeds.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SweepDirection {
-    /// Every speed starts independently, in quasi-static equilibrium.
-    Independent,
-    /// From the lowest speed to the highest, each beginning where the one before ended.
-    Up,
-    /// From the highest to the lowest.
-    Down,
-}
 
 /// How a steady state is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -119,58 +107,13 @@ pub fn sweep(
     if matches!(system.options().drive, Drive::Torque { .. }) {
         return Err(PairMotionError::SweepByTorque);
     }
-    let follow = |way: SweepDirection| {
-        let mut state: Option<State> = None;
-        let mut outcomes = Vec::with_capacity(plan.speeds.len());
-        let mut speeds = plan.speeds.clone();
-        if way == SweepDirection::Down {
-            speeds.reverse();
-        }
-        for speed in speeds {
-            let (outcome, end) = sweep_speed(system, plan, way, speed, state.as_ref());
-            state = end.or(state);
-            let goes_on = seen(&outcome);
-            outcomes.push(outcome);
-            if goes_on.is_break() {
-                break;
-            }
-        }
-        outcomes
+    let at = |way: SweepDirection, &speed: &f64, from: Option<&State>| {
+        steady_state_at(system, plan, way, speed, from).map_err(|error| SweepMiss { speed, way, error })
     };
-    let independent = |&speed: &f64| {
-        let (outcome, _) = sweep_speed(system, plan, SweepDirection::Independent, speed, None);
-        let _ = seen(&outcome);
-        outcome
-    };
-    let of_direction = |&way: &SweepDirection| match way {
-        SweepDirection::Independent => plan.speeds.par_iter().map(independent).collect(),
-        _ => follow(way),
-    };
-    let all: Vec<Vec<SweepOutcome>> = plan.ways.par_iter().map(of_direction).collect();
-    Ok(all.into_iter().flatten().collect())
-}
-
-/// One speed, started from the state of its neighbour; where that fails, from its own quasi-static equilibrium. Returns
-/// its outcome and its final state.
-fn sweep_speed(
-    system: &PairMechanism,
-    plan: &SweepPlan,
-    way: SweepDirection,
-    speed: f64,
-    state: Option<&State>,
-) -> (SweepOutcome, Option<State>) {
     // A starved window does not depend on the start.
-    let starved = |e: &PairMotionError| e.contact_error().is_some_and(StaticError::is_starved);
-    let carried = state.map(|state| steady_state_at(system, plan, way, speed, Some(state)));
-    let found = match carried {
-        Some(Ok(found)) => Ok(found),
-        Some(Err(error)) if starved(&error) => Err(error),
-        Some(Err(_)) | None => steady_state_at(system, plan, way, speed, None),
-    };
-    match found {
-        Ok((point, end)) => (Ok(point), Some(end)),
-        Err(error) => (Err(SweepMiss { speed, way, error }), None),
-    }
+    let starved = |miss: &SweepMiss| miss.error.contact_error().is_some_and(StaticError::is_starved);
+    let all = integrate::sweep(&plan.speeds, &plan.ways, at, starved, |_, outcome| seen(outcome));
+    Ok(all.into_iter().flatten().map(|(_, outcome)| outcome).collect())
 }
 
 fn steady_state_at(
@@ -196,7 +139,9 @@ fn steady_state_at(
     if by == SteadyBy::Shooting {
         shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
     }
-    let periodicity = run_to_steady(&mut motion, tolerance, most, |_, _| ())?;
+    let goal = steady_goal(&motion, (tolerance, most), cycles);
+    motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
+    let periodicity = motion.stage().periodicity.unwrap_or(Periodicity { period: 1, residual: f64::INFINITY });
     let mut point = SweepPoint {
         speed,
         way,
@@ -211,7 +156,7 @@ fn steady_state_at(
         extremes: Extremes::default(),
         changes: ToothChanges::default(),
     };
-    let mut row = |now: &crate::Instant, _: &Ledger, _: &PairMechanism| {
+    let row = |now: &crate::Instant, _: &Ledger, _: &PairMechanism| {
         point.transmission_error.push(now.transmission_error);
         point.normal_force.push(now.normal_forces[0]);
         point.coast_force = point.coast_force.max(now.normal_forces[1]);
@@ -219,9 +164,7 @@ fn steady_state_at(
             point.bearing_force = point.bearing_force.max(now.bearing.fixed_rows::<3>(at).norm());
         }
     };
-    for _ in 0..cycles {
-        motion.run_cycle(Some(&mut row))?;
-    }
+    motion.record(&goal, &mut OnlyRows(instants(row)))?;
     point.ledger = motion.ledger().copied().unwrap_or_default();
     (point.extremes, point.changes) = (*motion.system().extremes(), motion.system().changes());
     let end = motion.state().clone();

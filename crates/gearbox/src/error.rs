@@ -109,12 +109,23 @@ pub enum GearboxError {
         length_mm: f64,
     },
     /// A state of another gearbox.
-    #[error("the state to go on from has {checkpoint} coordinates, and the motion has {motion}")]
-    OtherCoordinates {
+    #[error("the state to go on from has {checkpoint} meshes, and the motion has {motion}")]
+    OtherMeshes {
         /// Those of the state.
         checkpoint: usize,
         /// Those of the motion.
         motion: usize,
+    },
+    /// A motion that is to settle, and may not wait until it could repeat itself.
+    #[error(
+        "all meshes come back together after {} cycles of the fastest one, and the motion may wait for {most}",
+        period.map_or("more than 100000".into(), |p| p.to_string())
+    )]
+    NoCommonPeriod {
+        /// Cycles of the fastest mesh after which all meshes come back; `None`: too many to be looked for.
+        period: Option<u64>,
+        /// Cycles that the motion may wait.
+        most: u64,
     },
     /// A value is not a finite number, or below 0 where it must not be.
     #[error("{part}: {quantity} = {value} must be a number of 0 or more")]
@@ -330,7 +341,8 @@ impl GearboxError {
                 "shafts and discs are numbered in the order in which they are given"
             }
             Self::OffShaft { .. } => "positions count from the shaft's own beginning, its sections one after the other",
-            Self::OtherCoordinates { .. } => "begin the motion anew",
+            Self::OtherMeshes { .. } => "begin the motion anew",
+            Self::NoCommonPeriod { .. } => "raise `warm_up_cycles` in [motion], or take `run = \"span\"`",
             Self::OutOfRange { .. } => {
                 "inside are mm, N, t, s: 1 MN/m is 1000 N/mm, 1 kg is 0.001 t, 1 kg m^2 is 1000 t mm^2"
             }

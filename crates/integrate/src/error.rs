@@ -94,6 +94,22 @@ pub enum MotionError<E> {
         /// Its value.
         value: f64,
     },
+    /// The motion comes to a stop before a cycle is over.
+    #[error("the motion stands still before cycle {cycle} is over")]
+    StandsStill {
+        /// Cycle, counted from the start of the motion.
+        cycle: u64,
+    },
+    /// A checkpoint of a motion with another number of coordinates.
+    #[error(
+        "the checkpoint belongs to a motion with other free coordinates: it has {checkpoint}, this motion has {motion}"
+    )]
+    OtherCoordinates {
+        /// Coordinates of the checkpoint.
+        checkpoint: usize,
+        /// Coordinates of the motion.
+        motion: usize,
+    },
     /// A spectral radius that generalised-alpha cannot have.
     #[error("the spectral radius of generalised-alpha lies between 0 and 1, not at {rho}")]
     SpectralRadius {
@@ -121,6 +137,8 @@ impl<E> MotionError<E> {
                 MotionError::Lengths { mass, scale, coordinates, velocities }
             }
             Self::NotPositive { name, value } => MotionError::NotPositive { name, value },
+            Self::StandsStill { cycle } => MotionError::StandsStill { cycle },
+            Self::OtherCoordinates { checkpoint, motion } => MotionError::OtherCoordinates { checkpoint, motion },
             Self::SpectralRadius { rho } => MotionError::SpectralRadius { rho },
         })
     }
@@ -146,6 +164,8 @@ impl<E> MotionError<E> {
             Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
             Self::Lengths { .. } => "give one scale, one coordinate and one velocity for each row of the mass matrix",
             Self::NotPositive { .. } => "give a positive number",
+            Self::StandsStill { .. } => "ask for fewer mesh cycles, or let the speed end above zero",
+            Self::OtherCoordinates { .. } => "go on with the scene that the checkpoint was written for",
             Self::SpectralRadius { .. } => "give `spectral_radius` a number from 0 to 1",
         }
     }

@@ -60,6 +60,53 @@ pub trait Mechanism {
     fn accepted(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), Self::Error> {
         Ok(())
     }
+
+    /// Forgets what is remembered of earlier places, so that all answers depend on the place alone, to the last bit.
+    /// Nothing to do for a system whose forces are formulas.
+    fn forget(&mut self) {}
+
+    /// Called when a cycle of the motion between two times (s) is complete: the place for sums over cycles.
+    fn end_cycle(&mut self, _begin: f64, _end: f64) {}
+}
+
+impl<M: Mechanism> Mechanism for &mut M {
+    type Error = M::Error;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        (**self).mass()
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), M::Error> {
+        (**self).forces(t, q, v, out)
+    }
+
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, M::Error> {
+        (**self).potential(t, q)
+    }
+
+    fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, M::Error> {
+        (**self).potential_off_path(t, q)
+    }
+
+    fn events(&self) -> usize {
+        (**self).events()
+    }
+
+    fn event_values(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut [f64]) -> Result<(), M::Error> {
+        (**self).event_values(t, q, v, out)
+    }
+
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), M::Error> {
+        (**self).accepted(t, q, v)
+    }
+
+    fn forget(&mut self) {
+        (**self).forget();
+    }
+
+    fn end_cycle(&mut self, begin: f64, end: f64) {
+        (**self).end_cycle(begin, end);
+    }
 }
 
 /// Generalised forces of a system of n coordinates at one state.

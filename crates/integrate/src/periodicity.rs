@@ -16,7 +16,7 @@ const CLEARLY_SMALLER: f64 = 0.03;
 const STILL_AMPLITUDE: f64 = 1e-6;
 
 /// Least and largest coordinates and velocities over some time, such as a period.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Envelope {
     low: [DVector<f64>; 2],
     high: [DVector<f64>; 2],
@@ -31,10 +31,25 @@ impl Envelope {
 
     /// Takes in a further state.
     pub fn widen(&mut self, state: &State) {
-        for (i, x) in [&state.q, &state.v].into_iter().enumerate() {
-            self.low[i] = self.low[i].inf(x);
-            self.high[i] = self.high[i].sup(x);
+        self.take_in([&state.q, &state.v], [&state.q, &state.v]);
+    }
+
+    /// Over this time and another one.
+    pub(crate) fn joined(mut self, other: &Self) -> Self {
+        self.take_in(other.low.each_ref(), other.high.each_ref());
+        self
+    }
+
+    fn take_in(&mut self, lows: [&DVector<f64>; 2], highs: [&DVector<f64>; 2]) {
+        for i in 0..2 {
+            self.low[i].zip_apply(lows[i], |low, x| *low = low.min(x));
+            self.high[i].zip_apply(highs[i], |high, x| *high = high.max(x));
         }
+    }
+
+    /// Whether it is of `n` coordinates.
+    pub(crate) fn is_of(&self, n: usize) -> bool {
+        self.low.iter().chain(&self.high).all(|part| part.len() == n)
     }
 
     /// Peak to peak of coordinates and velocities.
@@ -62,6 +77,11 @@ impl Recurrence {
     /// From a state on.
     pub fn from(state: &State) -> Self {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
+    }
+
+    /// Whether its states have `n` coordinates.
+    pub(crate) fn is_of(&self, n: usize) -> bool {
+        self.starts.iter().flatten().all(|part| part.len() == n)
     }
 
     /// Takes the state at the end of a period. The result is the shortest period within `tolerance`, else the best one;
@@ -120,4 +140,47 @@ pub fn difference(
         }
     }
     worst
+}
+
+/// Difference after one cycle, over the peak to peak, below which a motion dies out to period one rather than having a
+/// longer period.
+const SUBHARMONIC: f64 = 0.01;
+
+/// One number of each row of the last cycles: whether a motion repeats itself as far as it tells.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct SignalRecurrence {
+    cycles: VecDeque<Vec<f64>>,
+}
+
+impl SignalRecurrence {
+    /// Takes the rows of one more cycle. A period of several cycles is one only where the motion differs clearly after
+    /// one: what dies out slowly may look alike after a few cycles by chance.
+    ///
+    /// Largest difference of a row to the one that many cycles before, over the peak to peak of this cycle, or over a
+    /// millionth of its largest value where that is more: what does not vibrate repeats itself.
+    pub fn judge(&mut self, rows: Vec<f64>, tolerance: f64) -> Periodicity {
+        let (low, high) = rows.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), &x| (a.min(x), b.max(x)));
+        let size = (high - low).max(1e-6 * low.abs().max(high.abs())).max(f64::MIN_POSITIVE);
+        let mut once = f64::INFINITY;
+        let mut best = Periodicity { period: 1, residual: f64::INFINITY };
+        for (i, before) in self.cycles.iter().rev().enumerate() {
+            // What is no number is never small.
+            let worse = |a: f64, b: f64| if a.is_nan() || a >= b { a } else { b };
+            let residual = rows.iter().zip(before).map(|(a, b)| (a - b).abs()).fold(0.0, worse) / size;
+            if i == 0 {
+                once = residual;
+            }
+            if i == 0 || (once > SUBHARMONIC && residual < best.residual) {
+                best = Periodicity { period: i + 1, residual };
+            }
+            if residual <= tolerance {
+                break;
+            }
+        }
+        if self.cycles.len() == LONGEST_PERIOD {
+            self.cycles.pop_front();
+        }
+        self.cycles.push_back(rows);
+        best
+    }
 }

@@ -99,3 +99,16 @@ pub enum StepControl {
         largest: f64,
     },
 }
+
+impl StepControl {
+    /// Steps of length `longest` (s), or by a local error where one is allowed: then no longer than that, and no shorter
+    /// than a ten-millionth of it.
+    pub fn new(tolerance: Option<f64>, longest: f64) -> Self {
+        match tolerance {
+            None => Self::Fixed(longest),
+            Some(tolerance) => {
+                Self::Adaptive { tolerance, first: 0.1 * longest, least: 1e-7 * longest, largest: longest }
+            }
+        }
+    }
+}

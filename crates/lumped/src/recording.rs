@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use integrate::{Integrator, Ledger, Mechanism, MotionError, Scheme, State, StepControl};
+use integrate::{Course, EvenRows, Ledger, Mechanism, Method, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
 
 /// What is to be run, and which rows are kept of it.
@@ -34,7 +34,7 @@ pub struct Recorded<R> {
 /// Runs a system from `state` on.
 pub(crate) fn record<M: Mechanism<Error = Infallible>, R>(
     system: &mut M,
-    mut state: State,
+    state: State,
     scale: DVector<f64>,
     plan: &Recording,
     mut row: impl FnMut(&mut M, &State) -> R,
@@ -42,14 +42,16 @@ pub(crate) fn record<M: Mechanism<Error = Infallible>, R>(
     if plan.rows == 0 {
         return Err(MotionError::NotPositive { name: "rows of a run", value: 0.0 });
     }
-    let mut integrator = Integrator::new(plan.scheme, plan.control, scale);
+    let method = Method { scheme: plan.scheme, scale, stop_at_events: false, keep_stable: false };
     let first = state.time + plan.settle;
-    integrator.advance(system, &mut state, first, |_, _| ())?;
     let spacing = plan.duration / plan.rows as f64;
+    let times = EvenRows { method, control: plan.control, first, spacing, rows: plan.rows };
+    let mut course = Course::new(system, times, state);
+    course.run_cycle::<MotionError<Infallible>>(None)?;
     let mut rows = Vec::with_capacity(plan.rows);
-    for k in 1..=plan.rows {
-        rows.push(row(system, &state));
-        integrator.advance(system, &mut state, first + k as f64 * spacing, |_, _| ())?;
-    }
-    Ok(Recorded { rows, ledger: integrator.ledger().copied().unwrap_or_default(), state })
+    course.run_cycle::<MotionError<Infallible>>(Some(&mut |at| {
+        rows.push(row(at.system, at.state));
+        Ok(())
+    }))?;
+    Ok(Recorded { rows, ledger: course.ledger().copied().unwrap_or_default(), state: course.state().clone() })
 }

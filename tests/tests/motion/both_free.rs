@@ -5,10 +5,10 @@
 use std::{ops::ControlFlow, sync::OnceLock};
 
 use dynamics::{
-    Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepDirection,
-    SweepPlan, Torque, quasi_static_start, sweep,
+    Drive, Instant, MeshDamping, Motion, MotionOptions, PairMechanism, Speed, SteadyBy, SteadyOptions, SweepPlan,
+    Torque, instants, quasi_static_start, sweep,
 };
-use integrate::{Mechanism, Scheme};
+use integrate::{Mechanism, Scheme, SweepDirection};
 use ltca::{StaticError, StaticOptions};
 use verification::moving::{MovingPair, peak_to_peak, rows, swept, worst};
 
@@ -84,16 +84,18 @@ fn momentum_of_the_common_motion_is_held() {
     let settings = bench.settings(&system, Scheme::Energy, ROWS);
     let mut motion = bench.motion(system, settings);
     let (mut worst, mut swings, mut torques) = (0.0f64, [0.0f64; 2], [f64::INFINITY, 0.0f64]);
-    let mut look = |now: &Instant, _: &_, _: &_| {
+    let look = |now: &Instant, _: &_, _: &_| {
         worst = worst.max((momentum(bench, masses, now.speeds) / wanted - 1.0).abs());
         for g in 0..2 {
             swings[g] = swings[g].max((now.speeds[g] - nominal[g]).abs());
         }
         torques = [torques[0].min(now.drive_torque), torques[1].max(now.drive_torque)];
     };
+    let mut look = instants(look);
     for _ in 0..4 {
         motion.run_cycle(Some(&mut look)).unwrap_or_else(|e| panic!("{e}"));
     }
+    drop(look);
     println!("momentum off by {worst:.1e}; speeds swing by {swings:?} rad/s; torque {torques:?} N mm");
     assert!(worst < 1e-12, "momentum off by {worst:e}");
     // Equal gears, the wheel with three times the inertia: it swings by a third.

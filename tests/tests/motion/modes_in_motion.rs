@@ -8,7 +8,7 @@ use ale::Station;
 use contact::Bulk;
 use dynamics::{
     Bearing, CHANGE_LIMIT, ElasticChange, GearVibration, LOW_FREQUENCY_LIMIT, Motion, MotionOptions, MotionSettings,
-    PairMechanism, RigidBody, quasi_static_start, run_to_steady, shoot,
+    PairMechanism, RigidBody, instants, quasi_static_start, run_to_steady, shoot,
 };
 use fem::ElementOptions;
 use geometry::{Gear, GearData, GearPair};
@@ -250,12 +250,12 @@ fn shooting_finds_what_waiting_finds() {
             assert!(shot.residual < 1e-7 && shot.multiplier < 1.0, "{shot:?}");
             shot.periods as u64
         } else {
-            let found = run_to_steady(&mut motion, 1e-7, 400, |_, _| ()).unwrap();
+            let found = run_to_steady(&mut motion, 1e-7, 400).unwrap();
             assert!(found.residual < 1e-7 && found.period == 1, "{found:?}");
             motion.cycle()
         };
         let mut errors = Vec::new();
-        motion.run_cycle(Some(&mut |now, _, _| errors.push(now.transmission_error))).unwrap();
+        motion.run_cycle(Some(&mut instants(|now, _, _| errors.push(now.transmission_error)))).unwrap();
         (periods, errors)
     });
     let off = waited.1.iter().zip(&shot.1).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / pair.ste;

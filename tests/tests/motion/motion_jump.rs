@@ -4,9 +4,9 @@
 
 use std::sync::OnceLock;
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepDirection, SweepPlan, SweepPoint};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint};
 use fem::ElementOptions;
-use integrate::{Integrator, Scheme, State, StepControl};
+use integrate::{Integrator, Scheme, State, StepControl, SweepDirection};
 use ltca::StaticOptions;
 use nalgebra::DVector;
 use verification::{

@@ -10,9 +10,9 @@
 //! and contact lines of constant length.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepDirection, SweepPlan};
+use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan};
 use geometry::GearData;
-use integrate::Scheme;
+use integrate::{Scheme, SweepDirection};
 use ltca::StaticOptions;
 use verification::moving::{MovingPair, order, peak_to_peak, swept};
 

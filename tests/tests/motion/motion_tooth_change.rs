@@ -8,7 +8,7 @@ use ale::ToothWindow;
 use dynamics::{MeshDamping, MotionOptions, PairMechanism, quasi_static_start, run_to_steady};
 use fem::ElementOptions;
 use geometry::Sense;
-use integrate::{Forces, Integrator, Mechanism, Scheme, StepControl};
+use integrate::{Forces, Integrator, Mechanism, Resumable, Scheme, StepControl};
 use ltca::{StaticError, StaticOptions};
 use nalgebra::{DMatrix, DVector};
 use verification::{
@@ -46,7 +46,7 @@ fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> 
     let system = pair.system(SPEED_RATIO * resonance, change);
     let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
     let mut motion = pair.motion(system, settings);
-    let found = run_to_steady(&mut motion, 1e-10, 60, |_, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    let found = run_to_steady(&mut motion, 1e-10, 60).unwrap_or_else(|e| panic!("{e}"));
     println!("steady after {} cycles: {found:?}", motion.cycle());
     motion
 }
@@ -130,7 +130,7 @@ impl Mechanism for Forced {
         // Counter-clockwise, pair 0 is in the middle of cycle 0, and numbers fall.
         let centre = 0.5 - (t * self.cycles_per_second + self.early);
         let due = ToothWindow::nominal_first(centre, self.teeth);
-        let mut place = self.pair.mechanism_state();
+        let mut place = self.pair.memory();
         if place.driving.first != due {
             place.driving.first = due;
             self.pair.restore(&place)?;

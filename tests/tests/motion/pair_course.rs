@@ -5,12 +5,12 @@
 use std::sync::OnceLock;
 
 use dynamics::{
-    Bearing, Checkpoint, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism,
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepDirection, SweepPlan, Torque, quasi_static_start,
-    run_to_steady, shoot,
+    Bearing, Drive, MechanismState, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, PairMotionError,
+    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepPlan, Torque, instants, quasi_static_start, run_to_steady,
+    shoot,
 };
 use geometry::{Driver, Sense};
-use integrate::Scheme;
+use integrate::{Checkpoint, Scheme, SweepDirection};
 use ltca::StaticError;
 use nalgebra::Matrix6;
 use verification::moving::{MovingPair, rows, swept, worst};
@@ -51,9 +51,9 @@ fn the_start_sets_nothing_off() {
     let mut motion = motion(bench, bench.system(50.0, slow), Scheme::Energy);
     let (first, start) = (bench.ste[0], motion.state().clone());
     assert!((start.q[0] / first - 1.0).abs() < 1e-6, "begins at {} mm, STE is {first} mm", start.q[0]);
-    let scale = motion.settings().scale.clone();
+    let scale = motion.timetable().scale.clone();
     let mut seen = Vec::new();
-    motion.run_cycle(Some(&mut |now, _, _| seen.push((now.time, now.transmission_error)))).unwrap();
+    motion.run_cycle(Some(&mut instants(|now, _, _| seen.push((now.time, now.transmission_error))))).unwrap();
     let mut still = bench.system(50.0, slow);
     // Later on slices that come into contact, one after the other, strike the undamped mesh near its resonance.
     let off = seen.iter().take(4).map(|(time, error)| {
@@ -72,7 +72,7 @@ fn shooting_finds_what_waiting_finds() {
     let weak = |o: &mut MotionOptions| o.damping = MeshDamping::Ratio(0.02);
     for scheme in [Scheme::Energy, Scheme::GeneralisedAlpha { rho: 0.8 }] {
         let mut waited = motion(bench, bench.system(1500.0, weak), scheme);
-        let found = run_to_steady(&mut waited, 1e-7, 2000, |_, _| ()).unwrap();
+        let found = run_to_steady(&mut waited, 1e-7, 2000).unwrap();
         let cycles = waited.cycle();
         assert!(found.residual <= 1e-7, "{scheme:?}: off by {found:?} after {cycles} cycles");
         let mut shot_at = motion(bench, bench.system(1500.0, weak), scheme);
@@ -97,7 +97,7 @@ fn a_checkpoint_holds_all_there_is() {
         let mut whole = motion(bench, bench.system(700.0, |_| ()), scheme);
         rows(&mut whole, 3);
         let text = serde_json::to_string(&whole.checkpoint().unwrap()).unwrap();
-        let back: Checkpoint = serde_json::from_str(&text).unwrap();
+        let back: Checkpoint<MechanismState> = serde_json::from_str(&text).unwrap();
         let system = bench.system(700.0, |_| ());
         let settings = settings(bench, &system, scheme);
         let mut resumed = Motion::resume(system, settings, back).unwrap();
@@ -125,12 +125,12 @@ fn energy_closes_with_bearings_and_friction() {
     let mut driven = 0.0;
     for _ in 0..2 {
         motion
-            .run_cycle(Some(&mut |now, _, _| {
+            .run_cycle(Some(&mut instants(|now, _, _| {
                 for (sum, at) in bearings.iter_mut().zip([1, 7]) {
                     *sum += now.bearing[at] / (2.0 * ROWS as f64);
                 }
                 driven += now.mesh[7] / (2.0 * ROWS as f64);
-            }))
+            })))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     let ledger = *motion.ledger().unwrap();
@@ -156,7 +156,7 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     let (mut last, mut turned) = ([0.0; 2], 0.0);
     for _ in 0..6 {
         motion
-            .run_cycle(Some(&mut |now, _, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles)))
+            .run_cycle(Some(&mut instants(|now, _, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles))))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     let expected = start + excess / inertia * last[0];
@@ -216,7 +216,8 @@ fn a_sweep_is_the_same_from_either_side() {
 fn a_starved_window_is_an_error() {
     let bench = bench();
     let mut motion = motion(bench, bench.system(500.0, |o| o.load = Torque::Constant(1e7)), Scheme::Energy);
-    let error = (0..2).find_map(|_| motion.run_cycle(None).err()).expect("two cycles with teeth missing");
+    let error =
+        (0..2).find_map(|_| motion.run_cycle::<PairMotionError>(None).err()).expect("two cycles with teeth missing");
     println!("{error}");
     let starved = matches!(error.contact_error(), Some(StaticError::Window(ale::AleError::Starved { window: 3, .. })));
     assert!(starved, "{error}");

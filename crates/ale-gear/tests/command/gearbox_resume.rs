@@ -17,7 +17,8 @@ fn run(scratch: &Scratch, out: &str, words: &[&str]) -> Run {
     scratch.command(&[&["run", "box.toml", "--out", out], words].concat())
 }
 
-/// Every kind of mesh and of drive, rows at the ends of cycles and beside them: a motion that is stopped and gone on with,
+/// Every kind of mesh and of drive, rows at the ends of cycles and beside them, steps by an error, a motion that settles
+/// first: a motion that is stopped and gone on with,
 /// twice, has the bytes of one in a piece, and so has one that leaves a checkpoint after every cycle.
 #[test]
 fn a_motion_in_parts_is_the_one_in_a_piece() {
@@ -26,6 +27,8 @@ fn a_motion_in_parts_is_the_one_in_a_piece() {
         "mesh = \"spring\"\nto_speed_rpm = 2500.0\ncycles = 9\nsteps_per_cycle = 20\nsteps_per_row = 7\n",
         "mesh = \"spring\"\nmethod = \"generalised-alpha\"\ncycles = 8\nsteps_per_cycle = 16\nsteps_per_row = 40\n",
         "mesh = \"exact\"\ncycles = 6\nsteps_per_cycle = 12\nsteps_per_row = 3\n",
+        "mesh = \"spring\"\nerror_tolerance = 1e-5\nstop_at_events = true\ncycles = 8\nsteps_per_cycle = 16\n",
+        "mesh = \"spring\"\nrun = \"steady\"\nperiodic_tolerance = 1e-2\ncycles = 4\nsteps_per_cycle = 16\nsteps_per_row = 4\n",
     ] {
         let scratch = two_stages(motion);
         let whole = run(&scratch, "whole", &[]);

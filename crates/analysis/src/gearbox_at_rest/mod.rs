@@ -228,6 +228,7 @@ fn solve(
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
     let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
+    warnings.extend(moved.as_ref().zip(file.motion.as_ref()).and_then(|(moved, asked)| moved.remark(asked)));
     let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), warnings);
     Ok((GearboxResult { motion: moved, ..result }, stopped))
 }

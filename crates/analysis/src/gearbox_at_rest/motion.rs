@@ -2,14 +2,16 @@
 
 use std::f64::consts::TAU;
 
+use answer::Remark;
 use dynamics::{RigidBody, Speed};
 use gearbox::{
     GearboxError, GearboxPosition, Mesh, Meshing, Operation, Structure, Train, Vector12,
     motion::{
-        ContactSpring, Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRow, MapRequest, MotionOptions,
-        MotionPlan, MovingMesh, ReductionCertificate,
+        ContactSpring, Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRun,
+        MapRequest, MotionOptions, MotionPlan, MovingMesh, ReductionCertificate,
     },
 };
+use integrate::{Follower, MotionError, Periodicity, Row, Settle, Stage};
 use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
 
 use super::{
@@ -18,7 +20,7 @@ use super::{
     orders::{MotionOrder, orders},
     sink::GearboxSink,
 };
-use crate::{AnalysisError, Observer, PhaseWork, run_phase, unless_cancelled};
+use crate::{AnalysisError, Observer, PhaseWork, Progress, remark, run_phase, unless_cancelled};
 
 /// Largest force of a map over the mean at rest.
 const OVERLOAD: f64 = 4.0;
@@ -54,6 +56,28 @@ pub struct GearboxMotionResult {
     pub orders: Vec<MotionOrder>,
     /// How well the shafts were reduced.
     pub reduction: ReductionCertificate,
+    /// Cycles of the fastest mesh before the rows.
+    pub warm_up_cycles: u64,
+    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where it need not.
+    pub periodicity: Option<Periodicity>,
+}
+
+impl GearboxMotionResult {
+    /// What a user should hear of a motion that was to settle.
+    pub(super) fn remark(&self, asked: &GearboxMotion) -> Option<Remark> {
+        let (tolerance, most) = asked.settle?;
+        let found = self.periodicity?;
+        let early = self.warm_up_cycles < u64::from(most);
+        if found.residual <= tolerance {
+            return None;
+        }
+        Some(if early {
+            remark::repeats_and_drifts(tolerance, self.warm_up_cycles, found.residual)
+        } else {
+            let why = "it may be chaotic, have pitch errors, or need more `warm_up_cycles`";
+            remark::not_periodic(self.warm_up_cycles, found.residual, tolerance, why)
+        })
+    }
 }
 
 /// What is known of the gearbox at rest when its motion begins.
@@ -113,77 +137,133 @@ pub(super) fn run(
     });
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
-    // A ramp has its longest steps where it is slowest.
-    let slowest = speed.min(asked.to_speed_rpm.map_or(speed, |rpm| rpm * TAU / 60.0));
-    let step = 1.0 / (rest.fastest(slowest) * f64::from(asked.steps_per_cycle));
-    let steps = u64::from(asked.cycles) * u64::from(asked.steps_per_cycle);
-    let steps_per_cycle = u64::from(asked.steps_per_cycle);
-    let steps_per_row = u64::from(asked.steps_per_row);
-    let plan = MotionPlan { scheme: asked.scheme, step, steps, steps_per_row, steps_per_cycle };
-    let (from, before) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
+    let plan = rest.plan(asked);
+    let (from, rows) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
     sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
-    let every = u64::from(asked.checkpoint_every_cycles);
-    let mut course = Course { rows: before, sink, every, stop_after: span.stop_after, kept: 0, stopped: None };
-    course.kept = from.as_ref().map_or(0, |from| from.cycles);
-    let count = (steps / plan.steps_per_row).saturating_sub(course.rows.len() as u64);
-    let (done, ended) = run_phase(observer, "run", PhaseWork::Steps(count), |progress| {
-        let mut ended = Ok(());
-        let done = mechanism.run_from(&start, from.as_ref(), &plan, |row| {
-            progress.tick();
-            ended = unless_cancelled(progress).and_then(|()| course.take(row));
-            ended.is_ok() && course.stopped.is_none()
-        });
-        (done, ended)
-    });
-    ended?;
-    let done = done.map_err(failed)?;
-    let Course { rows, stopped, .. } = course;
+    let mut goal = mechanism.goal(&start, &plan).map_err(failed)?;
+    goal.checkpoint_every = u64::from(asked.checkpoint_every_cycles);
+    goal.stop_after = span.stop_after;
+    let frequencies = mechanism.mesh_frequencies();
+    let reduction = *mechanism.bodies().certificate();
+    let mut course = mechanism.course(&start, &plan, from).map_err(failed)?;
+    let mut told = Told { rows, sink };
+    let mut stopped = false;
+    if let (Some(settle), false) = (plan.settle, course.stage().recording) {
+        stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
+            course.settle(&goal, &mut InPhase { told: &mut told, progress, settling: Some(settle.tolerance) })
+        })
+        .map_err(|e| e.of(failed))?;
+    }
+    if !stopped {
+        let left = PhaseWork::Steps(plan.cycles - course.stage().recorded.min(plan.cycles));
+        stopped = run_phase(observer, "run", left, |progress| {
+            course.record(&goal, &mut InPhase { told: &mut told, progress, settling: None })
+        })
+        .map_err(|e| e.of(failed))?;
+    }
+    let stopped = stopped.then(|| course.cycle());
+    let done = GearboxRun::of(course, &start).map_err(failed)?;
+    let rows = told.rows;
     let result = GearboxMotionResult {
         orders: orders(&rows)?,
         rows,
-        mesh_frequencies: mechanism.mesh_frequencies(),
+        mesh_frequencies: frequencies,
         stiffness: springs.iter().map(|s| s.stiffness().mean).collect(),
         damping,
-        step,
+        step: plan.step,
         steps: [done.steps, done.divided],
         energy: done.energy,
         separations: done.separations,
         reach: done.reach,
-        reduction: *mechanism.bodies().certificate(),
+        reduction,
+        warm_up_cycles: done.warm_up,
+        periodicity: done.periodicity.filter(|_| plan.settle.is_some()),
     };
     Ok((result, stopped))
 }
 
-/// Rows of a motion so far, and when a state is kept.
-struct Course<'a> {
+/// Who is told of a motion, and its rows so far.
+struct Told<'a> {
     rows: Vec<GearboxInstant>,
     sink: &'a mut dyn GearboxSink,
-    /// Cycles from one kept state to the next; 0: none.
-    every: u64,
-    stop_after: Option<u64>,
-    /// Cycles of the state that was kept last.
-    kept: u64,
-    /// Cycles after which the motion is stopped.
-    stopped: Option<u64>,
 }
 
-impl Course<'_> {
-    fn take(&mut self, row: GearboxRow<'_>) -> Result<(), AnalysisError> {
-        self.sink.row(row.instant).map_err(AnalysisError::Sink)?;
-        self.rows.push(row.instant.clone());
-        let Some(checkpoint) = row.checkpoint else { return Ok(()) };
-        let cycles = checkpoint.cycles;
-        self.stopped = self.stop_after.filter(|most| cycles >= *most).map(|_| cycles);
-        let is_due = self.every > 0 && cycles / self.every > self.kept / self.every;
-        if is_due || self.stopped.is_some() {
-            self.kept = cycles;
-            self.sink.checkpoint(checkpoint).map_err(AnalysisError::Sink)?;
+/// The same in one phase of the analysis.
+struct InPhase<'a, 'b> {
+    told: &'a mut Told<'b>,
+    progress: &'a dyn Progress,
+    /// Tolerance to which the motion settles in this phase.
+    settling: Option<f64>,
+}
+
+/// Why a motion ended.
+enum Ended {
+    Motion(GearboxError),
+    Analysis(AnalysisError),
+}
+
+impl Ended {
+    fn of(self, failed: impl Fn(GearboxError) -> AnalysisError) -> AnalysisError {
+        match self {
+            Self::Motion(e) => failed(e),
+            Self::Analysis(e) => e,
+        }
+    }
+}
+
+impl From<MotionError<GearboxError>> for Ended {
+    fn from(e: MotionError<GearboxError>) -> Self {
+        Self::Motion(e.into())
+    }
+}
+
+impl From<AnalysisError> for Ended {
+    fn from(e: AnalysisError) -> Self {
+        Self::Analysis(e)
+    }
+}
+
+impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
+    type Error = Ended;
+
+    fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), Ended> {
+        let instant = row.system.instant(row.state).map_err(Ended::Motion)?;
+        self.told.sink.row(&instant).map_err(AnalysisError::Sink)?;
+        self.told.rows.push(instant);
+        Ok(())
+    }
+
+    fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {
+        self.progress.tick();
+        unless_cancelled(self.progress)?;
+        if let (Some(tolerance), Some(found)) = (self.settling, stage.periodicity) {
+            self.progress.say(format!("repeats itself to {:.1e}, asked {tolerance:.0e}", found.residual));
         }
         Ok(())
+    }
+
+    fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {
+        Ok(self.told.sink.checkpoint(state).map_err(AnalysisError::Sink)?)
     }
 }
 
 impl AtRest<'_> {
+    /// How its motion is integrated.
+    fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
+        // A ramp has its longest steps where it is slowest.
+        let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
+        MotionPlan {
+            scheme: asked.scheme,
+            step: 1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle)),
+            cycles: u64::from(asked.cycles),
+            steps_per_cycle: u64::from(asked.steps_per_cycle),
+            steps_per_row: u64::from(asked.steps_per_row),
+            tolerance: asked.error_tolerance,
+            stop_at_events: asked.stop_at_events,
+            settle: asked.settle.map(|(tolerance, most)| Settle { tolerance, most: u64::from(most) }),
+        }
+    }
+
     /// Given speed of the input: constant, or a ramp over all cycles.
     fn nominal(&self, asked: &GearboxMotion) -> Speed {
         let from = asked.speed_rpm * TAU / 60.0;

@@ -17,7 +17,7 @@ use super::{
     inputs::{LumpedInputs, LumpedSystem},
     integration::{MeshFrequencies, stable_step},
     mechanism::BoxedMechanism,
-    run_loop::{LumpedRun, NoRunObserver, RunObserver, RunPlan},
+    run_loop::{LumpedCheckpoint, LumpedResume, LumpedRun, NoRunObserver, RunObserver, RunPlan},
     warnings::{backlash_um, certificate_warnings, no_backlash},
 };
 use crate::{
@@ -48,6 +48,14 @@ pub trait LumpedSink {
     /// # Errors
     /// Whatever ends the analysis; it comes back as [`AnalysisError::Sink`].
     fn row(&mut self, row: &LumpedRow) -> SinkResult;
+
+    /// A state to go on from, with rows and energy so far, as often as [`LumpedAnalysis::with_checkpoints`] asks for one.
+    ///
+    /// # Errors
+    /// Whatever ends the analysis.
+    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+        Ok(())
+    }
 }
 
 /// Takes nothing: the result holds all rows.
@@ -102,6 +110,8 @@ impl LumpedResult {
 pub struct LumpedAnalysis<'a> {
     scene: &'a Scene,
     cache: &'a dyn GearCache,
+    checkpoint_every: u64,
+    resume: Option<&'a LumpedResume>,
 }
 
 impl std::fmt::Debug for LumpedAnalysis<'_> {
@@ -113,7 +123,19 @@ impl std::fmt::Debug for LumpedAnalysis<'_> {
 impl<'a> LumpedAnalysis<'a> {
     /// Of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, cache: &NoCache }
+        Self { scene, cache: &NoCache, checkpoint_every: 0, resume: None }
+    }
+
+    /// Hands out a state to go on from after every so many mesh cycles, those of the warm-up included; 0: none.
+    #[must_use]
+    pub fn with_checkpoints(self, every: u64) -> Self {
+        Self { checkpoint_every: every, ..self }
+    }
+
+    /// Goes on from a state of an earlier run of the same scene that left checkpoints as often: to the same bits.
+    #[must_use]
+    pub fn resume(self, from: &'a LumpedResume) -> Self {
+        Self { resume: Some(from), ..self }
     }
 
     /// With reduced gears from a cache, where the reduced model feeds the mesh.
@@ -167,7 +189,8 @@ impl<'a> LumpedAnalysis<'a> {
         let free = FreeTurn::of(&mut system.model).map_err(|e| e.of(&scene))?;
         let steps = PhaseWork::Steps(u64::from(scene.analysis.cycles));
         let run = run_phase(observer, "motion", steps, |progress| {
-            let plan = RunPlan { scene: &scene, motion, frequencies, from: None };
+            let Self { checkpoint_every, resume, .. } = *self;
+            let plan = RunPlan { scene: &scene, motion, frequencies, from: None, checkpoint_every, resume };
             plan.run(&mut system.model, &mut RowsOnward { progress, sink })
         });
         let run = run.map_err(|e| e.of(&scene))?;
@@ -258,6 +281,10 @@ impl RunObserver for RowsOnward<'_> {
         }
         self.sink.row(row)
     }
+
+    fn checkpoint(&mut self, state: LumpedCheckpoint, so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+        self.sink.checkpoint(state, so_far)
+    }
 }
 
 /// Rows of a run to the steady state alone, and the mesh cycles that it took in all: for comparing models.
@@ -284,7 +311,7 @@ pub(super) fn checked_run(
     let motion = motion_of(scene)?;
     let frequencies = inputs.frequencies(motion, resonance_hz);
     refuse_unstable(scene, motion, model, frequencies)?;
-    let plan = RunPlan { scene, motion, frequencies, from };
+    let plan = RunPlan { scene, motion, frequencies, from, checkpoint_every: 0, resume: None };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
     within_bounds(&run.rows)?;
     let checks = certificate(inputs, &run, std::iter::empty()).and(Checks::new(model.checks()));

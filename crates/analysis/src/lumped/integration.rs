@@ -1,6 +1,6 @@
 //! Steps of a run: how long they are, and by which integrator.
 
-use integrate::{Forces, Integrator, Mechanism, StepControl, StepLimit, Stiffest};
+use integrate::{Forces, Integrator, Mechanism, Method, StepControl, StepLimit, Stiffest};
 use scene::MotionScene;
 
 use super::mechanism::{BoxedMechanism, ModelFailure};
@@ -33,13 +33,15 @@ impl MeshFrequencies {
     }
 }
 
-/// The integrator that a scene asks for, steps as long as this at the most.
+/// How a scene asks for a model to be integrated.
+pub(super) fn method(model: &BoxedMechanism, motion: &MotionScene) -> Method {
+    let (scheme, scale) = (scheme(motion), model.scale());
+    Method { scheme, scale, stop_at_events: motion.stop_at_events, keep_stable: true }
+}
+
+/// An integrator of that method for searches of their own, steps as long as this at the most.
 pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64) -> Integrator {
-    let control = match motion.error_tolerance {
-        None => StepControl::Fixed(step),
-        Some(tolerance) => StepControl::Adaptive { tolerance, first: 0.1 * step, least: 1e-7 * step, largest: step },
-    };
-    Integrator::new(scheme(motion), control, model.scale()).stopping_at_events(motion.stop_at_events).keeping_stable()
+    method(model, motion).integrator(StepControl::new(motion.error_tolerance, step))
 }
 
 /// Longest stable step of an explicit method with steps of given length: the stiffest state of a mesh cycle from the

@@ -2,14 +2,14 @@
 
 use ::lumped::{LumpedError, equilibrium};
 use dynamics::{COORDINATES, MappedPair, PairMotionError};
-use integrate::{Forces, Mechanism, State};
+use integrate::{Forces, Mechanism, Resumable, State};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
     elastic_frame::ElasticFrame,
-    mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
+    mechanism::{LumpedMechanism, LumpedMemory, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::certificate::Check;
 
@@ -126,6 +126,17 @@ impl LumpedMechanism for MappedModel {
                 hint: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
             },
         ]
+    }
+
+    fn memory(&self) -> LumpedMemory {
+        LumpedMemory::Map(self.pair.memory())
+    }
+
+    fn take_up(&mut self, memory: &LumpedMemory) -> Result<(), StaticError> {
+        if let LumpedMemory::Map(memory) = memory {
+            let Ok(()) = self.pair.restore(memory);
+        }
+        Ok(())
     }
 
     fn set(&mut self, change: ParameterChange) -> bool {

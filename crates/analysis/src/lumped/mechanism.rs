@@ -6,11 +6,12 @@ use std::{
 };
 
 use ::lumped::LumpedError;
-use dynamics::{MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
-use integrate::{Forces, Mechanism, MotionError, State};
+use dynamics::{MapExcess, MechanismState, MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
+use integrate::{Forces, Mechanism, MotionError, Resumable, State};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 use scene::Scene;
+use serde::{Deserialize, Serialize};
 
 use super::LumpedRow;
 use crate::{AnalysisError, certificate::Check};
@@ -115,6 +116,14 @@ macro_rules! mechanism_of_field {
             fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
                 self.$field.accepted(t, q, v).map_err(StaticError::from)
             }
+
+            fn forget(&mut self) {
+                self.$field.forget();
+            }
+
+            fn end_cycle(&mut self, begin: f64, end: f64) {
+                self.$field.end_cycle(begin, end);
+            }
         }
     };
 }
@@ -169,6 +178,19 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
         true
     }
 
+    /// What it is beside coordinates and velocities.
+    fn memory(&self) -> LumpedMemory {
+        LumpedMemory::Formulas
+    }
+
+    /// Becomes what it was.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    fn take_up(&mut self, _: &LumpedMemory) -> Result<(), StaticError> {
+        Ok(())
+    }
+
     /// Goes back to where the run begins, for forces at one time after the other from there on.
     ///
     /// # Errors
@@ -184,6 +206,17 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
     fn follow(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), StaticError> {
         Ok(())
     }
+}
+
+/// What a model is beside coordinates and velocities, as a checkpoint holds it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum LumpedMemory {
+    /// Nothing: its forces are formulas.
+    Formulas,
+    /// How far the motion has gone beyond its map.
+    Map(MapExcess),
+    /// Teeth in the windows, and extremes.
+    Pair(MechanismState),
 }
 
 /// Another value of what a pair of reduced gears is driven by.
@@ -263,3 +296,15 @@ impl DerefMut for BoxedMechanism {
 }
 
 mechanism_of_field!([] BoxedMechanism, 0);
+
+impl Resumable for BoxedMechanism {
+    type Memory = LumpedMemory;
+
+    fn memory(&self) -> LumpedMemory {
+        self.0.memory()
+    }
+
+    fn restore(&mut self, memory: &LumpedMemory) -> Result<(), StaticError> {
+        self.0.take_up(memory)
+    }
+}

@@ -15,7 +15,7 @@
 //! | `free_turn` | the motion that nothing holds |
 //! | `shooting` | the periodic state by Newton's method |
 //! | `exponent` | the largest Lyapunov exponent of a motion |
-//! | `integration`, `run_loop`, `periodicity` | a run of any of them |
+//! | `integration`, `run_loop` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
 //! | `headline`, `warnings` | what is read off the rows |
 
@@ -36,7 +36,6 @@ mod integration;
 mod lumped_pair;
 mod mapped;
 mod mechanism;
-mod periodicity;
 mod reduced;
 mod row;
 mod run_loop;
@@ -52,8 +51,9 @@ pub use branch::{
 };
 pub use campbell::LumpedCampbell;
 pub use headline::{LumpedCertificate, LumpedHeadline};
-pub use mechanism::StaticPoint;
+pub use mechanism::{LumpedMemory, StaticPoint};
 pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};
+pub use run_loop::{LumpedCheckpoint, LumpedResume};
 pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SectionEvery, SweepHeadline, SweepOptions, SweepPoint};
 
 pub(crate) use analysis::steady_rows;

@@ -1,14 +1,14 @@
 //! A pair whose contact is solved, as the run of a cheaper model asks for it.
 
 use dynamics::{COORDINATES, MechanismState, PairMechanism, quasi_static_start};
-use integrate::{Forces, Mechanism, State};
+use integrate::{Forces, Mechanism, Resumable, State};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
     elastic_frame::ElasticFrame,
-    mechanism::{LumpedMechanism, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
+    mechanism::{LumpedMechanism, LumpedMemory, ModelFailure, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::{
     certificate::Check,
@@ -26,7 +26,7 @@ pub(super) struct ReducedModel {
 impl ReducedModel {
     /// Of a pair at its beginning.
     pub fn new(system: PairMechanism, frame: ElasticFrame) -> Self {
-        Self { home: system.mechanism_state(), system, frame }
+        Self { home: system.memory(), system, frame }
     }
 }
 
@@ -88,6 +88,17 @@ impl LumpedMechanism for ReducedModel {
     /// The teeth in the window belong to a state as well.
     fn shoots(&self) -> bool {
         false
+    }
+
+    fn memory(&self) -> LumpedMemory {
+        LumpedMemory::Pair(self.system.memory())
+    }
+
+    fn take_up(&mut self, memory: &LumpedMemory) -> Result<(), StaticError> {
+        match memory {
+            LumpedMemory::Pair(memory) => self.system.restore(memory),
+            LumpedMemory::Formulas | LumpedMemory::Map(_) => Ok(()),
+        }
     }
 
     fn rewind(&mut self) -> Result<(), StaticError> {

@@ -1,19 +1,20 @@
-//! A run of a model: settle, tell rows, keep the ledger.
+//! A run of a model: its mesh cycles, and what is read off them.
 
-use integrate::{Integrator, Ledger, Mechanism, Periodicity, State};
+use integrate::{
+    Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
+    Settle, State, StepControl, Stop, Timetable,
+};
+use ltca::StaticError;
 use scene::{Analysis, MotionScene, Run, Scene};
 
 use super::{
     LumpedRow,
-    integration::{MeshFrequencies, integrator},
-    mechanism::{BoxedMechanism, ModelFailure},
-    periodicity::PeriodicityMonitor,
+    integration::{MeshFrequencies, method},
+    mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
     shooting::Shooting,
 };
 use crate::{AnalysisError, SinkResult, motion::EnergyRow};
 
-/// Mesh cycles before the periodic state is sought by Newton's method; the next tries come after half as many again.
-const FIRST_SHOT: u64 = 8;
 /// Difference after a period, over the peak to peak, from which on it is sought: the motion is on its way.
 const SETTLING: f64 = 0.05;
 /// Rows of a run and what it took.
@@ -55,10 +56,29 @@ impl LumpedRun {
     }
 }
 
+/// A state to go on from, with the rows before it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LumpedResume {
+    /// The motion, and how far it has come.
+    pub checkpoint: LumpedCheckpoint,
+    /// Rows so far.
+    pub rows: Vec<LumpedRow>,
+    /// Energy, row by row.
+    pub energy: Vec<EnergyRow>,
+}
+
+/// All that a motion of a model is at the end of a mesh cycle, but for its rows so far.
+pub type LumpedCheckpoint = Checkpoint<LumpedMemory>;
+
 /// What is told of a run on its way.
 pub(super) trait RunObserver {
     /// A row, at the beginning of a mesh cycle or within it.
     fn row(&mut self, row: &LumpedRow, begins_cycle: bool) -> SinkResult;
+
+    /// A state to go on from with all rows so far.
+    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+        Ok(())
+    }
 }
 
 /// Tells nobody.
@@ -94,6 +114,12 @@ impl From<ModelFailure> for RunFailure {
     }
 }
 
+impl From<MotionError<StaticError>> for RunFailure {
+    fn from(e: MotionError<StaticError>) -> Self {
+        Self::Model(e.into())
+    }
+}
+
 /// Mesh cycles that are written.
 fn cycles(scene: &Scene, motion: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     let Analysis { cycles, .. } = scene.analysis;
@@ -102,50 +128,82 @@ fn cycles(scene: &Scene, motion: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     motion.duration_s.or(ramp).map_or(u64::from(cycles), |t| (t * mesh_frequency_hz).ceil().max(1.0) as u64)
 }
 
-/// How a motion came to its periodic state.
-struct Settled {
-    warm_up: u64,
-    periodicity: Option<Periodicity>,
-}
-
 /// A run of a model, from a state at the beginning of a mesh cycle, else from rest under the load.
 pub(super) struct RunPlan<'a> {
     pub scene: &'a Scene,
     pub motion: &'a MotionScene,
     pub frequencies: MeshFrequencies,
     pub from: Option<&'a State>,
+    /// Mesh cycles from one checkpoint to the next; 0: none.
+    pub checkpoint_every: u64,
+    /// Goes on from here, whatever it began with.
+    pub resume: Option<&'a LumpedResume>,
+}
+
+/// Mesh cycles of a constant length, with rows where each part of them begins.
+struct LumpedTimes<'a> {
+    motion: &'a MotionScene,
+    frequencies: MeshFrequencies,
+}
+
+impl Timetable<&mut BoxedMechanism> for LumpedTimes<'_> {
+    fn method(&self, model: &&mut BoxedMechanism) -> Method {
+        method(model, self.motion)
+    }
+
+    fn cycle(&self, _: &&mut BoxedMechanism, cycle: u64, _: f64) -> Option<CycleTimes> {
+        let (period, per_cycle) = (1.0 / self.frequencies.mesh_hz, u64::from(self.motion.steps_per_mesh_cycle));
+        let end_of_row = |k: u64| (cycle * per_cycle + k) as f64 * period / per_cycle as f64;
+        Some(CycleTimes {
+            stops: (1..=per_cycle).map(|k| Stop::row(end_of_row(k))).collect(),
+            rows: RowPlace::Beginnings,
+            control: StepControl::new(self.motion.error_tolerance, self.frequencies.step(self.motion)),
+        })
+    }
+
+    fn restarts(&self) -> bool {
+        false
+    }
 }
 
 impl RunPlan<'_> {
-    /// Time at which row `row`, counted from the start, stands, s.
-    fn time(&self, row: u64) -> f64 {
-        let (period, per_cycle) = (1.0 / self.frequencies.mesh_hz, f64::from(self.motion.steps_per_mesh_cycle));
-        row as f64 * period / per_cycle
-    }
-
     /// Runs it; the clock begins at 0 whatever the state's own says.
     ///
     /// # Errors
     /// [`ModelFailure`] where there is nothing to start from, or a step does not settle; that of the observer.
     pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, RunFailure> {
-        let Self { scene, motion, frequencies, from } = *self;
-        let per_cycle = u64::from(motion.steps_per_mesh_cycle);
-        let mut state = match from {
-            Some(from) => State::new(0.0, from.q.clone(), from.v.clone()),
-            None => model.start()?,
-        };
-        let mut integrator = integrator(model, motion, frequencies.step(motion));
-        let Settled { warm_up, periodicity } = self.settle(model, &mut integrator, &mut state)?;
+        let Self { scene, motion, frequencies, from, checkpoint_every, resume } = *self;
+        let per_cycle = motion.steps_per_mesh_cycle as usize;
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
-        let (mut rows, mut energy) = (Vec::new(), Vec::new());
-        for k in 0..cycles * per_cycle {
-            let row = model.row(&state).map_err(ModelFailure::at(state.time))?;
-            observer.row(&row, k % per_cycle == 0).map_err(RunFailure::Sink)?;
-            rows.push(row);
-            energy.push(EnergyRow::of(state.time, &ledger(model, &integrator, &state)?));
-            advance(model, &mut integrator, &mut state, self.time(warm_up * per_cycle + k + 1))?;
-        }
-        let ledger = ledger(model, &integrator, &state)?;
+        let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
+        let settles = motion.run == Run::Steady;
+        let goal = Goal {
+            compared: Some(Compared::Signal(|model: &mut &mut BoxedMechanism, state| {
+                model.transmission_error_um(state)
+            })),
+            settle: settles.then(|| Settle { tolerance, most: u64::from(motion.warm_up_cycles.unwrap_or(0)) }),
+            tolerance,
+            cycles,
+            starts_with_row: false,
+            checkpoint_every,
+            stop_after: None,
+        };
+        let times = LumpedTimes { motion, frequencies };
+        let (mut course, rows, energy) = match resume {
+            Some(LumpedResume { checkpoint, rows, energy }) => {
+                (Course::resume(model, times, checkpoint.clone())?, rows.clone(), energy.clone())
+            }
+            None => {
+                let start = match from {
+                    Some(from) => State::new(0.0, from.q.clone(), from.v.clone()),
+                    None => model.start()?,
+                };
+                (Course::new(model, times, start), Vec::new(), Vec::new())
+            }
+        };
+        let mut told = LumpedFollower { plan: self, observer, per_cycle, rows, energy };
+        course.run(&goal, &mut told)?;
+        let LumpedFollower { rows, energy, .. } = told;
         // Of a ramp the last speed is judged.
         let judged = match motion.ramp {
             Some(ramp) => ((ramp.after_s * frequencies.mesh_hz).floor() as u64).clamp(1, cycles),
@@ -154,55 +212,16 @@ impl RunPlan<'_> {
         Ok(LumpedRun {
             rows,
             energy,
-            end: state,
-            per_cycle: per_cycle as usize,
+            end: course.state().clone(),
+            per_cycle,
             cycles,
             judged,
-            warm_up,
-            periodicity,
-            ledger,
-            steps: integrator.steps(),
+            warm_up: course.cycle() - course.stage().recorded,
+            periodicity: course.stage().periodicity,
+            ledger: course.ledger().copied().unwrap_or_default(),
+            steps: [course.counts().steps, course.counts().refused],
             steps_per_row: frequencies.steps_per_row(motion),
         })
-    }
-
-    /// Mesh cycles until the motion repeats itself, at most as many as the scene has for that, and how nearly it does.
-    /// Once it nearly does, [`Shooting`] takes it there.
-    fn settle(
-        &self,
-        model: &mut BoxedMechanism,
-        integrator: &mut Integrator,
-        state: &mut State,
-    ) -> Result<Settled, ModelFailure> {
-        let motion = self.motion;
-        let (per_cycle, most) = (u64::from(motion.steps_per_mesh_cycle), u64::from(motion.warm_up_cycles.unwrap_or(0)));
-        let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
-        let (mut monitor, mut periodicity) = (PeriodicityMonitor::default(), None);
-        let (mut warm_up, mut next_shot) = (0, FIRST_SHOT);
-        while motion.run == Run::Steady && warm_up < most {
-            let mut errors = Vec::with_capacity(per_cycle as usize);
-            for k in 0..per_cycle {
-                errors.push(model.transmission_error_um(state).map_err(ModelFailure::at(state.time))?);
-                advance(model, integrator, state, self.time(warm_up * per_cycle + k + 1))?;
-            }
-            warm_up += 1;
-            let found = monitor.judge(errors, tolerance);
-            periodicity = Some(found);
-            if found.residual <= tolerance {
-                break;
-            }
-            if warm_up >= next_shot && model.shoots() && found.residual <= SETTLING {
-                next_shot = warm_up + warm_up / 2;
-                let near = self.periodic_state(model, state, (found.period, tolerance))?;
-                if let Some(there) = near {
-                    *state = there;
-                    *integrator =
-                        self::integrator(model, motion, self.frequencies.step(motion)).resumed(opened(model, state)?);
-                    monitor = PeriodicityMonitor::default();
-                }
-            }
-        }
-        Ok(Settled { warm_up, periodicity })
     }
 
     /// The periodic state near a state: of one mesh cycle, else of as many as the motion looks like having.
@@ -219,25 +238,43 @@ impl RunPlan<'_> {
     }
 }
 
-/// Energy so far; before the first step what the start holds.
-fn ledger(model: &mut BoxedMechanism, integrator: &Integrator, state: &State) -> Result<Ledger, ModelFailure> {
-    if let Some(ledger) = integrator.ledger() {
-        return Ok(*ledger);
+/// Reads rows off a run, and takes it to its periodic state where it nearly repeats itself.
+struct LumpedFollower<'a> {
+    plan: &'a RunPlan<'a>,
+    observer: &'a mut dyn RunObserver,
+    per_cycle: usize,
+    rows: Vec<LumpedRow>,
+    energy: Vec<EnergyRow>,
+}
+
+impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
+    type Error = RunFailure;
+
+    fn row(&mut self, at: Row<'_, &mut BoxedMechanism>) -> Result<(), RunFailure> {
+        let Row { system, state, ledger } = at;
+        let row = system.row(state).map_err(ModelFailure::at(state.time))?;
+        let begins_cycle = self.rows.len().is_multiple_of(self.per_cycle);
+        self.observer.row(&row, begins_cycle).map_err(RunFailure::Sink)?;
+        self.rows.push(row);
+        self.energy.push(EnergyRow::of(state.time, ledger));
+        Ok(())
     }
-    opened(model, state)
-}
 
-/// A ledger that begins at a state.
-fn opened(model: &mut BoxedMechanism, state: &State) -> Result<Ledger, ModelFailure> {
-    let potential = model.potential(state.time, &state.q).map_err(ModelFailure::at(state.time))?;
-    Ok(Ledger::open(model.mass(), &state.v, potential))
-}
+    fn checkpoint(&mut self, state: LumpedCheckpoint) -> Result<(), RunFailure> {
+        self.observer.checkpoint(state, (&self.rows, &self.energy)).map_err(RunFailure::Sink)
+    }
 
-fn advance(
-    model: &mut BoxedMechanism,
-    integrator: &mut Integrator,
-    state: &mut State,
-    until: f64,
-) -> Result<(), ModelFailure> {
-    Ok(integrator.advance(model, state, until, |_, _| ())?)
+    fn seeks(&self, model: &&mut BoxedMechanism, found: Periodicity) -> bool {
+        model.shoots() && found.residual <= SETTLING
+    }
+
+    fn nearer(
+        &mut self,
+        model: &mut &mut BoxedMechanism,
+        state: &State,
+        found: Periodicity,
+    ) -> Result<Option<State>, RunFailure> {
+        let tolerance = self.plan.motion.periodic_tolerance.unwrap_or(0.0);
+        Ok(self.plan.periodic_state(model, state, (found.period, tolerance))?)
+    }
 }

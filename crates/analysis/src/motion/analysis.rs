@@ -202,7 +202,7 @@ fn other_analysis(scene: &Scene) -> AnalysisError {
 }
 
 fn check_rows(scene: &Scene, motion: &MotionScene, from: &ResumedState) -> Result<(), AnalysisError> {
-    let wanted = (from.checkpoint.course.recorded as usize).saturating_mul(motion.steps_per_mesh_cycle as usize);
+    let wanted = (from.checkpoint.motion.stage.recorded as usize).saturating_mul(motion.steps_per_mesh_cycle as usize);
     let found = from.rows.len();
     let file = || scene.file.display().to_string();
     if found == wanted { Ok(()) } else { Err(AnalysisError::ResumedRows { file: file(), found, wanted }) }

@@ -42,9 +42,10 @@ impl MotionHeadline {
 
 #[cfg(test)]
 mod tests {
-    use dynamics::{Extremes, SweepDirection, ToothChanges};
+    use dynamics::{Extremes, ToothChanges};
     use integrate::Ledger;
     use integrate::Periodicity;
+    use integrate::SweepDirection;
 
     use super::*;
 

@@ -1,53 +1,52 @@
-//! The course of one motion: settle, then write rows; with checkpoints on the way.
+//! The course of one motion of a scene: what is asked of it, and who gets its rows and checkpoints.
 
 use dynamics::{
-    Instant, Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads,
+    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads, compared,
     quasi_static_start, shoot,
 };
-use integrate::{Envelope, Ledger, Periodicity, Recurrence};
+use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage, State};
+use ltca::StaticError;
 use scene::{MotionScene, Run, Scene};
 
-use super::{
-    MotionCheckpoint, MotionCourse, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion,
-};
+use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress, failure::Failure, results::GearPattern, run_phase, unless_cancelled,
 };
 
-/// What is asked of the course.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Goal {
-    /// Settle to this tolerance first, in so many mesh cycles at the most.
-    settle: Option<(f64, u64)>,
-    /// Mesh cycles to write.
-    cycles: u64,
-}
+/// Difference over a mesh cycle that counts as none, where a scene states no other.
+const TOLERANCE: f64 = 1e-6;
 
-impl Goal {
-    fn new(scene: &Scene, motion: &MotionScene, system: &PairMechanism) -> Self {
-        let settles = matches!(motion.run, Run::Steady | Run::Shooting);
-        let settle = settles
-            .then(|| (motion.periodic_tolerance.unwrap_or(1e-6), u64::from(motion.warm_up_cycles.unwrap_or(1000))));
-        let until = match (motion.run, motion.ramp, motion.duration_s) {
-            (Run::Ramp, Some(ramp), _) => Some(ramp.before_s + ramp.duration_s + ramp.after_s),
-            (_, _, duration) => duration,
-        };
-        let cycles = match until {
-            None => u64::from(scene.analysis.cycles),
-            Some(end) => {
-                let nominal = system.nominal();
-                let cycles = nominal.cycles(system.pair(), &system.options().statics, end) - nominal.start;
-                (cycles + 1e-9).floor().max(1.0) as u64
-            }
-        };
-        Self { settle, cycles }
+/// What a scene asks of its motion.
+fn goal(scene: &Scene, motion: &MotionScene, begun: &Motion, stop_after: Option<u64>) -> Goal<PairMechanism> {
+    let settles = matches!(motion.run, Run::Steady | Run::Shooting);
+    let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
+    let until = match (motion.run, motion.ramp, motion.duration_s) {
+        (Run::Ramp, Some(ramp), _) => Some(ramp.before_s + ramp.duration_s + ramp.after_s),
+        (_, _, duration) => duration,
+    };
+    let system = begun.system();
+    let cycles = match until {
+        None => u64::from(scene.analysis.cycles),
+        Some(end) => {
+            let nominal = system.nominal();
+            let cycles = nominal.cycles(system.pair(), &system.options().statics, end) - nominal.start;
+            (cycles + 1e-9).floor().max(1.0) as u64
+        }
+    };
+    Goal {
+        compared: Some(compared(begun)),
+        settle: settles.then(|| Settle { tolerance, most: u64::from(motion.warm_up_cycles.unwrap_or(1000)) }),
+        tolerance,
+        cycles,
+        starts_with_row: false,
+        checkpoint_every: u64::from(motion.checkpoint_every_cycles.unwrap_or(0)),
+        stop_after,
     }
 }
 
 /// A motion at its end.
 pub(super) struct FinishedMotion {
     pub motion: Motion,
-    pub course: MotionCourse,
     pub shooting: Option<ShootingResult>,
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
@@ -81,174 +80,155 @@ pub(super) struct Span {
 /// # Errors
 /// [`Failure::Static`] where another window may do.
 pub(super) fn run(
-    (scene, motion): (&Scene, &MotionScene),
+    (scene, asked): (&Scene, &MotionScene),
     prepared: &PreparedMotion,
     observer: &mut dyn Observer,
     sink: &mut dyn MotionSink,
     span: Span,
 ) -> Result<FinishedMotion, Failure> {
-    let goal = Goal::new(scene, motion, &prepared.system);
-    let mut course = Course::begin((scene, motion), prepared, (observer, sink), goal, span)?;
+    let stop_after = span.stop_after;
+    let (mut motion, shooting, mut told) = begin((scene, asked), prepared, (observer, sink), span)?;
+    let goal = goal(scene, asked, &motion, stop_after);
     let clock = std::time::Instant::now();
     let mut stopped = false;
-    if let (Some((tolerance, most)), false) = (goal.settle, course.state.recording) {
-        stopped = run_phase(observer, "settle", PhaseWork::AtMost(most), |progress| {
-            course.settle(sink, (tolerance, most), progress)
-        })?;
+    if let (Some(settle), false) = (goal.settle, motion.stage().recording) {
+        stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
+            motion.settle(&goal, &mut InPhase { told: &mut told, progress, settling: Some(settle.tolerance) })
+        })
+        .map_err(|e| e.of(scene))?;
     }
     if !stopped {
-        let left = PhaseWork::Steps(goal.cycles - course.state.recorded.min(goal.cycles));
-        stopped = run_phase(observer, "solve", left, |progress| course.record(sink, goal, progress))?;
+        let left = PhaseWork::Steps(goal.cycles - motion.stage().recorded.min(goal.cycles));
+        stopped = run_phase(observer, "solve", left, |progress| {
+            motion.record(&goal, &mut InPhase { told: &mut told, progress, settling: None })
+        })
+        .map_err(|e| e.of(scene))?;
     }
     let wall_s = clock.elapsed().as_secs_f64();
+    let Told { sink, layout, rows, pattern, .. } = told;
     sink.finish().map_err(AnalysisError::Sink)?;
-    let Course { mechanism: motion, state: course, shooting, rows, layout, pattern, .. } = course;
     let patterns = pattern.patterns(scene, motion.system().pair());
-    Ok(FinishedMotion { motion, course, shooting, stopped, rows, layout, patterns, wall_s })
+    Ok(FinishedMotion { motion, shooting, stopped, rows, layout, patterns, wall_s })
 }
 
-/// A motion under way.
-struct Course<'a> {
-    scene: &'a Scene,
-    checkpoint_every: u64,
-    stop_after: Option<u64>,
+/// The motion at its quasi-static start, on its periodic state where the scene has it found by shooting, or at a
+/// checkpoint; and who is told of it.
+fn begin<'a>(
+    (scene, motion): (&Scene, &MotionScene),
+    prepared: &PreparedMotion,
+    (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
+    Span { from, .. }: Span,
+) -> Result<(Motion, Option<ShootingResult>, Told<'a>), Failure> {
+    let PreparedMotion { system, settings, quasi_static, facts, .. } = prepared;
+    let window = facts.window_teeth.unwrap_or(0) as usize;
+    let layout = MotionLayout::of(scene, window);
+    let fail = |e| failure(scene, e);
+    let mut own = system.with_drive(system.options().drive.clone())?;
+    sink.begin_rows(&layout, from.as_ref().map(|f| &f.checkpoint)).map_err(AnalysisError::Sink)?;
+    let pattern = |grids| PatternRecord::new(scene, motion, system.pair(), grids).map_err(AnalysisError::from);
+    if let Some(ResumedState { checkpoint, rows }) = from {
+        let MotionCheckpoint { motion: at, patterns, .. } = checkpoint;
+        let pattern = pattern(Some(patterns))?;
+        let motion = Course::resume(own, settings.clone(), at).map_err(|e| fail(e.into()))?;
+        return Ok((motion, None, Told { sink, window, layout, rows, pattern }));
+    }
+    let told = Told { sink, window, layout, rows: Vec::new(), pattern: pattern(None)? };
+    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
+    let start =
+        run_phase(observer, "start", PhaseWork::Unknown, |_| quasi_static_start(&mut own, 0.0, guess, &settings.scale));
+    let mut begun = Motion::new(own, settings.clone(), start.map_err(fail)?);
+    let mut shooting = None;
+    if motion.run == Run::Shooting {
+        let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
+        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
+            shoot(&mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
+        });
+        shooting = Some(shot.map_err(fail)?);
+    }
+    Ok((begun, shooting, told))
+}
+
+/// Who is told of a motion, and what was read off it so far.
+struct Told<'a> {
+    sink: &'a mut dyn MotionSink,
     window: usize,
     layout: MotionLayout,
-    mechanism: Motion,
-    state: MotionCourse,
-    shooting: Option<ShootingResult>,
     rows: Vec<MotionRow>,
     pattern: PatternRecord,
 }
 
-impl<'a> Course<'a> {
-    /// From the quasi-static start, or from a checkpoint.
-    fn begin(
-        (scene, motion): (&'a Scene, &MotionScene),
-        prepared: &PreparedMotion,
-        (observer, sink): (&mut dyn Observer, &mut dyn MotionSink),
-        goal: Goal,
-        Span { from, stop_after }: Span,
-    ) -> Result<Self, Failure> {
-        let PreparedMotion { system, settings, quasi_static, facts, .. } = prepared;
-        let window = facts.window_teeth.unwrap_or(0) as usize;
-        let layout = MotionLayout::of(scene, window);
-        let fail = |e| failure(scene, e);
-        let mut own = system.with_drive(system.options().drive.clone())?;
-        sink.begin_rows(&layout, from.as_ref().map(|f| &f.checkpoint)).map_err(AnalysisError::Sink)?;
-        let pattern = |grids| PatternRecord::new(scene, motion, system.pair(), grids).map_err(AnalysisError::from);
-        let (mechanism, state, shooting, rows, pattern) = match from {
-            Some(ResumedState { checkpoint, rows }) => {
-                let MotionCheckpoint { motion: at, course, patterns, .. } = checkpoint;
-                let pattern = pattern(Some(patterns))?;
-                (Motion::resume(own, settings.clone(), at).map_err(fail)?, course, None, rows, pattern)
-            }
-            None => {
-                let pattern = pattern(None)?;
-                let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
-                let start = run_phase(observer, "start", PhaseWork::Unknown, |_| {
-                    quasi_static_start(&mut own, 0.0, guess, &settings.scale)
-                });
-                let mut mechanism = Motion::new(own, settings.clone(), start.map_err(fail)?);
-                let mut shooting = None;
-                if let (Run::Shooting, Some((tolerance, _))) = (motion.run, goal.settle) {
-                    let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-                        shoot(&mut mechanism, 1, tolerance, SHOOTING_NEWTON_STEPS)
-                    });
-                    shooting = Some(shot.map_err(fail)?);
-                }
-                let returns = Recurrence::from(mechanism.state());
-                let recording = goal.settle.is_none();
-                let state = MotionCourse { recording, recorded: 0, returns, periodicity: None };
-                (mechanism, state, shooting, Vec::new(), pattern)
-            }
-        };
-        let checkpoint_every = u64::from(motion.checkpoint_every_cycles.unwrap_or(0));
-        Ok(Self { scene, checkpoint_every, stop_after, window, layout, mechanism, state, shooting, rows, pattern })
-    }
+/// The same in one phase of the analysis.
+struct InPhase<'a, 'b> {
+    told: &'a mut Told<'b>,
+    progress: &'a dyn Progress,
+    /// Tolerance to which the motion settles in this phase.
+    settling: Option<f64>,
+}
 
-    /// Hands out a checkpoint where one is due; whether the run is to stop here.
-    fn after_cycle(&self, sink: &mut dyn MotionSink) -> Result<bool, AnalysisError> {
-        let (every, cycle) = (self.checkpoint_every, self.mechanism.cycle());
-        let stop = self.stop_after.is_some_and(|cycles| cycle >= cycles);
-        if (stop || (every > 0 && cycle.is_multiple_of(every)))
-            && let Some(motion) = self.mechanism.checkpoint()
-        {
-            let (course, patterns) = (self.state.clone(), self.pattern.grids().clone());
-            let state = MotionCheckpoint { window: self.window, motion, course, patterns };
-            sink.checkpoint(state).map_err(AnalysisError::Sink)?;
+/// Why a motion ended.
+enum Ended {
+    Motion(PairMotionError),
+    Analysis(AnalysisError),
+}
+
+impl Ended {
+    fn of(self, scene: &Scene) -> Failure {
+        match self {
+            Self::Motion(e) => failure(scene, e),
+            Self::Analysis(e) => e.into(),
         }
-        Ok(stop)
     }
+}
 
-    fn settle(
-        &mut self,
-        sink: &mut dyn MotionSink,
-        (tolerance, most): (f64, u64),
-        progress: &dyn Progress,
-    ) -> Result<bool, Failure> {
-        while self.mechanism.cycle() < most {
-            let envelope = self.mechanism.run_cycle(None).map_err(|e| failure(self.scene, e))?;
-            let found = self.judge(&envelope, tolerance);
-            progress.tick();
-            unless_cancelled(progress)?;
-            progress.say(format!("repeats itself to {:.1e}, asked {tolerance:.0e}", found.residual));
-            self.state.recording = found.residual <= tolerance;
-            if self.after_cycle(sink)? {
-                return Ok(true);
-            }
-            if self.state.recording {
-                break;
-            }
+impl From<MotionError<StaticError>> for Ended {
+    fn from(e: MotionError<StaticError>) -> Self {
+        Self::Motion(e.into())
+    }
+}
+
+impl From<AnalysisError> for Ended {
+    fn from(e: AnalysisError) -> Self {
+        Self::Analysis(e)
+    }
+}
+
+impl Follower<PairMechanism> for InPhase<'_, '_> {
+    type Error = Ended;
+
+    fn row(&mut self, Row { system, state, ledger }: Row<'_, PairMechanism>) -> Result<(), Ended> {
+        let Told { sink, layout, rows, pattern, .. } = &mut *self.told;
+        let State { time, q, v, .. } = state;
+        let contact = |source| Ended::Motion(PairMotionError::contact(*time, source));
+        let now = system.instant(*time, q, v).map_err(contact)?;
+        let row = layout.row(&now, ledger);
+        pattern.push(&now);
+        let index = rows.len() as u64;
+        if sink.wants_fields(index) {
+            let sides: Vec<SideLoads<'_>> = system.side_loads(&now);
+            sink.fields(index, now.time, &sides).map_err(AnalysisError::Sink)?;
         }
-        self.state.recording = true;
-        Ok(false)
+        sink.row(&row).map_err(AnalysisError::Sink)?;
+        rows.push(row);
+        Ok(())
     }
 
-    fn record(&mut self, sink: &mut dyn MotionSink, goal: Goal, progress: &dyn Progress) -> Result<bool, Failure> {
-        let tolerance = goal.settle.map_or(1e-6, |(tolerance, _)| tolerance);
-        while self.state.recorded < goal.cycles && self.mechanism.goes_on() {
-            let envelope = self.cycle_of_rows(sink)?;
-            self.state.recorded += 1;
-            sink.end_cycle(self.state.recorded).map_err(AnalysisError::Sink)?;
-            self.judge(&envelope, tolerance);
-            progress.tick();
-            unless_cancelled(progress)?;
-            if self.state.recorded < goal.cycles && self.after_cycle(sink)? {
-                return Ok(true);
-            }
+    fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {
+        if self.settling.is_none() {
+            self.told.pattern.end_cycle().map_err(AnalysisError::from)?;
+            self.told.sink.end_cycle(stage.recorded).map_err(AnalysisError::Sink)?;
         }
-        Ok(false)
-    }
-
-    fn cycle_of_rows(&mut self, sink: &mut dyn MotionSink) -> Result<Envelope, Failure> {
-        let Self { layout, rows, pattern, mechanism, .. } = self;
-        let mut refused = None;
-        let mut push = |now: &Instant, ledger: &Ledger, system: &PairMechanism| {
-            let row = layout.row(now, ledger);
-            pattern.push(now);
-            if refused.is_none() {
-                let index = rows.len() as u64;
-                let deformed = sink.wants_fields(index).then(|| system.side_loads(now));
-                let fields = |sides: Vec<SideLoads<'_>>| sink.fields(index, now.time, &sides).err();
-                refused = deformed.and_then(fields).or_else(|| sink.row(&row).err());
-            }
-            rows.push(row);
-        };
-        let envelope = mechanism.run_cycle(Some(&mut push)).map_err(|e| failure(self.scene, e))?;
-        if let Some(error) = refused {
-            return Err(AnalysisError::Sink(error).into());
+        self.progress.tick();
+        unless_cancelled(self.progress)?;
+        if let (Some(tolerance), Some(found)) = (self.settling, stage.periodicity) {
+            self.progress.say(format!("repeats itself to {:.1e}, asked {tolerance:.0e}", found.residual));
         }
-        self.pattern.end_cycle().map_err(AnalysisError::from)?;
-        Ok(envelope)
+        Ok(())
     }
 
-    fn judge(&mut self, envelope: &Envelope, tolerance: f64) -> Periodicity {
-        let motion = &self.mechanism;
-        let free = motion.system().coordinates().driver_turn();
-        let found = self.state.returns.judge(motion.state(), envelope, &motion.returning(), free, tolerance);
-        self.state.periodicity = Some(found);
-        found
+    fn checkpoint(&mut self, motion: Checkpoint<dynamics::MechanismState>) -> Result<(), Ended> {
+        let Told { sink, window, pattern, .. } = &mut *self.told;
+        let state = MotionCheckpoint { window: *window, motion, patterns: pattern.grids().clone() };
+        Ok(sink.checkpoint(state).map_err(AnalysisError::Sink)?)
     }
 }
 

@@ -108,7 +108,7 @@ pub(super) fn headline(
     done: &FinishedMotion,
     passage: Option<&Passage>,
 ) -> Result<MotionHeadline, StudyError> {
-    let cycles = done.course.recorded;
+    let cycles = done.motion.stage().recorded;
     let rows = &done.rows;
     let series = |value: &dyn Fn(&MotionRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
     let dte = series(&|r| r.dte_um);
@@ -227,11 +227,11 @@ fn certificate(done: &FinishedMotion, prepared: &PreparedMotion) -> MotionCertif
     let (rows_on_both_flanks, flank_coupling_bound_um) = flank_coupling(&done.rows, along_normal);
     let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
     let ledger = motion.ledger().copied().unwrap_or_default();
-    let settled = done.course.periodicity;
+    let settled = done.motion.stage().periodicity;
     MotionCertificate {
         ledger_residual_mj: ledger.residual(),
-        work_through_pair_mj: counts.throughput,
-        ledger_residual_over_work: ledger.residual() / counts.throughput.max(f64::MIN_POSITIVE),
+        work_through_pair_mj: motion.system().throughput(),
+        ledger_residual_over_work: ledger.residual() / motion.system().throughput().max(f64::MIN_POSITIVE),
         ledger_residual_over_turnover: ledger.relative_residual(),
         energy_open_over_vibration: ledger.open_over_vibration(),
         least_contact_force_n: extremes.least_force,
@@ -240,11 +240,11 @@ fn certificate(done: &FinishedMotion, prepared: &PreparedMotion) -> MotionCertif
         periodicity: settled.map(|p| p.residual),
         shooting_multiplier: done.shooting.as_ref().map(|s| s.multiplier),
         shooting_periods: done.shooting.as_ref().map(|s| s.periods),
-        warm_up_cycles: motion.cycle() - done.course.recorded,
-        contact_losses: counts.losses,
+        warm_up_cycles: motion.cycle() - done.motion.stage().recorded,
+        contact_losses: counts.downs(0),
         steps_without_contact: extremes.steps_apart,
         largest_gap_um: 1e3 * extremes.largest_gap,
-        coast_contacts: counts.coast_contacts,
+        coast_contacts: counts.ups(1),
         rows_on_both_flanks,
         flank_coupling_bound_um,
         steps: counts.steps,

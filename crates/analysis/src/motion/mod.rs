@@ -48,8 +48,9 @@ pub use setup::{
     scheme, speed, stated_body, steady_by, torque,
 };
 pub(crate) use setup::{Elasticity, MotionInputs, PreparedMotion, Vibration, body, mesh_range_hz, pair_drive, prepare};
-pub use sink::{MotionCheckpoint, MotionCourse, MotionSink, NoMotionSink};
+pub use sink::{MotionCheckpoint, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};
+pub(crate) use sweep::direction;
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
 pub use warnings::NO_BACKLASH_UM;
 pub(crate) use warnings::coarse_steps;

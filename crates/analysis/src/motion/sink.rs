@@ -1,7 +1,7 @@
 //! Who gets the rows of a motion as they come, and the states that it can be resumed from.
 
-use dynamics::{Checkpoint, SideLoads};
-use integrate::{Periodicity, Recurrence};
+use dynamics::{MechanismState, SideLoads};
+use integrate::Checkpoint;
 use ltca::{StaticModel, StaticPosition};
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
@@ -14,25 +14,10 @@ use crate::{Observer, SinkResult, facts::MeshFacts};
 pub struct MotionCheckpoint {
     /// Teeth of the window.
     pub window: usize,
-    /// State of the mechanism.
-    pub motion: Checkpoint,
-    /// How far the analysis has come.
-    pub course: MotionCourse,
+    /// The motion, and how far it has come.
+    pub motion: Checkpoint<MechanismState>,
     /// What the flanks were pressed by so far.
     pub patterns: [FlankPattern; 2],
-}
-
-/// How far the analysis of a motion has come.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct MotionCourse {
-    /// Whether rows are written: the motion has settled, or need not.
-    pub recording: bool,
-    /// Mesh cycles with rows.
-    pub recorded: u64,
-    /// States at the beginnings of the last cycles.
-    pub returns: Recurrence,
-    /// How nearly the last cycle repeated an earlier one.
-    pub periodicity: Option<Periodicity>,
 }
 
 /// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis

@@ -10,6 +10,7 @@ mod held_pair;
 mod interest;
 mod jammed;
 mod kept_at_once;
+mod lumped_course;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;

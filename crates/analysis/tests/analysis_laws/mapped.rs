@@ -8,7 +8,7 @@ use analysis::{
 use scene::{Scene, SceneBuilder, SweepWay};
 
 /// A small pair at a speed at which it vibrates, until it repeats itself.
-fn small(model: &str) -> SceneBuilder {
+pub fn small(model: &str) -> SceneBuilder {
     moving(model)
         .set("motion.run", "steady")
         .set("motion.warm_up_cycles", 400)

@@ -3,10 +3,10 @@
 use std::convert::Infallible;
 
 use contact_map::Wanted;
-use integrate::{Forces, Mechanism};
+use integrate::{Forces, Mechanism, Resumable};
 use nalgebra::{DMatrix, DVector};
 
-use super::{KeptPlaces, MappedPair, MappedSide};
+use super::{KeptPlaces, MapExcess, MappedPair, MappedSide};
 
 impl Mechanism for MappedPair {
     type Error = Infallible;
@@ -118,6 +118,19 @@ impl Mechanism for MappedPair {
             let [approach, tilt] = side.motion(q);
             *value = approach - side.map.first_touch(kept.at(&side.map, phase, tilt));
         }
+        Ok(())
+    }
+}
+
+impl Resumable for MappedPair {
+    type Memory = MapExcess;
+
+    fn memory(&self) -> MapExcess {
+        self.excess
+    }
+
+    fn restore(&mut self, memory: &MapExcess) -> Result<(), Infallible> {
+        self.excess = *memory;
         Ok(())
     }
 }

@@ -199,13 +199,13 @@ fn stands(system: &mut PairMechanism, lag: f64) -> Result<Vec<Displacement>, Pai
     for i in 0..STANDS {
         let cycles = i as f64 / STANDS as f64;
         let Some(time) = system.time_of_cycles(cycles) else {
-            return Err(PairMotionError::StandsStill { cycle: 0 });
+            return Err(integrate::MotionError::StandsStill { cycle: 0 }.into());
         };
         let there = quasi_static_balance(system, time, lag, q.take(), &scale)?;
         all.push(system.coordinates().displacement(&there));
         q = Some(there);
     }
-    system.forget();
+    integrate::Mechanism::forget(system);
     Ok(all)
 }
 

@@ -7,6 +7,7 @@ mod sampler;
 use contact::FlankProjection as Projection;
 use contact_map::{ContactMap, KeptPlaces, MapContact, Wanted};
 use nalgebra::{DMatrix, DVector};
+use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
 use crate::{COORDINATES, Displacement, PairMechanism};
@@ -42,7 +43,7 @@ pub struct MappedPair {
 }
 
 /// How far a motion has gone beyond what its maps hold, at the ends of its steps; beyond them nothing was checked.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct MapExcess {
     /// Largest force over the largest of the map.
     pub force: f64,

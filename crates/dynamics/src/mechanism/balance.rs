@@ -172,6 +172,15 @@ impl Mechanism for PairMechanism {
             }
         }
     }
+
+    /// Forgets the last contact solution: later results depend on state and windows alone, bit by bit.
+    fn forget(&mut self) {
+        self.forget_contact();
+    }
+
+    fn end_cycle(&mut self, begin: f64, end: f64) {
+        self.throughput += self.throughput_between(begin, end);
+    }
 }
 
 impl PairMechanism {

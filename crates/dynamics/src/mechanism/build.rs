@@ -135,6 +135,7 @@ impl PairMechanism {
             modal: None,
             last,
             extremes,
+            throughput: 0.0,
             roots,
         }
     }

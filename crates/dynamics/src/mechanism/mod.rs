@@ -4,6 +4,7 @@ mod balance;
 mod build;
 mod external;
 mod extremes;
+mod memory;
 mod observe;
 mod passage;
 mod side_contacts;
@@ -49,6 +50,8 @@ pub struct PairMechanism {
     modal: Option<Modal>,
     last: Option<SideContacts>,
     extremes: Extremes,
+    /// Work that the load took from the driven gear in its nominal motion, over the cycles so far, N mm.
+    throughput: f64,
     /// Fillets, where their stress is asked for; none with normal modes.
     roots: Option<RootStress>,
 }
@@ -62,40 +65,20 @@ pub struct MechanismState {
     pub coast: Option<SideState>,
     /// Gathered so far.
     pub extremes: Extremes,
+    /// Work that the load took from the driven gear in its nominal motion so far, N mm: what goes through the pair.
+    pub throughput: f64,
 }
 
 impl PairMechanism {
-    /// Forgets the last contact solution: later results depend on state and windows alone, bit by bit.
-    pub fn forget(&mut self) {
-        self.drive_side.forget();
-        if let Some(side) = &mut self.coast_side {
-            side.forget();
-        }
-        self.last = None;
-    }
-
-    /// Windows and extremes, to be restored later.
-    pub fn mechanism_state(&self) -> MechanismState {
-        let coast = self.coast_side.as_ref().map(MeshSide::state);
-        MechanismState { driving: self.drive_side.state(), coast, extremes: self.extremes }
-    }
-
-    /// Restores windows and extremes; the last contact solution is forgotten.
-    ///
-    /// # Errors
-    /// [`StaticError`].
-    pub fn restore(&mut self, state: &MechanismState) -> Result<(), StaticError> {
-        self.drive_side.restore(&self.pair, state.driving)?;
-        if let (Some(side), Some(coast)) = (&mut self.coast_side, state.coast) {
-            side.restore(&self.pair, coast)?;
-        }
-        (self.last, self.extremes) = (None, state.extremes);
-        Ok(())
-    }
-
     /// Extremes since the start.
     pub fn extremes(&self) -> &Extremes {
         &self.extremes
+    }
+
+    /// Work that the load took from the driven gear in its nominal motion, over all cycles, N mm: what goes through the
+    /// pair.
+    pub fn throughput(&self) -> f64 {
+        self.throughput
     }
 
     /// Whether the coast flanks may touch.

@@ -131,4 +131,9 @@ impl Mechanism for GearboxMechanism {
         }
         Ok(())
     }
+
+    /// Has every mesh forget what it remembers of earlier places: what comes then depends on the state alone.
+    fn forget(&mut self) {
+        self.live.iter_mut().for_each(super::live_mesh::LiveMesh::forget);
+    }
 }

@@ -6,11 +6,10 @@
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
-//! | `start`, `run`, `checkpoint` | from equilibrium on, row by row, and from a state on the way |
+//! | `start`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
-mod checkpoint;
 mod contact_spring;
 mod energy;
 mod free_coordinates;
@@ -18,6 +17,7 @@ mod instant;
 mod live_mesh;
 mod mapped_mesh;
 mod mechanism;
+mod memory;
 mod moving_exact;
 mod moving_mesh;
 mod normal_damper;
@@ -29,7 +29,6 @@ mod spring_mesh;
 mod start;
 mod tilting_spring;
 
-pub use checkpoint::GearboxCheckpoint;
 pub use contact_spring::ContactSpring;
 pub use dynamics::Speed;
 pub use energy::GearboxEnergy;
@@ -41,6 +40,6 @@ pub use moving_mesh::{MeshDamper, MovingMesh};
 pub use options::{Drive, MotionOptions};
 pub use pitch_errors::PitchErrors;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
-pub use run::{GearboxRow, GearboxRun, MotionPlan};
+pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes, MotionPlan};
 pub use spring_mesh::SpringMesh;
 pub use tilting_spring::TiltingSpring;

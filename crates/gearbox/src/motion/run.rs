@@ -1,10 +1,20 @@
-//! A motion from its start, row by row.
+//! The cycles of a gearbox in motion, with their rows and steps; and how its motion ended.
 
 use dynamics::Speed;
-use integrate::{Integrator, Ledger, Scheme, State, StepControl};
+use integrate::{
+    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Method, OnlyRows, Periodicity, Row, RowPlace, Scheme,
+    Settle, State, StepControl, Stop, Timetable,
+};
+use nalgebra::DVector;
 
-use super::{Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism};
+use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism};
 use crate::GearboxError;
+
+/// A state of a gearbox's motion to go on from: it knows of each mesh how much of what it holds has been used at most.
+pub type GearboxCheckpoint = Checkpoint<Vec<f64>>;
+
+/// A gearbox's motion under way.
+pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, GearboxTimes>;
 
 /// How a motion is integrated.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -13,12 +23,70 @@ pub struct MotionPlan {
     pub scheme: Scheme,
     /// Length of a step, s, the longest where a given speed changes: steps are then turns of the input that are alike.
     pub step: f64,
-    /// Steps in all.
-    pub steps: u64,
-    /// Steps a row.
-    pub steps_per_row: u64,
+    /// Cycles of the fastest mesh with rows.
+    pub cycles: u64,
     /// Steps a cycle of the fastest mesh.
     pub steps_per_cycle: u64,
+    /// Steps a row.
+    pub steps_per_row: u64,
+    /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
+    pub tolerance: Option<f64>,
+    /// Ends a step wherever contact is lost or gained.
+    pub stop_at_events: bool,
+    /// Settles first: to this difference over a common period of all meshes, in so many cycles at the most. Steps a row
+    /// must divide those of a cycle.
+    pub settle: Option<Settle>,
+}
+
+/// Times of a motion from its start on.
+#[derive(Debug, Clone)]
+pub struct GearboxTimes {
+    plan: MotionPlan,
+    /// Time of the start, s.
+    start: f64,
+    scale: DVector<f64>,
+    drive: Drive,
+}
+
+impl GearboxTimes {
+    fn is_ramp(&self) -> bool {
+        matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
+    }
+
+    fn steps(&self) -> u64 {
+        self.plan.cycles.saturating_mul(self.plan.steps_per_cycle)
+    }
+
+    /// Time at which a step ends: evenly spaced, or where the input has turned by its share of the whole ramp. `None`
+    /// where it never turns so far.
+    fn time_of(&self, step: u64) -> Option<f64> {
+        // Times are counted from the start: sums of steps would drift.
+        let Drive::Speed(ramp @ Speed::Ramp { start: begin, duration, .. }) = self.drive else {
+            return Some(self.start + self.plan.step * step as f64);
+        };
+        ramp.time_at(ramp.angle(begin + duration) * (step as f64 / self.steps().max(1) as f64))
+    }
+}
+
+impl Timetable<&mut GearboxMechanism> for GearboxTimes {
+    fn method(&self, _: &&mut GearboxMechanism) -> Method {
+        let MotionPlan { scheme, stop_at_events, .. } = self.plan;
+        Method { scheme, scale: self.scale.clone(), stop_at_events, keep_stable: true }
+    }
+
+    fn cycle(&self, _: &&mut GearboxMechanism, cycle: u64, _: f64) -> Option<CycleTimes> {
+        let (per_cycle, per_row) = (self.plan.steps_per_cycle.max(1), self.plan.steps_per_row.max(1));
+        let [begin, end] = [cycle, cycle + 1].map(|c| c.saturating_mul(per_cycle));
+        let is_row = |step: u64| step.is_multiple_of(per_row) || (step == self.steps() && self.plan.settle.is_none());
+        let stop = |step: u64| Some(Stop { time: self.time_of(step)?, is_row: is_row(step) });
+        // Each step of its own where their times are not evenly spaced.
+        let ends = (begin + 1..=end).filter(|&step| self.is_ramp() || is_row(step) || step == end);
+        Some(CycleTimes {
+            stops: ends.map(stop).collect::<Option<_>>()?,
+            rows: RowPlace::Ends,
+            control: StepControl::new(self.plan.tolerance, self.plan.step),
+        })
+    }
 }
 
 /// How a motion ended.
@@ -32,119 +100,121 @@ pub struct GearboxRun {
     pub energy: GearboxEnergy,
     /// Steps taken.
     pub steps: u64,
-    /// Steps that were taken in parts, where one had no solution.
+    /// Steps that were taken in parts or anew, where one had no solution or too large an error.
     pub divided: u64,
     /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
     pub separations: Vec<[u64; 2]>,
     /// How much of what each mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
     pub reach: Vec<f64>,
-}
-
-/// A row of a motion as it comes.
-#[derive(Debug)]
-pub struct GearboxRow<'a> {
-    /// What is read off.
-    pub instant: &'a GearboxInstant,
-    /// A state to go on from: of the first row at or behind the end of each cycle of the fastest mesh, but for the last
-    /// row.
-    pub checkpoint: Option<GearboxCheckpoint>,
+    /// Cycles of the fastest mesh before the rows.
+    pub warm_up: u64,
+    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where no common period
+    /// of all meshes was compared with another.
+    pub periodicity: Option<Periodicity>,
 }
 
 impl GearboxMechanism {
-    /// Runs from `start`; `seen` is told of rows, the start among them, and stops the motion by `false`.
+    /// Runs from `start`; `seen` is told of rows, the start, or the state to which the motion has settled, among them.
     ///
     /// # Errors
-    /// [`GearboxError::Motion`] of the integrator, those of the meshes.
+    /// [`GearboxError::Motion`] of the integrator, those of the meshes; as of [`GearboxMechanism::goal`].
     pub fn run(
         &mut self,
         start: &State,
         plan: &MotionPlan,
-        mut seen: impl FnMut(&GearboxInstant) -> bool,
+        mut seen: impl FnMut(&GearboxInstant),
     ) -> Result<GearboxRun, GearboxError> {
-        self.run_from(start, None, plan, |row| seen(row.instant))
+        let goal = self.goal(start, plan)?;
+        let mut course = self.course(start, plan, None)?;
+        course.run(
+            &goal,
+            &mut OnlyRows(|row: Row<'_, &mut Self>| {
+                seen(&row.system.instant(row.state)?);
+                Ok::<_, GearboxError>(())
+            }),
+        )?;
+        GearboxRun::of(course, start)
     }
 
-    /// The same, going on from a state on the way of an earlier run from the same start: rows before it do not come
-    /// again.
-    ///
-    /// What meshes remember is forgotten at every state that could be gone on from, so that a motion that is taken up
-    /// again goes the same way to the last bit.
+    /// The motion from `start`, or from a state on the way of an earlier one from the same start.
     ///
     /// # Errors
-    /// [`GearboxError::OtherCoordinates`] for a state of another gearbox; as of [`GearboxMechanism::run`].
-    pub fn run_from(
+    /// [`GearboxError::Motion`] for a state of another gearbox.
+    pub fn course(
         &mut self,
         start: &State,
-        from: Option<&GearboxCheckpoint>,
         plan: &MotionPlan,
-        mut seen: impl FnMut(GearboxRow<'_>) -> bool,
-    ) -> Result<GearboxRun, GearboxError> {
-        let scale = self.scale(start);
-        let mut integrator = Integrator::new(plan.scheme, StepControl::Fixed(plan.step), scale);
-        let (mut state, mut separations, mut before) = (start.clone(), vec![[0; 2]; self.live.len()], [0; 2]);
-        let mut first_row = 0;
-        if let Some(from) = from {
-            self.restore(from)?;
-            integrator = integrator.resumed(from.ledger);
-            (state, separations, before) = (from.state.clone(), from.separations.clone(), from.steps);
-            first_row = from.rows;
-        }
-        let per_row = plan.steps_per_row.max(1);
-        let rows = plan.steps.div_ceil(per_row);
-        let cycles = |row: u64| (row * per_row).min(plan.steps) / plan.steps_per_cycle.max(1);
-        for row in first_row..=rows {
-            let last = (row * per_row).min(plan.steps);
-            // A step of its own for each time where these are not evenly spaced.
-            let first = if self.is_ramp() { (last + 1).saturating_sub(per_row).min(last) } else { last };
-            for step in first..=last {
-                let until = self.time_of(start.time, plan, step)?;
-                integrator.advance(self, &mut state, until, |_, progress| {
-                    for crossing in progress.crossings.iter().filter(|c| c.direction == integrate::Direction::Down) {
-                        separations[crossing.event / 2][crossing.event % 2] += 1;
-                    }
-                })?;
-            }
-            let instant = self.instant(&state)?;
-            let is_due = row > 0 && row < rows && cycles(row) > cycles(row - 1);
-            let checkpoint = integrator.ledger().filter(|_| is_due).map(|ledger| GearboxCheckpoint {
-                rows: row + 1,
-                cycles: cycles(row),
-                state: state.clone(),
-                ledger: *ledger,
-                steps: sum(before, integrator.steps()),
-                separations: separations.clone(),
-                reach: self.reach.clone(),
-            });
-            if !seen(GearboxRow { instant: &instant, checkpoint }) {
-                break;
-            }
-            if is_due {
-                self.forget();
-            }
-        }
-        let ledger = integrator.ledger().copied().unwrap_or_default();
-        let energy = self.energy(start, &state, &ledger)?;
-        let [steps, divided] = sum(before, integrator.steps());
-        let (states, reach) = ([start.clone(), state], self.reach.clone());
-        Ok(GearboxRun { states, ledger, energy, steps, divided, separations, reach })
+        from: Option<GearboxCheckpoint>,
+    ) -> Result<GearboxCourse<'_>, GearboxError> {
+        let times = GearboxTimes { plan: *plan, start: start.time, scale: self.scale(start), drive: self.drive };
+        Ok(match from {
+            None => Course::new(self, times, start.clone()),
+            Some(from) => Course::resume(self, times, from)?,
+        })
     }
 
-    fn is_ramp(&self) -> bool {
-        matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
-    }
-
-    /// Time at which a step ends: evenly spaced, or where the input has turned by its share of the whole ramp.
-    fn time_of(&self, start: f64, plan: &MotionPlan, step: u64) -> Result<f64, GearboxError> {
-        // Times are counted from the start: sums of steps would drift.
-        let Drive::Speed(ramp @ Speed::Ramp { start: begin, duration, .. }) = self.drive else {
-            return Ok(start + plan.step * step as f64);
+    /// What a plan asks of a motion from `start`, without checkpoints.
+    ///
+    /// # Errors
+    /// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its meshes do not come back together in time.
+    pub fn goal<'a>(&self, start: &State, plan: &MotionPlan) -> Result<Goal<&'a mut Self>, GearboxError> {
+        let period = self.common_period();
+        let compared = match (plan.settle, period) {
+            (Some(Settle { most, .. }), period) if period.is_none_or(|p| p > most) => {
+                return Err(GearboxError::NoCommonPeriod { period, most });
+            }
+            (Some(_), Some(period)) => {
+                Some(Compared::States { scale: self.scale(start), free: self.free.turn, period })
+            }
+            _ => None,
         };
-        let angle = ramp.angle(begin + duration) * (step as f64 / plan.steps.max(1) as f64);
-        let never = || GearboxError::OutOfRange { part: "the ramp".into(), quantity: "angle, rad", value: angle };
-        ramp.time_at(angle).ok_or_else(never)
+        Ok(Goal {
+            compared,
+            settle: plan.settle,
+            tolerance: plan.settle.map_or(0.0, |settle| settle.tolerance),
+            cycles: plan.cycles,
+            starts_with_row: true,
+            checkpoint_every: 0,
+            stop_after: None,
+        })
+    }
+
+    /// Cycles of the fastest mesh after which every mesh has gone through whole cycles; `None` where that takes more than
+    /// [`LONGEST`].
+    fn common_period(&self) -> Option<u64> {
+        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
+        let is_whole = |x: f64| (x - x.round()).abs() < 1e-3 / LONGEST as f64;
+        (1..=LONGEST).find(|&n| self.live.iter().all(|m| is_whole(n as f64 * (m.cycles_per_turn / fastest).abs())))
     }
 }
 
-fn sum(before: [u64; 2], now: [u64; 2]) -> [u64; 2] {
-    [before[0] + now[0], before[1] + now[1]]
+/// Longest common period that is looked for, cycles of the fastest mesh.
+const LONGEST: u64 = 100_000;
+
+impl GearboxRun {
+    /// What a motion from `start` has come to.
+    ///
+    /// # Errors
+    /// Those of the meshes.
+    pub fn of(course: GearboxCourse<'_>, start: &State) -> Result<Self, GearboxError> {
+        let (state, ledger) = (course.state().clone(), course.ledger().copied().unwrap_or_default());
+        let (counts, stage) = (course.counts().clone(), course.stage());
+        let (warm_up, found) = (course.cycle() - stage.recorded, stage.periodicity);
+        let mechanism = course.into_system();
+        let energy = mechanism.energy(start, &state, &ledger)?;
+        let period = mechanism.common_period().unwrap_or(1) as usize;
+        let events = |mesh: usize| [0, 1].map(|side| counts.downs(2 * mesh + side));
+        Ok(Self {
+            states: [start.clone(), state],
+            ledger,
+            energy,
+            steps: counts.steps,
+            divided: counts.refused,
+            separations: (0..mechanism.live.len()).map(events).collect(),
+            reach: mechanism.reach.clone(),
+            warm_up,
+            periodicity: found.map(|p| Periodicity { period: p.period * period, ..p }),
+        })
+    }
 }

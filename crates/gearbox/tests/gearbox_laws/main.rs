@@ -4,6 +4,7 @@ mod exact;
 mod forced;
 mod motion;
 mod motion_contact;
+mod motion_course;
 mod motion_pair;
 mod overhung;
 mod pairs;

@@ -37,7 +37,7 @@ pub fn stiffness() -> Fourier {
 }
 
 /// A train of two stages whose meshes have a varying stiffness, a damper, backlash and pitch errors on gear 2.
-fn train(drive: Drive, sense: Sense, error: f64) -> GearboxMechanism {
+pub fn train(drive: Drive, sense: Sense, error: f64) -> GearboxMechanism {
     let (structure, meshes) = heavy();
     let options = MotionOptions { drive, modal_damping: 0.01, limit: TAU * 4000.0 };
     let operation = loaded(&structure, sense);
@@ -64,11 +64,19 @@ fn run(
     let start = mechanism.start(0.01).unwrap();
     let step = 1.0 / mechanism.mesh_frequencies()[0] / f64::from(steps_per_cycle);
     let steps = (cycles * f64::from(steps_per_cycle)).round() as u64;
-    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1, steps_per_cycle: 64 };
+    let plan = MotionPlan {
+        scheme,
+        step,
+        cycles: 1,
+        steps_per_cycle: steps,
+        steps_per_row: 1,
+        tolerance: None,
+        stop_at_events: false,
+        settle: None,
+    };
     let mut rows = Vec::new();
     let run = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());
-        true
     });
     (rows, run.unwrap())
 }

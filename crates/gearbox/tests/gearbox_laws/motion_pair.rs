@@ -105,12 +105,20 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let step = 1.0 / mechanism.mesh_frequencies()[0] / 100.0;
     let steps = 400;
     let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
-    let plan = MotionPlan { scheme, step, steps, steps_per_row: 1, steps_per_cycle: 64 };
+    let plan = MotionPlan {
+        scheme,
+        step,
+        cycles: 1,
+        steps_per_cycle: steps,
+        steps_per_row: 1,
+        tolerance: None,
+        stop_at_events: false,
+        settle: None,
+    };
     let mut found = Vec::new();
     let done = mechanism
         .run(&start, &plan, |instant| {
             found.push(instant.meshes[0].transmission_error);
-            true
         })
         .unwrap();
     let mut integrator = Integrator::new(scheme, StepControl::Fixed(step), own.scale());

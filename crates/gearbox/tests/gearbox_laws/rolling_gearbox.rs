@@ -263,11 +263,21 @@ fn a_motion_begins_where_rolling_bearings_stand() {
     })
     .unwrap();
     let start = mechanism.start(0.02).unwrap();
-    let plan = MotionPlan { scheme: Scheme::Energy, step: 1e-5, steps: 200, steps_per_row: 100, steps_per_cycle: 64 };
+    let (scheme, tolerance) = (Scheme::Energy, None);
+    let (cycles, steps_per_cycle, steps_per_row) = (2, 100, 100);
+    let plan = MotionPlan {
+        scheme,
+        step: 1e-5,
+        cycles,
+        steps_per_cycle,
+        steps_per_row,
+        tolerance,
+        stop_at_events: false,
+        settle: None,
+    };
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());
-        true
     });
     let energy = done.unwrap().energy;
     for row in &rows {

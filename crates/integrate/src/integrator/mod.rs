@@ -97,6 +97,29 @@ impl Integrator {
         Self { stop_at_events, ..self }
     }
 
+    /// With steps of other lengths from now on.
+    pub(crate) fn with_control(self, control: StepControl) -> Self {
+        Self { control, ..self }
+    }
+
+    /// Finds accelerations and energy of a start; nothing to do where they are known.
+    ///
+    /// # Errors
+    /// [`MotionError`].
+    pub(crate) fn begin<M: Mechanism>(
+        &mut self,
+        system: &mut M,
+        state: &mut State,
+    ) -> Result<(), MotionError<M::Error>> {
+        if self.ledger.is_some() {
+            return Ok(());
+        }
+        self.check(system, state)?;
+        let singular = MotionError::Singular { time: state.time, which: "mass" };
+        let mass = Cholesky::new(system.mass().clone()).ok_or(singular)?;
+        self.open(system, &mass, state)
+    }
+
     /// Energy so far; `None` before the first step.
     pub fn ledger(&self) -> Option<&Ledger> {
         self.ledger.as_ref()

@@ -1,4 +1,5 @@
 //! Laws of the integrators, without a gear.
 
+mod course;
 mod motion;
 mod schemes;

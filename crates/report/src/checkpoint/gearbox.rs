@@ -30,7 +30,8 @@ impl StoredState for GearboxState {
     }
 
     fn consistent(&self) -> Result<(), &'static str> {
-        if self.motion.is_consistent() {
+        let crossings = self.motion.counts.crossings.len();
+        if self.motion.is_consistent() && crossings == 2 * self.motion.memory.len() {
             Ok(())
         } else {
             Err("velocities of other coordinates, or counts of other meshes")
@@ -48,8 +49,8 @@ impl GearboxState {
         let text = self.rows.text(&file)?;
         let rows: Result<Vec<GearboxInstant>, _> = text.lines().map(serde_json::from_str).collect();
         let what = match rows {
-            Ok(rows) if rows.len() as u64 == self.motion.rows => return Ok(rows),
-            Ok(rows) => format!("has {} rows, and the state {}", rows.len(), self.motion.rows),
+            Ok(rows) if rows.len() as u64 == self.motion.stage.rows => return Ok(rows),
+            Ok(rows) => format!("has {} rows, and the state {}", rows.len(), self.motion.stage.rows),
             Err(e) => format!("holds what is no row: {e}"),
         };
         Err(CheckpointError::Damaged { file, what }.into())

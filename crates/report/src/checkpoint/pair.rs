@@ -1,10 +1,8 @@
 //! What a pair's motion keeps beside its rows.
 
-use analysis::{
-    facts::MeshFacts,
-    motion::{MotionCheckpoint, MotionCourse},
-};
-use dynamics::Checkpoint;
+use analysis::{facts::MeshFacts, motion::MotionCheckpoint};
+use dynamics::MechanismState;
+use integrate::Checkpoint;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
 use study::FlankPattern;
@@ -27,10 +25,8 @@ pub struct PairState {
     meshes: String,
     /// Teeth of the window.
     window: usize,
-    /// The motion.
-    motion: Checkpoint,
-    /// How far the analysis has come.
-    course: MotionCourse,
+    /// The motion, and how far it has come.
+    motion: Checkpoint<MechanismState>,
     /// The files of rows.
     pub rows: [Kept; 2],
     /// What the flanks were pressed by so far.
@@ -41,16 +37,16 @@ impl PairState {
     /// Of a motion between such meshes.
     pub fn new(
         meshes: &[MeshFacts],
-        MotionCheckpoint { window, motion, course, patterns }: MotionCheckpoint,
+        MotionCheckpoint { window, motion, patterns }: MotionCheckpoint,
         rows: [Kept; 2],
     ) -> Self {
-        Self { meshes: text_of_meshes(meshes), window, motion, course, rows, patterns }
+        Self { meshes: text_of_meshes(meshes), window, motion, rows, patterns }
     }
 
     /// What the analysis goes on from.
     pub fn checkpoint(&self) -> MotionCheckpoint {
-        let Self { window, motion, course, patterns, .. } = self.clone();
-        MotionCheckpoint { window, motion, course, patterns }
+        let Self { window, motion, patterns, .. } = self.clone();
+        MotionCheckpoint { window, motion, patterns }
     }
 }
 
@@ -65,11 +61,11 @@ impl StoredState for PairState {
         if !(1..=WIDEST).contains(&self.window) {
             return Err("a window of so many teeth");
         }
-        let Checkpoint { state, place, .. } = &self.motion;
-        if [&state.v, &state.a, &state.averaged].iter().any(|part| part.len() != state.q.len()) {
+        if !self.motion.is_consistent() {
             return Err("velocities of other coordinates");
         }
-        let sides = [Some(&place.driving), place.coast.as_ref()];
+        let MechanismState { driving, coast, .. } = &self.motion.memory;
+        let sides = [Some(driving), coast.as_ref()];
         if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
             return Err("a window beyond all cycles");
         }

@@ -25,7 +25,7 @@ const IN_USE: &str = "in_use";
 /// What is in that file.
 const HEADING: &str = "ale-gear keeps checkpoints here\n";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]

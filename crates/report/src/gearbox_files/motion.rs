@@ -56,6 +56,9 @@ pub(super) fn summary(file: &Gearbox, result: &GearboxResult) -> Value {
         "step_s": motion.step,
         "steps": motion.steps[0],
         "divided_steps": motion.steps[1],
+        "warm_up_cycles": motion.warm_up_cycles,
+        "period_cycles": motion.periodicity.map(|p| p.period),
+        "periodicity": motion.periodicity.map(|p| p.residual),
         "meshes": meshes.collect::<Vec<_>>(),
         "bearings": bearings.collect::<Vec<_>>(),
         "energy": {

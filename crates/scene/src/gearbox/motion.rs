@@ -4,7 +4,7 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
-    raw::{GearboxDrive, MOTION, MeshModel, RawMotion},
+    raw::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawMotion},
     values::{Checked, given, needed_of, row},
 };
 use crate::{Integration, Source};
@@ -33,6 +33,13 @@ pub struct GearboxMotion {
     pub steps_per_row: u32,
     /// Method of integration.
     pub scheme: Scheme,
+    /// Local error of a step over the displacements at rest; none: steps of equal length.
+    pub error_tolerance: Option<f64>,
+    /// Ends a step wherever contact is lost or gained.
+    pub stop_at_events: bool,
+    /// Before the rows: difference after a common period of all meshes over the peak to peak that counts as none, and
+    /// cycles of the fastest mesh to wait for that at the most. None: rows begin in the equilibrium.
+    pub settle: Option<(f64, u32)>,
     /// Damping ratio of the gears turning against each other at a mesh.
     pub mesh_damping_ratio: f64,
     /// Damping ratio of every elastic mode.
@@ -71,6 +78,7 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
     let cycles = row!(s, MOTION, raw.cycles)?;
     let steps_per_cycle = row!(s, MOTION, raw.steps_per_cycle)?;
     let steps_per_row = row!(s, MOTION, raw.steps_per_row)?;
+    let settle = settle(s, raw, [steps_per_cycle, steps_per_row])?;
     let rows = u64::from(cycles) * u64::from(steps_per_cycle) / u64::from(steps_per_row);
     if rows > ROWS {
         let said = format!("a motion of {rows} rows");
@@ -86,10 +94,40 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
         steps_per_cycle,
         steps_per_row,
         scheme: method.scheme(radius),
+        error_tolerance: given!(s, MOTION, raw.error_tolerance)?,
+        stop_at_events: row!(s, MOTION, raw.stop_at_events)?,
+        settle,
         mesh_damping_ratio: row!(s, MOTION, raw.mesh_damping_ratio)?,
         modal_damping_ratio: row!(s, MOTION, raw.modal_damping_ratio)?,
         highest_frequency_hz: given!(s, MOTION, raw.highest_frequency_hz)?,
         map_tolerance: row!(s, MOTION, raw.map_tolerance)?,
         checkpoint_every_cycles: row!(s, MOTION, raw.checkpoint_every_cycles)?,
     })
+}
+
+/// What a motion waits for before its rows.
+fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Checked<Option<(f64, u32)>> {
+    if s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Span {
+        let own = [
+            raw.periodic_tolerance.as_ref().map(|x| (x.span(), "periodic_tolerance")),
+            raw.warm_up_cycles.as_ref().map(|x| (x.span(), "warm_up_cycles")),
+        ];
+        if let Some((span, key)) = own.into_iter().flatten().next() {
+            let said = format!("`{key}` belongs to a motion that settles first");
+            return Err(s.conflict(&span, said, "take `run = \"steady\"`, or leave it out"));
+        }
+        return Ok(None);
+    }
+    if let Some(ramp) = &raw.to_speed_rpm {
+        let said = "a motion whose speed changes never repeats itself";
+        return Err(s.conflict(&ramp.span(), said, "take `run = \"span\"`, or leave `to_speed_rpm` out"));
+    }
+    if !per_cycle.is_multiple_of(per_row)
+        && let Some(own) = &raw.steps_per_row
+    {
+        let said = format!("rows of {per_row} steps do not meet the ends of cycles of {per_cycle}");
+        let hint = "let `steps_per_row` divide `steps_per_cycle`, or take `run = \"span\"`";
+        return Err(s.conflict(&own.span(), said, hint));
+    }
+    Ok(Some((row!(s, MOTION, raw.periodic_tolerance)?, row!(s, MOTION, raw.warm_up_cycles)?)))
 }

@@ -236,9 +236,20 @@ choices! {
     }
 }
 
+choices! {
+    /// What is run.
+    pub enum GearboxRun {
+        /// All cycles from the equilibrium on.
+        Span = "span",
+        /// The same from where the motion repeats itself.
+        Steady = "steady",
+    }
+}
+
 table! {
     /// `[motion]`
     MOTION, RawMotion: "motion in time from the equilibrium on; left out: none", needed ["speed_rpm"]; {
+        run: word(GearboxRun), "what is run: from the equilibrium on, or from where the motion repeats itself";
         speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
         to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min; default: speed_rpm";
         drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it";
@@ -249,6 +260,10 @@ table! {
         steps_per_row: whole(1, 1_000_000, 1), "steps a row";
         method: word(Integration), "method of integration";
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
+        error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length";
+        stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady)";
+        warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady)";
         mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
         modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode";
         highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh";

@@ -1,6 +1,6 @@
 //! Periodic motions integrated in time: where the branch says that a motion stays, it must stay.
 
-use integrate::State;
+use integrate::{Course, EvenRows, Row, State, StepControl};
 use nalgebra::DMatrix;
 use periodic::{FourierSeries, PeriodicMotion};
 use scene::{MotionScene, Run};
@@ -12,8 +12,8 @@ use super::{
         LumpedInputs,
         analysis::refuse_unstable,
         inputs::LumpedSystem,
-        integration::integrator,
-        mechanism::ModelFailure,
+        integration::method,
+        mechanism::{BoxedMechanism, ModelFailure},
         run_loop::{LumpedRun, NoRunObserver, RunPlan},
     },
     family::ModelFamily,
@@ -74,17 +74,25 @@ pub(super) fn settled(inputs: &LumpedInputs, cycles: u32) -> Result<Option<Fouri
         return Ok(None);
     }
     let frequencies = inputs.frequencies(motion, system.resonance_hz);
-    let mut integrator = integrator(&system.model, motion, frequencies.step(motion));
-    let (begin, mut state) = (run.end.time, run.end);
-    let row = 1.0 / (f64::from(motion.steps_per_mesh_cycle) * frequencies.mesh_hz);
     let count = (cycles * motion.steps_per_mesh_cycle) as usize;
-    let mut samples = DMatrix::zeros(state.q.len(), count);
-    for (k, mut column) in samples.column_iter_mut().enumerate() {
-        column.copy_from(&state.q);
-        let until = begin + (k + 1) as f64 * row;
-        let advanced = integrator.advance(&mut system.model, &mut state, until, |_, _| ());
-        advanced.map_err(|e| ModelFailure::from(e).of(scene))?;
-    }
+    let times = EvenRows {
+        method: method(&system.model, motion),
+        control: StepControl::new(motion.error_tolerance, frequencies.step(motion)),
+        first: run.end.time,
+        spacing: 1.0 / (f64::from(motion.steps_per_mesh_cycle) * frequencies.mesh_hz),
+        rows: count,
+    };
+    let mut samples = DMatrix::zeros(run.end.q.len(), count);
+    let mut columns = samples.column_iter_mut();
+    let mut course = Course::new(&mut system.model, times, run.end);
+    let mut sampled = |at: Row<'_, &mut BoxedMechanism>| {
+        if let Some(mut column) = columns.next() {
+            column.copy_from(&at.state.q);
+        }
+        Ok::<_, ModelFailure>(())
+    };
+    let done = course.run_cycle(Some(&mut sampled)).and_then(|_| course.run_cycle(Some(&mut sampled)));
+    done.map_err(|e| e.of(scene))?;
     Ok(FourierSeries::of_samples(&samples, HARMONICS * cycles as usize))
 }
 
@@ -94,6 +102,6 @@ fn steady(inputs: &LumpedInputs, system: &mut LumpedSystem, from: Option<&State>
     let motion = MotionScene { run: Run::Steady, ..motion_of(scene)?.clone() };
     let frequencies = inputs.frequencies(&motion, system.resonance_hz);
     refuse_unstable(scene, &motion, &mut system.model, frequencies)?;
-    let plan = RunPlan { scene, motion: &motion, frequencies, from };
+    let plan = RunPlan { scene, motion: &motion, frequencies, from, checkpoint_every: 0, resume: None };
     plan.run(&mut system.model, &mut NoRunObserver).map_err(|e| e.of(scene))
 }

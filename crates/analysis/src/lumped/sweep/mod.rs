@@ -15,7 +15,6 @@ mod ways;
 use answer::Remark;
 use std::sync::Arc;
 
-use rayon::prelude::*;
 use scene::Scene;
 
 pub use headline::SweepHeadline;
@@ -27,7 +26,7 @@ use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts,
     resolution::with_slices, run_phase,
 };
-use ways::{SweepValue, one_way};
+use ways::{SweepValue, all_ways};
 
 /// A scene of a cheaper model at many values of one of its keys.
 #[derive(Clone, Copy)]
@@ -95,9 +94,7 @@ impl<'a> KeySweep<'a> {
                 Ok(inputs) => point::run(inputs, value.value, options, from).map_err(Arc::new),
                 Err(e) => Err(Arc::clone(e)),
             };
-            let of_way = |&way| one_way(way, &values, at, &|| progress.tick());
-            let points: Vec<Vec<SweepPoint>> = options.ways.par_iter().map(of_way).collect();
-            points.into_iter().flatten().collect()
+            all_ways(&options.ways, &values, at, &|| progress.tick()).into_iter().flatten().collect()
         });
         let failed = points.first().and_then(|p| p.failed.clone());
         if let (Some(error), true) = (failed, points.iter().all(|p| p.failed.is_some())) {

@@ -1,7 +1,8 @@
 //! One row a speed and way of a sweep.
 
-use dynamics::{SweepDirection, SweepMiss, SweepOutcome, SweepPoint};
+use dynamics::{SweepMiss, SweepOutcome, SweepPoint};
 use geometry::GearPair;
+use integrate::SweepDirection;
 use scene::{MotionScene, Scene, SweepWay};
 use serde::Serialize;
 use study::{StudyError, cycle_statistics, mesh_harmonics};

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{PairMotionError, SteadyOptions, SweepDirection, SweepOutcome, SweepPlan, SweepPoint};
+use dynamics::{PairMotionError, SteadyOptions, SweepOutcome, SweepPlan, SweepPoint};
+use integrate::SweepDirection;
 use ltca::StaticError;
 use scene::{MotionScene, Scene, SweepScene, SweepWay};
 
@@ -16,6 +17,15 @@ use crate::{
     },
     run_phase, unless_cancelled,
 };
+
+/// Order in which a way of a scene goes through values.
+pub(crate) fn direction(way: SweepWay) -> SweepDirection {
+    match way {
+        SweepWay::Apart => SweepDirection::Independent,
+        SweepWay::Up => SweepDirection::Up,
+        SweepWay::Down => SweepDirection::Down,
+    }
+}
 
 /// The error of teeth missing beside the window, which a wider one may cure.
 fn starved(error: &PairMotionError) -> Option<&StaticError> {
@@ -34,11 +44,7 @@ pub(super) fn run(
     observer: &mut dyn Observer,
 ) -> Result<Vec<SweepOutcome>, Failure> {
     let speeds: Vec<f64> = sweep.all_rpm().iter().map(|n| n * RPM).collect();
-    let ways = sweep.ways.iter().map(|w| match w {
-        SweepWay::Apart => SweepDirection::Independent,
-        SweepWay::Up => SweepDirection::Up,
-        SweepWay::Down => SweepDirection::Down,
-    });
+    let ways = sweep.ways.iter().map(|way| direction(*way));
     let plan = SweepPlan {
         ways: ways.collect(),
         settings: prepared.settings.clone(),

@@ -1,0 +1,214 @@
+//! Laws of the course of a gearbox's motion: settling over a common period of all meshes, steps by an error, events,
+//! checkpoints before and among the rows.
+
+use gearbox::{
+    GearboxError,
+    motion::{Drive, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun, MotionPlan, Speed},
+};
+use geometry::Sense;
+use integrate::{Follower, MotionError, Row, Scheme, Settle};
+
+use crate::motion::train;
+
+const SPEED: Drive = Drive::Speed(Speed::Constant(100.0));
+/// Of two stages with 17 on 53 and 19 on 47 teeth, in cycles of the first mesh.
+const COMMON: u64 = 53;
+
+fn plan(mechanism: &GearboxMechanism, cycles: u64) -> MotionPlan {
+    let steps_per_cycle = 24;
+    MotionPlan {
+        scheme: Scheme::GeneralisedAlpha { rho: 0.8 },
+        step: 1.0 / mechanism.mesh_frequencies()[0] / steps_per_cycle as f64,
+        cycles,
+        steps_per_cycle,
+        steps_per_row: 4,
+        tolerance: None,
+        stop_at_events: false,
+        settle: None,
+    }
+}
+
+fn run(drive: Drive, change: impl Fn(&mut MotionPlan), cycles: u64) -> (Vec<GearboxInstant>, GearboxRun) {
+    let mut mechanism = train(drive, Sense::Ccw, 0.0);
+    let start = mechanism.start(0.05).unwrap();
+    let mut plan = plan(&mechanism, cycles);
+    change(&mut plan);
+    let mut rows = Vec::new();
+    let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
+    (rows, done)
+}
+
+/// Transmission errors of both meshes, mm.
+fn errors(rows: &[GearboxInstant]) -> Vec<[f64; 2]> {
+    rows.iter().map(|row| [0, 1].map(|i| row.meshes[i].transmission_error)).collect()
+}
+
+fn apart(a: &[[f64; 2]], b: &[[f64; 2]]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter().zip(b).flat_map(|(a, b)| [0, 1].map(|i| (a[i] - b[i]).abs())).fold(0.0, f64::max)
+}
+
+fn peak_to_peak(of: &[[f64; 2]], mesh: usize) -> f64 {
+    let ends = of.iter().map(|x| x[mesh]).fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(x), b.max(x)]);
+    ends[1] - ends[0]
+}
+
+/// A settled train of two stages comes back after the common period of its meshes, at given speed and driven by a torque;
+/// after a period of the first mesh alone it does not, and from the equilibrium on it has not settled.
+#[test]
+fn a_settled_gearbox_comes_back_after_a_common_period() {
+    let per_cycle = 6;
+    let common = COMMON as usize * per_cycle;
+    for drive in [SPEED, Drive::Torque { start: 100.0, torque: None }] {
+        let settle = Settle { tolerance: 1e-5, most: 60 * COMMON };
+        let (rows, done) = run(drive, |plan| plan.settle = Some(settle), 2 * COMMON);
+        let found = done.periodicity.unwrap();
+        assert!(done.warm_up > COMMON && done.warm_up.is_multiple_of(COMMON), "{} cycles waited", done.warm_up);
+        assert!(found.residual <= 1e-4 && found.period as u64 == COMMON, "{found:?} after {}", done.warm_up);
+        assert_eq!(rows.len(), 2 * common + 1, "the state to which it has settled is a row");
+        let of = errors(&rows);
+        let size = peak_to_peak(&of, 0).min(peak_to_peak(&of, 1));
+        let back = apart(&of[..common], &of[common..2 * common]) / size;
+        assert!(back < 1e-3, "{drive:?}: a common period changes {back:e} of the peak to peak");
+        let cycle = apart(&of[..common], &of[per_cycle..common + per_cycle]) / size;
+        assert!(cycle > 1e-2, "{drive:?}: a cycle of the first mesh changes {cycle:e} only: the law says nothing");
+        let (at_once, done) = run(drive, |_| (), 2 * COMMON);
+        assert_eq!((done.warm_up, done.periodicity), (0, None));
+        let of = errors(&at_once);
+        assert!(
+            apart(&of[..common], &of[common..2 * common]) / size > 10.0 * back,
+            "{drive:?}: settled from the start"
+        );
+    }
+}
+
+/// A motion that may not wait for a common period is refused with its length.
+#[test]
+fn a_wait_that_is_too_short_is_refused() {
+    let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
+    let start = mechanism.start(0.05).unwrap();
+    let settle = Some(Settle { tolerance: 1e-3, most: COMMON - 1 });
+    let plan = MotionPlan { settle, ..plan(&mechanism, 1) };
+    let error = mechanism.run(&start, &plan, |_| ()).unwrap_err();
+    assert_eq!(error, GearboxError::NoCommonPeriod { period: Some(COMMON), most: COMMON - 1 });
+    assert!(
+        error.to_string().contains("after 53 cycles") && error.hint().unwrap().contains("warm_up_cycles"),
+        "{error}"
+    );
+}
+
+/// Steps by an error tolerance lead to the motion that fine steps have, the nearer the tighter it is; and take fewer steps
+/// than these.
+#[test]
+fn steps_by_an_error_find_the_motion() {
+    let fine = |plan: &mut MotionPlan| {
+        plan.step /= 32.0;
+        plan.steps_per_cycle *= 32;
+        plan.steps_per_row *= 32;
+    };
+    let (reference, finest) = run(SPEED, fine, 12);
+    let reference = errors(&reference);
+    let size = peak_to_peak(&reference, 0);
+    let off = |tolerance: f64| {
+        let (rows, done) = run(SPEED, |plan| plan.tolerance = Some(tolerance), 12);
+        assert!(done.steps < finest.steps, "{} steps for {tolerance:e}", done.steps);
+        (apart(&errors(&rows), &reference) / size, done.steps)
+    };
+    let (coarse, tight) = (off(1e-2), off(1e-5));
+    assert!(tight.1 > coarse.1, "{coarse:?} {tight:?}");
+    assert!(tight.0 < 0.01 && tight.0 < 0.5 * coarse.0, "off by {:e} and {:e} of the peak to peak", tight.0, coarse.0);
+}
+
+/// Where flanks come apart, steps that end there are counted beside those that the rows ask for, and the flanks part as
+/// often as without them.
+#[test]
+fn steps_end_where_flanks_come_apart() {
+    // So little load that the varying stiffness takes the flanks apart.
+    let of = |stop_at_events: bool| {
+        let mut mechanism = train(Drive::Speed(Speed::Constant(420.0)), Sense::Ccw, 0.02);
+        let start = mechanism.start(0.01).unwrap();
+        let plan = MotionPlan { stop_at_events, ..plan(&mechanism, 60) };
+        mechanism.run(&start, &plan, |_| ()).unwrap()
+    };
+    let [through, stopping] = [false, true].map(of);
+    let lost = |run: &GearboxRun| run.separations.iter().flatten().sum::<u64>();
+    assert!(lost(&through) > 2, "the flanks stay in contact: {:?}", through.separations);
+    assert_eq!(through.steps, 60 * 24);
+    // Each loss, and each contact that comes back.
+    assert!(stopping.steps >= 60 * 24 + lost(&stopping), "{} steps, {:?}", stopping.steps, stopping.separations);
+    let [a, b] = [lost(&through), lost(&stopping)];
+    assert!(a.abs_diff(b) <= 2 + a / 2, "parts {a} times, {b} times with steps that end there");
+}
+
+/// Checkpoints with as many rows as there were.
+#[derive(Default)]
+struct Kept {
+    rows: Vec<GearboxInstant>,
+    states: Vec<(usize, GearboxCheckpoint)>,
+}
+
+impl Follower<&mut GearboxMechanism> for Kept {
+    type Error = GearboxError;
+
+    fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), GearboxError> {
+        self.rows.push(row.system.instant(row.state)?);
+        Ok(())
+    }
+
+    fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), GearboxError> {
+        self.states.push((self.rows.len(), state));
+        Ok(())
+    }
+}
+
+/// From any checkpoint, out of its text, the motion goes on to the same bits: settling and with rows, by equal steps, by
+/// an error, with steps that end at events.
+#[test]
+fn a_gearbox_taken_up_again_goes_the_same_way() {
+    for (tolerance, stop_at_events) in [(None, false), (None, true), (Some(1e-4), true)] {
+        let follow = |from: Option<GearboxCheckpoint>| {
+            let mut mechanism = train(SPEED, Sense::Ccw, 0.01);
+            let start = mechanism.start(0.05).unwrap();
+            let settle = Some(Settle { tolerance: 1e-12, most: COMMON });
+            let plan = MotionPlan { tolerance, stop_at_events, settle, ..plan(&mechanism, 20) };
+            let mut goal = mechanism.goal(&start, &plan).unwrap();
+            goal.checkpoint_every = 19;
+            let mut kept = Kept::default();
+            let mut course = mechanism.course(&start, &plan, from).unwrap();
+            course.run(&goal, &mut kept).unwrap();
+            let done = GearboxRun::of(course, &start).unwrap();
+            (kept, done)
+        };
+        let (whole, end) = follow(None);
+        let before = whole.states.iter().filter(|(rows, _)| *rows == 0).count();
+        assert!(before == 2 && whole.states.len() == 3, "{before} of {}", whole.states.len());
+        for (rows, state) in &whole.states {
+            let back = serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap();
+            let (rest, again) = follow(Some(back));
+            assert!(rest.rows == whole.rows[*rows..], "cycle {}: rows differ ({tolerance:?})", state.cycle);
+            assert_eq!(again, end, "cycle {} ({tolerance:?})", state.cycle);
+        }
+    }
+}
+
+/// A checkpoint of a gearbox with other coordinates, or other meshes, is refused.
+#[test]
+fn a_checkpoint_of_another_gearbox_is_refused() {
+    let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
+    let start = mechanism.start(0.05).unwrap();
+    let plan = plan(&mechanism, 1);
+    let mut course = mechanism.course(&start, &plan, None).unwrap();
+    course.run_cycle::<GearboxError>(None).unwrap();
+    let state = course.checkpoint().unwrap();
+    let mut meshes = state.clone();
+    meshes.memory.push(0.0);
+    let mut coordinates = state;
+    coordinates.state = start.clone();
+    coordinates.state.q = coordinates.state.q.push(0.0);
+    let errors = [meshes, coordinates].map(|state| mechanism.course(&start, &plan, Some(state)).err().unwrap());
+    let GearboxError::Motion(of_meshes) = &errors[0] else { panic!("{}", errors[0]) };
+    let one_more = GearboxError::OtherMeshes { checkpoint: 3, motion: 2 };
+    assert!(matches!(&**of_meshes, MotionError::Mechanism { source, .. } if *source == one_more), "{of_meshes}");
+    let GearboxError::Motion(of_coordinates) = &errors[1] else { panic!("{}", errors[1]) };
+    assert!(matches!(&**of_coordinates, MotionError::OtherCoordinates { .. }), "{of_coordinates}");
+}

@@ -1,0 +1,220 @@
+//! Settle, then rows; checkpoints on the way.
+
+use super::{Checkpoint, Compared, Course, Resumable, Row, Settle, Stage, Timetable};
+use crate::{Mechanism, MotionError, Periodicity, Recurrence, SignalRecurrence, State};
+
+/// Cycles before a nearer state is sought; the next tries come after half as many again.
+const FIRST_SHOT: u64 = 8;
+
+/// What is asked of a motion.
+#[derive(Debug)]
+pub struct Goal<M: Mechanism> {
+    /// What tells whether it repeats itself; `None`: nobody asks.
+    pub compared: Option<Compared<M>>,
+    /// Settles first.
+    pub settle: Option<Settle>,
+    /// Difference over a period that counts as none in cycles with rows.
+    pub tolerance: f64,
+    /// Cycles with rows.
+    pub cycles: u64,
+    /// Whether the state in which rows begin is one of them.
+    pub starts_with_row: bool,
+    /// Cycles from one checkpoint to the next; 0: none.
+    pub checkpoint_every: u64,
+    /// Stops with a checkpoint when so many cycles are done, settling included.
+    pub stop_after: Option<u64>,
+}
+
+/// Who is told of a motion, and may end it by an error.
+pub trait Follower<M: Resumable> {
+    /// Why it ends a motion; those of the motion among them.
+    type Error: From<MotionError<M::Error>>;
+
+    /// A row.
+    ///
+    /// # Errors
+    /// Whatever ends the motion.
+    fn row(&mut self, row: Row<'_, M>) -> Result<(), Self::Error>;
+
+    /// A cycle is complete.
+    ///
+    /// # Errors
+    /// Whatever ends the motion.
+    fn cycle(&mut self, _stage: &Stage) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    /// A state to go on from with all rows so far.
+    ///
+    /// # Errors
+    /// Whatever ends the motion.
+    fn checkpoint(&mut self, _state: Checkpoint<M::Memory>) -> Result<(), Self::Error> {
+        Ok(())
+    }
+
+    /// Whether a motion that repeats itself so nearly is to be taken to its periodic state at once.
+    fn seeks(&self, _system: &M, _found: Periodicity) -> bool {
+        false
+    }
+
+    /// A state at the same time that is nearer to the periodic one than waiting has come; `None` where there is none.
+    /// Asked for now and then of a motion that [`Follower::seeks`] it.
+    ///
+    /// # Errors
+    /// Whatever ends the motion.
+    fn nearer(&mut self, _system: &mut M, _state: &State, _found: Periodicity) -> Result<Option<State>, Self::Error> {
+        Ok(None)
+    }
+}
+
+/// Gets rows, and nothing else.
+#[derive(Debug)]
+pub struct OnlyRows<F>(pub F);
+
+impl<M, E, F> Follower<M> for OnlyRows<F>
+where
+    M: Resumable,
+    E: From<MotionError<M::Error>>,
+    F: FnMut(Row<'_, M>) -> Result<(), E>,
+{
+    type Error = E;
+
+    fn row(&mut self, row: Row<'_, M>) -> Result<(), E> {
+        self.0(row)
+    }
+}
+
+impl<M: Resumable, T: Timetable<M>> Course<M, T> {
+    /// Settles where that is asked for, then runs the cycles with rows; whether it stopped on the way.
+    ///
+    /// # Errors
+    /// Those of the motion and of the follower.
+    pub fn run<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
+        Ok(self.settle(goal, follower)? || self.record(goal, follower)?)
+    }
+
+    /// Cycles without rows until the motion repeats itself, so many as are allowed at the most; whether it stopped on the
+    /// way. Nothing to do for a motion among its rows.
+    ///
+    /// # Errors
+    /// Those of the motion and of the follower.
+    pub fn settle<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
+        self.begin_comparing(goal);
+        let Some(Settle { tolerance, most }) = goal.settle.as_ref().filter(|_| !self.stage.recording) else {
+            self.stage.recording = true;
+            return Ok(false);
+        };
+        while self.cycle < *most {
+            let found = self.settling_cycle(goal, *tolerance)?;
+            self.stage.recording = found.is_some_and(|p| p.residual <= *tolerance);
+            follower.cycle(&self.stage)?;
+            if let (false, Some(found)) = (self.stage.recording, found) {
+                self.shoot(found, follower)?;
+            }
+            if self.after_cycle(goal, follower)? {
+                return Ok(true);
+            }
+            if self.stage.recording {
+                break;
+            }
+        }
+        self.stage.recording = true;
+        Ok(false)
+    }
+
+    /// Cycles with rows; whether it stopped on the way.
+    ///
+    /// # Errors
+    /// Those of the motion and of the follower.
+    pub fn record<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
+        self.begin_comparing(goal);
+        self.stage.recording = true;
+        if goal.starts_with_row && self.stage.rows == 0 {
+            let ledger = *self.begin()?;
+            follower.row(Row { system: &mut self.system, state: &self.state, ledger: &ledger })?;
+            self.stage.rows = 1;
+        }
+        while self.stage.recorded < goal.cycles && self.goes_on() {
+            let mut rows = 0;
+            let envelope = self.run_cycle(Some(&mut |row: Row<'_, M>| {
+                rows += 1;
+                follower.row(row)
+            }))?;
+            self.stage.recorded += 1;
+            self.stage.rows += rows;
+            if let Some(Compared::States { scale, free, period }) = &goal.compared {
+                let is_period = self.cycle.is_multiple_of((*period).max(1));
+                let Self { stage, state, .. } = self;
+                stage.judge_states((state, envelope), (scale, *free), (is_period, goal.tolerance));
+            }
+            follower.cycle(&self.stage)?;
+            if self.stage.recorded < goal.cycles && self.after_cycle(goal, follower)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    fn begin_comparing(&mut self, goal: &Goal<M>) {
+        if let (None, Some(Compared::States { .. })) = (&self.stage.states, &goal.compared) {
+            self.stage.states = Some(Recurrence::from(&self.state));
+        }
+    }
+
+    /// One cycle on the way to the periodic state, and how nearly the last period repeats an earlier one.
+    fn settling_cycle<E: From<MotionError<M::Error>>>(
+        &mut self,
+        goal: &Goal<M>,
+        tolerance: f64,
+    ) -> Result<Option<Periodicity>, E> {
+        match &goal.compared {
+            None => {
+                self.run_cycle::<E>(None)?;
+            }
+            Some(Compared::States { scale, free, period }) => {
+                let envelope = self.run_cycle::<E>(None)?;
+                let is_period = self.cycle.is_multiple_of((*period).max(1));
+                let Self { stage, state, .. } = self;
+                stage.judge_states((state, envelope), (scale, *free), (is_period, tolerance));
+            }
+            Some(Compared::Signal(signal)) => {
+                let mut rows = Vec::new();
+                self.run_cycle::<E>(Some(&mut |Row { system, state, .. }: Row<'_, M>| {
+                    let time = state.time;
+                    rows.push(signal(system, state).map_err(|source| MotionError::Mechanism { time, source })?);
+                    Ok(())
+                }))?;
+                self.stage.periodicity = Some(self.stage.signal.judge(rows, tolerance));
+            }
+        }
+        Ok(self.stage.periodicity)
+    }
+
+    /// Goes on from a nearer state, where one is found.
+    fn shoot<F: Follower<M>>(&mut self, found: Periodicity, follower: &mut F) -> Result<(), F::Error> {
+        if self.cycle < self.stage.next_shot.max(FIRST_SHOT) || !follower.seeks(&self.system, found) {
+            return Ok(());
+        }
+        self.stage.next_shot = self.cycle + self.cycle / 2;
+        let Some(there) = follower.nearer(&mut self.system, &self.state, found)? else { return Ok(()) };
+        self.replace(there)?;
+        (self.stage.signal, self.stage.envelope) = (SignalRecurrence::default(), None);
+        self.stage.states = self.stage.states.is_some().then(|| Recurrence::from(&self.state));
+        Ok(())
+    }
+
+    /// Hands out a checkpoint where one is due; whether the motion is to stop here.
+    fn after_cycle<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
+        let stop = goal.stop_after.is_some_and(|cycles| self.cycle >= cycles);
+        let is_due = goal.checkpoint_every > 0 && self.cycle.is_multiple_of(goal.checkpoint_every);
+        if !(stop || is_due) {
+            return Ok(false);
+        }
+        // Who goes on and who takes it up again go the same way.
+        self.forget();
+        if let Some(state) = self.checkpoint() {
+            follower.checkpoint(state)?;
+        }
+        Ok(stop)
+    }
+}

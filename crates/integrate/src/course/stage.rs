@@ -1,0 +1,89 @@
+//! How far a motion has come, and what is compared from cycle to cycle.
+
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+use crate::{Envelope, Mechanism, Periodicity, Recurrence, SignalRecurrence, State};
+
+/// How far a motion has come: before its rows, or among them.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Stage {
+    /// Whether rows are written: the motion has settled, or need not.
+    pub recording: bool,
+    /// Cycles with rows.
+    pub recorded: u64,
+    /// Rows.
+    pub rows: u64,
+    /// How nearly the last period repeated an earlier one.
+    pub periodicity: Option<Periodicity>,
+    /// States at the beginnings of the last periods, where states are compared.
+    pub(super) states: Option<Recurrence>,
+    /// Rows of the last cycles, where a signal is compared.
+    pub(super) signal: SignalRecurrence,
+    /// How far coordinates went in the period under way.
+    pub(super) envelope: Option<Envelope>,
+    /// Cycles after which a nearer state is sought next.
+    pub(super) next_shot: u64,
+}
+
+impl Stage {
+    /// Whether all states in it have `n` coordinates.
+    pub(super) fn is_of(&self, n: usize) -> bool {
+        self.states.as_ref().is_none_or(|all| all.is_of(n)) && self.envelope.as_ref().is_none_or(|e| e.is_of(n))
+    }
+}
+
+/// What tells whether a motion repeats itself.
+pub enum Compared<M: Mechanism> {
+    /// States at the ends of periods.
+    States {
+        /// Sizes of the coordinates that are compared, from the first on.
+        scale: DVector<f64>,
+        /// A coordinate that need not return: of it, only the velocity is compared.
+        free: Option<usize>,
+        /// Cycles of a period, >= 1: as many as it takes until all that excites the mechanism comes back.
+        period: u64,
+    },
+    /// One number of each row of a cycle.
+    Signal(fn(&mut M, &State) -> Result<f64, M::Error>),
+}
+
+impl<M: Mechanism> std::fmt::Debug for Compared<M> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::States { period, .. } => f.debug_struct("States").field("period", period).finish_non_exhaustive(),
+            Self::Signal(_) => f.write_str("Signal"),
+        }
+    }
+}
+
+/// What is asked of a motion before its rows begin.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settle {
+    /// Difference after a period over the peak to peak that counts as none.
+    pub tolerance: f64,
+    /// Cycles at the most.
+    pub most: u64,
+}
+
+impl Stage {
+    /// Takes in a cycle of which states are compared; whether a period is complete.
+    pub(super) fn judge_states(
+        &mut self,
+        (state, envelope): (&State, Envelope),
+        (scale, free): (&DVector<f64>, Option<usize>),
+        (is_period, tolerance): (bool, f64),
+    ) {
+        let whole = match self.envelope.take() {
+            Some(before) => before.joined(&envelope),
+            None => envelope,
+        };
+        if !is_period {
+            self.envelope = Some(whole);
+            return;
+        }
+        if let Some(states) = &mut self.states {
+            self.periodicity = Some(states.judge(state, &whole, scale, free, tolerance));
+        }
+    }
+}
