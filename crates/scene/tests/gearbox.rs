@@ -78,6 +78,32 @@ fn a_seat_may_be_beside_the_gear() {
     assert!(error.to_string().contains("0 .. 155"), "{error}");
 }
 
+/// A motion that settles has its tolerance and its wait; what has no period, or rows beside the ends of cycles, is refused,
+/// and so are words that a motion from rest on has no use for.
+#[test]
+fn a_motion_settles_where_it_can() {
+    let steady = "drive = \"speed\"\nrun = \"steady\"\nwarm_up_cycles = 70\n";
+    let asked = |words: &str| {
+        let text = text().replacen("drive = \"torque\"\n", words, 1);
+        Gearbox::parse(&text, &folder().join("two_stages.toml"))
+    };
+    let motion = asked(steady).unwrap().motion.unwrap();
+    assert_eq!((motion.settle, motion.error_tolerance, motion.stop_at_events), (Some((1e-6, 70)), None, false));
+    assert_eq!(asked("").unwrap().motion.unwrap().settle, None, "from rest on, unless it says otherwise");
+    for (words, said) in [
+        ("drive = \"speed\"\nwarm_up_cycles = 70\n", "`warm_up_cycles` belongs to a motion that settles first"),
+        ("periodic_tolerance = 1e-3\n", "`periodic_tolerance` belongs to a motion that settles first"),
+        ("drive = \"torque\"\nrun = \"steady\"\n", "has no period"),
+        ("run = \"steady\"\nto_speed_rpm = 900.0\n", "never repeats itself"),
+    ] {
+        let error = asked(words).map(|_| ()).expect_err(words);
+        assert!(error.to_string().contains(said) && error.hint().is_some(), "{words}: {error}");
+    }
+    let beside = text().replacen("drive = \"torque\"\n", steady, 1).replacen("steps_per_row = 2", "steps_per_row = 3", 1);
+    let error = Gearbox::parse(&beside, &folder().join("two_stages.toml")).unwrap_err();
+    assert!(error.to_string().contains("rows of 3 steps do not meet the ends of cycles of 40"), "{error}");
+}
+
 /// A mistake is told with its line, what is allowed, and what to do.
 #[test]
 fn mistakes_are_told_with_their_place() {

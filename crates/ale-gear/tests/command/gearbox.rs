@@ -126,7 +126,7 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
 }
 
 /// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,
-/// run up; a housing out of CalculiX, driven by a torque on maps.
+/// run up; a housing out of CalculiX, driven by a torque on maps; an overhung pinion, settled by steps as short as need be.
 #[test]
 fn every_key_is_in_a_scene_that_runs() {
     let folder = repository().join("scenes/gearbox");
@@ -143,7 +143,7 @@ fn every_key_is_in_a_scene_that_runs() {
     assert!(keys.len() > 60, "{} keys", keys.len());
     let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
     assert!(left.is_empty(), "in no scene: {left:?}");
-    for name in ["run_up.toml", "in_housing.toml"] {
+    for name in ["run_up.toml", "in_housing.toml", "overhung_pinion.toml"] {
         let run = scratch.ale_gear(["run", name, "--out", name.trim_end_matches(".toml")]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
     }
@@ -151,6 +151,14 @@ fn every_key_is_in_a_scene_that_runs() {
     assert!((speeds[speeds.len() - 1] + 1600.0).abs() < 1e-6);
     ["positions", "shafts", "motion"].into_iter().for_each(|name| same_columns(&scratch.path().join("run_up"), name));
     assert!(!scratch.path().join("in_housing/positions.parquet").exists(), "nobody asked for it");
+    let told: serde_json::Value = serde_json::from_str(&scratch.read("overhung_pinion/summary.json")).unwrap();
+    let told = &told["motion"];
+    // One pair comes back after a mesh cycle, and so do its rows: the last cycle of four is the first.
+    assert!(told["periodicity"].as_f64().unwrap() < 1e-3 && told["period_cycles"] == 1, "{told}");
+    assert!(told["warm_up_cycles"].as_u64().unwrap() > 1 && told["rows"] == 4 * 32 + 1, "{told}");
+    let error = column(&scratch.read("overhung_pinion/motion.csv"), "mesh_1_dte_um");
+    let off = (0..=32).map(|i| (error[i] - error[96 + i]).abs()).fold(0.0, f64::max);
+    assert!(off < 0.2, "cycles that have settled differ by {off} um of 65");
     // A tenth more than the load asks for makes it faster.
     let speeds = column(&scratch.read("in_housing/motion.csv"), "input_speed_rpm");
     assert!(speeds[speeds.len() - 1] < -1500.0, "{} 1/min", speeds[speeds.len() - 1]);

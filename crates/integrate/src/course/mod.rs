@@ -14,7 +14,6 @@ mod run;
 mod stage;
 mod timetable;
 
-use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 pub use checkpoint::{Checkpoint, Resumable};
@@ -74,11 +73,6 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.system
     }
 
-    /// The mechanism, to be looked at where that changes what it remembers.
-    pub fn system_mut(&mut self) -> &mut M {
-        &mut self.system
-    }
-
     /// The mechanism, at the end of its motion.
     pub fn into_system(self) -> M {
         self.system
@@ -112,11 +106,6 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
     /// How far the motion has come.
     pub fn stage(&self) -> &Stage {
         &self.stage
-    }
-
-    /// Sizes of the coordinates.
-    pub fn scale(&self) -> DVector<f64> {
-        self.timetable.method(&self.system).scale
     }
 
     /// Whether there is a further cycle: a run-down may end before it.

@@ -118,6 +118,12 @@ fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Ch
         }
         return Ok(None);
     }
+    if s.choice_of::<GearboxDrive>("drive", &raw.drive)? == GearboxDrive::Torque
+        && let Some(drive) = &raw.drive
+    {
+        let said = "under a torque the speed wanders, and a motion without a given speed has no period";
+        return Err(s.conflict(&drive.span(), said, "take `run = \"span\"`, or `drive = \"speed\"`"));
+    }
     if let Some(ramp) = &raw.to_speed_rpm {
         let said = "a motion whose speed changes never repeats itself";
         return Err(s.conflict(&ramp.span(), said, "take `run = \"span\"`, or leave `to_speed_rpm` out"));
