@@ -1,55 +1,13 @@
 //! What can be wrong with a scene, and where.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::path::{Path, PathBuf};
 
+use files::Place;
 use geometry::GeometryError;
 use geometry::modification::DataFileError;
 
 use crate::DocumentKind;
-
-/// Where a value was said.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
-    /// A line of a file; boxed, as every check hands a place about.
-    Line(Box<Line>),
-    /// Beside the file.
-    Setting {
-        /// As `--set operation.torque_nm`.
-        label: Box<str>,
-    },
-}
-
-/// A line of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
-    /// The file as the user named it.
-    pub file: PathBuf,
-    /// Counted from 1.
-    pub number: usize,
-    /// The line itself with a mark below what is meant: two lines of text.
-    pub excerpt: String,
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "{}:{}", line.file.display(), line.number),
-            Self::Setting { label } => f.write_str(label),
-        }
-    }
-}
-
-impl Place {
-    /// The line with a mark below what is meant; none beside a file.
-    pub fn excerpt(&self) -> Option<&str> {
-        match self {
-            Self::Line(line) => Some(&line.excerpt),
-            Self::Setting { .. } => None,
-        }
-    }
-}
 
 /// A complaint about a scene file.
 #[derive(Debug, thiserror::Error)]

@@ -9,7 +9,6 @@ use std::sync::Arc;
 
 use toml::Spanned;
 
-use super::error::{Line, Place, SceneError};
 use super::excerpt::excerpt;
 use super::hints;
 use super::keys::{self, Tables};
@@ -17,6 +16,7 @@ use super::origin::Origin;
 use super::setting::Setting;
 use super::spanned::{Number, Switch, Whole, Word, Words};
 use super::table::{Choice, Table};
+use super::{Line, Place, error::SceneError};
 
 /// The text of a scene, or of another file of tables, and the name that messages give it.
 pub struct Source<'a> {
@@ -88,7 +88,7 @@ impl Source<'_> {
         let end = span.start.min(self.text.len());
         let number = 1 + self.text.as_bytes()[..end].iter().filter(|&&b| b == b'\n').count();
         let excerpt = excerpt(self.text, span, number);
-        Place::Line(Box::new(Line { file: self.file.to_owned(), number, excerpt }))
+        Place::Line(Arc::new(Line { file: self.file.to_owned(), number, excerpt }))
     }
 
     /// A complaint about words that each are right and do not go together.

@@ -196,7 +196,9 @@ impl SweepArgs {
         }
         let first = scenes.first().map(|(_, scene)| scene);
         let quantity = first.map(|scene| lumped::quantity(scene, self.of(false))).transpose()?;
-        let Some(quantity) = quantity else { return Err(analysis::AnalysisError::NoValues.into()) };
+        let Some(quantity) = quantity else {
+            return Err(analysis::AnalysisError::from(analysis::Refusal::no_values()).into());
+        };
         let options = SweepOptions {
             key: self.key.clone(),
             ways,

@@ -15,7 +15,10 @@ use scene::{
 };
 
 use super::elastic_pair::{ElasticPair, without_speed};
-use crate::{AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, nominal_load, static_certificate};
+use crate::{
+    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, error::in_scene, iso_model, nominal_load,
+    static_certificate,
+};
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
 #[derive(Debug, Clone)]
@@ -51,7 +54,7 @@ impl<'a> ExcitationSource<'a> {
         pair: &GearPair,
         plane: &PlaneOfAction,
     ) -> Result<MeshExcitation, AnalysisError> {
-        let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
+        let complain = in_scene::<LumpedError>(scene);
         let error = Fourier {
             mean: 0.0,
             cosine: mesh.error_cos_um.iter().map(|x| 1e-3 * x).collect(),
@@ -112,7 +115,7 @@ impl<'a> ExcitationSource<'a> {
             &column(|p| p.transmission_error),
             scene.operation.torque() / driven.base_radius(),
         )
-        .map_err(|e| AnalysisError::lumped(scene, e))?;
+        .map_err(in_scene(scene))?;
         let excitation = MeshExcitation { cycle, warnings: solved.history.warnings };
         self.last = Some((at_rest, excitation.clone()));
         Ok(excitation)

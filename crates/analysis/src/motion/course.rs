@@ -11,7 +11,8 @@ use super::{
     MotionCheckpoint, MotionCourse, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion,
 };
 use crate::{
-    AnalysisError, Observer, PhaseWork, Progress, failure::Failure, results::GearPattern, run_phase, unless_cancelled,
+    AnalysisError, Observer, PhaseWork, Progress, error::in_scene, failure::Failure, results::GearPattern, run_phase,
+    unless_cancelled,
 };
 
 /// What is asked of the course.
@@ -256,9 +257,6 @@ impl<'a> Course<'a> {
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
     match error.contact_error() {
         Some(source) if source.is_starved() => Failure::Static(source.clone()),
-        _ => {
-            let file = scene.file.display().to_string();
-            AnalysisError::Motion { file, source: Box::new(error) }.into()
-        }
+        _ => in_scene(scene)(error).into(),
     }
 }

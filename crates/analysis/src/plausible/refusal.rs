@@ -1,15 +1,15 @@
 //! Scenes that no gear pair is: told before any work, with the unit that was meant.
 
 use geometry::GearPair;
-use scene::{Place, Scene, units::in_another_unit};
+use scene::{Scene, units::in_another_unit};
 
 use super::{
+    digits::digits,
     estimate::LoadEstimate,
     flanks::tip_left,
-    implausible::Implausible,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},
 };
-use crate::AnalysisError;
+use crate::{AnalysisError, error::place_in, refused::Refusal};
 
 /// Deflection in modules that is refused before the work, thrice that which fails after it: an estimate is no result.
 const MODULES: f64 = 1.0;
@@ -34,14 +34,11 @@ pub struct Beyond {
 /// Refuses a scene whose load bends teeth by their own size, or whose micro-geometry leaves no tooth.
 ///
 /// # Errors
-/// [`AnalysisError::Implausible`] at the key that is likely wrong.
+/// [`AnalysisError::Refused`] at the key that is likely wrong.
 pub fn refuse(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(found) = no_tip(scene, pair).or_else(|| beyond(scene, pair)) else { return Ok(()) };
     let keys: Vec<&str> = found.keys.iter().map(String::as_str).collect();
-    let place = scene.place_of(&keys);
-    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
-    let excerpt = place.as_ref().and_then(Place::excerpt).map(str::to_owned);
-    Err(AnalysisError::Implausible(Box::new(Implausible { at, excerpt, said: found.said, hint: found.hint })))
+    Err(AnalysisError::from(Refusal::input(found.said, found.hint)).at(place_in(scene, &keys)))
 }
 
 /// A load that bends the teeth by their own size; `None` where it does not.
@@ -171,15 +168,4 @@ fn no_tip(scene: &Scene, pair: &GearPair) -> Option<Beyond> {
 /// A length with its unit.
 fn length(mm: f64) -> String {
     if mm < 1.0 { format!("{} um", digits(1e3 * mm)) } else { format!("{} mm", digits(mm)) }
-}
-
-/// Three digits, without an exponent where that is short.
-pub(crate) fn digits(value: f64) -> String {
-    let decimals = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 5.0) as usize;
-    if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) {
-        format!("{value:.2e}")
-    } else {
-        let text = format!("{value:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    }
 }
