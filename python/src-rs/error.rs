@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ::scene::{Place, RexsError, SceneError};
-use analysis::AnalysisError;
+use analysis::{AnalysisError, Blame};
 use pyo3::{prelude::*, types::PyDict};
 use report::ReportError;
 
@@ -117,13 +117,16 @@ impl From<AnalysisError> for Complaint {
             },
             other => other,
         };
-        let kind = match &error {
-            e if e.is_inexact() => Kind::Inexact,
-            e if e.is_without_result() => Kind::NoResult,
-            _ => Kind::Input,
+        let kind = match error.blame() {
+            Blame::Inexact => Kind::Inexact,
+            Blame::NoResult => Kind::NoResult,
+            Blame::Input => Kind::Input,
         };
+        let named: Vec<&Place> = error.places().filter(|place| place.file().is_some()).collect();
+        let file = named.last().and_then(|place| place.file()).map(|file| file.display().to_string());
+        let line = named.last().and_then(|place| place.line());
         let excerpt = error.excerpt().map(str::to_owned);
-        Self { excerpt, ..Self::new(kind, &error, error.hint()) }
+        Self { file, line, excerpt, ..Self::new(kind, &error, error.hint()) }
     }
 }
 

@@ -274,6 +274,7 @@ impl Pair {
         let words = PlanWords {
             vary: &words,
             outputs: &outputs,
+            columns: &[],
             design: design.as_deref(),
             samples: samples.map(|any| whole("samples", any, 1)).transpose()?,
             seed: seed.map(|any| whole("seed", any, 0)).transpose()?,

@@ -2,7 +2,7 @@
 
 use std::{fmt::Display, path::Path};
 
-use analysis::{AnalysisError, parameter_study::CaseFailure};
+use analysis::{AnalysisError, Blame, parameter_study::CaseFailure};
 use report::ReportError;
 use study::StudyError;
 
@@ -71,7 +71,11 @@ impl From<AnalysisError> for CommandError {
             other => other,
         };
         let hint = error.hint();
-        let status = if error.is_inexact() { 3 } else { 2 - u8::from(error.is_without_result()) };
+        let status = match error.blame() {
+            Blame::Input => 2,
+            Blame::NoResult => 1,
+            Blame::Inexact => 3,
+        };
         Self { status, message: error.to_string(), excerpt: error.excerpt().map(str::to_owned), hint }
     }
 }

@@ -12,5 +12,5 @@ use crate::AnalysisError;
 /// beside it.
 pub fn verdict(checks: &Checks, scene: &Scene) -> Result<(), AnalysisError> {
     let Some(failed) = checks.failed() else { return Ok(()) };
-    Err(AnalysisError::Certificate { file: scene.file.display().to_string(), missed: failed.missed, hint: failed.hint })
+    Err(AnalysisError::Certificate(failed).in_file(&scene.file))
 }

@@ -10,7 +10,12 @@ use reduction::{
 
 use scene::{Model, Scene};
 
-use crate::{AnalysisError, GearCache, Progress, error::solver_error, foreseen::foreseen_gear_s, meshes::SceneMesh};
+use crate::{
+    AnalysisError, GearCache, Progress,
+    error::{in_scene, solver_error},
+    foreseen::foreseen_gear_s,
+    meshes::SceneMesh,
+};
 
 /// Both gears as the analysis takes them.
 #[derive(Debug)]
@@ -124,11 +129,11 @@ fn one(
 }
 
 fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::ReductionError) -> AnalysisError {
-    let place = match scene.gears()[i].mesher {
-        None => mesh.facts.source.clone(),
-        Some(_) => format!("{}: built-in mesher", scene.file.display()),
-    };
-    AnalysisError::Reduction { place, gear: NAMES[i], source: Box::new(source) }
+    let error = AnalysisError::from(source).of_part(NAMES[i]);
+    match scene.gears()[i].mesher {
+        None => error.of_part(&*mesh.facts.source),
+        Some(_) => error.of_part("built-in mesher").in_file(&scene.file),
+    }
 }
 
 /// Material of pinion (0) or wheel (1).
@@ -137,9 +142,6 @@ fn blame(scene: &Scene, mesh: &SceneMesh, i: usize, source: reduction::Reduction
 /// [`AnalysisError`] when it is none.
 pub fn material(scene: &Scene, i: usize) -> Result<Material, AnalysisError> {
     let (whose, m) = (NAMES[i], scene.gears()[i].material);
-    Material::new(m.young_mpa, m.poisson, m.density()).map_err(|source| AnalysisError::Material {
-        file: scene.file.display().to_string(),
-        gear: whose,
-        source: Box::new(source),
-    })
+    let failed = |source| AnalysisError::from(source).of_part(format!("{whose}'s material"));
+    Material::new(m.young_mpa, m.poisson, m.density()).map_err(failed).map_err(in_scene(scene))
 }

@@ -8,9 +8,11 @@ use crate::{
     AnalysisError,
     accuracy::Accuracy,
     certificate::{self, Checks},
+    error::in_scene,
     gears, iso_root,
     loaded_pair::LoadedPair,
     nominal_pressure::{NominalPressure, nominal_pressure},
+    refused::{Blame, Refusal},
 };
 pub use crate::{
     gears::GeometryFacts,
@@ -77,7 +79,7 @@ impl Facts {
     /// Whether the result holds and is as exact as was asked.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`].
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         certificate::verdict(&self.certificate, scene)?;
         let missed = self.accuracy.iter().flat_map(Accuracy::missed);
@@ -85,7 +87,9 @@ impl Facts {
         if missed.is_empty() {
             return Ok(());
         }
-        Err(AnalysisError::Inexact { file: scene.file.display().to_string(), missed: missed.join(", ") })
+        let what = format!("the accuracy asked for is not kept: {}", missed.join(", "));
+        let hint = Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".to_owned());
+        Err(in_scene(scene)(Refusal { what, hint, blame: Blame::Inexact }))
     }
 }
 

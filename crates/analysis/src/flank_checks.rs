@@ -46,7 +46,7 @@ impl NamedFlanks<'_> {
     /// and the gaps of the one would be put on the compliance of the other.
     ///
     /// # Errors
-    /// [`AnalysisError::Mismatch`] with a node that is off, and the mistake that explains all of them, where there is
+    /// [`AnalysisError::Refused`] with a node that is off, and the mistake that explains all of them, where there is
     /// one.
     pub fn lie_on_the_gear(&self) -> Result<(), AnalysisError> {
         let Self { file, whose, found, exact, .. } = *self;
@@ -56,29 +56,29 @@ impl NamedFlanks<'_> {
             if off > allowed {
                 let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
                 let said = format!(
-                    "{file}: node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, allowed is \
+                    "node {} of the {} flank of tooth {tooth} lies {far} off the {whose}'s flank, allowed is \
                      {allowed:.3} mm",
                     found.mesh().node_tags[node as usize],
                     side.name()
                 );
-                return Err(mismatch(said, self.explanation(allowed)));
+                return Err(mismatch(file, said, self.explanation(allowed)));
             }
         }
         let [low, high] = self.heights();
         let middle = 0.5 * (low + high);
         // A spur gear has its flanks at any height, the face width has not.
         if middle.abs() > LARGEST_SHIFT * (high - low) {
-            let said = format!("{file}: the {whose}'s flanks lie at z = {low:.3} to {high:.3} mm, not about z = 0");
-            return Err(mismatch(said, shifted(middle)));
+            let said = format!("the {whose}'s flanks lie at z = {low:.3} to {high:.3} mm, not about z = 0");
+            return Err(mismatch(file, said, shifted(middle)));
         }
         let width = exact.face_width();
         if high.max(-low) > 0.5 * width + allowed {
             let said = format!(
-                "{file}: the {whose}'s flanks reach from z = {low:.3} to {high:.3} mm, and its face is {width:.3} mm wide"
+                "the {whose}'s flanks reach from z = {low:.3} to {high:.3} mm, and its face is {width:.3} mm wide"
             );
             let hint =
                 format!("is `face_width_mm` of the {whose} that of the mesh, and mid-face of the mesh at z = 0?");
-            return Err(mismatch(said, hint));
+            return Err(mismatch(file, said, hint));
         }
         Ok(())
     }
@@ -91,7 +91,7 @@ impl NamedFlanks<'_> {
     /// Area of a flank from the root form circle to the tip, mm^2.
     ///
     /// # Errors
-    /// [`AnalysisError::Mismatch`]: a group that is not there, or covers a part of its flank.
+    /// [`AnalysisError::Refused`]: a group that is not there, or covers a part of its flank.
     pub fn are_whole(&self) -> Result<(), AnalysisError> {
         let Self { file, whose, found, exact, names } = *self;
         let profile = exact.profile();
@@ -101,21 +101,24 @@ impl NamedFlanks<'_> {
             let faces = found.flank(tooth, side).unwrap_or_default();
             if faces.is_empty() {
                 let group = names.flank_of(side, i64::from(tooth));
-                let said =
-                    format!("{file}: no physical group `{group}`, though the other flank of tooth {tooth} has one");
-                return Err(mismatch(said, "name both flanks of a tooth, or neither; the program finds unnamed ones"));
+                let said = format!("no physical group `{group}`, though the other flank of tooth {tooth} has one");
+                return Err(mismatch(
+                    file,
+                    said,
+                    "name both flanks of a tooth, or neither; the program finds unnamed ones",
+                ));
             }
             let area: f64 = faces.iter().map(|face| found.mesh().area(face)).sum();
             if area < COVERED * whole {
                 let said = format!(
-                    "{file}: the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of \
+                    "the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of \
                      {whole:.2} mm^2",
                     side.name(),
                     100.0 * area / whole
                 );
                 let hint =
                     "are all faces of the flank in its group, and are face width and tip diameter those of the mesh?";
-                return Err(mismatch(said, hint));
+                return Err(mismatch(file, said, hint));
             }
         }
         Ok(())

@@ -18,7 +18,7 @@ impl NamedFlanks<'_> {
     /// ```
     ///
     /// # Errors
-    /// [`AnalysisError::Mismatch`] where it is more.
+    /// [`AnalysisError::Refused`] where it is more.
     pub fn reach(&self, pair: &GearPair) -> Result<Option<answer::Remark>, AnalysisError> {
         let Self { found, exact, .. } = *self;
         let [start, end] = pair.path_of_contact();
@@ -57,11 +57,11 @@ impl NamedFlanks<'_> {
             }
         }
         match worst {
-            Some(lack) if lack.share > LARGEST_LACK => Err(mismatch(lack.said(self), lack.hint(self))),
-            other => {
-                Ok(other
-                    .map(|lack| crate::remark::mesh_lacks_face(lack.said(self), 100.0 * lack.share, lack.hint(self))))
-            }
+            Some(lack) if lack.share > LARGEST_LACK => Err(mismatch(self.file, lack.said(self), lack.hint(self))),
+            other => Ok(other.map(|lack| {
+                let said = format!("{}: {}", self.file, lack.said(self));
+                crate::remark::mesh_lacks_face(said, 100.0 * lack.share, lack.hint(self))
+            })),
         }
     }
 }
@@ -94,7 +94,7 @@ struct Lack {
 
 impl Lack {
     fn said(&self, flanks: &NamedFlanks<'_>) -> String {
-        let NamedFlanks { file, whose, .. } = *flanks;
+        let whose = flanks.whose;
         let (FlankName { tooth, side }, [found, wanted]) = (self.flank, self.places);
         let (side, share) = (side.name(), 100.0 * self.share);
         let (ends, where_contact) = match self.edge {
@@ -105,7 +105,7 @@ impl Lack {
         };
         let whole = if matches!(self.edge, Edge::Root | Edge::Tip) { "path of contact" } else { "face" };
         format!(
-            "{file}: the {side} flank of tooth {tooth} {ends} {found:.3} mm, {where_contact}: {share:.1} % of the {whole} \
+            "the {side} flank of tooth {tooth} {ends} {found:.3} mm, {where_contact}: {share:.1} % of the {whole} \
              has no face to carry it"
         )
     }

@@ -96,7 +96,7 @@ impl SolvedInTime {
     /// model has the worst of all values that came out.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`], [`AnalysisError::Inexact`], [`AnalysisError::NoSpeed`].
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked, or without a speed.
     pub fn verdict(&self) -> Result<(), AnalysisError> {
         match &self.answer {
             TimeAnswer::Speeds(result) => result.verdict(&self.scene),
@@ -167,14 +167,14 @@ impl<'a> TimeAnalysis<'a> {
         match self.stop_after(None).solve_into(observer, &mut NoMotionSink)? {
             TimeOutcome::Finished(solved) => Ok(*solved),
             // Nobody asked it to.
-            TimeOutcome::Stopped { .. } => Err(AnalysisError::other_analysis(scene, "motion to its end")),
+            TimeOutcome::Stopped { .. } => Err(crate::error::unasked(scene, "motion to its end")),
         }
     }
 
     /// Solves the scene; rows of reduced gears go into `sink` as they come.
     ///
     /// # Errors
-    /// [`AnalysisError`]; [`AnalysisError::OtherAnalysis`] for a scene at rest, and where checkpoints or meshes in memory
+    /// [`AnalysisError`]; [`AnalysisError::Refused`] for a scene at rest, and where checkpoints or meshes in memory
     /// go with what is no [single motion](TimeAnalysis::is_one_motion).
     pub fn solve_into(
         self,
@@ -182,7 +182,7 @@ impl<'a> TimeAnalysis<'a> {
         sink: &mut dyn MotionSink,
     ) -> Result<TimeOutcome, AnalysisError> {
         let Self { scene, meshes, cache, from, stop_after } = self;
-        let Some(motion) = &scene.motion else { return Err(AnalysisError::other_analysis(scene, "motion")) };
+        let Some(motion) = &scene.motion else { return Err(crate::error::unasked(scene, "motion")) };
         if Self::is_one_motion(scene) {
             let mut analysis = MotionAnalysis::new(scene).with_cache(cache).stop_after(stop_after);
             if let Some(meshes) = meshes {
@@ -197,7 +197,7 @@ impl<'a> TimeAnalysis<'a> {
             });
         }
         if meshes.is_some() || from.is_some() || stop_after.is_some() {
-            return Err(AnalysisError::other_analysis(scene, "single motion of reduced gears"));
+            return Err(crate::error::unasked(scene, "single motion of reduced gears"));
         }
         let answer = if motion.basins.is_some() {
             TimeAnswer::Basins(Box::new(BasinAnalysis::new(scene).with_cache(cache).solve_with(observer)?))

@@ -23,7 +23,7 @@ pub(crate) fn settled_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
 
 /// The motion that a scene asks for.
 pub(crate) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
-    scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, "motion"))
+    scene.motion.as_ref().ok_or_else(|| crate::error::unasked(scene, "motion"))
 }
 
 /// Meshes of pinion and wheel: those that the caller holds, checked as files are, else those of the scene.

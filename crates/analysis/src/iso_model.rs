@@ -23,12 +23,11 @@ use crate::{AnalysisError, facts::Facts, iso_root, loaded_pair::LoadedPair};
 /// c_1 and c_2, by which the axial force bends the bodies, are no part of ISO 6336-1 and stand beside its values.
 ///
 /// # Errors
-/// [`AnalysisError::Iso`] where ISO 6336-1 does not hold.
+/// [`AnalysisError::Lumped`] where ISO 6336-1 does not hold.
 pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let base_force = loaded.base_force();
-    let fail =
-        |source: LumpedError| AnalysisError::Iso { file: scene.file.display().to_string(), source: Box::new(source) };
+    let fail = |source: LumpedError| AnalysisError::from(source).of_part("model \"iso\"").in_file(&scene.file);
     let iso = loaded.iso_stiffness().map_err(fail)?;
     let bodies = bodies(&loaded);
     let mesh = Mesh { base_force, c_mesh: iso.c_mesh, bodies: bodies.iter().sum() };

@@ -4,7 +4,7 @@ use geometry::GearPair;
 use ltca::{GUESSED_LINE_STIFFNESS, round_off_of_places};
 use scene::Scene;
 
-use crate::{AnalysisError, error::MeshMismatch, loaded_pair::LoadedPair, static_certificate::ROUND_OFF};
+use crate::{AnalysisError, error::place_in, loaded_pair::LoadedPair, refused::Refusal, static_certificate::ROUND_OFF};
 
 /// What the guessed stiffness may be off by.
 const GUESS: f64 = 3.0;
@@ -19,7 +19,7 @@ const STEEL_MPA: f64 = 2.06e5 / (2.0 * (1.0 - 0.3 * 0.3));
 /// ```
 ///
 /// # Errors
-/// [`AnalysisError::Mismatch`] at the torque's place in the scene.
+/// [`AnalysisError::Refused`] at the torque's place in the scene.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let force = loaded.base_force();
@@ -33,17 +33,15 @@ pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError>
         return Ok(());
     }
     let torque = scene.operation.torque_nm;
-    let place = scene.place_of(&["operation.torque_nm"]);
-    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
     // A digit that says so: twice what the guess may be off by.
     let enough = torque * share / ROUND_OFF * 2.0 * GUESS;
-    Err(AnalysisError::Mismatch(Box::new(MeshMismatch {
-        said: format!(
-            "{at}: the torque of {torque:e} N m is too light to be told from none: teeth come nearer by some {approach:.0e} mm, and places \
+    let refusal = Refusal::input(
+        format!(
+            "the torque of {torque:e} N m is too light to be told from none: teeth come nearer by some {approach:.0e} mm, and places \
              of flanks {:.4} mm apart are known to {places:.0e} mm (round_off_share {share:.1e}, limit {ROUND_OFF:.0e})",
             pair.centre_distance()
         ),
-        hint: format!("take `torque_nm = {enough:.0e}` or more, or 0 for the unloaded pair"),
-        excerpt: place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned),
-    })))
+        format!("take `torque_nm = {enough:.0e}` or more, or 0 for the unloaded pair"),
+    );
+    Err(AnalysisError::from(refusal).at(place_in(scene, &["operation.torque_nm"])))
 }

@@ -1,20 +1,23 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
+use std::path::Path;
+
 use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
 use mesh::{
-    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredOptions, SurfaceGroup,
-    generate,
+    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredError,
+    StructuredOptions, SurfaceGroup, generate,
 };
 
 use scene::{Coupling, GearScene, MesherScene, Scene};
 
 use crate::{
     AnalysisError,
-    error::{MeshMismatch, mismatch},
+    error::{in_scene, mismatch, place_in},
     facts::MeshFacts,
     flank_checks::NamedFlanks,
+    refused::{Blame, Refusal},
 };
 
 /// The mesh of one gear of a scene.
@@ -56,8 +59,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
                 options.extent = Extent::Periodic;
             }
             let mesh = generated_with(scene, whose, exact, &options)?;
-            let failed =
-                |source: MeshError| AnalysisError::MadeMesh { gear: whose.to_owned(), source: Box::new(source) };
+            let failed = |source| made_no_gear(whose, source);
             let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
             let (gear, facts) = to_compute(scene, gear, found, "built-in mesher".to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, warnings: Vec::new() })
@@ -77,7 +79,7 @@ pub fn checked_mesh(
     mesh: Mesh,
     [file, source]: [String; 2],
 ) -> Result<SceneMesh, AnalysisError> {
-    let complain = |source: MeshError| AnalysisError::Mesh { place: file.clone(), source: Box::new(source) };
+    let complain = |source| in_mesh_file(Path::new(&file), source);
     of_this_size(&file, whose, &mesh, exact)?;
     let mut warnings = sound(&file, &mesh, gear)?;
     let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
@@ -121,11 +123,12 @@ fn generated_with(
     exact: &Gear,
     options: &StructuredOptions,
 ) -> Result<Mesh, AnalysisError> {
-    generate(exact, options).map_err(|source| AnalysisError::Mesher {
-        file: scene.file.display().to_string(),
-        gear: whose.to_owned(),
-        source: Box::new(source),
-    })
+    let refused = |source: StructuredError| {
+        let hint = source.hint();
+        let refusal = Refusal { what: source.to_string(), hint, blame: Blame::Input };
+        AnalysisError::from(refusal).of_part(format!("[{whose}.mesher]"))
+    };
+    generate(exact, options).map_err(refused).map_err(in_scene(scene))
 }
 
 fn options(m: &MesherScene) -> StructuredOptions {
@@ -144,6 +147,22 @@ fn options(m: &MesherScene) -> StructuredOptions {
     }
 }
 
+/// What is wrong with a mesh file; errors of reading name it by themselves.
+fn in_mesh_file(file: &Path, source: MeshError) -> AnalysisError {
+    let is_named = source.to_string().starts_with(&*file.to_string_lossy());
+    let error = AnalysisError::from(source);
+    if is_named { error } else { error.in_file(file) }
+}
+
+/// What the built-in mesher made is no gear: its own fault, but for the part of the bore that the scene holds.
+fn made_no_gear(whose: &str, source: MeshError) -> AnalysisError {
+    let error = match source {
+        MeshError::NotHeld { .. } => source.into(),
+        _ => AnalysisError::from(Refusal::no_result(source.to_string(), source.hint())),
+    };
+    error.of_part(format!("built-in mesher, {whose}"))
+}
+
 /// Refuses a mesh that is far larger or smaller than the gear: another unit, or another gear.
 fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), AnalysisError> {
     let reach = mesh.nodes.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
@@ -152,9 +171,8 @@ fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<()
         return Ok(());
     }
     Err(mismatch(
-        format!(
-            "{file}: the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"
-        ),
+        file,
+        format!("the mesh reaches a radius of {reach:.6} mm about the z axis, the {whose}'s tip radius is {tip:.3} mm"),
         match unit_of(reach / tip) {
             Some((unit, factor)) => format!(
                 "the mesh is in {unit}: write it again in mm, {factor} times as large (Gmsh: `Mesh.ScalingFactor = {factor};`)"
@@ -176,7 +194,7 @@ fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<Remark>, Analy
     let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
     if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
         let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
-        return Err(mismatch(format!("{file}: {}", error.text), hint));
+        return Err(mismatch(file, &*error.text, hint));
     }
     let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
     Ok(warnings.map(|f| remark::mesh_finding(file, &*f.text)).collect())
@@ -193,13 +211,11 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &G
     if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
         return Ok(());
     }
-    let place = scene.place_of(&[&format!("{whose}.bore_diameter_mm")]);
-    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
     let own = if high - low < BORE_AGREES * high { format!("{high:.3}") } else { format!("{low:.3} to {high:.3}") };
-    let message = format!("{at}: the {whose}'s `bore_diameter_mm` is {stated}, but the bore of {file} has {own} mm");
+    let what = format!("the {whose}'s `bore_diameter_mm` is {stated}, but the bore of {file} has {own} mm");
     let hint = "leave `bore_diameter_mm` out: the mesh's own is taken";
-    let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
-    Err(AnalysisError::Mismatch(Box::new(MeshMismatch { said: message, hint: hint.into(), excerpt })))
+    let place = place_in(scene, &[&format!("{whose}.bore_diameter_mm")]);
+    Err(AnalysisError::from(Refusal::input(what, hint)).at(place))
 }
 
 /// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough,

@@ -12,8 +12,11 @@ use serde::Serialize;
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
+    error::nothing_to_reduce,
     foreseen::announced_s,
-    meshes, options, run_phase, solver_error,
+    meshes, options,
+    refused::Refusal,
+    run_phase, solver_error,
 };
 
 /// What the reduction of one gear came to.
@@ -49,14 +52,14 @@ pub struct ReducedScene {
 /// Reduces both gears of a scene for their first window, as a run does, and keeps the records in `cache`.
 ///
 /// # Errors
-/// [`AnalysisError::NothingToReduce`] when the scene's model reduces nothing; those of a run.
+/// [`AnalysisError::Refused`] when the scene's model reduces nothing; those of a run.
 pub fn reduce_scene(
     scene: &Scene,
     observer: &mut dyn Observer,
     cache: &dyn GearCache,
 ) -> Result<ReducedScene, AnalysisError> {
     if !scene.analysis.model.is_reduced() {
-        return Err(AnalysisError::nothing_to_reduce(scene));
+        return Err(nothing_to_reduce(scene));
     }
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
     let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;
@@ -95,8 +98,8 @@ fn row(gear: String, of: &GearReducer, window: &Window) -> ReducedRow {
 /// kept: a record belongs to the data of a gear, which a scene has.
 ///
 /// # Errors
-/// [`AnalysisError::WindowOfMesh`] when the mesh has not so many teeth, [`AnalysisError::ReductionOfMesh`] when it is
-/// not what a gear needs.
+/// [`AnalysisError::Refused`] when the mesh has not so many teeth, [`AnalysisError::Reduction`] when it is not what a
+/// gear needs.
 pub fn reduce_mesh(
     name: &str,
     gear: GearMesh,
@@ -108,14 +111,15 @@ pub fn reduce_mesh(
     let whole = gear.is_periodic_sector() || gear.is_whole_gear();
     let all = if whole { gear.tooth_count() as usize } else { teeth.len() };
     if window == 0 || window > all {
-        return Err(AnalysisError::WindowOfMesh { mesh: name.to_owned(), window, teeth: all });
+        let hint = "give `--window-teeth` up to the number of teeth of the mesh";
+        let refusal = Refusal::input(format!("a window of {window} teeth of {all}"), hint);
+        return Err(AnalysisError::from(refusal).of_part(name));
     }
     let first = teeth.first().copied().unwrap_or(0);
     let sides = vec![Side::Left, Side::Right];
     let options = ReductionOptions { sides, window, first, elements: ElementOptions::default() };
     let reduce = || GearReducer::new(gear, material, options).and_then(|g| Ok((g.window(first)?, g)));
     let reduced = run_phase(observer, "reduce", PhaseWork::Unknown, |_| reduce());
-    let named = |source| AnalysisError::ReductionOfMesh { mesh: name.to_owned(), source: Box::new(source) };
-    let (window, reduced) = reduced.map_err(named)?;
+    let (window, reduced) = reduced.map_err(|source| AnalysisError::from(source).of_part(name))?;
     Ok(row(name.to_owned(), &reduced, &window))
 }

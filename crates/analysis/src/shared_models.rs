@@ -111,7 +111,7 @@ impl<'a> SharedModels<'a> {
     /// [`AnalysisError`], also where the model of the scene reduces no gears.
     pub fn reduce(&self, scene: &Scene) -> Result<(), AnalysisError> {
         if scene.analysis.model != Model::Reduced {
-            return Err(AnalysisError::nothing_to_reduce(scene));
+            return Err(crate::error::nothing_to_reduce(scene));
         }
         let scene = settled_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;

@@ -19,6 +19,7 @@ use crate::{
     meshes::SceneMesh,
     options::options,
     plausible::{refuse, remarks},
+    refused::Refusal,
     resolution::resolution,
     run_phase,
     shared_models::SharedModels,
@@ -121,7 +122,7 @@ impl<'a> StaticAnalysis<'a> {
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
         if !(self.slices_stand || self.scene.accuracy.is_none()) {
-            return Err(AnalysisError::WithAccuracy { file: self.scene.file.display().to_string() });
+            return Err(AnalysisError::from(Refusal::with_accuracy()).in_file(&self.scene.file));
         }
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;

@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 
 use integrate::StepLimit;
-use scene::Scene;
 
 /// Most steps that the scene's keys take.
 const MOST: f64 = 100_000.0;
@@ -22,11 +21,8 @@ pub struct Steps {
 }
 
 /// Steps beyond the stability limit of an explicit method.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct UnstableSteps {
-    at: String,
-    /// The line of the scene that is meant, with a mark below it.
-    pub excerpt: Option<String>,
     /// The steps.
     pub steps: Steps,
     /// The longest that are stable.
@@ -35,28 +31,20 @@ pub struct UnstableSteps {
 
 impl std::fmt::Display for UnstableSteps {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { at, steps, limit, .. } = self;
+        let Self { steps, limit } = self;
         let (step, fastest, longest) = (steps.step, limit.rate / TAU, limit.step);
         write!(
             f,
-            "{at}: a step of {step:.3e} s is too long for the explicit method: with the fastest motion of this system \
+            "a step of {step:.3e} s is too long for the explicit method: with the fastest motion of this system \
              ({fastest:.4e} Hz) it is stable up to {longest:.3e} s"
         )
     }
 }
 
 impl UnstableSteps {
-    /// Steps of a scene that are longer than its method takes.
-    pub(crate) fn of(scene: &Scene, limit: &StepLimit, steps: &Steps) -> Self {
-        let place = scene.place_of(&["motion.steps_per_resonance", "motion.steps_per_mesh_cycle", "motion.method"]);
-        let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
-        let excerpt = place.as_ref().and_then(|p| p.excerpt()).map(str::to_owned);
-        Self { at, excerpt, steps: *steps, limit: *limit }
-    }
-
     /// Keys with the numbers that would do, as far as they take them.
     pub fn hint(&self) -> String {
-        let Self { steps, limit, .. } = self;
+        let Self { steps, limit } = self;
         let needed = |hz: f64| (1.0 / (WITHIN * limit.step * hz)).ceil();
         let keys = [("steps_per_resonance", steps.resonance_hz), ("steps_per_mesh_cycle", steps.mesh_hz)];
         let would_do: Vec<String> = keys

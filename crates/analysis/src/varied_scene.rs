@@ -4,7 +4,7 @@ use geometry::GearPair;
 use ltca::{StaticOptions, Variation};
 use scene::{ContactScene, Scene};
 
-use crate::{AnalysisError, failure::Failure, options::options};
+use crate::{AnalysisError, failure::Failure, options::options, refused::Refusal};
 
 /// A scene with a little less and a little more of a parameter that meshes and matrices do not know.
 #[derive(Debug, Clone)]
@@ -21,7 +21,7 @@ impl VariedScene {
     /// # Errors
     /// [`AnalysisError`]: a value beside that of the scene is none.
     pub fn by_key(scene: &Scene, key: &str) -> Result<Self, AnalysisError> {
-        let value = scene.number_at(key).ok_or(AnalysisError::NoValues)?;
+        let value = scene.number_at(key).ok_or_else(Refusal::no_values)?;
         let step = Scene::design_step(key);
         let at = |by: f64| scene.with_number(key, value + by);
         Ok(Self { sides: [at(-step)?, at(step)?], steps: [step; 2] })

@@ -8,8 +8,10 @@
 //! | [`write_file`], [`write_new_file`] | one file: written beside its place, synchronised, renamed |
 //! | [`WorkFolder`] | the folder beside a target in which it grows; those of killed processes go with the next run |
 //! | [`Lock`] | a file that one run uses at a time |
+//! | [`Place`], [`Located`] | where something was said or happened, once, around an error that says what |
 //! | [`hold_still`] | what a process does that is stopped: nothing half written is left |
 
+mod located;
 mod lock;
 pub mod most;
 mod partial;
@@ -19,6 +21,7 @@ mod sync;
 mod work_folder;
 mod write;
 
+pub use located::{Line, Located, Place};
 pub use lock::Lock;
 pub use partial::{Partial, hold_still};
 pub use read::{no_text, read_regular_file, read_regular_text, regular};

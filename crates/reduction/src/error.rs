@@ -103,6 +103,11 @@ impl ReductionError {
         matches!(self, Self::Fem(fem::FemError::Unwanted))
     }
 
+    /// Whether the input has a meaning and no result came out.
+    pub fn is_without_result(&self) -> bool {
+        matches!(self, Self::ModesNotConverged { .. } | Self::OtherGear)
+    }
+
     /// What the user can do next.
     pub fn hint(&self) -> Option<String> {
         match self {

@@ -1,57 +1,14 @@
 //! What can be wrong with a scene, and where.
 
 use std::borrow::Cow;
-use std::fmt;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
+use files::Place;
 use geometry::GeometryError;
 use geometry::modification::DataFileError;
 use mesh::MeshError;
 
 use crate::DocumentKind;
-
-/// Where a value was said.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Place {
-    /// A line of a file; shared by all who name it.
-    Line(Arc<Line>),
-    /// Beside the file.
-    Setting {
-        /// As `--set operation.torque_nm`.
-        label: Box<str>,
-    },
-}
-
-/// A line of a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Line {
-    /// The file as the user named it.
-    pub file: PathBuf,
-    /// Counted from 1.
-    pub number: usize,
-    /// The line itself with a mark below what is meant: two lines of text.
-    pub excerpt: String,
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "{}:{}", line.file.display(), line.number),
-            Self::Setting { label } => f.write_str(label),
-        }
-    }
-}
-
-impl Place {
-    /// The line with a mark below what is meant; none beside a file.
-    pub fn excerpt(&self) -> Option<&str> {
-        match self {
-            Self::Line(line) => Some(&line.excerpt),
-            Self::Setting { .. } => None,
-        }
-    }
-}
 
 /// A complaint about a scene file.
 #[derive(Debug, thiserror::Error)]

@@ -12,12 +12,12 @@ use toml::Spanned;
 use super::DocumentKind;
 use super::data_file::DataFiles;
 use super::document::Document;
-use super::error::{Place, SceneError};
 use super::hints;
 use super::keys::{self, Tables};
 use super::origin::Origin;
 use super::places::Written;
 use super::setting::Setting;
+use super::{Place, error::SceneError};
 
 /// A document with what was set beside it, and what its keys mean.
 pub struct Source<'a> {

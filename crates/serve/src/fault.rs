@@ -39,7 +39,7 @@ impl Fault {
 
     /// Of the analysis of the scene of a text.
     pub fn of_analysis(text: &str, error: &AnalysisError) -> Self {
-        let keys = if let AnalysisError::Scene(error) = error { keys_of(text, error) } else { Vec::new() };
+        let keys = if let AnalysisError::Scene(error) = error.what() { keys_of(text, error) } else { Vec::new() };
         let excerpt = error.excerpt().map(str::to_owned);
         Self { message: error.to_string(), excerpt, hint: error.hint(), keys }
     }

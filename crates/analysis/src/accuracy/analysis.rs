@@ -111,7 +111,7 @@ impl<'a> AccurateAnalysis<'a> {
                 Err(e) => {
                     // Teeth of few elements may have no equilibrium where finer ones have: one more rung tells.
                     let finer = Rung::of(&scene).filter(|_| !failed && self.may_refine()).and_then(Rung::finer);
-                    let Some(finer) = finer.filter(|_| matches!(e, AnalysisError::Solver { .. })) else {
+                    let Some(finer) = finer.filter(|_| matches!(e.what(), AnalysisError::Solver(_))) else {
                         return Err(e);
                     };
                     observer.note(format!("left for a finer one: {e}"));

@@ -136,7 +136,7 @@ fn other_bodies(scene: &Scene, result: &StaticResult) -> Result<Vec<String>, Ana
         let volume = |gear: &GearMesh| {
             let properties = mass_properties(gear.mesh(), &material(scene, i)?);
             let tooth = |p: fem::MassProperties| p.volume_mm3 / gear.teeth().len() as f64;
-            properties.map(tooth).map_err(|source| AnalysisError::Body { place: name.into(), source: Box::new(source) })
+            properties.map(tooth).map_err(|source| AnalysisError::from(source).of_part(name))
         };
         let [own, solid] = [volume(model.gears()[i].gear())?, volume(&solid.gear)?];
         if (own / solid - 1.0).abs() > SAME_BODY {

@@ -8,7 +8,10 @@ use super::{
     coverage::{beyond_calibration, not_covered},
     features::features,
 };
-use crate::{AnalysisError, GearCache, Observer, PhaseWork, StaticResult, results::static_headline, run_phase};
+use crate::{
+    AnalysisError, GearCache, Observer, PhaseWork, StaticResult, error::in_scene, refused::Refusal,
+    results::static_headline, run_phase,
+};
 
 /// Bounds of a solved cycle: of a scene like those of the calibration on a mesh that it knows from its laws, which takes
 /// no time; of any other from a companion on a rung of the ladder as well.
@@ -57,7 +60,7 @@ fn accuracy(
     // What is asked and cannot be bounded is not kept by silence.
     let has = |quantity: Quantity| bounds.iter().any(|b| b.quantity == quantity);
     if let Some((quantity, _)) = scene.accuracy.tolerances().iter().find(|(quantity, _)| !has(*quantity)) {
-        return Err(AnalysisError::NoBound { file: scene.file.display().to_string(), quantity: quantity.key() });
+        return Err(in_scene(scene)(Refusal::no_bound(*quantity)));
     }
     let calibration = Calibration::committed();
     Ok(Accuracy {

@@ -14,7 +14,7 @@ use super::{
     measured::{ChartTools, Measured, point_meshes},
     plan::PENALTY,
 };
-use crate::{AnalysisError, elastic_gears::material, options};
+use crate::{AnalysisError, elastic_gears::material, options, refused::Refusal};
 
 /// The driven gear is turned into contact by about this much on the line of action, mm: a few um are what steel gears
 /// yield under load.
@@ -32,7 +32,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
     let meshes = point_meshes(scene)?;
     let options = options(scene, &pair);
     let materials = [material(scene, 0)?, material(scene, 1)?];
-    let scratch = tools.scratch.ok_or(AnalysisError::NoScratch)?;
+    let scratch = tools.scratch.ok_or_else(|| Refusal::no_result("no folder for the files of CalculiX", None))?;
     let side = scene.side();
     let driven = options.driven();
     let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
@@ -109,5 +109,6 @@ fn beyond_calculix(scene: &Scene) -> Result<(), AnalysisError> {
         (scene.operation.torque_nm == 0.0, "gears without torque"),
     ];
     let named = what.into_iter().find_map(|(there, name)| there.then_some(name));
-    named.map_or(Ok(()), |what| Err(AnalysisError::BeyondCalculix { what }))
+    let refused = |what| Refusal::no_result(format!("the deck for CalculiX has no {what}"), None);
+    named.map_or(Ok(()), |what| Err(refused(what).into()))
 }

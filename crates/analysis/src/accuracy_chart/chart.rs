@@ -16,6 +16,7 @@ use super::{
 use crate::{
     AnalysisError, Observer, PhaseWork,
     accuracy::{Accuracy, BoundsOfResults},
+    refused::Refusal,
     run_phase,
 };
 
@@ -146,7 +147,7 @@ impl<'a> AccuracyChart<'a> {
     /// A point that fails, or would take too much, is a row that says why; only without a reference there is no chart.
     ///
     /// # Errors
-    /// [`AnalysisError::NoReference`].
+    /// [`AnalysisError::Refused`].
     pub fn run(&self, observer: &mut dyn Observer) -> Result<WorkPrecision, AnalysisError> {
         let steps = PhaseWork::Steps(point_count(self.options) as u64);
         run_phase(observer, "chart", steps, |progress| {
@@ -246,7 +247,7 @@ impl<'a> AccuracyChart<'a> {
                 Err(message) => coarser = format!("not on {} elements along the profile: {message}", density.profile),
             }
         }
-        Err(AnalysisError::NoReference { why: coarser })
+        Err(Refusal::no_result(format!("no reference: {coarser}"), None).into())
     }
 }
 

@@ -12,6 +12,7 @@ use super::{
 use crate::{
     AnalysisError, NoCache,
     lumped::{ExcitationSource, LumpedInputs},
+    refused::Refusal,
 };
 
 /// A cycle that takes longer than this (s) is timed once.
@@ -27,7 +28,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
     let system = LumpedInputs::gather(&point.scene, &mut ExcitationSource::new(&mut phases, &NoCache))?.build()?;
     let offline_s = start.elapsed().as_secs_f64();
     let count = point.positions as usize;
-    let nothing = || AnalysisError::NothingHolds { file: point.scene.file.display().to_string() };
+    let nothing = || nothing_holds(&point.scene);
     let cycle = || system.static_cycle(count).ok_or_else(nothing);
     let start = Instant::now();
     let found = cycle()?;
@@ -60,4 +61,8 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
         note: system.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
         accuracy: Err("no bounds of models with rigid gears".into()),
     })
+}
+
+fn nothing_holds(scene: &scene::Scene) -> AnalysisError {
+    AnalysisError::from(Refusal::no_result("nothing holds the loaded pair", None)).in_file(&scene.file)
 }

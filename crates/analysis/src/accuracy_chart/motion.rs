@@ -88,7 +88,7 @@ fn elastic(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, Analysis
     let outcome = MotionAnalysis::new(scene).solve_into(&mut phases, &mut NoMotionSink)?;
     let MotionOutcome::Finished(result) = outcome else {
         // Nobody asked it to stop.
-        return Err(AnalysisError::other_analysis(scene, "motion"));
+        return Err(crate::error::unasked(scene, "motion"));
     };
     crate::certificate::verdict(&result.facts.certificate, scene)?;
     let dte: Vec<f64> = result.rows.iter().map(|row| row.dte_um).collect();

@@ -126,8 +126,8 @@ pub fn resonance_precision(
     observer: &mut dyn Observer,
     quick: bool,
 ) -> Result<ResonancePrecision, AnalysisError> {
-    let motion = scene.motion.as_ref().ok_or_else(|| AnalysisError::other_analysis(scene, SWEEP))?;
-    let sweep = motion.sweep.clone().ok_or_else(|| AnalysisError::other_analysis(scene, SWEEP))?;
+    let motion = scene.motion.as_ref().ok_or_else(|| crate::error::unasked(scene, SWEEP))?;
+    let sweep = motion.sweep.clone().ok_or_else(|| crate::error::unasked(scene, SWEEP))?;
     let (halves, finest) = if quick { QUICK_HALVES } else { HALVES };
     let total = (MODELS.len() * halves.len() + 1) as u64;
     run_phase(observer, "chart", PhaseWork::Steps(total), |progress| {

@@ -54,10 +54,6 @@ impl GearboxResult {
     /// [`AnalysisError::Certificate`].
     pub fn verdict(&self, file: &Gearbox) -> Result<(), AnalysisError> {
         let Some(failed) = self.checks().failed() else { return Ok(()) };
-        Err(AnalysisError::Certificate {
-            file: file.file.display().to_string(),
-            missed: failed.missed,
-            hint: failed.hint,
-        })
+        Err(AnalysisError::Certificate(failed).in_file(&file.file))
     }
 }

@@ -9,7 +9,8 @@ use scene::{
 
 use crate::{
     AnalysisError,
-    plausible::{Implausible, beyond, remarks},
+    plausible::{beyond, remarks},
+    refused::Refusal,
 };
 
 /// Slope of balls under a radial load over that of their nominal contact angle, at the least.
@@ -30,7 +31,7 @@ impl Loaded<'_> {
     /// Refuses torques that bend teeth by their own size, and thrust that no bearing takes; what is unlikely.
     ///
     /// # Errors
-    /// [`AnalysisError::Implausible`]; [`GearboxError::OneWay`].
+    /// [`AnalysisError::Refused`]; [`GearboxError::OneWay`].
     pub fn judge(&self) -> Result<Vec<answer::Remark>, AnalysisError> {
         let mut said = Vec::new();
         let torques = mesh_torques(self.structure, self.meshes, self.operation);
@@ -40,22 +41,18 @@ impl Loaded<'_> {
                 let driven = usize::from(scene.operation.driver == Driver::Pinion);
                 scene.operation.torque_nm = 1e-3 * all[i][driven].abs();
                 if let Some(found) = beyond(&scene, &mesh.pair) {
-                    let at = self.file.file.display().to_string();
                     let hint = match self.in_n_m().filter(|_| found.in_n_mm) {
                         Some(other) => format!("{}: write `torque_nm = {}` in [[torque]]", other.said, other.value),
                         None => found.hint,
                     };
-                    let said = format!("mesh {}: {}", mesh.name, found.said);
-                    return Err(AnalysisError::Implausible(Box::new(Implausible { at, excerpt: None, said, hint })));
+                    let error = AnalysisError::from(Refusal::input(found.said, hint));
+                    return Err(error.of_part(format!("mesh {}", mesh.name)).in_file(&self.file.file));
                 }
             }
             said.extend(remarks(&scene, &mesh.pair).into_iter().map(|own| own.about(&mesh.name)));
         }
         if let Some(all) = torques {
-            self.thrust(&all).map_err(|source| AnalysisError::Gearbox {
-                file: self.file.file.display().to_string(),
-                source: Box::new(source),
-            })?;
+            self.thrust(&all).map_err(|source| AnalysisError::from(source).in_file(&self.file.file))?;
         }
         Ok(said)
     }

@@ -61,8 +61,8 @@ pub(super) fn widening<T>(
             Ok(solved) => return Ok(solved),
             Err(error) => error,
         };
-        let starved = match &error {
-            AnalysisError::Gearbox { source, .. } => source.starved_mesh(),
+        let starved = match error.what() {
+            AnalysisError::Gearbox(source) => source.starved_mesh(),
             _ => None,
         };
         let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));

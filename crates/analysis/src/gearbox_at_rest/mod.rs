@@ -135,10 +135,7 @@ fn solve(
     observer: &mut dyn Observer,
     sink: &mut dyn GearboxSink,
 ) -> Result<(GearboxResult, Option<u64>), AnalysisError> {
-    let failed = |source: GearboxError| AnalysisError::Gearbox {
-        file: file.file.display().to_string(),
-        source: Box::new(source),
-    };
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
     let structure = parts::structure(file).map_err(failed)?;
     let mut warnings = Vec::new();
     // First with the pairs as they are: which flanks press is known once all turn.

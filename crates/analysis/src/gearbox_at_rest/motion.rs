@@ -98,10 +98,7 @@ pub(super) fn run(
     span: Span,
     (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
 ) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
-    let failed = |source: GearboxError| AnalysisError::Gearbox {
-        file: rest.file.file.display().to_string(),
-        source: Box::new(source),
-    };
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
     let bodies = inertia::gears(rest.file, rest.reduced)?;
     let structure = inertia::heavy(rest.file, rest.structure, rest.operation, &bodies);
     let springs: Vec<ContactSpring> = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {

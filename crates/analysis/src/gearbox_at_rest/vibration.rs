@@ -38,7 +38,7 @@ const BEYOND_MODES: f64 = 1.5;
 
 impl Parts<'_> {
     fn failed(&self, source: GearboxError) -> AnalysisError {
-        AnalysisError::Gearbox { file: self.file.file.display().to_string(), source: Box::new(source) }
+        AnalysisError::from(source).in_file(&self.file.file)
     }
 
     /// Every mesh through its own cycle while the others are linear about what they did in `samples`.

@@ -29,6 +29,7 @@ use crate::{
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
     options,
     plausible::remarks,
+    refused::Refusal,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled, worse,
 };
@@ -165,7 +166,7 @@ impl<'a> LumpedAnalysis<'a> {
         let scene = with_slices(self.scene.clone());
         let motion = motion_of(&scene)?;
         if motion.sweep.is_some() {
-            return Err(AnalysisError::other_analysis(&scene, "motion at one speed or over a ramp"));
+            return Err(crate::error::unasked(&scene, "motion at one speed or over a ramp"));
         }
         let inputs = LumpedInputs::gather(&scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;
@@ -334,7 +335,13 @@ pub(super) fn refuse_unstable(
 
 /// Rows that hold numbers only.
 fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
-    if rows.iter().all(LumpedRow::is_finite) { Ok(()) } else { Err(AnalysisError::OutOfBounds) }
+    let hint = "the motion has left all bounds: take smaller steps, or look at supports and damping";
+    let refused = || Refusal::no_result("holds what is no number", Some(hint.to_owned()));
+    if rows.iter().all(LumpedRow::is_finite) {
+        Ok(())
+    } else {
+        Err(AnalysisError::from(refused()).of_part("history.csv"))
+    }
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,

@@ -12,7 +12,7 @@ use std::f64::consts::TAU;
 use study::{Campbell, campbell as diagram};
 
 use super::inputs::{LumpedInputs, LumpedSystem};
-use crate::AnalysisError;
+use crate::{AnalysisError, error::in_scene};
 
 /// Speeds of the diagram, standstill among them.
 const SPEEDS: u32 = 25;
@@ -66,8 +66,7 @@ pub(super) fn campbell(inputs: &LumpedInputs, system: &LumpedSystem) -> Result<O
         all[surplus..].to_vec()
     };
     let diagram = diagram(&speeds, &orders, of_speed)?;
-    let continuum_hz =
-        shafts.as_ref().map(continuum).transpose().map_err(|e| AnalysisError::lumped(&inputs.scene, e))?;
+    let continuum_hz = shafts.as_ref().map(continuum).transpose().map_err(in_scene(&inputs.scene))?;
     Ok(Some(LumpedCampbell { diagram, names, at_rest_hz, continuum_hz }))
 }
 

@@ -17,6 +17,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, MapKey, Observer, PhaseWork,
+    error::in_scene,
     failure::Failure,
     inputs::motion_of,
     motion::{
@@ -78,7 +79,7 @@ impl ElasticPair {
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |_| {
                     mapped(system, &request, (cache, key.as_ref()), &mut warnings)
                 });
-                let made = made.map_err(|source| failed(scene, source))?;
+                let made = made.map_err(in_scene(scene))?;
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
                 (PairContact::Mapped(Box::new(made)), contacts)
             }
@@ -106,12 +107,12 @@ impl ElasticPair {
         let (drive, frame) = (pair_drive(scene, gears), self.frame.clone());
         let model = match &self.contact {
             PairContact::Mapped(pair) => {
-                let pair = pair.with_drive(drive).map_err(|source| failed(scene, source))?;
+                let pair = pair.with_drive(drive).map_err(in_scene(scene))?;
                 BoxedMechanism::new(MappedModel { pair, frame })
             }
             PairContact::Solved(pair) => {
                 let pair = pair.with_drive(drive);
-                let pair = pair.map_err(|e| failed(scene, PairMotionError::contact(0.0, e)))?;
+                let pair = pair.map_err(|e| PairMotionError::contact(0.0, e)).map_err(in_scene(scene))?;
                 BoxedMechanism::new(ReducedModel::new(pair, frame))
             }
         };
@@ -144,10 +145,6 @@ fn mapped(
     let made = MappedPair::new(system, request)?;
     warnings.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
     Ok(made)
-}
-
-fn failed(scene: &Scene, source: PairMotionError) -> AnalysisError {
-    AnalysisError::Motion { file: scene.file.display().to_string(), source: Box::new(source) }
 }
 
 impl std::fmt::Debug for ElasticPair {

@@ -16,7 +16,8 @@ use scene::{
 
 use super::elastic_pair::{ElasticPair, without_speed};
 use crate::{
-    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, iso_model, loaded_pair::LoadedPair, static_certificate,
+    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, error::in_scene, iso_model, loaded_pair::LoadedPair,
+    static_certificate,
 };
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
@@ -53,7 +54,7 @@ impl<'a> ExcitationSource<'a> {
         pair: &GearPair,
         plane: &PlaneOfAction,
     ) -> Result<MeshExcitation, AnalysisError> {
-        let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
+        let complain = in_scene::<LumpedError>(scene);
         let [cosine, sine] = mesh.error();
         let error = Fourier { mean: 0.0, cosine, sine };
         match mesh.stiffness_from {
@@ -111,7 +112,7 @@ impl<'a> ExcitationSource<'a> {
             &column(|p| p.transmission_error),
             LoadedPair::of(scene, pair).base_force(),
         )
-        .map_err(|e| AnalysisError::lumped(scene, e))?;
+        .map_err(in_scene(scene))?;
         let excitation = MeshExcitation { cycle, warnings: solved.history.warnings };
         self.last = Some((at_rest, excitation.clone()));
         Ok(excitation)

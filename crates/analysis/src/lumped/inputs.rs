@@ -21,7 +21,7 @@ use super::{
     mechanism::{BoxedMechanism, Formulas, StaticPoint},
     shafts,
 };
-use crate::{AnalysisError, plausible::refuse};
+use crate::{AnalysisError, error::in_scene, plausible::refuse};
 
 /// A scene with its pair and, where its model has a mesh stiffness, that stiffness over the cycle.
 pub(crate) struct LumpedInputs {
@@ -61,7 +61,7 @@ impl LumpedInputs {
     pub fn gather(scene: &Scene, source: &mut ExcitationSource<'_>) -> Result<Self, AnalysisError> {
         let pair = scene.gear_pair()?;
         if let Some(own) = &scene.shaft18 {
-            shafts::check_held(scene, own, &pair).map_err(|e| AnalysisError::lumped(scene, e))?;
+            shafts::check_held(scene, own, &pair).map_err(in_scene(scene))?;
         }
         let plane = match scene.analysis.model {
             Model::Shaft18 => shafts::plane(scene, &pair),
@@ -90,8 +90,8 @@ impl LumpedInputs {
     /// [`AnalysisError::Lumped`] for what has no meaning to it.
     pub fn build(&self) -> Result<LumpedSystem, AnalysisError> {
         let Self { scene, pair, excitation, elastic } = self;
-        let complain = |e: LumpedError| AnalysisError::lumped(scene, e);
-        let none = || AnalysisError::other_analysis(scene, "model of the ladder");
+        let complain = in_scene::<LumpedError>(scene);
+        let none = || crate::error::unasked(scene, "model of the ladder");
         if let Some(gears) = elastic {
             let (model, resonance_hz) = gears.model(scene, pair)?;
             let warnings = gears.warnings.clone();

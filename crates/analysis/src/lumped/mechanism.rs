@@ -14,7 +14,7 @@ use scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use super::LumpedRow;
-use crate::{AnalysisError, certificate::Check};
+use crate::{AnalysisError, certificate::Check, error::in_scene};
 
 /// What keeps a model from moving.
 #[derive(Debug)]
@@ -34,8 +34,8 @@ impl ModelFailure {
     /// With the scene that it is about.
     pub fn of(self, scene: &Scene) -> AnalysisError {
         match self {
-            Self::Lumped(e) => AnalysisError::lumped(scene, e),
-            Self::Pair(e) => AnalysisError::Motion { file: scene.file.display().to_string(), source: Box::new(e) },
+            Self::Lumped(e) => in_scene(scene)(e),
+            Self::Pair(e) => in_scene(scene)(e),
         }
     }
 }

@@ -19,9 +19,11 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
+    error::{in_scene, unasked},
     facts::Facts,
     failure::Failure,
     inputs::settled_scene,
+    refused::Refusal,
     results::{GearPattern, root_stress_warnings},
 };
 
@@ -149,10 +151,14 @@ impl<'a> MotionAnalysis<'a> {
         let Self { meshes, cache, mut from, stop_after, .. } = self;
         let scene = settled_scene(self.scene, meshes.is_some());
         if !scene.accuracy.is_none() {
-            return Err(AnalysisError::WithAccuracy { file: scene.file.display().to_string() });
+            return Err(in_scene(&scene)(Refusal::with_accuracy()));
         }
         let one_motion = |m: &&MotionScene| m.sweep.is_none() && scene.analysis.model.is_reduced();
-        let motion = scene.motion.as_ref().filter(one_motion).ok_or_else(|| other_analysis(&scene))?;
+        let motion = scene
+            .motion
+            .as_ref()
+            .filter(one_motion)
+            .ok_or_else(|| unasked(&scene, "single motion of reduced gears"))?;
         from.as_ref().map_or(Ok(()), |from| check_rows(&scene, motion, from))?;
         let inputs = MotionInputs::new((&scene, motion), meshes, cache, observer)?;
         let facts: Vec<_> = inputs.meshes.iter().map(|m| m.facts.clone()).collect();
@@ -196,16 +202,15 @@ struct FollowedMotion {
     done: FinishedMotion,
 }
 
-fn other_analysis(scene: &Scene) -> AnalysisError {
-    let file = scene.file.display().to_string();
-    AnalysisError::OtherAnalysis { file, wanted: "single motion of reduced gears" }
-}
-
 fn check_rows(scene: &Scene, motion: &MotionScene, from: &ResumedState) -> Result<(), AnalysisError> {
     let wanted = (from.checkpoint.motion.stage.recorded as usize).saturating_mul(motion.steps_per_mesh_cycle as usize);
     let found = from.rows.len();
-    let file = || scene.file.display().to_string();
-    if found == wanted { Ok(()) } else { Err(AnalysisError::ResumedRows { file: file(), found, wanted }) }
+    if found == wanted {
+        return Ok(());
+    }
+    let what = format!("{found} rows are given, {wanted} came before the checkpoint");
+    let hint = "give all rows that the run before handed out, and no more";
+    Err(in_scene(scene)(Refusal::input(what, hint)))
 }
 
 /// A pair that is ready to move, with what a user should hear before it does.

@@ -10,7 +10,8 @@ use scene::{MotionScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
 use crate::{
-    AnalysisError, Observer, PhaseWork, Progress, failure::Failure, results::GearPattern, run_phase, unless_cancelled,
+    AnalysisError, Observer, PhaseWork, Progress, error::in_scene, failure::Failure, results::GearPattern, run_phase,
+    unless_cancelled,
 };
 
 /// Difference over a mesh cycle that counts as none, where a scene states no other.
@@ -236,9 +237,6 @@ impl Follower<PairMechanism> for InPhase<'_, '_> {
 pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
     match error.contact_error() {
         Some(source) if source.is_starved() => Failure::Static(source.clone()),
-        _ => {
-            let file = scene.file.display().to_string();
-            AnalysisError::Motion { file, source: Box::new(error) }.into()
-        }
+        _ => in_scene(scene)(error).into(),
     }
 }

@@ -30,7 +30,7 @@ mod step_estimate;
 mod sweep;
 mod warnings;
 
-pub use crate::unstable_steps::{Steps, UnstableSteps};
+pub use crate::unstable_steps::Steps;
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
 pub use checks::{
     MOTION_WAY_OUT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,

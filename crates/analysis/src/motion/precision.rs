@@ -12,7 +12,7 @@ use super::{
     course::failure,
     setup::{MotionInputs, PreparedMotion, prepare},
 };
-use crate::{AnalysisError, NoCache, Observer, PhaseWork, inputs::settled_scene, run_phase};
+use crate::{AnalysisError, NoCache, Observer, PhaseWork, error::unasked, inputs::settled_scene, run_phase};
 
 /// Methods that a scene can ask for, with their usual parameters.
 const METHODS: [(&str, Scheme); 4] = [
@@ -84,10 +84,7 @@ pub fn motion_precision(
 ) -> Result<MotionPrecision, AnalysisError> {
     let scene = &settled_scene(scene, false);
     let motion = scene.motion.as_ref().filter(|_| scene.analysis.model.is_reduced());
-    let motion = motion.ok_or_else(|| AnalysisError::OtherAnalysis {
-        file: scene.file.display().to_string(),
-        wanted: "motion of reduced gears",
-    })?;
+    let motion = motion.ok_or_else(|| unasked(scene, "motion of reduced gears"))?;
     let inputs = MotionInputs::new((scene, motion), None, &NoCache, observer)?;
     let prepared = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e| e.into_error(scene))?;
     let counts = &STEPS[..if quick { 4 } else { STEPS.len() }];

@@ -50,7 +50,7 @@ pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Opt
 /// Refuses steps of given length that are too long for an explicit method.
 ///
 /// # Errors
-/// [`crate::AnalysisError::UnstableSteps`] with the limit, the step, and the number of steps that would do.
+/// [`crate::AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
 pub(super) fn unstable(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
     let PreparedMotion { system, settings, quasi_static, .. } = prepared;
     if settings.tolerance.is_some() || !settings.scheme.is_explicit() {

@@ -6,7 +6,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `estimate` | deflection and pressure by ISO 6336-1 and Hertz |
-//! | `implausible` | what is said of them |
+//! | `digits` | numbers of messages |
 //! | `refusal` | refuses what no gear does, with the unit that was meant |
 //! | `remarks`, `gearbox` | tell what is unlikely in a scene and in a gearbox file |
 //! | `material` | which materials gears and shafts are made of |
@@ -15,7 +15,6 @@
 mod estimate;
 mod flanks;
 mod gearbox;
-mod implausible;
 mod limits;
 mod material;
 mod refusal;
@@ -23,7 +22,6 @@ mod remarks;
 
 pub use estimate::LoadEstimate;
 pub use gearbox::gearbox_remarks;
-pub use implausible::Implausible;
 pub(crate) use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};
 pub use refusal::{beyond, refuse};
 pub use remarks::remarks;

@@ -2,15 +2,14 @@
 
 use answer::digits;
 use geometry::GearPair;
-use scene::{Place, Scene, units::in_another_unit};
+use scene::{Scene, units::in_another_unit};
 
 use super::{
     estimate::LoadEstimate,
     flanks::tip_left,
-    implausible::Implausible,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},
 };
-use crate::{AnalysisError, loaded_pair::LoadedPair};
+use crate::{AnalysisError, error::place_in, loaded_pair::LoadedPair, refused::Refusal};
 
 /// Deflection in modules that is refused before the work, thrice that which fails after it: an estimate is no result.
 const MODULES: f64 = 1.0;
@@ -35,14 +34,11 @@ pub struct Beyond {
 /// Refuses a scene whose load bends teeth by their own size, or whose micro-geometry leaves no tooth.
 ///
 /// # Errors
-/// [`AnalysisError::Implausible`] at the key that is likely wrong.
+/// [`AnalysisError::Refused`] at the key that is likely wrong.
 pub fn refuse(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(found) = no_tip(scene, pair).or_else(|| beyond(scene, pair)) else { return Ok(()) };
     let keys: Vec<&str> = found.keys.iter().map(String::as_str).collect();
-    let place = scene.place_of(&keys);
-    let at = place.as_ref().map_or_else(|| scene.file.display().to_string(), ToString::to_string);
-    let excerpt = place.as_ref().and_then(Place::excerpt).map(str::to_owned);
-    Err(AnalysisError::Implausible(Box::new(Implausible { at, excerpt, said: found.said, hint: found.hint })))
+    Err(AnalysisError::from(Refusal::input(found.said, found.hint)).at(place_in(scene, &keys)))
 }
 
 /// A load that bends the teeth by their own size; `None` where it does not.

@@ -69,7 +69,7 @@ fn one_element_in_a_thin_rim_is_caught() {
 fn an_analysis_without_bounds_refuses_to_leave_them_out() {
     let scene = pair().set("accuracy.mean_ste", "1 %").build().unwrap();
     let refused = StaticAnalysis::new(&scene).solve().map(|_| ()).unwrap_err();
-    assert!(matches!(refused, AnalysisError::WithAccuracy { .. }), "{refused}");
+    assert!(refused.to_string().ends_with("an accuracy is asked for"), "{refused}");
 }
 
 /// Every quantity has its laws on the same rungs, and every bound is above zero.
@@ -103,7 +103,13 @@ fn nothing_that_is_asked_is_passed_over() {
     let few = pair().set("accuracy.third_ste_harmonic", "5 %").set("analysis.model", "reduced");
     let few = few.set("analysis.positions_per_cycle", 2).build().unwrap();
     let refused = AccurateAnalysis::new(&few).solve().map(|_| ()).unwrap_err();
-    assert!(matches!(refused, AnalysisError::NoBound { .. } | AnalysisError::Statistics(_)), "{refused}");
+    assert!(
+        {
+            let is_unbounded = refused.to_string().contains("there is no bound of");
+            is_unbounded || matches!(refused, AnalysisError::Statistics(_))
+        },
+        "{refused}"
+    );
     let tiny = solved(&pair().torque_nm(0.1).set("accuracy.mean_ste", "90 %").build().unwrap());
     let not_covered = &tiny.result.facts.accuracy.as_ref().unwrap().not_covered;
     assert!(not_covered.iter().any(|said| said.starts_with("a Hertz pressure")), "{not_covered:?}");

@@ -7,7 +7,7 @@ use std::{
 };
 
 use analysis::{
-    AnalysisError,
+    AnalysisError, Blame,
     accuracy::{AccurateAnalysis, Bound},
     lumped::{LumpedAnalysis, LumpedResult},
     static_certificate,
@@ -94,7 +94,7 @@ fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, Analy
         &static_certificate(&solved.scene, &solved.result.history.positions),
         &solved.scene,
     )?;
-    let without = || AnalysisError::WithAccuracy { file: file.to_owned() };
+    let without = || AnalysisError::without_bound(&scene, Quantity::MeanSte);
     let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
     let mut warnings: Vec<String> = solved.result.history.warnings.iter().map(ToString::to_string).collect();
@@ -148,10 +148,8 @@ fn last_of_each(settings: &[String]) -> Vec<String> {
 }
 
 fn refusal(error: &AnalysisError) -> Outcome {
-    match error {
-        AnalysisError::Certificate { .. } | AnalysisError::Inexact { .. } => Outcome::Failed,
-        _ => Outcome::Refused,
-    }
+    let fails = matches!(error.what(), AnalysisError::Certificate(_)) || error.blame() == Blame::Inexact;
+    if fails { Outcome::Failed } else { Outcome::Refused }
 }
 
 fn moved(file: &str, text: &str, settings: &[String]) -> Result<LumpedResult, AnalysisError> {

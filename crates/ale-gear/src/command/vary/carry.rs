@@ -184,7 +184,9 @@ impl VaryArgs {
         let first = scenes.first().map(|(_, scene)| scene);
         let of = self.of.as_deref().unwrap_or(OF);
         let quantity = first.map(|scene| lumped::quantity(scene, of)).transpose()?;
-        let Some(quantity) = quantity else { return Err(analysis::AnalysisError::NoValues.into()) };
+        let Some(quantity) = quantity else {
+            return Err(analysis::AnalysisError::from(analysis::Refusal::no_values()).into());
+        };
         let options = SweepOptions {
             key: keys.join("+"),
             ways,

@@ -12,9 +12,11 @@ use crate::{
     accuracy::{
         Accuracy, AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung,
     },
+    error::in_scene,
     facts::Facts,
     lumped::{NoLumpedSink, static_scene},
     motion::NoMotionSink,
+    refused::Refusal,
 };
 
 /// The answer to a scene in motion, with bounds.
@@ -155,7 +157,7 @@ impl<'a> AccurateMotion<'a> {
         if steady && known && self.scene.contact.method == Method::Slice {
             return Ok(());
         }
-        Err(AnalysisError::other_analysis(self.scene, "steady motion of reduced gears with bounds"))
+        Err(crate::error::unasked(self.scene, "steady motion of reduced gears with bounds"))
     }
 
     /// The scene with the meshes and slices that are tried first.
@@ -175,10 +177,7 @@ impl<'a> AccurateMotion<'a> {
             AccurateAnalysis::new(&still).with_cache(kept).solve_into(observer, &mut NoSink)?;
         let rest = PairAtRest::new(&scene, &solved)?;
         let of = |q: Quantity| solved.facts.accuracy.iter().flat_map(|a| &a.bounds).find(|b| b.quantity == q);
-        let no_bound = |quantity: Quantity| AnalysisError::NoBound {
-            file: scene.file.display().to_string(),
-            quantity: quantity.key(),
-        };
+        let no_bound = |quantity: Quantity| in_scene(&scene)(Refusal::no_bound(quantity));
         let peak = of(Quantity::PeakToPeakSte).ok_or_else(|| no_bound(Quantity::PeakToPeakSte))?;
         let stiffness = of(Quantity::MeshStiffnessTangent).ok_or_else(|| no_bound(Quantity::MeshStiffnessTangent))?;
         let bounds = [peak.largest(), stiffness.largest() / stiffness.value];
@@ -306,8 +305,7 @@ impl<'a> AccurateMotion<'a> {
         let calibration = MotionCalibration::committed();
         let asked = self.scene.accuracy.tolerances().iter().map(|(quantity, _)| *quantity);
         if let Some(missing) = asked.into_iter().find(|q| bounds.iter().all(|b| b.quantity != *q)) {
-            let file = self.scene.file.display().to_string();
-            return Err(AnalysisError::NoBound { file, quantity: missing.key() });
+            return Err(in_scene(self.scene)(Refusal::no_bound(missing)));
         }
         let still = base.solved.facts.accuracy.as_ref();
         let mut all = not_covered(seen, self.scene);

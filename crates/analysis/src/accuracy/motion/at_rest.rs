@@ -8,8 +8,8 @@ use scene::{DriveBy, Driver, Quantity, Scene};
 use study::{cycle_statistics, mesh_harmonics, root_mean_square};
 
 use crate::{
-    AnalysisError, GearCache, StaticAnalysis, StaticResult, lumped::static_scene, meshes, motion::motion_options,
-    options, reduced,
+    AnalysisError, GearCache, StaticAnalysis, StaticResult, error::failed_modes, lumped::static_scene, meshes,
+    motion::motion_options, options, reduced,
 };
 
 /// A pair at rest, as far as its motion is told from it.
@@ -58,8 +58,7 @@ impl PairAtRest {
         let lowest = |i: usize| {
             let gear: Option<&ElasticGear> = gears.map(|g| &g[i]);
             let found = gear.and_then(reduced).map(|reducer| reducer.lowest_elastic_hz()).transpose();
-            let file = scene.file.display().to_string();
-            let failed = |source| AnalysisError::Modes { file, gear: ["pinion", "wheel"][i], source: Box::new(source) };
+            let failed = |source| failed_modes(scene, i, source);
             found.map(|hz| hz.unwrap_or(f64::INFINITY)).map_err(failed)
         };
         Ok(Self {

@@ -72,7 +72,7 @@ impl MotionAnswer {
         match MotionAnalysis::new(scene).with_cache(cache).solve_into(observer, told.motion)? {
             MotionOutcome::Finished(result) => Ok(Self::Reduced(result)),
             // Nobody asked it to.
-            MotionOutcome::Stopped { .. } => Err(AnalysisError::other_analysis(scene, "motion to its end")),
+            MotionOutcome::Stopped { .. } => Err(crate::error::unasked(scene, "motion to its end")),
         }
     }
 

@@ -79,7 +79,7 @@ impl<'a> BasinAnalysis<'a> {
     pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<BasinResult, AnalysisError> {
         let asked = with_slices(self.scene.clone());
         let words = asked.motion.as_ref().and_then(|m| m.basins);
-        let words = words.ok_or_else(|| AnalysisError::other_analysis(&asked, "search for basins"))?;
+        let words = words.ok_or_else(|| crate::error::unasked(&asked, "search for basins"))?;
         let scene = &steady(&asked)?;
         let inputs = LumpedInputs::gather(scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;

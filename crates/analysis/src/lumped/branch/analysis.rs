@@ -3,7 +3,7 @@
 use answer::Remark;
 use std::ops::ControlFlow;
 
-use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicMotion, Tracer};
+use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicError, PeriodicMotion, Tracer};
 use scene::{ContinuationScene, Scene};
 
 use super::{
@@ -17,8 +17,10 @@ use super::{
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress,
     certificate::{Check, Checks},
+    error::in_scene,
     facts::Facts,
     gears,
+    refused::Refusal,
     resolution::with_slices,
     run_phase, unless_cancelled,
 };
@@ -89,7 +91,7 @@ impl<'a> ContinuationAnalysis<'a> {
     /// [`AnalysisError::Periodic`] where no periodic motion is found at the beginning; those of the model.
     pub fn solve_with(&self, observer: &mut dyn Observer) -> Result<ContinuationResult, AnalysisError> {
         let scene = with_slices(self.scene.clone());
-        let other = || AnalysisError::other_analysis(&scene, "continuation");
+        let other = || crate::error::unasked(&scene, "continuation");
         let words = scene.motion.as_ref().and_then(|m| m.continuation).ok_or_else(other)?;
         let first = Self::at_first(&scene, &words);
         let inputs = LumpedInputs::gather(&first, &mut ExcitationSource::new(observer, self.cache))?;
@@ -132,7 +134,7 @@ impl<'a> ContinuationAnalysis<'a> {
             newton_steps: branch.iterations,
             broken: branch.broken.as_ref().map(ToString::to_string).or_else(|| cut_short(&branch, &words)),
         };
-        let headline = headline(of, &points, &turns, &in_time).ok_or(AnalysisError::NoValues)?;
+        let headline = headline(of, &points, &turns, &in_time).ok_or_else(Refusal::no_values)?;
         warnings.extend(gears::warnings(&inputs.pair));
         warnings.extend(no_backlash(&inputs));
         warnings.extend(headline.warnings());
@@ -176,7 +178,7 @@ fn follow(
         longest_step: words.longest_step,
         most: words.motions as usize,
     };
-    let complain = |e| AnalysisError::periodic(&inputs.scene, e);
+    let complain = in_scene::<PeriodicError<AnalysisError>>(&inputs.scene);
     let from = |family: &mut ModelFamily<'_>, start: &FourierSeries| {
         let mut tracer = Tracer::new(family, options, way.abs()).map_err(complain)?;
         let branch = tracer.branch(words.from, start, &walk, |motion| {

@@ -24,7 +24,7 @@ pub use point::SweepPoint;
 use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts,
-    resolution::with_slices, run_phase,
+    refused::Refusal, resolution::with_slices, run_phase,
 };
 use ways::{SweepValue, all_ways};
 
@@ -140,5 +140,5 @@ fn first_of(values: &[SweepValue]) -> Result<(&LumpedInputs, LumpedSystem), Anal
             Err(e) => error = error.or(Some(e)),
         }
     }
-    Err(error.map_or(AnalysisError::NoValues, AnalysisError::Shared))
+    Err(error.map_or_else(|| Refusal::no_values().into(), AnalysisError::Shared))
 }

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use files::Place;
 use integrate::State;
 use scene::SweepWay;
 use serde::Serialize;
@@ -106,7 +107,8 @@ pub(super) fn run(
     let (mut model, resonance_hz) = (system.model, system.resonance_hz);
     let frequencies = inputs.frequencies(motion, resonance_hz);
     let from = from.filter(|s| s.q.len() == count);
-    let located = |e: AnalysisError| AnalysisError::AtValue { key: options.key.clone(), value, source: Box::new(e) };
+    let place = || Place::Setting { label: format!("{} = {value}", options.key).into() };
+    let located = |e: AnalysisError| e.at(place());
     // Standing, the model stands where it begins: this comes before the run.
     let free = FreeTurn::of(&mut model).map_err(|e| located(e.of(scene)))?;
     let (run, checks) = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;

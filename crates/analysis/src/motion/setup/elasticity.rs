@@ -11,6 +11,7 @@ use study::mesh_harmonics;
 use super::QuasiStatic;
 use crate::{
     AnalysisError, Observer, PhaseWork,
+    error::failed_modes,
     motion::step_estimate::{Pace, StepDemand},
     reduced, run_phase,
 };
@@ -55,7 +56,7 @@ impl Elasticity {
     /// error.
     ///
     /// # Errors
-    /// [`AnalysisError::Modes`] when the modes are not found, or the mesh cannot have them.
+    /// [`AnalysisError::Reduction`] when the modes are not found, or the mesh cannot have them.
     pub fn new(
         scene: &Scene,
         gears: &[ElasticGear; 2],
@@ -220,11 +221,6 @@ fn vibration(
     let own = first(&found).filter(|_| asked.boundary == Boundary::Massless);
     let hz = own.map_or_else(lowest, Ok)?;
     Ok((hz, Some(GearVibration { modes: Arc::new(found), damping_ratio: asked.damping_ratio })))
-}
-
-fn failed_modes(scene: &Scene, i: usize, source: ReductionError) -> AnalysisError {
-    let file = scene.file.display().to_string();
-    AnalysisError::Modes { file, gear: ["pinion", "wheel"][i], source: Box::new(source) }
 }
 
 /// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those

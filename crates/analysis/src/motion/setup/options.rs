@@ -11,7 +11,7 @@ use crate::{AnalysisError, elastic_gears::material, meshes::SceneMesh};
 /// Bodies, bearings, drive and load of the scene; contact as given.
 ///
 /// # Errors
-/// [`AnalysisError::Body`] when a body has no mass.
+/// [`AnalysisError::Reduction`] when a body has no mass.
 pub fn motion_options(
     scene: &Scene,
     pair: &GearPair,
@@ -87,7 +87,7 @@ pub(crate) fn body(
 ) -> Result<RigidBody, AnalysisError> {
     let gear = &meshes[i].gear;
     let own = fem::mass_properties(gear.mesh(), &material(scene, i)?)
-        .map_err(|e| AnalysisError::Body { place: meshes[i].facts.source.clone(), source: Box::new(e) })?;
+        .map_err(|e| AnalysisError::from(e).of_part(&*meshes[i].facts.source))?;
     let meshed = if gear.is_periodic_sector() { 1 } else { gear.teeth().len().max(1) };
     let copies = f64::from(gear.tooth_count()) / meshed as f64;
     let of_mesh = RigidBody::of_tensor(own.mass_t, own.inertia_about_tmm2([0.0; 3]));

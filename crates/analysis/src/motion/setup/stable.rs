@@ -5,16 +5,21 @@ use scene::Scene;
 
 use crate::{
     AnalysisError,
+    error::place_in,
+    refused::Refusal,
     unstable_steps::{Steps, UnstableSteps},
 };
 
 /// Refuses steps beyond the stability limit of the scene's method.
 ///
 /// # Errors
-/// [`AnalysisError::UnstableSteps`] with the limit, the step, and the number of steps that would do.
+/// [`AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
 pub fn refuse_unstable(scene: &Scene, limit: &StepLimit, steps: &Steps) -> Result<(), AnalysisError> {
     if steps.step <= limit.step {
         return Ok(());
     }
-    Err(AnalysisError::UnstableSteps(Box::new(UnstableSteps::of(scene, limit, steps))))
+    let keys = ["motion.steps_per_resonance", "motion.steps_per_mesh_cycle", "motion.method"];
+    let unstable = UnstableSteps { steps: *steps, limit: *limit };
+    let refusal = Refusal::no_result(unstable.to_string(), Some(unstable.hint()));
+    Err(AnalysisError::from(refusal).at(place_in(scene, &keys)))
 }

@@ -10,6 +10,7 @@ use scene::{MotionScene, Scene, SweepScene};
 use super::{SweepHeadline, SweepRow, headline, rows, run};
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
+    error::unasked,
     facts::Facts,
     failure::Failure,
     inputs::settled_scene,
@@ -57,7 +58,7 @@ impl SweepResult {
     /// Whether it holds: the certificate, and at least one speed with a motion that holds.
     ///
     /// # Errors
-    /// [`AnalysisError::Certificate`], [`AnalysisError::NoSpeed`].
+    /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] where no speed has a result.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         crate::certificate::verdict(&self.facts.certificate, scene)?;
         rows::verdict(scene, &self.rows)
@@ -101,10 +102,7 @@ impl<'a> SweepAnalysis<'a> {
         sink: &mut dyn MotionSink,
     ) -> Result<SweepResult, AnalysisError> {
         let scene = &settled_scene(self.scene, self.meshes.is_some());
-        let other = || AnalysisError::OtherAnalysis {
-            file: scene.file.display().to_string(),
-            wanted: "sweep of reduced gears over speed",
-        };
+        let other = || unasked(scene, "sweep of reduced gears over speed");
         let motion = scene.motion.as_ref().filter(|_| scene.analysis.model.is_reduced()).ok_or_else(other)?;
         let sweep = motion.sweep.as_ref().ok_or_else(other)?;
         let inputs = MotionInputs::new((scene, motion), self.meshes, self.cache, observer)?;

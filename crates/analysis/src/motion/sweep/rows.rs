@@ -9,11 +9,13 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 
 use crate::{
     AnalysisError,
+    error::in_scene,
     motion::{
         MOTION_WAY_OUT,
         certificate::checks_of_speed,
         setup::{QuasiStatic, RPM},
     },
+    refused::Refusal,
 };
 
 /// Mesh harmonics of a speed that are listed.
@@ -140,16 +142,14 @@ fn solved(
 /// Whether there is a speed with a motion that holds.
 ///
 /// # Errors
-/// [`AnalysisError::NoSpeed`] with the reason of the first.
+/// [`AnalysisError::Refused`] with the reason of the first.
 pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisError> {
     let failed = |row: &SweepRow| row.status == SweepStatus::Failed;
     match rows.first() {
-        Some(first) if rows.iter().all(failed) => Err(AnalysisError::NoSpeed {
-            file: scene.file.display().to_string(),
-            speed_rpm: first.speed_rpm,
-            reason: first.reason.clone(),
-            hint: MOTION_WAY_OUT,
-        }),
+        Some(first) if rows.iter().all(failed) => {
+            let what = format!("no speed has a result, at {:.0}/min: {}", first.speed_rpm, first.reason);
+            Err(in_scene(scene)(Refusal::no_result(what, Some(MOTION_WAY_OUT.to_owned()))))
+        }
         _ => Ok(()),
     }
 }

@@ -1,0 +1,64 @@
+//! What an analysis says of a question that it has no answer to.
+
+/// Who has to act on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Blame {
+    /// The input is wrong.
+    Input,
+    /// The input is fine, and no result came out or one that does not hold.
+    NoResult,
+    /// The result is there, less exact than was asked.
+    Inexact,
+}
+
+/// A question without an answer, in words; where it happened stands around it.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
+pub struct Refusal {
+    /// What is wrong, with its numbers.
+    pub what: String,
+    /// What to do next.
+    pub hint: Option<String>,
+    /// Who has to act on it.
+    pub blame: Blame,
+}
+
+impl Refusal {
+    /// That the input is wrong.
+    pub(crate) fn input(what: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { what: what.into(), hint: Some(hint.into()), blame: Blame::Input }
+    }
+
+    /// That no result came out of a sound input.
+    pub(crate) fn no_result(what: impl Into<String>, hint: Option<String>) -> Self {
+        Self { what: what.into(), hint, blame: Blame::NoResult }
+    }
+
+    /// That a scene does not ask for what is wanted of it.
+    pub(crate) fn unasked(wanted: &str) -> Self {
+        let hint = "`[motion]` and its `run` say what the scene asks for, `model` in [analysis] by what";
+        Self::input(format!("no {wanted}"), hint)
+    }
+
+    /// That a scene asks for bounds of an analysis that gives none.
+    pub(crate) fn with_accuracy() -> Self {
+        let hint = "`analysis::solve` gives bounds; without `[accuracy]` this analysis solves it";
+        Self::input("an accuracy is asked for", hint)
+    }
+
+    /// That an accuracy is asked of a number that has no bound.
+    pub(crate) fn no_bound(quantity: scene::Quantity) -> Self {
+        let key = quantity.key();
+        Self::input(
+            format!("there is no bound of `{key}` in this run"),
+            format!(
+                "leave `{key}` out of [accuracy]; harmonics need more positions a cycle, root stress a model with meshes"
+            ),
+        )
+    }
+
+    /// A sweep over no values.
+    pub fn no_values() -> Self {
+        Self::input("a sweep over no values", "give `--points 2` or more")
+    }
+}
