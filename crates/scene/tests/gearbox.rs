@@ -99,7 +99,8 @@ fn a_motion_settles_where_it_can() {
         let error = asked(words).map(|_| ()).expect_err(words);
         assert!(error.to_string().contains(said) && error.hint().is_some(), "{words}: {error}");
     }
-    let beside = text().replacen("drive = \"torque\"\n", steady, 1).replacen("steps_per_row = 2", "steps_per_row = 3", 1);
+    let beside =
+        text().replacen("drive = \"torque\"\n", steady, 1).replacen("steps_per_row = 2", "steps_per_row = 3", 1);
     let error = Gearbox::parse(&beside, &folder().join("two_stages.toml")).unwrap_err();
     assert!(error.to_string().contains("rows of 3 steps do not meet the ends of cycles of 40"), "{error}");
 }
