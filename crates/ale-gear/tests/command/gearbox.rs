@@ -144,7 +144,9 @@ fn every_key_is_in_a_scene_that_runs() {
     let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
     assert!(left.is_empty(), "in no scene: {left:?}");
     for name in ["run_up.toml", "in_housing.toml", "overhung_pinion.toml"] {
-        let run = scratch.ale_gear(["run", name, "--out", name.trim_end_matches(".toml")]);
+        // Meshes are beside the folder of the scenes.
+        let file = folder.join(name).display().to_string();
+        let run = scratch.ale_gear(["run", &file, "--out", name.trim_end_matches(".toml")]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
     }
     let speeds = column(&scratch.read("run_up/motion.csv"), "input_speed_rpm");

@@ -56,7 +56,7 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
                 envelope.widen(state);
                 count(counts, &progress);
                 if let (RowPlace::Steps(n), Some(seen), None) = (rows, seen.as_mut(), &failed)
-                    && steps % n.max(1) == 0
+                    && u64::is_multiple_of(steps, n.max(1))
                 {
                     failed = seen(Row { system, state, ledger }).err();
                 }
