@@ -4,6 +4,7 @@ use geometry::GearPair;
 use scene::{Place, Scene, units::in_another_unit};
 
 use super::{
+    digits::digits,
     estimate::LoadEstimate,
     flanks::tip_left,
     implausible::Implausible,
@@ -171,15 +172,4 @@ fn no_tip(scene: &Scene, pair: &GearPair) -> Option<Beyond> {
 /// A length with its unit.
 fn length(mm: f64) -> String {
     if mm < 1.0 { format!("{} um", digits(1e3 * mm)) } else { format!("{} mm", digits(mm)) }
-}
-
-/// Three digits, without an exponent where that is short.
-pub(crate) fn digits(value: f64) -> String {
-    let decimals = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 5.0) as usize;
-    if value != 0.0 && !(1e-3..1e7).contains(&value.abs()) {
-        format!("{value:.2e}")
-    } else {
-        let text = format!("{value:.decimals$}");
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
-    }
 }
