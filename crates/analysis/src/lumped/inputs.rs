@@ -134,7 +134,7 @@ impl LumpedInputs {
     /// What a run at many speeds does not look into.
     pub fn left_out_of_sweeps(&self) -> Option<Remark> {
         let quasi_static = self.elastic.is_some() && self.scene.modes.is_none();
-        quasi_static.then(|| crate::remark::inertia_not_judged())
+        quasi_static.then(crate::remark::inertia_not_judged)
     }
 
     /// Mesh frequency at the scene's speed, of a ramp at its last, and the resonance of a model.

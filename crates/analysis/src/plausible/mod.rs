@@ -11,7 +11,9 @@
 //! | `remarks`, `gearbox` | tell what is unlikely in a scene and in a gearbox file |
 //! | `material` | which materials gears and shafts are made of |
 //! | `limits` | checks of the result |
+//! | `digits` | numbers of messages |
 
+mod digits;
 mod estimate;
 mod flanks;
 mod gearbox;
@@ -20,6 +22,7 @@ mod material;
 mod refusal;
 mod remarks;
 
+pub(crate) use digits::digits;
 pub use estimate::LoadEstimate;
 pub use gearbox::gearbox_remarks;
 pub(crate) use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};

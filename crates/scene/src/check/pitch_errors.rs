@@ -9,12 +9,11 @@ use crate::source::Source;
 /// Largest pitch error, um: a millimetre is another gear.
 const LARGEST: f64 = 1000.0;
 
+/// Values that stand in the scene, um, or the file that has them.
+type PitchErrors = (Vec<f64>, Option<DataFile<Vec<f64>>>);
+
 /// Pitch errors: a list, or a file.
-pub(super) fn pitch_errors(
-    s: &Source<'_>,
-    raw: &RawGear,
-    teeth: u32,
-) -> Checked<(Vec<f64>, Option<DataFile<Vec<f64>>>)> {
+pub(super) fn pitch_errors(s: &Source<'_>, raw: &RawGear, teeth: u32) -> Checked<PitchErrors> {
     let in_file = raw.pitch_errors_file.as_ref();
     let in_file = in_file.map(|word| named(s, "pitch_errors_file", word)).transpose()?;
     let Some(list) = &raw.pitch_errors_um else { return Ok((Vec::new(), in_file)) };

@@ -95,8 +95,8 @@ impl ContinuationHeadline {
     pub(super) fn warnings(&self) -> Vec<answer::Remark> {
         let ends = self.broken.as_ref().map(|why| remark::branch_ends(&**why));
         let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| remark::branch_apart(100.0 * d));
-        let back = (self.broken.is_none() && self.returns).then(|| remark::branch_turns_back());
-        let lost = (!self.torus_bifurcations.is_empty()).then(|| remark::torus_bifurcation());
+        let back = (self.broken.is_none() && self.returns).then(remark::branch_turns_back);
+        let lost = (!self.torus_bifurcations.is_empty()).then(remark::torus_bifurcation);
         let doubled =
             self.period_doublings.first().map(|value| remark::period_doubling(*value, 2 * self.period_cycles));
         ends.into_iter().chain(back).chain(apart).chain(lost).chain(doubled).collect()
