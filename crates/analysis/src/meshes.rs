@@ -1,7 +1,5 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use std::path::Path;
-
 use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
@@ -51,7 +49,8 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
     match &gear.mesh {
         Some(path) => {
             let file = scene.resolve(path);
-            let complain = |source| in_mesh_file(&file, source);
+            let name = file.display().to_string();
+            let complain = |source| of_mesh(&name, source);
             let content =
                 scene.content(path).map_err(|source| complain(MeshError::Read { path: file.clone(), source }))?;
             let mesh = Mesh::parse(&content, &file).map_err(complain)?;
@@ -85,7 +84,7 @@ pub fn checked_mesh(
     mesh: Mesh,
     [file, source]: [String; 2],
 ) -> Result<SceneMesh, AnalysisError> {
-    let complain = |source| in_mesh_file(Path::new(&file), source);
+    let complain = |source| of_mesh(&file, source);
     of_this_size(&file, whose, &mesh, exact)?;
     let mut warnings = sound(&file, &mesh, gear)?;
     let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
@@ -155,11 +154,11 @@ fn options(m: &MesherScene) -> StructuredOptions {
     }
 }
 
-/// What is wrong with a mesh file; errors of reading name it by themselves.
-fn in_mesh_file(file: &Path, source: MeshError) -> AnalysisError {
-    let is_named = source.to_string().starts_with(&*file.to_string_lossy());
+/// What is wrong with a mesh, which a file or a name in memory stands for; errors of reading name it by themselves.
+fn of_mesh(file: &str, source: MeshError) -> AnalysisError {
+    let is_named = source.to_string().starts_with(file);
     let error = AnalysisError::from(source);
-    if is_named { error } else { error.in_file(file) }
+    if is_named { error } else { error.of_part(file) }
 }
 
 /// What the built-in mesher made is no gear: its own fault, but for the part of the bore that the scene holds.
