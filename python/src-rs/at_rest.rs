@@ -4,8 +4,7 @@ use std::{sync::Mutex, sync::PoisonError};
 
 use ::scene::Scene;
 use analysis::{
-    AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticResult, StaticSink,
-    accuracy::{AccurateAnalysis, AccurateResult},
+    AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticAnalysis, StaticResult, StaticSink,
     facts::Facts,
     remark::Remark,
     results::{root_stress_headline, root_stress_warnings, static_headline},
@@ -96,14 +95,14 @@ impl AtRest {
             start: watch.start(),
             first_result_s: None,
         };
-        let analysis = AccurateAnalysis::new(scene).with_cache(cache).with_shared(models);
-        let AccurateResult { scene: solved, result } = analysis.solve_into(watch, &mut keeper)?;
+        let analysis = StaticAnalysis::new(scene).with_cache(cache).with_shared(models);
+        let result = analysis.solve_into(watch, &mut keeper)?;
         let Keeper { recorder, derivatives, first_result_s, .. } = keeper;
         let derivatives = derivatives.ok().flatten().map(DerivativeRecorder::into_derivatives);
         if let Some(results) = results {
             results.finish(drop)?;
         }
-        let StaticResult { mut history, mut facts, model, .. } = result;
+        let StaticResult { scene: solved, mut history, mut facts, model, .. } = result;
         facts.certificate = static_certificate(&solved, &history.positions);
         let gears = match model {
             Some(model) => {

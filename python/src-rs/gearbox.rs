@@ -3,7 +3,7 @@
 use std::{path::Path, sync::Arc};
 
 use ::scene::gearbox::Gearbox as GearboxFile;
-use analysis::{GearCache, gearbox_at_rest::solve_gearbox};
+use analysis::{Context, GearCache};
 use pyo3::prelude::*;
 use report::{Recorder, folder::ResultDirectory, gearbox_files::write_gearbox};
 use tempfile::TempDir;
@@ -89,7 +89,7 @@ impl Gearbox {
 }
 
 fn solved(file: &GearboxFile, cache: &dyn GearCache, watch: &mut Watch) -> Answer<Result> {
-    let solved = solve_gearbox(file, cache, watch)?;
+    let solved = analysis::solve(file, Context::new(watch).with_cache(cache))?.finished()?;
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let written = write_gearbox(file, &solved, watch.cost(), &results)?;

@@ -8,7 +8,7 @@ use ::scene::{
     optimum::{Optimisation, OptimisationWords},
     plan::{Plan, PlanWords},
 };
-use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, in_time::TimeAnalysis};
+use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, in_time::is_one_motion};
 use pyo3::{
     prelude::*,
     types::{PyBool, PyList, PyString},
@@ -84,7 +84,7 @@ impl Pair {
     fn asked(&self, more: Vec<Setting>) -> Answer<::scene::Scene> {
         let scene = self.scene.with(more)?.ready();
         check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
-        let many = scene.motion.is_some() && !TimeAnalysis::is_one_motion(&scene);
+        let many = scene.motion.is_some() && !is_one_motion(&scene);
         if self.held.meshes.is_some() && (!scene.accuracy.is_none() || many) {
             let hint = "write the meshes into files (`Mesh.save`) and name these in the scene";
             let what = "meshes in memory go with one load or motion of reduced gears alone, not with [accuracy], a cheaper model or a sweep";

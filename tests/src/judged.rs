@@ -1,8 +1,8 @@
 //! What the bounds of a scene say, and what is true.
 
 use analysis::{
-    NoCache,
-    accuracy::{Accuracy, AccurateAnalysis, AccurateResult, Bound, Quantity, Rung, SolvedCycle},
+    NoCache, StaticAnalysis, StaticResult,
+    accuracy::{Accuracy, Bound, Quantity, Rung, SolvedCycle},
 };
 use scene::{Method, Model, Reduction, Scene};
 
@@ -17,9 +17,9 @@ const SLICES: [u32; 2] = [32, 512];
 ///
 /// # Errors
 /// What went wrong.
-pub fn accurate(scene: &Scene) -> Result<(Accuracy, AccurateResult), String> {
-    let solved = AccurateAnalysis::new(scene).solve().map_err(|e| e.to_string())?;
-    Ok((solved.result.facts.accuracy.clone().ok_or("no bounds")?, solved))
+pub fn accurate(scene: &Scene) -> Result<(Accuracy, StaticResult), String> {
+    let solved = StaticAnalysis::new(scene).solve().map_err(|e| e.to_string())?;
+    Ok((solved.facts.accuracy.clone().ok_or("no bounds")?, solved))
 }
 
 /// The bound of a number.
@@ -43,7 +43,7 @@ pub fn sharpness(bound: &Bound, exact: f64) -> f64 {
 ///
 /// # Errors
 /// What went wrong.
-pub fn exact(solved: &AccurateResult, rung: Rung) -> Result<[f64; 2], String> {
+pub fn exact(solved: &StaticResult, rung: Rung) -> Result<[f64; 2], String> {
     let mut scene = rung.scene(&solved.scene);
     scene.analysis.model = Model::Reduced;
     scene.analysis.reduction = Some(Reduction::Auto);
@@ -53,7 +53,7 @@ pub fn exact(solved: &AccurateResult, rung: Rung) -> Result<[f64; 2], String> {
     scene.contact.penalty_mpa_per_mm = None;
     scene.contact.corner_contact = Some(true);
     // A number that is too small for the pair is so four times as well.
-    let asked = solved.result.facts.resolution.as_ref().and_then(|r| r.slices_that_would_do);
+    let asked = solved.facts.resolution.as_ref().and_then(|r| r.slices_that_would_do);
     let slices = scene.contact.slices.unwrap_or(SLICES[0]).max(asked.unwrap_or(0) as u32);
     scene.contact.slices = Some((FINER * slices).min(SLICES[1]));
     let sample = SolvedCycle::new(&scene, &NoCache).and_then(|solved| solved.sample(1)).map_err(|e| e.to_string())?;

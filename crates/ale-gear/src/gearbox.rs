@@ -1,7 +1,7 @@
 //! A gearbox, from a checked gearbox file to a result folder: what is computed stands in
 //! [`analysis::gearbox_at_rest`], what is written in [`report::gearbox_files`].
 
-use analysis::gearbox_at_rest::{GearboxAnalysis, GearboxOutcome, GearboxSink, NoGearboxSink};
+use analysis::{Context, Ending};
 use report::{
     checkpoint::{GearboxFileSink, GearboxState},
     folder::Cache,
@@ -29,19 +29,20 @@ pub(crate) fn solve(
     progression: &Progression,
 ) -> Result<Outcome, CommandError> {
     progression.run(file, |part: Part<'_, GearboxState>| {
-        let mut analysis = GearboxAnalysis::new(file).with_cache(cache).stop_after(progression.stop_after);
+        let mut context: Context<'_, Gearbox> =
+            Context::new(phases).with_cache(cache).stop_after(progression.stop_after);
         let (checkpoints, from) = part.map_or((None, None), |(checkpoints, from)| (Some(checkpoints), from));
         if let (Some(checkpoints), Some(stored)) = (checkpoints, &from) {
             let rows = stored.state.read_rows(checkpoints.folder.path())?;
-            analysis = analysis.resume(stored.state.motion.clone(), rows);
+            context = context.resume((stored.state.motion.clone(), rows));
         }
-        let mut sink: Box<dyn GearboxSink> = match checkpoints {
-            Some(checkpoints) => Box::new(GearboxFileSink::new(checkpoints, from.as_ref())),
-            None => Box::new(NoGearboxSink),
-        };
-        let result = match analysis.solve_into(phases, &mut *sink)? {
-            GearboxOutcome::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
-            GearboxOutcome::Finished(result) => result,
+        let mut sink = checkpoints.map(|checkpoints| GearboxFileSink::new(checkpoints, from.as_ref()));
+        if let Some(sink) = &mut sink {
+            context = context.with_sink(sink);
+        }
+        let result = match analysis::solve(file, context)? {
+            Ending::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
+            Ending::Finished(result) => result,
         };
         let table = write_gearbox(file, &result, phases.cost(), results)?.table;
         let verdict = result.verdict(file).map_err(CommandError::from);

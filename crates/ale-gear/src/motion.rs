@@ -1,10 +1,7 @@
 //! Scenes in time, from a checked scene to a result folder: what is computed stands in [`analysis::in_time`], what is
 //! written in [`report::solve_in_time`]. What is added here are the checkpoints of one motion.
 
-use analysis::{
-    in_time::{TimeAnalysis, TimeOutcome},
-    motion::MotionLayout,
-};
+use analysis::{Context, Ending, motion::MotionLayout};
 use report::{
     checkpoint::{ENERGY_FILE, HISTORY, PairState, read_rows},
     folder::Cache,
@@ -38,17 +35,17 @@ pub(crate) fn solve(
             return Ok(Outcome::Finished((written.written.table, verdict)));
         };
         let folder = checkpoints.folder.path();
-        let mut analysis = TimeAnalysis::new(scene).with_cache(cache).stop_after(progression.stop_after);
+        let mut context: Context<'_, Scene> = Context::new(phases).with_cache(cache).stop_after(progression.stop_after);
         if let Some(stored) = &from {
             let checkpoint = stored.state.checkpoint();
             let layout = MotionLayout::of(scene, checkpoint.window);
             let rows = read_rows(&layout, folder, &stored.state.rows)?;
-            analysis = analysis.resume(checkpoint, rows);
+            context = context.resume((checkpoint, rows));
         }
         let mut sink = MotionFileSink::new(scene, folder, Some(checkpoints), from.as_ref()).with_fields(results);
-        let solved = match analysis.solve_into(phases, &mut sink)? {
-            TimeOutcome::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
-            TimeOutcome::Finished(solved) => solved,
+        let solved = match analysis::solve(scene, context.with_sink(&mut sink))? {
+            Ending::Stopped { cycles } => return Ok(Outcome::Stopped { cycles }),
+            Ending::Finished(solved) => solved.in_time()?,
         };
         for file in [HISTORY, ENERGY_FILE] {
             results.copy(&folder.join(file), file)?;

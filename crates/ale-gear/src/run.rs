@@ -1,7 +1,6 @@
 //! A scene at rest, with what goes into files on the way: fields for ParaView and the gears in space.
 
-use analysis::accuracy::{AccurateAnalysis, AccurateResult};
-use analysis::{SolvedAtRest, StaticResult};
+use analysis::{SolvedAtRest, StaticAnalysis, StaticResult};
 use report::{StaticFileSink, view::View};
 
 pub(crate) use analysis::static_certificate as certificate;
@@ -41,9 +40,8 @@ pub fn solve(
     if in_space == InSpace::Bands {
         sink = sink.without_view();
     }
-    let analysis = AccurateAnalysis::new(scene).with_cache(cache);
-    let AccurateResult { scene, result } = analysis.solve_into(phases, &mut sink)?;
-    let StaticResult { pair, mut history, mut facts, model } = result;
+    let analysis = StaticAnalysis::new(scene).with_cache(cache);
+    let StaticResult { scene, pair, mut history, mut facts, model } = analysis.solve_into(phases, &mut sink)?;
     let derivatives = sink.take_derivatives();
     let Some(model) = model else {
         return Ok(ForFiles { solved: SolvedAtRest { scene, history, derivatives }, facts, view: None });

@@ -212,9 +212,9 @@ pub(crate) fn in_scene<E: Into<AnalysisError>>(scene: &Scene) -> impl Fn(E) -> A
     |source| source.into().in_file(&scene.file)
 }
 
-/// A mesh that disagrees with its gear, and what to do.
+/// A mesh that disagrees with its gear, and what to do; `file` names it, which may be in memory.
 pub(crate) fn mismatch(file: &str, what: impl Into<String>, hint: impl Into<String>) -> AnalysisError {
-    AnalysisError::from(Refusal::input(what, hint)).in_file(Path::new(file))
+    AnalysisError::from(Refusal::input(what, hint)).of_part(file)
 }
 
 /// What is wrong with the modes of a gear.

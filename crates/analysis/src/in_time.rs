@@ -5,16 +5,17 @@ use scene::Scene;
 use serde_json::Value;
 
 use crate::{
-    AnalysisError, GearCache, NoCache, Observer,
+    AnalysisError, GearCache, Observer,
     accuracy::motion::{AccurateMotion, MotionAnswer, MotionTold},
+    context::Ending,
     facts::Facts,
     lumped::{
         BasinAnalysis, BasinResult, BifurcationAnalysis, ContinuationAnalysis, ContinuationResult, KeySweep,
         LumpedAnalysis, LumpedQuantity, LumpedResult, NoLumpedSink, SweepOptions, is_lumped,
     },
     motion::{
-        MotionAnalysis, MotionCheckpoint, MotionOutcome, MotionResult, MotionRow, MotionSink, NoMotionSink,
-        SweepAnalysis, SweepResult,
+        MotionAnalysis, MotionCheckpoint, MotionOutcome, MotionResult, MotionRow, MotionSink, SweepAnalysis,
+        SweepResult,
     },
 };
 
@@ -47,18 +48,6 @@ pub enum TimeAnswer {
     Branch(Box<ContinuationResult>),
     /// Basins of attraction.
     Basins(Box<BasinResult>),
-}
-
-/// How an analysis in time ended.
-#[derive(Debug)]
-pub enum TimeOutcome {
-    /// It came to its end.
-    Finished(Box<SolvedInTime>),
-    /// It stopped where it was asked to; the sink has a checkpoint.
-    Stopped {
-        /// Mesh cycles done.
-        cycles: u64,
-    },
 }
 
 /// Evaluates an expression with the result of whichever analysis: all of them have `facts`, `headline` and `warnings`.
@@ -105,85 +94,40 @@ impl SolvedInTime {
     }
 }
 
-/// A scene in time, of any model and any `motion.run`.
-#[derive(Clone)]
-pub struct TimeAnalysis<'a> {
-    scene: &'a Scene,
-    meshes: Option<[&'a Mesh; 2]>,
-    cache: &'a dyn GearCache,
-    from: Option<(MotionCheckpoint, Vec<MotionRow>)>,
-    stop_after: Option<u64>,
+/// Whether a scene asks for one motion of reduced gears as they are: what has checkpoints, and takes meshes in memory.
+pub fn is_one_motion(scene: &Scene) -> bool {
+    let one =
+        scene.motion.as_ref().is_some_and(|m| m.sweep.is_none() && m.continuation.is_none() && m.basins.is_none());
+    one && !is_lumped(scene) && scene.accuracy.is_none()
 }
 
-impl std::fmt::Debug for TimeAnalysis<'_> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("TimeAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
-    }
+/// What a scene in time is solved with.
+pub(crate) struct InTime<'a> {
+    /// Meshes of pinion and wheel in place of those of the scene.
+    pub meshes: Option<[&'a Mesh; 2]>,
+    /// Where reduced gears come from and go to.
+    pub cache: &'a dyn GearCache,
+    /// State to go on from, with the rows before it.
+    pub from: Option<(MotionCheckpoint, Vec<MotionRow>)>,
+    /// Mesh cycles after which it stops.
+    pub stop_after: Option<u64>,
 }
 
-impl<'a> TimeAnalysis<'a> {
-    /// Of a scene, its meshes read or made as it says.
-    pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, meshes: None, cache: &NoCache, from: None, stop_after: None }
-    }
-
-    /// Whether a scene asks for one motion of reduced gears as they are: what has checkpoints, and takes meshes in memory.
-    pub fn is_one_motion(scene: &Scene) -> bool {
-        let one =
-            scene.motion.as_ref().is_some_and(|m| m.sweep.is_none() && m.continuation.is_none() && m.basins.is_none());
-        one && !is_lumped(scene) && scene.accuracy.is_none()
-    }
-
-    /// With meshes of pinion and wheel in place of those of the scene, where they are given.
-    #[must_use]
-    pub fn with_meshes(self, meshes: Option<[&'a Mesh; 2]>) -> Self {
-        Self { meshes, ..self }
-    }
-
-    /// With reduced gears from a cache.
-    #[must_use]
-    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
-        Self { cache, ..self }
-    }
-
-    /// From a checkpoint on, as [`MotionAnalysis::resume`].
-    #[must_use]
-    pub fn resume(self, checkpoint: MotionCheckpoint, rows: Vec<MotionRow>) -> Self {
-        Self { from: Some((checkpoint, rows)), ..self }
-    }
-
-    /// Stops when so many mesh cycles are done, as [`MotionAnalysis::stop_after`].
-    #[must_use]
-    pub fn stop_after(self, cycles: Option<u64>) -> Self {
-        Self { stop_after: cycles, ..self }
-    }
-
-    /// Solves the scene to its end, all rows in memory.
-    ///
-    /// # Errors
-    /// [`AnalysisError`].
-    pub fn solve(self, observer: &mut dyn Observer) -> Result<SolvedInTime, AnalysisError> {
-        let scene = self.scene;
-        match self.stop_after(None).solve_into(observer, &mut NoMotionSink)? {
-            TimeOutcome::Finished(solved) => Ok(*solved),
-            // Nobody asked it to.
-            TimeOutcome::Stopped { .. } => Err(crate::error::unasked(scene, "motion to its end")),
-        }
-    }
-
-    /// Solves the scene; rows of reduced gears go into `sink` as they come.
+impl InTime<'_> {
+    /// Solves a scene of any model and any `motion.run`; rows of reduced gears go into `sink` as they come.
     ///
     /// # Errors
     /// [`AnalysisError`]; [`AnalysisError::Refused`] for a scene at rest, and where checkpoints or meshes in memory
-    /// go with what is no [single motion](TimeAnalysis::is_one_motion).
-    pub fn solve_into(
+    /// go with what is no [single motion](is_one_motion).
+    pub fn solve(
         self,
+        scene: &Scene,
         observer: &mut dyn Observer,
         sink: &mut dyn MotionSink,
-    ) -> Result<TimeOutcome, AnalysisError> {
-        let Self { scene, meshes, cache, from, stop_after } = self;
+    ) -> Result<Ending<SolvedInTime>, AnalysisError> {
+        let Self { meshes, cache, from, stop_after } = self;
         let Some(motion) = &scene.motion else { return Err(crate::error::unasked(scene, "motion")) };
-        if Self::is_one_motion(scene) {
+        if is_one_motion(scene) {
             let mut analysis = MotionAnalysis::new(scene).with_cache(cache).stop_after(stop_after);
             if let Some(meshes) = meshes {
                 analysis = analysis.with_meshes(meshes);
@@ -193,7 +137,7 @@ impl<'a> TimeAnalysis<'a> {
             }
             return Ok(match analysis.solve_into(observer, sink)? {
                 MotionOutcome::Finished(result) => finished(scene.clone(), TimeAnswer::Motion(result)),
-                MotionOutcome::Stopped { cycles } => TimeOutcome::Stopped { cycles },
+                MotionOutcome::Stopped { cycles } => Ending::Stopped { cycles },
             });
         }
         if meshes.is_some() || from.is_some() || stop_after.is_some() {
@@ -225,6 +169,6 @@ impl<'a> TimeAnalysis<'a> {
     }
 }
 
-fn finished(scene: Scene, answer: TimeAnswer) -> TimeOutcome {
-    TimeOutcome::Finished(Box::new(SolvedInTime { scene, answer }))
+fn finished(scene: Scene, answer: TimeAnswer) -> Ending<SolvedInTime> {
+    Ending::Finished(SolvedInTime { scene, answer })
 }

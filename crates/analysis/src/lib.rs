@@ -23,8 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`solve`] solves a scene of any kind in memory. [`StaticAnalysis`] solves the pair at rest, [`in_time::TimeAnalysis`] in
-//! time: [`motion::MotionAnalysis`] with all of its teeth, [`lumped::LumpedAnalysis`] by a model with few coordinates,
+//! [`solve`] answers every document, a scene of any kind or a gearbox, with what its [`Context`] says. Whoever knows the
+//! kind asks for more of it: [`StaticAnalysis`] solves the pair at rest, [`motion::MotionAnalysis`] moves it with all of its teeth, [`lumped::LumpedAnalysis`] by a model with few coordinates,
 //! [`lumped::KeySweep`] such a model at many values of a key. [`accuracy_chart::AccuracyChart`] compares them all.
 
 pub mod accuracy;
@@ -33,6 +33,7 @@ mod alike;
 mod cache;
 pub mod certificate;
 mod coarse;
+mod context;
 mod derivatives;
 pub mod elastic_gears;
 mod error;
@@ -81,10 +82,13 @@ mod waves;
 mod window;
 mod with_keys;
 
+pub use accuracy::StaticAnalysis;
 pub use alike::SharedGears;
 pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache};
+pub use context::{Context, Ending, Question};
 pub use derivatives::{DerivativeRecorder, Derivatives};
-pub use error::{AnalysisError, solver_error};
+pub use error::AnalysisError;
+pub(crate) use error::solver_error;
 pub use gear_dofs::reduced;
 pub use headline_keys::headline_keys;
 pub use interest::Interest;
@@ -98,7 +102,8 @@ pub use side_by_side::side_by_side;
 pub use sink::{NoSink, SinkResult, StaticSink};
 pub use solved::{Solved, SolvedAtRest, solve, solve_at_rest};
 pub use static_certificate::{static_certificate, worse};
-pub use statics::{StaticAnalysis, StaticResult};
+pub use statics::StaticResult;
 pub use varied_scene::VariedScene;
-pub use warnings::{body_warnings, locking_warning};
+pub(crate) use warnings::body_warnings;
+pub use warnings::locking_warning;
 pub use with_keys::HeadlineKey;

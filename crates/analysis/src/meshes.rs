@@ -1,7 +1,5 @@
 //! Meshes of a scene: read from a file or made, checked, with the parts of the gear found.
 
-use std::path::Path;
-
 use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
@@ -79,7 +77,7 @@ pub fn checked_mesh(
     mesh: Mesh,
     [file, source]: [String; 2],
 ) -> Result<SceneMesh, AnalysisError> {
-    let complain = |source| in_mesh_file(Path::new(&file), source);
+    let complain = |source| of_mesh(&file, source);
     of_this_size(&file, whose, &mesh, exact)?;
     let mut warnings = sound(&file, &mesh, gear)?;
     let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
@@ -147,11 +145,11 @@ fn options(m: &MesherScene) -> StructuredOptions {
     }
 }
 
-/// What is wrong with a mesh file; errors of reading name it by themselves.
-fn in_mesh_file(file: &Path, source: MeshError) -> AnalysisError {
-    let is_named = source.to_string().starts_with(&*file.to_string_lossy());
+/// What is wrong with a mesh, which a file or a name in memory stands for; errors of reading name it by themselves.
+fn of_mesh(file: &str, source: MeshError) -> AnalysisError {
+    let is_named = source.to_string().starts_with(file);
     let error = AnalysisError::from(source);
-    if is_named { error } else { error.in_file(file) }
+    if is_named { error } else { error.of_part(file) }
 }
 
 /// What the built-in mesher made is no gear: its own fault, but for the part of the bore that the scene holds.

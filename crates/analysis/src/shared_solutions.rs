@@ -15,8 +15,8 @@ use ltca::{Sensitivities, Sensitivity, StaticError, StaticHistory, StaticModel, 
 use scene::Scene;
 
 use crate::{
-    AnalysisError, NoObserver, SinkResult, StaticSink,
-    accuracy::{AccurateAnalysis, AccurateResult},
+    AnalysisError, NoObserver, SinkResult, StaticResult, StaticSink,
+    accuracy::StaticAnalysis,
     alike::shares,
     failure::Failure,
     gears,
@@ -121,9 +121,9 @@ impl SharedModels<'_> {
 
     /// A scene that nothing is shared of.
     fn alone(&self, scene: &Scene, wanted: Wanted<'_>) -> Result<(Scene, StaticHistory), AnalysisError> {
-        let analysis = AccurateAnalysis::new(scene).with_cache(self.cache()).with_shared(self);
-        let AccurateResult { scene, result } = analysis.solve_into(&mut NoObserver, &mut WhileWanted(wanted))?;
-        Ok((scene, result.history))
+        let analysis = StaticAnalysis::new(scene).with_cache(self.cache()).with_shared(self);
+        let StaticResult { scene, history, .. } = analysis.solve_into(&mut NoObserver, &mut WhileWanted(wanted))?;
+        Ok((scene, history))
     }
 
     /// Positions until all are solved, or until they are `wanted` no longer.

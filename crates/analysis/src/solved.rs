@@ -7,15 +7,17 @@ use scene::Scene;
 use serde_json::Value;
 
 use crate::{
-    AnalysisError, Derivatives, Observer, PhaseWork, SharedModels, VariedScene,
+    AnalysisError, Derivatives, PhaseWork, SharedModels, VariedScene,
     certificate::Checks,
+    context::{Context, Ending, Question},
+    error::unasked,
     facts::Facts,
     gears,
-    in_time::{SolvedInTime, TimeAnalysis},
-    resolution::with_slices,
+    in_time::{InTime, SolvedInTime},
+    motion::{MotionCheckpoint, MotionRow, MotionSink, NoMotionSink},
     results::{StaticHeadline, static_headline},
     run_phase,
-    shared_solutions::{Rates, RestRequest, SolvedWithRates, WarningsAtRest},
+    shared_solutions::{Rates, RestRequest, SolvedWithRates},
     static_certificate,
 };
 
@@ -39,27 +41,46 @@ pub struct SolvedAtRest {
     pub derivatives: Option<Derivatives>,
 }
 
-/// Solves a scene of any kind in memory: at rest on what `models` have of its gears, in time with their cache and meshes.
+/// Solves a document: the one way from what is asked to its answer.
 ///
-/// At rest `warnings` says what is found out for [`Solved::warnings`], and a result that does not hold is an error; in
-/// time [`Solved::verdict`] tells.
+/// Of a scene at rest [`Context::with_models`] says what is known of its gears, and a result that does not hold is an
+/// error; in time [`Solved::verdict`] tells, and of a gearbox its own.
 ///
 /// # Errors
 /// [`AnalysisError`].
-pub fn solve(
-    scene: &Scene,
-    models: &SharedModels<'_>,
-    warnings: WarningsAtRest,
-    observer: &mut dyn Observer,
-) -> Result<Solved, AnalysisError> {
-    if scene.motion.is_none() {
-        let work = || solve_at_rest(scene, models, RestRequest::to_the_end(warnings));
-        let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| work())?;
-        return Ok(Solved::AtRest(Box::new(solved)));
+pub fn solve<Q: Question + ?Sized>(question: &Q, context: Context<'_, Q>) -> Result<Ending<Q::Answer>, AnalysisError> {
+    question.answer(context)
+}
+
+impl Question for Scene {
+    type Answer = Solved;
+    type Sink<'s> = dyn MotionSink + 's;
+    type State = (MotionCheckpoint, Vec<MotionRow>);
+
+    fn answer(&self, context: Context<'_, Self>) -> Result<Ending<Solved>, AnalysisError> {
+        let Context { observer, cache, models, meshes, warnings, sink, from, stop_after } = context;
+        if self.motion.is_some() {
+            let analysis = InTime { meshes, cache, from, stop_after };
+            let solved = match sink {
+                Some(sink) => analysis.solve(self, observer, sink),
+                None => analysis.solve(self, observer, &mut NoMotionSink),
+            };
+            return Ok(solved?.map(|solved| Solved::InTime(Box::new(solved))));
+        }
+        if sink.is_some() || from.is_some() || stop_after.is_some() {
+            return Err(unasked(self, "motion"));
+        }
+        let request = RestRequest::to_the_end(warnings);
+        let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| match models {
+            Some(models) => solve_at_rest(self, models, request),
+            None => {
+                let own = SharedModels::new(cache);
+                let own = meshes.into_iter().fold(own, |own, meshes| own.with_meshes(meshes.map(Clone::clone)));
+                solve_at_rest(self, &own, request)
+            }
+        })?;
+        Ok(Ending::Finished(Solved::AtRest(Box::new(solved))))
     }
-    let scene = with_slices(scene.clone());
-    let analysis = TimeAnalysis::new(&scene).with_meshes(models.meshes()).with_cache(models.cache());
-    Ok(Solved::InTime(Box::new(analysis.solve(observer)?)))
 }
 
 /// Solves a scene at rest on what `models` have of its gears, with the derivatives that it asks for in
@@ -111,6 +132,17 @@ impl SolvedAtRest {
 }
 
 impl Solved {
+    /// The answer in time.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Refused`] of a scene at rest.
+    pub fn in_time(self) -> Result<Box<SolvedInTime>, AnalysisError> {
+        match self {
+            Self::InTime(solved) => Ok(solved),
+            Self::AtRest(solved) => Err(unasked(&solved.scene, "motion")),
+        }
+    }
+
     /// The scene as it was solved.
     pub fn scene(&self) -> &Scene {
         match self {

@@ -19,7 +19,6 @@ use crate::{
     meshes::SceneMesh,
     options::options,
     plausible::{refuse, remarks},
-    refused::Refusal,
     resolution::resolution,
     run_phase,
     shared_models::SharedModels,
@@ -30,6 +29,8 @@ use crate::{
 /// The answer to a scene at rest.
 #[derive(Debug)]
 pub struct StaticResult {
+    /// The scene: of `model = "auto"` with the model, mesh, slices and positions that were taken.
+    pub scene: Scene,
     /// The exact pair.
     pub pair: GearPair,
     /// Position by position, with warnings.
@@ -40,9 +41,9 @@ pub struct StaticResult {
     pub model: Option<StaticModel>,
 }
 
-/// A scene to be solved at rest.
+/// One run of a scene at rest, without bounds: what `StaticAnalysis` is made of.
 #[derive(Clone, Copy)]
-pub struct StaticAnalysis<'a> {
+pub(crate) struct CycleAnalysis<'a> {
     scene: &'a Scene,
     meshes: Option<[&'a Mesh; 2]>,
     cache: &'a dyn GearCache,
@@ -50,23 +51,22 @@ pub struct StaticAnalysis<'a> {
     slices_stand: bool,
 }
 
-impl std::fmt::Debug for StaticAnalysis<'_> {
+impl std::fmt::Debug for CycleAnalysis<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("StaticAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+        f.debug_struct("CycleAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
     }
 }
 
-impl<'a> StaticAnalysis<'a> {
+impl<'a> CycleAnalysis<'a> {
     /// Of a scene, its meshes read or made as it says.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false }
     }
 
-    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
-    /// are.
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene.
     #[must_use]
-    pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
-        Self { meshes: Some(meshes), ..self }
+    pub fn with_meshes(self, meshes: Option<[&'a Mesh; 2]>) -> Self {
+        Self { meshes, ..self }
     }
 
     /// With reduced gears from a cache.
@@ -121,9 +121,6 @@ impl<'a> StaticAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
     ) -> Result<StaticResult, AnalysisError> {
-        if !(self.slices_stand || self.scene.accuracy.is_none()) {
-            return Err(AnalysisError::from(Refusal::with_accuracy()).in_file(&self.scene.file));
-        }
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
@@ -139,7 +136,7 @@ impl<'a> StaticAnalysis<'a> {
             let (mut history, facts) = solved?;
             history.warnings.extend(gears::warnings(&pair));
             history.warnings.extend(unlikely);
-            return Ok(StaticResult { pair, history, facts, model: None });
+            return Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: None });
         }
         let shared = self.shared.filter(|_| scene.analysis.model == Model::Reduced);
         let own = self.meshes.or(self.shared.and_then(|models| models.meshes()));
@@ -165,7 +162,7 @@ impl<'a> StaticAnalysis<'a> {
         warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
         warnings.extend(jammed_pair(&history.positions, &pair, &options));
         history.warnings.extend(warnings);
-        Ok(StaticResult { pair, history, facts, model: Some(model) })
+        Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: Some(model) })
     }
 }
 
@@ -197,9 +194,9 @@ mod tests {
     fn slices_that_stand_are_not_chosen_anew() {
         let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0);
         let mut scene = base.torque_nm(300.0).build().unwrap();
-        let chosen = StaticAnalysis::new(&scene).settled().contact.slices.unwrap();
+        let chosen = CycleAnalysis::new(&scene).settled().contact.slices.unwrap();
         scene.contact.slices = Some(2 * chosen);
-        assert_eq!(StaticAnalysis::new(&scene).with_slices_of_scene().settled().contact.slices, Some(2 * chosen));
+        assert_eq!(CycleAnalysis::new(&scene).with_slices_of_scene().settled().contact.slices, Some(2 * chosen));
     }
 
     /// A scene built in code gets the slices that its width asks for, as one from a file does; a stated number stays.

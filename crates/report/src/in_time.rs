@@ -1,8 +1,8 @@
 //! A scene in time, from its answer to the files of its result.
 
 use analysis::{
-    AnalysisError, GearCache, Observer,
-    in_time::{SolvedInTime, TimeAnalysis, TimeOutcome},
+    AnalysisError, Context, GearCache, Observer,
+    in_time::{SolvedInTime, is_one_motion},
 };
 use mesh::Mesh;
 use scene::Scene;
@@ -37,7 +37,7 @@ fn unwritten(error: ReportError) -> AnalysisError {
 /// of the scene's where reduced gears move by themselves.
 ///
 /// # Errors
-/// As [`TimeAnalysis::solve_into`]; of files as [`AnalysisError::Sink`] with a [`ReportError`].
+/// As [`analysis::solve`]; of files as [`AnalysisError::Sink`] with a [`ReportError`].
 pub fn solve_in_time(
     scene: &Scene,
     meshes: Option<[&Mesh; 2]>,
@@ -46,17 +46,12 @@ pub fn solve_in_time(
     cache: &dyn GearCache,
 ) -> Result<WrittenInTime, AnalysisError> {
     let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
-    if TimeAnalysis::is_one_motion(scene) {
+    if is_one_motion(scene) {
         sink = sink.with_fields(results);
     }
-    let analysis = TimeAnalysis::new(scene).with_meshes(meshes).with_cache(cache);
-    match analysis.solve_into(recorder, &mut sink)? {
-        // Nobody asked it to stop on the way.
-        TimeOutcome::Stopped { .. } => Err(AnalysisError::Cancelled),
-        TimeOutcome::Finished(solved) => {
-            let cost = recorder.cost();
-            let written = write_in_time(&solved, &cost, sink.view.as_ref(), results).map_err(unwritten)?;
-            Ok(WrittenInTime { solved, cost, written })
-        }
-    }
+    let context = Context::new(recorder).with_meshes(meshes).with_cache(cache).with_sink(&mut sink);
+    let solved = analysis::solve(scene, context)?.finished()?.in_time()?;
+    let cost = recorder.cost();
+    let written = write_in_time(&solved, &cost, sink.view.as_ref(), results).map_err(unwritten)?;
+    Ok(WrittenInTime { solved, cost, written })
 }

@@ -8,7 +8,7 @@ use std::{collections::BTreeMap, error::Error, fs, time::Instant};
 
 use analysis::{
     StaticAnalysis,
-    accuracy::{AccurateAnalysis, Quantity, Rung},
+    accuracy::{Quantity, Rung},
 };
 use scene::{AccuracyScene, Model, Tolerance};
 use serde_json::Value;
@@ -47,7 +47,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         scene.analysis.model = Model::Auto;
         scene.accuracy = AccuracyScene::new([(Quantity::MeanSte, Tolerance::Relative(share))]);
         let start = Instant::now();
-        let solved = match AccurateAnalysis::new(&scene).solve() {
+        let solved = match StaticAnalysis::new(&scene).solve() {
             Ok(solved) => solved,
             Err(e) => {
                 println!("pair {}: {e}", pair.index);
@@ -56,7 +56,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let cost = start.elapsed().as_secs_f64() / default_s;
         costs.push(cost);
-        let Some(accuracy) = &solved.result.facts.accuracy else { continue };
+        let Some(accuracy) = &solved.facts.accuracy else { continue };
         for bound in &accuracy.bounds {
             let Some(exact) = pair.exact(bound.quantity) else { continue };
             let error = exact - bound.value;

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use analysis::{Solved, SolvedAtRest, in_time::TimeAnalysis, lumped::is_lumped};
+use analysis::{Solved, SolvedAtRest, in_time::is_one_motion, lumped::is_lumped};
 use scene::{gearbox::Gearbox, plan::Plan};
 
 use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::scene_of};
@@ -273,7 +273,7 @@ impl RunArgs {
         };
         let results = ResultDirectory::create(&self.out)?;
         if let Some(motion) = &scene.motion {
-            let every = motion.checkpoint_every_cycles.filter(|_| TimeAnalysis::is_one_motion(&scene));
+            let every = motion.checkpoint_every_cycles.filter(|_| is_one_motion(&scene));
             let progression = Progression::new(every, &self.out, self.resume, self.stop_after_cycles);
             let outcome = motion::solve(&scene, &mut phases, &results, &self.cache.open(), &progression)?;
             return self.ended(outcome, (&progression, results), quiet);

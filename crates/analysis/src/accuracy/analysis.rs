@@ -1,6 +1,7 @@
 //! A scene at rest with bounds, by the cheapest rung of the ladder that keeps what is asked.
 
 use geometry::GearPair;
+use mesh::Mesh;
 use scene::{Model, Quantity, Scene, Tolerance};
 
 use super::{
@@ -13,18 +14,9 @@ use super::{
     kept_gears::KeptGears,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, SharedModels, StaticAnalysis, StaticResult,
-    StaticSink,
+    AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, SharedModels, StaticResult, StaticSink,
+    error::in_scene, refused::Refusal, statics::CycleAnalysis,
 };
-
-/// The answer to a scene at rest, with bounds.
-#[derive(Debug)]
-pub struct AccurateResult {
-    /// The scene as it was solved: of `model = "auto"` with the model, mesh, slices and positions that were taken.
-    pub scene: Scene,
-    /// Its positions and facts, [`crate::facts::Facts::accuracy`] among them.
-    pub result: StaticResult,
-}
 
 /// A scene at rest that is to be solved with bounds.
 ///
@@ -32,15 +24,16 @@ pub struct AccurateResult {
 /// from the calibration, the proof from the estimate of the run; where that falls short, what it is mostly made of is
 /// refined. Of any other model the bounds of the run are estimated; of a scene that asks for no accuracy, none are.
 #[derive(Clone, Copy)]
-pub struct AccurateAnalysis<'a> {
+pub struct StaticAnalysis<'a> {
     scene: &'a Scene,
+    meshes: Option<[&'a Mesh; 2]>,
     cache: &'a dyn GearCache,
     shared: Option<&'a SharedModels<'a>>,
 }
 
-impl std::fmt::Debug for AccurateAnalysis<'_> {
+impl std::fmt::Debug for StaticAnalysis<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("AccurateAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
+        f.debug_struct("StaticAnalysis").field("scene", &self.scene.name).finish_non_exhaustive()
     }
 }
 
@@ -53,10 +46,22 @@ const MOST_SLICES: u32 = 768;
 /// Rungs that are tried, at most: each is twice as fine in something as one before.
 const TRIES: usize = 16;
 
-impl<'a> AccurateAnalysis<'a> {
+impl<'a> StaticAnalysis<'a> {
     /// Of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, cache: &NoCache, shared: None }
+        Self { scene, meshes: None, cache: &NoCache, shared: None }
+    }
+
+    /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
+    /// are, and have no bounds.
+    #[must_use]
+    pub fn with_meshes(self, meshes: [&'a Mesh; 2]) -> Self {
+        Self { meshes: Some(meshes), ..self }
+    }
+
+    /// Slices over the face width that it takes; `None` for a model without slices.
+    pub fn slices(&self) -> Option<u32> {
+        CycleAnalysis::new(self.scene).slices()
     }
 
     /// With reduced gears from a cache.
@@ -65,7 +70,7 @@ impl<'a> AccurateAnalysis<'a> {
         Self { cache, ..self }
     }
 
-    /// On what earlier scenes of its kind have left, as [`StaticAnalysis::with_shared`]; rungs of a ladder, whose meshes
+    /// On what earlier scenes of its kind have left, as [`SharedModels`] says; rungs of a ladder, whose meshes
     /// differ, share nothing.
     #[must_use]
     pub fn with_shared(self, models: &'a SharedModels<'a>) -> Self {
@@ -76,7 +81,7 @@ impl<'a> AccurateAnalysis<'a> {
     ///
     /// # Errors
     /// [`AnalysisError`].
-    pub fn solve(&self) -> Result<AccurateResult, AnalysisError> {
+    pub fn solve(&self) -> Result<StaticResult, AnalysisError> {
         self.solve_into(&mut NoObserver, &mut NoSink)
     }
 
@@ -90,13 +95,19 @@ impl<'a> AccurateAnalysis<'a> {
         &self,
         observer: &mut dyn Observer,
         sink: &mut dyn StaticSink,
-    ) -> Result<AccurateResult, AnalysisError> {
+    ) -> Result<StaticResult, AnalysisError> {
+        let meshes = self.meshes.or(self.shared.and_then(|models| models.meshes()));
         if self.scene.accuracy.is_none() {
-            let alone = StaticAnalysis::new(self.scene).with_cache(self.cache);
+            let alone = CycleAnalysis::new(self.scene).with_cache(self.cache).with_meshes(meshes);
             let analysis = self.shared.map_or(alone, |models| alone.with_shared(models));
             let mut result = analysis.solve_into(observer, sink)?;
-            result.facts.accuracy = free_estimate(self.scene, &result)?;
-            return Ok(AccurateResult { scene: self.scene.clone(), result });
+            // The laws of bounds are those of the built-in mesher.
+            result.facts.accuracy = if meshes.is_none() { free_estimate(self.scene, &result)? } else { None };
+            return Ok(result);
+        }
+        if meshes.is_some() {
+            let hint = "leave [accuracy] out, or name the files of the meshes in the scene";
+            return Err(in_scene(self.scene)(Refusal::input("there are no bounds of meshes in memory", hint)));
         }
         let kept = KeptGears::new(self.cache);
         let mut tried = Vec::new();
@@ -104,8 +115,7 @@ impl<'a> AccurateAnalysis<'a> {
         let mut scene = self.first();
         let mut failed = false;
         loop {
-            let solved =
-                StaticAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink);
+            let solved = CycleAnalysis::new(&scene).with_slices_of_scene().with_cache(&kept).solve_into(observer, sink);
             let mut result = match solved {
                 Ok(result) => result,
                 Err(e) => {
@@ -134,7 +144,7 @@ impl<'a> AccurateAnalysis<'a> {
             let Some(finer) = next else {
                 accuracy.rungs = tried;
                 result.facts.accuracy = Some(accuracy);
-                return Ok(AccurateResult { scene, result });
+                return Ok(result);
             };
             scene = finer;
         }
@@ -148,7 +158,7 @@ impl<'a> AccurateAnalysis<'a> {
     /// The scene that is solved first.
     fn first(&self) -> Scene {
         let mut scene = self.scene.clone();
-        let slices = StaticAnalysis::new(self.scene).slices();
+        let slices = self.slices();
         scene.contact.slices = slices;
         if !self.scene.is_auto() {
             return scene;

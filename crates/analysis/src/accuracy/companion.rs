@@ -3,7 +3,7 @@
 use scene::{Method, Model, Reduction, Scene};
 
 use super::{CalibratedMesh, Calibration, Rung, Sample, SolvedCycle};
-use crate::{AnalysisError, GearCache, StaticAnalysis, StaticResult, reduced};
+use crate::{AnalysisError, GearCache, StaticResult, reduced, statics::CycleAnalysis};
 
 /// Positions of a cycle at which a run is held against another one, at least.
 const LEAST_POSITIONS: u32 = 8;
@@ -121,7 +121,7 @@ fn companion_scene(scene: &Scene, rung: Rung, result: &StaticResult) -> Scene {
         own.contact.penalty_mpa_per_mm = None;
         own.contact.corner_contact = Some(true);
         own.contact.slices = Some(LEAST_SLICES);
-        own.contact.slices = StaticAnalysis::new(&own).slices();
+        own.contact.slices = CycleAnalysis::new(&own).slices();
     }
     own
 }

@@ -3,7 +3,7 @@
 //! How large the errors of a solved cycle are, and how they go with the pair, was learnt from random pairs
 //! ([`Calibration`]): for scenes like these on meshes that were measured, that and half of its positions are enough.
 //! Any other cycle is held against a companion on a rung of the ladder, and against half its slices.
-//! [`AccurateAnalysis`] climbs the ladder until the bounds keep what a scene asks for. Theory, section 15.
+//! [`StaticAnalysis`] climbs the ladder until the bounds keep what a scene asks for. Theory, section 15.
 //!
 //! | file | question |
 //! |---|---|
@@ -35,7 +35,7 @@ mod quantity;
 mod rung;
 mod solved_cycle;
 
-pub use analysis::{AccurateAnalysis, AccurateResult};
+pub use analysis::StaticAnalysis;
 pub use bound::{Bound, Cause, Term};
 pub use calibrated_mesh::CalibratedMesh;
 pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
@@ -44,7 +44,8 @@ pub use features::{FEATURES, Features, features};
 pub use kept_gears::KeptGears;
 pub use law::Law;
 pub(crate) use of_results::BoundsOfResults;
-pub use quantity::{Sample, goes_with_deflection, value_of};
+pub use quantity::Sample;
+use quantity::goes_with_deflection;
 pub use rung::Rung;
 pub use scene::Quantity;
 pub use solved_cycle::SolvedCycle;

@@ -11,7 +11,8 @@ use super::{
     plan::Engine,
 };
 use crate::{
-    AnalysisError, NoSink, StaticAnalysis, StaticResult, accuracy::BoundsOfResults, solver_error, static_certificate,
+    AnalysisError, NoSink, StaticResult, accuracy::BoundsOfResults, solver_error, static_certificate,
+    statics::CycleAnalysis,
 };
 
 /// Phase of the positions.
@@ -46,7 +47,7 @@ pub(super) fn measure(
 
 fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults>) -> Result<Measured, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
-    let solved = StaticAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
+    let solved = CycleAnalysis::new(&point.scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
     crate::certificate::verdict(&static_certificate(&point.scene, &solved.history.positions), &point.scene)?;
     let scale = f64::from(point.positions_asked) / f64::from(point.positions);
     let peak_memory_mb = phases.peak_mb();
@@ -96,7 +97,7 @@ fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisErro
 fn time_closed_form(scene: &Scene, tools: ChartTools<'_>) -> Result<f64, AnalysisError> {
     let mut phases = PhaseTimes::new(tools.memory);
     for _ in 0..REPEATS {
-        StaticAnalysis::new(scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
+        CycleAnalysis::new(scene).with_slices_of_scene().solve_into(&mut phases, &mut NoSink)?;
     }
     Ok(phases.wall_s(|name| name == SOLVE) / f64::from(REPEATS))
 }

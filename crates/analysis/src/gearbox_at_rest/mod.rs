@@ -34,47 +34,20 @@ use gearbox::{
 use scene::{Scene, gearbox::Gearbox};
 
 use crate::{
-    AnalysisError, GearCache, NoCache, Observer, PhaseWork, plausible::gearbox_remarks, run_phase, unless_cancelled,
+    AnalysisError, GearCache, Observer, PhaseWork,
+    context::{Context, Ending, Question},
+    plausible::gearbox_remarks,
+    run_phase, unless_cancelled,
 };
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
 pub use motion::GearboxMotionResult;
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
-pub use sink::{GearboxSink, NoGearboxSink};
+pub use sink::GearboxSink;
+use sink::NoGearboxSink;
 pub use swings::{ExcitationLine, GearboxSwings, OrderForces, SpeedRms};
 use vibration::Parts;
-
-/// Solves a gearbox as its file asks, in one piece.
-///
-/// # Errors
-/// [`AnalysisError`].
-pub fn solve_gearbox(
-    file: &Gearbox,
-    cache: &dyn GearCache,
-    observer: &mut dyn Observer,
-) -> Result<GearboxResult, AnalysisError> {
-    Ok(solve((file, cache), Span::default(), observer, &mut NoGearboxSink)?.0)
-}
-
-/// A gearbox as its file asks, whose motion may be stopped and gone on with.
-pub struct GearboxAnalysis<'a> {
-    file: &'a Gearbox,
-    cache: &'a dyn GearCache,
-    span: Span,
-}
-
-/// How an analysis ended.
-#[derive(Debug)]
-pub enum GearboxOutcome {
-    /// With its result.
-    Finished(Box<GearboxResult>),
-    /// The caller asked to stop its motion.
-    Stopped {
-        /// Cycles of the fastest mesh that are done.
-        cycles: u64,
-    },
-}
 
 /// Where a motion begins, and where it is to stop.
 #[derive(Debug, Default)]
@@ -85,46 +58,20 @@ struct Span {
     stop_after: Option<u64>,
 }
 
-impl<'a> GearboxAnalysis<'a> {
-    /// Of a checked file, without a cache.
-    pub fn new(file: &'a Gearbox) -> Self {
-        Self { file, cache: &NoCache, span: Span::default() }
-    }
+impl Question for Gearbox {
+    type Answer = GearboxResult;
+    type Sink<'s> = dyn GearboxSink + 's;
+    type State = (GearboxCheckpoint, Vec<GearboxInstant>);
 
-    /// With reduced gears from a cache, and into it.
-    #[must_use]
-    pub fn with_cache(self, cache: &'a dyn GearCache) -> Self {
-        Self { cache, ..self }
-    }
-
-    /// Goes on from a state of the motion, with the rows before it. What is at rest is solved again.
-    #[must_use]
-    pub fn resume(mut self, from: GearboxCheckpoint, rows: Vec<GearboxInstant>) -> Self {
-        self.span.from = Some((from, rows));
-        self
-    }
-
-    /// Stops the motion when so many cycles of the fastest mesh are done, at the first row from there on.
-    #[must_use]
-    pub fn stop_after(mut self, cycles: Option<u64>) -> Self {
-        self.span.stop_after = cycles;
-        self
-    }
-
-    /// Solves it; `sink` gets rows and states of the motion as they come.
-    ///
-    /// # Errors
-    /// [`AnalysisError`].
-    pub fn solve_into(
-        self,
-        observer: &mut dyn Observer,
-        sink: &mut dyn GearboxSink,
-    ) -> Result<GearboxOutcome, AnalysisError> {
-        let (result, stopped) = solve((self.file, self.cache), self.span, observer, sink)?;
-        Ok(match stopped {
-            Some(cycles) => GearboxOutcome::Stopped { cycles },
-            None => GearboxOutcome::Finished(Box::new(result)),
-        })
+    /// What is at rest is solved again where its motion is gone on with.
+    fn answer(&self, context: Context<'_, Self>) -> Result<Ending<GearboxResult>, AnalysisError> {
+        let Context { observer, cache, sink, from, stop_after, .. } = context;
+        let span = Span { from, stop_after };
+        let (result, stopped) = match sink {
+            Some(sink) => solve((self, cache), span, observer, sink),
+            None => solve((self, cache), span, observer, &mut NoGearboxSink),
+        }?;
+        Ok(stopped.map_or(Ending::Finished(result), |cycles| Ending::Stopped { cycles }))
     }
 }
 

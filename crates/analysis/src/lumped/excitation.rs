@@ -16,8 +16,8 @@ use scene::{
 
 use super::elastic_pair::{ElasticPair, without_speed};
 use crate::{
-    AnalysisError, GearCache, NoSink, Observer, StaticAnalysis, error::in_scene, iso_model, loaded_pair::LoadedPair,
-    static_certificate,
+    AnalysisError, GearCache, NoSink, Observer, error::in_scene, iso_model, loaded_pair::LoadedPair,
+    static_certificate, statics::CycleAnalysis,
 };
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
@@ -99,7 +99,7 @@ impl<'a> ExcitationSource<'a> {
         if let Some((_, excitation)) = self.last.as_ref().filter(|(known, _)| *known == at_rest) {
             return Ok(excitation.clone());
         }
-        let solved = StaticAnalysis::new(&at_rest)
+        let solved = CycleAnalysis::new(&at_rest)
             .with_slices_of_scene()
             .with_cache(self.cache)
             .solve_into(self.observer, &mut NoSink)?;

@@ -13,7 +13,6 @@
 //! | `limits` | checks of the result |
 //! | `digits` | numbers of messages |
 
-mod digits;
 mod estimate;
 mod flanks;
 mod gearbox;
@@ -22,7 +21,6 @@ mod material;
 mod refusal;
 mod remarks;
 
-pub(crate) use digits::digits;
 pub use estimate::LoadEstimate;
 pub use gearbox::gearbox_remarks;
 pub(crate) use limits::{deflection_check, deflection_in_motion, effective_modulus, pressure_check};

@@ -5,7 +5,6 @@ use geometry::GearPair;
 use scene::{Scene, units::in_another_unit};
 
 use super::{
-    digits::digits,
     estimate::LoadEstimate,
     flanks::tip_left,
     limits::{DEFLECTION_BOUND, PRESSURE_BOUND},

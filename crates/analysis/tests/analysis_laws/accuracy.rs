@@ -1,8 +1,9 @@
 //! Laws of bounds: what they hold, what they refuse, and when the ladder is left.
 
 use analysis::{
-    AnalysisError, StaticAnalysis,
-    accuracy::{AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, Quantity, Rung},
+    AnalysisError, Blame, StaticAnalysis, StaticResult,
+    accuracy::{Bound, CalibratedMesh, Calibration, Cause, Quantity, Rung},
+    meshes::generated,
 };
 use scene::{Scene, SceneBuilder};
 
@@ -11,12 +12,12 @@ fn pair() -> SceneBuilder {
     base.torque_nm(200.0)
 }
 
-fn solved(scene: &Scene) -> AccurateResult {
-    AccurateAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{e}"))
+fn solved(scene: &Scene) -> StaticResult {
+    StaticAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{e}"))
 }
 
-fn bound(result: &AccurateResult, quantity: Quantity) -> Bound {
-    let all = &result.result.facts.accuracy.as_ref().unwrap().bounds;
+fn bound(result: &StaticResult, quantity: Quantity) -> Bound {
+    let all = &result.facts.accuracy.as_ref().unwrap().bounds;
     all.iter().find(|b| b.quantity == quantity).unwrap_or_else(|| panic!("no bound of {}", quantity.key())).clone()
 }
 
@@ -28,7 +29,7 @@ fn the_ladder_is_left_as_soon_as_the_bounds_keep_what_is_asked() {
     assert_eq!(Rung::of(&coarse.scene).map(|r| r.elements_profile), Some(2));
     let fine = solved(&pair().set("accuracy.mean_ste", "1 %").build().unwrap());
     let rung = Rung::of(&fine.scene).unwrap().elements_profile;
-    assert!(rung > 2 && fine.result.facts.accuracy.as_ref().unwrap().is_met(), "rung {rung}");
+    assert!(rung > 2 && fine.facts.accuracy.as_ref().unwrap().is_met(), "rung {rung}");
     for quantity in [Quantity::MeanSte, Quantity::MeshStiffness, Quantity::MaxPressure] {
         let [coarse, fine] = [&coarse, &fine].map(|r| bound(r, quantity));
         let Bound { value, below, above, .. } = coarse;
@@ -64,12 +65,19 @@ fn one_element_in_a_thin_rim_is_caught() {
     assert!(one.above > six.above, "{} and {}", one.words(), six.words());
 }
 
-/// Who asks for bounds does not get a result without.
+/// The laws of bounds are those of meshes that the program makes or reads: meshes in memory get none, and who asks for
+/// bounds of them is refused.
 #[test]
-fn an_analysis_without_bounds_refuses_to_leave_them_out() {
-    let scene = pair().set("accuracy.mean_ste", "1 %").build().unwrap();
-    let refused = StaticAnalysis::new(&scene).solve().map(|_| ()).unwrap_err();
-    assert!(refused.to_string().ends_with("an accuracy is asked for"), "{refused}");
+fn meshes_in_memory_have_no_bounds() {
+    let alone = pair().set("analysis.positions_per_cycle", 8).build().unwrap();
+    let exact = alone.gear_pair().unwrap();
+    let of = |name: &str, gear, exact| generated(&alone, name, gear, exact).unwrap();
+    let meshes = [of("pinion", &alone.pinion, &exact.pinion), of("wheel", &alone.wheel, &exact.wheel)];
+    let held = |scene: &Scene| StaticAnalysis::new(scene).with_meshes([&meshes[0], &meshes[1]]).solve();
+    assert!(held(&alone).unwrap().facts.accuracy.is_none());
+    let refused = held(&pair().set("accuracy.mean_ste", "1 %").build().unwrap()).unwrap_err();
+    assert!(refused.to_string().ends_with("there are no bounds of meshes in memory"), "{refused}");
+    assert!(refused.hint().is_some() && refused.blame() == Blame::Input, "{refused}");
 }
 
 /// Every quantity has its laws on the same rungs, and every bound is above zero.
@@ -102,7 +110,7 @@ fn nothing_that_is_asked_is_passed_over() {
     assert_eq!(bound(&solved(&by_hand), Quantity::MeanSte).met, Some(true));
     let few = pair().set("accuracy.third_ste_harmonic", "5 %").set("analysis.model", "reduced");
     let few = few.set("analysis.positions_per_cycle", 2).build().unwrap();
-    let refused = AccurateAnalysis::new(&few).solve().map(|_| ()).unwrap_err();
+    let refused = StaticAnalysis::new(&few).solve().map(|_| ()).unwrap_err();
     assert!(
         {
             let is_unbounded = refused.to_string().contains("there is no bound of");
@@ -111,6 +119,6 @@ fn nothing_that_is_asked_is_passed_over() {
         "{refused}"
     );
     let tiny = solved(&pair().torque_nm(0.1).set("accuracy.mean_ste", "90 %").build().unwrap());
-    let not_covered = &tiny.result.facts.accuracy.as_ref().unwrap().not_covered;
+    let not_covered = &tiny.facts.accuracy.as_ref().unwrap().not_covered;
     assert!(not_covered.iter().any(|said| said.starts_with("a Hertz pressure")), "{not_covered:?}");
 }

@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use analysis::{
-    AnalysisError, Blame, NoCache, NoObserver, StaticAnalysis,
-    gearbox_at_rest::{GearboxResult, solve_gearbox},
-};
+use analysis::{AnalysisError, Blame, Context, NoObserver, StaticAnalysis, gearbox_at_rest::GearboxResult};
 use scene::{Scene, Setting, gearbox::Gearbox};
 
 fn folder() -> PathBuf {
@@ -13,7 +10,7 @@ fn folder() -> PathBuf {
 }
 
 fn solve(file: &Gearbox) -> Result<GearboxResult, AnalysisError> {
-    solve_gearbox(file, &NoCache, &mut NoObserver)
+    analysis::solve(file, Context::new(&mut NoObserver))?.finished()
 }
 
 /// The pair of the first stage on two shafts that are held.

@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use analysis::{NoCache, NoObserver, StaticAnalysis, gearbox_at_rest::solve_gearbox};
+use analysis::{Context, Ending, NoObserver, StaticAnalysis, solve};
 use contact::SliceResult;
 use fem::{
     Material,
@@ -177,7 +177,7 @@ fn beside(pair: &str) -> Result<Vec<(&'static str, f64)>, String> {
     let scene = Scene::read(&own).map_err(|e| say(&e))?;
     let alone = StaticAnalysis::new(&scene).solve().map_err(|e| say(&e))?;
     let file = Gearbox::parse(&held(&scene), &folder.path().join("held.toml")).map_err(|e| say(&e))?;
-    let found = solve_gearbox(&file, &NoCache, &mut NoObserver).map_err(|e| say(&e))?;
+    let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).map_err(|e| say(&e))?;
     assert_eq!((found.positions.len(), alone.history.positions.len()), (POSITIONS, POSITIONS));
     let mut all = Vec::new();
     for (own, wanted) in found.positions.iter().zip(&alone.history.positions) {

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use analysis::{NoCache, NoObserver, gearbox_at_rest::solve_gearbox};
+use analysis::{Context, Ending, NoObserver, solve};
 use scene::gearbox::Gearbox;
 use serde_json::Value;
 
@@ -51,7 +51,8 @@ struct Found {
 fn solved(text: &str, reference: &Reference) -> (Found, [f64; 2]) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gearbox");
     let file = Gearbox::parse(text, &folder.join("overhung_pinion.toml")).unwrap_or_else(|e| panic!("{e}"));
-    let found = solve_gearbox(&file, &NoCache, &mut NoObserver).unwrap_or_else(|e| panic!("{e}"));
+    let found =
+        solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).unwrap_or_else(|e| panic!("{e}"));
     let torque = found.input_torque.abs();
     assert!((torque / reference.torque() - 1.0).abs() < 1e-3, "{torque} N mm beside {}", reference.torque());
     assert!(found.certificate.iter().all(|share| *share < 1e-8), "{:?}", found.certificate);

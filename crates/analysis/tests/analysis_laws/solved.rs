@@ -1,8 +1,8 @@
 //! One door for a scene of any kind: what comes out is what the analysis of its kind gives.
 
 use analysis::{
-    NoCache, NoObserver, SharedModels, Solved, StaticAnalysis, WarningsAtRest,
-    in_time::{TimeAnalysis, TimeAnswer},
+    Context, Ending, NoObserver, Solved, StaticAnalysis,
+    in_time::{TimeAnswer, is_one_motion},
     lumped::LumpedAnalysis,
     results::static_headline,
     solve,
@@ -16,7 +16,7 @@ fn built(scene: SceneBuilder) -> Scene {
 }
 
 fn solved(scene: &Scene) -> Solved {
-    let solved = solve(scene, &SharedModels::new(&NoCache), WarningsAtRest::Told, &mut NoObserver);
+    let solved = solve(scene, Context::new(&mut NoObserver)).and_then(Ending::finished);
     let solved = solved.unwrap_or_else(|e| panic!("{e}"));
     solved.verdict().unwrap_or_else(|e| panic!("{e}"));
     solved
@@ -56,9 +56,9 @@ fn the_door_tells_kinds_apart() {
     assert_eq!((options.quantity.name.as_str(), found.points.len()), ("dte_um", 4), "two speeds, up and down");
     let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(100.0);
     let rest = built(base);
-    assert!(!TimeAnalysis::is_one_motion(&sweep) && !TimeAnalysis::is_one_motion(&rest));
-    for wrong in [TimeAnalysis::new(&sweep).stop_after(Some(1)), TimeAnalysis::new(&rest)] {
-        let said = wrong.solve_into(&mut NoObserver, &mut analysis::motion::NoMotionSink).unwrap_err().to_string();
+    assert!(!is_one_motion(&sweep) && !is_one_motion(&rest));
+    for wrong in [&sweep, &rest] {
+        let said = solve(wrong, Context::new(&mut NoObserver).stop_after(Some(1))).unwrap_err().to_string();
         assert!(said.contains("motion"), "{said}");
     }
 }

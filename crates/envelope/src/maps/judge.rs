@@ -7,8 +7,8 @@ use std::{
 };
 
 use analysis::{
-    AnalysisError, Blame,
-    accuracy::{AccurateAnalysis, Bound},
+    AnalysisError, Blame, StaticAnalysis,
+    accuracy::Bound,
     lumped::{LumpedAnalysis, LumpedResult},
     static_certificate,
 };
@@ -89,15 +89,12 @@ pub(super) fn reference(file: &str, settings: &[String], found: impl FnOnce() ->
 
 fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, AnalysisError> {
     let scene = scene(file, text, settings)?;
-    let solved = AccurateAnalysis::new(&scene).solve()?;
-    analysis::certificate::verdict(
-        &static_certificate(&solved.scene, &solved.result.history.positions),
-        &solved.scene,
-    )?;
+    let solved = StaticAnalysis::new(&scene).solve()?;
+    analysis::certificate::verdict(&static_certificate(&solved.scene, &solved.history.positions), &solved.scene)?;
     let without = || AnalysisError::without_bound(&scene, Quantity::MeanSte);
-    let accuracy = solved.result.facts.accuracy.as_ref().ok_or_else(without)?.clone();
+    let accuracy = solved.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
-    let mut warnings: Vec<String> = solved.result.history.warnings.iter().map(ToString::to_string).collect();
+    let mut warnings: Vec<String> = solved.history.warnings.iter().map(ToString::to_string).collect();
     warnings.extend(
         accuracy
             .not_covered

@@ -6,7 +6,7 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::{Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
+use analysis::{Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
 use scene::plan::Plan;
 
 use super::{CaseRow, DoneCases, case_values};
@@ -60,7 +60,8 @@ fn numbers(
     let mut scene = plan.scene(case).map_err(|e| e.to_string())?;
     // Nobody looks at these.
     (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
-    let solved = solve(&scene, models, WarningsAtRest::Left, observer).map_err(|e| e.to_string())?;
+    let context = Context::new(observer).with_models(models).with_warnings(WarningsAtRest::Left);
+    let solved = solve(&scene, context).and_then(Ending::finished).map_err(|e| e.to_string())?;
     solved.verdict().map_err(|e| e.to_string())?;
     case_values(&plan.outputs, &solved)
 }

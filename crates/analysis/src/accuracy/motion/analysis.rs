@@ -9,9 +9,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, StaticResult,
-    accuracy::{
-        Accuracy, AccurateAnalysis, AccurateResult, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung,
-    },
+    accuracy::{Accuracy, Bound, CalibratedMesh, Calibration, Cause, KeptGears, Rung, StaticAnalysis},
     error::in_scene,
     facts::Facts,
     lumped::{NoLumpedSink, static_scene},
@@ -173,8 +171,7 @@ impl<'a> AccurateMotion<'a> {
         let whole = Tolerance::Relative(1.0);
         still.accuracy =
             AccuracyScene::new([(Quantity::PeakToPeakSte, whole), (Quantity::MeshStiffnessTangent, whole)]);
-        let AccurateResult { result: solved, .. } =
-            AccurateAnalysis::new(&still).with_cache(kept).solve_into(observer, &mut NoSink)?;
+        let solved = StaticAnalysis::new(&still).with_cache(kept).solve_into(observer, &mut NoSink)?;
         let rest = PairAtRest::new(&scene, &solved)?;
         let of = |q: Quantity| solved.facts.accuracy.iter().flat_map(|a| &a.bounds).find(|b| b.quantity == q);
         let no_bound = |quantity: Quantity| in_scene(&scene)(Refusal::no_bound(quantity));

@@ -8,8 +8,8 @@ use scene::{DriveBy, Driver, Quantity, Scene};
 use study::{cycle_statistics, mesh_harmonics, root_mean_square};
 
 use crate::{
-    AnalysisError, GearCache, StaticAnalysis, StaticResult, error::failed_modes, lumped::static_scene, meshes,
-    motion::motion_options, options, reduced,
+    AnalysisError, GearCache, StaticResult, error::failed_modes, lumped::static_scene, meshes, motion::motion_options,
+    options, reduced, statics::CycleAnalysis,
 };
 
 /// A pair at rest, as far as its motion is told from it.
@@ -77,7 +77,7 @@ impl PairAtRest {
     /// [`AnalysisError`].
     pub fn solve(scene: &Scene, cache: &dyn GearCache) -> Result<Self, AnalysisError> {
         let still = static_scene(scene);
-        let analysis = StaticAnalysis::new(&still).with_slices_of_scene().with_cache(cache);
+        let analysis = CycleAnalysis::new(&still).with_slices_of_scene().with_cache(cache);
         Self::new(scene, &analysis.solve()?)
     }
 
