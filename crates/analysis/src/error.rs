@@ -118,7 +118,7 @@ impl AnalysisError {
     /// The same in a file.
     #[must_use]
     pub(crate) fn in_file(self, file: &Path) -> Self {
-        self.at(Place::File(file.to_owned()))
+        self.at(Place::File(file.into()))
     }
 
     /// The same of a part of what was asked about: a gear, a mesh, a table.
@@ -204,7 +204,7 @@ impl AnalysisError {
 
 /// The place of the first of these keys that the scene states, else its file.
 pub(crate) fn place_in(scene: &Scene, keys: &[&str]) -> Place {
-    scene.place_of(keys).unwrap_or_else(|| Place::File(scene.file.clone()))
+    scene.place_of(keys).unwrap_or_else(|| Place::File(scene.file.as_path().into()))
 }
 
 /// For `map_err`: what happened, in the scene's file.

@@ -18,7 +18,7 @@ pub enum Place {
         label: Box<str>,
     },
     /// A file as a whole.
-    File(PathBuf),
+    File(Box<Path>),
     /// A part of what was asked about: a gear, a mesh, a table of the file.
     Part(Box<str>),
 }
@@ -108,7 +108,7 @@ mod tests {
         let line = Line { file: "a.toml".into(), number: 3, excerpt: "torque_nm = 1\n^".into() };
         let places = [
             (Place::Line(Arc::new(line)), "a.toml:3", Some("a.toml"), Some(3)),
-            (Place::File("b.toml".into()), "b.toml", Some("b.toml"), None),
+            (Place::File(Path::new("b.toml").into()), "b.toml", Some("b.toml"), None),
             (Place::part("pinion"), "pinion", None, None),
             (Place::Setting { label: "--set x".into() }, "--set x", None, None),
         ];
