@@ -14,6 +14,9 @@ pub(super) struct SweepValue {
     pub inputs: Result<LumpedInputs, Arc<AnalysisError>>,
 }
 
+/// A point with the number of its value, or why there is none.
+type NumberedPoint = (usize, Result<SweepPoint, Arc<AnalysisError>>);
+
 /// All values every way, one list a way in ascending order. Upwards and downwards each begins at rest under the load at its
 /// first value; a value without a motion has its reason.
 pub(super) fn all_ways(
@@ -30,7 +33,7 @@ pub(super) fn all_ways(
         ControlFlow::Continue(())
     };
     let all = integrate::sweep(values, &directions, settle, |_| false, told);
-    let of_way = |(way, mut answers): (&SweepWay, Vec<(usize, Result<SweepPoint, Arc<AnalysisError>>)>)| {
+    let of_way = |(way, mut answers): (&SweepWay, Vec<NumberedPoint>)| {
         answers.sort_by_key(|(i, _)| *i);
         let point = |(i, answer): (usize, Result<SweepPoint, _>)| match answer {
             Ok(point) => SweepPoint { way: *way, ..point },
