@@ -109,7 +109,7 @@ impl From<SceneError> for Complaint {
 impl From<AnalysisError> for Complaint {
     fn from(error: AnalysisError) -> Self {
         let error = match error {
-            AnalysisError::Scene(scene) => return scene.into(),
+            AnalysisError::Scene(scene) => return (*scene).into(),
             // What a sink of this package says is a message already.
             AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
                 Ok(own) => return (*own).into(),

@@ -27,8 +27,8 @@ pub enum AnalysisError {
     #[error("{0}")]
     Shared(Arc<AnalysisError>),
     /// The scene itself, with its own places.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
+    #[error("{0}")]
+    Scene(Box<SceneError>),
     /// A mesh file cannot be read, or what was read is no gear.
     #[error("{0}")]
     Mesh(Box<MeshError>),
@@ -80,6 +80,7 @@ macro_rules! boxed {
 
 boxed! {
     Located<AnalysisError> => At,
+    SceneError => Scene,
     MeshError => Mesh,
     ReductionError => Reduction,
     StaticError => Solver,

@@ -50,7 +50,7 @@ pub enum SceneError {
         /// Its key.
         key: String,
         /// The type wanted.
-        expected: String,
+        expected: Box<str>,
         /// What stands there.
         found: String,
         /// How to write it.
@@ -66,7 +66,7 @@ pub enum SceneError {
         /// As written.
         value: String,
         /// Range or list.
-        allowed: String,
+        allowed: Box<str>,
         /// What may have been meant.
         advice: Option<String>,
     },

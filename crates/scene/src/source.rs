@@ -183,7 +183,7 @@ impl Source<'_> {
             let key = self.key_before(span.start);
             let found = hints::found(found);
             let advice = hints::of_type(&key, &expected, &found);
-            return SceneError::WrongType { place, key, expected, found, advice };
+            return SceneError::WrongType { place, key, expected: expected.into(), found, advice };
         }
         // Only the first line: the reader's own excerpts are for its own layout.
         let mut message = message.lines().next().unwrap_or("not readable").to_owned();

@@ -119,7 +119,7 @@ impl Source<'_> {
             place: self.place(&word.span()),
             key: key.to_owned(),
             value: format!("\"{written}\""),
-            allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or "),
+            allowed: names.iter().map(|n| format!("\"{n}\"")).collect::<Vec<_>>().join(" or ").into(),
             advice: match keys::nearest(written, &names) {
                 Some(name) => Some(format!("did you mean \"{name}\"?")),
                 None => (self.meaning)(key).map(|about| format!("`{key}` means: {about}")),
@@ -139,7 +139,7 @@ impl Source<'_> {
             key: key.to_owned(),
             value: value.get_ref().to_string(),
             advice: Some(advice.unwrap_or_else(|| hints::of_range(key, &allowed, about))),
-            allowed,
+            allowed: allowed.into(),
         }
     }
 }

@@ -93,7 +93,7 @@ fn errors_name_the_key() {
     );
     let wrong_type = with("pinion.teeth", "many".into());
     assert!(
-        matches!(&wrong_type, SceneError::WrongType { expected, .. } if expected == "a whole number"),
+        matches!(&wrong_type, SceneError::WrongType { expected, .. } if **expected == *"a whole number"),
         "{wrong_type}"
     );
     assert!(matches!(with("operation.torque", 1.0.into()), SceneError::UnknownKey { .. }));

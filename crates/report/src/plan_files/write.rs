@@ -68,7 +68,6 @@ fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], 
         remarks: (known.failed > 0).then(|| remark::cases_unsolved(known.failed, rows.len())).into_iter().collect(),
         info: Map::from_iter([("reports".to_owned(), json!(reports))]),
         cost,
-        ..Answer::default()
     }
 }
 

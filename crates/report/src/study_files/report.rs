@@ -46,7 +46,6 @@ pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
         // What differs from run to run is no result.
         info: Map::from_iter([("wall_s".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
         cost,
-        ..Answer::default()
     }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn known(
             place: s.place(&word.span()),
             key: key.to_owned(),
             value: format!("\"{name}\""),
-            allowed: format!("a column of history.csv of the case \"{}\"", case.label),
+            allowed: format!("a column of history.csv of the case \"{}\"", case.label).into(),
             advice: column_advice(name, &all),
         });
     }
