@@ -9,13 +9,8 @@ use analysis::{
     AnalysisError, GearCache, Observer, PhaseWork, SharedModels,
     optimum::{optimise, told},
 };
-use report::{
-    Recorder, WrittenInTime,
-    folder::ResultDirectory,
-    optimum_files::{OptimumResult, write_optimum},
-    plan_files::{DoneCases, PageWords, solve_cases, write_cases},
-    solve_in_time,
-};
+use store::folder::ResultDirectory;
+use report::{Recorder, WrittenInTime, optimum_files::{OptimumResult, write_optimum}, plan_files::{DoneCases, PageWords, solve_cases, write_cases}, solve_in_time};
 use tempfile::TempDir;
 
 use crate::{

@@ -12,14 +12,9 @@ use analysis::{
 };
 use answer::Table;
 use ltca::{StaticHistory, StaticModel, StaticPosition};
-use report::{
-    Cost, Recorder, ReportError,
-    columns::history_table,
-    folder::ResultDirectory,
-    paraview::FieldWriter,
-    view::{View, ViewRecorder},
-    write_static_result,
-};
+use columns::history_table;
+use store::folder::ResultDirectory;
+use report::{Cost, Recorder, ReportError, paraview::FieldWriter, view::{View, ViewRecorder}, write_static_result};
 use tempfile::TempDir;
 
 use crate::{error::Complaint, work::Watch};

@@ -14,7 +14,9 @@ use pyo3::{
     types::{PyBool, PyList, PyString},
 };
 use rayon::prelude::*;
-use report::{available_bytes, check_memory, folder::Cache};
+use store::available_bytes;
+use store::check_memory;
+use store::folder::Cache;
 
 use crate::{
     analyses::{self, Held},

@@ -13,7 +13,8 @@ use pyo3::{
     prelude::*,
     types::{PyDict, PyList},
 };
-use report::{charts::stills, folder::ResultDirectory};
+use store::folder::ResultDirectory;
+use report::charts::stills;
 use serde_json::Value;
 use tempfile::TempDir;
 

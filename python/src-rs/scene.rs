@@ -8,7 +8,8 @@ use pyo3::{
     prelude::*,
     types::{PyBool, PyDict, PyList, PyString},
 };
-use report::{available_bytes, check_memory};
+use store::available_bytes;
+use store::check_memory;
 
 use crate::{
     arguments::{Given, path, text, whole},

@@ -2,11 +2,9 @@
 //! [`analysis::gearbox_at_rest`], what is written in [`report::gearbox_files`].
 
 use analysis::{Context, Ending};
-use report::{
-    checkpoint::{GearboxFileSink, GearboxState},
-    folder::Cache,
-    gearbox_files::write_gearbox,
-};
+use store::checkpoint::{GearboxFileSink, GearboxState};
+use store::folder::Cache;
+use report::gearbox_files::write_gearbox;
 use scene::gearbox::Gearbox;
 
 use crate::{

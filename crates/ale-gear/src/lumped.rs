@@ -1,12 +1,10 @@
 //! Runs at many values of a key, and their files.
 
 use analysis::lumped::{KeySweep, LumpedQuantity, SweepOptions};
-use report::{
-    columns::{LumpedLayout, lumped_quantity},
-    write_key_sweep_result,
-};
+use columns::{LumpedLayout, lumped_quantity};
+use report::write_key_sweep_result;
 
-use report::folder::Cache;
+use store::folder::Cache;
 
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, scene::Scene};
 

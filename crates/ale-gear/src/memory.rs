@@ -2,7 +2,8 @@
 
 use std::fs;
 
-pub use report::{available_bytes, available_mb};
+pub use store::available_bytes;
+pub use store::available_mb;
 
 /// Forgets the peak so far. Returns whether the system could (Linux only).
 pub fn reset_peak() -> bool {

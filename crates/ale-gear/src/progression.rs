@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use report::checkpoint::{CheckpointFolder, Checkpoints, InputDigests, Resumable, Stored, StoredState};
+use store::checkpoint::{CheckpointFolder, Checkpoints, InputDigests, Resumable, Stored, StoredState};
 
 use crate::{
     certificate::Closing,

@@ -5,7 +5,7 @@ use report::{StaticFileSink, view::View};
 
 pub(crate) use analysis::static_certificate as certificate;
 
-use report::folder::Cache;
+use store::folder::Cache;
 
 use crate::{
     error::CommandError,

@@ -9,7 +9,11 @@ use analysis::{
     run_phase, side_by_side, solve_at_rest,
 };
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{Cost, checkpoint::HISTORY, columns::solved_rows, folder::KeptCases, read_columns, write_static_rows};
+use store::checkpoint::HISTORY;
+use columns::solved_rows;
+use store::folder::KeptCases;
+use columns::read_columns;
+use report::{Cost, write_static_rows};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},

@@ -4,11 +4,8 @@ use answer::{Answer, Checks, Cost, Remark, parquet_bytes};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use crate::{
-    ReportError, SUMMARY_SCHEMA,
-    folder::ResultDirectory,
-    page::{Page, Rendered, closing_text},
-};
+use store::folder::ResultDirectory;
+use crate::{ReportError, SUMMARY_SCHEMA, page::{Page, Rendered, closing_text}};
 
 #[derive(Serialize)]
 struct Summary<'a> {

@@ -7,9 +7,8 @@ use analysis::{
 use mesh::Mesh;
 use scene::Scene;
 
-use crate::{
-    Cost, ReportError, Written, folder::ResultDirectory, motion_files::MotionFileSink, pair_files::write_in_time,
-};
+use store::folder::ResultDirectory;
+use crate::{Cost, ReportError, Written, motion_files::MotionFileSink, pair_files::write_in_time};
 
 /// Hears of the phases, and knows what they cost.
 pub trait Recorder: Observer {

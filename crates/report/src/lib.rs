@@ -2,8 +2,6 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`columns`] | files of rows: what each column is called, means and holds |
-//! | [`read_columns`] | a file of rows read back |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
 //! | [`charts`] | curves, maps and diagrams as SVG with the points for a page's script |
 //! | [`page`] | pages that need nothing beside themselves |
@@ -17,38 +15,28 @@
 //! | [`study_files`] | the same figures of several scenes, side by side |
 //! | [`optimum_files`] | an optimisation: the scene of the optimum, tables, report |
 //! | [`plan_files`] | many cases of one scene, a row a case |
-//! | [`checkpoint`] | rows and state of a motion that can be gone on from |
-//! | [`folder`] | a result folder that is there as a whole or not at all |
 //! | [`paraview`] | `.vtu` and `.pvd` |
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
 //! | [`solve_in_time`], [`write_in_time`] | a scene in time, from its answer to the files of its result |
 //! | [`Cost`], [`write_result`] | what a run cost; an answer into a result folder |
-//! | [`ResultFiles`] | where files go |
 
 pub mod accuracy_chart;
 mod answer_files;
 pub mod charts;
-pub mod checkpoint;
-pub mod columns;
 pub mod compare;
 pub mod contact_files;
 pub mod envelope_files;
 mod error;
-pub mod folder;
 pub mod gearbox_files;
 mod in_time;
 mod marked_place;
-mod memory_available;
-mod memory_demand;
 pub mod motion_files;
 pub mod optimum_files;
 pub mod page;
 pub mod pair_files;
 pub mod paraview;
 pub mod plan_files;
-mod result_files;
-mod rows;
 mod static_sink;
 pub mod study_files;
 pub mod tables;
@@ -60,11 +48,7 @@ pub use answer_files::{Written, write_result, write_rows, write_summary, write_t
 pub use error::ReportError;
 pub use in_time::{Recorder, WrittenInTime, solve_in_time};
 pub use marked_place::MarkedPlace;
-pub use memory_available::{available_bytes, available_mb};
-pub use memory_demand::{MemoryDemandError, check_memory, check_sweep_memory};
 pub use pair_files::{static_charts, write_in_time, write_key_sweep_result, write_static_result, write_static_rows};
-pub use result_files::ResultFiles;
-pub use rows::{columns_to_csv, parse_columns, read_columns};
 pub use static_sink::StaticFileSink;
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.

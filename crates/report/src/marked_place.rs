@@ -41,7 +41,7 @@ impl MarkedPlace {
     pub fn replace(self, tables: &str) -> Result<(), ReportError> {
         let Self { file, text, start, end } = self;
         let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
-        write_file(&file, whole.as_bytes()).map_err(|cause| ReportError::Write { file, cause })
+        write_file(&file, whole.as_bytes()).map_err(|cause| StoreError::Write { file, cause })
     }
 }
 

@@ -6,11 +6,8 @@ use analysis::{AnalysisError, DerivativeRecorder, Derivatives, SinkResult, Stati
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
-use crate::{
-    ResultFiles,
-    paraview::FieldWriter,
-    view::{View, ViewRecorder},
-};
+use store::ResultFiles;
+use crate::{paraview::FieldWriter, view::{View, ViewRecorder}};
 
 /// Writes fields, differentiates and remembers the gears in space as positions come.
 pub struct StaticFileSink<'a> {

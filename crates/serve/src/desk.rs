@@ -14,11 +14,8 @@ use analysis::{
     solve_at_rest,
 };
 use ltca::StaticHistory;
-use report::{
-    charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
-    check_memory, static_charts,
-    view::View,
-};
+use store::check_memory;
+use report::{charts::{FieldMap, LineChart, Plot, contact_pattern_maps}, static_charts, view::View};
 use scene::{Document, Model, Scene};
 use serde::{Deserialize, Serialize};
 

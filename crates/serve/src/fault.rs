@@ -1,7 +1,7 @@
 //! A complaint as the page shows it: the words of the command, and the keys that it stands beside.
 
 use analysis::AnalysisError;
-use report::MemoryDemandError;
+use store::MemoryDemandError;
 use scene::SceneError;
 use serde::Serialize;
 

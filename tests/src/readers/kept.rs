@@ -6,13 +6,10 @@ use analysis::motion::{MotionCheckpoint, MotionLayout};
 use answer::Table;
 use flate2::{Compression, write::GzEncoder};
 use reduction::{RecordKey, ReductionRecord};
-use report::{
-    checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state},
-    columns_to_csv,
-    compare::{Axis, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows, overlays},
-    page::{closing_text, report_from},
-    parse_columns,
-};
+use store::checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state};
+use columns::columns_to_csv;
+use columns::parse_columns;
+use report::{compare::{Axis, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows, overlays}, page::{closing_text, report_from}};
 use scene::Scene;
 use study::Touch;
 

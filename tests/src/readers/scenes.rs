@@ -39,7 +39,7 @@ fn go_on(read: Result<Scene, SceneError>) {
 /// A study, with the scenes of the repository that it names.
 pub fn study(bytes: &[u8]) {
     let Ok(text) = std::str::from_utf8(bytes) else { return };
-    let columns = |scene: &Scene| scene.motion.is_some().then(|| report::checkpoint::motion_column_names(scene));
+    let columns = |scene: &Scene| scene.motion.is_some().then(|| store::checkpoint::motion_column_names(scene));
     match Study::parse(text, &beside_scenes("fuzz_study.toml"), &[], &columns) {
         Ok(study) => (0..study.cases.len()).for_each(|case| drop(study.folder(case))),
         Err(e) => drop((e.to_string(), e.hint())),

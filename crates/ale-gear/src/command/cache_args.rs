@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use report::folder::Cache;
+use store::folder::Cache;
 
 /// Which cache is used.
 #[derive(Debug, Clone, Default, clap::Args)]

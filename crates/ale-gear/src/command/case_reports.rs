@@ -6,10 +6,8 @@ use std::{
 };
 
 use analysis::side_by_side;
-use report::{
-    folder::Cache,
-    plan_files::{KnownCases, report_folder},
-};
+use store::folder::Cache;
+use report::plan_files::{KnownCases, report_folder};
 use scene::plan::Plan;
 
 use super::{

@@ -9,7 +9,7 @@ use report::accuracy_chart::{methods_chart, resonance_chart, work_precision_char
 use super::overrides::Overrides;
 use report::MarkedPlace;
 
-use report::check_memory;
+use store::check_memory;
 
 use crate::{chart::chart, error::CommandError, memory, output::ResultDirectory, phases::Phases, scene::Scene, talk};
 

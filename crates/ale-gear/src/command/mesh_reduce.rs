@@ -18,7 +18,7 @@ use super::{
     group_args::{GroupArgs, complaint},
     overrides::Overrides,
 };
-use report::folder::Cache;
+use store::folder::Cache;
 
 use crate::{error::CommandError, phases::Phases, scene::Scene};
 

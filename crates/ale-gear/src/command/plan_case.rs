@@ -1,6 +1,6 @@
 //! One case of a plan as a scene.
 
-use report::check_memory;
+use store::check_memory;
 use scene::plan::Plan;
 
 use crate::{error::CommandError, memory, resolution::with_slices, scene::Scene};

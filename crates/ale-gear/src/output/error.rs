@@ -1,6 +1,8 @@
 //! What the command says when a file of a result does not come out.
 
-use report::{MemoryDemandError, ReportError, checkpoint::CheckpointError};
+use store::MemoryDemandError;
+use store::checkpoint::CheckpointError;
+use report::ReportError;
 
 use crate::error::CommandError;
 

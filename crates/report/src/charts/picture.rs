@@ -1,6 +1,7 @@
 //! A picture as a file of its own.
 
-use crate::{ReportError, ResultFiles};
+use store::ResultFiles;
+use crate::ReportError;
 
 /// A drawn picture as `STEM.svg`; for pages it comes back. Pixels are made of it where it is looked at (`charts.js`).
 ///

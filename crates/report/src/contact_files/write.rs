@@ -5,11 +5,8 @@ use answer::Table;
 use scene::Scene;
 
 use super::pattern_table;
-use crate::{
-    ReportError, ResultFiles,
-    charts::{contact_pattern_figure, contact_pattern_svg},
-    paraview::write_pattern_vtu,
-};
+use store::ResultFiles;
+use crate::{ReportError, charts::{contact_pattern_figure, contact_pattern_svg}, paraview::write_pattern_vtu};
 
 /// Names of the tables of both patterns.
 const NAMES: [&str; 2] = ["contact_pattern_pinion", "contact_pattern_wheel"];
@@ -27,7 +24,7 @@ pub fn write_patterns(
         let file = format!("{name}.vtu");
         let mut content = Vec::new();
         write_pattern_vtu(pattern, &mut content)
-            .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
+            .map_err(|cause| StoreError::Write { file: file.clone().into(), cause })?;
         results.write(&file, &content)?;
     }
     if let Some(svg) = contact_pattern_svg(patterns) {

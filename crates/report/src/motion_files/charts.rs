@@ -6,12 +6,10 @@ use scene::SweepWay;
 use study::{Columns, StudyError, extent};
 
 use super::{SPECTRA, spectra};
-use crate::{
-    charts::{
+use columns::motion_history::{MESH_PHASE, TIME};
+use crate::charts::{
         Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
-    },
-    columns::motion_history::{MESH_PHASE, TIME},
-};
+    };
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub const SHOWN_CYCLES: usize = 4;

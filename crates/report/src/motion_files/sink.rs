@@ -12,12 +12,9 @@ use dynamics::SideLoads;
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
-use crate::{
-    ReportError, ResultFiles,
-    checkpoint::{CheckpointError, Checkpoints, PairState, Rows, Stored},
-    paraview::FieldWriter,
-    view::{View, ViewRecorder},
-};
+use store::ResultFiles;
+use store::checkpoint::{CheckpointError, Checkpoints, PairState, Rows, Stored};
+use crate::{ReportError, paraview::FieldWriter, view::{View, ViewRecorder}};
 
 /// Where rows and checkpoints of a motion go.
 pub struct MotionFileSink<'a> {

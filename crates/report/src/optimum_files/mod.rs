@@ -12,7 +12,8 @@ use scene::Scene;
 use serde::Serialize;
 use serde_json::{Map, json};
 
-use crate::{ReportError, Written, folder::ResultDirectory, write_result};
+use store::folder::ResultDirectory;
+use crate::{ReportError, Written, write_result};
 
 /// What files of an optimisation are made of.
 #[derive(Debug, Clone, Copy)]

@@ -8,7 +8,8 @@ use minijinja::Value;
 use serde::{Deserialize, Serialize};
 
 use super::template::render;
-use crate::{ReportError, ResultFiles};
+use store::ResultFiles;
+use crate::ReportError;
 
 const PAGE: &str = "report.html";
 /// Charts, numbers and fields of the page without the page.

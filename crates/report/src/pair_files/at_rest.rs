@@ -10,22 +10,15 @@ use ltca::StaticHistory;
 use scene::Scene;
 
 use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
-use crate::{
-    Cost, ReportError, Written,
-    charts::{LineChart, banded_chart},
-    columns::{
+use columns::{
         At, StaticCurves, history_table,
         static_history::{
             FORCE_X, FORCE_Y, FORCE_Z, GEOMETRIC_LENGTH, LINE_LENGTH, PAIR_FORCE, SECANT_STIFFNESS, STE,
             TANGENT_STIFFNESS, TOOTH_TENSION,
         },
-    },
-    contact_files::{contact_lines, pattern_figure, write_patterns},
-    folder::ResultDirectory,
-    page::{Content, Line, Part},
-    view::View,
-    write_result, write_rows,
-};
+    };
+use store::folder::ResultDirectory;
+use crate::{Cost, ReportError, Written, charts::{LineChart, banded_chart}, contact_files::{contact_lines, pattern_figure, write_patterns}, page::{Content, Line, Part}, view::View, write_result, write_rows};
 
 /// Writes all files of a run at rest but the fields for ParaView, which come position by position; what comes back is
 /// the closing table. `view`: the gears in space.
@@ -188,16 +181,22 @@ const ANGLE: &str = "pinion angle [deg]";
 /// What is drawn of positions at rest over the pinion angle: static transmission error and load sharing first.
 pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
     let curves = StaticCurves::new(scene, history);
+    let named = |label: &str, points| Curve { label: label.to_owned(), points };
+    let of = |label, column| named(label, curves.of(column));
+    let by_pair = |column, gear| -> Vec<Curve> {
+        let pairs = curves.by_pair(column, gear).into_iter();
+        pairs.map(|(pair, points)| named(&format!("pair {pair}"), points)).collect()
+    };
     let forces = [("x", FORCE_X), ("y", FORCE_Y), ("z", FORCE_Z)]
-        .map(|(axis, column)| curves.at(axis, column, At { gear: 1, pair: 0 }));
-    let length = [curves.of("under load", LINE_LENGTH), curves.of("unloaded, analytic", GEOMETRIC_LENGTH)];
-    let stiffness = [curves.of("secant", SECANT_STIFFNESS), curves.of("tangent", TANGENT_STIFFNESS)];
+        .map(|(axis, column)| named(axis, curves.at(column, At { gear: 1, pair: 0 })));
+    let length = [of("under load", LINE_LENGTH), of("unloaded, analytic", GEOMETRIC_LENGTH)];
+    let stiffness = [of("secant", SECANT_STIFFNESS), of("tangent", TANGENT_STIFFNESS)];
     // A pair's bending on either gear: the tension below the loaded flank of its teeth.
-    let bending = |gear| curves.by_pair(TOOTH_TENSION, gear);
+    let bending = |gear| by_pair(TOOTH_TENSION, gear);
     let chart = |title, y, curves: &[_], from_zero| LineChart::new(title, [ANGLE, y], curves, from_zero);
     [
-        chart("Static transmission error", "STE [um]", &[curves.of("STE", STE)], false),
-        chart("Load sharing", "normal force [N]", &curves.by_pair(PAIR_FORCE, 0), true),
+        chart("Static transmission error", "STE [um]", &[of("STE", STE)], false),
+        chart("Load sharing", "normal force [N]", &by_pair(PAIR_FORCE, 0), true),
         chart("Total contact-line length", "length [mm]", &length, false),
         chart("Mesh stiffness", "stiffness [N/um]", &stiffness, false),
         chart("Mesh force on the wheel", "force [N]", &forces, true),

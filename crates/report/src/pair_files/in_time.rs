@@ -9,7 +9,8 @@ use super::{
     lumped::write_lumped_result,
     motion::{write_motion_result, write_sweep_result},
 };
-use crate::{Cost, ReportError, Written, folder::ResultDirectory, view::View};
+use store::folder::ResultDirectory;
+use crate::{Cost, ReportError, Written, view::View};
 
 /// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
 ///

@@ -11,7 +11,8 @@ use reduction::ElasticGear;
 use scene::{FieldName, Scene};
 
 use super::{Encoding, Field, PvdEntry, write_pvd, write_vtu};
-use crate::{ReportError, ResultFiles};
+use store::ResultFiles;
+use crate::ReportError;
 
 /// Writes the files of the positions that the scene asks for.
 pub struct FieldWriter<'a> {
@@ -72,7 +73,7 @@ impl<'a> FieldWriter<'a> {
             // What is held back is a part of the file, too: when it is let go nobody hears of a full disk.
             self.gear(&gears[part], &state(part)?, &mut out)?
                 .and_then(|()| out.flush())
-                .map_err(|cause| ReportError::Write { file: file.clone().into(), cause })?;
+                .map_err(|cause| StoreError::Write { file: file.clone().into(), cause })?;
             self.entries.push(PvdEntry { time_s, part, file });
         }
         Ok(())

@@ -8,7 +8,7 @@ use super::{Column, KnownCases, curves::over_axes, maps::maps, spread::Spread};
 use crate::{
     charts::{Curve, line_chart},
     page::{Cell, Grid, Page, Part, again, cost_part, counted},
-    study_files::CASES,
+    store::CASES,
 };
 
 /// Cases in the table of the page at most; `cases.csv` has all.

@@ -11,11 +11,8 @@ use std::{
 use files::{Lock, most, read_regular_text};
 use scene::plan::Plan;
 
-use crate::{
-    ReportError,
-    csv::always_quoted,
-    folder::{beside_results, in_use},
-};
+use store::folder::{beside_results, in_use};
+use crate::{ReportError, csv::always_quoted};
 
 /// What came of a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,8 +153,8 @@ impl DoneCases {
     /// [`ReportError::Folder`] where another run has the file or it is none of this program, else [`ReportError::Write`].
     pub fn open(out: &Path, digest: &str, lines: CaseLines) -> Result<Self, ReportError> {
         let path = beside_results(out);
-        let failed = |cause: io::Error| ReportError::Write { file: path.clone(), cause };
-        let foreign = || ReportError::Folder {
+        let failed = |cause: io::Error| StoreError::Write { file: path.clone(), cause };
+        let foreign = || StoreError::Folder {
             folder: out.to_owned(),
             what: format!("{} holds no cases of this program", path.display()),
             hint: "cases that are done are kept there until all are: give another `--out`, or move it away",

@@ -8,7 +8,7 @@ use scene::{
 use serde_json::Value;
 use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
 
-use crate::columns::solved_rows;
+use columns::solved_rows;
 
 /// Of a solved case over whole mesh cycles.
 ///

@@ -8,10 +8,8 @@ use analysis::{
 use scene::{Scene, study::Study};
 
 use super::{CaseResult, with_result};
-use crate::{
-    checkpoint::{InputDigests, motion_column_names},
-    columns::{LumpedLayout, history_columns},
-};
+use store::checkpoint::{InputDigests, motion_column_names};
+use columns::{LumpedLayout, history_columns};
 
 /// Columns that a scene's `history.csv` will have, but for those of single pairs.
 pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {

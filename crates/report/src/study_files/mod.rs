@@ -9,6 +9,3 @@ mod tables;
 pub use cases::{columns_of, study_digest, study_warnings};
 pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
 pub use report::{study_answer, study_page};
-
-/// Folder of the cases of a study, each a result of its own.
-pub const CASES: &str = "cases";

@@ -3,10 +3,8 @@
 use std::{collections::BTreeSet, fs, path::Path};
 
 use answer::{Column, Table, Values};
-use report::{
-    columns::{self, ENERGY, LUMPED_HISTORY, MOTION_HISTORY, Rows, STATIC_HISTORY},
-    pair_files::tables_without_rows,
-};
+use columns::{self, ENERGY, LUMPED_HISTORY, MOTION_HISTORY, Rows, STATIC_HISTORY};
+use report::pair_files::tables_without_rows;
 
 /// How a unit ends a name; nothing for a plain number.
 fn ending(unit: &str) -> &'static str {

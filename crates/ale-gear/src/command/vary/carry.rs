@@ -1,7 +1,7 @@
 //! Motions that carry on from the state of the last value, up and down: bifurcation diagrams and resonance curves.
 
 use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
-use report::check_sweep_memory;
+use store::check_sweep_memory;
 use scene::plan::AxisWord;
 
 use super::{super::Answer, VaryArgs};

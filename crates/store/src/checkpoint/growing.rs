@@ -9,7 +9,9 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::CheckpointError;
-use crate::ReportError;
+use columns::ColumnsError;
+
+use crate::StoreError;
 
 /// What a checkpoint keeps of a file of rows.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -31,10 +33,10 @@ impl Kept {
     ///
     /// # Errors
     /// When it cannot be read.
-    pub(super) fn text(&self, path: &Path) -> Result<String, ReportError> {
+    pub(super) fn text(&self, path: &Path) -> Result<String, StoreError> {
         let mut text = String::new();
         let read = opened(path).and_then(|file| file.take(self.bytes).read_to_string(&mut text));
-        read.map(|_| text).map_err(|cause| ReportError::Read { file: path.to_owned(), cause })
+        read.map(|_| text).map_err(|cause| ColumnsError::Read { file: path.to_owned(), cause }.into())
     }
 }
 
@@ -67,22 +69,22 @@ pub(super) struct Growing {
 }
 
 impl Growing {
-    pub fn new(path: PathBuf, header: &str) -> Result<Self, ReportError> {
-        let file = File::create(&path).map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
+    pub fn new(path: PathBuf, header: &str) -> Result<Self, StoreError> {
+        let file = File::create(&path).map_err(|cause| StoreError::Write { file: path.clone(), cause })?;
         let mut new = Self { file: BufWriter::new(file), path, bytes: 0, digest: blake3::Hasher::new(), failed: None };
         new.push(header);
         Ok(new)
     }
 
     /// Cut to what its digest is of, what came after a checkpoint being written anew.
-    pub fn resume(path: PathBuf, digest: blake3::Hasher) -> Result<Self, ReportError> {
+    pub fn resume(path: PathBuf, digest: blake3::Hasher) -> Result<Self, StoreError> {
         let bytes = digest.count();
         let open = || -> std::io::Result<File> {
             let file = OpenOptions::new().append(true).open(&path)?;
             file.set_len(bytes)?;
             Ok(file)
         };
-        let file = open().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
+        let file = open().map_err(|cause| StoreError::Write { file: path.clone(), cause })?;
         Ok(Self { file: BufWriter::new(file), path, bytes, digest, failed: None })
     }
 
@@ -95,12 +97,12 @@ impl Growing {
         }
     }
 
-    pub fn flush(&mut self) -> Result<Kept, ReportError> {
+    pub fn flush(&mut self) -> Result<Kept, StoreError> {
         // On the disk before a checkpoint says that it is there.
         let written = |file: &mut BufWriter<File>| file.flush().and_then(|()| file.get_ref().sync_data());
         match self.failed.take().or_else(|| written(&mut self.file).err()) {
             None => Ok(Kept { bytes: self.bytes, blake3: self.digest.finalize().to_hex().to_string() }),
-            Some(cause) => Err(ReportError::Write { file: self.path.clone(), cause }),
+            Some(cause) => Err(StoreError::Write { file: self.path.clone(), cause }),
         }
     }
 }

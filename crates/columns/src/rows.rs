@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use answer::csv::push_row;
 use study::Columns;
 
-use crate::{ReportError, csv::push_row};
+use crate::ColumnsError;
 
 /// The file of these rows.
 pub fn columns_to_csv(columns: &Columns) -> String {
@@ -17,10 +18,10 @@ pub fn columns_to_csv(columns: &Columns) -> String {
 ///
 /// # Errors
 /// When it is not what it was.
-pub fn read_columns(path: &Path) -> Result<Columns, ReportError> {
+pub fn read_columns(path: &Path) -> Result<Columns, ColumnsError> {
     let text = files::read_regular_text(path, files::most::ROWS)
-        .map_err(|cause| ReportError::Read { file: path.to_owned(), cause })?;
-    parse_columns(&text).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
+        .map_err(|cause| ColumnsError::Read { file: path.to_owned(), cause })?;
+    parse_columns(&text).ok_or_else(|| ColumnsError::NoNumber { file: path.to_owned() })
 }
 
 /// The columns of a file's text; `None` where it holds what is no number, or two columns of one name.

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use study::Columns;
 
-use crate::csv::push_row;
+use answer::csv::push_row;
 
 /// The gears as columns and files name them.
 pub const GEARS: [&str; 2] = ["pinion", "wheel"];

@@ -10,7 +10,7 @@ use super::{
     names::is_ours,
     record::{self, RESULT, first_stranger, names},
 };
-use crate::{ReportError, ResultFiles};
+use crate::{StoreError, ResultFiles};
 
 /// Files are written into a work folder beside the wanted one; [`ResultDirectory::finish`] puts them in its place.
 /// Dropped before that, it takes its files with it.
@@ -28,11 +28,11 @@ impl ResultDirectory {
     /// A link to a folder stays one: the folder that it leads to is replaced.
     ///
     /// # Errors
-    /// [`ReportError::Folder`] when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier
+    /// [`StoreError::Folder`] when `wanted` is a file, cannot be made, or a folder that holds anything but an earlier
     /// result, known by a `summary.json` of this program that lists its files: nothing else is ever replaced.
-    /// [`ReportError::Write`] when the disk is full.
-    pub fn create(wanted: &Path) -> Result<Self, ReportError> {
-        let complaint = |what: String, hint| ReportError::Folder { folder: wanted.to_owned(), what, hint };
+    /// [`StoreError::Write`] when the disk is full.
+    pub fn create(wanted: &Path) -> Result<Self, StoreError> {
+        let complaint = |what: String, hint| StoreError::Folder { folder: wanted.to_owned(), what, hint };
         if wanted.file_name().is_none() {
             return Err(complaint("is no name of a folder".into(), "give the name of a new folder"));
         }
@@ -57,7 +57,7 @@ impl ResultDirectory {
         }
         let work = work_folder(&place).map_err(|e| match e.kind() {
             ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-                ReportError::Write { file: wanted.to_owned(), cause: e }
+                StoreError::Write { file: wanted.to_owned(), cause: e }
             }
             _ => complaint(format!("cannot be made: {e}"), "give a folder that you may write to"),
         })?;
@@ -73,7 +73,7 @@ impl ResultDirectory {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError> {
+    pub fn write(&self, name: &str, content: &[u8]) -> Result<(), StoreError> {
         ResultFiles::write(self, name, content)
     }
 
@@ -86,18 +86,18 @@ impl ResultDirectory {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn copy(&self, from: &Path, name: &str) -> Result<(), ReportError> {
+    pub fn copy(&self, from: &Path, name: &str) -> Result<(), StoreError> {
         fs::copy(from, self.path(name))
             .map(|_| ())
-            .map_err(|cause| ReportError::Write { file: self.wanted.join(name), cause })
+            .map_err(|cause| StoreError::Write { file: self.wanted.join(name), cause })
     }
 
     /// Names of the files written so far, ascending.
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn files(&self) -> Result<Vec<String>, ReportError> {
-        names(&self.growing).map_err(|cause| ReportError::Write { file: self.wanted.clone(), cause })
+    pub fn files(&self) -> Result<Vec<String>, StoreError> {
+        names(&self.growing).map_err(|cause| StoreError::Write { file: self.wanted.clone(), cause })
     }
 
     /// Puts the result where it was wanted, in place of an earlier one; `note` hears where a file went that somebody
@@ -105,24 +105,24 @@ impl ResultDirectory {
     ///
     /// # Errors
     /// When the system refuses; an earlier result is then still there.
-    pub fn finish(self, mut note: impl FnMut(String)) -> Result<(), ReportError> {
+    pub fn finish(self, mut note: impl FnMut(String)) -> Result<(), StoreError> {
         let Self { wanted, work, growing } = self;
         let whole = record::complete(&growing).and_then(|()| work.put_in_place(&mut note));
-        whole.map_err(|cause| ReportError::Write { file: wanted, cause })
+        whole.map_err(|cause| StoreError::Write { file: wanted, cause })
     }
 }
 
 impl ResultFiles for ResultDirectory {
-    fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError> {
+    fn write(&self, name: &str, content: &[u8]) -> Result<(), StoreError> {
         debug_assert!(is_ours(name), "{name} is not in the list of result files: what a killed run leaves would stay");
-        fs::write(self.path(name), content).map_err(|cause| ReportError::Write { file: self.wanted.join(name), cause })
+        fs::write(self.path(name), content).map_err(|cause| StoreError::Write { file: self.wanted.join(name), cause })
     }
 
-    fn create(&self, name: &str) -> Result<Box<dyn Write + '_>, ReportError> {
+    fn create(&self, name: &str) -> Result<Box<dyn Write + '_>, StoreError> {
         let path = self.path(name);
         match fs::File::create(&path) {
             Ok(file) => Ok(Box::new(BufWriter::new(file))),
-            Err(cause) => Err(ReportError::Write { file: path, cause }),
+            Err(cause) => Err(StoreError::Write { file: path, cause }),
         }
     }
 }

@@ -9,7 +9,7 @@ use std::{
 use files::{Lock, most, read_regular_text, take_away_left_overs};
 
 use super::record::{RESULT, names, remove_result};
-use crate::ReportError;
+use crate::StoreError;
 
 /// Says whose folder it is, and of which study; locked as long as a run uses it.
 const MARK: &str = ".ale-gear-cases";
@@ -24,8 +24,8 @@ pub fn beside_results(out: &Path) -> PathBuf {
 }
 
 /// What is said where another run keeps its cases.
-pub fn in_use(out: &Path, cases: &Path) -> ReportError {
-    ReportError::Folder {
+pub fn in_use(out: &Path, cases: &Path) -> StoreError {
+    StoreError::Folder {
         folder: out.to_owned(),
         what: format!("another run into it is under way, its cases are in {}", cases.display()),
         hint: "wait for its end, or give another `--out`",
@@ -43,12 +43,12 @@ impl KeptCases {
     /// Beside the results `out`, with the cases of the study of this digest; those of another one are taken away.
     ///
     /// # Errors
-    /// [`ReportError::Folder`] where something else has that name, something else is in the folder, or another run uses
-    /// it; [`ReportError::Write`].
-    pub fn beside(out: &Path, digest: &str) -> Result<Self, ReportError> {
+    /// [`StoreError::Folder`] where something else has that name, something else is in the folder, or another run uses
+    /// it; [`StoreError::Write`].
+    pub fn beside(out: &Path, digest: &str) -> Result<Self, StoreError> {
         let path = beside_results(out);
-        let failed = |cause: io::Error| ReportError::Write { file: path.clone(), cause };
-        let foreign = |what: String| ReportError::Folder {
+        let failed = |cause: io::Error| StoreError::Write { file: path.clone(), cause };
+        let foreign = |what: String| StoreError::Folder {
             folder: out.to_owned(),
             what,
             hint: "cases that are done are kept there until the study is whole: give another `--out`, or move it away",
@@ -100,7 +100,7 @@ impl KeptCases {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn move_into<'a>(self, to: &Path, names: impl Iterator<Item = &'a str>) -> Result<(), ReportError> {
+    pub fn move_into<'a>(self, to: &Path, names: impl Iterator<Item = &'a str>) -> Result<(), StoreError> {
         let moved = || -> io::Result<()> {
             for name in names.filter(|name| self.folder(name).is_dir()) {
                 fs::create_dir_all(to)?;
@@ -108,9 +108,9 @@ impl KeptCases {
             }
             Ok(())
         };
-        moved().map_err(|cause| ReportError::Write { file: self.path.clone(), cause })?;
+        moved().map_err(|cause| StoreError::Write { file: self.path.clone(), cause })?;
         let Self { path, mark } = self;
-        mark.remove().map_err(|cause| ReportError::Write { file: path.clone(), cause })?;
+        mark.remove().map_err(|cause| StoreError::Write { file: path.clone(), cause })?;
         take_away_left_overs(&path, &RESULT);
         // What is not ours stays, and the folder with it.
         let _ = fs::remove_dir(path);

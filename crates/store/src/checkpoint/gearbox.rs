@@ -11,7 +11,7 @@ use super::{
     growing::{Growing, Kept, digested},
     store::{GEARBOX_ROWS, Stored, StoredState},
 };
-use crate::ReportError;
+use crate::StoreError;
 
 /// State of a gearbox's motion.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -44,7 +44,7 @@ impl GearboxState {
     ///
     /// # Errors
     /// When the file cannot be read, holds what is no row, or other rows than the state has.
-    pub fn read_rows(&self, folder: &Path) -> Result<Vec<GearboxInstant>, ReportError> {
+    pub fn read_rows(&self, folder: &Path) -> Result<Vec<GearboxInstant>, StoreError> {
         let file = folder.join(GEARBOX_ROWS);
         let text = self.rows.text(&file)?;
         let rows: Result<Vec<GearboxInstant>, _> = text.lines().map(serde_json::from_str).collect();
@@ -71,7 +71,7 @@ impl<'a> GearboxFileSink<'a> {
         Self { checkpoints, from, rows: None }
     }
 
-    fn open(&self, resumes: bool) -> Result<Growing, ReportError> {
+    fn open(&self, resumes: bool) -> Result<Growing, StoreError> {
         let folder = self.checkpoints.folder;
         let path = folder.path().join(GEARBOX_ROWS);
         if let (true, Some(stored)) = (resumes, self.from) {

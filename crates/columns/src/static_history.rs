@@ -11,7 +11,6 @@ use scene::Scene;
 use study::Columns;
 
 use super::{At, Column, Group, Over, Rows, Table, columns, derivatives};
-use crate::charts::Curve;
 
 /// Rows of a run at rest.
 #[derive(Debug)]
@@ -215,7 +214,10 @@ pub fn history_columns(scene: &Scene, pairs: &[i64]) -> Vec<String> {
     names
 }
 
-/// Curves of columns over the pinion angle.
+/// A column over the pinion angle: points of a curve.
+pub type Points = Vec<(f64, f64)>;
+
+/// Columns over the pinion angle.
 #[derive(Debug, Clone, Copy)]
 pub struct StaticCurves<'a> {
     layout: StaticLayout,
@@ -229,23 +231,23 @@ impl<'a> StaticCurves<'a> {
     }
 
     /// A column that stands once.
-    pub fn of(&self, label: &str, column: Column<StaticRows>) -> Curve {
-        self.at(label, column, At::default())
+    pub fn of(&self, column: Column<StaticRows>) -> Points {
+        self.at(column, At::default())
     }
 
     /// A column of one gear and pair.
-    pub fn at(&self, label: &str, column: Column<StaticRows>, at: At) -> Curve {
+    pub fn at(&self, column: Column<StaticRows>, at: At) -> Points {
         let value = |column: Column<StaticRows>, p, at| (column.value)(&self.layout, p, at);
         let point = |p| (value(PINION_ANGLE, p, at), value(column, p, at));
-        Curve { label: label.to_owned(), points: self.history.positions.iter().map(point).collect() }
+        self.history.positions.iter().map(point).collect()
     }
 
-    /// A column of one gear, pair by pair.
-    pub fn by_pair(&self, column: Column<StaticRows>, gear: usize) -> Vec<Curve> {
+    /// A column of one gear, pair by pair, with the number of the pair.
+    pub fn by_pair(&self, column: Column<StaticRows>, gear: usize) -> Vec<(i64, Points)> {
         let pairs = pairs::columns(self.history, self.layout.pitch).into_iter().map(|pair| At { gear, pair });
         pairs
             .filter(|&at| (column.present)(&self.layout, at))
-            .map(|at| self.at(&format!("pair {}", at.pair), column, at))
+            .map(|at| (at.pair, self.at(column, at)))
             .collect()
     }
 }

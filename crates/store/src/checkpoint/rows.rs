@@ -2,17 +2,15 @@
 
 use std::path::Path;
 
+use answer::csv::push_row;
 use analysis::motion::{MotionLayout, MotionRow};
 use scene::Scene;
 use study::Columns;
 
 use super::growing::{Growing, Kept, digested};
-use crate::{
-    ReportError,
-    columns::{ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows},
-    csv::push_row,
-    parse_columns,
-};
+use columns::{ColumnsError, ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows};
+use columns::parse_columns;
+use crate::StoreError;
 
 /// Rows of a motion.
 pub const HISTORY: &str = "history.csv";
@@ -30,8 +28,8 @@ fn sheets(layout: &MotionLayout) -> (Sheet<MotionRows>, Sheet<EnergyRows>) {
 }
 
 /// The columns of a file as far as a checkpoint kept it.
-fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, ReportError> {
-    parse_columns(&kept.text(path)?).ok_or_else(|| ReportError::NoNumber { file: path.to_owned() })
+fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, StoreError> {
+    parse_columns(&kept.text(path)?).ok_or_else(|| ColumnsError::NoNumber { file: path.to_owned() }.into())
 }
 
 /// The rows of a run so far, from both files as far as a checkpoint kept them.
@@ -42,7 +40,7 @@ pub fn read_rows(
     layout: &MotionLayout,
     folder: &Path,
     [history, energy]: &[Kept; 2],
-) -> Result<Vec<MotionRow>, ReportError> {
+) -> Result<Vec<MotionRow>, StoreError> {
     let history = columns_kept(&folder.join(HISTORY), history)?;
     let energy = columns_kept(&folder.join(ENERGY_FILE), energy)?;
     Ok(motion_rows(layout, &history, &energy)?)
@@ -56,9 +54,9 @@ pub fn parse_rows(
     layout: &MotionLayout,
     [history, energy]: [&str; 2],
     folder: &Path,
-) -> Result<Vec<MotionRow>, ReportError> {
+) -> Result<Vec<MotionRow>, StoreError> {
     let columns =
-        |text: &str, name| parse_columns(text).ok_or_else(|| ReportError::NoNumber { file: folder.join(name) });
+        |text: &str, name| parse_columns(text).ok_or_else(|| ColumnsError::NoNumber { file: folder.join(name) });
     Ok(motion_rows(layout, &columns(history, HISTORY)?, &columns(energy, ENERGY_FILE)?)?)
 }
 
@@ -74,7 +72,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// Fresh files in a folder.
-    pub fn new(layout: &MotionLayout, folder: &Path) -> Result<Self, ReportError> {
+    pub fn new(layout: &MotionLayout, folder: &Path) -> Result<Self, StoreError> {
         let sheets = sheets(layout);
         let history = Growing::new(folder.join(HISTORY), &sheets.0.header())?;
         let energy = Growing::new(folder.join(ENERGY_FILE), &sheets.1.header())?;
@@ -82,7 +80,7 @@ impl Rows {
     }
 
     /// Files of before, cut to what was kept of them.
-    pub fn resume(layout: &MotionLayout, folder: &Path, kept: &[Kept; 2]) -> Result<Self, ReportError> {
+    pub fn resume(layout: &MotionLayout, folder: &Path, kept: &[Kept; 2]) -> Result<Self, StoreError> {
         let [history, energy] = [folder.join(HISTORY), folder.join(ENERGY_FILE)];
         // Both are looked at before either is cut.
         let digests = (digested(&history, &kept[0])?, digested(&energy, &kept[1])?);
@@ -106,7 +104,7 @@ impl Rows {
     }
 
     /// Writes out what is held back; what a checkpoint keeps of both files.
-    pub fn flush(&mut self) -> Result<[Kept; 2], ReportError> {
+    pub fn flush(&mut self) -> Result<[Kept; 2], StoreError> {
         Ok([self.history.flush()?, self.energy.flush()?])
     }
 }

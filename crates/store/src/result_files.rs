@@ -2,7 +2,7 @@
 
 use std::io::Write;
 
-use crate::ReportError;
+use crate::StoreError;
 
 /// Takes the files of one result by name: a folder, an archive, or memory.
 pub trait ResultFiles {
@@ -10,11 +10,11 @@ pub trait ResultFiles {
     ///
     /// # Errors
     /// When the system refuses.
-    fn write(&self, name: &str, content: &[u8]) -> Result<(), ReportError>;
+    fn write(&self, name: &str, content: &[u8]) -> Result<(), StoreError>;
 
     /// Begins a file that is written bit by bit.
     ///
     /// # Errors
     /// When the system refuses.
-    fn create(&self, name: &str) -> Result<Box<dyn Write + '_>, ReportError>;
+    fn create(&self, name: &str) -> Result<Box<dyn Write + '_>, StoreError>;
 }

@@ -9,7 +9,7 @@ use files::{Kind, is_left_over, is_work_folder, most, read_regular_text, strange
 use serde_json::{Value, json};
 
 use super::names::is_ours;
-use crate::study_files::CASES;
+use crate::CASES;
 
 const SUMMARY: &str = "summary.json";
 

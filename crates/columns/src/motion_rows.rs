@@ -129,10 +129,7 @@ pub fn motion_rows(layout: &MotionLayout, history: &Columns, energy: &Columns) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        columns::{ENERGY, MOTION_HISTORY},
-        parse_columns,
-    };
+    use crate::{ENERGY, MOTION_HISTORY, parse_columns};
     use scene::Scene;
 
     /// Whatever stands in a row comes back from its files to the same bits, also where it is no number.

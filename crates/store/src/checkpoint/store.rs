@@ -15,7 +15,7 @@ use super::{
     rows::{ENERGY_FILE, HISTORY},
     seal::{sealed_state, unsealed},
 };
-use crate::ReportError;
+use crate::StoreError;
 
 const STATE: &str = "state.json";
 /// Rows of a gearbox's motion.
@@ -147,10 +147,10 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// [`CheckpointError::NotOurs`] for a folder that holds anything and was not made for checkpoints,
-    /// [`CheckpointError::InUse`], [`ReportError::Write`].
-    pub fn hold(&self) -> Result<Lock, ReportError> {
+    /// [`CheckpointError::InUse`], [`StoreError::Write`].
+    pub fn hold(&self) -> Result<Lock, StoreError> {
         let path = self.0.join(IN_USE);
-        let failed = |cause| ReportError::Write { file: path.clone(), cause };
+        let failed = |cause| StoreError::Write { file: path.clone(), cause };
         fs::create_dir_all(&self.0).map_err(failed)?;
         let is_empty = fs::read_dir(&self.0).map_err(failed)?.next().is_none();
         if !is_empty && !self.is_ours() {
@@ -176,16 +176,16 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn start(&self) -> Result<(), ReportError> {
+    pub fn start(&self) -> Result<(), StoreError> {
         take_away_left_overs(&self.0, &Kind::FILE);
         self.without(&[STATE, HISTORY, ENERGY_FILE, GEARBOX_ROWS])
     }
 
-    fn without(&self, files: &[&str]) -> Result<(), ReportError> {
+    fn without(&self, files: &[&str]) -> Result<(), StoreError> {
         for file in files {
             match fs::remove_file(self.0.join(file)) {
                 Err(cause) if cause.kind() != ErrorKind::NotFound => {
-                    return Err(ReportError::Write { file: self.0.clone(), cause });
+                    return Err(StoreError::Write { file: self.0.clone(), cause });
                 }
                 _ => {}
             }
@@ -213,9 +213,9 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn write<S: StoredState>(&self, stored: &Stored<S>) -> Result<(), ReportError> {
+    pub fn write<S: StoredState>(&self, stored: &Stored<S>) -> Result<(), StoreError> {
         let path = self.0.join(STATE);
-        let unwritten = |cause| ReportError::Write { file: path.clone(), cause };
+        let unwritten = |cause| StoreError::Write { file: path.clone(), cause };
         let state = serde_json::to_string(stored).map_err(|e| unwritten(e.into()))?;
         let text = sealed_state(&state);
         write_file(&path, text.as_bytes()).map_err(unwritten)
@@ -225,7 +225,7 @@ impl CheckpointFolder {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn remove(&self) -> Result<(), ReportError> {
+    pub fn remove(&self) -> Result<(), StoreError> {
         self.start()?;
         self.remove_if_empty();
         Ok(())
