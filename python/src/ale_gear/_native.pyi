@@ -13,7 +13,7 @@ _Path = str | PathLike[str]
 _Tables = Mapping[str, Any]
 _Progress = Callable[[str, int, int | None, str], object] | bool | None
 
-__all__ = ["Gearbox", "Mesh", "Pair", "Result", "Scene", "__version__"]
+__all__ = ["Gearbox", "Mesh", "Pair", "Remark", "Result", "Scene", "__version__"]
 __version__: str
 
 @final

@@ -208,7 +208,7 @@ fn words_of_a_sweep_are_checked_first() {
 #[test]
 fn a_column_over_a_key_is_a_plan() {
     let scratch = Scratch::new().file("a.toml", tiny_at_rest(8));
-    let key = ["--vary", "operation.torque_nm=100:1e7:2", "--log"];
+    let key = ["--vary", "operation.torque_nm=100:1e7:2:log"];
     let run = scratch.command(&[&["vary", "a.toml", "--out", "o", "--of", "ste_um"], &key[..]].concat());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let rows = chart_rows(&scratch.read("o/cases.csv"));
