@@ -170,7 +170,7 @@ const FIELDS: &str = "fields";
 
 /// Names of the files of a folder, ascending.
 pub fn names(folder: &std::path::Path) -> Result<Vec<String>, ReportError> {
-    let failed = |cause| ReportError::Read { file: folder.to_owned(), cause };
+    let failed = |cause| columns::ColumnsError::Read { file: folder.to_owned(), cause };
     let entries = std::fs::read_dir(folder).map_err(failed)?;
     let names = entries.map(|entry| entry.map(|e| e.file_name().to_string_lossy().into_owned()));
     let mut names = names.collect::<Result<Vec<_>, _>>().map_err(failed)?;

@@ -6,6 +6,7 @@ use ::scene::{Place, RexsError, SceneError};
 use analysis::{AnalysisError, Blame};
 use pyo3::{prelude::*, types::PyDict};
 use report::ReportError;
+use store::StoreError;
 
 /// Which exception a complaint becomes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -113,7 +114,10 @@ impl From<AnalysisError> for Complaint {
             // What a sink of this package says is a message already.
             AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
                 Ok(own) => return (*own).into(),
-                Err(other) => AnalysisError::Sink(other),
+                Err(other) => match other.downcast::<StoreError>() {
+                    Ok(own) => return (*own).into(),
+                    Err(other) => AnalysisError::Sink(other),
+                },
             },
             other => other,
         };
@@ -130,11 +134,19 @@ impl From<AnalysisError> for Complaint {
     }
 }
 
+impl From<StoreError> for Complaint {
+    fn from(error: StoreError) -> Self {
+        let kind = if matches!(error, StoreError::Folder { .. }) { Kind::Input } else { Kind::NoResult };
+        Self::new(kind, &error, error.hint())
+    }
+}
+
 impl From<ReportError> for Complaint {
     fn from(error: ReportError) -> Self {
         match error {
             ReportError::Scene(scene) => scene.into(),
-            ReportError::Folder { .. } | ReportError::NoResult { .. } | ReportError::NoMarks { .. } => {
+            ReportError::Store(store) => store.into(),
+            ReportError::NoResult { .. } | ReportError::NoMarks { .. } => {
                 Self::new(Kind::Input, &error, error.hint())
             }
             _ => Self::new(Kind::NoResult, &error, error.hint()),

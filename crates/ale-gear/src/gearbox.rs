@@ -2,10 +2,10 @@
 //! [`analysis::gearbox_at_rest`], what is written in [`report::gearbox_files`].
 
 use analysis::{Context, Ending};
-use store::checkpoint::{GearboxFileSink, GearboxState};
-use store::folder::Cache;
 use report::gearbox_files::write_gearbox;
 use scene::gearbox::Gearbox;
+use store::checkpoint::{GearboxFileSink, GearboxState};
+use store::folder::Cache;
 
 use crate::{
     error::CommandError,

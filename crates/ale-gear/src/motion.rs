@@ -2,9 +2,9 @@
 //! written in [`report::solve_in_time`]. What is added here are the checkpoints of one motion.
 
 use analysis::{Context, Ending, motion::MotionLayout};
+use report::{motion_files::MotionFileSink, solve_in_time, write_in_time};
 use store::checkpoint::{ENERGY_FILE, HISTORY, PairState, read_rows};
 use store::folder::Cache;
-use report::{motion_files::MotionFileSink, solve_in_time, write_in_time};
 
 use crate::{
     error::CommandError,

@@ -8,16 +8,16 @@ use analysis::{
     remark::{self, Remark},
     run_phase, side_by_side, solve_at_rest,
 };
-use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use store::checkpoint::HISTORY;
-use columns::solved_rows;
-use store::folder::KeptCases;
 use columns::read_columns;
+use columns::solved_rows;
+use report::study_files::{CaseMiss, CaseResult, CaseRun};
 use report::{Cost, write_static_rows};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},
 };
+use store::checkpoint::HISTORY;
+use store::folder::KeptCases;
 
 use crate::{
     certificate::Written, error::CommandError, gears, output::ResultDirectory, phases::Phases, scene::Scene, talk,

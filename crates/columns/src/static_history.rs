@@ -245,9 +245,6 @@ impl<'a> StaticCurves<'a> {
     /// A column of one gear, pair by pair, with the number of the pair.
     pub fn by_pair(&self, column: Column<StaticRows>, gear: usize) -> Vec<(i64, Points)> {
         let pairs = pairs::columns(self.history, self.layout.pitch).into_iter().map(|pair| At { gear, pair });
-        pairs
-            .filter(|&at| (column.present)(&self.layout, at))
-            .map(|at| (at.pair, self.at(column, at)))
-            .collect()
+        pairs.filter(|&at| (column.present)(&self.layout, at)).map(|at| (at.pair, self.at(column, at))).collect()
     }
 }

@@ -210,15 +210,15 @@ macro_rules! columns {
     }) => {
         $(
             #[doc = concat!("`", $name, "`: ", $meaning, ".")]
-            pub const $constant: $crate::columns::Column<$kind> = $crate::columns::Column {
+            pub const $constant: $crate::Column<$kind> = $crate::Column {
                 name: $name,
                 unit: $unit,
                 meaning: $meaning,
-                present: $crate::columns::columns!(@present $present $(, $own)?),
+                present: $crate::columns!(@present $present $(, $own)?),
                 value: $value,
             };
         )*
-        pub(crate) const $list: &[$crate::columns::Column<$kind>] = &[$($constant),*];
+        pub(crate) const $list: &[$crate::Column<$kind>] = &[$($constant),*];
     };
     (@present $all:expr) => { $all };
     (@present $all:expr, $own:expr) => { $own };

@@ -4,8 +4,11 @@ use answer::{Answer, Checks, Cost, Remark, parquet_bytes};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
+use crate::{
+    ReportError, SUMMARY_SCHEMA,
+    page::{Page, Rendered, closing_text},
+};
 use store::folder::ResultDirectory;
-use crate::{ReportError, SUMMARY_SCHEMA, page::{Page, Rendered, closing_text}};
 
 #[derive(Serialize)]
 struct Summary<'a> {
@@ -71,7 +74,7 @@ pub fn write_tables_and_page(
 /// # Errors
 /// When the system refuses.
 pub fn write_summary(answer: &Answer, results: &ResultDirectory) -> Result<(), ReportError> {
-    results.write("summary.json", summary(answer, &results.files()?).as_bytes())
+    Ok(results.write("summary.json", summary(answer, &results.files()?).as_bytes())?)
 }
 
 /// Writes tables and `summary.json`, without a page.

@@ -7,8 +7,8 @@ use analysis::{
 use mesh::Mesh;
 use scene::Scene;
 
-use store::folder::ResultDirectory;
 use crate::{Cost, ReportError, Written, motion_files::MotionFileSink, pair_files::write_in_time};
+use store::folder::ResultDirectory;
 
 /// Hears of the phases, and knows what they cost.
 pub trait Recorder: Observer {

@@ -4,6 +4,8 @@ use std::path::{Path, PathBuf};
 
 use files::{most, read_regular_text, write_file};
 
+use store::StoreError;
+
 use crate::ReportError;
 
 /// A file and the bytes of it between its marks.
@@ -41,7 +43,7 @@ impl MarkedPlace {
     pub fn replace(self, tables: &str) -> Result<(), ReportError> {
         let Self { file, text, start, end } = self;
         let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);
-        write_file(&file, whole.as_bytes()).map_err(|cause| StoreError::Write { file, cause })
+        write_file(&file, whole.as_bytes()).map_err(|cause| StoreError::Write { file, cause }.into())
     }
 }
 

@@ -6,8 +6,11 @@ use analysis::{AnalysisError, DerivativeRecorder, Derivatives, SinkResult, Stati
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
+use crate::{
+    paraview::FieldWriter,
+    view::{View, ViewRecorder},
+};
 use store::ResultFiles;
-use crate::{paraview::FieldWriter, view::{View, ViewRecorder}};
 
 /// Writes fields, differentiates and remembers the gears in space as positions come.
 pub struct StaticFileSink<'a> {

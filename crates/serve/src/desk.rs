@@ -14,10 +14,14 @@ use analysis::{
     solve_at_rest,
 };
 use ltca::StaticHistory;
-use store::check_memory;
-use report::{charts::{FieldMap, LineChart, Plot, contact_pattern_maps}, static_charts, view::View};
+use report::{
+    charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
+    static_charts,
+    view::View,
+};
 use scene::{Document, Model, Scene};
 use serde::{Deserialize, Serialize};
+use store::check_memory;
 
 use crate::{
     fault::Fault,

@@ -1,9 +1,9 @@
 //! A complaint as the page shows it: the words of the command, and the keys that it stands beside.
 
 use analysis::AnalysisError;
-use store::MemoryDemandError;
 use scene::SceneError;
 use serde::Serialize;
+use store::MemoryDemandError;
 
 use crate::scene_text::keys_of;
 

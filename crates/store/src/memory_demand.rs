@@ -10,8 +10,8 @@ use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
 use scene::{MesherScene, MotionScene, Place, Scene};
 
-use columns::history_columns;
 use crate::checkpoint::motion_column_names;
+use columns::history_columns;
 
 /// A number in memory, and as text.
 const NUMBER: usize = size_of::<f64>();

@@ -4,13 +4,16 @@ use std::{io::Write, path::Path, sync::OnceLock};
 
 use analysis::motion::{MotionCheckpoint, MotionLayout};
 use answer::Table;
-use flate2::{Compression, write::GzEncoder};
-use reduction::{RecordKey, ReductionRecord};
-use store::checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state};
 use columns::columns_to_csv;
 use columns::parse_columns;
-use report::{compare::{Axis, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows, overlays}, page::{closing_text, report_from}};
+use flate2::{Compression, write::GzEncoder};
+use reduction::{RecordKey, ReductionRecord};
+use report::{
+    compare::{Axis, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows, overlays},
+    page::{closing_text, report_from},
+};
 use scene::Scene;
+use store::checkpoint::{GearboxState, PairState, Stored, parse_rows, sealed_state};
 use study::Touch;
 
 use super::halves;

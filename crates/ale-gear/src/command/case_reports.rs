@@ -6,9 +6,9 @@ use std::{
 };
 
 use analysis::side_by_side;
-use store::folder::Cache;
 use report::plan_files::{KnownCases, report_folder};
 use scene::plan::Plan;
+use store::folder::Cache;
 
 use super::{
     plan_case::{is_one, scene_of},

@@ -1,7 +1,7 @@
 //! One case of a plan as a scene.
 
-use store::check_memory;
 use scene::plan::Plan;
+use store::check_memory;
 
 use crate::{error::CommandError, memory, resolution::with_slices, scene::Scene};
 

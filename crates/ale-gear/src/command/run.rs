@@ -6,8 +6,8 @@ use analysis::{Solved, SolvedAtRest, in_time::is_one_motion, lumped::is_lumped};
 use scene::{gearbox::Gearbox, plan::Plan};
 
 use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::scene_of};
-use store::check_memory;
 use report::{solve_in_time, write_static_result};
+use store::check_memory;
 
 use store::folder::Cache;
 

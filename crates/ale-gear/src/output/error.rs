@@ -1,8 +1,8 @@
 //! What the command says when a file of a result does not come out.
 
-use store::MemoryDemandError;
-use store::checkpoint::CheckpointError;
+use columns::ColumnsError;
 use report::ReportError;
+use store::{MemoryDemandError, StoreError, checkpoint::CheckpointError};
 
 use crate::error::CommandError;
 
@@ -10,10 +10,19 @@ impl From<ReportError> for CommandError {
     fn from(error: ReportError) -> Self {
         match error {
             ReportError::Scene(e) => e.into(),
-            ReportError::Folder { .. } => Self::input(format_args!("--out {error}"), error.hint()),
-            ReportError::NoResult { .. } | ReportError::NoMarks { .. } | ReportError::Checkpoint(_) => {
-                Self::input(&error, error.hint())
-            }
+            ReportError::Store(e) => e.into(),
+            ReportError::Columns(e) => e.into(),
+            ReportError::NoResult { .. } | ReportError::NoMarks { .. } => Self::input(&error, error.hint()),
+            _ => Self::failed(&error, error.hint()),
+        }
+    }
+}
+
+impl From<StoreError> for CommandError {
+    fn from(error: StoreError) -> Self {
+        match error {
+            StoreError::Folder { .. } => Self::input(format_args!("--out {error}"), error.hint()),
+            StoreError::Checkpoint(_) => Self::input(&error, error.hint()),
             _ => Self::failed(&error, error.hint()),
         }
     }
@@ -21,7 +30,13 @@ impl From<ReportError> for CommandError {
 
 impl From<CheckpointError> for CommandError {
     fn from(error: CheckpointError) -> Self {
-        ReportError::from(error).into()
+        StoreError::from(error).into()
+    }
+}
+
+impl From<ColumnsError> for CommandError {
+    fn from(error: ColumnsError) -> Self {
+        Self::failed(&error, Some(error.hint().to_owned()))
     }
 }
 

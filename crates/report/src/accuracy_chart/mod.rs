@@ -14,8 +14,13 @@ use answer::{Answer, Cost, Table};
 use scene::Scene;
 use serde_json::{Value, json};
 
+use crate::{
+    ReportError, Written,
+    charts::write_picture,
+    page::{Content, Page, Part, again, cost_part},
+    write_result,
+};
 use store::folder::ResultDirectory;
-use crate::{ReportError, Written, charts::write_picture, page::{Content, Page, Part, again, cost_part}, write_result};
 
 /// A chart that is drawn.
 #[derive(Debug)]

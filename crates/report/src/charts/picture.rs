@@ -1,7 +1,7 @@
 //! A picture as a file of its own.
 
-use store::ResultFiles;
 use crate::ReportError;
+use store::ResultFiles;
 
 /// A drawn picture as `STEM.svg`; for pages it comes back. Pixels are made of it where it is looked at (`charts.js`).
 ///

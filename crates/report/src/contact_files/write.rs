@@ -5,8 +5,12 @@ use answer::Table;
 use scene::Scene;
 
 use super::pattern_table;
-use store::ResultFiles;
-use crate::{ReportError, charts::{contact_pattern_figure, contact_pattern_svg}, paraview::write_pattern_vtu};
+use crate::{
+    ReportError,
+    charts::{contact_pattern_figure, contact_pattern_svg},
+    paraview::write_pattern_vtu,
+};
+use store::{ResultFiles, StoreError};
 
 /// Names of the tables of both patterns.
 const NAMES: [&str; 2] = ["contact_pattern_pinion", "contact_pattern_wheel"];

@@ -6,8 +6,8 @@ use answer::{Answer, Check, Checks, Cost};
 use serde_json::json;
 
 use super::{EnvelopeResult, maps_markdown, modes_markdown, page, rows};
-use store::folder::ResultDirectory;
 use crate::{MarkedPlace, ReportError, Written, write_result};
+use store::folder::ResultDirectory;
 
 /// Names of the places of both tables in a document.
 const MODES: &str = "failure modes";

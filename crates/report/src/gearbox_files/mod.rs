@@ -14,8 +14,8 @@ use answer::{Answer, Cost};
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
-use store::folder::ResultDirectory;
 use crate::{ReportError, Written, write_result};
+use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,

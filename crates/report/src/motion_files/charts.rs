@@ -6,10 +6,10 @@ use scene::SweepWay;
 use study::{Columns, StudyError, extent};
 
 use super::{SPECTRA, spectra};
-use columns::motion_history::{MESH_PHASE, TIME};
 use crate::charts::{
-        Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
-    };
+    Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
+};
+use columns::motion_history::{MESH_PHASE, TIME};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub const SHOWN_CYCLES: usize = 4;

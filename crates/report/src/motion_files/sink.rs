@@ -12,9 +12,12 @@ use dynamics::SideLoads;
 use ltca::{StaticModel, StaticPosition};
 use scene::Scene;
 
-use store::ResultFiles;
+use crate::{
+    paraview::FieldWriter,
+    view::{View, ViewRecorder},
+};
 use store::checkpoint::{CheckpointError, Checkpoints, PairState, Rows, Stored};
-use crate::{ReportError, paraview::FieldWriter, view::{View, ViewRecorder}};
+use store::{ResultFiles, StoreError};
 
 /// Where rows and checkpoints of a motion go.
 pub struct MotionFileSink<'a> {
@@ -56,7 +59,7 @@ impl<'a> MotionFileSink<'a> {
         self.from.map_or(Ok(()), |stored| stored.check_meshes(self.scene, &self.meshes))
     }
 
-    fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, ReportError> {
+    fn open(&self, layout: &MotionLayout, resumes: bool) -> Result<Rows, StoreError> {
         if let (true, Some(stored)) = (resumes, self.from) {
             return Rows::resume(layout, self.folder, &stored.state.rows);
         }
@@ -70,7 +73,7 @@ impl<'a> MotionFileSink<'a> {
 impl MotionSink for MotionFileSink<'_> {
     fn meshes(&mut self, meshes: &[MeshFacts]) -> SinkResult {
         meshes.clone_into(&mut self.meshes);
-        Ok(self.check_inputs().map_err(ReportError::from)?)
+        Ok(self.check_inputs().map_err(StoreError::from)?)
     }
 
     fn begin(&mut self) {

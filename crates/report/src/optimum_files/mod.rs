@@ -12,8 +12,8 @@ use scene::Scene;
 use serde::Serialize;
 use serde_json::{Map, json};
 
-use store::folder::ResultDirectory;
 use crate::{ReportError, Written, write_result};
+use store::folder::ResultDirectory;
 
 /// What files of an optimisation are made of.
 #[derive(Debug, Clone, Copy)]

@@ -8,8 +8,8 @@ use minijinja::Value;
 use serde::{Deserialize, Serialize};
 
 use super::template::render;
-use store::ResultFiles;
 use crate::ReportError;
+use store::ResultFiles;
 
 const PAGE: &str = "report.html";
 /// Charts, numbers and fields of the page without the page.
@@ -56,7 +56,7 @@ impl Rendered {
     /// When the system refuses.
     pub fn write(&self, results: &dyn ResultFiles) -> Result<(), ReportError> {
         results.write(PAGE, self.html.as_bytes())?;
-        results.write(SOURCE, &self.source)
+        Ok(results.write(SOURCE, &self.source)?)
     }
 }
 

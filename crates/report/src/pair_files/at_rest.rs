@@ -10,15 +10,22 @@ use ltca::StaticHistory;
 use scene::Scene;
 
 use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
+use crate::{
+    Cost, ReportError, Written,
+    charts::{Curve, LineChart, banded_chart},
+    contact_files::{contact_lines, pattern_figure, write_patterns},
+    page::{Content, Line, Part},
+    view::View,
+    write_result, write_rows,
+};
 use columns::{
-        At, StaticCurves, history_table,
-        static_history::{
-            FORCE_X, FORCE_Y, FORCE_Z, GEOMETRIC_LENGTH, LINE_LENGTH, PAIR_FORCE, SECANT_STIFFNESS, STE,
-            TANGENT_STIFFNESS, TOOTH_TENSION,
-        },
-    };
+    At, StaticCurves, history_table,
+    static_history::{
+        FORCE_X, FORCE_Y, FORCE_Z, GEOMETRIC_LENGTH, LINE_LENGTH, PAIR_FORCE, SECANT_STIFFNESS, STE, TANGENT_STIFFNESS,
+        TOOTH_TENSION,
+    },
+};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, charts::{LineChart, banded_chart}, contact_files::{contact_lines, pattern_figure, write_patterns}, page::{Content, Line, Part}, view::View, write_result, write_rows};
 
 /// Writes all files of a run at rest but the fields for ParaView, which come position by position; what comes back is
 /// the closing table. `view`: the gears in space.

@@ -7,8 +7,13 @@ use super::{
     key_rows,
     parts::{Shown, pair_answer, pair_page},
 };
+use crate::{
+    Cost, ReportError, Written,
+    charts::{Curve, dot_chart, dot_picture},
+    page::{Cell, Grid, Line, Part},
+    write_result,
+};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, charts::{Curve, dot_chart, dot_picture}, page::{Cell, Grid, Line, Part}, write_result};
 
 const TITLE: &str = "Basins of attraction";
 const X: &str = "initial DTE beside that of rest [um]";

@@ -7,8 +7,13 @@ use super::{
     key_rows,
     parts::{Shown, key, pair_answer, pair_page},
 };
+use crate::{
+    Cost, ReportError, Written,
+    charts::{Curve, dot_chart, dot_picture},
+    page::Line,
+    write_result,
+};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, charts::{Curve, dot_chart, dot_picture}, page::Line, write_result};
 
 const TITLE: &str = "Periodic motions";
 const DTE: &str = "peak-to-peak DTE [um]";

@@ -9,8 +9,8 @@ use super::{
     lumped::write_lumped_result,
     motion::{write_motion_result, write_sweep_result},
 };
-use store::folder::ResultDirectory;
 use crate::{Cost, ReportError, Written, view::View};
+use store::folder::ResultDirectory;
 
 /// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
 ///

@@ -7,8 +7,13 @@ use super::{
     key_rows,
     parts::{Shown, pair_answer, pair_page},
 };
+use crate::{
+    Cost, ReportError, Written,
+    charts::{Curve, dot_chart, dot_picture, line_chart},
+    page::Line,
+    write_result,
+};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, charts::{Curve, dot_chart, dot_picture, line_chart}, page::Line, write_result};
 
 const WAYS: [(SweepWay, &str); 3] =
     [(SweepWay::Apart, "each value by itself"), (SweepWay::Up, "upwards"), (SweepWay::Down, "downwards")];

@@ -11,9 +11,16 @@ use super::{
     parts::{Shown, cycles, errors, harmonics, key, pair_answer, pair_page},
     rows,
 };
+use crate::{
+    Cost, ReportError, Written,
+    charts::{Curve, campbell_chart, dot_chart, line_chart},
+    motion_files::{MotionPictures, SHOWN_CYCLES, motion_charts},
+    page::Line,
+    tables::fixed,
+    write_result,
+};
 use columns::{ENERGY, LumpedLayout};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, charts::{Curve, campbell_chart, dot_chart, line_chart}, motion_files::{MotionPictures, SHOWN_CYCLES, motion_charts}, page::Line, tables::fixed, write_result};
 
 /// Displacements that have a phase portrait where the model has them; their rates are named alike.
 const PORTRAITS: [(&str, &str); 6] = [

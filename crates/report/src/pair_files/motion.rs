@@ -12,9 +12,17 @@ use super::{
     },
     rows,
 };
+use crate::{
+    Cost, ReportError, Written,
+    contact_files::{pattern_figure, write_patterns},
+    motion_files::{MotionPictures, SweepPictures, motion_charts, sweep_charts},
+    page::{Line, Part},
+    tables::fixed,
+    view::View,
+    write_result,
+};
 use columns::{ENERGY, MOTION_HISTORY};
 use store::folder::ResultDirectory;
-use crate::{Cost, ReportError, Written, contact_files::{pattern_figure, write_patterns}, motion_files::{MotionPictures, SweepPictures, motion_charts, sweep_charts}, page::{Line, Part}, tables::fixed, view::View, write_result};
 
 /// Writes all files of a motion of reduced gears but its rows, which come one by one; what comes back is the closing
 /// table. `view`: the gears in space.

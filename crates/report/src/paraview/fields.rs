@@ -11,8 +11,8 @@ use reduction::ElasticGear;
 use scene::{FieldName, Scene};
 
 use super::{Encoding, Field, PvdEntry, write_pvd, write_vtu};
-use store::ResultFiles;
 use crate::ReportError;
+use store::{ResultFiles, StoreError};
 
 /// Writes the files of the positions that the scene asks for.
 pub struct FieldWriter<'a> {
@@ -87,7 +87,7 @@ impl<'a> FieldWriter<'a> {
         if self.entries.is_empty() {
             return Ok(());
         }
-        self.results.write("gears.pvd", write_pvd(&self.entries).as_bytes())
+        Ok(self.results.write("gears.pvd", write_pvd(&self.entries).as_bytes())?)
     }
 
     fn gear(

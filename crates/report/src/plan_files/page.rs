@@ -5,10 +5,11 @@ use scene::plan::{Plan, PlanAxis};
 use study::correlation;
 
 use super::{Column, KnownCases, curves::over_axes, maps::maps, spread::Spread};
+use store::CASES;
+
 use crate::{
     charts::{Curve, line_chart},
     page::{Cell, Grid, Page, Part, again, cost_part, counted},
-    store::CASES,
 };
 
 /// Cases in the table of the page at most; `cases.csv` has all.

@@ -11,8 +11,9 @@ use std::{
 use files::{Lock, most, read_regular_text};
 use scene::plan::Plan;
 
+use crate::csv::always_quoted;
+use store::StoreError;
 use store::folder::{beside_results, in_use};
-use crate::{ReportError, csv::always_quoted};
 
 /// What came of a case.
 #[derive(Debug, Clone, PartialEq)]
@@ -150,8 +151,8 @@ impl DoneCases {
     /// Those of the plan with this digest, which goes into `out`; of another plan: none. The file is locked until the value is gone.
     ///
     /// # Errors
-    /// [`ReportError::Folder`] where another run has the file or it is none of this program, else [`ReportError::Write`].
-    pub fn open(out: &Path, digest: &str, lines: CaseLines) -> Result<Self, ReportError> {
+    /// [`StoreError::Folder`] where another run has the file or it is none of this program, else [`StoreError::Write`].
+    pub fn open(out: &Path, digest: &str, lines: CaseLines) -> Result<Self, StoreError> {
         let path = beside_results(out);
         let failed = |cause: io::Error| StoreError::Write { file: path.clone(), cause };
         let foreign = || StoreError::Folder {

@@ -7,9 +7,9 @@ use serde::Serialize;
 use serde_json::{Map, Value, json};
 
 use super::{CaseRow, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
+use crate::{ReportError, Written, write_result};
 use store::checkpoint::InputDigests;
 use store::folder::ResultDirectory;
-use crate::{ReportError, Written, write_result};
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
 pub fn plan_digest(plan: &Plan) -> String {

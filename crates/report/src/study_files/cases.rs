@@ -8,8 +8,8 @@ use analysis::{
 use scene::{Scene, study::Study};
 
 use super::{CaseResult, with_result};
-use store::checkpoint::{InputDigests, motion_column_names};
 use columns::{LumpedLayout, history_columns};
+use store::checkpoint::{InputDigests, motion_column_names};
 
 /// Columns that a scene's `history.csv` will have, but for those of single pairs.
 pub fn columns_of(scene: &Scene) -> Option<Vec<String>> {

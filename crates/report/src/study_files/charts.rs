@@ -5,8 +5,8 @@ use scene::study::{Follow, OverTime, Study};
 use study::StudyError;
 
 use super::{CaseResult, with_result};
-use columns::motion_history::{MESH_PHASE, TIME};
 use crate::charts::{Curve, dot_chart, line_chart};
+use columns::motion_history::{MESH_PHASE, TIME};
 
 /// A figure: a sentence above its charts.
 pub(super) struct Figure {

@@ -4,10 +4,12 @@ use answer::{Answer, Check, Checks, Cost};
 use serde_json::{Map, Value, json};
 
 use super::{
-    CASES, CaseResult, StudyResult,
+    CaseResult, StudyResult,
     charts::figures,
     tables::{grid, speed_up_text, step_s, study as study_rows},
 };
+use store::CASES;
+
 use crate::{
     ReportError,
     page::{Cell, Content, Grid, Page, Part, again, cost_part, counted},

@@ -24,7 +24,7 @@ pub use growing::Kept;
 pub(crate) use inputs::Change;
 pub use inputs::{InputDigests, Resumable};
 pub use pair::PairState;
-pub(crate) use rows::Rows;
+pub use rows::Rows;
 pub use rows::{ENERGY_FILE, HISTORY, motion_column_names, parse_rows, read_rows};
 pub use seal::sealed_state;
 pub use store::{CheckpointFolder, Checkpoints, Stored, StoredState};

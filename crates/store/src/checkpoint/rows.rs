@@ -2,15 +2,15 @@
 
 use std::path::Path;
 
-use answer::csv::push_row;
 use analysis::motion::{MotionLayout, MotionRow};
+use answer::csv::push_row;
 use scene::Scene;
 use study::Columns;
 
 use super::growing::{Growing, Kept, digested};
-use columns::{ColumnsError, ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows};
-use columns::parse_columns;
 use crate::StoreError;
+use columns::parse_columns;
+use columns::{ColumnsError, ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Sheet, motion_rows};
 
 /// Rows of a motion.
 pub const HISTORY: &str = "history.csv";
@@ -62,7 +62,7 @@ pub fn parse_rows(
 
 /// Both files of rows.
 #[derive(Debug)]
-pub(crate) struct Rows {
+pub struct Rows {
     layout: MotionLayout,
     sheets: (Sheet<MotionRows>, Sheet<EnergyRows>),
     history: Growing,

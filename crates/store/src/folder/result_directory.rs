@@ -10,7 +10,7 @@ use super::{
     names::is_ours,
     record::{self, RESULT, first_stranger, names},
 };
-use crate::{StoreError, ResultFiles};
+use crate::{ResultFiles, StoreError};
 
 /// Files are written into a work folder beside the wanted one; [`ResultDirectory::finish`] puts them in its place.
 /// Dropped before that, it takes its files with it.

@@ -1,8 +1,8 @@
 //! Motions that carry on from the state of the last value, up and down: bifurcation diagrams and resonance curves.
 
 use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
-use store::check_sweep_memory;
 use scene::plan::AxisWord;
+use store::check_sweep_memory;
 
 use super::{super::Answer, VaryArgs};
 use crate::{

@@ -3,13 +3,17 @@
 use std::{ops::Range, path::Path, sync::Arc};
 
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
-use store::folder::{Cache, beside_results};
-use report::{Written, plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases}, study_files::columns_of};
+use report::{
+    Written,
+    plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
+    study_files::columns_of,
+};
 use scene::{
     Document,
     plan::{Plan, PlanOutput, PlanTake, PlanWords},
     study::{Take, column_advice},
 };
+use store::folder::{Cache, beside_results};
 
 use super::{
     super::{Answer, case_reports::CaseReports},

@@ -14,9 +14,9 @@ use super::{
     super::{Answer, run::write_result},
     VaryArgs,
 };
+use report::{write_summary, write_tables_and_page};
 use store::check_memory;
 use store::folder::KeptCases;
-use report::{write_summary, write_tables_and_page};
 
 use crate::{
     chart::ProcessMemory,
