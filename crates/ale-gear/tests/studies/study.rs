@@ -373,6 +373,18 @@ fn a_killed_study_goes_on() {
     assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
 }
 
+/// Words that say something else than a study's file are refused, not ignored.
+#[test]
+fn words_of_other_values_are_refused() {
+    let scratch = iso_cases().file("s.toml", ISO_STUDY);
+    for (word, value) in [("--start", "carry"), ("--of", "ste_um"), ("--samples", "3"), ("--cases", "0..1")] {
+        let run = scratch.command(&["vary", "s.toml", "--out", "o", word, value]);
+        let said = format!("ale-gear: s.toml: `{word}` does not go with a study file\n");
+        assert!(run.code == Some(2) && run.stderr.starts_with(&said), "{word}: {}", run.stderr);
+        assert!(!scratch.path().join("o").exists());
+    }
+}
+
 /// `--set` holds for the scene of every case, and what a case sets itself before it: the numbers are those of a study whose
 /// scenes say so. What no case would follow is refused, and wrong words are refused as `run` refuses them.
 #[test]

@@ -124,8 +124,9 @@ fn a_sink_ends_a_motion() {
 fn a_scene_is_refused_by_another_analysis() {
     let scene = small().build().unwrap();
     let error = SweepAnalysis::new(&scene).solve().unwrap_err();
-    assert!(matches!(error.what(), AnalysisError::Refused(_)), "{error}");
+    assert!(error.to_string().ends_with(": no sweep of reduced gears over speed"), "{error}");
     let at_rest = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(1.0);
     let error = MotionAnalysis::new(&at_rest.build().unwrap()).solve().unwrap_err();
-    assert!(matches!(error.what(), AnalysisError::Refused(_)) && error.blame() == Blame::Input, "{error}");
+    assert!(error.to_string().ends_with(": no single motion of reduced gears"), "{error}");
+    assert_eq!(error.blame(), Blame::Input);
 }

@@ -15,14 +15,19 @@ const PLANE: [(&str, [&str; 3]); 2] =
 impl VaryArgs {
     /// Runs the scene from each state of the plane that the words say, or that of `[motion.basins]`.
     pub(super) fn basin(&self, quiet: bool) -> Result<Answer, CommandError> {
-        self.only(&["--vary", "--json"], "`--start basin`")?;
+        self.only(&["--vary", "--start", "--json"], "`--start basin`")?;
         let example = "as `--vary 'start_um=-20:20:41' --vary 'start_mm_s=-100:100:41'`";
         let mut words = vec!["analysis.kind=dynamic".to_owned(), "motion.run=basins".to_owned()];
+        let mut varied = Vec::new();
         for word in &self.vary {
             let refuse = |what: &str| CommandError::input(format_args!("--vary {word}: {what}"), Some(example.into()));
             let axis = AxisWord::parse(word).map_err(|e| refuse(&e))?;
             let plane = PLANE.iter().find(|(name, _)| axis.keys[..] == [*name]);
             let (_, keys) = plane.ok_or_else(|| refuse("starts differ in `start_um` and `start_mm_s`"))?;
+            if varied.contains(keys) {
+                return Err(refuse("it is varied twice"));
+            }
+            varied.push(*keys);
             let values = axis.list().filter(|values| is_even(values));
             let Some([first, .., last]) = values else { return Err(refuse("starts are evenly spaced")) };
             let numbers = [first.to_string(), last.to_string(), values.map_or(0, <[f64]>::len).to_string()];

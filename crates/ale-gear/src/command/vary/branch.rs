@@ -11,7 +11,7 @@ use crate::error::CommandError;
 impl VaryArgs {
     /// Follows the branch: a run of the scene as a continuation.
     pub(super) fn branch(&self, quiet: bool) -> Result<Answer, CommandError> {
-        self.only(&["--vary", "--json"], "`--start branch`")?;
+        self.only(&["--vary", "--start", "--json"], "`--start branch`")?;
         let example = "as `--vary 'operation.speed_rpm=1000:6000'`";
         let [word] = &self.vary[..] else {
             let what = format_args!("{} `--vary`: a branch is followed along one", self.vary.len());

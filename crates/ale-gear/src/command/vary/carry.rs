@@ -124,7 +124,8 @@ impl SectionArgs {
 
 impl VaryArgs {
     /// Words that go with motions that carry on.
-    const CARRY: [&str; 8] = ["--vary", "--of", "--ways", "--once", "--cycles", "--settle", "--lyapunov", "--json"];
+    const CARRY: [&str; 9] =
+        ["--vary", "--start", "--of", "--ways", "--once", "--cycles", "--settle", "--lyapunov", "--json"];
 
     /// The keys and their values, ascending.
     fn carried(&self) -> Result<(Vec<String>, Vec<f64>), CommandError> {

@@ -125,6 +125,7 @@ impl VaryArgs {
         let DrawnArgs { design, samples, seed } = &self.drawn;
         let mut all = vec![
             ("--vary", !self.vary.is_empty()),
+            ("--start", self.start != Start::Each),
             ("--output", !self.output.is_empty()),
             ("--of", self.of.is_some()),
             ("--harris", self.harris),
