@@ -4,13 +4,21 @@
 use std::ops::ControlFlow;
 
 use ::mesh::Mesh;
+use ::plan::{DoneCases, solve_cases};
 use ::scene::{Scene, optimum::Optimisation, plan::Plan};
 use analysis::{
-    AnalysisError, GearCache, Observer, PhaseWork, SharedModels,
+    AnalysisError, Context, GearCache, Observer, PhaseWork, Recorder, SharedModels,
+    in_time::is_one_motion,
     optimum::{optimise, told},
+    solve,
+};
+use export::MotionFileSink;
+use report::{
+    optimum_files::{OptimumResult, write_optimum},
+    plan_files::{PageWords, write_cases},
+    write_in_time,
 };
 use store::folder::ResultDirectory;
-use report::{Recorder, WrittenInTime, optimum_files::{OptimumResult, write_optimum}, plan_files::{DoneCases, PageWords, solve_cases, write_cases}, solve_in_time};
 use tempfile::TempDir;
 
 use crate::{
@@ -36,7 +44,14 @@ pub struct Held<'a> {
 pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let WrittenInTime { solved, written, .. } = solve_in_time(scene, held.meshes, watch, &results, held.cache)?;
+    let mut sink = MotionFileSink::new(scene, results.folder(), None, None);
+    if is_one_motion(scene) {
+        sink = sink.with_fields(&results);
+    }
+    let context: Context<'_, Scene> =
+        Context::new(watch).with_meshes(held.meshes).with_cache(held.cache).with_sink(&mut sink);
+    let solved = solve(scene, context)?.finished()?.in_time()?;
+    let written = write_in_time(&solved, &watch.cost(), sink.view.as_ref(), &results)?;
     results.finish(drop)?;
     let failure = solved.verdict().err().map(Complaint::from);
     Ok(Result::written("dynamic", written.answer, folder, failure))

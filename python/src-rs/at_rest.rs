@@ -3,18 +3,22 @@
 use std::{sync::Mutex, sync::PoisonError};
 
 use ::scene::Scene;
+use analysis::Recorder;
 use analysis::{
-    AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticAnalysis, StaticResult, StaticSink,
+    AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticAnalysis, StaticResult,
+    StaticSink,
     facts::Facts,
     remark::Remark,
     results::{root_stress_headline, root_stress_warnings, static_headline},
     static_certificate,
 };
 use answer::Table;
-use ltca::{StaticHistory, StaticModel, StaticPosition};
 use columns::history_table;
+use export::paraview::FieldWriter;
+use export::view::{View, ViewRecorder};
+use ltca::{StaticHistory, StaticModel, StaticPosition};
+use report::{Cost, ReportError, write_static_result};
 use store::folder::ResultDirectory;
-use report::{Cost, Recorder, ReportError, paraview::FieldWriter, view::{View, ViewRecorder}, write_static_result};
 use tempfile::TempDir;
 
 use crate::{error::Complaint, work::Watch};

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use ::scene::{Place, RexsError, SceneError};
 use analysis::{AnalysisError, Blame};
+use export::ExportError;
 use pyo3::{prelude::*, types::PyDict};
 use report::ReportError;
 use store::StoreError;
@@ -112,7 +113,7 @@ impl From<AnalysisError> for Complaint {
         let error = match error {
             AnalysisError::Scene(scene) => return (*scene).into(),
             // What a sink of this package says is a message already.
-            AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
+            AnalysisError::Sink(inner) => match inner.downcast::<ExportError>() {
                 Ok(own) => return (*own).into(),
                 Err(other) => match other.downcast::<StoreError>() {
                     Ok(own) => return (*own).into(),
@@ -134,6 +135,15 @@ impl From<AnalysisError> for Complaint {
     }
 }
 
+impl From<ExportError> for Complaint {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Store(store) => store.into(),
+            _ => Self::new(Kind::NoResult, &error, error.hint()),
+        }
+    }
+}
+
 impl From<StoreError> for Complaint {
     fn from(error: StoreError) -> Self {
         let kind = if matches!(error, StoreError::Folder { .. }) { Kind::Input } else { Kind::NoResult };
@@ -146,9 +156,7 @@ impl From<ReportError> for Complaint {
         match error {
             ReportError::Scene(scene) => scene.into(),
             ReportError::Store(store) => store.into(),
-            ReportError::NoResult { .. } | ReportError::NoMarks { .. } => {
-                Self::new(Kind::Input, &error, error.hint())
-            }
+            ReportError::NoResult { .. } | ReportError::NoMarks { .. } => Self::new(Kind::Input, &error, error.hint()),
             _ => Self::new(Kind::NoResult, &error, error.hint()),
         }
     }

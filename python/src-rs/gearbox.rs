@@ -3,10 +3,11 @@
 use std::{path::Path, sync::Arc};
 
 use ::scene::gearbox::Gearbox as GearboxFile;
+use analysis::Recorder;
 use analysis::{Context, GearCache};
 use pyo3::prelude::*;
+use report::gearbox_files::write_gearbox;
 use store::folder::ResultDirectory;
-use report::{Recorder, gearbox_files::write_gearbox};
 use tempfile::TempDir;
 
 use crate::{

@@ -13,9 +13,9 @@ use pyo3::{
     prelude::*,
     types::{PyDict, PyList},
 };
-use store::folder::ResultDirectory;
 use report::charts::stills;
 use serde_json::Value;
+use store::folder::ResultDirectory;
 use tempfile::TempDir;
 
 use crate::{

@@ -11,10 +11,11 @@ use std::{
     time::{Duration, Instant},
 };
 
+use analysis::Recorder;
 use analysis::{Observer, PhaseWork, Progress};
 use pyo3::prelude::*;
 use rayon::ThreadPoolBuilder;
-use report::{Cost, Phase, Recorder};
+use report::{Cost, Phase};
 
 use crate::{
     arguments::Given,

@@ -1,7 +1,7 @@
 //! What the command ends with where a result does not hold.
 
 use analysis::Solved;
-use report::{Cost, WrittenInTime};
+use report::Cost;
 
 use crate::error::CommandError;
 
@@ -19,11 +19,4 @@ pub(crate) struct Written {
     pub solved: Solved,
     /// What it took, as `summary.json` has it.
     pub cost: Cost,
-}
-
-impl From<WrittenInTime> for Written {
-    fn from(WrittenInTime { solved, cost, written }: WrittenInTime) -> Self {
-        let table = written.table;
-        Self { table, verdict: solved.verdict().map_err(CommandError::from), solved: Solved::InTime(solved), cost }
-    }
 }

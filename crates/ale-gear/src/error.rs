@@ -2,8 +2,11 @@
 
 use std::{fmt::Display, path::Path};
 
+use std::error::Error;
+
 use analysis::{AnalysisError, Blame, parameter_study::CaseFailure};
-use report::ReportError;
+use export::ExportError;
+use store::StoreError;
 use study::StudyError;
 
 use crate::{printed, scene::SceneError};
@@ -57,16 +60,26 @@ impl CommandError {
     }
 }
 
+/// What a sink of this program says, as the command does; what another says comes back.
+fn told(said: Box<dyn Error + Send + Sync>) -> Result<CommandError, Box<dyn Error + Send + Sync>> {
+    let said = match said.downcast::<ExportError>() {
+        Ok(own) => return Ok((*own).into()),
+        Err(other) => other,
+    };
+    let said = match said.downcast::<StoreError>() {
+        Ok(own) => return Ok((*own).into()),
+        Err(other) => other,
+    };
+    said.downcast::<AnalysisError>().map(|own| (*own).into())
+}
+
 impl From<AnalysisError> for CommandError {
     fn from(error: AnalysisError) -> Self {
         let error = match error {
             // What a sink of this program says is a message already.
-            AnalysisError::Sink(inner) => match inner.downcast::<ReportError>() {
-                Ok(own) => return (*own).into(),
-                Err(other) => match other.downcast::<AnalysisError>() {
-                    Ok(own) => return (*own).into(),
-                    Err(other) => AnalysisError::Sink(other),
-                },
+            AnalysisError::Sink(inner) => match told(inner) {
+                Ok(own) => return own,
+                Err(other) => AnalysisError::Sink(other),
             },
             other => other,
         };

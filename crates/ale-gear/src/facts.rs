@@ -1,7 +1,7 @@
 //! What the writers need to know of a run at rest beside its answer.
 
 use analysis::SolvedAtRest;
-use report::view::View;
+use export::view::View;
 
 pub use ::report::{Cost, Phase};
 pub use analysis::facts::*;

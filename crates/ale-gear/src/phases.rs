@@ -223,7 +223,7 @@ impl Phases {
     }
 }
 
-impl report::Recorder for Phases {
+impl analysis::Recorder for Phases {
     fn cost(&self) -> Cost {
         Self::cost(self)
     }

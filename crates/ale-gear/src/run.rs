@@ -1,7 +1,8 @@
 //! A scene at rest, with what goes into files on the way: fields for ParaView and the gears in space.
 
 use analysis::{SolvedAtRest, StaticAnalysis, StaticResult};
-use report::{StaticFileSink, view::View};
+use export::StaticFileSink;
+use export::view::View;
 
 pub(crate) use analysis::static_certificate as certificate;
 

@@ -92,7 +92,7 @@ pub(crate) use error::solver_error;
 pub use gear_dofs::reduced;
 pub use headline_keys::headline_keys;
 pub use interest::Interest;
-pub use observer::{NoObserver, Observer, PhaseWork, Progress, run_phase, unless_cancelled};
+pub use observer::{NoObserver, Observer, PhaseWork, Progress, Recorder, run_phase, unless_cancelled};
 pub use options::options;
 pub use plausible::LoadEstimate;
 pub use refused::{Blame, Refusal};

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use answer::Cost;
+
 use crate::AnalysisError;
 
 /// How much work a phase has, as far as that is known beforehand.
@@ -49,6 +51,12 @@ pub trait Observer {
 
     /// What those who wait should hear before the end.
     fn note(&mut self, _message: String) {}
+}
+
+/// Hears of the phases, and knows what they cost.
+pub trait Recorder: Observer {
+    /// What it all cost so far.
+    fn cost(&self) -> Cost;
 }
 
 /// Hears nothing.

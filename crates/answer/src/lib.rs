@@ -11,6 +11,7 @@
 //! | [`parquet_bytes`] | a table as a Parquet file |
 //! | [`Check`], [`Checks`] | what was demanded of a result and what was found |
 //! | [`Remark`], [`remarks!`] | what a user should hear: code, values, and the words made of them |
+//! | [`Numbers`] | numbers with so many digits, for the script of a page |
 //! | [`Cost`], [`Phase`] | time and memory of a run |
 //! | [`Answer`] | all of it together |
 
@@ -20,6 +21,7 @@ mod columnar;
 mod cost;
 pub mod csv;
 mod error;
+mod numbers;
 mod remark;
 mod table;
 mod unit;
@@ -29,6 +31,7 @@ pub use check::{Check, Checks, FailedCheck};
 pub use columnar::parquet_bytes;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
+pub use numbers::Numbers;
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};
 pub use table::{Column, Table, Values};
 pub use unit::unit_of;

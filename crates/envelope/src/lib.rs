@@ -9,6 +9,7 @@ mod bench;
 mod chosen;
 mod error;
 mod figure;
+pub mod files;
 mod maps;
 mod mode;
 mod modes;

@@ -13,11 +13,11 @@ use analysis::{
     results::{StaticHeadline, patterns, static_headline},
     solve_at_rest,
 };
+use export::view::View;
 use ltca::StaticHistory;
 use report::{
     charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
     static_charts,
-    view::View,
 };
 use scene::{Document, Model, Scene};
 use serde::{Deserialize, Serialize};

@@ -6,7 +6,8 @@ use std::{
 };
 
 use analysis::side_by_side;
-use report::plan_files::{KnownCases, report_folder};
+use plan::KnownCases;
+use report::plan_files::report_folder;
 use scene::plan::Plan;
 use store::folder::Cache;
 

@@ -2,8 +2,8 @@
 
 use std::{path::PathBuf, time::Instant};
 
+use envelope::files::{EnvelopeResult, find_envelope_tables, replace_envelope_tables, write_envelope};
 use envelope::{FailureMode, MAPS, MODES, chosen};
-use report::envelope_files::{EnvelopeResult, find_envelope_tables, replace_envelope_tables, write_envelope};
 
 use crate::{command::Answer, error::CommandError, output::ResultDirectory, phases::Phases, talk};
 

@@ -6,7 +6,7 @@ use analysis::{Solved, SolvedAtRest, in_time::is_one_motion, lumped::is_lumped};
 use scene::{gearbox::Gearbox, plan::Plan};
 
 use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::scene_of};
-use report::{solve_in_time, write_static_result};
+use report::write_static_result;
 use store::check_memory;
 
 use store::folder::Cache;
@@ -301,7 +301,7 @@ pub(super) fn write_result(
     if scene.motion.is_none() {
         return write_static(scene, phases, results, cache, InSpace::Fields);
     }
-    Ok(solve_in_time(scene, None, phases, results, cache)?.into())
+    motion::solve_whole(scene, phases, results, cache)
 }
 
 /// As [`write_result`], for positions at rest.

@@ -1,6 +1,7 @@
 //! What the command says when a file of a result does not come out.
 
 use columns::ColumnsError;
+use export::ExportError;
 use report::ReportError;
 use store::{MemoryDemandError, StoreError, checkpoint::CheckpointError};
 
@@ -13,6 +14,15 @@ impl From<ReportError> for CommandError {
             ReportError::Store(e) => e.into(),
             ReportError::Columns(e) => e.into(),
             ReportError::NoResult { .. } | ReportError::NoMarks { .. } => Self::input(&error, error.hint()),
+            _ => Self::failed(&error, error.hint()),
+        }
+    }
+}
+
+impl From<ExportError> for CommandError {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Store(e) => e.into(),
             _ => Self::failed(&error, error.hint()),
         }
     }

@@ -1,7 +1,7 @@
 //! Study files end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
 use ale_gear::scene::{Setting, study::Study};
-use report::study_files::{columns_of, study_digest};
+use plan::{columns_of, study_digest};
 
 use crate::util::{ISO_SCENE, Scratch, column, motion_scene, tiny_at_rest};
 

@@ -1,13 +1,11 @@
 //! A quantity over a rectangle, in colours: a picture that prints, and the cells for the script that zooms.
 
+use answer::Numbers;
 use base64::{Engine, prelude::BASE64_STANDARD};
 use plotters::prelude::*;
 use serde::{Serialize, Serializer};
 
-use super::{
-    overlay::{Overlay, Room, words},
-    plot_data::Numbers,
-};
+use super::overlay::{Overlay, Room, words};
 
 /// Pixels of the picture inside its axes, of which a cell covers one or many.
 const PIXELS: [u32; 2] = [720, 320];

@@ -22,4 +22,4 @@ pub use heat_map::{contact_pattern_figure, contact_pattern_maps, contact_pattern
 pub use log_panel::{Captions, Failure, Labelled, legend, log_panel};
 pub use overlay::{LevelLine, Mark, Overlay, Room, words};
 pub(crate) use picture::write_picture;
-pub use plot_data::{Numbers, Plot, embedded};
+pub use plot_data::{Plot, embedded};

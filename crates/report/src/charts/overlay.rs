@@ -8,7 +8,7 @@ use plotters::style::{
 };
 use serde::Serialize;
 
-use super::plot_data::Numbers;
+use answer::Numbers;
 
 /// Digits of places.
 const DIGITS: usize = 5;

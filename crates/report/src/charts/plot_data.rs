@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use serde::{Serialize, Serializer};
+use answer::Numbers;
+use serde::Serialize;
 
 use super::curve::{COLOURS, Curve, colour_of};
 
@@ -96,36 +97,6 @@ pub fn embedded(class: &str, data: &impl Serialize) -> String {
     // Numbers, and texts of this program: JSON refuses none of them.
     let json = serde_json::to_string(data).unwrap_or_default().replace('<', "\\u003c");
     format!("<script type=\"application/json\" class=\"{class}\">{json}</script>")
-}
-
-/// Numbers with so many digits; `null` for what is none.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Numbers(pub Vec<f64>, pub usize);
-
-impl Serialize for Numbers {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq(self.0.iter().map(|&v| Number::new(v, self.1)))
-    }
-}
-
-/// A number as it is shortest.
-#[derive(Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-enum Number {
-    Whole(i64),
-    Real(f64),
-    None,
-}
-
-impl Number {
-    /// Rounded to so many digits.
-    fn new(value: f64, digits: usize) -> Self {
-        if !value.is_finite() {
-            return Self::None;
-        }
-        let rounded: f64 = format!("{value:.*e}", digits.max(1) - 1).parse().unwrap_or(value);
-        if rounded.fract() == 0.0 && rounded.abs() < 1e9 { Self::Whole(rounded as i64) } else { Self::Real(rounded) }
-    }
 }
 
 /// Points with ascending abscissa; `None` where they turn back.

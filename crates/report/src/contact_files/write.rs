@@ -8,8 +8,8 @@ use super::pattern_table;
 use crate::{
     ReportError,
     charts::{contact_pattern_figure, contact_pattern_svg},
-    paraview::write_pattern_vtu,
 };
+use export::paraview::write_pattern_vtu;
 use store::{ResultFiles, StoreError};
 
 /// Names of the tables of both patterns.

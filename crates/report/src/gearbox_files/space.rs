@@ -7,10 +7,8 @@ use scene::gearbox::Gearbox;
 use serde::Serialize;
 
 use super::swing_words::{first_modes, holders};
-use crate::{
-    charts::Numbers,
-    view::{Packed, Shape},
-};
+use answer::Numbers;
+use export::view::{Packed, Shape};
 
 /// Positions at most.
 const FRAMES: usize = 48;

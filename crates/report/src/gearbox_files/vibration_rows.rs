@@ -10,7 +10,7 @@ use answer::Table;
 use gearbox::{Component, WhirlMode};
 use scene::gearbox::Gearbox;
 
-use crate::universal::{Function, Response, universal_file};
+use export::universal::{Function, Response, universal_file};
 
 /// `modes`: natural motions at the first and the last speed, a row each.
 pub(super) fn modes(file: &Gearbox, swings: &GearboxSwings) -> Table {

@@ -6,9 +6,8 @@ use scene::SweepWay;
 use study::{Columns, StudyError, extent};
 
 use super::{SPECTRA, spectra};
-use crate::charts::{
-    Curve, FieldMap, Numbers, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart,
-};
+use crate::charts::{Curve, FieldMap, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart};
+use answer::Numbers;
 use columns::motion_history::{MESH_PHASE, TIME};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.

@@ -15,7 +15,6 @@ use crate::{
     charts::{Curve, LineChart, banded_chart},
     contact_files::{contact_lines, pattern_figure, write_patterns},
     page::{Content, Line, Part},
-    view::View,
     write_result, write_rows,
 };
 use columns::{
@@ -25,6 +24,7 @@ use columns::{
         TOOTH_TENSION,
     },
 };
+use export::view::View;
 use store::folder::ResultDirectory;
 
 /// Writes all files of a run at rest but the fields for ParaView, which come position by position; what comes back is

@@ -9,7 +9,8 @@ use super::{
     lumped::write_lumped_result,
     motion::{write_motion_result, write_sweep_result},
 };
-use crate::{Cost, ReportError, Written, view::View};
+use crate::{Cost, ReportError, Written};
+use export::view::View;
 use store::folder::ResultDirectory;
 
 /// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.

@@ -18,10 +18,10 @@ use crate::{
     motion_files::{MotionPictures, SweepPictures, motion_charts, sweep_charts},
     page::{Line, Part},
     tables::fixed,
-    view::View,
     write_result,
 };
 use columns::{ENERGY, MOTION_HISTORY};
+use export::view::View;
 use store::folder::ResultDirectory;
 
 /// Writes all files of a motion of reduced gears but its rows, which come one by one; what comes back is the closing

@@ -19,8 +19,8 @@ use crate::{
     charts::embedded,
     page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
     tables::{fixed, geometry_table, model_name, torque},
-    view::View,
 };
+use export::view::View;
 
 /// The answer of a run of a pair, without its rows.
 pub(super) fn pair_answer<H: Serialize>(

@@ -3,11 +3,9 @@
 use cases::Axis;
 use scene::plan::Plan;
 
-use super::{
-    Column, KnownCases,
-    spread::{QUANTILES, Spread},
-};
+use super::spread::{QUANTILES, Spread};
 use crate::charts::{Curve, dot_chart, line_chart, words};
+use plan::{Column, KnownCases};
 
 /// Curves of a chart at the most; more of them are a cloud of dots.
 const CURVES: usize = 12;

@@ -3,8 +3,8 @@
 use cases::Axis;
 use scene::plan::Plan;
 
-use super::{Column, KnownCases};
 use crate::charts::{GridValues, MapWords, coloured_dots, contour_map};
+use plan::{Column, KnownCases};
 
 /// Axes of either kind that are mapped against each other, the first ones.
 const AXES: usize = 4;

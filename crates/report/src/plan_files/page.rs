@@ -4,7 +4,8 @@ use answer::Answer;
 use scene::plan::{Plan, PlanAxis};
 use study::correlation;
 
-use super::{Column, KnownCases, curves::over_axes, maps::maps, spread::Spread};
+use super::{curves::over_axes, maps::maps, spread::Spread};
+use plan::{Column, KnownCases};
 use store::CASES;
 
 use crate::{

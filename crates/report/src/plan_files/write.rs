@@ -6,28 +6,10 @@ use scene::plan::{Plan, PlanAxis};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
-use super::{CaseRow, Column, DoneCases, KnownCases, PageWords, page, spread::Spread};
+use super::{PageWords, page, spread::Spread};
 use crate::{ReportError, Written, write_result};
-use store::checkpoint::InputDigests;
+use plan::{CaseRow, Column, DoneCases, KnownCases};
 use store::folder::ResultDirectory;
-
-/// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
-pub fn plan_digest(plan: &Plan) -> String {
-    let mut hasher = blake3::Hasher::new();
-    let mut take = |text: &str| {
-        hasher.update(text.as_bytes());
-        hasher.update(&[0]);
-    };
-    take(env!("CARGO_PKG_VERSION"));
-    take(&plan.document.blake3());
-    plan.settings.iter().for_each(|setting| take(&setting.word()));
-    take(&format!("{:?} {:?} {:?} {:?}", plan.axes, plan.cases.axes(), plan.sampling, plan.outputs));
-    // Files of a case may be varied as little as their names: those of the first stand for all.
-    if let Ok(scene) = plan.scene(0) {
-        take(&format!("{:?}", InputDigests::of(&scene)));
-    }
-    hasher.finalize().to_hex().to_string()
-}
 
 /// The answer about a plan whose cases are done: the table `cases`.
 fn answer(plan: &Plan, rows: &[CaseRow], known: &KnownCases, reports: &[usize], cost: Cost) -> Answer {

@@ -6,6 +6,6 @@ mod outcome;
 mod report;
 mod tables;
 
-pub use cases::{columns_of, study_digest, study_warnings};
+pub use cases::study_warnings;
 pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
 pub use report::{study_answer, study_page};

@@ -1,4 +1,3 @@
 //! Laws of the crate `report`.
 
 mod columns;
-mod vtu;

@@ -3,10 +3,10 @@
 use std::{ops::Range, path::Path, sync::Arc};
 
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
+use plan::{CaseLines, DoneCases, KnownCases, check_outputs, columns_of, plan_digest, solve_cases};
 use report::{
     Written,
-    plan_files::{CaseLines, DoneCases, KnownCases, PageWords, check_outputs, plan_digest, solve_cases, write_cases},
-    study_files::columns_of,
+    plan_files::{PageWords, write_cases},
 };
 use scene::{
     Document,

@@ -2,7 +2,8 @@
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
-use report::plan_files::{DoneCases, PageWords, Part, PartError, check_outputs, merged, plan_digest, write_cases};
+use plan::{DoneCases, Part, PartError, check_outputs, merged, plan_digest};
+use report::plan_files::{PageWords, write_cases};
 use scene::{Document, plan::Plan};
 
 use super::{super::Answer, VaryArgs, each::solve_range};

@@ -7,7 +7,8 @@ use analysis::{
     remark::{self, Remark},
     resolution::with_slices,
 };
-use report::study_files::{StudyResult, columns_of, study_answer, study_digest, study_page, study_warnings};
+use plan::{columns_of, study_digest};
+use report::study_files::{StudyResult, study_answer, study_page, study_warnings};
 use scene::study::Study;
 
 use super::{

@@ -10,7 +10,7 @@ use std::{
 use files::{most, read_regular_text, write_file};
 use scene::plan::Plan;
 
-use super::{CaseLines, CaseRow};
+use crate::{CaseLines, CaseRow};
 
 /// Cases of a plan that one process has solved.
 ///

@@ -13,13 +13,14 @@ const NOTHING: i16 = i16::MIN;
 ///
 /// Off by half a unit at most, 1/65534 of the largest value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Packed {
+pub struct Packed {
     unit: f64,
     lists: Vec<String>,
 }
 
 impl Packed {
-    pub(crate) fn new<'a>(lists: impl IntoIterator<Item = &'a [f64]> + Clone) -> Self {
+    /// Lists on one scale; what is not finite is no number.
+    pub fn new<'a>(lists: impl IntoIterator<Item = &'a [f64]> + Clone) -> Self {
         let all = lists.clone().into_iter().flatten();
         let largest = all.filter(|v| v.is_finite()).fold(0.0, |m: f64, v| m.max(v.abs()));
         let unit = if largest > 0.0 { largest / STEPS } else { 1.0 };

@@ -11,7 +11,7 @@ use reduction::ElasticGear;
 use scene::{FieldName, Scene};
 
 use super::{Encoding, Field, PvdEntry, write_pvd, write_vtu};
-use crate::ReportError;
+use crate::ExportError;
 use store::{ResultFiles, StoreError};
 
 /// Writes the files of the positions that the scene asks for.
@@ -42,7 +42,7 @@ impl<'a> FieldWriter<'a> {
         index: usize,
         position: &StaticPosition,
         model: &StaticModel,
-    ) -> Result<(), ReportError> {
+    ) -> Result<(), ExportError> {
         if !self.is_due(index) {
             return Ok(());
         }
@@ -55,7 +55,7 @@ impl<'a> FieldWriter<'a> {
     ///
     /// # Errors
     /// When a field does not come out, or the system refuses.
-    pub fn row(&mut self, index: usize, time_s: f64, sides: &[SideLoads<'_>]) -> Result<(), ReportError> {
+    pub fn row(&mut self, index: usize, time_s: f64, sides: &[SideLoads<'_>]) -> Result<(), ExportError> {
         let Some(driving) = sides.first() else { return Ok(()) };
         self.files(index, time_s, driving.gears, |part| GearState::in_motion(part, sides))
     }
@@ -65,8 +65,8 @@ impl<'a> FieldWriter<'a> {
         index: usize,
         time_s: f64,
         gears: &[ElasticGear; 2],
-        state: impl Fn(usize) -> Result<GearState<'g>, ReportError>,
-    ) -> Result<(), ReportError> {
+        state: impl Fn(usize) -> Result<GearState<'g>, ExportError>,
+    ) -> Result<(), ExportError> {
         for (part, name) in ["pinion", "wheel"].into_iter().enumerate() {
             let file = format!("{name}_{index:05}.vtu");
             let mut out = self.results.create(&file)?;
@@ -83,7 +83,7 @@ impl<'a> FieldWriter<'a> {
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn finish(&mut self) -> Result<(), ReportError> {
+    pub fn finish(&mut self) -> Result<(), ExportError> {
         if self.entries.is_empty() {
             return Ok(());
         }
@@ -95,7 +95,7 @@ impl<'a> FieldWriter<'a> {
         elastic: &ElasticGear,
         state: &GearState<'_>,
         out: &mut impl std::io::Write,
-    ) -> Result<std::io::Result<()>, ReportError> {
+    ) -> Result<std::io::Result<()>, ExportError> {
         let mesh = elastic.gear().mesh();
         let nodes: Vec<[f64; 3]> = mesh.nodes.iter().map(|&p| state.place(p)).collect();
         let mut values: Vec<(&str, usize, Vec<f64>)> = Vec::new();
@@ -141,7 +141,7 @@ struct FlankLoads<'a> {
 }
 
 impl<'a> GearState<'a> {
-    fn at_rest(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, ReportError> {
+    fn at_rest(part: usize, position: &StaticPosition, model: &'a StaticModel) -> Result<Self, ExportError> {
         static PLAIN: std::sync::LazyLock<fem::ElementOptions> = std::sync::LazyLock::new(fem::ElementOptions::default);
         let (gears, set) = (model.gears(), model.contact_set());
         if let Some(e) = model.last() {
@@ -168,10 +168,10 @@ impl<'a> GearState<'a> {
     }
 
     /// Under the loads of all sides together: what they do to a gear adds up.
-    fn in_motion(part: usize, sides: &'a [SideLoads<'a>]) -> Result<Self, ReportError> {
+    fn in_motion(part: usize, sides: &'a [SideLoads<'a>]) -> Result<Self, ExportError> {
         let mut all: Option<Self> = None;
         for SideLoads { gears, set, poses, rows, forces } in sides {
-            let boundary = set.displacements_under(rows, forces).ok_or(ReportError::NoWindow)?;
+            let boundary = set.displacements_under(rows, forces).ok_or(ExportError::NoWindow)?;
             let loads = FlankLoads { gears, set, poses, rows, forces };
             let own = Self::loaded(part, &loads, &boundary[part])?;
             match &mut all {
@@ -183,11 +183,11 @@ impl<'a> GearState<'a> {
                 }
             }
         }
-        all.ok_or(ReportError::NoWindow)
+        all.ok_or(ExportError::NoWindow)
     }
 
     /// Under the loads of a window that displace its boundary by `boundary` (mm).
-    fn loaded(part: usize, loads: &FlankLoads<'a>, boundary: &[f64]) -> Result<Self, ReportError> {
+    fn loaded(part: usize, loads: &FlankLoads<'a>, boundary: &[f64]) -> Result<Self, ExportError> {
         let elastic = &loads.gears[part];
         let (displacement, nodes, frame, elements) = match (elastic, loads.set.windows()) {
             (ElasticGear::Reduced(r), Some(windows)) => {
@@ -199,7 +199,7 @@ impl<'a> GearState<'a> {
                 let field = f.dofs.to_nodes(boundary)?;
                 (field, f.dofs.free_nodes().to_vec(), 0.0, &f.elements)
             }
-            (ElasticGear::Reduced(_), None) => return Err(ReportError::NoWindow),
+            (ElasticGear::Reduced(_), None) => return Err(ExportError::NoWindow),
         };
         // The pose is that of the window's frame; the gear's own frame is turned back by the frame's angle.
         let own = loads.poses[part].rotation * UnitQuaternion::from_axis_angle(&Vector3::z_axis(), -frame);

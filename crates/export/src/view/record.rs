@@ -6,7 +6,7 @@ use ltca::{Equilibrium, StaticModel, StaticPosition};
 use reduction::{ElasticGear, Window};
 
 use super::{Band, DIGITS, FRAMES};
-use crate::charts::Numbers;
+use answer::Numbers;
 use scene::Scene;
 
 /// Remembers some positions of the first mesh cycle.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use envelope::{Cell, Outcome};
+use crate::{Cell, Outcome};
 
 use super::{
     EnvelopeResult,

@@ -12,7 +12,7 @@ use super::{
     piece::Piece,
     record::{Recorded, RecordedGear, ViewRecorder},
 };
-use crate::ReportError;
+use crate::ExportError;
 use scene::Scene;
 
 /// Bytes of all fields in a page at most, before they become text.
@@ -41,7 +41,7 @@ impl ViewRecorder {
     ///
     /// # Errors
     /// When a field does not come out.
-    pub fn view(mut self, scene: &Scene, model: &StaticModel) -> Result<View, ReportError> {
+    pub fn view(mut self, scene: &Scene, model: &StaticModel) -> Result<View, ExportError> {
         let shown = model.gears().iter().all(is_cheap);
         if model.gears().iter().any(is_general) {
             thin(&mut self.positions, FEW);
@@ -106,7 +106,7 @@ fn piece(positions: &[Recorded], model: &StaticModel, i: usize) -> Option<Piece>
     Piece::new(gear, exact, &teeth(positions, i, gear.tooth_count()))
 }
 
-fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, ReportError> {
+fn window(piece: &Piece, positions: &[Recorded], gear: &ElasticGear, i: usize) -> Result<WindowView, ExportError> {
     let gears: Vec<&RecordedGear> = positions.iter().map(|p| &p.gears[i]).collect();
     let solved = all_fields(piece, &gears, gear)?;
     let pressures: Vec<Vec<f64>> = positions.iter().filter_map(|p| pressure(piece, &p.gears[i])).collect();
@@ -126,7 +126,7 @@ fn all_fields(
     piece: &Piece,
     positions: &[&RecordedGear],
     gear: &ElasticGear,
-) -> Result<Vec<[Vec<f64>; 2]>, ReportError> {
+) -> Result<Vec<[Vec<f64>; 2]>, ExportError> {
     let mut moved = Vec::with_capacity(positions.len());
     // Neighbours in one window go through its factor together.
     for group in positions.chunk_by(|a, b| shared_window(a, b)).flat_map(|g| g.chunks(AT_A_TIME)) {
@@ -146,7 +146,7 @@ fn displacements(
     piece: &Piece,
     group: &[&RecordedGear],
     gear: &ElasticGear,
-) -> Result<Vec<Vec<[f64; 3]>>, ReportError> {
+) -> Result<Vec<Vec<[f64; 3]>>, ExportError> {
     let Some(first) = group.first() else { return Ok(Vec::new()) };
     match (gear, &first.window) {
         _ if first.displacements.is_empty() => Ok(vec![vec![[0.0; 3]; piece.nodes.len()]; group.len()]),
@@ -155,9 +155,9 @@ fn displacements(
             let u: Vec<&[f64]> = group.iter().map(|at| &at.displacements[..]).collect();
             Ok(r.expand_at(&own, &u, &piece.nodes)?)
         }
-        (ElasticGear::Reduced(_), None) => Err(ReportError::NoWindow),
+        (ElasticGear::Reduced(_), None) => Err(ExportError::NoWindow),
         (ElasticGear::Full(f), _) => {
-            let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, ReportError> {
+            let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, ExportError> {
                 let all = f.dofs.to_nodes(&at.displacements)?;
                 Ok(piece.nodes.iter().map(|&n| all[n as usize]).collect())
             };
@@ -166,7 +166,7 @@ fn displacements(
     }
 }
 
-fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], ReportError> {
+fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], ExportError> {
     let elements = match gear {
         ElasticGear::Reduced(r) => r.elements(),
         ElasticGear::Full(f) => &f.elements,

@@ -2,7 +2,7 @@
 
 use scene::plan::{Plan, PlanAxis, PlanOutput};
 
-use super::CaseRow;
+use crate::CaseRow;
 
 /// All cases of a plan, column by column.
 #[derive(Debug)]

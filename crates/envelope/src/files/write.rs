@@ -6,7 +6,7 @@ use answer::{Answer, Check, Checks, Cost};
 use serde_json::json;
 
 use super::{EnvelopeResult, maps_markdown, modes_markdown, page, rows};
-use crate::{MarkedPlace, ReportError, Written, write_result};
+use report::{MarkedPlace, ReportError, Written, write_result};
 use store::folder::ResultDirectory;
 
 /// Names of the places of both tables in a document.

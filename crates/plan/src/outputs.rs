@@ -7,7 +7,7 @@ use scene::{
     study::column_advice,
 };
 
-use crate::study_files::columns_of;
+use crate::columns_of;
 
 /// A number that no case of a plan will have.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

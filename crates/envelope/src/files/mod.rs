@@ -9,7 +9,7 @@ mod write;
 use markdown::{maps_markdown, modes_markdown};
 pub use write::{envelope_answer, find_envelope_tables, replace_envelope_tables, write_envelope};
 
-use envelope::{DrawnMap, EnvelopeMap, Examined, FailureMode};
+use crate::{DrawnMap, EnvelopeMap, Examined, FailureMode};
 
 /// Failure modes that were examined, and maps that were drawn, in their order.
 #[derive(Debug, Default)]

@@ -20,8 +20,8 @@ use geometry::{Gear, GearPair};
 use ltca::StaticHistory;
 use serde::Serialize;
 
-use crate::charts::Numbers;
-pub(crate) use packed::Packed;
+use answer::Numbers;
+pub use packed::Packed;
 use packed::triangles;
 use scene::Scene;
 use sector::Surface;
@@ -62,7 +62,7 @@ struct GearView {
 
 /// A surface of triangles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
-pub(crate) struct Shape {
+pub struct Shape {
     /// Points, mm.
     points: Packed,
     /// Two bytes a corner, low byte first, as base64.
@@ -70,8 +70,8 @@ pub(crate) struct Shape {
 }
 
 impl Shape {
-    /// Tooth 0 of a gear, nominal.
-    pub(crate) fn of_tooth(gear: &Gear) -> Self {
+    /// Tooth 0 of a gear, nominal, in the frame of its centre, mm.
+    pub fn of_tooth(gear: &Gear) -> Self {
         let Surface { points, triangles: corners } = Surface::of_tooth(gear);
         Self { points: Packed::new([points.as_flattened()]), triangles: triangles(&corners) }
     }

@@ -1,7 +1,7 @@
 //! Rows of the envelope: a row a figure, and a row a cell.
 
+use crate::{Cell, FailureMode, Figure};
 use answer::Table;
-use envelope::{Cell, FailureMode, Figure};
 
 use super::{
     EnvelopeResult,

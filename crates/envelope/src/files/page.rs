@@ -1,13 +1,13 @@
 //! `report.html` and closing table of the envelope.
 
+use crate::{Cell as MapCell, DrawnMap, EnvelopeMap, Examined, FailureMode, Outcome};
 use answer::Answer;
-use envelope::{Cell as MapCell, DrawnMap, EnvelopeMap, Examined, FailureMode, Outcome};
 
 use super::{
     EnvelopeResult,
     words::{outcome, short, shown},
 };
-use crate::page::{Cell, Content, Grid, Page, Part, again, cost_part, counted};
+use report::page::{Cell, Content, Grid, Page, Part, again, cost_part, counted};
 
 pub(super) fn page(of: &EnvelopeResult, answer: &Answer, command: &str) -> Page {
     let mut page =

@@ -3,9 +3,9 @@
 use std::io::Read;
 
 use analysis::results::GearPattern;
+use export::paraview::{Encoding, Field, PvdEntry, write_pattern_vtu, write_pvd, write_surface, write_vtu};
 use geometry::{Flank, Side};
 use mesh::{ElementBlock, ElementKind};
-use report::paraview::{Encoding, Field, PvdEntry, write_pattern_vtu, write_pvd, write_surface, write_vtu};
 
 const KINDS: [ElementKind; 7] = [
     ElementKind::Hex8,

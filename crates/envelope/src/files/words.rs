@@ -1,6 +1,6 @@
 //! Figures in words.
 
-use envelope::{Asked, Cell, Outcome, Shown, Value};
+use crate::{Asked, Cell, Outcome, Shown, Value};
 
 /// A number as short as it says something.
 pub(super) fn short(x: f64) -> String {

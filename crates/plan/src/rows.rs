@@ -11,7 +11,7 @@ use std::{
 use files::{Lock, most, read_regular_text};
 use scene::plan::Plan;
 
-use crate::csv::always_quoted;
+use answer::csv::always_quoted;
 use store::StoreError;
 use store::folder::{beside_results, in_use};
 

@@ -9,7 +9,7 @@ use std::{
 use analysis::{Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
 use scene::plan::Plan;
 
-use super::{CaseRow, DoneCases, case_values};
+use crate::{CaseRow, DoneCases, case_values};
 
 /// Makes who hears of one case while it is solved.
 pub type CaseObserver<'a> = &'a (dyn Fn() -> Box<dyn Observer> + Sync);

@@ -1,0 +1,3 @@
+//! Laws of the crate `export`.
+
+mod vtu;

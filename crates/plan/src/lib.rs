@@ -1,0 +1,30 @@
+//! Which cases of a plan are solved, and what is kept of each?
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `solve` | all cases, side by side |
+//! | `values` | the numbers that a plan wants of a case |
+//! | `outputs` | whether those can be there, before any case is solved |
+//! | `rows` | a case as a row; the rows that are done |
+//! | `known` | the rows of a plan as columns of numbers |
+//! | `part` | some cases in a file of their own, and all of them together again |
+//! | `digest` | what says that two plans have the same cases |
+//! | `layout` | columns that a scene's `history.csv` will have |
+
+mod digest;
+mod known;
+mod layout;
+mod outputs;
+mod part;
+mod rows;
+mod solve;
+mod values;
+
+pub use digest::{plan_digest, study_digest};
+pub use known::{Column, KnownCases};
+pub use layout::columns_of;
+pub use outputs::{OutputError, check_outputs};
+pub use part::{Part, PartError, merged};
+pub use rows::{CaseLines, CaseRow, DoneCases};
+pub use solve::{CaseObserver, solve_cases};
+pub use values::case_values;
