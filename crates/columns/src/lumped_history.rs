@@ -91,17 +91,17 @@ fn or_none(value: Option<f64>) -> f64 {
 }
 
 columns!(LumpedRows, LEADING, |_, _| true, {
-    TIME = "time_s" ["s"] "as above", |_, row, _| row.time;
+    TIME = "time_s" ["s"] "time since the start", |_, row, _| row.time;
     MESH_CYCLES = "mesh_cycles" [""] "mesh cycles since the start (shaft18)",
         @ |l, _| l.is_shafts(), |_, row, _| or_none(row.mesh_cycles);
-    PINION_ANGLE = "pinion_angle_deg" ["deg"] "as above (not of shaft18)",
+    PINION_ANGLE = "pinion_angle_deg" ["deg"] "angle of the pinion in the sense of rotation (not of shaft18)",
         @ |l, _| !l.is_shafts(), |_, row, _| or_none(row.pinion_angle).to_degrees();
-    MESH_PHASE = "mesh_phase" [""] "as above", |_, row, _| row.mesh_phase;
+    MESH_PHASE = "mesh_phase" [""] "0 .. 1 within the mesh cycle", |_, row, _| row.mesh_phase;
     PINION_SPEED = "pinion_speed_rpm" ["1/min"] "about +z (impact, mapped)",
         @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[0])) * 60.0 / TAU;
     WHEEL_SPEED = "wheel_speed_rpm" ["1/min"] "about +z (impact, mapped)",
         @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[1])) * 60.0 / TAU;
-    DTE = "dte_um" ["um"] "as above", |_, row, _| row.transmission_error_um;
+    DTE = "dte_um" ["um"] "lag of the driven gear on its base circle: the dynamic transmission error", |_, row, _| row.transmission_error_um;
     DEFLECTION = "mesh_deflection_um" ["um"]
         "displacement of the flanks on the transverse line of action: the transmission error and what the supports give way (lumped8, lumped12)",
         @ |l, _| l.is_gears(), |_, row, _| 1e3 * or_none(row.mesh_deflection);
@@ -110,17 +110,17 @@ columns!(LumpedRows, LEADING, |_, _| true, {
     COMPRESSION = "compression_um" ["um"]
         "compression of the mesh along the normal: everything that moves the flanks against each other (shaft18)",
         @ |l, _| l.is_shafts(), |_, row, _| 1e3 * or_none(row.compression.map(|c| c[0]));
-    COMPRESSION_RATE = "compression_rate_um_per_s" ["um/s"] "its rate (shaft18)",
+    COMPRESSION_RATE = "compression_rate_um_per_s" ["um/s"] "rate of `compression_um` (shaft18)",
         @ |l, _| l.is_shafts(), |_, row, _| 1e3 * or_none(row.compression.map(|c| c[1]));
     NORMAL_STIFFNESS = "normal_mesh_stiffness_n_per_um" ["N/um"] "stiffness along the normal (shaft18)",
         @ |l, _| l.is_shafts(), |_, row, _| 1e-3 * or_none(row.normal_mesh_stiffness);
     LINE_LENGTH = "contact_line_length_mm" ["mm"]
         "0 where the flanks are apart; `impact`: of the slices that overlap, those at tip edges too (not of shaft18)",
         @ |l, _| !l.is_shafts(), |_, row, _| or_none(row.contact_line_length);
-    PAIRS = "pairs_in_contact" [""] "as above, driving flanks (impact)",
+    PAIRS = "pairs_in_contact" [""] "tooth pairs whose driving flanks carry load (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| or_none(row.pairs_in_contact.map(|n| n as f64));
     NORMAL_FORCE = "normal_force_n" ["N"]
-        "as above; that of a lumped mesh is negative on the coast flanks, and where a linear mesh pulls",
+        "sum of the normal forces on the driving flanks; of a lumped mesh negative on the coast flanks, and where a linear mesh pulls",
         |_, row, _| row.normal_force;
     FRICTION_FORCE = "friction_force_n" ["N"] "friction force on the driver across the line of action (lumped8, lumped12)",
         @ |l, _| l.is_gears(), |_, row, _| or_none(row.friction_force);
@@ -130,7 +130,7 @@ columns!(LumpedRows, LEADING, |_, _| true, {
         @ |l, _| l.is_rigid(), |_, row, _| or_none(row.least_slice_force);
     OVERLAP = "overlap_um" ["um"] "deepest overlap of the driving flanks (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| 1e3 * or_none(row.overlap.map(|o| o[0]));
-    COAST_OVERLAP = "coast_overlap_um" ["um"] "the same of the coast flanks (impact)",
+    COAST_OVERLAP = "coast_overlap_um" ["um"] "deepest overlap of the coast flanks (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| 1e3 * or_none(row.overlap.map(|o| o[1]));
     LARGEST_FORCE = "largest_pair_force_n" ["N"] "largest normal force of a pair (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| or_none(row.largest_pair_force);
@@ -138,12 +138,12 @@ columns!(LumpedRows, LEADING, |_, _| true, {
 
 columns!(LumpedRows, WRENCH, |_, _| true, {
     FORCE_X = "<gear>_force_x_n" ["N"] "of the mesh on the gear, fixed axes", |_, row, at| row.wrench[at.gear][0];
-    FORCE_Y = "<gear>_force_y_n" ["N"] "the same along y", |_, row, at| row.wrench[at.gear][1];
-    FORCE_Z = "<gear>_force_z_n" ["N"] "the same along z: the axial force", |_, row, at| row.wrench[at.gear][2];
-    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "its moment about the centre of the gear, fixed axes",
+    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear", |_, row, at| row.wrench[at.gear][1];
+    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear: the axial force", |_, row, at| row.wrench[at.gear][2];
+    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "mesh moment on the gear about its centre, fixed axes",
         |_, row, at| row.wrench[at.gear][3];
-    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "the same about y: the tilting moment", |_, row, at| row.wrench[at.gear][4];
-    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "the same about z", |_, row, at| row.wrench[at.gear][5];
+    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment: the tilting moment", |_, row, at| row.wrench[at.gear][4];
+    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment", |_, row, at| row.wrench[at.gear][5];
 });
 
 /// Friction's part of a component of the wrench.
@@ -154,13 +154,13 @@ fn friction(row: &LumpedRow, at: At, component: usize) -> f64 {
 columns!(LumpedRows, FRICTION, |l, _| l.is_rigid(), {
     FRICTION_FORCE_X = "<gear>_friction_force_x_n" ["N"] "the part of `<gear>_force_x_n` that is friction (impact)",
         |_, row, at| friction(row, at, 0);
-    FRICTION_FORCE_Y = "<gear>_friction_force_y_n" ["N"] "likewise along y (impact)", |_, row, at| friction(row, at, 1);
-    FRICTION_FORCE_Z = "<gear>_friction_force_z_n" ["N"] "likewise along z (impact)", |_, row, at| friction(row, at, 2);
-    FRICTION_MOMENT_X = "<gear>_friction_moment_x_nmm" ["N mm"] "likewise its moment about x (impact)",
+    FRICTION_FORCE_Y = "<gear>_friction_force_y_n" ["N"] "y component of the friction force (impact)", |_, row, at| friction(row, at, 1);
+    FRICTION_FORCE_Z = "<gear>_friction_force_z_n" ["N"] "z component of the friction force (impact)", |_, row, at| friction(row, at, 2);
+    FRICTION_MOMENT_X = "<gear>_friction_moment_x_nmm" ["N mm"] "x component of the moment of friction on the gear (impact)",
         |_, row, at| friction(row, at, 3);
-    FRICTION_MOMENT_Y = "<gear>_friction_moment_y_nmm" ["N mm"] "likewise about y (impact)",
+    FRICTION_MOMENT_Y = "<gear>_friction_moment_y_nmm" ["N mm"] "y component of the moment of friction (impact)",
         |_, row, at| friction(row, at, 4);
-    FRICTION_MOMENT_Z = "<gear>_friction_moment_z_nmm" ["N mm"] "likewise about z (impact)",
+    FRICTION_MOMENT_Z = "<gear>_friction_moment_z_nmm" ["N mm"] "z component of the moment of friction (impact)",
         |_, row, at| friction(row, at, 5);
 });
 

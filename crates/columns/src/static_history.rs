@@ -98,13 +98,13 @@ columns!(StaticRows, LEADING, |_, _| true, {
 
 columns!(StaticRows, WRENCH, |_, _| true, {
     FORCE_X = "<gear>_force_x_n" ["N"] "mesh force on the gear, fixed axes", |_, p, at| p.wrench[at.gear].force[0];
-    FORCE_Y = "<gear>_force_y_n" ["N"] "the same along y", |_, p, at| p.wrench[at.gear].force[1];
-    FORCE_Z = "<gear>_force_z_n" ["N"] "the same along z: the axial force", |_, p, at| p.wrench[at.gear].force[2];
+    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear", |_, p, at| p.wrench[at.gear].force[1];
+    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear: the axial force", |_, p, at| p.wrench[at.gear].force[2];
     MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "mesh moment on the gear about its own centre, fixed axes",
         |_, p, at| p.wrench[at.gear].moment[0];
-    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "the same about y: the tilting moment",
+    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment: the tilting moment",
         |_, p, at| p.wrench[at.gear].moment[1];
-    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "the same about z", |_, p, at| p.wrench[at.gear].moment[2];
+    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment", |_, p, at| p.wrench[at.gear].moment[2];
 });
 
 columns!(StaticRows, SHARING, |_, _| true, {

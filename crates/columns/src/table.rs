@@ -126,10 +126,11 @@ impl<R: Rows> Table<R> {
         Sheet { columns }
     }
 
-    /// Every column once, as a row of the table in `docs/outputs.md`.
+    /// Every column once, as a line of the table in `docs/outputs.md`.
     pub fn documented(&self) -> Vec<String> {
-        let all = self.groups.iter().flat_map(|group| group.columns);
-        all.map(|c| format!("| `{}` | {} |", c.name, c.meaning)).collect()
+        self.columns()
+            .map(|c| format!("| `{}` | {} | {} |\n", c.name, c.unit, c.meaning).replace("|  |", "| |"))
+            .collect()
     }
 
     /// Every column once.
