@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use ale::Station;
-use contact::{Bulk, MeshContact, Pose};
+use contact::{Bulk, Pose, slice::MeshContact};
 use divan::{Bencher, black_box};
 use ltca::{StaticModel, StaticOptions};
 use verification::{default_data, quadratic};

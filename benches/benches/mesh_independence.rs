@@ -7,7 +7,7 @@
 
 use std::time::Instant;
 
-use contact::{Law, flank_grids};
+use contact::{complementarity::Law, flank::flank_grids};
 use ltca::{StaticModel, StaticOptions};
 use mesh::Extent;
 use reduction::{ElasticGear, GearReducer, ReductionOptions};

@@ -7,7 +7,7 @@ use std::{
 };
 
 use ale::Station;
-use contact::MeshContact;
+use contact::slice::MeshContact;
 use nalgebra::{UnitQuaternion, Vector3};
 use verification::generated;
 

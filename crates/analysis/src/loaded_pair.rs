@@ -1,6 +1,6 @@
 //! A pair under its torque in the units of the solvers: what closed forms take of a scene.
 
-use contact::hertz;
+use contact::line::hertz;
 use geometry::{Driver, GearPair, Sense, Side};
 use lumped::{
     LumpedError,

@@ -1,7 +1,7 @@
 //! Nominal pressure of the flanks: Hertz at the inner points of single contact and at the pitch point, and what ISO
 //! 6336-2 says.
 
-use contact::hertz;
+use contact::line::hertz;
 use geometry::{GearPair, Side};
 use lumped::iso::IsoFlank;
 use serde::Serialize;

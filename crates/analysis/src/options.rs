@@ -1,6 +1,6 @@
 //! Words of a scene in the units and terms of the solvers.
 
-use contact::{GapSource, Law, Misalignment, Offset};
+use contact::{Misalignment, Offset, complementarity::Law, flank::GapSource};
 use geometry::GearPair;
 use ltca::StaticOptions;
 

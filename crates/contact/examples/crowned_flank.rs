@@ -7,7 +7,11 @@
 
 use std::f64::consts::PI;
 
-use contact::{Balance, ContactError, DenseProblem, DenseSolver, hertz};
+use contact::{
+    ContactError,
+    complementarity::{Balance, DenseProblem, DenseSolver},
+    line::hertz,
+};
 use faer::Mat;
 
 const SLICES: usize = 21;

@@ -165,7 +165,11 @@ fn line_load(nu: f64, lean: f64, band: f64) -> (Vec<f64>, Vec<f64>) {
         (0..ends.len()).map(|e| (0..ends.len()).map(|f| compliance[(e, f)]).sum::<f64>() * 2.0 / lengths[e]).collect();
     let k = 2.0 * (1.0 - nu * nu) / std::f64::consts::PI;
     let extra = (0..ends.len()).map(|e| (uniform[e] - uniform[far]) / k).collect();
-    println!("   far: {:.4} against {:.4}", uniform[far] / k, (2.0 / band).ln() + 0.25 + contact::layer_constant(nu));
+    println!(
+        "   far: {:.4} against {:.4}",
+        uniform[far] / k,
+        (2.0 / band).ln() + 0.25 + contact::local::layer_constant(nu)
+    );
     (ends, extra)
 }
 

@@ -7,7 +7,7 @@
 use std::error::Error;
 
 use ale::{SlidingWindow, Station, teeth_needed};
-use contact::{ContactOptions, ContactSet, Method, WindowContact, frames};
+use contact::{ContactOptions, ContactSet, Method, WindowContact, pose::frames};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};

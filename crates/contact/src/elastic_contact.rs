@@ -7,10 +7,12 @@ use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
 use crate::{
-    Balance, ContactError, ContactOptions, ContactRow, ContactSet, Friction, Law, LinePoints, MeshForce, Pose, Problem,
-    Slice, Solution, closest_points,
-    complementarity::{self, LAST_COMPLIANCE},
-    opening_by_motion, wrenches,
+    ContactError, ContactOptions, ContactSet, Friction, MeshForce, Pose,
+    complementarity::{self, Balance, LAST_COMPLIANCE, Law, Problem, Solution},
+    nodal::{ContactRow, LinePoints, closest_points},
+    opening_by_motion,
+    slice::Slice,
+    wrenches,
 };
 
 /// Forces by (patch of body 1, patch of body 2, point), from which a solution may start.
@@ -18,7 +20,7 @@ pub type WarmStart = BTreeMap<(usize, usize, usize), f64>;
 
 /// Flanks, matrices and options of a window.
 ///
-/// [`crate::MeshContact`] solves slices on reduced gears much faster; this serves all others, and takes no memory of
+/// [`crate::slice::MeshContact`] solves slices on reduced gears much faster; this serves all others, and takes no memory of
 /// its own.
 #[derive(Debug, Clone, Copy)]
 pub struct ElasticContact<'a> {
@@ -87,7 +89,7 @@ impl ElasticContact<'_> {
         Ok((solution, displacements))
     }
 
-    /// Forces with the gears' frames held at `poses`, and their tangent, as [`crate::MeshContact::evaluate`] gives
+    /// Forces with the gears' frames held at `poses`, and their tangent, as [`crate::slice::MeshContact::evaluate`] gives
     /// them.
     ///
     /// Points that penetrate each other undeformed are within reach, and all that are less far apart than the deepest

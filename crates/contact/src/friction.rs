@@ -2,7 +2,7 @@
 
 use geometry::GearPair;
 
-use crate::{ContactOptions, ContactRow, Pose, Vec3};
+use crate::{ContactOptions, Pose, Vec3, nodal::ContactRow};
 
 /// Sliding at which friction has risen to tanh(1) = 76 % of Coulomb's, as a share of the sliding at the end of the
 /// longer half of the path of contact: it changes its sign through zero where a slice passes the pitch line.

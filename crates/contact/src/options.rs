@@ -2,7 +2,7 @@
 
 use geometry::{Driver, GearPair, Sense, Side};
 
-use crate::{GapSource, Law, Offset};
+use crate::{Offset, complementarity::Law, flank::GapSource};
 
 /// How contact is made discrete.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,12 @@
 use geometry::Side;
 use serde::Serialize;
 
-use crate::{ContactRow, LocalLaw, LocalState, Pose, Slice, Vec3};
+use crate::{
+    Pose, Vec3,
+    local::{LocalLaw, LocalState},
+    nodal::ContactRow,
+    slice::Slice,
+};
 
 /// Force and moment of the mesh on one gear, about its own centre (where it then is), global axes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]

@@ -7,8 +7,11 @@ use geometry::{Gear, GearPair, Side};
 use reduction::{ElasticGear, Window};
 
 use crate::{
-    Candidates, Condensed, ContactError, ContactOptions, ContactPoint, ContactRow, FlankPatch, FullContact, GapSource,
-    Law, LinePoints, LinearContact, Method, Pose, Scene, SliceSet, contact_points, line_points,
+    Condensed, ContactError, ContactOptions, FullContact, Method, Pose,
+    complementarity::{Law, LinearContact},
+    flank::{Candidates, ContactPoint, FlankPatch, GapSource, contact_points},
+    nodal::{ContactRow, LinePoints, Scene, line_points},
+    slice::SliceSet,
 };
 
 /// Everything the contact of one window needs, in the frames of the window's matrices.

@@ -4,7 +4,7 @@ use ale::ToothWindow;
 use geometry::GearPair;
 use reduction::ElasticGear;
 
-use crate::{ContactError, ContactOptions, ContactSet, ElasticContact, MeshContact, MeshForce, Pose};
+use crate::{ContactError, ContactOptions, ContactSet, ElasticContact, MeshForce, Pose, slice::MeshContact};
 
 /// The contact of one window: its flanks, and the solver of slices on reduced gears.
 #[derive(Debug)]

@@ -1,6 +1,6 @@
 //! What presses on the flanks at an instant: what fields are made of.
 
-use contact::{ContactRow, ContactSet, Pose};
+use contact::{ContactSet, Pose, nodal::ContactRow};
 use reduction::ElasticGear;
 
 use crate::{Instant, PairMechanism};

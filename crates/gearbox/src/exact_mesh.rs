@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use ale::{SlidingWindow, Station};
 use contact::{
-    ContactError, ContactSet, MeshContact, MeshForce, NeighbourPairs, Pose, SliceResult, displaced, frames, own_turns,
+    ContactError, ContactSet, MeshForce, Pose, SliceResult,
+    line::NeighbourPairs,
+    pose::{displaced, frames, own_turns},
+    slice::MeshContact,
     slice_result,
 };
 use geometry::GearPair;

@@ -13,7 +13,7 @@ pub type Vector12 = SVector<f64, 12>;
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshReply {
     /// Forces (N) and moments (N mm, about the gears' own centres) on gear 1 and gear 2: what does the work of the
-    /// displacements, so that the moments of the turns are those about the gears' own axes ([`contact::own_turns`]).
+    /// displacements, so that the moments of the turns are those about the gears' own axes ([`contact::pose::own_turns`]).
     pub force: Vector12,
     /// df/dq: N/mm, N, N mm.
     pub tangent: SMatrix<f64, 12, 12>,

@@ -1,7 +1,7 @@
 //! A pair from station to station: window, contact and last solution.
 
 use ale::{SlidingWindow, Station};
-use contact::{ContactSet, NeighbourPairs, WindowContact};
+use contact::{ContactSet, WindowContact, line::NeighbourPairs};
 use geometry::GearPair;
 use reduction::ElasticGear;
 

@@ -2,7 +2,11 @@
 
 use ale::Station;
 use contact::{
-    ContactError, ContactRow, ContactSet, MeshContact, Pose, Slice, SliceState, Solution, WarmStart, frames,
+    ContactError, ContactSet, Pose, SliceState, WarmStart,
+    complementarity::Solution,
+    nodal::ContactRow,
+    pose::frames,
+    slice::{MeshContact, Slice},
 };
 use geometry::GearPair;
 use nalgebra::{Rotation3, Vector3};
@@ -137,7 +141,8 @@ pub(crate) fn equilibrium(
         return Err(overloaded(guessed));
     }
     // Facets lie up to their sagitta above the smooth flanks: search as far as the mesh may be off.
-    let facets = if options.contact.gap == contact::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
+    let facets =
+        if options.contact.gap == contact::flank::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
     let of_guess = NEIGHBOURS_CLOSE * base_radius * deflection.abs();
     let mut reach = facets + if deflection == 0.0 { 2.5 * guessed } else { of_guess };
     let mut iterations = 0;

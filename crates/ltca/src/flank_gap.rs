@@ -2,7 +2,12 @@
 
 use std::cell::Cell;
 
-use contact::{FlankPatch, Pose, RigidFlanks, SliceHint, last_inside};
+use contact::{
+    Pose,
+    flank::FlankPatch,
+    last_inside,
+    slice::{RigidFlanks, SliceHint},
+};
 
 /// Axial stations at which the least gap is looked at first.
 pub(crate) const STATIONS: usize = 41;

@@ -2,7 +2,10 @@
 
 use ale::Station;
 use contact::{
-    ContactOptions, FlankPatch, Pose, Vec3, check_offsets, contact_intervals, covered, gear_pose, reference_angle,
+    ContactOptions, Pose, Vec3,
+    flank::FlankPatch,
+    line::{contact_intervals, covered},
+    pose::{check_offsets, gear_pose, reference_angle},
 };
 use geometry::{Gear, GearPair, ModifiedFlank};
 

@@ -1,6 +1,6 @@
 //! The contact line of a pair of the window.
 
-use contact::{line_station, nodal_contact_line, slice_line};
+use contact::line::{line_station, nodal_contact_line, slice_line};
 
 use crate::{Equilibrium, WindowedPair};
 

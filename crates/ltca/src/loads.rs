@@ -1,8 +1,10 @@
 //! From a solved contact to the quantities of a station. Theory (34).
 
 use contact::{
-    ContactRow, SliceResult, Vec3, covered, friction_work, hertz, line_pressure, slice_result, sliding_distance,
-    wrenches,
+    SliceResult, Vec3, friction_work,
+    line::{covered, hertz, line_pressure},
+    nodal::ContactRow,
+    slice_result, sliding_distance, wrenches,
 };
 
 use crate::{
@@ -44,8 +46,8 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
     let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
     let local: f64 = e.states.iter().map(|state| state.curved_energy).sum();
     let penalty: f64 = match options.contact.law {
-        contact::Law::Exact => 0.0,
-        contact::Law::Penalty(k) => {
+        contact::complementarity::Law::Exact => 0.0,
+        contact::complementarity::Law::Penalty(k) => {
             e.rows.iter().zip(&e.solution.forces).map(|(r, f)| 0.5 * f * f / (k * r.area)).sum()
         }
     };

@@ -1,8 +1,10 @@
 //! The contact problem of one pose, solved for forces and the turn of the driven gear.
 
 use contact::{
-    Balance, CandidateRows, ContactError, ContactRow, ElasticContact, LinePoints, MeshContact, Pose, Slice, SliceState,
-    Solution, WarmStart,
+    CandidateRows, ContactError, ElasticContact, Pose, SliceState, WarmStart,
+    complementarity::{Balance, Solution},
+    nodal::{ContactRow, LinePoints},
+    slice::{MeshContact, Slice},
 };
 
 use crate::WindowedPair;

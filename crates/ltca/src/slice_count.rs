@@ -6,7 +6,12 @@
 //! where load ends within a slice, at tip edges and end faces, near crowning, relief or misalignment.
 
 use ale::Station;
-use contact::{FlankPatch, Offset, Pose, RigidFlanks, SliceHint, Surface, check_offsets, gear_pose, reference_angle};
+use contact::{
+    Offset, Pose,
+    flank::{FlankPatch, Surface},
+    pose::{check_offsets, gear_pose, reference_angle},
+    slice::{RigidFlanks, SliceHint},
+};
 use geometry::GearPair;
 
 use crate::{StaticOptions, equilibrium::GUESSED_LINE_STIFFNESS};

@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, sync::Arc};
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{ContactOptions, ContactSet, Method, check_offsets};
+use contact::{ContactOptions, ContactSet, Method, pose::check_offsets};
 use geometry::GearPair;
 use reduction::ElasticGear;
 
@@ -84,7 +84,7 @@ impl StaticModel {
                 expected,
             });
         }
-        if let contact::Law::Penalty(value) = options.contact.law
+        if let contact::complementarity::Law::Penalty(value) = options.contact.law
             && !(value.is_finite() && value > 0.0)
         {
             return Err(StaticError::OutOfRange { name: "penalty [MPa/mm]", value, expected: "above 0" });

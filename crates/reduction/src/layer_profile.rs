@@ -19,8 +19,8 @@ use crate::{
 /// t = (r sin(psi) + o) cos(b_b),   d = r_b (u_a^2 - u^2) / 2
 /// ```
 /// as long as a is small against t and d. The last term is the wedge's at the tip (eta of its angle,
-/// `contact::wedge_softening`): it is split off because it has no limit at the edge, while c is smooth up to it. A
-/// bonded layer of even depth and no ends would have one constant everywhere (`contact::layer_constant`); a tooth's
+/// `contact::local::wedge_softening`): it is split off because it has no limit at the edge, while c is smooth up to it. A
+/// bonded layer of even depth and no ends would have one constant everywhere (`contact::local::layer_constant`); a tooth's
 /// differs from it by 0.1 to 0.8, most at the foot.
 ///
 /// Found by plane strain on the section normal to the contact line (some hundred quadratic elements, a few
@@ -130,7 +130,7 @@ impl LayerProfile {
     }
 }
 
-/// eta of `contact::wedge_softening`, which depends on this crate.
+/// eta of `contact::local::wedge_softening`, which depends on this crate.
 fn softening(omega: f64) -> f64 {
     let (sin2, cos2) = ((0.5 * omega).sin().powi(2), (0.5 * omega).cos().powi(2));
     (PI * (sin2 / (omega + omega.sin()) + cos2 / (omega - omega.sin())) - 1.0).max(0.0)

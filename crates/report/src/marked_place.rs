@@ -39,7 +39,7 @@ impl MarkedPlace {
     /// Puts other tables there.
     ///
     /// # Errors
-    /// [`ReportError::Write`] when the system refuses.
+    /// [`ReportError::Store`] when the system refuses.
     pub fn replace(self, tables: &str) -> Result<(), ReportError> {
         let Self { file, text, start, end } = self;
         let whole = format!("{}\n{tables}\n{}", &text[..start], &text[end..]);

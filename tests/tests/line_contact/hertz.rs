@@ -6,8 +6,11 @@
 //! is the nodal one.
 
 use contact::{
-    Balance, Candidates, Condensed, ContactError, Cylinder, FlankPatch, GapSource, Law, LinePoints, Pose, Scene,
-    closest_points, complementarity, contact_points, hertz, nodal_pressures,
+    Condensed, ContactError, Pose, complementarity,
+    complementarity::{Balance, Law},
+    flank::{Candidates, Cylinder, FlankPatch, GapSource, contact_points},
+    line::{hertz, nodal_pressures},
+    nodal::{LinePoints, Scene, closest_points},
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};

@@ -7,7 +7,10 @@
 use crate::half_section::HalfSection;
 use crate::plane::{Lattice, even, graded, press, under_hertz};
 use crate::plane_gear::{Place, PlaneGear};
-use contact::{EndFace, LocalBody, LocalContact, hertz, layer_constant};
+use contact::{
+    line::hertz,
+    local::{EndFace, LocalBody, LocalContact, layer_constant},
+};
 use geometry::{Gear, GearData};
 use reduction::LayerProfile;
 
@@ -140,7 +143,7 @@ fn half_teeth_under_hertzian_bands() {
             let x: Vec<f64> = resolved.x.iter().map(|x| x - at).collect();
             let dent = under_hertz(&x, &resolved.compliance, a, 1.0) / softness(material);
             let local = body(&gear, &profile, material, at, 0.0);
-            let eta = contact::wedge_softening(local.tip_angle);
+            let eta = contact::local::wedge_softening(local.tip_angle);
             let closed =
                 (2.0 * local.depth / a).ln() + 0.5 + local.layer + eta * (local.depth / local.tip_distance).ln();
             print!(" {:+.4} ({dent:.3})", closed - dent);

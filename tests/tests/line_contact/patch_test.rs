@@ -2,7 +2,7 @@
 //! F12).
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use contact::Law;
+use contact::complementarity::Law;
 use envelope::contact_patch_deviation;
 use mesh::ElementKind;
 

@@ -5,7 +5,7 @@
 //! `meshes/reference/` (sector of 5 teeth a gear, cut faces free, bore rigid). Default pair, 150 N m. Numbers of each
 //! position as the program printed them. Tolerances: mean STE 0.5 %, peak to peak 5 %, pair forces 1 % of the total.
 
-use contact::{GapSource, Law};
+use contact::{complementarity::Law, flank::GapSource};
 use fem::{ElementOptions, IncompatibleModes, Integration};
 use ltca::{StaticHistory, StaticModel};
 use verification::{Case, summary};

@@ -4,7 +4,10 @@
 
 use ale::Station;
 use analysis::results::face_load_factor;
-use contact::{Balance, DenseProblem, DenseSolver, Misalignment, Site, SliceResult};
+use contact::{
+    Misalignment, Site, SliceResult,
+    complementarity::{Balance, DenseProblem, DenseSolver},
+};
 use faer::Mat;
 use ltca::{StaticHistory, StaticModel, StaticOptions, StaticPosition};
 use mesh::Extent;

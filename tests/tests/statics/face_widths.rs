@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use ale::Station;
-use contact::{Bulk, GapSource, Law};
+use contact::{Bulk, complementarity::Law, flank::GapSource};
 use fem::Integration;
 use geometry::{FlankModification, GearData, GearModifications, Sense};
 use ltca::{StaticModel, StaticOptions, StaticPosition};

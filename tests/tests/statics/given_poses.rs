@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use ale::Station;
-use contact::{Law, MeshContact, MeshForce, Pose, WindowContact};
+use contact::{MeshForce, Pose, WindowContact, complementarity::Law, slice::MeshContact};
 use ltca::{StaticModel, StaticOptions};
 use verification::{Case, generated};
 

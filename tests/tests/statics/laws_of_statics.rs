@@ -1,7 +1,7 @@
 //! Laws that hold at every angle: equilibrium, contact-line length as load vanishes, reduced = full, mirror, scaling.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use contact::Law;
+use contact::complementarity::Law;
 use fem::{ElementOptions, IncompatibleModes};
 use geometry::{Driver, Gear, GearData, GearPair, Sense};
 use ltca::StaticOptions;

@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use ale::Station;
-use contact::{Bulk, MeshContact, Misalignment, Offset, Pose};
+use contact::{Bulk, Misalignment, Offset, Pose, slice::MeshContact};
 use geometry::{
     FlankModification, GearModifications,
     modification::{ProfilePlace, Relief, ReliefShape},

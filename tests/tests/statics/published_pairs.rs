@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use ale::Station;
-use contact::hertz;
+use contact::line::hertz;
 use geometry::{GearData, GearModifications, GearPair};
 use ltca::StaticModel;
 use mesh::Extent;

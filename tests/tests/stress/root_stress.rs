@@ -2,7 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use ale::Station;
-use contact::{GapSource, Law};
+use contact::{complementarity::Law, flank::GapSource};
 use fem::{ElementOptions, IncompatibleModes, Integration};
 use geometry::{Sense, Side};
 use ltca::{FilletStress, StaticOptions, StaticPosition};

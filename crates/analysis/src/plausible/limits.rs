@@ -1,6 +1,6 @@
 //! What sizes a result may have before linear elasticity means nothing.
 
-use contact::hertz;
+use contact::line::hertz;
 use geometry::{Gear, GearPair, Side};
 use scene::{MisalignmentScene, Scene};
 

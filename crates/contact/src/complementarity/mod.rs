@@ -19,7 +19,7 @@ mod proximal;
 mod slices;
 mod tangent;
 
-use crate::{ContactError, ContactRow};
+use crate::{ContactError, nodal::ContactRow};
 
 pub use dense::{Balance, DenseProblem, DenseSolver};
 pub(crate) use near::SavedSolution;

@@ -3,7 +3,7 @@
 use super::{
     Balance, Law, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot,
 };
-use crate::{ContactError, ContactRow};
+use crate::{ContactError, nodal::ContactRow};
 
 /// Row compliance of exact contact in the first proximal step, relative to a point's own compliance: large enough that
 /// the active set settles in a few pivots from any start.

@@ -1,7 +1,7 @@
 //! Slices: rows with a compliance of their own, not linear in the force.
 
 use super::{Balance, LinearContact, Problem, Solution, TOLERANCE, driven_rows, exact_residual, finish, pivots::pivot};
-use crate::{ContactError, ContactRow};
+use crate::{ContactError, nodal::ContactRow};
 
 /// Newton steps on the local compliance of slices before giving up; five or six do.
 const SLICE_STEPS: usize = 60;

@@ -1,6 +1,6 @@
 //! Grid lines over a flank, and interpolation between them.
 
-use crate::FlankPatch;
+use crate::flank::FlankPatch;
 
 /// Cells over the surface coordinates of a patch; each has four lines along the profile and three along the face, ends
 /// shared.

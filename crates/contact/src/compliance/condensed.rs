@@ -3,8 +3,9 @@
 use faer::{Mat, MatRef, Side, linalg::solvers::Solve};
 
 use crate::{
-    ContactError, ContactRow, Support,
+    ContactError,
     complementarity::{Equality, LinearContact, Problem},
+    nodal::{ContactRow, Support},
 };
 
 /// Compliance of both bodies seen from the contact rows.

@@ -1,6 +1,10 @@
 //! Contact with all degrees of freedom of both gears kept.
 
-use crate::{ContactError, ContactRow, Equality, LinearContact, Support, complementarity::Problem};
+use crate::{
+    ContactError,
+    complementarity::{Equality, LinearContact, Problem},
+    nodal::{ContactRow, Support},
+};
 use faer::Mat;
 use fem::{IndefiniteFactor, SymmetricMatrix};
 

@@ -3,7 +3,7 @@
 use faer::Mat;
 use reduction::{ElasticGear, GearModes};
 
-use crate::{ContactError, ContactRow, ContactSet, DenseSolver, TablePoint, opening};
+use crate::{ContactError, ContactSet, TablePoint, complementarity::DenseSolver, nodal::ContactRow, opening};
 
 /// Modes of both gears on the rows of a contact.
 ///
@@ -164,7 +164,7 @@ impl ModalFlanks {
             for (g, start) in [(0, 0), (1, self.counts[0])] {
                 let Shapes::Nodes(shapes) = &self.shapes[g] else { continue };
                 let support = &row.supports[g];
-                let load = crate::Support { direction: support.load, ..*support };
+                let load = crate::nodal::Support { direction: support.load, ..*support };
                 for j in 0..shapes.ncols() {
                     let at = i * m + start + j;
                     of.openings[at] = opening(support, shapes.col_as_slice(j));

@@ -6,7 +6,7 @@ use parry3d_f64::{
     partitioning::{Bvh, BvhBuildStrategy, BvhNode},
 };
 
-use crate::{FlankPatch, Pose, Vec3};
+use crate::{Pose, Vec3, flank::FlankPatch};
 
 /// A face of a patch of body 1 and one of body 2 that may touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -6,7 +6,7 @@ use geometry::{Gear, Side};
 use mesh::{Face, FaceKind, GearMesh};
 use reduction::{FlankGrid, FlankGrids};
 
-use crate::{ContactError, FlankPatch};
+use crate::{ContactError, flank::FlankPatch};
 
 /// Grids of `counts` quadratic faces (profile, face width) over the flanks on `sides` of `teeth`; `tolerance` (mm) as
 /// for flank patches.

@@ -2,7 +2,10 @@
 
 use mesh::{FaceKind, gauss_legendre};
 
-use crate::{FacePoint, FlankPatch, GapSource, Vec3};
+use crate::{
+    Vec3,
+    flank::{FacePoint, FlankPatch, GapSource},
+};
 
 /// One contact point of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,8 +5,12 @@ use ale::{Station, ToothWindow};
 use geometry::GearPair;
 
 use crate::{
-    ContactOptions, ContactPoint, ContactRow, ContactSet, FlankPair, FlankPatch, LinePoints, LineStation, Pose, Slice,
-    SliceHint, contact_intervals, contact_row, covered, hertz, least_gap, loaded_intervals, opening,
+    ContactOptions, ContactSet, FlankPair, Pose,
+    flank::{ContactPoint, FlankPatch},
+    line::{LineStation, contact_intervals, covered, hertz, loaded_intervals},
+    nodal::{ContactRow, LinePoints, contact_row, least_gap},
+    opening,
+    slice::{Slice, SliceHint},
 };
 
 /// Axial stations at which the least gap of a pair is looked at.

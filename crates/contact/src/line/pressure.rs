@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::{ContactRow, FlankPatch};
+use crate::{flank::FlankPatch, nodal::ContactRow};
 
 /// Pressure (MPa) at the boundary nodes of body `body` (0 or 1): nodal force over nodal area.
 ///

@@ -2,7 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use crate::{Candidates, ContactPoint, FacePoint, FlankPatch, GapSource, Pose, Vec3, flank::Interpolation, least_gap};
+use crate::{
+    Pose, Vec3,
+    flank::{Candidates, ContactPoint, FacePoint, FlankPatch, GapSource, Interpolation},
+    nodal::least_gap,
+};
 
 /// Both bodies of a contact with their patches.
 #[derive(Debug, Clone, Copy)]

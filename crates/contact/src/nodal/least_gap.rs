@@ -1,8 +1,9 @@
 //! Where two flanks are nearest at an axial station.
 
 use crate::{
-    FlankPatch, Pose, Surface,
+    Pose,
     bracketing::{bracket_zero, last_inside},
+    flank::{FlankPatch, Surface},
 };
 
 /// Places along the profile at which the search starts; one is nearer to the least gap than any other dip.

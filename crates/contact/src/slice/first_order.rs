@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use geometry::Flank;
 
-use crate::{Pose, Surface, Vec3};
+use crate::{Pose, Vec3, flank::Surface};
 
 /// Strides over the searched profile: dips that are nearer to each other are one.
 const STRIDES: f64 = 23.0;

@@ -1,9 +1,12 @@
 //! Contact by axial slices: at each station the one place of the profile where two flanks are nearest.
 
 use crate::{
-    ContactRow, FlankPatch, LocalContact, Pose, SliceHint, ToothLayer,
-    nodal::row_at,
+    Pose,
+    flank::FlankPatch,
+    local::LocalContact,
+    nodal::{ContactRow, row_at},
     slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
+    slice::{SliceHint, ToothLayer},
 };
 
 /// One flank as slices see it.

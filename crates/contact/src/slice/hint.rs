@@ -1,6 +1,6 @@
 //! Where the search for a slice begins.
 
-use crate::FacePoint;
+use crate::flank::FacePoint;
 
 /// Where a slice was found before: the next search nearby starts from there. Any start gives the same slice.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]

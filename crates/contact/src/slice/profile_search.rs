@@ -3,8 +3,10 @@
 use nalgebra::{Matrix3, Vector3};
 
 use crate::{
-    FlankPatch, Pose, SliceHint, Vec3,
+    Pose, Vec3,
     bracketing::{bracket_zero, last_inside},
+    flank::FlankPatch,
+    slice::SliceHint,
     slice::first_order::{FirstOrderGap, Outlook},
 };
 

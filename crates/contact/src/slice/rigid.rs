@@ -1,8 +1,10 @@
 //! Where two flanks are nearest when nothing but their shape counts: rigid bodies.
 
 use crate::{
-    FlankPatch, Pose, SliceHint, Vec3,
+    Pose, Vec3,
+    flank::FlankPatch,
     slice::{
+        SliceHint,
         flank_pair::opposite_edge,
         profile_search::{LeastGapPoint, ProfilePair},
     },

@@ -4,7 +4,7 @@
 use faer::Mat;
 
 use super::{SliceHint, flank_pair::FlankPair, flank_pair::Slice, mesh_contact::places};
-use crate::{BulkTable, ContactRow, ContactSet, Friction, Pose, TablePoint, TableWork};
+use crate::{BulkTable, ContactSet, Friction, Pose, TablePoint, TableWork, nodal::ContactRow};
 
 /// Slices and their rows, pair by pair and by height.
 #[derive(Debug, Clone, Default)]

@@ -8,8 +8,11 @@ use geometry::{Gear, GearPair, Side};
 use reduction::{ElasticGear, LocalCompliance, Window};
 
 use crate::{
-    Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, ContactRow, FlankPatch, Pose, Slice, SliceFlank,
-    Support, ToothLayer, opening, slice,
+    Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, Pose,
+    flank::FlankPatch,
+    nodal::{ContactRow, Support},
+    opening,
+    slice::{Slice, SliceFlank, ToothLayer},
 };
 
 /// What slice contact needs beside the flank patches, patch by patch of both gears.
@@ -134,7 +137,7 @@ impl SliceSet {
         let of_pair = |&pair: &(usize, usize)| {
             let flanks = self.flanks(patches, pair);
             let stations = self.stations.iter().enumerate();
-            stations.filter_map(move |(i, &z)| slice(flanks, poses, pair, i, z, self.length))
+            stations.filter_map(move |(i, &z)| super::slice(flanks, poses, pair, i, z, self.length))
         };
         pairs.iter().flat_map(of_pair).filter(|(row, s)| row.gap <= reach && self.may_touch(s)).unzip()
     }

@@ -1,6 +1,10 @@
 //! The nodes that rows rest on, where somebody asks for them: tables of compliance do without.
 
-use crate::{ContactRow, ContactSet, FlankPair, Pose, Slice, SliceHint};
+use crate::{
+    ContactSet, FlankPair, Pose,
+    nodal::ContactRow,
+    slice::{Slice, SliceHint},
+};
 
 impl ContactSet {
     /// Rows of slices with the gears' frames at `poses`, those with a force (N) with their nodes and weights.

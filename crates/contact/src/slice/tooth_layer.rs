@@ -3,7 +3,7 @@
 use geometry::Flank;
 use reduction::LayerProfile;
 
-use crate::{EndFace, LocalBody};
+use crate::local::{EndFace, LocalBody};
 
 /// The half tooth behind a flank.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,9 @@
 //! The complementarity solver on dense problems of its own: its conditions hold whatever the compliance.
 
 use contact::{
-    Balance, ContactError, ContactRow, Equality, Law, LinearContact, Problem, Support, Vec3, complementarity,
+    ContactError, Vec3, complementarity,
+    complementarity::{Balance, Equality, Law, LinearContact, Problem},
+    nodal::{ContactRow, Support},
 };
 use faer::{Mat, Side, linalg::solvers::Solve};
 use proptest::prelude::*;

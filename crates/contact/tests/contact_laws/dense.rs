@@ -1,7 +1,7 @@
 //! Slices with a dense compliance: the conditions hold whatever it is, with the bodies held or a moment to balance,
 //! from any start.
 
-use contact::{Balance, DenseProblem, DenseSolver};
+use contact::complementarity::{Balance, DenseProblem, DenseSolver};
 use faer::Mat;
 use proptest::prelude::*;
 

@@ -1,6 +1,6 @@
 //! Length of a loaded line from a few stations.
 
-use contact::{LineStation, covered, loaded_intervals};
+use contact::line::{LineStation, covered, loaded_intervals};
 
 /// Length of the line of a gap g and a deflection o, from `count` stations over a face of 20 mm of which those that
 /// gape by more than `reach` are not known.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use contact::{EndFace, LocalBody, LocalContact, layer_constant, wedge_softening};
+use contact::local::{EndFace, LocalBody, LocalContact, layer_constant, wedge_softening};
 
 const RADIUS: f64 = 5.0;
 

@@ -2,7 +2,9 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use contact::{
-    Candidates, FlankPatch, GapSource, LinePoints, Pose, Scene, Vec3, closest_points, contact_points, contact_row,
+    Pose, Vec3,
+    flank::{Candidates, FlankPatch, GapSource, contact_points},
+    nodal::{LinePoints, Scene, closest_points, contact_row},
 };
 use geometry::{Gear, GearData, GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
@@ -85,7 +87,7 @@ proptest! {
                 }
             }
         }
-        let key = |r: &contact::ContactRow| (r.patches, r.point);
+        let key = |r: &contact::nodal::ContactRow| (r.patches, r.point);
         for row in &all {
             let twin = found.iter().find(|r| key(r) == key(row));
             prop_assert!(twin == Some(row), "missed {:?} with gap {}", key(row), row.gap);

@@ -2,7 +2,11 @@
 //! among them.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use contact::{FlankPatch, Pose, RigidFlanks, Slice, SliceFlank, SliceHint, ToothLayer, Vec3, slice};
+use contact::{
+    Pose, Vec3,
+    flank::FlankPatch,
+    slice::{RigidFlanks, Slice, SliceFlank, SliceHint, ToothLayer, slice},
+};
 use geometry::modification::{ProfilePlace, Relief, ReliefShape};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};

@@ -1,7 +1,7 @@
 //! Tooth changes of one side: when the window moves, and what changes with it.
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{ContactSet, NeighbourPairs, Pose};
+use contact::{ContactSet, Pose, line::NeighbourPairs};
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};
 use serde::{Deserialize, Serialize};

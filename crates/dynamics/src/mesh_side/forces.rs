@@ -1,6 +1,6 @@
 //! Forces of one side, with their slopes.
 
-use contact::{ContactError, EvaluationLevel, Pose, Wrench, own_turns};
+use contact::{ContactError, Pose, Wrench, pose::own_turns, slice::EvaluationLevel};
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 

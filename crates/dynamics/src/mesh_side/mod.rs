@@ -7,7 +7,12 @@ mod forces;
 use std::sync::Arc;
 
 use ale::{SlidingWindow, Station, ToothWindow};
-use contact::{ContactSet, MeshContact, Pose, displaced, frames, reference_angle, slice_result};
+use contact::{
+    ContactSet, Pose,
+    pose::{displaced, frames, reference_angle},
+    slice::MeshContact,
+    slice_result,
+};
 use geometry::{GearPair, Side};
 use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
 use nalgebra::Vector3;

@@ -1,7 +1,7 @@
 //! F12: the contact patch test.
 
 use analysis::worse;
-use contact::Law;
+use contact::complementarity::Law;
 use mesh::ElementKind;
 
 use super::FailureMode;

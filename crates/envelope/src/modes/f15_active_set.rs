@@ -1,7 +1,7 @@
 //! F15: an active set that goes round in circles.
 
 use analysis::worse;
-use contact::{Balance, DenseProblem, DenseSolver};
+use contact::complementarity::{Balance, DenseProblem, DenseSolver};
 use nalgebra::{DMatrix, DVector};
 
 use super::FailureMode;

@@ -1,7 +1,9 @@
 //! F19: the coarse stage of the search.
 
 use contact::{
-    Candidates, GapSource, LinePoints, Pose, Scene as Search, Vec3, closest_points, contact_points, contact_row,
+    Pose, Vec3,
+    flank::{Candidates, GapSource, contact_points},
+    nodal::{LinePoints, Scene as Search, closest_points, contact_row},
 };
 use geometry::{GearPair, Side};
 use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
@@ -69,7 +71,7 @@ fn missed(pair: &GearPair) -> Result<[usize; 3], EnvelopeError> {
             GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
         let surface = Box::new(gear.flank_of(Side::Left, 0));
         let faces = parts.flank(0, Side::Left).ok_or_else(|| EnvelopeError::piece(piece, "tooth 0 has none"))?;
-        let patch = contact::FlankPatch::new(0, surface, &parts.mesh().nodes, faces, Some, 1e-9);
+        let patch = contact::flank::FlankPatch::new(0, surface, &parts.mesh().nodes, faces, Some, 1e-9);
         patches.push([patch.map_err(EnvelopeError::of(piece))?]);
     }
     let points = [contact_points(&patches[0][0], 3, GapSource::Smooth)];

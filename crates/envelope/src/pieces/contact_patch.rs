@@ -6,8 +6,10 @@
 //! edge.
 
 use contact::{
-    Balance, Candidates, Condensed, FlankPatch, Foot, GapSource, Law, LinePoints, LinearContact, Pose, Scene, Surface,
-    Vec3, closest_points, complementarity, contact_points,
+    Condensed, Pose, Vec3, complementarity,
+    complementarity::{Balance, Law, LinearContact},
+    flank::{Candidates, FlankPatch, Foot, GapSource, Surface, contact_points},
+    nodal::{LinePoints, Scene, closest_points},
 };
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};

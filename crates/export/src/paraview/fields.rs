@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use contact::{ContactRow, ContactSet, Pose};
+use contact::{ContactSet, Pose, nodal::ContactRow};
 use dynamics::SideLoads;
 use ltca::{StaticModel, StaticPosition};
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
@@ -232,7 +232,7 @@ impl<'a> GearState<'a> {
 fn nodal_pressure(part: usize, loads: &FlankLoads<'_>, nodes: &[u32], count: usize) -> Vec<f64> {
     let mut all = vec![0.0; count];
     let patches = &loads.set.patches()[part];
-    for (node, pressure) in contact::nodal_pressures(patches, part, loads.rows, loads.forces) {
+    for (node, pressure) in contact::line::nodal_pressures(patches, part, loads.rows, loads.forces) {
         if let Some(&node) = nodes.get(node as usize) {
             all[node as usize] = pressure;
         }

@@ -88,7 +88,7 @@ fn pressures(i: usize, model: &StaticModel, e: &Equilibrium, window: Option<&Win
         (None, ElasticGear::Full(gear)) => gear.dofs.free_nodes(),
         (None, ElasticGear::Reduced(_)) => return Vec::new(),
     };
-    let all = contact::nodal_pressures(&model.contact_set().patches()[i], i, &e.rows, &e.solution.forces);
+    let all = contact::line::nodal_pressures(&model.contact_set().patches()[i], i, &e.rows, &e.solution.forces);
     all.into_iter().filter_map(|(at, pressure)| Some((*nodes.get(at as usize)?, pressure))).collect()
 }
 

@@ -3,7 +3,10 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use contact::{FlankProjection, Misalignment, gear_centre, gear_pose};
+use contact::{
+    FlankProjection, Misalignment,
+    pose::{gear_centre, gear_pose},
+};
 use gearbox::{
     Disc, ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Operation, StaticGearbox, Structure, Torque, Vector12,
     motion::{

@@ -1,6 +1,6 @@
 //! What a small turn of the driven gear, and a neighbour of the pair, change of the conditions of contact, forces held.
 
-use contact::{ContactSet, Friction, Pose, SameSlices, Site, TableWork};
+use contact::{ContactSet, Friction, Pose, Site, TableWork, slice::SameSlices};
 
 use geometry::GearPair;
 

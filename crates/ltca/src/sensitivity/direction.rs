@@ -126,7 +126,7 @@ impl<'a> Directions<'a> {
             by_force + self.turned.pressure[k][side] * rotation + rates.pressure[k][side]
         });
         let of_pair = |k: usize| {
-            let own = |(row, _): &(&contact::ContactRow, &f64)| set.pair_of(row.patches.0) == k;
+            let own = |(row, _): &(&contact::nodal::ContactRow, &f64)| set.pair_of(row.patches.0) == k;
             self.at.slices.rows.iter().zip(&forces).filter(own).map(|(_, f)| f).sum::<f64>()
         };
         let mut pair_forces: Vec<(i64, f64)> = (0..window.count())

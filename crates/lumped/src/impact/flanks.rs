@@ -1,6 +1,10 @@
 //! Which teeth may touch, and where, slice by slice.
 
-use contact::{FlankPatch, NearestPoint, Pose, RigidFlanks, SliceHint};
+use contact::{
+    Pose,
+    flank::FlankPatch,
+    slice::{NearestPoint, RigidFlanks, SliceHint},
+};
 use geometry::{Gear, GearPair, Side};
 
 /// How far beyond the ends of the path of contact slices are looked at, in base pitches: overlapping tips meet early.

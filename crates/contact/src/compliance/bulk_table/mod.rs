@@ -7,8 +7,10 @@ use faer::MatRef;
 use nalgebra::Matrix3;
 
 use crate::{
-    FacePoint, FlankPatch, Support, Vec3,
+    Vec3,
     compliance::{bulk_grid::FlankGridLines, condensed::load_columns},
+    flank::{FacePoint, FlankPatch},
+    nodal::Support,
     opening,
 };
 

@@ -1,7 +1,7 @@
 //! Areas of a flank's nodes.
 
 use super::FlankPatch;
-use crate::{GapSource, contact_points};
+use crate::flank::{GapSource, contact_points};
 
 impl FlankPatch {
     /// Boundary nodes and the area each stands for, mm^2: the integral of |N_i|, every entry positive.

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use mesh::{Face, FaceKind};
 
-use crate::{ContactError, Surface, Vec3};
+use crate::{ContactError, Vec3, flank::Surface};
 use bins::Bins;
 use face::{PatchFace, PatchNode, range};
 

@@ -1,6 +1,6 @@
 //! Compliance between the rows.
 
-use crate::{BulkTable, ContactRow, ContactSet, Slice, TablePoint};
+use crate::{BulkTable, ContactSet, TablePoint, nodal::ContactRow, slice::Slice};
 
 use super::{MeshContact, PoseContact};
 

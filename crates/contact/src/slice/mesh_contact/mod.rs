@@ -19,9 +19,15 @@ use reduction::{ElasticGear, GearModes};
 use std::sync::Arc;
 
 use crate::{
-    Balance, ContactError, ContactOptions, ContactRow, ContactSet, DenseProblem, DenseSolver, Friction, LocalState,
-    MeshForce, ModalFlanks, Pose, Slice, SliceHint, SlicePoint, SliceState, TablePoint, TableWork, covered,
-    line_station, opening_by_motion, slice_line, wrenches,
+    ContactError, ContactOptions, ContactSet, Friction, MeshForce, ModalFlanks, Pose, SlicePoint, SliceState,
+    TablePoint, TableWork,
+    complementarity::{Balance, DenseProblem, DenseSolver},
+    line::{covered, line_station, slice_line},
+    local::LocalState,
+    nodal::ContactRow,
+    opening_by_motion,
+    slice::{Slice, SliceHint},
+    wrenches,
 };
 
 pub(super) use compliance::places;

@@ -3,7 +3,7 @@
 //! A pose of a search for equilibrium differs from the one before by a thousandth of the approach and less. The rows
 //! then stay; what they open by is S F, a product, and S itself is not needed.
 
-use crate::{Balance, FlankPair, Pose};
+use crate::{FlankPair, Pose, complementarity::Balance};
 
 use super::{MeshContact, PoseContact, local, problem, search::turn};
 

@@ -4,7 +4,7 @@
 //! the motion from there to first order; forces follow by the tangent of the centre, iterated until they are exact. A
 //! periodic motion comes through the same bins again and finds their contact in the cache.
 
-use crate::{Balance, ContactError, MeshForce, Pose};
+use crate::{ContactError, MeshForce, Pose, complementarity::Balance};
 
 use super::{MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
 

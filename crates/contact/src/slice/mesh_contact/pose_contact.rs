@@ -2,7 +2,8 @@
 
 use super::pose_bin::{BinSizes, PoseBin};
 use crate::{
-    ContactRow, LocalLaw, ModalFlanks, Pose, SavedSolution, Slice, Vec3, compliance::ModalRows, opening_by_motion,
+    ModalFlanks, Pose, SavedSolution, Vec3, compliance::ModalRows, local::LocalLaw, nodal::ContactRow,
+    opening_by_motion, slice::Slice,
 };
 
 /// Rows and their compliance at some poses.

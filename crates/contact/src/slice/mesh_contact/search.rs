@@ -1,6 +1,6 @@
 //! Search for the points of least gap, and selection of those that become rows of the contact problem.
 
-use crate::{FlankPair, Pose, SliceHint};
+use crate::{FlankPair, Pose, slice::SliceHint};
 
 use super::{MeshContact, PoseContact, pose_bin::PoseBin};
 

@@ -1,6 +1,10 @@
 //! How much an evaluation has to do.
 
-use crate::{ContactRow, Slice, SliceHint, SlicePoint, TablePoint};
+use crate::{
+    SlicePoint, TablePoint,
+    nodal::ContactRow,
+    slice::{Slice, SliceHint},
+};
 
 use super::MeshContact;
 
