@@ -2,8 +2,10 @@
 //!
 //! Pictures stay in `target/tmp/report`.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::Command;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -86,6 +88,36 @@ addEventListener("load", async () => {
 });
 </script>"##;
 
+/// What a page needs on a busy machine, several times over.
+const PATIENCE: Duration = Duration::from_secs(120);
+/// A browser whose virtual time stands still, which happens once in a hundred pages, is opened again.
+const TRIES: usize = 3;
+
+/// The page as the browser leaves it, and what it says.
+fn opened(scratch: &Scratch, browser: &Path, args: &[String]) -> [String; 2] {
+    for at in 0..TRIES {
+        let [page, said] = ["page", "said"].map(|name| scratch.path().join(format!("{name}_{at}")));
+        let mut running = Command::new(browser)
+            .args(FLAGS)
+            .arg(format!("--user-data-dir={}", scratch.path().join(format!("profile_{at}")).display()))
+            .args(args)
+            .stdout(File::create(&page).unwrap())
+            .stderr(File::create(&said).unwrap())
+            .spawn()
+            .unwrap();
+        let begin = Instant::now();
+        while begin.elapsed() < PATIENCE {
+            if running.try_wait().unwrap().is_some() {
+                return [page, said].map(|file| String::from_utf8_lossy(&std::fs::read(file).unwrap()).into_owned());
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        running.kill().unwrap();
+        running.wait().unwrap();
+    }
+    panic!("the browser stands still")
+}
+
 /// Opens the report of a run in a window of some width and keeps a picture; what the page saw of itself comes back.
 fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, height]: [u32; 2]) -> Value {
     let bytes = std::fs::metadata(scratch.path().join(file)).unwrap().len();
@@ -96,15 +128,12 @@ fn look(scratch: &Scratch, browser: &Path, file: &str, name: &str, [width, heigh
     std::fs::write(&checked, page.replacen("</body>", &format!("{SELF_CHECK}</body>"), 1)).unwrap();
     let pictures = Path::new(env!("CARGO_TARGET_TMPDIR")).join("report");
     std::fs::create_dir_all(&pictures).unwrap();
-    let opened = Command::new(browser)
-        .args(FLAGS)
-        .arg(format!("--user-data-dir={}", scratch.path().join("profile").display()))
-        .arg(format!("--window-size={width},{height}"))
-        .arg(format!("--screenshot={}", pictures.join(format!("{name}_{width}.png")).display()))
-        .arg(format!("file://{}", checked.display()))
-        .output()
-        .unwrap();
-    let [text, said] = [&opened.stdout, &opened.stderr].map(|b| String::from_utf8_lossy(b).into_owned());
+    let args = [
+        format!("--window-size={width},{height}"),
+        format!("--screenshot={}", pictures.join(format!("{name}_{width}.png")).display()),
+        format!("file://{}", checked.display()),
+    ];
+    let [text, said] = opened(scratch, browser, &args);
     let complaints: Vec<&str> = said.lines().filter(|l| l.contains(":CONSOLE")).collect();
     assert!(complaints.is_empty(), "{name}: the console says {complaints:#?}");
     // The script itself has no brace after the word.
