@@ -8,6 +8,7 @@ use store::checkpoint::{GearboxFileSink, GearboxState};
 use store::folder::Cache;
 
 use crate::{
+    certificate::Closing,
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
@@ -46,4 +47,20 @@ pub(crate) fn solve(
         let verdict = result.verdict(file).map_err(CommandError::from);
         Ok(Outcome::Finished((table, verdict)))
     })
+}
+
+/// As [`solve`], in one piece; the text is the closing table.
+///
+/// # Errors
+/// As [`solve`].
+pub(crate) fn solve_whole(
+    file: &Gearbox,
+    phases: &mut Phases,
+    results: &ResultDirectory,
+    cache: &Cache,
+) -> Result<Closing, CommandError> {
+    let context: Context<'_, Gearbox> = Context::new(phases).with_cache(cache);
+    let result = analysis::solve(file, context)?.finished()?;
+    let table = write_gearbox(file, &result, phases.cost(), results)?.table;
+    Ok((table, result.verdict(file).map_err(CommandError::from)))
 }

@@ -1,7 +1,7 @@
 //! What a document is solved with, and how that ended.
 
 use mesh::Mesh;
-use scene::Scene;
+use scene::{Scene, gearbox::Gearbox};
 
 use crate::{AnalysisError, GearCache, NoCache, Observer, SharedModels, WarningsAtRest};
 
@@ -64,6 +64,14 @@ impl<'a, Q: Question + ?Sized> Context<'a, Q> {
     #[must_use]
     pub fn stop_after(self, cycles: Option<u64>) -> Self {
         Self { stop_after: cycles, ..self }
+    }
+}
+
+impl<'a> Context<'a, Gearbox> {
+    /// On what earlier gearboxes have left of their gears, with their cache.
+    #[must_use]
+    pub fn with_models(self, models: &'a SharedModels<'a>) -> Self {
+        Self { models: Some(models), cache: models.cache(), ..self }
     }
 }
 

@@ -62,6 +62,7 @@ pub mod optimum;
 mod options;
 pub mod parameter_study;
 mod plausible;
+mod reduced_pairs;
 pub mod reduction_alone;
 mod refused;
 pub mod remark;

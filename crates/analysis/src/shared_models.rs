@@ -17,6 +17,7 @@ use crate::{
     inputs::{meshes_of, settled_scene},
     meshes::SceneMesh,
     options::options,
+    reduced_pairs::ReducedPairs,
     warnings::body_warnings,
 };
 
@@ -26,12 +27,14 @@ const MOST_MODELS: usize = 8;
 /// Models of pairs that differ in what neither their matrices nor their contact tables know: micro-geometry, pitch
 /// errors, misalignment, friction, torque, positions.
 ///
-/// Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
+/// Meshes of gearboxes share their reduced gears alike. Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
 pub struct SharedModels<'a> {
     cache: Arc<dyn GearCache + Send + 'a>,
     /// Those that the caller holds, in place of those of the scenes.
     meshes: Option<[Mesh; 2]>,
     known: Mutex<Vec<Known>>,
+    /// Of the meshes of gearboxes.
+    pub(crate) pairs: ReducedPairs,
     read: Mutex<Vec<(Scene, Arc<[SceneMesh; 2]>)>>,
 }
 
@@ -70,7 +73,7 @@ impl<'a> SharedModels<'a> {
 
     /// The same with a cache that others may hold as well.
     pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
-        Self { cache, meshes: None, known: Mutex::default(), read: Mutex::default() }
+        Self { cache, meshes: None, known: Mutex::default(), pairs: ReducedPairs::default(), read: Mutex::default() }
     }
 
     /// With meshes of pinion and wheel in place of those of all scenes. They are checked as files are.

@@ -6,6 +6,7 @@
 mod derivatives;
 pub mod energy;
 mod error;
+pub mod gearbox;
 pub mod lumped_history;
 pub mod motion_history;
 mod motion_rows;

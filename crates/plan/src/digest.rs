@@ -1,6 +1,6 @@
 //! What says that two plans, or two studies, have the same cases.
 
-use scene::{plan::Plan, study::Study};
+use scene::{Machine, plan::Plan, study::Study};
 use store::checkpoint::InputDigests;
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
@@ -15,8 +15,10 @@ pub fn plan_digest(plan: &Plan) -> String {
     plan.settings.iter().for_each(|setting| take(&setting.word()));
     take(&format!("{:?} {:?} {:?} {:?}", plan.axes, plan.cases.axes(), plan.sampling, plan.outputs));
     // Files of a case may be varied as little as their names: those of the first stand for all.
-    if let Ok(scene) = plan.scene(0) {
-        take(&format!("{:?}", InputDigests::of(&scene)));
+    match plan.machine(0) {
+        Ok(Machine::Pair(scene)) => take(&format!("{:?}", InputDigests::of(&*scene))),
+        Ok(Machine::Gearbox(file)) => take(&format!("{:?}", InputDigests::of(&*file))),
+        Err(_) => {}
     }
     hasher.finalize().to_hex().to_string()
 }

@@ -22,9 +22,9 @@ mod values;
 
 pub use digest::{plan_digest, study_digest};
 pub use known::{Column, KnownCases};
-pub use layout::columns_of;
+pub use layout::{columns_of, columns_of_scene};
 pub use outputs::{OutputError, check_outputs};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseLines, CaseRow, DoneCases};
 pub use solve::{CaseObserver, solve_cases};
-pub use values::case_values;
+pub use values::{case_values, gearbox_values};

@@ -1,8 +1,8 @@
 //! Whether the numbers that a plan wants can be there: told before any case is solved.
 
-use analysis::{HeadlineKey, headline_keys};
+use analysis::{HeadlineKey, gearbox_at_rest::GearboxResult, headline_keys};
 use scene::{
-    Scene, nearest,
+    Machine, nearest,
     plan::{Plan, PlanOutput},
     study::column_advice,
 };
@@ -28,10 +28,11 @@ pub struct OutputError {
 /// The first that is not there.
 pub fn check_outputs(plan: &Plan) -> Result<(), OutputError> {
     // A case whose values are out of range takes nothing from the others.
-    let Ok(scene) = plan.scene(0) else { return Ok(()) };
+    let Ok(machine) = plan.machine(0) else { return Ok(()) };
+    let keys = keys_of(&machine);
     let found = plan.outputs.iter().try_for_each(|output| match output {
-        PlanOutput::Headline(key) => of_headline(headline_keys(&scene), key),
-        PlanOutput::Column { column, .. } => of_rows(&scene, column),
+        PlanOutput::Headline(key) => of_headline(&keys, key),
+        PlanOutput::Column { column, .. } => of_rows(&machine, column),
     });
     found.map_err(|(what, hint)| OutputError { plan: plan.file.display().to_string(), what, hint })
 }
@@ -41,26 +42,47 @@ type Missing = (String, String);
 
 const SEE: &str = "docs/outputs.md lists the keys of every headline and the columns of every kind of analysis";
 
-fn of_rows(scene: &Scene, column: &str) -> Result<(), Missing> {
-    let Some(all) = columns_of(scene).filter(|all| !all.iter().any(|name| name == column)) else { return Ok(()) };
+/// Keys of the headline, each with what stands behind it.
+fn keys_of(machine: &Machine) -> Vec<(&'static str, Holds)> {
+    let of_pair = |keys: &[HeadlineKey]| keys.iter().map(|(key, holds)| (*key, Holds::of(holds))).collect();
+    match machine {
+        Machine::Pair(scene) => of_pair(headline_keys(scene)),
+        Machine::Gearbox(file) => {
+            let holds = |count: Option<usize>| count.map_or(Holds::Number, Holds::List);
+            GearboxResult::headline_keys(file).into_iter().map(|(key, count)| (key, holds(count))).collect()
+        }
+    }
+}
+
+fn of_rows(machine: &Machine, column: &str) -> Result<(), Missing> {
+    let Some(all) = columns_of(machine).filter(|all| !all.iter().any(|name| name == column)) else { return Ok(()) };
     // Columns of single pairs go with the window, which is known when the analysis begins.
     if column.contains("_pair_") {
         return Ok(());
     }
     let names: Vec<&str> = all.iter().map(String::as_str).collect();
     let hint = column_advice(column, &names).unwrap_or_else(|| SEE.into());
-    Err((format!("history.csv has no column `{column}`"), hint))
+    let rows = match machine {
+        Machine::Pair(_) => "history.csv",
+        Machine::Gearbox(file) if file.motion.is_some() => "motion.csv",
+        Machine::Gearbox(_) => "positions.csv",
+    };
+    Err((format!("{rows} has no column `{column}`"), hint))
 }
 
-fn of_headline(keys: &[HeadlineKey], wanted: &str) -> Result<(), Missing> {
+fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missing> {
     let (name, below) = wanted.split_once('.').map_or((wanted, None), |(name, below)| (name, Some(below)));
     let Some((_, holds)) = keys.iter().find(|(key, _)| *key == name) else {
         let names: Vec<&str> = keys.iter().map(|(key, _)| *key).collect();
         let hint = nearest(name, &names).map_or_else(|| SEE.into(), |near| format!("did you mean `{near}`?"));
         return Err((format!("the headline has no `{wanted}`"), hint));
     };
-    let of_list = |count: usize| format!("it is a list: write `{name}.0` .. `{name}.{}`", count - 1);
-    let advice = match (Holds::of(holds), below) {
+    let of_list = |count: usize| match count {
+        0 => "it is an empty list here".to_owned(),
+        1 => format!("it is a list of one: write `{name}.0`"),
+        _ => format!("it is a list: write `{name}.0` .. `{name}.{}`", count - 1),
+    };
+    let advice = match (*holds, below) {
         (Holds::Number, None) | (Holds::Table, Some(_)) => return Ok(()),
         (Holds::List(count), Some(at)) if at.parse::<usize>().is_ok_and(|at| at < count) => return Ok(()),
         (Holds::Number, Some(_)) => format!("`{name}` is a number by itself"),
@@ -107,7 +129,8 @@ mod tests {
     use super::*;
 
     fn says(keys: &[HeadlineKey], wanted: &str) -> String {
-        of_headline(keys, wanted).map_or_else(|(what, hint)| format!("{what}; {hint}"), |()| "there".into())
+        let keys: Vec<_> = keys.iter().map(|(key, holds)| (*key, Holds::of(holds))).collect();
+        of_headline(&keys, wanted).map_or_else(|(what, hint)| format!("{what}; {hint}"), |()| "there".into())
     }
 
     #[test]

@@ -6,10 +6,17 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::{Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, side_by_side, solve};
-use scene::plan::Plan;
+use analysis::{
+    AnalysisError, Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, gearbox_at_rest::GearboxResult,
+    side_by_side, solve,
+};
+use scene::{
+    Machine, Scene,
+    gearbox::Gearbox,
+    plan::{Plan, PlanOutput},
+};
 
-use crate::{CaseRow, DoneCases, case_values};
+use crate::{CaseRow, DoneCases, case_values, gearbox_values};
 
 /// Makes who hears of one case while it is solved.
 pub type CaseObserver<'a> = &'a (dyn Fn() -> Box<dyn Observer> + Sync);
@@ -57,11 +64,34 @@ fn numbers(
     observer: &mut dyn Observer,
     case: usize,
 ) -> Result<Vec<f64>, String> {
-    let mut scene = plan.scene(case).map_err(|e| e.to_string())?;
-    // Nobody looks at these.
-    (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
-    let context = Context::new(observer).with_models(models).with_warnings(WarningsAtRest::Left);
-    let solved = solve(&scene, context).and_then(Ending::finished).map_err(|e| e.to_string())?;
-    solved.verdict().map_err(|e| e.to_string())?;
-    case_values(&plan.outputs, &solved)
+    let said = |e: AnalysisError| e.to_string();
+    match plan.machine(case).map_err(|e| e.to_string())? {
+        Machine::Pair(mut scene) => {
+            // Nobody looks at these.
+            (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
+            let context = Context::<Scene>::new(observer).with_models(models).with_warnings(WarningsAtRest::Left);
+            let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
+            solved.verdict().map_err(said)?;
+            case_values(&plan.outputs, &solved)
+        }
+        Machine::Gearbox(mut file) => {
+            let wants = wanted_in_time(&plan.outputs);
+            // Nobody looks at the others.
+            file.vibration = file.vibration.filter(|_| wants[0]);
+            file.motion = file.motion.filter(|_| wants[1]);
+            let context = Context::<Gearbox>::new(observer).with_models(models);
+            let result = solve(&*file, context).and_then(Ending::finished).map_err(said)?;
+            result.verdict(&file).map_err(said)?;
+            gearbox_values(&plan.outputs, &file, &result)
+        }
+    }
+}
+
+/// Whether numbers of a vibration are wanted of a gearbox, and whether those of a motion are: rows are of the motion.
+fn wanted_in_time(outputs: &[PlanOutput]) -> [bool; 2] {
+    let of = |output: &PlanOutput| match output {
+        PlanOutput::Headline(key) => GearboxResult::is_in_time(key.split('.').next().unwrap_or(key)),
+        PlanOutput::Column { .. } => [false, true],
+    };
+    outputs.iter().map(of).fold([false; 2], |all, own| [all[0] | own[0], all[1] | own[1]])
 }

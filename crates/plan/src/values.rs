@@ -1,7 +1,8 @@
 //! The numbers that a plan wants of a case, read off its rows and its headline.
 
-use analysis::Solved;
+use analysis::{Solved, gearbox_at_rest::GearboxResult};
 use scene::{
+    gearbox::Gearbox,
     plan::{PlanOutput, PlanTake},
     study::Take,
 };
@@ -10,15 +11,34 @@ use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
 
 use columns::solved_rows;
 
-/// Of a solved case over whole mesh cycles.
+/// Of a solved pair over whole mesh cycles.
 ///
 /// # Errors
 /// Why there is none: a name that stands for no number, a headline without value.
 pub fn case_values(outputs: &[PlanOutput], solved: &Solved) -> Result<Vec<f64>, String> {
+    let headline = || solved.headline().map_err(|e| e.to_string());
+    of_case(outputs, headline, || solved_rows(solved), Some(solved.scene().analysis.cycles as usize))
+}
+
+/// Of a solved gearbox: of its motion where it has one, else over whole cycles of its first mesh.
+///
+/// # Errors
+/// As [`case_values`].
+pub fn gearbox_values(outputs: &[PlanOutput], file: &Gearbox, result: &GearboxResult) -> Result<Vec<f64>, String> {
+    let cycles = file.motion.is_none().then_some(file.cycles as usize);
+    of_case(outputs, || Ok(result.headline()), || columns::gearbox::history(file, result), cycles)
+}
+
+/// `cycles`: whole mesh cycles of the rows, where they are.
+fn of_case(
+    outputs: &[PlanOutput],
+    headline: impl FnOnce() -> Result<Value, String>,
+    rows: impl FnOnce() -> Columns,
+    cycles: Option<usize>,
+) -> Result<Vec<f64>, String> {
     let needs = |headline: bool| outputs.iter().any(|o| matches!(o, PlanOutput::Headline(_)) == headline);
-    let rows = if needs(false) { solved_rows(solved) } else { Columns::default() };
-    let headline = if needs(true) { solved.headline().map_err(|e| e.to_string())? } else { Value::Null };
-    let cycles = solved.scene().analysis.cycles as usize;
+    let rows = if needs(false) { rows() } else { Columns::default() };
+    let headline = if needs(true) { headline()? } else { Value::Null };
     let one = |output: &PlanOutput| match output {
         PlanOutput::Headline(key) => of_headline(&headline, key),
         PlanOutput::Column { column, take } => {
@@ -48,13 +68,14 @@ fn missing(headline: &Value, key: &str) -> String {
     format!("the headline has no `{key}`{near}")
 }
 
-fn of_column(series: &[f64], take: PlanTake, cycles: usize) -> Result<f64, String> {
+fn of_column(series: &[f64], take: PlanTake, cycles: Option<usize>) -> Result<f64, String> {
     let value = match take {
         PlanTake::Of(Take::Mean) => mean(series),
         PlanTake::Of(Take::PeakToPeak) => peak_to_peak(series),
         PlanTake::Of(Take::Least) => extent(series)[0],
         PlanTake::Of(Take::Largest) => extent(series)[1],
         PlanTake::Harmonic(order) => {
+            let cycles = cycles.ok_or("the rows are no whole cycles of one mesh, so they have no mesh harmonics")?;
             let all = mesh_harmonics(series, cycles, order as usize).map_err(|e| e.to_string())?;
             all.last().map_or(f64::NAN, |harmonic| harmonic.amplitude)
         }

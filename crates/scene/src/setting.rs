@@ -8,8 +8,8 @@ use super::{SceneError, tree::Node};
 ///
 /// The key is written with dots from the top of the file (`operation.torque_nm`, `pinion.modification.tip_relief_um`);
 /// a number among its parts counts the entries of a list from 0 (`pinion.shaft.supports.1.stiffness_x_n_per_mm`,
-/// `gear.0.position_mm`). The
-/// value is TOML; what is no TOML is a text (`contact.method=slice`).
+/// `gear.0.position_mm`), another word is the `name` of an entry (`bearing.left.position_mm`). Behind `mesh.WHICH.scene.`
+/// stands a key of the scene of that pair. The value is TOML; what is no TOML is a text (`contact.method=slice`).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     label: String,
@@ -82,6 +82,12 @@ impl Setting {
     /// What messages call it.
     pub(super) fn label(&self) -> &str {
         &self.label
+    }
+
+    /// The same of what stands below the first `parts` of its key.
+    pub(crate) fn below(&self, parts: usize) -> Self {
+        let path = self.path[parts..].to_vec();
+        Self { key: path.join("."), path, ..self.clone() }
     }
 
     /// The parts of the key.

@@ -100,6 +100,11 @@ impl Node {
         table.into_iter().flatten()
     }
 
+    /// Whether it is this text.
+    fn is_text(&self, text: &str) -> bool {
+        matches!(&self.value, Value::Text(own) if own == text)
+    }
+
     /// The same with all places so much further on.
     pub fn moved(&self, by: usize) -> Self {
         let moved = |span: &Range<usize>| span.start + by..span.end + by;
@@ -116,7 +121,8 @@ impl Node {
         Self { span: moved(&self.span), value }
     }
 
-    /// Puts a value below the keys of `path`, making tables on the way; a number among them counts the entries of a list.
+    /// Puts a value below the keys of `path`, making tables on the way; of a list a number counts the entries, and another
+    /// word is the `name` of one.
     /// What is neither becomes a table, so that the complaint about its type names the value's place.
     pub fn put(&mut self, path: &[String], value: Self) {
         let Some((first, rest)) = path.split_first() else {
@@ -131,8 +137,8 @@ impl Node {
                     table.insert(first.clone(), Entry { key, node: value.below(rest) });
                 }
             },
-            Value::List(list) => match first.parse::<usize>().ok().and_then(|i| list.get_mut(i)) {
-                Some(there) => there.put(rest, value),
+            Value::List(list) => match entry_of(list, first) {
+                Some(i) => list[i].put(rest, value),
                 None => *self = value.below(path),
             },
             _ => *self = value.below(path),
@@ -147,6 +153,12 @@ impl Node {
             Self { span, value: Value::Table(BTreeMap::from([(key.clone(), entry)])) }
         })
     }
+}
+
+/// The entry of a list that a part of a key means: by its number from 0, else by its `name`.
+fn entry_of(list: &[Node], which: &str) -> Option<usize> {
+    let is_named = |own: &Node| own.entries().any(|(key, entry)| key == "name" && entry.node.is_text(which));
+    which.parse().ok().filter(|i| *i < list.len()).or_else(|| list.iter().position(is_named))
 }
 
 fn node(value: &Spanned<DeValue<'_>>) -> Node {
@@ -318,6 +330,16 @@ mod tests {
         assert_eq!(set("b = [1, 2]", "b.1", "7").unwrap().b.unwrap()[1].span(), 100..101);
         let beyond = set("b = [1, 2]", "b.2", "7").unwrap_err();
         assert_eq!((beyond.span, beyond.message.starts_with("invalid type: map")), (Some(100..101), true));
+        let named = |which: &str| {
+            let mut root = Node::of_text("[[g]]\nname = \"x\"\n[[g]]\nname = \"y, z\"\n").unwrap();
+            root.put(
+                &path("g").into_iter().chain([which.to_owned(), "at".to_owned()]).collect::<Vec<_>>(),
+                Node::of_value("5").unwrap(),
+            );
+            let Value::List(list) = &root.entries().next().unwrap().1.node.value else { panic!("no list") };
+            list.iter().position(|own| own.entries().any(|(key, _)| key == "at"))
+        };
+        assert_eq!(["x", "y, z", "1"].map(named), [Some(0), Some(1), Some(1)]);
         let within = set("a = 1", "a.x", "7").unwrap_err();
         assert_eq!((within.span, within.message.starts_with("invalid type: map")), (Some(100..101), true));
     }

@@ -11,6 +11,14 @@ pub struct Columns {
     values: Vec<Vec<f64>>,
 }
 
+impl FromIterator<(String, Vec<f64>)> for Columns {
+    /// Whole columns with their names.
+    fn from_iter<I: IntoIterator<Item = (String, Vec<f64>)>>(all: I) -> Self {
+        let (names, values): (Vec<String>, Vec<Vec<f64>>) = all.into_iter().unzip();
+        Self { values, ..Self::named(names) }
+    }
+}
+
 impl Columns {
     /// Columns without rows; of one name that stands twice the last column is found.
     pub fn named<S: Into<String>>(names: impl IntoIterator<Item = S>) -> Self {

@@ -8,14 +8,14 @@ use std::{
 use analysis::side_by_side;
 use plan::KnownCases;
 use report::plan_files::report_folder;
-use scene::plan::Plan;
+use scene::{Machine, plan::Plan};
 use store::folder::Cache;
 
 use super::{
-    plan_case::{is_one, scene_of},
+    plan_case::{is_one, machine_of},
     run::write_result,
 };
-use crate::{error::CommandError, output::ResultDirectory, phases::Phases, scene::Scene, talk};
+use crate::{certificate::Written, error::CommandError, gearbox, output::ResultDirectory, phases::Phases, talk};
 
 /// Words that say which cases have a report of their own.
 #[derive(Debug, Default, clap::Args)]
@@ -104,8 +104,8 @@ impl CaseReports {
         phases.run_steps("reports", cases.len() as u64, |progress| {
             side_by_side(cases.len(), |i| {
                 let folder = results.path(&report_folder(cases[i]));
-                let written = scene_of(plan, cases[i])
-                    .and_then(|scene| write_one(&scene, &mut Phases::quiet(), &folder, cache).map(|_| ()));
+                let written = machine_of(plan, cases[i])
+                    .and_then(|machine| write_one(&machine, &mut Phases::quiet(), &folder, cache).map(|_| ()));
                 if let Err(e) = written {
                     failed.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(e);
                 }
@@ -116,16 +116,17 @@ impl CaseReports {
     }
 }
 
-/// Runs the scene of a case into a folder; the text is the closing table.
-pub(super) fn write_one(
-    scene: &Scene,
-    phases: &mut Phases,
-    folder: &Path,
-    cache: &Cache,
-) -> Result<String, CommandError> {
+/// Runs a case into a folder; the text is the closing table.
+fn write_one(machine: &Machine, phases: &mut Phases, folder: &Path, cache: &Cache) -> Result<String, CommandError> {
     let own = ResultDirectory::create(folder)?;
-    let written = write_result(scene, phases, &own, cache)?;
+    let (table, verdict) = match machine {
+        Machine::Pair(scene) => {
+            let Written { table, verdict, .. } = write_result(scene, phases, &own, cache)?;
+            (table, verdict)
+        }
+        Machine::Gearbox(file) => gearbox::solve_whole(file, phases, &own, cache)?,
+    };
     own.finish(talk::note)?;
-    written.verdict?;
-    Ok(written.table)
+    verdict?;
+    Ok(table)
 }

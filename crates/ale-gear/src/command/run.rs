@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use analysis::{Solved, SolvedAtRest, in_time::is_one_motion, lumped::is_lumped};
-use scene::{gearbox::Gearbox, plan::Plan};
+use scene::{Document, Machine, gearbox::Gearbox, plan::Plan};
 
-use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::scene_of};
+use super::{Answer, FileWords, cache_args::CacheArgs, kind_of_file, overrides::Overrides, plan_case::machine_of};
 use report::write_static_result;
 use store::check_memory;
 
@@ -24,14 +24,6 @@ use crate::{
     scene::{DocumentKind, Kind, Model, Run, Scene},
     talk::{self, Loudness},
 };
-
-/// What was asked, checked.
-enum Document {
-    /// A pair.
-    Pair(Box<Scene>),
-    /// Shafts, bearings and meshes.
-    Gearbox(Box<Gearbox>),
-}
 
 /// Words of `ale-gear run`.
 #[derive(Debug, clap::Args)]
@@ -132,7 +124,7 @@ impl RunArgs {
 
     /// The document with what is set beside it. Every complaint about the words is made here, before any work starts or
     /// any file is written.
-    fn document(&self) -> Result<Document, CommandError> {
+    fn machine(&self) -> Result<Machine, CommandError> {
         if self.default_scene {
             talk::say(Loudness::Bars, || {
                 format!(
@@ -141,28 +133,34 @@ impl RunArgs {
                     self.out.display()
                 )
             });
-            return Ok(Document::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
+            return Ok(Machine::Pair(Box::new(self.plan(Scene::default_scene()?)?)));
         }
-        let text = scene::Document::read(&self.file)?;
+        let text = Document::read(&self.file)?;
         if let Some(case) = self.case {
             let plan = Plan::of(&text, &self.overrides.settings()?)?;
-            let scene = scene_of(&plan, case)?;
-            return Ok(Document::Pair(Box::new(self.plan(scene)?)));
+            return match machine_of(&plan, case)? {
+                Machine::Pair(scene) => Ok(Machine::Pair(Box::new(self.plan(*scene)?))),
+                Machine::Gearbox(file) => self.gearbox(*file),
+            };
         }
         if text.kind() == Some(DocumentKind::Gearbox) {
-            self.fits_a_gearbox()?;
-            let file = text.gearbox(&self.overrides.settings()?)?;
-            if file.motion.is_none() && (self.resume || self.stop_after_cycles.is_some()) {
-                let said = format_args!("{}: this analysis has no checkpoints", self.file.display());
-                let hint = "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]".to_owned();
-                return Err(CommandError::input(said, Some(hint)));
-            }
-            return Ok(Document::Gearbox(Box::new(file)));
+            return self.gearbox(text.gearbox(&self.overrides.settings()?)?);
         }
         let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
         let asked = (!quoted.is_empty()).then(|| format!("output.derivatives=[{}]", quoted.join(",")));
         let scene = text.scene(&self.overrides.clone().behind(asked).settings()?)?;
-        Ok(Document::Pair(Box::new(self.plan(scene)?)))
+        Ok(Machine::Pair(Box::new(self.plan(scene)?)))
+    }
+
+    /// A gearbox, where the words fit one.
+    fn gearbox(&self, file: Gearbox) -> Result<Machine, CommandError> {
+        self.fits_a_gearbox()?;
+        if file.motion.is_none() && (self.resume || self.stop_after_cycles.is_some()) {
+            let said = format_args!("{}: this analysis has no checkpoints", self.file.display());
+            let hint = "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]".to_owned();
+            return Err(CommandError::input(said, Some(hint)));
+        }
+        Ok(Machine::Gearbox(Box::new(file)))
     }
 
     /// Refuses words that only a pair has a use for.
@@ -269,9 +267,9 @@ impl RunArgs {
     /// Runs the document; the text is the closing table.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let mut phases = Phases::with_bars();
-        let scene = match self.document()? {
-            Document::Pair(scene) => *scene,
-            Document::Gearbox(file) => return self.solve_gearbox(&file, phases, quiet),
+        let scene = match self.machine()? {
+            Machine::Pair(scene) => *scene,
+            Machine::Gearbox(file) => return self.solve_gearbox(&file, phases, quiet),
         };
         let results = ResultDirectory::create(&self.out)?;
         if let Some(motion) = &scene.motion {

@@ -1,7 +1,7 @@
 //! Study files end to end on small scenes: files, numbers, threads, and what wrong files are told.
 
 use ale_gear::scene::{Setting, study::Study};
-use plan::{columns_of, study_digest};
+use plan::{columns_of_scene, study_digest};
 
 use crate::util::{ISO_SCENE, Scratch, column, motion_scene, tiny_at_rest};
 
@@ -436,7 +436,7 @@ fn kept_cases_are_those_of_the_same_keys() {
     let scratch = iso_cases().file("s.toml", ISO_STUDY);
     let digest = |word: &str| {
         let settings = [Setting::parse(word).unwrap()];
-        let study = Study::read(&scratch.path().join("s.toml"), &settings, &columns_of).unwrap();
+        let study = Study::read(&scratch.path().join("s.toml"), &settings, &columns_of_scene).unwrap();
         study_digest(&study, false)
     };
     let all = ["analysis.cycles=1", "analysis.cycles=2", "operation.torque_nm=90"].map(digest);

@@ -299,7 +299,8 @@ fn pitch_deviations_are_drawn_tooth_by_tooth() {
     let (all, parsed) = (rows(&scratch, "o/cases.csv"), Plan::read(&scratch.path().join("plan.toml")).unwrap());
     for (case, row) in all.iter().enumerate() {
         assert_eq!(row["status"], "solved", "{row:?}");
-        let scene = parsed.scene(case).unwrap();
+        let machine = parsed.machine(case).unwrap();
+        let scene = machine.pair().unwrap();
         for (name, gear) in [("pinion", &scene.pinion), ("wheel", &scene.wheel)] {
             let list = &gear.pitch_errors_um;
             assert_eq!(list.len(), gear.teeth as usize);

@@ -5,25 +5,24 @@ use answer::Remark;
 use std::sync::Arc;
 
 use dynamics::RigidBody;
+use fem::Wanted;
 use gearbox::{
     ExactMesh, GearboxError, GearboxPosition, Mesh, MeshElement, MeshState, Meshing, Train,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
 use ltca::StaticOptions;
-use reduction::ElasticGear;
 use scene::{
     Scene,
     gearbox::{Gearbox, GearboxGear, GearboxMesh},
 };
 
 use crate::{
-    AnalysisError, GearCache, NoObserver, Progress,
-    elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
-    gears,
-    inputs::{meshes_of, settled_scene},
+    AnalysisError, GearCache, NoObserver, Progress, SharedModels, gears,
+    inputs::settled_scene,
     meshes::SceneMesh,
     motion::body,
     options::options,
+    reduced_pairs::ReducedPair,
     warnings::{PressedMesh, jam_warning},
 };
 
@@ -52,7 +51,7 @@ pub(super) fn running(file: &Gearbox, train: &Train) -> Vec<Scene> {
 pub(super) fn widening<T>(
     meshes: &[Mesh],
     reduced: &mut [ReducedMesh],
-    cache: &dyn GearCache,
+    models: &SharedModels<'_>,
     warnings: &mut Vec<Remark>,
     mut solve: impl FnMut(&[ReducedMesh]) -> Result<T, AnalysisError>,
 ) -> Result<T, AnalysisError> {
@@ -67,7 +66,7 @@ pub(super) fn widening<T>(
         };
         let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
         let Some(i) = which else { return Err(error) };
-        if !reduced[i].widen(&meshes[i], cache)? {
+        if !reduced[i].widen(&meshes[i], models)? {
             return Err(error);
         }
         warnings.push(remark::window_widened(error.to_string(), reduced[i].window()));
@@ -81,9 +80,7 @@ const OFF_SEAT: f64 = 0.05;
 pub(super) struct ReducedMesh {
     pub scene: Scene,
     pub options: StaticOptions,
-    meshes: [SceneMesh; 2],
-    gears: Arc<[ElasticGear; 2]>,
-    keys: RecordKeys,
+    pair: Arc<ReducedPair>,
     /// What the user should hear of them.
     pub warnings: Vec<Remark>,
 }
@@ -92,22 +89,22 @@ impl ReducedMesh {
     pub fn new(
         scene: Scene,
         mesh: &Mesh,
-        (cache, progress): (&dyn GearCache, &dyn Progress),
+        (models, progress): (&SharedModels<'_>, &dyn Progress),
     ) -> Result<Self, AnalysisError> {
-        let meshes = meshes_of(&scene, &mesh.pair, None)?;
         let options = options(&scene, &mesh.pair);
-        let ElasticGears { gears, keys, warnings } =
-            elastic_gears(&scene, &mesh.pair, &options, &meshes, (cache, progress, &|| true))?;
-        let of_pair = gears::warnings(&mesh.pair).into_iter().chain(meshes.iter().flat_map(|m| m.warnings.clone()));
-        let warnings = of_pair.chain(warnings).map(|said| said.about(&mesh.name)).collect();
-        Ok(Self { scene, options, meshes, gears: Arc::new(gears), keys, warnings })
+        let pair = models.pairs.of(&scene, &mesh.pair, &options, (models.cache(), progress, &|| true))?;
+        let of_meshes = pair.meshes.iter().flat_map(|m| &m.warnings).chain(&pair.warnings).cloned();
+        let warnings = gears::warnings(&mesh.pair).into_iter().chain(of_meshes);
+        let warnings = warnings.map(|said| said.about(&mesh.name)).collect();
+        Ok(Self { scene, options, pair, warnings })
     }
 
     /// What is held of the bores, where that is about another cross-section than the gear's seat: a shaft would take
     /// hold of it by a lever that is not there.
     pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<Remark> {
         let width = self.scene.pair.face_width_mm;
-        let gears = file.meshes[i].gears.into_iter().zip(&self.meshes).map(|(gear, mesh)| (&file.gears[gear], mesh));
+        let gears =
+            file.meshes[i].gears.into_iter().zip(&self.pair.meshes).map(|(gear, mesh)| (&file.gears[gear], mesh));
         let one = |(gear, mesh): (&GearboxGear, &SceneMesh)| {
             let weights = mesh.gear.bore_weights();
             let z = |n: u32| mesh.gear.mesh().nodes[n as usize][2];
@@ -140,7 +137,7 @@ impl ReducedMesh {
 
     /// The same, as itself.
     pub fn exact(&self, mesh: &Mesh) -> Result<ExactMesh, GearboxError> {
-        ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.gears), self.options.clone())
+        ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.pair.gears), self.options.clone())
     }
 
     /// The contact as a mesh in motion, with a damper along the normal (N s/mm).
@@ -150,13 +147,13 @@ impl ReducedMesh {
 
     /// A map of the contact.
     pub fn map(&self, mesh: &Mesh, request: &MapRequest) -> Result<MappedMesh, GearboxError> {
-        MappedMesh::new(&mesh.pair, &self.gears, &self.options, request)
+        MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, request)
     }
 
     /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.
     pub fn body(&self, gear: usize) -> Result<RigidBody, AnalysisError> {
         let stated = self.scene.gears()[gear].body.clone().unwrap_or_default();
-        body(&self.scene, &self.meshes, &stated, gear)
+        body(&self.scene, &self.pair.meshes, &stated, gear)
     }
 
     /// Teeth of its window.
@@ -165,9 +162,9 @@ impl ReducedMesh {
     }
 
     /// Reduces anew with one more tooth in the window; whether there was one.
-    pub fn widen(&mut self, mesh: &Mesh, cache: &dyn GearCache) -> Result<bool, AnalysisError> {
+    pub fn widen(&mut self, mesh: &Mesh, models: &SharedModels<'_>) -> Result<bool, AnalysisError> {
         let teeth = self.options.window_teeth(&mesh.pair) + 1;
-        let room = self.meshes.iter().all(|m| {
+        let room = self.pair.meshes.iter().all(|m| {
             let there = if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() };
             teeth < there
         });
@@ -175,14 +172,13 @@ impl ReducedMesh {
             return Ok(false);
         }
         self.options.window = Some(teeth);
-        let found =
-            elastic_gears(&self.scene, &mesh.pair, &self.options, &self.meshes, (cache, &NoObserver, &|| true))?;
-        (self.gears, self.keys) = (Arc::new(found.gears), found.keys);
+        let waiting = (models.cache() as &dyn GearCache, &NoObserver as &dyn Progress, &(|| true) as Wanted<'_>);
+        self.pair = models.pairs.of(&self.scene, &mesh.pair, &self.options, waiting)?;
         Ok(true)
     }
 
     /// Keeps the gears for later runs; what could not be written.
     pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
-        if cache.is_on() { self.keys.save(cache, &self.gears) } else { Vec::new() }
+        self.pair.save(cache)
     }
 }

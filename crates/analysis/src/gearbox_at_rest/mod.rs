@@ -6,6 +6,7 @@
 //! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `checks` | what must hold |
+//! | `headline` | the numbers that it is judged by |
 //! | `motion`, `orders`, `sink` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `room` | what is said of parts that have no room |
@@ -13,6 +14,7 @@
 
 mod bearings;
 mod checks;
+mod headline;
 mod inertia;
 mod loads;
 mod meshes;
@@ -34,14 +36,14 @@ use gearbox::{
 use scene::{Scene, gearbox::Gearbox};
 
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork,
+    AnalysisError, Observer, PhaseWork, SharedModels,
     context::{Context, Ending, Question},
     plausible::gearbox_remarks,
     run_phase, unless_cancelled,
 };
 pub use bearings::RollingLoad;
 use meshes::{ReducedMesh, widening};
-pub use motion::GearboxMotionResult;
+pub use motion::{GearboxMotionResult, Range};
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 pub use sink::GearboxSink;
@@ -65,11 +67,13 @@ impl Question for Gearbox {
 
     /// What is at rest is solved again where its motion is gone on with.
     fn answer(&self, context: Context<'_, Self>) -> Result<Ending<GearboxResult>, AnalysisError> {
-        let Context { observer, cache, sink, from, stop_after, .. } = context;
+        let Context { observer, cache, models, sink, from, stop_after, .. } = context;
+        let own = SharedModels::new(cache);
+        let models = models.unwrap_or(&own);
         let span = Span { from, stop_after };
         let (result, stopped) = match sink {
-            Some(sink) => solve((self, cache), span, observer, sink),
-            None => solve((self, cache), span, observer, &mut NoGearboxSink),
+            Some(sink) => solve((self, models), span, observer, sink),
+            None => solve((self, models), span, observer, &mut NoGearboxSink),
         }?;
         Ok(stopped.map_or(Ending::Finished(result), |cycles| Ending::Stopped { cycles }))
     }
@@ -77,7 +81,7 @@ impl Question for Gearbox {
 
 /// The result, and the cycles after which its motion was stopped, where it was.
 fn solve(
-    (file, cache): (&Gearbox, &dyn GearCache),
+    (file, models): (&Gearbox, &SharedModels<'_>),
     span: Span,
     observer: &mut dyn Observer,
     sink: &mut dyn GearboxSink,
@@ -108,7 +112,7 @@ fn solve(
     let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
         let one = |(mesh, scene): (&gearbox::Mesh, Scene)| {
             progress.say(mesh.name.clone());
-            let own = ReducedMesh::new(scene, mesh, (cache, progress))?;
+            let own = ReducedMesh::new(scene, mesh, (models, progress))?;
             progress.tick();
             unless_cancelled(progress)?;
             Ok(own)
@@ -119,7 +123,7 @@ fn solve(
         warnings.extend(own.warnings.clone());
         warnings.extend(own.seats(file, i));
     }
-    let (positions, samples) = widening(&meshes, &mut reduced, cache, &mut warnings, |reduced| {
+    let (positions, samples) = widening(&meshes, &mut reduced, models, &mut warnings, |reduced| {
         run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
             let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
                 reduced[i].element(mesh)
@@ -154,13 +158,13 @@ fn solve(
         None => None,
         Some(asked) => {
             let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
-            let found = widening(&meshes, &mut reduced, cache, &mut warnings, |reduced| {
+            let found = widening(&meshes, &mut reduced, models, &mut warnings, |reduced| {
                 vibration::vibration(&parts, asked, reduced, &samples, observer)
             });
             Some(found?)
         }
     };
-    warnings.extend(reduced.iter().flat_map(|own| own.save(cache)));
+    warnings.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
     let rest = motion::AtRest {
         file,
         structure: &linear,

@@ -62,7 +62,35 @@ pub struct GearboxMotionResult {
     pub periodicity: Option<Periodicity>,
 }
 
+/// Least and largest value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Least.
+    pub least: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+impl Range {
+    /// From the one to the other.
+    pub fn span(self) -> f64 {
+        self.largest - self.least
+    }
+}
+
 impl GearboxMotionResult {
+    /// Least and largest value of the second half of a motion: what settles is in the first.
+    pub fn settled(&self, of: impl Fn(&GearboxInstant) -> f64) -> Range {
+        let rows = &self.rows[self.rows.len() / 2..];
+        let begin = Range { least: f64::INFINITY, largest: f64::NEG_INFINITY };
+        rows.iter().map(of).fold(begin, |r, x| Range { least: r.least.min(x), largest: r.largest.max(x) })
+    }
+
+    /// Of the radial force of a bearing in that half, N.
+    pub fn radial_force(&self, bearing: usize) -> Range {
+        self.settled(|p| p.bearings[bearing].force[0].hypot(p.bearings[bearing].force[1]))
+    }
+
     /// What a user should hear of a motion that was to settle.
     pub(super) fn remark(&self, asked: &GearboxMotion) -> Option<Remark> {
         let (tolerance, most) = asked.settle?;

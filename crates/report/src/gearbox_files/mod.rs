@@ -2,7 +2,6 @@
 
 mod motion;
 mod page;
-mod rows;
 mod space;
 mod summary;
 mod swing_words;
@@ -11,6 +10,7 @@ mod vibration_rows;
 
 use analysis::gearbox_at_rest::GearboxResult;
 use answer::{Answer, Cost};
+use columns::gearbox as rows;
 use scene::gearbox::Gearbox;
 use serde_json::json;
 
@@ -21,7 +21,8 @@ use store::folder::ResultDirectory;
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
 /// `motion_orders`.
 pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Answer {
-    let mut tables = vec![rows::positions(file, result), rows::shafts(file, result), rows::line_loads(result)];
+    let mut tables =
+        vec![rows::positions(file, &result.positions), rows::shafts(file, result), rows::line_loads(result)];
     if let Some(swings) = &result.vibration {
         tables.extend([
             vibration_rows::modes(file, swings),
@@ -33,7 +34,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         ]);
     }
     if let Some(own) = &result.motion {
-        tables.push(rows::motion(file, own));
+        tables.push(rows::motion(file, &own.rows));
         if !own.orders.is_empty() {
             tables.push(vibration_rows::motion_orders(file, &own.orders));
         }
@@ -43,7 +44,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         name: file.name.clone(),
         inputs: json!({ "gearbox": file.file }),
         tables,
-        headline: summary::headline(result),
+        headline: result.headline(),
         checks: result.checks(),
         remarks: result.warnings.clone(),
         info: summary::info(file, result),

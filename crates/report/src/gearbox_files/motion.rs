@@ -20,34 +20,28 @@ const DRAWN: usize = 3;
 /// Change of the speed over its largest from which on a motion is a run-up.
 const RUN_UP: f64 = 0.02;
 
-/// Least and largest value of the second half of a motion: what settles is in the first.
-fn range(result: &GearboxMotionResult, of: impl Fn(&GearboxInstant) -> f64) -> [f64; 2] {
-    let settled = &result.rows[result.rows.len() / 2..];
-    settled.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(x), h.max(x)])
-}
-
 /// What `summary.json` has of it.
 pub(super) fn summary(file: &Gearbox, result: &GearboxResult) -> Value {
     let Some(motion) = &result.motion else { return Value::Null };
     let meshes = (0..file.meshes.len()).map(|i| {
-        let dte = range(motion, |p| 1e3 * p.meshes[i].transmission_error);
-        let force = range(motion, |p| p.meshes[i].normal_force);
+        let dte = motion.settled(|p| 1e3 * p.meshes[i].transmission_error);
+        let force = motion.settled(|p| p.meshes[i].normal_force);
         json!({
             "name": result.meshes[i].name,
             "mesh_hz": motion.mesh_frequencies[i],
             "mean_mesh_stiffness_n_per_um": 1e-3 * motion.stiffness[i],
             "mesh_damping_n_s_per_mm": motion.damping[i],
-            "peak_to_peak_dte_um": dte[1] - dte[0],
-            "min_normal_force_n": force[0],
-            "max_normal_force_n": force[1],
+            "peak_to_peak_dte_um": dte.span(),
+            "min_normal_force_n": force.least,
+            "max_normal_force_n": force.largest,
             "separations": motion.separations[i][0],
             "coast_separations": motion.separations[i][1],
             "map_use": motion.reach[i],
         })
     });
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
-        let force = range(motion, |p| p.bearings[i].force[0].hypot(p.bearings[i].force[1]));
-        json!({ "name": b.name, "min_radial_force_n": force[0], "max_radial_force_n": force[1] })
+        let force = motion.radial_force(i);
+        json!({ "name": b.name, "min_radial_force_n": force.least, "max_radial_force_n": force.largest })
     });
     let energy = &motion.energy;
     let reduction = &motion.reduction;
@@ -95,20 +89,20 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult) -> Vec<Part> {
     };
     let head = ["in motion", "mesh Hz", "DTE p-p um", "least N", "largest N", "contact lost"];
     let meshes = (0..file.meshes.len()).map(|i| {
-        let dte = range(motion, |p| 1e3 * p.meshes[i].transmission_error);
-        let force = range(motion, |p| p.meshes[i].normal_force);
+        let dte = motion.settled(|p| 1e3 * p.meshes[i].transmission_error);
+        let force = motion.settled(|p| p.meshes[i].normal_force);
         vec![
             Cell::text(&result.meshes[i].name),
             Cell::number(motion.mesh_frequencies[i], 1),
-            Cell::number(dte[1] - dte[0], 3),
-            Cell::number(force[0], 0),
-            Cell::number(force[1], 0),
+            Cell::number(dte.span(), 3),
+            Cell::number(force.least, 0),
+            Cell::number(force.largest, 0),
             Cell::count(motion.separations[i][0]),
         ]
     });
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
-        let force = range(motion, |p| p.bearings[i].force[0].hypot(p.bearings[i].force[1]));
-        vec![Cell::text(&b.name), Cell::number(force[0], 1), Cell::number(force[1], 1)]
+        let force = motion.radial_force(i);
+        vec![Cell::text(&b.name), Cell::number(force.least, 1), Cell::number(force.largest, 1)]
     });
     let mut charts: Vec<String> = over_time(file, motion).into_iter().flatten().collect();
     if is_run_up(motion) {

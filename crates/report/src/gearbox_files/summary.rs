@@ -8,7 +8,6 @@ use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use serde_json::{Map, Value, json};
 
-use super::norm;
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 
 /// What is known of a gearbox but its rows and its headline. Names of keys bear the units.
@@ -43,21 +42,6 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
     // Keys of what is not asked for are not there.
     let vibration = vibration.map(|own| ("vibration", own));
     keys.into_iter().chain(vibration).map(|(key, value)| (key.to_owned(), value)).collect()
-}
-
-/// The numbers that two gearboxes are compared by.
-pub(super) fn headline(result: &GearboxResult) -> Value {
-    let of_meshes = |of: &dyn Fn(&MeshResult) -> Option<f64>| result.meshes.iter().map(of).collect::<Vec<_>>();
-    json!({
-        "mean_input_torque_nm": 1e-3 * result.input_torque,
-        "mean_ste_um": of_meshes(&|m| Some(1e3 * m.transmission_error[0])),
-        "peak_to_peak_ste_um": of_meshes(&|m| Some(1e3 * m.transmission_error[1])),
-        "misalignment_in_plane_um": of_meshes(&|m| Some(1e3 * m.misalignment[0])),
-        "face_load_factor": of_meshes(&|m| m.face_load_factor),
-        "max_pressure_mpa": of_meshes(&|m| Some(m.max_pressure)),
-        "peak_to_peak_lag_urad": result.outputs.iter().map(|o| 1e6 * o.peak_to_peak).collect::<Vec<_>>(),
-        "mean_bearing_force_n": result.bearings.iter().map(|b| norm(b.force)).collect::<Vec<_>>(),
-    })
 }
 
 /// What is known of a rolling bearing.

@@ -7,17 +7,18 @@ use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft,
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
+use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
 use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, PairScene, Setting, Source, Word, study::setting};
+use crate::{Kind, Method, Model, PairScene, SceneError, Setting, Source, Word, study::setting};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
 
-pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
+pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -> Checked<Gearbox> {
     few(s, "shafts", &raw.shaft)?;
     few(s, "bearings", &raw.bearing)?;
     few(s, "gears", &raw.gear)?;
@@ -29,7 +30,21 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     let bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
-    let mut meshes = all(&raw.mesh, |t| mesh(s, t, &gears))?;
+    let mut meshes = Vec::new();
+    for (i, table) in raw.mesh.iter().enumerate() {
+        let called = mesh_name(table.get_ref());
+        let is_meant = |which: &str| which.parse() == Ok(i) || called == which;
+        let set: Vec<Setting> =
+            of_pairs.iter().filter(|own| is_meant(&own.mesh)).map(|own| own.setting.clone()).collect();
+        meshes.push(mesh(s, table, &gears, set)?);
+    }
+    let is_there =
+        |which: &str| which.parse().is_ok_and(|i: usize| i < meshes.len()) || meshes.iter().any(|m| m.name == which);
+    if let Some(none) = of_pairs.iter().find(|own| !is_there(&own.mesh)) {
+        let names: Vec<String> = meshes.iter().enumerate().map(|(i, m)| format!("{i} (\"{}\")", m.name)).collect();
+        let what = format!("there is no mesh `{}`; there are {}", none.mesh, names.join(", "));
+        return Err(SceneError::Setting { label: format!("--set {}", none.key), what });
+    }
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));
     if meshes.is_empty() {
@@ -53,7 +68,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox) -> Checked<Gearbox> {
     Ok(Gearbox {
         name,
         file: s.file.to_owned(),
-        set: s.settings.iter().map(Setting::word).collect(),
+        set: Vec::new(),
         shafts,
         bearings,
         gears,
@@ -88,7 +103,17 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
     Ok(GearboxGear { name, shaft, position, seat, key, inertia })
 }
 
-fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Checked<GearboxMesh> {
+/// What a mesh is called.
+fn mesh_name(raw: &RawMesh) -> String {
+    let word = |word: &Word| word.as_ref().map_or("", |w| w.get_ref().as_str()).to_owned();
+    match &raw.name {
+        Some(own) => own.get_ref().clone(),
+        None => format!("{}/{}", word(&raw.pinion), word(&raw.wheel)),
+    }
+}
+
+/// `more`: keys of its scene that are set beside the file.
+fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: Vec<Setting>) -> Checked<GearboxMesh> {
     let raw = table.get_ref();
     let known: Vec<(&str, usize)> = gears.iter().enumerate().map(|(i, g)| (g.name.as_str(), i)).collect();
     let of = |key: &str, word: &Word| match word {
@@ -107,7 +132,8 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
         let said = format!("a mesh sets more than {SETTINGS} keys");
         return Err(s.conflict(&own.span(), said, "change the scene of the pair instead"));
     }
-    let settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
+    settings.extend(more);
     let document = s.named(word, "gearbox file")?;
     let scene = document.scene(&settings)?;
     let unfit = |what: &str, advice: &str| {
@@ -128,10 +154,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear]) -> Chec
     if !scene.accuracy.is_none() {
         return unfit("asks for an accuracy", "a gearbox has no bounds: leave [accuracy] out");
     }
-    let name = match &raw.name {
-        Some(own) => own.get_ref().clone(),
-        None => format!("{}/{}", gears[pair[0]].name, gears[pair[1]].name),
-    };
+    let name = mesh_name(raw);
     Ok(GearboxMesh { name, gears: pair, scene })
 }
 

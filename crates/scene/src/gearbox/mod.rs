@@ -15,6 +15,7 @@ mod file;
 mod housing;
 mod loads;
 mod motion;
+mod pair_setting;
 mod parts;
 mod raw;
 mod read;

@@ -5,6 +5,7 @@ use std::path::Path;
 use super::{
     Gearbox,
     check::check,
+    pair_setting::{PairSetting, is_of_pair},
     raw::{GEARBOX, RawGearbox, tables},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source, schema::schema_of};
@@ -52,7 +53,7 @@ impl Gearbox {
     /// The same with the scenes of some names as texts: before they are written.
     pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
         let document = Document::new(text.to_owned(), file);
-        read(&Source::of(&document, tables).with_beside(beside))
+        read(&Source::of(&document, tables).with_beside(beside), &[])
     }
 }
 
@@ -62,11 +63,15 @@ impl Document {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn gearbox(&self, settings: &[Setting]) -> Result<Gearbox, SceneError> {
-        read(&Source::of(self, tables).with_settings(settings))
+        let (of_pairs, own): (Vec<&Setting>, Vec<&Setting>) = settings.iter().partition(|s| is_of_pair(s));
+        let own: Vec<Setting> = own.into_iter().cloned().collect();
+        let of_pairs: Vec<PairSetting> = of_pairs.into_iter().map(PairSetting::of).collect();
+        let read = read(&Source::of(self, tables).with_settings(&own), &of_pairs)?;
+        Ok(Gearbox { set: settings.iter().map(Setting::word).collect(), ..read })
     }
 }
 
-fn read(source: &Source<'_>) -> Result<Gearbox, SceneError> {
+fn read(source: &Source<'_>, of_pairs: &[PairSetting]) -> Result<Gearbox, SceneError> {
     let raw: RawGearbox = source.words(DocumentKind::Gearbox)?;
-    check(source, raw)
+    check(source, raw, of_pairs)
 }

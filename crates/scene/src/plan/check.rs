@@ -51,10 +51,10 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, more: &[Setting]) -> Checked<
         seed: u64::from(s.whole("seed", &raw.seed, SEED, 0, u32::MAX)?),
     };
     let (mut axes, mut kinds) = (Vec::new(), Vec::new());
-    let known = document.scene(&settings).ok();
+    let known = document.machine(&settings).ok();
     for table in &raw.vary {
         let tolerance = |key: &str, class: u32| {
-            let known = known.as_ref()?;
+            let known = known.as_ref()?.pair()?;
             classed(known, key, class, known.number_at(key))
         };
         let (own, kind) = vary(s, table, "[[vary]]", tolerance)?;
@@ -101,10 +101,10 @@ pub(super) fn finish(plan: Plan) -> Checked<Plan> {
     }
     // A key that is none, or a scene that is wrong in all cases, is told before any work; values may be wrong in some
     // cases alone.
-    match plan.scene(0) {
+    match plan.machine(0) {
         Ok(_) | Err(SceneError::OutOfRange { .. } | SceneError::Geometry { .. }) => Ok(plan),
         Err(e) => {
-            plan.document.scene(&plan.settings)?;
+            plan.document.machine(&plan.settings)?;
             Err(e)
         }
     }

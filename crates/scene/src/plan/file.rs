@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use cases::{Cases, Sampling};
 
 use super::PitchTolerance;
-use crate::{Document, Scene, SceneError, Setting, study::Take};
+use crate::{Document, Machine, SceneError, Setting, study::Take};
 
-/// A scene, what of it is varied, and what is wanted of each case.
+/// A pair or a gearbox, what of it is varied, and what is wanted of each case.
 #[derive(Debug, Clone)]
 pub struct Plan {
     /// Title.
     pub name: String,
     /// Where it stands; the path of the scene is relative to its folder.
     pub file: PathBuf,
-    /// The scene.
+    /// What is varied.
     pub document: Document,
     /// Keys that all cases have otherwise.
     pub settings: Vec<Setting>,
@@ -115,11 +115,11 @@ impl Plan {
         self.axes.iter().zip(self.cases.values(case)).map(told).collect()
     }
 
-    /// The scene of a case.
+    /// The pair, or the gearbox, of a case.
     ///
     /// # Errors
-    /// [`SceneError`]: what the scene does not allow.
-    pub fn scene(&self, case: usize) -> Result<Scene, SceneError> {
-        self.document.scene(&self.settings_of(case)?)
+    /// [`SceneError`]: what its document does not allow.
+    pub fn machine(&self, case: usize) -> Result<Machine, SceneError> {
+        self.document.machine(&self.settings_of(case)?)
     }
 }

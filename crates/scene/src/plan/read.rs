@@ -82,9 +82,8 @@ impl Plan {
                     return Err(complain("pitch errors of each gear are drawn by a `--vary` of its own".into()));
                 }
                 AxisValues::Class(class) => {
-                    let known = document.scene(settings)?;
-                    let key = &keys[0];
-                    let found = classed(&known, key, class, known.number_at(key));
+                    let (known, key) = (document.machine(settings)?, &keys[0]);
+                    let found = known.pair().and_then(|pair| classed(pair, key, class, pair.number_at(key)));
                     found.ok_or_else(|| complain(format!("ISO 1328 has no tolerance for it: {CLASSED}")))?
                 }
             };

@@ -9,7 +9,7 @@ use report::{
     plan_files::{PageWords, write_cases},
 };
 use scene::{
-    Document,
+    Document, Machine,
     plan::{Plan, PlanOutput, PlanTake, PlanWords},
     study::{Take, column_advice},
 };
@@ -86,10 +86,13 @@ impl VaryArgs {
     /// What is wanted of the column that `--of` names.
     fn outputs_of_column(&self, document: &Document, settings: &[Setting]) -> Result<Vec<PlanOutput>, CommandError> {
         let Some(column) = &self.of else { return Ok(Vec::new()) };
-        let scene = with_slices(document.scene(settings)?);
-        if let Some(all) = columns_of(&scene).filter(|all| !all.iter().any(|name| name == column)) {
+        let machine = match document.machine(settings)? {
+            Machine::Pair(scene) => Machine::Pair(Box::new(with_slices(*scene))),
+            gearbox => gearbox,
+        };
+        if let Some(all) = columns_of(&machine).filter(|all| !all.iter().any(|name| name == column)) {
             let names: Vec<&str> = all.iter().map(String::as_str).collect();
-            let what = format_args!("`--of {column}` is no column of history.csv");
+            let what = format_args!("`--of {column}` is no column of the rows");
             return Err(CommandError::input(what, column_advice(column, &names)));
         }
         Ok(TAKES.map(|take| PlanOutput::Column { column: column.clone(), take }).into())

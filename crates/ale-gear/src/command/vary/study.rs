@@ -7,7 +7,7 @@ use analysis::{
     remark::{self, Remark},
     resolution::with_slices,
 };
-use plan::{columns_of, study_digest};
+use plan::{columns_of_scene, study_digest};
 use report::study_files::{StudyResult, study_answer, study_page, study_warnings};
 use scene::study::Study;
 
@@ -33,7 +33,7 @@ impl VaryArgs {
     /// Every complaint about the words and about all files is made here, before any work starts or any file is written.
     fn study_of_file(&self) -> Result<Study, CommandError> {
         let settings = self.overrides.settings()?;
-        let mut study = Study::read(&self.file, &settings, &columns_of)?;
+        let mut study = Study::read(&self.file, &settings, &columns_of_scene)?;
         for case in &mut study.cases {
             case.scene = with_slices(case.scene.clone());
         }

@@ -3,19 +3,19 @@
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox_at_rest::{GearboxMotionResult, GearboxResult};
-use answer::Table;
+use analysis::gearbox_at_rest::GearboxResult;
+use answer::{Table, Values};
 use gearbox::{
     BearingState, GearboxPosition, ShaftLine, line_load, motion::GearboxInstant, rolling_bearing::RollingState,
 };
 use scene::gearbox::Gearbox;
+use study::Columns;
 
 const PER_MINUTE: f64 = 60.0 / TAU;
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// `positions`: one row a position.
-pub(super) fn positions(file: &Gearbox, result: &GearboxResult) -> Table {
-    let rows = &result.positions;
+pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
     let mut table = Table::new("positions");
     let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&GearboxPosition) -> f64| {
         table.push_numbers(name, meaning, rows.iter().map(of));
@@ -72,7 +72,7 @@ fn bearing(i: usize, push: BearingColumn<'_>) {
 }
 
 /// `shafts`: one row a node of a shaft at a position.
-pub(super) fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
+pub fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
     let nodes = || {
         result.positions.iter().flat_map(|position| {
             let of_line = move |(i, line): (usize, &'_ ShaftLine)| (0..line.positions.len()).map(move |k| (i, k));
@@ -95,7 +95,7 @@ pub(super) fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
 }
 
 /// `line_load`: the largest line load that each height of a face sees.
-pub(super) fn line_loads(result: &GearboxResult) -> Table {
+pub fn line_loads(result: &GearboxResult) -> Table {
     let all: Vec<(&str, f64, f64)> = (result.meshes.iter().enumerate())
         .flat_map(|(i, mesh)| {
             line_load(&result.positions, i).into_iter().map(|(z, load)| (mesh.name.as_str(), z, load))
@@ -108,10 +108,10 @@ pub(super) fn line_loads(result: &GearboxResult) -> Table {
 }
 
 /// `motion`: one row an instant.
-pub(super) fn motion(file: &Gearbox, result: &GearboxMotionResult) -> Table {
+pub fn motion(file: &Gearbox, rows: &[GearboxInstant]) -> Table {
     let mut table = Table::new("motion");
     let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&GearboxInstant) -> f64| {
-        table.push_numbers(name, meaning, result.rows.iter().map(of));
+        table.push_numbers(name, meaning, rows.iter().map(of));
     };
     push("time_s".into(), "time since the start", &|p| p.time);
     push("input_angle_deg".into(), "angle of the input", &|p| p.input[0].to_degrees());
@@ -131,4 +131,23 @@ pub(super) fn motion(file: &Gearbox, result: &GearboxMotionResult) -> Table {
         bearing(i, &mut |name, meaning, of| push(name, meaning, &|p| of(&p.bearings[i])));
     }
     table
+}
+
+/// The rows that a plan reads numbers off: of a motion, else of the positions at rest.
+pub fn history(file: &Gearbox, result: &GearboxResult) -> Columns {
+    let table = match &result.motion {
+        Some(own) => motion(file, &own.rows),
+        None => positions(file, &result.positions),
+    };
+    let series = |column: answer::Column| match column.values {
+        Values::Numbers(values) => Some((column.name.into_owned(), values)),
+        Values::Texts(_) => None,
+    };
+    table.columns.into_iter().filter_map(series).collect()
+}
+
+/// Names of the columns of [`history`], before anything is solved.
+pub fn history_columns(file: &Gearbox) -> Vec<String> {
+    let table = if file.motion.is_some() { motion(file, &[]) } else { positions(file, &[]) };
+    table.columns.into_iter().map(|column| column.name.into_owned()).collect()
 }
