@@ -4,8 +4,12 @@
 use std::ops::ControlFlow;
 
 use ::mesh::Mesh;
-use ::plan::{DoneCases, solve_cases};
-use ::scene::{Scene, optimum::Optimisation, plan::Plan};
+use ::plan::{CaseLines, DoneCases, OptimumError, check_numbers, optimise_numbers, solve_cases};
+use ::scene::{
+    Scene,
+    optimum::{NumberOptimisation, Optimisation},
+    plan::Plan,
+};
 use analysis::{
     AnalysisError, Context, GearCache, Observer, PhaseWork, Recorder, SharedModels,
     in_time::is_one_motion,
@@ -14,7 +18,7 @@ use analysis::{
 };
 use export::MotionFileSink;
 use report::{
-    optimum_files::{OptimumResult, write_optimum},
+    optimum_files::{NumberOptimumResult, OptimumResult, write_number_optimum, write_optimum},
     plan_files::{PageWords, write_cases},
     write_in_time,
 };
@@ -22,7 +26,7 @@ use store::folder::ResultDirectory;
 use tempfile::TempDir;
 
 use crate::{
-    error::Complaint,
+    error::{Complaint, Kind},
     result::{FILES, Result},
     work::Watch,
 };
@@ -61,7 +65,7 @@ pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
 pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
     let folder = TempDir::new()?;
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
-    let done = DoneCases::in_memory(plan, Default::default());
+    let done = DoneCases::in_memory(CaseLines::of(plan), Default::default());
     let count = plan.cases.count();
     let progress = watch.begin("cases", PhaseWork::Steps(count as u64));
     let beside = watch.beside();
@@ -91,6 +95,32 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
     let of = OptimumResult { optimum: &found, told: &told, scene: &scene, again };
     let written = write_optimum(&of, watch.cost(), &results)?;
+    results.finish(drop)?;
+    Ok(Result::written("optimum", written.answer, folder, None))
+}
+
+/// The design whose numbers are smallest within limits; `again`: the call that makes it again.
+pub fn number_optimum(plan: &NumberOptimisation, again: &str, held: Held<'_>, watch: &mut Watch) -> Answer {
+    let start = plan.machine(&plan.start()).map_err(AnalysisError::from)?;
+    check_numbers(&start, &plan.outputs(), &plan.file)
+        .map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint.clone())))?;
+    let folder = TempDir::new()?;
+    let results = ResultDirectory::create(&folder.path().join(FILES))?;
+    let progress = watch.begin("search", PhaseWork::Steps(u64::from(plan.evaluations)));
+    let lines = CaseLines::new(plan.parameters.len(), plan.outputs().len());
+    let (done, beside) = (DoneCases::in_memory(lines, Default::default()), watch.beside());
+    let found = optimise_numbers(plan, held.models, &|| Box::new(beside.beside()), &done, |count, goal| {
+        progress.tick();
+        progress.say(goal.map_or_else(|| format!("evaluation {count}"), |goal| format!("{goal:.6}")));
+        if progress.is_cancelled() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let optimum = found.map_err(|e| match e {
+        OptimumError::Cancelled => AnalysisError::Cancelled.into(),
+        e => Complaint::new(Kind::NoResult, &e, None),
+    })?;
+    watch.end();
+    let of = NumberOptimumResult { plan, optimum: &optimum, again };
+    let written = write_number_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
     Ok(Result::written("optimum", written.answer, folder, None))
 }

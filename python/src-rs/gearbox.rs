@@ -2,19 +2,20 @@
 
 use std::{path::Path, sync::Arc};
 
-use ::scene::gearbox::Gearbox as GearboxFile;
-use analysis::Recorder;
-use analysis::{Context, GearCache};
+use ::scene::{Document, gearbox::Gearbox as GearboxFile};
+use analysis::{Context, GearCache, Recorder, SharedModels};
 use pyo3::prelude::*;
 use report::gearbox_files::write_gearbox;
 use store::folder::ResultDirectory;
 use tempfile::TempDir;
 
 use crate::{
+    analyses::{self, Held},
     arguments::{Given, path, text},
     error::{Complaint, Kind},
     pair::{cache_of, that_holds, threads_of},
     result::{FILES, Result},
+    words::{numbers_of, plan_of},
     work::{Watch, run},
 };
 
@@ -24,6 +25,7 @@ type Answer<T> = std::result::Result<T, Complaint>;
 #[pyclass(frozen, module = "ale_gear")]
 pub struct Gearbox {
     file: Arc<GearboxFile>,
+    document: Document,
 }
 
 #[pymethods]
@@ -31,8 +33,7 @@ impl Gearbox {
     /// Of a file; paths in it are relative to it.
     #[staticmethod]
     fn read(file: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let read = GearboxFile::read(&path("file", file)?).map_err(Complaint::from)?;
-        Ok(Self { file: Arc::new(read) })
+        Ok(Self::of(Document::read(&path("file", file)?).map_err(Complaint::from)?)?)
     }
 
     /// Of the text of a file; `file` is what messages name, and what paths in it are relative to.
@@ -41,8 +42,7 @@ impl Gearbox {
     fn parse(toml: &Bound<'_, PyAny>, file: Given<'_, '_>) -> PyResult<Self> {
         let at = file.map(|any| path("file", any)).transpose()?;
         let at = at.as_deref().unwrap_or(Path::new("gearbox.toml"));
-        let read = GearboxFile::parse(&text("toml", toml)?, at).map_err(Complaint::from)?;
-        Ok(Self { file: Arc::new(read) })
+        Ok(Self::of(Document::new(text("toml", toml)?, at))?)
     }
 
     /// Title.
@@ -84,9 +84,71 @@ impl Gearbox {
         that_holds(py, result)
     }
 
+    /// Solves many cases of it: by list, grid or sample; a row of wanted numbers of the headline a case. Keys are those of
+    /// `ale-gear vary`: `bearing.0.stiffness_n_per_mm.0`, `mesh.0.scene.pinion.modification.lead_slope_um`.
+    #[pyo3(signature = (
+        vary, outputs, *, samples = None, design = None, seed = None, cache = None, threads = None, progress = None
+    ))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn vary(
+        &self,
+        py: Python<'_>,
+        vary: &Bound<'_, PyAny>,
+        outputs: &Bound<'_, PyAny>,
+        samples: Given<'_, '_>,
+        design: Given<'_, '_>,
+        seed: Given<'_, '_>,
+        cache: Given<'_, '_>,
+        threads: Given<'_, '_>,
+        progress: Given<'_, '_>,
+    ) -> PyResult<Py<Result>> {
+        let (plan, words) = plan_of((self.document.clone(), Vec::new()), (vary, outputs), (samples, design, seed))?;
+        let again = format!("ale_gear.Gearbox.read(file).vary({words})");
+        let (cache, threads) = (cache_of(cache)?, threads.map(threads_of).transpose()?);
+        let result = run(py, progress, threads, move |watch| {
+            let models = SharedModels::new(&*cache);
+            analyses::vary(&plan, &again, Held { models: &models, cache: &*cache, meshes: None }, watch)
+        })?;
+        that_holds(py, result)
+    }
+
+    /// Searches the design whose numbers of the headline are smallest in the mean, within limits, by differences:
+    /// `ale-gear optimise --goal`.
+    #[pyo3(signature = (
+        parameters, goals, *, limits = None, evaluations = None, cache = None, threads = None, progress = None
+    ))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn optimise(
+        &self,
+        py: Python<'_>,
+        parameters: &Bound<'_, PyAny>,
+        goals: &Bound<'_, PyAny>,
+        limits: Given<'_, '_>,
+        evaluations: Given<'_, '_>,
+        cache: Given<'_, '_>,
+        threads: Given<'_, '_>,
+        progress: Given<'_, '_>,
+    ) -> PyResult<Py<Result>> {
+        let (plan, words) =
+            numbers_of((self.document.clone(), Vec::new()), (parameters, goals), (limits, evaluations))?;
+        let again = format!("ale_gear.Gearbox.read(file).optimise({words})");
+        let (cache, threads) = (cache_of(cache)?, threads.map(threads_of).transpose()?);
+        let result = run(py, progress, threads, move |watch| {
+            let models = SharedModels::new(&*cache);
+            analyses::number_optimum(&plan, &again, Held { models: &models, cache: &*cache, meshes: None }, watch)
+        })?;
+        that_holds(py, result)
+    }
+
     fn __repr__(&self) -> String {
         let [shafts, bearings, meshes] = [self.file.shafts.len(), self.file.bearings.len(), self.file.meshes.len()];
         format!("Gearbox({:?}: {shafts} shafts, {bearings} bearings, {meshes} meshes)", self.file.name)
+    }
+}
+
+impl Gearbox {
+    fn of(document: Document) -> Answer<Self> {
+        Ok(Self { file: Arc::new(document.gearbox(&[])?), document })
     }
 }
 

@@ -14,6 +14,7 @@
 //! | `views` | arrays of the program as arrays of NumPy, without a copy |
 //! | `work` | runs without the interpreter's lock, with progress and Ctrl-C |
 //! | `error` | errors as exceptions with place, key and hint |
+//! | `words` | what is varied and what is wanted |
 //! | `arguments` | arguments of Python, each with its own complaint |
 
 mod analyses;
@@ -28,6 +29,7 @@ mod result;
 mod scene;
 mod values;
 mod views;
+mod words;
 mod work;
 
 use pyo3::prelude::*;

@@ -6,12 +6,11 @@ use ::mesh::Mesh as GearMesh;
 use ::scene::{
     Document, Kind as SceneKind, Setting,
     optimum::{Optimisation, OptimisationWords},
-    plan::{Plan, PlanWords},
 };
 use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, in_time::is_one_motion};
 use pyo3::{
     prelude::*,
-    types::{PyBool, PyList, PyString},
+    types::{PyBool, PyList},
 };
 use rayon::prelude::*;
 use store::available_bytes;
@@ -20,12 +19,13 @@ use store::folder::Cache;
 
 use crate::{
     analyses::{self, Held},
-    arguments::{Given, dict, list, number, numbers, path, shown, switch, text, whole},
+    arguments::{Given, number, numbers, path, shown, switch, text, whole},
     at_rest::AtRest,
     error::{Complaint, Kind},
     mesh::Mesh,
     result::Result,
     scene::{Scene, set_of},
+    words::{bounds, numbers_of, plan_of, words_of},
     work::{Watch, run},
 };
 
@@ -267,23 +267,9 @@ impl Pair {
         set: Given<'_, '_>,
         progress: Given<'_, '_>,
     ) -> PyResult<Py<Result>> {
-        let design = design.map(|any| text("design", any)).transpose()?;
-        let words = words_of("vary", vary, varied)?;
-        let outputs = match text("outputs", outputs) {
-            Ok(one) => vec![one],
-            Err(_) => list("outputs", outputs)?.iter().map(|any| text("outputs", any)).collect::<Answer<Vec<_>>>()?,
-        };
-        let words = PlanWords {
-            vary: &words,
-            outputs: &outputs,
-            columns: &[],
-            design: design.as_deref(),
-            samples: samples.map(|any| whole("samples", any, 1)).transpose()?,
-            seed: seed.map(|any| whole("seed", any, 0)).transpose()?,
-        };
         let (document, settings) = self.parts(set)?;
-        let plan = Plan::of_scene(document, &settings, &words).map_err(Complaint::from)?;
-        let again = format!("ale_gear.Pair(scene).vary({:?}, {outputs:?})", words.vary);
+        let (plan, words) = plan_of((document, settings), (vary, outputs), (samples, design, seed))?;
+        let again = format!("ale_gear.Pair(scene).vary({words})");
         let held = Arc::clone(&self.held);
         let result = run(py, progress, self.threads, move |watch| analyses::vary(&plan, &again, held.held(), watch))?;
         that_holds(py, result)
@@ -316,6 +302,8 @@ impl Pair {
             measure: measure.as_deref(),
             max_pressure_mpa: max_pressure_mpa.map(|any| number("max_pressure_mpa", any)).transpose()?,
             max_edge_pressure_mpa: max_edge_pressure_mpa.map(|any| number("max_edge_pressure_mpa", any)).transpose()?,
+            goals: &[],
+            limits: &[],
             evaluations: evaluations.map_or(Ok(20), |any| whole("evaluations", any, 1))?,
             front: front.map_or(Ok(0), |any| whole("front", any, 0))?,
         };
@@ -325,6 +313,28 @@ impl Pair {
         let held = Arc::clone(&self.held);
         let result =
             run(py, progress, self.threads, move |watch| analyses::optimum(&plan, &again, held.held(), watch))?;
+        that_holds(py, result)
+    }
+
+    /// Searches the design whose numbers of the headline are smallest in the mean, within limits, by differences; of a pair
+    /// at rest or in time.
+    #[pyo3(signature = (parameters, goals, *, limits = None, evaluations = None, set = None, progress = None))]
+    #[allow(clippy::too_many_arguments, reason = "keywords of Python")]
+    fn optimise_numbers(
+        &self,
+        py: Python<'_>,
+        parameters: &Bound<'_, PyAny>,
+        goals: &Bound<'_, PyAny>,
+        limits: Given<'_, '_>,
+        evaluations: Given<'_, '_>,
+        set: Given<'_, '_>,
+        progress: Given<'_, '_>,
+    ) -> PyResult<Py<Result>> {
+        let (plan, words) = numbers_of(self.parts(set)?, (parameters, goals), (limits, evaluations))?;
+        let again = format!("ale_gear.Pair(scene).optimise_numbers({words})");
+        let held = Arc::clone(&self.held);
+        let result =
+            run(py, progress, self.threads, move |watch| analyses::number_optimum(&plan, &again, held.held(), watch))?;
         that_holds(py, result)
     }
 
@@ -352,35 +362,4 @@ impl Pair {
     fn parts(&self, set: Given<'_, '_>) -> Answer<(Document, Vec<Setting>)> {
         Ok(self.scene.with(set_of(set)?)?.parts())
     }
-}
-
-/// `KEY=...` of each entry of a dict.
-fn words_of(
-    name: &str,
-    any: &Bound<'_, PyAny>,
-    word: impl Fn(&str, &Bound<'_, PyAny>) -> Answer<String>,
-) -> Answer<Vec<String>> {
-    let all = dict(name, any, "as {\"operation.torque_nm\": [50, 100]}")?;
-    all.iter().map(|(key, value)| word(&text(name, &key)?, &value)).collect()
-}
-
-/// Values of a varied key: a list of numbers, or the command's words (`"0:40:9"`, `"~0:40"`, `"~normal:0:5"`).
-fn varied(key: &str, any: &Bound<'_, PyAny>) -> Answer<String> {
-    if any.is_instance_of::<PyString>() {
-        let words = text(key, any)?;
-        return Ok(if words.starts_with('~') { format!("{key}{words}") } else { format!("{key}={words}") });
-    }
-    let (values, _) = numbers(key, any)?;
-    let values: Vec<String> = values.iter().map(f64::to_string).collect();
-    Ok(format!("{key}={}", values.join(",")))
-}
-
-/// Bounds of a parameter: `(from, to)`, or the command's words (`"0:40"`); the search begins at the scene's own value.
-fn bounds(key: &str, any: &Bound<'_, PyAny>) -> Answer<String> {
-    if any.is_instance_of::<PyString>() {
-        return varied(key, any);
-    }
-    let (values, _) = numbers(key, any)?;
-    let values: Vec<String> = values.iter().map(f64::to_string).collect();
-    Ok(format!("{key}={}", values.join(":")))
 }

@@ -224,6 +224,7 @@ answer::remarks! {
     // Many cases.
     pressure_limit_passed(limits, by)
         "the limit of the pressure, {limits}, is {by}: no design was found that holds it", "";
+    limit_passed(limits) "no design was found that holds its limits: {limits}", "";
     cases_unsolved(cases, of_cases)
         "{cases} of {of_cases} cases have no result: `reason` in cases.csv says why", "";
     case_unsolved(reason) "no result: {reason}; tables, charts and correlations are without it", "";

@@ -1,6 +1,6 @@
 //! What says that two plans, or two studies, have the same cases.
 
-use scene::{Machine, plan::Plan, study::Study};
+use scene::{Machine, Setting, optimum::NumberOptimisation, plan::Plan, study::Study};
 use store::checkpoint::InputDigests;
 
 /// What says that two plans have the same cases: scene, files that it names, axes, samples, outputs, program.
@@ -15,12 +15,27 @@ pub fn plan_digest(plan: &Plan) -> String {
     plan.settings.iter().for_each(|setting| take(&setting.word()));
     take(&format!("{:?} {:?} {:?} {:?}", plan.axes, plan.cases.axes(), plan.sampling, plan.outputs));
     // Files of a case may be varied as little as their names: those of the first stand for all.
-    match plan.machine(0) {
-        Ok(Machine::Pair(scene)) => take(&format!("{:?}", InputDigests::of(&*scene))),
-        Ok(Machine::Gearbox(file)) => take(&format!("{:?}", InputDigests::of(&*file))),
-        Err(_) => {}
-    }
+    take(&inputs(plan.machine(0).ok()));
     hasher.finalize().to_hex().to_string()
+}
+
+/// What says that two searches have the same designs in the same order.
+pub fn numbers_digest(plan: &NumberOptimisation) -> String {
+    let NumberOptimisation { document, settings, parameters, goals, limits, evaluations, .. } = plan;
+    let mut hasher = blake3::Hasher::new();
+    let words: Vec<String> = settings.iter().map(Setting::word).collect();
+    let inputs = inputs(plan.machine(&plan.start()).ok());
+    let all = format!("{} {words:?} {parameters:?} {goals:?} {limits:?} {evaluations} {inputs}", document.blake3());
+    hasher.update(env!("CARGO_PKG_VERSION").as_bytes()).update(all.as_bytes());
+    hasher.finalize().to_hex().to_string()
+}
+
+/// What a case is made of, files that it names included.
+fn inputs(machine: Option<Machine>) -> String {
+    machine.map_or_else(String::new, |machine| match machine {
+        Machine::Pair(scene) => format!("{:?}", InputDigests::of(&*scene)),
+        Machine::Gearbox(file) => format!("{:?}", InputDigests::of(&*file)),
+    })
 }
 
 /// What says that two studies have the same cases: scenes, files that they name, program; and whether cases have

@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `solve` | all cases, side by side |
+//! | `optimum` | the design whose numbers are smallest within limits |
 //! | `values` | the numbers that a plan wants of a case |
 //! | `outputs` | whether those can be there, before any case is solved |
 //! | `rows` | a case as a row; the rows that are done |
@@ -14,16 +15,18 @@
 mod digest;
 mod known;
 mod layout;
+mod optimum;
 mod outputs;
 mod part;
 mod rows;
 mod solve;
 mod values;
 
-pub use digest::{plan_digest, study_digest};
+pub use digest::{numbers_digest, plan_digest, study_digest};
 pub use known::{Column, KnownCases};
 pub use layout::{columns_of, columns_of_scene};
-pub use outputs::{OutputError, check_outputs};
+pub use optimum::{NumberOptimum, OptimumError, goal_of, optimise_numbers};
+pub use outputs::{OutputError, check_numbers, check_outputs};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseLines, CaseRow, DoneCases};
 pub use solve::{CaseObserver, solve_cases};

@@ -1,5 +1,7 @@
 //! Whether the numbers that a plan wants can be there: told before any case is solved.
 
+use std::path::Path;
+
 use analysis::{HeadlineKey, gearbox_at_rest::GearboxResult, headline_keys};
 use scene::{
     Machine, nearest,
@@ -28,13 +30,20 @@ pub struct OutputError {
 /// The first that is not there.
 pub fn check_outputs(plan: &Plan) -> Result<(), OutputError> {
     // A case whose values are out of range takes nothing from the others.
-    let Ok(machine) = plan.machine(0) else { return Ok(()) };
-    let keys = keys_of(&machine);
-    let found = plan.outputs.iter().try_for_each(|output| match output {
+    plan.machine(0).map_or(Ok(()), |machine| check_numbers(&machine, &plan.outputs, &plan.file))
+}
+
+/// Judges the wanted numbers of a pair or a gearbox; `file`: what says that they are wanted.
+///
+/// # Errors
+/// The first that is not there.
+pub fn check_numbers(machine: &Machine, outputs: &[PlanOutput], file: &Path) -> Result<(), OutputError> {
+    let keys = keys_of(machine);
+    let found = outputs.iter().try_for_each(|output| match output {
         PlanOutput::Headline(key) => of_headline(&keys, key),
-        PlanOutput::Column { column, .. } => of_rows(&machine, column),
+        PlanOutput::Column { column, .. } => of_rows(machine, column),
     });
-    found.map_err(|(what, hint)| OutputError { plan: plan.file.display().to_string(), what, hint })
+    found.map_err(|(what, hint)| OutputError { plan: file.display().to_string(), what, hint })
 }
 
 /// What is not there, and what to do.

@@ -47,6 +47,11 @@ impl CaseRow {
 }
 
 impl CaseLines {
+    /// Of so many values and numbers.
+    pub fn new(axes: usize, outputs: usize) -> Self {
+        Self { axes, outputs }
+    }
+
     /// Of a plan.
     pub fn of(plan: &Plan) -> Self {
         Self { axes: plan.axes.len(), outputs: plan.outputs.len() }
@@ -144,8 +149,8 @@ fn is_beginning(text: &str) -> bool {
 
 impl DoneCases {
     /// In memory alone.
-    pub fn in_memory(plan: &Plan, rows: BTreeMap<usize, CaseRow>) -> Self {
-        Self { file: None, lines: CaseLines::of(plan), rows: Mutex::new(rows) }
+    pub fn in_memory(lines: CaseLines, rows: BTreeMap<usize, CaseRow>) -> Self {
+        Self { file: None, lines, rows: Mutex::new(rows) }
     }
 
     /// Those of the plan with this digest, which goes into `out`; of another plan: none. The file is locked until the value is gone.
@@ -204,6 +209,11 @@ impl DoneCases {
     /// Whether a case is done.
     pub fn has(&self, case: usize) -> bool {
         self.rows().contains_key(&case)
+    }
+
+    /// The row of a case, if it is done.
+    pub fn row(&self, case: usize) -> Option<CaseRow> {
+        self.rows().get(&case).cloned()
     }
 
     /// How many are.

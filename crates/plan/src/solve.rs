@@ -44,7 +44,10 @@ pub fn solve_cases(
             return;
         }
         let case = open[i];
-        let outcome = numbers(plan, models, &mut *observer(), case);
+        let outcome = plan
+            .machine(case)
+            .map_err(|e| e.to_string())
+            .and_then(|machine| numbers(machine, &plan.outputs, models, &mut *observer()));
         if outcome.is_err() && progress.is_cancelled() {
             return;
         }
@@ -57,32 +60,32 @@ pub fn solve_cases(
     failed.into_inner().unwrap_or_else(PoisonError::into_inner).map_or(Ok(()), Err)
 }
 
-/// The numbers of a case, or why there are none. Its rows are gone when they are taken.
-fn numbers(
-    plan: &Plan,
+/// The numbers that are wanted of a pair or a gearbox, or why there are none. Its rows are gone when they are taken.
+pub(crate) fn numbers(
+    machine: Machine,
+    outputs: &[PlanOutput],
     models: &SharedModels<'_>,
     observer: &mut dyn Observer,
-    case: usize,
 ) -> Result<Vec<f64>, String> {
     let said = |e: AnalysisError| e.to_string();
-    match plan.machine(case).map_err(|e| e.to_string())? {
+    match machine {
         Machine::Pair(mut scene) => {
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
             let context = Context::<Scene>::new(observer).with_models(models).with_warnings(WarningsAtRest::Left);
             let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
             solved.verdict().map_err(said)?;
-            case_values(&plan.outputs, &solved)
+            case_values(outputs, &solved)
         }
         Machine::Gearbox(mut file) => {
-            let wants = wanted_in_time(&plan.outputs);
+            let wants = wanted_in_time(outputs);
             // Nobody looks at the others.
             file.vibration = file.vibration.filter(|_| wants[0]);
             file.motion = file.motion.filter(|_| wants[1]);
             let context = Context::<Gearbox>::new(observer).with_models(models);
             let result = solve(&*file, context).and_then(Ending::finished).map_err(said)?;
             result.verdict(&file).map_err(said)?;
-            gearbox_values(&plan.outputs, &file, &result)
+            gearbox_values(outputs, &file, &result)
         }
     }
 }

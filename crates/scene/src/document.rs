@@ -15,6 +15,7 @@ use crate::{
     input_text::read_text,
     origin::Origin,
     places::Places,
+    setting::path,
     tree::{Fault, Node},
 };
 
@@ -78,6 +79,11 @@ impl Document {
     /// Whether a name stands at its top.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.0.root.as_ref().is_ok_and(|root| root.entries().any(|(key, _)| key == name))
+    }
+
+    /// The number that it says at a key with dots, as [`Setting`](crate::Setting) has keys.
+    pub(crate) fn number_at(&self, key: &str) -> Option<f64> {
+        self.0.root.as_ref().ok()?.number_at(&path(key)?)
     }
 
     /// BLAKE3 of its text, hexadecimal.

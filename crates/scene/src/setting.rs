@@ -121,7 +121,7 @@ fn complaint(label: &str, what: &str) -> SceneError {
 }
 
 /// Parts of a dotted key; `None` where it is none.
-pub(super) fn path(key: &str) -> Option<Vec<String>> {
+pub(crate) fn path(key: &str) -> Option<Vec<String>> {
     let line = format!("{key} = 0");
     // A second key in it, or a comment, would say something else.
     if key.contains(['=', '\n', '\r', '#', '[']) {

@@ -100,6 +100,17 @@ impl Node {
         table.into_iter().flatten()
     }
 
+    /// The number below the keys of a path, as [`Node::put`] takes them.
+    pub fn number_at(&self, path: &[String]) -> Option<f64> {
+        match (&self.value, path.split_first()) {
+            (Value::Whole(own), None) => Some(*own as f64),
+            (Value::Number(own), None) => Some(*own),
+            (Value::Table(table), Some((first, rest))) => table.get(first)?.node.number_at(rest),
+            (Value::List(list), Some((first, rest))) => list[entry_of(list, first)?].number_at(rest),
+            _ => None,
+        }
+    }
+
     /// Whether it is this text.
     fn is_text(&self, text: &str) -> bool {
         matches!(&self.value, Value::Text(own) if own == text)

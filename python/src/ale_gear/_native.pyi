@@ -140,6 +140,16 @@ class Pair:
         set: _Tables | None = None,
         progress: _Progress = None,
     ) -> Result: ...
+    def optimise_numbers(
+        self,
+        parameters: Mapping[str, Sequence[float] | str],
+        goals: str | Sequence[str],
+        *,
+        limits: Mapping[str, float] | None = None,
+        evaluations: int | None = None,
+        set: _Tables | None = None,
+        progress: _Progress = None,
+    ) -> Result: ...
     def run(self, *, set: _Tables | None = None, progress: _Progress = None) -> Result: ...
 
 @final
@@ -161,6 +171,29 @@ class Gearbox:
     def run(
         self,
         *,
+        cache: bool | _Path | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Result: ...
+    def vary(
+        self,
+        vary: Mapping[str, Sequence[float] | NDArray[np.float64] | float | str],
+        outputs: str | Sequence[str],
+        *,
+        samples: int | None = None,
+        design: Literal["latin-hypercube", "sobol", "random"] | None = None,
+        seed: int | None = None,
+        cache: bool | _Path | None = None,
+        threads: int | None = None,
+        progress: _Progress = None,
+    ) -> Result: ...
+    def optimise(
+        self,
+        parameters: Mapping[str, Sequence[float] | str],
+        goals: str | Sequence[str],
+        *,
+        limits: Mapping[str, float] | None = None,
+        evaluations: int | None = None,
         cache: bool | _Path | None = None,
         threads: int | None = None,
         progress: _Progress = None,

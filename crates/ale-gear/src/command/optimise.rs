@@ -3,15 +3,17 @@
 use std::{ops::ControlFlow, path::PathBuf};
 
 use analysis::{
-    PhaseWork, SharedModels,
+    NoObserver, PhaseWork, SharedModels,
     optimum::{Optimised, Optimum, optimise, told},
     run_phase,
 };
-use report::optimum_files::{OptimumResult, passed_limits, write_optimum};
+use plan::{CaseLines, DoneCases, OptimumError, check_numbers, numbers_digest, optimise_numbers};
+use report::optimum_files::{NumberOptimumResult, OptimumResult, passed_limits, write_number_optimum, write_optimum};
 use scene::{
-    Document,
-    optimum::{Optimisation, OptimisationWords},
+    Document, DocumentKind,
+    optimum::{NumberOptimisation, Optimisation, OptimisationWords},
 };
+use store::folder::beside_results;
 
 use super::{Answer, FileWords, cache_args::CacheArgs, overrides::Overrides};
 use crate::{error::CommandError, output::ResultDirectory, phases::Phases, talk};
@@ -31,6 +33,13 @@ pub(super) struct OptimiseArgs {
     /// Torques at which it counts, N m, with commas between [default: the scene's]
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     torques: Vec<f64>,
+    /// A number of the headline that shall be small, of a pair or a gearbox, at rest or in time (`face_load_factor.0`), in
+    /// place of the transmission error; of several the mean of their absolute values
+    #[arg(long, value_name = "KEY", conflicts_with_all = ["torques", "measure", "max_pressure", "max_edge_pressure", "front"])]
+    goal: Vec<String>,
+    /// Limit of a number of the headline, with `--goal`; may be given again
+    #[arg(long, value_name = "KEY=MOST", requires = "goal")]
+    limit: Vec<String>,
     /// What shall be small: peak-to-peak, rms or harmonics (the first) [default: peak-to-peak]
     #[arg(long, value_name = "NAME")]
     measure: Option<String>,
@@ -65,6 +74,8 @@ impl OptimiseArgs {
             out,
             vary,
             torques,
+            goal: Vec::new(),
+            limit: Vec::new(),
             measure,
             max_pressure,
             max_edge_pressure,
@@ -76,14 +87,27 @@ impl OptimiseArgs {
         }
     }
 
+    /// What the words say.
+    fn words(&self) -> OptimisationWords<'_> {
+        OptimisationWords {
+            parameters: &self.vary,
+            torques_nm: &self.torques,
+            measure: self.measure.as_deref(),
+            max_pressure_mpa: self.max_pressure,
+            max_edge_pressure_mpa: self.max_edge_pressure,
+            goals: &self.goal,
+            limits: &self.limit,
+            evaluations: self.evaluations.unwrap_or(20),
+            front: self.front.unwrap_or(0),
+        }
+    }
+
     /// Every complaint about the words and the files is made here, before any work starts or any file is written.
-    fn plan(&self) -> Result<Optimisation, CommandError> {
-        let Self { file, vary, torques, measure, max_pressure, evaluations, front, .. } = self;
+    fn plan(&self, document: Document) -> Result<Optimisation, CommandError> {
+        let Self { vary, torques, measure, max_pressure, evaluations, front, .. } = self;
         let settings = self.overrides.settings()?;
         let words = !vary.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
         let words = words || self.max_edge_pressure.is_some() || evaluations.is_some() || front.is_some();
-        // What cannot be read is complained about as a scene is.
-        let document = Document::read(file)?;
         if Optimisation::is_one(&document) {
             if words {
                 let hint = "write it into the file, or give a scene file";
@@ -91,16 +115,12 @@ impl OptimiseArgs {
             }
             return Ok(Optimisation::of(&document, &settings)?);
         }
-        let words = OptimisationWords {
-            parameters: vary,
-            torques_nm: torques,
-            measure: measure.as_deref(),
-            max_pressure_mpa: *max_pressure,
-            max_edge_pressure_mpa: self.max_edge_pressure,
-            evaluations: evaluations.unwrap_or(20),
-            front: front.unwrap_or(0),
-        };
-        Ok(Optimisation::of_scene(document, &settings, &words)?)
+        if document.kind() == Some(DocumentKind::Gearbox) {
+            let message = format_args!("{}: of a gearbox a number of its headline is made small", self.file.display());
+            let hint = "as `--goal face_load_factor.0 --vary 'mesh.0.scene.pinion.modification.lead_slope_um=-30:30'`";
+            return Err(CommandError::input(message, Some(hint.into())));
+        }
+        Ok(Optimisation::of_scene(document, &settings, &self.words())?)
     }
 
     /// The words that make it again.
@@ -112,6 +132,8 @@ impl OptimiseArgs {
             let list: Vec<String> = torques.iter().map(f64::to_string).collect();
             words.push(format!("--torques {}", list.join(",")));
         }
+        words.extend(self.goal.iter().map(|key| format!("--goal {key}")));
+        words.extend(self.limit.iter().map(|word| format!("--limit {word}")));
         words.extend(measure.iter().map(|word| format!("--measure {word}")));
         words.extend(max_pressure.iter().map(|limit| format!("--max-pressure {limit}")));
         words.extend(self.max_edge_pressure.iter().map(|limit| format!("--max-edge-pressure {limit}")));
@@ -123,7 +145,12 @@ impl OptimiseArgs {
 
     /// Searches, and writes the results; the text is the closing table.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
-        let (plan, mut phases) = (self.plan()?, Phases::with_bars());
+        // What cannot be read is complained about as a scene is.
+        let document = Document::read(&self.file)?;
+        if !self.goal.is_empty() {
+            return self.numbers(document, quiet);
+        }
+        let (plan, mut phases) = (self.plan(document)?, Phases::with_bars());
         let results = ResultDirectory::create(&self.out)?;
         let cache = self.cache.open();
         let models = SharedModels::new(&cache);
@@ -149,6 +176,48 @@ impl OptimiseArgs {
         let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";
         let failure = passed_limits(&optimum)
             .map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
+        Answer::of_folder(&self.out, (text, failure), (self.json, quiet))
+    }
+
+    /// The same of numbers of a headline; what is solved is kept beside the results until they are complete.
+    fn numbers(&self, document: Document, quiet: bool) -> Result<Answer, CommandError> {
+        let plan = NumberOptimisation::of_scene(document, &self.overrides.settings()?, &self.words())?;
+        let checked = check_numbers(&plan.machine(&plan.start())?, &plan.outputs(), &self.file);
+        checked.map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
+        let mut phases = Phases::with_bars();
+        let results = ResultDirectory::create(&self.out)?;
+        let done_file = beside_results(&self.out);
+        let complain = |e: std::io::Error| CommandError::write(&done_file, &e);
+        let lines = CaseLines::new(plan.parameters.len(), plan.goals.len() + plan.limits.len());
+        let done = DoneCases::open(&self.out, &numbers_digest(&plan), lines)?;
+        if done.count() > 0 {
+            talk::note(format!("{} designs were solved before", done.count()));
+        }
+        let cache = self.cache.open();
+        let models = SharedModels::new(&cache);
+        let most = u64::from(plan.evaluations) + 1;
+        let optimum = run_phase(&mut phases, "search", PhaseWork::AtMost(most), |progress| {
+            optimise_numbers(&plan, &models, &|| Box::new(NoObserver), &done, |count, goal| {
+                progress.tick();
+                match goal {
+                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.6}")),
+                    None => talk::note(format!("evaluation {count}: no result")),
+                }
+                ControlFlow::Continue(())
+            })
+        });
+        let optimum = optimum.map_err(|e| match e {
+            OptimumError::Write(e) => complain(e),
+            e => CommandError::failed(&e, Some("try it by itself: `ale-gear run` with the same words".into())),
+        })?;
+        let again = self.again();
+        let of = NumberOptimumResult { plan: &plan, optimum: &optimum, again: &again };
+        let text = write_number_optimum(&of, phases.cost(), &results)?.table;
+        results.finish(talk::note)?;
+        done.remove().map_err(complain)?;
+        let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";
+        let failure =
+            of.passed_limits().map(|what| CommandError { status: 3, ..CommandError::failed(what, Some(hint.into())) });
         Answer::of_folder(&self.out, (text, failure), (self.json, quiet))
     }
 }

@@ -1,7 +1,10 @@
 //! The answer about an optimisation: the scene of the optimum, its search, and what it is worth.
 
+mod numbers;
 mod page;
 mod tables;
+
+pub use numbers::{NumberOptimumResult, number_optimum_answer, write_number_optimum};
 
 use analysis::{
     optimum::{Optimised, Optimum},
@@ -53,7 +56,7 @@ pub fn optimum_answer(of: &OptimumResult<'_>, cost: Cost) -> Answer {
     let OptimumResult { optimum, told, .. } = *of;
     let plan = &optimum.plan;
     let mut tables = vec![
-        tables::steps(optimum),
+        tables::steps(&plan.parameters, &optimum.found.steps, "goal_um"),
         tables::torques(&told.torques),
         tables::harris(&told.harris),
         tables::influences(&told.influences),

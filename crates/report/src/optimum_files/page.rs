@@ -41,15 +41,21 @@ fn goal(of: &OptimumResult<'_>) -> Part {
 }
 
 fn parameters(of: &OptimumResult<'_>) -> Part {
-    let rows = of.optimum.plan.parameters.iter().zip(&of.told.influences).map(|(parameter, i)| {
+    let all = of.optimum.plan.parameters.iter().zip(&of.told.influences);
+    parameter_part(all.map(|(parameter, i)| (parameter, i.found, i.value)))
+}
+
+/// Parameters with the values of the search and those that a machine can be set to.
+pub(super) fn parameter_part<'a>(all: impl Iterator<Item = (&'a DesignParameter, f64, f64)>) -> Part {
+    let rows = all.map(|(parameter, found, value)| {
         vec![
             Cell::text(parameter.name()),
-            Cell::number(i.lowest, 3),
-            Cell::number(i.highest, 3),
-            Cell::number(i.start, 3),
-            Cell::number(i.found, 3),
-            Cell::number(i.value, 3),
-            Cell::text(at_bound(parameter, i.value)),
+            Cell::number(parameter.bounds[0], 3),
+            Cell::number(parameter.bounds[1], 3),
+            Cell::number(parameter.start, 3),
+            Cell::number(found, 3),
+            Cell::number(value, 3),
+            Cell::text(at_bound(parameter, value)),
         ]
     });
     let head = ["parameter", "lower bound", "upper bound", "start", "found", "set to", ""];

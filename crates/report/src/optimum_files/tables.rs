@@ -2,6 +2,7 @@
 
 use analysis::optimum::{HarrisPoint, Influence, Optimum, TorqueLine};
 use answer::Table;
+use design::TakenStep;
 use scene::optimum::DesignParameter;
 
 const OF_PARAMETER: &str = "value of this parameter, in the unit of its key";
@@ -19,18 +20,13 @@ fn with_parameters<'a>(
 }
 
 /// A row an evaluation of the search.
-pub(super) fn steps(optimum: &Optimum) -> Table {
-    let steps = &optimum.found.steps;
+pub(super) fn steps(parameters: &[DesignParameter], steps: &[TakenStep], goal: &'static str) -> Table {
     let table = Table::new("steps")
         .numbers("evaluation", "number of the evaluation, from 1", (1..=steps.len()).map(|i| i as f64))
-        .numbers("goal_um", "the goal; NaN without a result", steps.iter().map(|s| s.goal.unwrap_or(f64::NAN)))
-        .numbers(
-            "over_limits",
-            "share by which the worst limit of the pressure is passed",
-            steps.iter().map(|s| s.over_limits),
-        )
+        .numbers(goal, "the goal; NaN without a result", steps.iter().map(|s| s.goal.unwrap_or(f64::NAN)))
+        .numbers("over_limits", "share by which the worst limit is passed", steps.iter().map(|s| s.over_limits))
         .texts("taken", "`true` where the search went on from it", steps.iter().map(|s| s.taken.to_string()));
-    with_parameters(table, &optimum.plan.parameters, steps.iter().map(|s| &s.values))
+    with_parameters(table, parameters, steps.iter().map(|s| &s.values))
 }
 
 /// A row a torque that counts.

@@ -4,13 +4,16 @@
 //! | module | what it does |
 //! |---|---|
 //! | `file` | a checked optimisation, and the scenes of its designs |
+//! | `numbers` | one of any numbers, of a pair or a gearbox, by differences |
 //! | `read` | from a file, or from words of a command line, to that |
 //! | `raw`, `check` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
+mod numbers;
 mod raw;
 mod read;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
+pub use numbers::{NumberLimit, NumberOptimisation};
 pub use read::OptimisationWords;

@@ -28,6 +28,10 @@ pub struct OptimisationWords<'a> {
     pub max_pressure_mpa: Option<f64>,
     /// Limit of it at end faces and tip edges, MPa.
     pub max_edge_pressure_mpa: Option<f64>,
+    /// Numbers of the headline that shall be small, in place of the transmission error ([`NumberOptimisation`](super::NumberOptimisation)).
+    pub goals: &'a [String],
+    /// Limits of numbers of the headline, `KEY=MOST`; with `goals`.
+    pub limits: &'a [String],
     /// Evaluations at the most.
     pub evaluations: u32,
     /// Points of the trade-off.
@@ -76,6 +80,9 @@ impl Optimisation {
         words: &OptimisationWords<'_>,
     ) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
+        if let Some(limit) = words.limits.first() {
+            return Err(wrong(format!("--limit {limit}"), "goes with `--goal`".into()));
+        }
         let own = document.scene(settings)?;
         let known = |key: &str| own.number_at(key);
         let mut parameters = words
@@ -133,7 +140,7 @@ impl Optimisation {
 }
 
 /// What `KEY=FROM:TO` lets change, from the scene's own value on; the error says what is wrong with it.
-fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Result<DesignParameter, String> {
+pub(super) fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Result<DesignParameter, String> {
     let AxisWord { keys, values } = AxisWord::parse(word)?;
     let AxisValues::Between(bounds) = values else {
         return Err("say KEY=FROM:TO; the search begins at the scene's own value".into());

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeMap, ops::Range, path::PathBuf};
 
-use plan::{DoneCases, Part, PartError, check_outputs, merged, plan_digest};
+use plan::{CaseLines, DoneCases, Part, PartError, check_outputs, merged, plan_digest};
 use report::plan_files::{PageWords, write_cases};
 use scene::{Document, plan::Plan};
 
@@ -89,7 +89,7 @@ impl VaryArgs {
             Err(_) => {}
         }
         let complain = |e: std::io::Error| CommandError::write(out, &e);
-        let done = DoneCases::in_memory(&plan, BTreeMap::new());
+        let done = DoneCases::in_memory(CaseLines::of(&plan), BTreeMap::new());
         solve_range(&plan, range.clone(), &mut phases, &self.cache.open(), &done).map_err(complain)?;
         Part { range, text: done.text() }.write(out, &digest).map_err(complain)?;
         Ok(told(format!("{}: cases {from}..{to} of {count}\n", out.display())))
@@ -115,7 +115,9 @@ impl MergeArgs {
         let parts: Vec<String> = self.parts.iter().map(|part| part.display().to_string()).collect();
         let again = format!("ale-gear merge {} {} --out DIR", self.plan.display(), parts.join(" "));
         let words = PageWords { again: &again, reports: &[] };
-        let text = write_cases((&plan, &DoneCases::in_memory(&plan, rows)), words, phases.cost(), &results)?.table;
+        let text =
+            write_cases((&plan, &DoneCases::in_memory(CaseLines::of(&plan), rows)), words, phases.cost(), &results)?
+                .table;
         results.finish(talk::note)?;
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }

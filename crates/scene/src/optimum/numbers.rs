@@ -1,0 +1,173 @@
+//! An optimisation of numbers: of a pair or a gearbox, at rest or in time; derivatives are by differences.
+
+use std::path::{Path, PathBuf};
+
+use super::{
+    DesignParameter, OptimisationWords,
+    check::{EVALUATIONS, stem},
+    read::parameter,
+};
+use crate::{Document, Machine, Scene, SceneError, Setting, gearbox::Gearbox, plan::PlanOutput};
+
+/// A pair or a gearbox, what of it may change, and which numbers of its headline shall be small.
+#[derive(Debug, Clone)]
+pub struct NumberOptimisation {
+    /// Title.
+    pub name: String,
+    /// Where it stands; the path of the document is relative to its folder.
+    pub file: PathBuf,
+    /// The pair or the gearbox.
+    pub document: Document,
+    /// Keys that all designs have otherwise.
+    pub settings: Vec<Setting>,
+    /// What may change.
+    pub parameters: Vec<DesignParameter>,
+    /// Numbers whose mean absolute value shall be small; at least one.
+    pub goals: Vec<PlanOutput>,
+    /// Numbers that shall not be larger than their limits.
+    pub limits: Vec<NumberLimit>,
+    /// Evaluations at the most; each solves the design and one neighbour a parameter.
+    pub evaluations: u32,
+}
+
+/// A number and its limit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NumberLimit {
+    /// The number.
+    pub output: PlanOutput,
+    /// What it may be at the most, above 0, in the unit of its key.
+    pub most: f64,
+}
+
+/// Step of a difference over the range of a parameter: far above the round-off of a solve, far below what bends a curve.
+const STEP: f64 = 1e-3;
+
+impl NumberOptimisation {
+    /// The optimisation of a document that words say.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, by the word that it is about.
+    pub fn of_scene(
+        document: Document,
+        settings: &[Setting],
+        words: &OptimisationWords<'_>,
+    ) -> Result<Self, SceneError> {
+        let wrong = |label: String, what: &str| SceneError::Setting { label, what: what.to_owned() };
+        let beside = [
+            ("--measure", words.measure.is_some()),
+            ("--torques", !words.torques_nm.is_empty()),
+            ("--max-pressure", words.max_pressure_mpa.is_some()),
+            ("--max-edge-pressure", words.max_edge_pressure_mpa.is_some()),
+            ("--front", words.front > 0),
+        ];
+        if let Some((word, _)) = beside.into_iter().find(|(_, given)| *given) {
+            return Err(wrong(word.into(), "goes with the transmission error of a pair, not with `--goal`"));
+        }
+        let own = document.machine(settings)?;
+        let known = |key: &str| number_at(&document, &own, key);
+        let mut parameters = Vec::new();
+        for word in words.parameters {
+            let complain = |what: String| wrong(format!("--vary {word}"), &what);
+            parameters.push(parameter(word, known).map_err(complain)?);
+        }
+        if parameters.is_empty() {
+            return Err(wrong("--vary".into(), "names no key that may change: say `--vary KEY=FROM:TO`"));
+        }
+        let mut limits = Vec::new();
+        for word in words.limits {
+            let complain = |what: &str| wrong(format!("--limit {word}"), what);
+            let (key, most) = word.split_once('=').ok_or_else(|| complain("has no `=`: say `KEY=MOST`"))?;
+            let most = most.trim().parse::<f64>().ok().filter(|most| most.is_finite() && *most > 0.0);
+            let most = most.ok_or_else(|| complain("says no number above 0"))?;
+            limits.push(NumberLimit { output: PlanOutput::Headline(key.trim().to_owned()), most });
+        }
+        let evaluations = words.evaluations.clamp(1, EVALUATIONS[1]);
+        let goals = words.goals.iter().map(|key| PlanOutput::Headline(key.clone())).collect();
+        let (name, file) = (stem(document.file()), document.file().to_owned());
+        Self { name, file, document, settings: settings.to_vec(), parameters, goals, limits, evaluations }.finish()
+    }
+
+    /// What the whole must be: every key is there once and changes something, and the start is a machine.
+    fn finish(self) -> Result<Self, SceneError> {
+        let wrong = |what: String| SceneError::Setting { label: self.file.display().to_string(), what };
+        let mut keys: Vec<&str> = self.parameters.iter().flat_map(|p| &p.keys).map(String::as_str).collect();
+        keys.sort_unstable();
+        if let Some(twice) = keys.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(wrong(format!("changes `{}` twice", twice[0])));
+        }
+        let plain = |machine: Machine| match machine {
+            Machine::Pair(scene) => Machine::Pair(Box::new(Scene { set: Vec::new(), ..*scene })),
+            Machine::Gearbox(mut file) => {
+                file.meshes.iter_mut().for_each(|mesh| mesh.scene.set.clear());
+                Machine::Gearbox(Box::new(Gearbox { set: Vec::new(), ..*file }))
+            }
+        };
+        let start = plain(self.machine(&self.start())?);
+        for (k, parameter) in self.parameters.iter().enumerate() {
+            let mut values = self.start();
+            values[k] = if values[k] == parameter.bounds[0] { parameter.bounds[1] } else { parameter.bounds[0] };
+            if plain(self.machine(&values)?) == start {
+                return Err(wrong(format!("changes `{}`, which changes nothing", parameter.name())));
+            }
+        }
+        Ok(self)
+    }
+
+    /// All numbers that are looked at: goals, then limits.
+    pub fn outputs(&self) -> Vec<PlanOutput> {
+        self.goals.iter().cloned().chain(self.limits.iter().map(|limit| limit.output.clone())).collect()
+    }
+
+    /// The file of the pair or the gearbox.
+    pub fn scene_file(&self) -> &Path {
+        self.document.file()
+    }
+
+    /// The values at which the search begins.
+    pub fn start(&self) -> Vec<f64> {
+        self.parameters.iter().map(|p| p.start).collect()
+    }
+
+    /// What a design sets beside the document.
+    ///
+    /// # Errors
+    /// [`SceneError::Setting`] for a key that is none.
+    pub fn settings_of(&self, values: &[f64]) -> Result<Vec<Setting>, SceneError> {
+        let each = self.parameters.iter().zip(values);
+        let own = each.flat_map(|(p, value)| p.keys.iter().map(move |key| Setting::number(key, *value)));
+        self.settings.iter().cloned().map(Ok).chain(own).collect()
+    }
+
+    /// The pair, or the gearbox, of a design.
+    ///
+    /// # Errors
+    /// [`SceneError`]: what the document does not allow.
+    pub fn machine(&self, values: &[f64]) -> Result<Machine, SceneError> {
+        self.document.machine(&self.settings_of(values)?)
+    }
+
+    /// The design beside one, a difference away along a parameter, within its bounds; and the difference.
+    pub fn beside(&self, values: &[f64], parameter: usize) -> (Vec<f64>, f64) {
+        let [lowest, highest] = self.parameters[parameter].bounds;
+        let step = STEP * (highest - lowest);
+        let step = if values[parameter] + step <= highest { step } else { -step };
+        let mut beside = values.to_vec();
+        beside[parameter] += step;
+        (beside, step)
+    }
+}
+
+/// The number that a document says at a key, if it says one.
+fn number_at(document: &Document, machine: &Machine, key: &str) -> Option<f64> {
+    match machine {
+        Machine::Pair(scene) => scene.number_at(key),
+        Machine::Gearbox(file) => match key.split('.').collect::<Vec<_>>()[..] {
+            ["mesh", which, "scene", ..] => {
+                let by_name = || file.meshes.iter().position(|mesh| mesh.name == which);
+                let mesh = file.meshes.get(which.parse().ok().or_else(by_name)?)?;
+                mesh.scene.number_at(&key[key.find(".scene.")? + ".scene.".len()..])
+            }
+            _ => document.number_at(key),
+        },
+    }
+}
