@@ -42,3 +42,21 @@ def test_a_wrong_file_is_refused_with_its_line(at_rest):
         ale_gear.Gearbox.read(SCENES / "none.toml")
     with pytest.raises(ale_gear.ArgumentError):
         ale_gear.Gearbox.read(3)
+
+
+SLOPE = "mesh.0.scene.pinion.modification.lead_slope_um"
+
+
+def test_it_is_varied_and_optimised(at_rest):
+    rows = at_rest.vary({SLOPE: [0.0, 10.0], "bearing.4.stiffness_n_per_mm.0": "2e5,5e5"}, ["face_load_factor.0", "mean_bearing_force_n.4"])
+    assert rows.kind == "plan" and rows.rows == 4 and set(rows["status"]) == {"solved"}
+    assert rows["face_load_factor.0"][0] != rows["face_load_factor.0"][2]
+    assert rows["face_load_factor.0"][1] == at_rest.run().headline["face_load_factor"][0]
+    best = at_rest.optimise({SLOPE: (-60.0, 60.0)}, "face_load_factor.0", limits={"max_pressure_mpa.0": 5000.0}, evaluations=8)
+    assert best.kind == "optimum" and best.headline["goal_optimum"] < 0.7 * best.headline["goal_start"]
+    numbers = best.read("numbers.csv")
+    assert numbers["after"][0] == best.headline["goal_optimum"] and numbers["limit"][1] == 5000.0
+    with pytest.raises(ale_gear.AleGearError, match="face_load_factor"):
+        at_rest.optimise({SLOPE: (-60.0, 60.0)}, "face_load_facto.0")
+    with pytest.raises(ale_gear.SceneError, match="no mesh"):
+        at_rest.vary({"mesh.7.scene.pair.face_width_mm": [20.0]}, "face_load_factor.0")

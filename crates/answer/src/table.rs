@@ -170,7 +170,7 @@ impl Table {
     /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
     /// bits.
     pub fn csv(&self) -> String {
-        let mut text = self.names().collect::<Vec<_>>().join(",") + "\n";
+        let mut text = self.names().map(csv::quoted).collect::<Vec<_>>().join(",") + "\n";
         for row in 0..self.rows() {
             for (k, column) in self.columns.iter().enumerate() {
                 if k > 0 {

@@ -3,6 +3,7 @@
 mod chart;
 mod compare;
 mod envelope;
+mod gearboxes;
 mod ladder;
 mod optimise;
 mod parts;

@@ -172,8 +172,10 @@ pub fn five_teeth() -> String {
 pub fn fields(line: &str) -> Vec<String> {
     let mut inside = false;
     let mut all = vec![String::new()];
-    for c in line.chars() {
+    let mut left = line.chars().peekable();
+    while let Some(c) = left.next() {
         match c {
+            '"' if inside && left.next_if_eq(&'"').is_some() => all.last_mut().unwrap().push('"'),
             '"' => inside = !inside,
             ',' if !inside => all.push(String::new()),
             _ => all.last_mut().unwrap().push(c),

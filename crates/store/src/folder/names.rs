@@ -1,7 +1,7 @@
 //! Names of all files that a result may hold: what a killed run has left is known by them, since it has no record yet.
 
 /// Every file that a result may hold, beside those whose names depend on what is in them.
-const OURS: [&str; 59] = [
+const OURS: [&str; 60] = [
     "summary.json",
     "history.csv",
     "history.parquet",
@@ -47,6 +47,7 @@ const OURS: [&str; 59] = [
     "steps.csv",
     "harris.csv",
     "influences.csv",
+    "numbers.csv",
     "front.csv",
     "torques.csv",
     "chart.csv",
