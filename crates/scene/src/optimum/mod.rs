@@ -13,7 +13,8 @@ mod file;
 mod numbers;
 mod raw;
 mod read;
+mod words;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
 pub use numbers::{NumberLimit, NumberOptimisation};
-pub use read::OptimisationWords;
+pub use words::OptimisationWords;

@@ -3,9 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use super::{
-    DesignParameter, OptimisationWords,
+    DesignParameter,
     check::{EVALUATIONS, stem},
-    read::parameter,
+    words::{OptimisationWords, parameter},
 };
 use crate::{Document, Machine, Scene, SceneError, Setting, gearbox::Gearbox, plan::PlanOutput};
 

@@ -6,37 +6,15 @@ use cases::{Cases, Sampling};
 use design::{Goal, Measure, Over};
 
 use super::{
-    DesignParameter, Optimisation, TorqueWeight,
-    check::{EVALUATIONS, FRONT, PRESSURES, check, default_parameters, finish, grain, measure, stem},
+    Optimisation, TorqueWeight,
+    check::{EVALUATIONS, FRONT, PRESSURES, check, default_parameters, finish, measure, stem},
     raw::{RawOptimisation, tables},
+    words::{OptimisationWords, parameter},
 };
 use crate::{
     Document, DocumentKind, SceneError, Setting, Source,
-    plan::{AxisValues, AxisWord, DESIGNS, SEED},
+    plan::{DESIGNS, SEED},
 };
-
-/// What a command line says of an optimisation.
-#[derive(Debug, Clone, Default)]
-pub struct OptimisationWords<'a> {
-    /// Keys that may change, `KEY=FROM:TO`; a choice of tip reliefs and crowning without them.
-    pub parameters: &'a [String],
-    /// Torques, N m; the scene's own without them.
-    pub torques_nm: &'a [f64],
-    /// What shall be small.
-    pub measure: Option<&'a str>,
-    /// Limit of the contact pressure, MPa.
-    pub max_pressure_mpa: Option<f64>,
-    /// Limit of it at end faces and tip edges, MPa.
-    pub max_edge_pressure_mpa: Option<f64>,
-    /// Numbers of the headline that shall be small, in place of the transmission error ([`NumberOptimisation`](super::NumberOptimisation)).
-    pub goals: &'a [String],
-    /// Limits of numbers of the headline, `KEY=MOST`; with `goals`.
-    pub limits: &'a [String],
-    /// Evaluations at the most.
-    pub evaluations: u32,
-    /// Points of the trade-off.
-    pub front: u32,
-}
 
 impl Optimisation {
     /// Reads and checks an optimisation file and the scene that it names.
@@ -137,19 +115,4 @@ impl Optimisation {
             samples,
         })
     }
-}
-
-/// What `KEY=FROM:TO` lets change, from the scene's own value on; the error says what is wrong with it.
-pub(super) fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Result<DesignParameter, String> {
-    let AxisWord { keys, values } = AxisWord::parse(word)?;
-    let AxisValues::Between(bounds) = values else {
-        return Err("say KEY=FROM:TO; the search begins at the scene's own value".into());
-    };
-    if !(bounds[1] > bounds[0] && bounds.iter().all(|b| b.is_finite())) {
-        return Err("its second bound is not above the first".into());
-    }
-    let middle = if bounds[0] <= 0.0 && bounds[1] >= 0.0 { 0.0 } else { 0.5 * (bounds[0] + bounds[1]) };
-    let start = known(&keys[0]).unwrap_or(middle).clamp(bounds[0], bounds[1]);
-    let grain = grain(&keys[0]);
-    Ok(DesignParameter { keys, bounds, start, grain })
 }
