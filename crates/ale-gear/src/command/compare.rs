@@ -47,22 +47,6 @@ impl CompareArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let runs = self.folders.iter().map(|f| ResultFolder::read(f)).collect::<Result<Vec<_>, _>>()?;
         let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
-        if let Some(other) = runs.iter().find(|run| run.kind() != runs[0].kind()) {
-            let [first, other] = [&runs[0], other].map(|run| (run.label(), run.kind()));
-            return Err(CommandError::input(
-                format_args!(
-                    "{} answers another kind of question than {}: {} and {}",
-                    other.0, first.0, other.1, first.1
-                ),
-                Some("compare answers to one kind of question".into()),
-            ));
-        }
-        if let Some(alone) = without_a_number(&runs, &numbers) {
-            return Err(CommandError::input(
-                format_args!("{} has no number of its headline in common with the others", alone.label()),
-                Some("compare runs of which some numbers are the same".into()),
-            ));
-        }
         let axis = match self.over {
             Some(Over::Phase) => Axis::Phase,
             Some(Over::Time) => Axis::Time,
@@ -70,7 +54,17 @@ impl CompareArgs {
             None => Axis::Phase,
         };
         // Curves go into files: a table on the terminal does without, and rows of a motion are many.
-        let curves = if self.out.is_some() { overlays(&runs, axis) } else { Vec::new() };
+        let alone = without_a_number(&runs, &numbers);
+        let curves = if self.out.is_some() || alone.is_some() { overlays(&runs, axis) } else { Vec::new() };
+        if let Some(alone) = alone.filter(|run| !curves.iter().any(|curve| curve.is_of(&run.label()))) {
+            return Err(CommandError::input(
+                format_args!(
+                    "{} has neither a number of its headline nor a column of its rows in common with the others",
+                    alone.label()
+                ),
+                Some("compare answers of which some numbers are the same".into()),
+            ));
+        }
         let answer = compare_answer(&runs, &numbers, &inputs, &curves);
         let charts = compare_charts(&curves);
         let page = compare_page(&answer, &runs, (&numbers, &inputs), &charts);

@@ -1,5 +1,6 @@
 //! `ale-gear compare`: runs of any kind side by side.
 
+use super::vary::lumped_scene;
 use crate::util::{ISO_SCENE, Scratch, column, motion_scene, repository};
 use serde_json::Value;
 
@@ -129,9 +130,10 @@ fn a_report_is_made_again_from_its_folder() {
     assert_eq!(scratch.ale_gear(["report", "nowhere"]).code, Some(2));
 }
 
-/// Answers to any kind of question are laid over each other; those to two kinds of question are not.
+/// Answers to any kind of question are laid over each other, those to two kinds where they have a number or a column in
+/// common: the same question asked in two ways.
 #[test]
-fn answers_to_one_kind_of_question_are_compared() {
+fn answers_to_any_question_are_compared() {
     let scratch = Scratch::new().file("iso.toml", ISO_SCENE);
     let vary = |out: &str, factor: &str| {
         let axis = format!("operation.torque_nm=100:{factor}:3");
@@ -144,7 +146,7 @@ fn answers_to_one_kind_of_question_are_compared() {
     let run = scratch.ale_gear(["compare", "a", "b", "--out", "c"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let curves = scratch.read("c/compare_curves.csv");
-    let of = |run: &str| curves.lines().filter(|l| l.starts_with(&format!("cases,mean_ste_um,case,{run},"))).count();
+    let of = |run: &str| curves.lines().filter(|l| l.starts_with(&format!("cases,mean_ste_um,torque_nm,{run},"))).count();
     assert_eq!([of("a"), of("b")], [3, 3], "{curves}");
     assert!(scratch.read("c/compare_cases_mean_ste_um.svg").contains("<svg"));
     // The page of any answer can be made again.
@@ -156,7 +158,24 @@ fn answers_to_one_kind_of_question_are_compared() {
     let two = scratch.ale_gear(["compare", "a", "r"]);
     assert_eq!(
         two.complaint(),
-        "ale-gear: r answers another kind of question than a: pair and plan\nhint: compare answers to one kind of question\n"
+        "ale-gear: a has neither a number of its headline nor a column of its rows in common with the others\nhint: \
+         compare answers of which some numbers are the same\n"
     );
     assert_eq!(two.code, Some(2));
+    // The peak to peak of a motion at three speeds: each alone, and each from the state of the last one.
+    let scratch = Scratch::new().file("a.toml", lumped_scene());
+    let speeds = ["--vary", "operation.speed_rpm=2000,2400,2800"];
+    let each = [&["vary", "a.toml", "--output", "peak_to_peak_dte_um", "--out", "each"][..], &speeds].concat();
+    let carry = [&["vary", "a.toml", "--start", "carry", "--out", "carry"][..], &speeds].concat();
+    for words in [each, carry] {
+        let run = scratch.command(&words);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let run = scratch.ale_gear(["compare", "each", "carry", "--out", "c"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
+    let curves = scratch.read("c/compare_curves.csv");
+    let of = |run: &str| {
+        curves.lines().filter(|l| l.starts_with(&format!("rows,peak_to_peak_dte_um,speed_rpm,{run}"))).count()
+    };
+    assert_eq!([of("each,"), of("carry")], [3, 6], "{curves}");
 }

@@ -148,7 +148,7 @@ fn a_killed_run_goes_on() {
 }
 
 /// A pair on springs whose mesh needs no finite elements, for two mesh cycles.
-fn lumped_scene() -> String {
+pub fn lumped_scene() -> String {
     let spring = |gear: &str| {
         format!(
             "[{gear}.bearing]\nstiffness_x_n_per_mm = 2e5\nstiffness_y_n_per_mm = 2e5\nstiffness_z_n_per_mm = 1e5\n"

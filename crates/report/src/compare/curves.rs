@@ -19,7 +19,7 @@ pub enum Axis {
 /// One quantity of several runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Overlay {
-    /// Table that it stands in.
+    /// Table that it stands in; `rows` where it is the first one of answers whose tables have different names.
     pub table: String,
     /// Column of the table, with unit; `te_um` where a static transmission error stands beside a dynamic one.
     pub name: String,
@@ -38,31 +38,46 @@ pub struct Trace {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Overlay {
+    /// Whether a run, by its label, has one of the curves.
+    pub fn is_of(&self, run: &str) -> bool {
+        self.traces.iter().any(|trace| trace.label == run || trace.label.starts_with(&format!("{run} (")))
+    }
+}
+
 /// Columns that are places and not quantities.
-const PLACES: [&str; 5] = ["time_s", "pinion_angle_deg", "mesh_phase", "speed_rpm", "mesh_frequency_hz"];
+const PLACES: [&str; 6] = ["case", "time_s", "pinion_angle_deg", "mesh_phase", "speed_rpm", "mesh_frequency_hz"];
 /// One quantity under two names: equilibrium and motion.
 const ERRORS: [&str; 2] = ["ste_um", "dte_um"];
 const ERROR: &str = "te_um";
 /// Kinds of row in a table, told by the words of its first column: ways of a sweep, models of a chart.
 const MOST_KINDS: usize = 16;
 
-/// Every quantity that two runs at least have, in the order of the first run that has it.
+/// What the rows of answers to several kinds of question are called together.
+const ROWS: &str = "rows";
+
+/// Every quantity that two runs at least have, in the order of the first run that has it. The first tables of all runs
+/// are laid over each other, whatever they are called: the same question may be asked in several ways.
 pub fn overlays(runs: &[ResultFolder], axis: Axis) -> Vec<Overlay> {
-    let curves: Vec<Curves<'_>> = runs.iter().enumerate().flat_map(|(i, run)| Curves::of(i, run, axis)).collect();
+    let mut curves: Vec<Curves<'_>> = runs.iter().enumerate().flat_map(|(i, run)| Curves::of(i, run, axis)).collect();
+    let first = |run: usize| runs[run].tables().first().map(|table| &*table.name);
+    if (1..runs.len()).any(|run| first(run) != first(0)) {
+        curves.iter_mut().filter(|c| first(c.run) == Some(&*c.table.name)).for_each(|c| c.group = ROWS);
+    }
     let mixed = ERRORS.iter().all(|name| curves.iter().any(|c| c.table.find(name).is_some_and(|all| !all.is_empty())));
     let mut quantities: Vec<[String; 3]> = Vec::new();
     let mut seen: HashSet<[&str; 3]> = HashSet::new();
     for c in &curves {
         for name in c.quantities() {
             let name = if mixed && ERRORS.contains(&name) { ERROR } else { name };
-            if seen.insert([&c.table.name, name, &c.over]) {
-                quantities.push([&c.table.name, name, &c.over].map(str::to_owned));
+            if seen.insert([c.group, name, &c.over]) {
+                quantities.push([c.group, name, &c.over].map(str::to_owned));
             }
         }
     }
     let all = quantities.into_iter().map(|[table, name, over]| {
         let names: &[&str] = if name == ERROR { &ERRORS } else { &[&name] };
-        let own = curves.iter().filter(|c| c.over == over && c.table.name == table);
+        let own = curves.iter().filter(|c| c.over == over && c.group == table);
         let traces: Vec<(usize, Trace)> = own.filter_map(|c| Some((c.run, c.trace(names)?))).collect();
         let shared = traces.iter().any(|(run, _)| *run != traces[0].0);
         (shared, Overlay { table, name, over, traces: traces.into_iter().map(|(_, t)| t).collect() })
@@ -76,6 +91,8 @@ struct Curves<'a> {
     run: usize,
     label: String,
     over: String,
+    /// What the table is called beside those of other runs.
+    group: &'a str,
     table: &'a Table,
     /// Abscissa and number of each row that is drawn.
     places: Vec<(f64, usize)>,
@@ -89,7 +106,9 @@ impl<'a> Curves<'a> {
             let curves = kinds.into_iter().enumerate().map(|(k, kind)| {
                 let label = if kind.is_empty() { run.label() } else { format!("{} ({kind})", run.label()) };
                 let places = places.iter().copied().filter(|(_, row)| of_row[*row] == k).collect();
-                Self { run: number, label, over: over.to_owned(), table, places }
+                // A key is varied with its table before it.
+                let over = over.rsplit('.').next().unwrap_or(over).to_owned();
+                Self { run: number, label, over, group: &table.name, table, places }
             });
             Some(curves.collect::<Vec<_>>())
         };
@@ -100,7 +119,8 @@ impl<'a> Curves<'a> {
     fn quantities(&self) -> impl Iterator<Item = &'a str> {
         let over = self.over.clone();
         let numbers = self.table.columns.iter().filter(|c| matches!(c.values, Values::Numbers(_)));
-        numbers.map(|c| &*c.name).filter(move |name| *name != over && !PLACES.contains(name))
+        let short = |name: &'a str| name.rsplit('.').next().unwrap_or(name);
+        numbers.map(|c| &*c.name).filter(move |name| short(name) != over && !PLACES.contains(name))
     }
 
     fn trace(&self, names: &[&str]) -> Option<Trace> {
@@ -110,17 +130,24 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// What the rows of a table are drawn over: mesh phase or time where it has them, else its first column of numbers.
-fn places(table: &Table, axis: Axis) -> Option<(&str, Vec<(f64, usize)>)> {
+/// What the rows of a table are drawn over: mesh phase or time where it has them, else its first column of numbers; cases
+/// over what tells each from all others, where one key does.
+fn places<'a>(table: &'a Table, axis: Axis) -> Option<(&'a str, Vec<(f64, usize)>)> {
     let of = |name: &'static str| table.find(name).filter(|values| !values.is_empty()).map(|values| (name, values));
     match (of("speed_rpm"), of("mesh_phase"), of("time_s"), axis) {
         (_, Some((name, phases)), _, Axis::Phase) => Some((name, last_cycle(phases))),
         (_, Some(_), Some((name, times)), Axis::Time) => Some((name, plain(times))),
         (Some((name, speeds)), None, ..) => Some((name, plain(speeds))),
-        _ => table.columns.iter().find_map(|c| match &c.values {
-            Values::Numbers(list) => Some((&*c.name, plain(list))),
-            Values::Texts(_) => None,
-        }),
+        _ => {
+            let number = |c: &'a answer::Column| match &c.values {
+                Values::Numbers(list) => Some((&*c.name, list)),
+                Values::Texts(_) => None,
+            };
+            let mut all = table.columns.iter().filter_map(number);
+            let first = all.next()?;
+            let own = all.next().filter(|(_, list)| first.0 == "case" && tells_apart(list)).unwrap_or(first);
+            Some((own.0, plain(own.1)))
+        }
     }
 }
 
@@ -146,6 +173,13 @@ fn kinds(table: &Table) -> Option<(Vec<&str>, Vec<usize>)> {
         }
     }
     Some((kinds, of_row))
+}
+
+/// Whether no two values are the same.
+fn tells_apart(values: &[f64]) -> bool {
+    let mut all = values.to_vec();
+    all.sort_by(f64::total_cmp);
+    all.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 fn plain(values: &[f64]) -> Vec<(f64, usize)> {
