@@ -73,6 +73,9 @@ impl Source<'_> {
             Ok(root) => {
                 let mut all = root.clone();
                 for (setting, line) in self.settings.iter().zip(self.lines()) {
+                    if let Some(what) = all.nobody_called(setting.path()) {
+                        return Err(SceneError::Setting { label: setting.label().to_owned(), what });
+                    }
                     all.put(setting.path(), setting.value().moved(line.end - setting.written().len()));
                 }
                 T::deserialize(&all)

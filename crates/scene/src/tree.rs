@@ -111,6 +111,31 @@ impl Node {
         }
     }
 
+    /// What is said where a path names an entry of a list that is not there, among others that have names.
+    pub fn nobody_called(&self, path: &[String]) -> Option<String> {
+        let (first, rest) = path.split_first()?;
+        match &self.value {
+            Value::Table(table) => table.get(first)?.node.nobody_called(rest),
+            Value::List(list) => match entry_of(list, first) {
+                Some(i) => list[i].nobody_called(rest),
+                None if first.parse::<usize>().is_ok() => None,
+                None => {
+                    let names: Vec<String> = list.iter().enumerate().filter_map(|(i, own)| own.named(i)).collect();
+                    (!names.is_empty()).then(|| format!("none is called `{first}`; there are {}", names.join(", ")))
+                }
+            },
+            _ => None,
+        }
+    }
+
+    /// Number and name of an entry of a list that has one.
+    fn named(&self, number: usize) -> Option<String> {
+        self.entries().find_map(|(key, entry)| match &entry.node.value {
+            Value::Text(name) if key == "name" => Some(format!("{number} (\"{name}\")")),
+            _ => None,
+        })
+    }
+
     /// Whether it is this text.
     fn is_text(&self, text: &str) -> bool {
         matches!(&self.value, Value::Text(own) if own == text)

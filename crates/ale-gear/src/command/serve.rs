@@ -12,7 +12,7 @@ use super::cache_args::CacheArgs;
 use crate::{
     error::CommandError,
     memory,
-    scene::{SceneError, Starter, read_text},
+    scene::{Document, DocumentKind, SceneError, Starter, read_text},
     stop,
     talk::{self, Loudness},
 };
@@ -68,6 +68,12 @@ impl ServeArgs {
             }
             Some(file) => {
                 let text = read_text(file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
+                let kind = Document::new(text.clone(), file).kind();
+                if let Some(other) = kind.filter(|kind| *kind != DocumentKind::Scene) {
+                    let message = format_args!("{}: this is {other}, and a pair is tried by hand", file.display());
+                    let hint = format!("`ale-gear {} {} --out DIR` takes it", other.command(), file.display());
+                    return Err(CommandError::input(message, Some(hint)));
+                }
                 Ok((text, file.clone()))
             }
         }

@@ -83,7 +83,12 @@ fn what_a_gearbox_has_not_is_told_before_any_work() {
         ),
         (&["--vary", "bearing.0.position_mm=14,15", "--of", "mesh_1_ste"], "no column of the rows"),
         (&["--vary", &format!("{SLOPE}~iso1328:6"), "--output", "face_load_factor.0"], "ISO 1328"),
-        (&["--vary", "input.speed=1,2", "--start", "carry"], "gearbox"),
+        (&["--vary", "input.speed=1,2", "--start", "carry"], "cases of a gearbox are each alone"),
+        (&["--harris"], "`--harris` is for pairs"),
+        (
+            &["--vary", "bearing.left.position_mm=1,2", "--output", "face_load_factor.0"],
+            "--set bearing.left.position_mm: none is called `left`; there are 0 (\"fast, fixed\"), 2 (",
+        ),
     ] {
         let scratch = two_stages();
         let run = scratch.command(&[&["vary", "box.toml", "--out", "o"], words].concat());

@@ -153,6 +153,12 @@ impl VaryArgs {
     /// Does what the file and the words ask for.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let kind = kind_of_file(&self.file);
+        if kind == Some(DocumentKind::Gearbox) && (self.start != Start::Each || self.harris) {
+            let word = if self.harris { "--harris" } else { "--start" };
+            let message = format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", self.file.display());
+            let hint = "leave it out, and say `--vary KEY=FROM:TO:COUNT --output face_load_factor.0`".to_owned();
+            return Err(CommandError::input(message, Some(hint)));
+        }
         match (kind, self.start) {
             (Some(DocumentKind::Study), _) => self.study(quiet),
             (_, Start::Each) if self.part.any() => self.part(quiet),
