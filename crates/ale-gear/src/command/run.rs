@@ -144,6 +144,7 @@ impl RunArgs {
             };
         }
         if text.kind() == Some(DocumentKind::Gearbox) {
+            self.fits_a_gearbox()?;
             return self.gearbox(text.gearbox(&self.overrides.settings()?)?);
         }
         let quoted: Vec<String> = self.derivatives.iter().map(|key| format!("\"{}\"", key.trim())).collect();
