@@ -76,6 +76,19 @@ impl Document {
         self.0.root.as_ref().ok().and_then(DocumentKind::of)
     }
 
+    /// Kind of what it describes, whatever is varied or optimised of it; `None` where it describes nothing.
+    pub(crate) fn base_kind(&self) -> Option<DocumentKind> {
+        self.0.root.as_ref().ok().and_then(DocumentKind::of_machine)
+    }
+
+    /// The same text with these names at its top alone.
+    pub(crate) fn only(&self, names: &[&str]) -> Self {
+        let Read { file, text, root, origin, files, .. } = &*self.0;
+        let (file, text, files) = (file.clone(), text.clone(), Arc::clone(files));
+        let root = root.clone().map(|root| root.only(|name| names.contains(&name)));
+        Self(Arc::new(Read { file, text, root, origin: *origin, files, places: OnceLock::new() }))
+    }
+
     /// Whether a name stands at its top.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.0.root.as_ref().is_ok_and(|root| root.entries().any(|(key, _)| key == name))

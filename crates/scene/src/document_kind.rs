@@ -20,13 +20,15 @@ pub enum DocumentKind {
 }
 
 /// Each kind with names that stand at the top of no other.
-const NAMES: [(DocumentKind, &[&str]); 5] = [
+const NAMES: [(DocumentKind, &[&str]); 3] = [
     (DocumentKind::Scene, &["pinion", "wheel", "pair", "material", "operation", "contact", "drive", "load"]),
     (DocumentKind::Gearbox, &["shaft", "bearing", "gear", "torque", "input", "housing", "vibration"]),
-    (DocumentKind::Plan, &["vary"]),
     (DocumentKind::Study, &["case", "quantity", "over_time", "follow", "full"]),
-    (DocumentKind::Optimisation, &["torques_nm", "weights", "measure", "harmonics", "evaluations", "tolerance"]),
 ];
+
+/// Tables of what is asked of a pair or a gearbox beside a run; one that is run by itself does without them.
+pub(crate) const TASKS: [(DocumentKind, &str); 2] =
+    [(DocumentKind::Plan, "vary"), (DocumentKind::Optimisation, "optimise")];
 
 impl fmt::Display for DocumentKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -49,8 +51,14 @@ impl DocumentKind {
         }
     }
 
-    /// The kind with most names of its own at the top of a document; `None` where there is none.
+    /// What is asked of a document: a plan or an optimisation where it has such a table, else what it describes.
     pub(crate) fn of(root: &Node) -> Option<Self> {
+        let asked = TASKS.iter().find(|(_, name)| root.entries().any(|(key, _)| key == name));
+        asked.map(|(kind, _)| *kind).or_else(|| Self::of_machine(root))
+    }
+
+    /// What a document describes: the kind with most names of its own at its top; `None` where there is none.
+    pub(crate) fn of_machine(root: &Node) -> Option<Self> {
         let count = |names: &[&str]| root.entries().filter(|(key, _)| names.contains(&key.as_str())).count();
         let counts = NAMES.iter().map(|(kind, names)| (count(names), *kind));
         counts.filter(|(n, _)| *n > 0).reduce(|best, own| if own.0 > best.0 { own } else { best }).map(|(_, kind)| kind)
@@ -66,7 +74,8 @@ mod tests {
         let of = |text: &str| Node::of_text(text).ok().and_then(|root| DocumentKind::of(&root));
         assert_eq!(of("[pinion]\n[wheel]\n[pair]\n[mesh]\n[analysis]\n"), Some(DocumentKind::Scene));
         assert_eq!(of("name = \"x\"\n[[shaft]]\n[[mesh]]\n[input]\n[motion]\n"), Some(DocumentKind::Gearbox));
-        assert_eq!(of("scene = \"x\"\n[[vary]]\n[[output]]\n"), Some(DocumentKind::Plan));
+        assert_eq!(of("scene = \"x\"\n[vary]\n"), Some(DocumentKind::Plan));
+        assert_eq!(of("[pinion]\n[wheel]\n[optimise]\n"), Some(DocumentKind::Optimisation));
         assert_eq!(of("name = \"x\"\n"), None);
         assert_eq!(of("[pinion"), None);
     }

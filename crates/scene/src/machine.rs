@@ -37,7 +37,7 @@ impl Document {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn machine(&self, settings: &[Setting]) -> Result<Machine, SceneError> {
-        match self.kind() {
+        match self.base_kind() {
             Some(DocumentKind::Gearbox) => Ok(Machine::Gearbox(Box::new(self.gearbox(settings)?))),
             _ => Ok(Machine::Pair(Box::new(self.scene(settings)?))),
         }

@@ -12,11 +12,13 @@ use toml::Spanned;
 use super::DocumentKind;
 use super::data_file::DataFiles;
 use super::document::Document;
+use super::document_kind::TASKS;
 use super::hints;
 use super::keys::{self, Tables};
 use super::origin::Origin;
 use super::places::Written;
 use super::setting::Setting;
+use super::tree::Node;
 use super::{Place, error::SceneError};
 
 /// A document with what was set beside it, and what its keys mean.
@@ -67,11 +69,15 @@ impl Source<'_> {
     /// Syntax, unknown keys and wrong types, each with its line, as far as this is not a document of another kind than
     /// the `wanted` one.
     pub(crate) fn words<T: DeserializeOwned>(&self, wanted: DocumentKind) -> Result<T, SceneError> {
+        // What is varied or optimised of a pair or a gearbox is not a part of it.
+        let is_machine = matches!(wanted, DocumentKind::Scene | DocumentKind::Gearbox);
+        let is_task = |name: &str| TASKS.iter().any(|(_, task)| *task == name);
+        let has_task = |root: &Node| is_machine && root.entries().any(|(key, _)| is_task(key));
         let read = match self.document.root() {
             Err(fault) => Err(fault.clone()),
-            Ok(root) if self.settings.is_empty() => T::deserialize(root),
+            Ok(root) if self.settings.is_empty() && !has_task(root) => T::deserialize(root),
             Ok(root) => {
-                let mut all = root.clone();
+                let mut all = root.clone().only(|name| !(is_machine && is_task(name)));
                 for (setting, line) in self.settings.iter().zip(self.lines()) {
                     if let Some(what) = all.nobody_called(setting.path()) {
                         return Err(SceneError::Setting { label: setting.label().to_owned(), what });

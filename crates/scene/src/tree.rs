@@ -141,6 +141,15 @@ impl Node {
         matches!(&self.value, Value::Text(own) if own == text)
     }
 
+    /// The same with those entries of its table alone.
+    pub fn only(self, keeps: impl Fn(&str) -> bool) -> Self {
+        let value = match self.value {
+            Value::Table(table) => Value::Table(table.into_iter().filter(|(name, _)| keeps(name)).collect()),
+            other => other,
+        };
+        Self { value, ..self }
+    }
+
     /// The same with all places so much further on.
     pub fn moved(&self, by: usize) -> Self {
         let moved = |span: &Range<usize>| span.start + by..span.end + by;

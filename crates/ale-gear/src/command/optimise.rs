@@ -102,17 +102,23 @@ impl OptimiseArgs {
         }
     }
 
-    /// Every complaint about the words and the files is made here, before any work starts or any file is written.
-    fn plan(&self, document: Document) -> Result<Optimisation, CommandError> {
-        let Self { vary, torques, measure, max_pressure, evaluations, front, .. } = self;
-        let settings = self.overrides.settings()?;
+    /// Refuses words beside a file that says everything.
+    fn says_all_itself(&self) -> Result<(), CommandError> {
+        let Self { vary, torques, measure, max_pressure, evaluations, front, goal, limit, .. } = self;
         let words = !vary.is_empty() || !torques.is_empty() || measure.is_some() || max_pressure.is_some();
         let words = words || self.max_edge_pressure.is_some() || evaluations.is_some() || front.is_some();
-        if Optimisation::is_one(&document) {
-            if words {
-                let hint = "write it into the file, or give a scene file";
-                return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
-            }
+        if words || !goal.is_empty() || !limit.is_empty() {
+            let hint = "write it into [optimise], or give a scene file without it";
+            return Err(CommandError::input("an optimisation file says everything itself", Some(hint.into())));
+        }
+        Ok(())
+    }
+
+    /// Every complaint about the words and the files is made here, before any work starts or any file is written.
+    fn plan(&self, document: Document) -> Result<Optimisation, CommandError> {
+        let settings = self.overrides.settings()?;
+        if Optimisation::is_one(&document).0 {
+            self.says_all_itself()?;
             return Ok(Optimisation::of(&document, &settings)?);
         }
         if document.kind() == Some(DocumentKind::Gearbox) {
@@ -147,8 +153,9 @@ impl OptimiseArgs {
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         // What cannot be read is complained about as a scene is.
         let document = Document::read(&self.file)?;
-        if !self.goal.is_empty() {
-            return self.numbers(document, quiet);
+        let (is_file, of_numbers) = Optimisation::is_one(&document);
+        if !self.goal.is_empty() || of_numbers {
+            return self.numbers(&document, is_file, quiet);
         }
         let (plan, mut phases) = (self.plan(document)?, Phases::with_bars());
         let results = ResultDirectory::create(&self.out)?;
@@ -180,8 +187,14 @@ impl OptimiseArgs {
     }
 
     /// The same of numbers of a headline; what is solved is kept beside the results until they are complete.
-    fn numbers(&self, document: Document, quiet: bool) -> Result<Answer, CommandError> {
-        let plan = NumberOptimisation::of_scene(document, &self.overrides.settings()?, &self.words())?;
+    fn numbers(&self, document: &Document, is_file: bool, quiet: bool) -> Result<Answer, CommandError> {
+        let settings = self.overrides.settings()?;
+        let plan = if is_file {
+            self.says_all_itself()?;
+            NumberOptimisation::of(document, &settings)?
+        } else {
+            NumberOptimisation::of_scene(document.clone(), &settings, &self.words())?
+        };
         let checked = check_numbers(&plan.machine(&plan.start())?, &plan.outputs(), &self.file);
         checked.map_err(|e| CommandError::input(&e, Some(e.hint.clone())))?;
         let mut phases = Phases::with_bars();

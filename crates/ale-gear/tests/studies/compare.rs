@@ -146,7 +146,8 @@ fn answers_to_any_question_are_compared() {
     let run = scratch.ale_gear(["compare", "a", "b", "--out", "c"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
     let curves = scratch.read("c/compare_curves.csv");
-    let of = |run: &str| curves.lines().filter(|l| l.starts_with(&format!("cases,mean_ste_um,torque_nm,{run},"))).count();
+    let of =
+        |run: &str| curves.lines().filter(|l| l.starts_with(&format!("cases,mean_ste_um,torque_nm,{run},"))).count();
     assert_eq!([of("a"), of("b")], [3, 3], "{curves}");
     assert!(scratch.read("c/compare_cases_mean_ste_um.svg").contains("<svg"));
     // The page of any answer can be made again.

@@ -2,18 +2,19 @@
 
 use std::path::Path;
 
-use cases::{Axis, Cases, CasesError, Sampling};
+use cases::{Axis, Cases, Sampling};
 use design::{Goal, Measure, Over};
 use toml::Spanned;
 
 use super::{
     DesignParameter, Optimisation, TorqueWeight,
     file::TORQUE,
-    raw::{RawOptimisation, RawParameter},
+    raw::{RawOptimisation, RawOptimise},
+    words::parameter,
 };
 use crate::{
-    Scene, SceneError, Setting, Source, nearest,
-    plan::{DESIGNS, SEED, classed, setting, vary},
+    Document, Scene, SceneError, Setting, Source, nearest,
+    plan::{DESIGNS, SEED, axes, classed, setting, unfit},
 };
 
 type Checked<T> = Result<T, SceneError>;
@@ -27,52 +28,39 @@ pub(super) const FRONT: u32 = 100;
 /// Samples of the tolerances where none are stated.
 const SAMPLES: u32 = 20;
 
-pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Optimisation> {
-    let nothing = |what: &str, advice: &str| s.conflict(&(0..0), what, advice);
-    let scene = raw
-        .scene
-        .as_ref()
-        .ok_or_else(|| nothing("an optimisation without `scene`", "give the path of a scene file"))?;
-    let document = s.named(scene, "optimisation file")?;
-    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    settings.extend_from_slice(more);
-    let own = document.scene(&settings)?;
-    let mut parameters = Vec::new();
-    for table in &raw.parameter {
-        parameters.push(parameter(s, table, |key| own.number_at(key))?);
+pub(super) fn check(
+    s: &Source<'_>,
+    raw: &RawOptimisation,
+    (document, more): (Document, &[Setting]),
+) -> Checked<Optimisation> {
+    let asked = &raw.optimise;
+    if let Some(limit) = asked.limit.first() {
+        let advice = "name a `goal`, a number of the headline, or use `max_pressure_mpa`";
+        return Err(s.conflict(&limit.span(), "`limit` goes with `goal`", advice));
     }
+    let settings = settings(s, raw, more)?;
+    let own = document.scene(&settings)?;
+    let mut parameters = parameters(s, asked, |key| own.number_at(key))?;
     if parameters.is_empty() {
         parameters = default_parameters(&own)?;
     }
-    let torques = torques(s, raw, own.operation.torque_nm)?;
+    let torques = torques(s, asked, own.operation.torque_nm)?;
     let sampling = Sampling {
-        design: s.choice("design", &raw.design, &DESIGNS)?,
-        samples: s.whole("samples", &raw.samples, SAMPLES, 1, 1_000_000)?,
-        seed: u64::from(s.whole("seed", &raw.seed, SEED, 0, u32::MAX)?),
+        design: s.choice("design", &asked.design, &DESIGNS)?,
+        samples: s.whole("samples", &asked.samples, SAMPLES, 1, 1_000_000)?,
+        seed: u64::from(s.whole("seed", &asked.seed, SEED, 0, u32::MAX)?),
     };
-    let (mut tolerances, mut kinds) = (Vec::new(), Vec::new());
-    for table in &raw.tolerance {
-        let (axis, kind) = vary(s, table, "[[tolerance]]", |key, class| classed(&own, key, class, Some(0.0)))?;
-        if matches!(kind, Axis::Each(_)) {
-            let advice = "give `mean` and `deviation`, or `from` and `to` without `count`";
-            return Err(s.conflict(&table.span(), "a tolerance is drawn", advice));
-        }
-        tolerances.push(axis);
-        kinds.push(kind);
+    let (tolerances, kinds) = axes(s, &asked.tolerances, |key, class| classed(&own, key, class, Some(0.0)))?;
+    if let Some(k) = kinds.iter().position(|kind| matches!(kind, Axis::Each(_))) {
+        return Err(s.conflict(&asked.tolerances[k].span(), "a tolerance is drawn", "as `KEY~normal:0:5`, `KEY~-5:5`"));
     }
-    let samples = Cases::new(kinds, &sampling).map_err(|e| {
-        let table = match e {
-            CasesError::NoValues { axis } | CasesError::NoDistribution { axis, .. } => raw.tolerance.get(axis),
-            CasesError::TooMany { .. } => None,
-        };
-        s.conflict(&table.map_or(0..0, Spanned::span), e.to_string(), "see [[tolerance]] in docs/scene.md")
-    })?;
+    let samples = Cases::new(kinds, &sampling).map_err(|e| unfit(s, &asked.tolerances, &e))?;
     let limit = |key, value: &crate::Number| match value {
         Some(_) => s.number(key, value, 0.0, PRESSURES[0], PRESSURES[1]).map(Some),
         None => Ok(None),
     };
-    let max_pressure_mpa = limit("max_pressure_mpa", &raw.max_pressure_mpa)?;
-    let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &raw.max_edge_pressure_mpa)?;
+    let max_pressure_mpa = limit("max_pressure_mpa", &asked.max_pressure_mpa)?;
+    let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &asked.max_edge_pressure_mpa)?;
     let name = raw.name.clone().unwrap_or_else(|| stem(s.file));
     finish(Optimisation {
         name,
@@ -82,11 +70,11 @@ pub(super) fn check(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> 
         settings,
         parameters,
         torques,
-        goal: goal(s, raw)?,
+        goal: goal(s, asked)?,
         max_pressure_mpa,
         max_edge_pressure_mpa,
-        evaluations: s.whole("evaluations", &raw.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?,
-        front: s.whole("front", &raw.front, 0, 0, FRONT)?,
+        evaluations: s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?,
+        front: s.whole("front", &asked.front, 0, 0, FRONT)?,
         slices: None,
         tolerances,
         sampling,
@@ -140,36 +128,57 @@ pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
     Ok(all)
 }
 
-fn parameter(
+/// What an optimisation sets beside its document.
+pub(super) fn settings(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Vec<Setting>> {
+    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    settings.extend_from_slice(more);
+    Ok(settings)
+}
+
+/// What may change, with starts and roundings of their own.
+pub(super) fn parameters(
     s: &Source<'_>,
-    table: &Spanned<RawParameter>,
+    raw: &RawOptimise,
     known: impl Fn(&str) -> Option<f64>,
-) -> Checked<DesignParameter> {
-    let raw = table.get_ref();
-    let conflict = |what: &str, advice: &str| s.conflict(&table.span(), what, advice);
-    let key = raw.key.as_ref().ok_or_else(|| conflict("[[parameter]] has no `key`", "name the key that may change"))?;
-    let needed = |name: &str, value: &crate::Number| {
-        value.as_ref().ok_or_else(|| conflict(&format!("[[parameter]] has no `{name}`"), "give both bounds"))?;
-        s.number(name, value, 0.0, -1e300, 1e300)
+) -> Checked<Vec<DesignParameter>> {
+    let one = |word: &Spanned<String>| {
+        parameter(word.get_ref(), &known).map_err(|what| s.conflict(&word.span(), what, "as `KEY=FROM:TO`"))
     };
-    let bounds = [needed("from", &raw.from)?, needed("to", &raw.to)?];
-    if bounds[1] <= bounds[0] {
-        return Err(conflict("`to` is not above `from`", "give a lower and a higher bound"));
+    let mut all = raw.keys.iter().map(one).collect::<Checked<Vec<_>>>()?;
+    for word in &raw.start {
+        let (k, value) = number_of(s, word, &all)?;
+        let [low, high] = all[k].bounds;
+        if !(low..=high).contains(&value) {
+            return Err(s.conflict(
+                &word.span(),
+                format!("{value} is not within {low} .. {high}"),
+                "start within the bounds",
+            ));
+        }
+        all[k].start = value;
     }
-    let keys: Vec<String> = [key].into_iter().chain(&raw.also).map(|word| word.get_ref().clone()).collect();
-    let own = known(&keys[0]).unwrap_or_else(|| if bounds[0] <= 0.0 { 0.0 } else { 0.5 * (bounds[0] + bounds[1]) });
-    let start = s.number("start", &raw.start, own.clamp(bounds[0], bounds[1]), bounds[0], bounds[1])?;
-    let grain = s.number("round", &raw.round, grain(&keys[0]), 0.0, 1e300)?;
-    Ok(DesignParameter { keys, bounds, start, grain })
+    for word in &raw.round {
+        let (k, value) = number_of(s, word, &all)?;
+        if value < 0.0 {
+            return Err(s.conflict(&word.span(), "a grain below 0", "give one above 0, or 0 for any value"));
+        }
+        all[k].grain = value;
+    }
+    Ok(all)
 }
 
-/// What a machine is set to.
-pub(super) fn grain(key: &str) -> f64 {
-    let of = [("_um", 1.0), ("_deg", 0.1), ("_mm", 0.01)];
-    of.into_iter().find(|(ending, _)| key.ends_with(ending)).map_or(0.0, |(_, grain)| grain)
+/// Which parameter `KEY=NUMBER` is about, and the number.
+fn number_of(s: &Source<'_>, word: &Spanned<String>, all: &[DesignParameter]) -> Checked<(usize, f64)> {
+    let wrong = |what: String| s.conflict(&word.span(), what, "as `KEY=24.5`, the key one of `keys`");
+    let (key, value) = word.get_ref().split_once('=').ok_or_else(|| wrong("it has no `=`".into()))?;
+    let key = key.trim();
+    let place = all.iter().position(|p| p.keys.iter().any(|own| own == key));
+    let place = place.ok_or_else(|| wrong(format!("`{key}` may not change")))?;
+    let value = value.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    Ok((place, value.ok_or_else(|| wrong("no number stands behind `=`".into()))?))
 }
 
-fn torques(s: &Source<'_>, raw: &RawOptimisation, own: f64) -> Checked<Vec<TorqueWeight>> {
+fn torques(s: &Source<'_>, raw: &RawOptimise, own: f64) -> Checked<Vec<TorqueWeight>> {
     let list = raw.torques_nm.as_ref().map_or_else(|| vec![own], |list| list.get_ref().clone());
     let span = raw.torques_nm.as_ref().map_or(0..0, Spanned::span);
     if list.is_empty() || list.iter().any(|t| !(t.is_finite() && *t > 0.0)) {
@@ -187,7 +196,7 @@ fn torques(s: &Source<'_>, raw: &RawOptimisation, own: f64) -> Checked<Vec<Torqu
 pub(super) const MEASURES: [(&str, Measure); 3] =
     [("peak-to-peak", Measure::PeakToPeak), ("rms", Measure::Rms), ("harmonics", Measure::Harmonics(Vec::new()))];
 
-fn goal(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Goal> {
+fn goal(s: &Source<'_>, raw: &RawOptimise) -> Checked<Goal> {
     let words: Vec<(&str, usize)> = MEASURES.iter().enumerate().map(|(i, (word, _))| (*word, i)).collect();
     let mut measure = MEASURES[s.choice("measure", &raw.measure, &words)?].1.clone();
     if let Measure::Harmonics(orders) = &mut measure {
@@ -201,8 +210,8 @@ fn goal(s: &Source<'_>, raw: &RawOptimisation) -> Checked<Goal> {
     }
     let over = match &raw.quantile {
         None => Over::Mean,
-        Some(_) if measure != Measure::PeakToPeak || raw.tolerance.is_empty() => {
-            let what = "`quantile` goes with `measure = \"peak-to-peak\"` and [[tolerance]]";
+        Some(_) if measure != Measure::PeakToPeak || raw.tolerances.is_empty() => {
+            let what = "`quantile` goes with `measure = \"peak-to-peak\"` and `tolerances`";
             return Err(s.conflict(&(0..0), what, "leave it out"));
         }
         Some(_) => Over::WorstBeyond(s.number("quantile", &raw.quantile, 0.9, 0.0, 0.999)?),

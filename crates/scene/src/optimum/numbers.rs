@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DesignParameter,
-    check::{EVALUATIONS, stem},
+    check::{EVALUATIONS, parameters, settings, stem},
+    raw::RawOptimisation,
     words::{OptimisationWords, parameter},
 };
-use crate::{Document, Machine, Scene, SceneError, Setting, gearbox::Gearbox, plan::PlanOutput};
+use toml::Spanned;
+
+use crate::{Document, Machine, Scene, SceneError, Setting, Source, gearbox::Gearbox, plan::PlanOutput};
 
 /// A pair or a gearbox, what of it may change, and which numbers of its headline shall be small.
 #[derive(Debug, Clone)]
@@ -73,16 +76,11 @@ impl NumberOptimisation {
         if parameters.is_empty() {
             return Err(wrong("--vary".into(), "names no key that may change: say `--vary KEY=FROM:TO`"));
         }
-        let mut limits = Vec::new();
-        for word in words.limits {
-            let complain = |what: &str| wrong(format!("--limit {word}"), what);
-            let (key, most) = word.split_once('=').ok_or_else(|| complain("has no `=`: say `KEY=MOST`"))?;
-            let most = most.trim().parse::<f64>().ok().filter(|most| most.is_finite() && *most > 0.0);
-            let most = most.ok_or_else(|| complain("says no number above 0"))?;
-            limits.push(NumberLimit { output: PlanOutput::Headline(key.trim().to_owned()), most });
-        }
+        let limit = |word: &String| limit(word).map_err(|what| wrong(format!("--limit {word}"), &what));
+        let limits = words.limits.iter().map(limit).collect::<Result<Vec<_>, _>>()?;
+        let goal = |word: &String| PlanOutput::parse(word).map_err(|what| wrong(format!("--goal {word}"), &what));
+        let goals = words.goals.iter().map(goal).collect::<Result<Vec<_>, _>>()?;
         let evaluations = words.evaluations.clamp(1, EVALUATIONS[1]);
-        let goals = words.goals.iter().map(|key| PlanOutput::Headline(key.clone())).collect();
         let (name, file) = (stem(document.file()), document.file().to_owned());
         Self { name, file, document, settings: settings.to_vec(), parameters, goals, limits, evaluations }.finish()
     }
@@ -155,6 +153,57 @@ impl NumberOptimisation {
         beside[parameter] += step;
         (beside, step)
     }
+}
+
+/// The words of an optimisation of numbers.
+///
+/// # Errors
+/// [`SceneError`]: the first complaint, with its place.
+pub(super) fn numbers(
+    s: &Source<'_>,
+    raw: &RawOptimisation,
+    (document, more): (Document, &[Setting]),
+) -> Result<NumberOptimisation, SceneError> {
+    let asked = &raw.optimise;
+    let beside = [
+        ("measure", asked.measure.is_some()),
+        ("harmonics", asked.harmonics.is_some()),
+        ("torques_nm", asked.torques_nm.is_some()),
+        ("weights", asked.weights.is_some()),
+        ("max_pressure_mpa", asked.max_pressure_mpa.is_some()),
+        ("max_edge_pressure_mpa", asked.max_edge_pressure_mpa.is_some()),
+        ("front", asked.front.is_some()),
+        ("quantile", asked.quantile.is_some()),
+        ("tolerances", !asked.tolerances.is_empty()),
+        ("design", asked.design.is_some()),
+        ("samples", asked.samples.is_some()),
+        ("seed", asked.seed.is_some()),
+    ];
+    if let Some((key, _)) = beside.into_iter().find(|(_, given)| *given) {
+        let what = format!("`{key}` goes with the transmission error of a pair, not with `goal`");
+        return Err(s.conflict(&(0..0), what, "leave one of both out"));
+    }
+    let settings = settings(s, raw, more)?;
+    let own = document.machine(&settings)?;
+    let parameters = parameters(s, asked, |key| number_at(&document, &own, key))?;
+    if parameters.is_empty() {
+        return Err(s.conflict(&(0..0), "nothing may change", "say `keys = [\"KEY=FROM:TO\"]` in [optimise]"));
+    }
+    let word = |word: &Spanned<String>, what: String| s.conflict(&word.span(), what, "see [optimise] in docs/scene.md");
+    let goals = asked.goal.iter().map(|w| PlanOutput::parse(w.get_ref()).map_err(|what| word(w, what)));
+    let goals = goals.collect::<Result<Vec<_>, _>>()?;
+    let limits = asked.limit.iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
+    let limits = limits.collect::<Result<Vec<_>, _>>()?;
+    let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
+    let (name, file) = (raw.name.clone().unwrap_or_else(|| stem(s.file)), s.file.to_owned());
+    NumberOptimisation { name, file, document, settings, parameters, goals, limits, evaluations }.finish()
+}
+
+/// The limit that `NUMBER=MOST` says.
+fn limit(word: &str) -> Result<NumberLimit, String> {
+    let (key, most) = word.split_once('=').ok_or("has no `=`: say `KEY=MOST`")?;
+    let most = most.trim().parse::<f64>().ok().filter(|most| most.is_finite() && *most > 0.0);
+    Ok(NumberLimit { output: PlanOutput::parse(key)?, most: most.ok_or("says no number above 0")? })
 }
 
 /// The number that a document says at a key, if it says one.

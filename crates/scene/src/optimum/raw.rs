@@ -1,18 +1,21 @@
-//! The words of an optimisation file, nothing checked yet.
+//! The words of an optimisation, nothing checked yet.
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::{Number, Whole, Word, plan::RawVary};
+use crate::{Number, Whole, Word};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] = &[
+    ("", &["name", "scene", "set", "optimise"]),
     (
-        "",
+        "[optimise]",
         &[
-            "name",
-            "scene",
-            "set",
+            "keys",
+            "start",
+            "round",
+            "goal",
+            "limit",
             "measure",
             "harmonics",
             "torques_nm",
@@ -22,29 +25,10 @@ const TABLES: &[(&str, &[&str])] = &[
             "max_edge_pressure_mpa",
             "front",
             "quantile",
+            "tolerances",
             "design",
             "samples",
             "seed",
-            "parameter",
-            "tolerance",
-        ],
-    ),
-    ("[parameter]", &["key", "also", "from", "to", "start", "round"]),
-    (
-        "[tolerance]",
-        &[
-            "key",
-            "also",
-            "values",
-            "from",
-            "to",
-            "count",
-            "scale",
-            "mean",
-            "deviation",
-            "least",
-            "largest",
-            "iso_1328_class",
         ],
     ),
 ];
@@ -54,6 +38,7 @@ pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
     TABLES.iter().map(|(name, keys)| ((*name).to_owned(), keys.to_vec())).collect()
 }
 
+/// A file of its own, or the table of a document that it stands in.
 #[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawOptimisation {
@@ -61,6 +46,24 @@ pub(super) struct RawOptimisation {
     pub scene: Word,
     #[serde(default)]
     pub set: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub optimise: RawOptimise,
+}
+
+/// `[optimise]`
+#[derive(Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawOptimise {
+    #[serde(default)]
+    pub keys: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub start: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub round: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub goal: Vec<Spanned<String>>,
+    #[serde(default)]
+    pub limit: Vec<Spanned<String>>,
     pub measure: Word,
     pub harmonics: Option<Spanned<Vec<u32>>>,
     pub torques_nm: Option<Spanned<Vec<f64>>>,
@@ -70,23 +73,9 @@ pub(super) struct RawOptimisation {
     pub max_edge_pressure_mpa: Number,
     pub front: Whole,
     pub quantile: Number,
+    #[serde(default)]
+    pub tolerances: Vec<Spanned<String>>,
     pub design: Word,
     pub samples: Whole,
     pub seed: Whole,
-    #[serde(default)]
-    pub parameter: Vec<Spanned<RawParameter>>,
-    #[serde(default)]
-    pub tolerance: Vec<Spanned<RawVary>>,
-}
-
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawParameter {
-    pub key: Word,
-    #[serde(default)]
-    pub also: Vec<Spanned<String>>,
-    pub from: Number,
-    pub to: Number,
-    pub start: Number,
-    pub round: Number,
 }

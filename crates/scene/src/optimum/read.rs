@@ -6,8 +6,9 @@ use cases::{Cases, Sampling};
 use design::{Goal, Measure, Over};
 
 use super::{
-    Optimisation, TorqueWeight,
+    NumberOptimisation, Optimisation, TorqueWeight,
     check::{EVALUATIONS, FRONT, PRESSURES, check, default_parameters, finish, measure, stem},
+    numbers::numbers,
     raw::{RawOptimisation, tables},
     words::{OptimisationWords, parameter},
 };
@@ -38,14 +39,18 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
-        let source = Source::of(document, tables);
+        let own = own(document);
+        let source = Source::of(&own, tables);
         let raw: RawOptimisation = source.words(DocumentKind::Optimisation)?;
-        check(&source, &raw, settings)
+        check(&source, &raw, (base(&source, &raw, document)?, settings))
     }
 
-    /// Whether a document is an optimisation: it names a scene or what may change.
-    pub fn is_one(document: &Document) -> bool {
-        ["scene", "parameter", "tolerance"].iter().any(|key| document.has(key))
+    /// Whether a document is an optimisation, and whether it is one of any numbers.
+    pub fn is_one(document: &Document) -> (bool, bool) {
+        let is = document.kind() == Some(DocumentKind::Optimisation);
+        let own = own(document);
+        let raw = Source::of(&own, tables).words::<RawOptimisation>(DocumentKind::Optimisation);
+        (is, is && raw.is_ok_and(|raw| !raw.optimise.goal.is_empty()))
     }
 
     /// The optimisation of a scene that a command line says.
@@ -114,5 +119,37 @@ impl Optimisation {
             sampling,
             samples,
         })
+    }
+}
+
+/// What a document says of an optimisation: all of it where it names another one, else its table.
+fn own(document: &Document) -> Document {
+    if document.has("scene") { document.clone() } else { document.only(&["name", "optimise"]) }
+}
+
+/// The pair or the gearbox that is optimised.
+fn base(s: &Source<'_>, raw: &RawOptimisation, document: &Document) -> Result<Document, SceneError> {
+    match &raw.scene {
+        Some(scene) => s.named(scene, "optimisation file"),
+        None if document.base_kind().is_some() => Ok(document.clone()),
+        None => {
+            let advice = "give the path of a scene or a gearbox file, or write [optimise] into one";
+            Err(s.conflict(&(0..0), "an optimisation without `scene`", advice))
+        }
+    }
+}
+
+impl NumberOptimisation {
+    /// Checks a document whose [optimise] has a `goal`; `settings`: keys that are set otherwise, behind those that it sets
+    /// itself.
+    ///
+    /// # Errors
+    /// [`SceneError`]: the first complaint, with its place.
+    pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        let own = own(document);
+        let source = Source::of(&own, tables);
+        let raw: RawOptimisation = source.words(DocumentKind::Optimisation)?;
+        let base = base(&source, &raw, document)?;
+        numbers(&source, &raw, (base, settings))
     }
 }

@@ -1,6 +1,6 @@
 //! What a command line says of an optimisation.
 
-use super::{DesignParameter, check::grain};
+use super::DesignParameter;
 use crate::plan::{AxisValues, AxisWord};
 
 /// What a command line says of an optimisation.
@@ -39,4 +39,10 @@ pub(super) fn parameter(word: &str, known: impl Fn(&str) -> Option<f64>) -> Resu
     let start = known(&keys[0]).unwrap_or(middle).clamp(bounds[0], bounds[1]);
     let grain = grain(&keys[0]);
     Ok(DesignParameter { keys, bounds, start, grain })
+}
+
+/// What a machine is set to.
+fn grain(key: &str) -> f64 {
+    let of = [("_um", 1.0), ("_deg", 0.1), ("_mm", 0.01)];
+    of.into_iter().find(|(ending, _)| key.ends_with(ending)).map_or(0.0, |(_, grain)| grain)
 }

@@ -80,7 +80,45 @@ impl PlanAxis {
     }
 }
 
+/// Mesh harmonics at the most.
+const ORDERS: u32 = 1000;
+/// Word for a mesh harmonic among what may be taken of a column.
+const HARMONIC: &str = "harmonic";
+
 impl PlanOutput {
+    /// The number that a word says: a key of the headline, or `TAKE(COLUMN)`.
+    ///
+    /// ```text
+    /// peak_to_peak_ste_um     ste_harmonics_um.1     mean(ste_um)     harmonic(ste_um, 2)
+    /// ```
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub fn parse(word: &str) -> Result<Self, String> {
+        let word = word.trim();
+        let Some((take, rest)) = word.split_once('(') else {
+            return if word.is_empty() { Err("an empty word".into()) } else { Ok(Self::Headline(word.to_owned())) };
+        };
+        let inner = rest.strip_suffix(')').ok_or_else(|| format!("`{word}` has no `)` at its end"))?;
+        let (column, order) = inner.split_once(',').map_or((inner, None), |(column, order)| (column, Some(order)));
+        let column = column.trim().to_owned();
+        let take = match (take.trim(), order) {
+            (HARMONIC, order) => {
+                let order = order.map_or(Ok(1), |order| order.trim().parse());
+                let order = order.ok().filter(|order| (1..=ORDERS).contains(order));
+                PlanTake::Harmonic(order.ok_or_else(|| format!("an order is a number, 1 to {ORDERS}"))?)
+            }
+            (_, Some(_)) => return Err(format!("an order goes with `{HARMONIC}(..)`")),
+            (take, None) => {
+                let known = Take::ALL.into_iter().find(|own| own.word() == take).map(PlanTake::Of);
+                let names: Vec<&str> = Take::ALL.iter().map(|t| t.word()).chain([HARMONIC]).collect();
+                let near = crate::nearest(take, &names).unwrap_or(names[0]);
+                known.ok_or_else(|| format!("`{take}(..)` is taken of no column; did you mean `{near}(..)`?"))?
+            }
+        };
+        Ok(Self::Column { column, take })
+    }
+
     /// Name of its column in the table of cases.
     pub fn name(&self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! The plan file: which keys of a scene are varied, how, and which numbers of each case are wanted.
+//! A plan: which keys of a pair or a gearbox are varied, how, and which numbers of each case are wanted.
 //!
 //! | module | what it does |
 //! |---|---|
@@ -15,9 +15,8 @@ mod read;
 mod tolerance;
 mod word;
 
-pub(crate) use check::{DESIGNS, SEED, setting, vary};
+pub(crate) use check::{DESIGNS, SEED, axes, setting, unfit};
 pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
-pub(crate) use raw::RawVary;
 pub use read::PlanWords;
 pub use tolerance::PitchTolerance;
 pub(crate) use tolerance::classed;

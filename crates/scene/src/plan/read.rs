@@ -6,11 +6,9 @@ use cases::{Cases, Sampling};
 
 use super::{
     Plan, PlanAxis, PlanOutput,
-    check::{CLASSED, DESIGNS, SAMPLES, SEED, check, finish},
+    check::{DESIGNS, SAMPLES, SEED, axis, check, finish},
     classed,
     raw::{RawPlan, tables},
-    tolerance::is_pitch,
-    word::{AxisValues, AxisWord},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 
@@ -19,7 +17,7 @@ use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 pub struct PlanWords<'a> {
     /// Varied keys.
     pub vary: &'a [String],
-    /// Wanted numbers of the headline.
+    /// Wanted numbers: of the headline by their keys, of columns as `mean(ste_um)`.
     pub outputs: &'a [String],
     /// Wanted numbers that are read off columns.
     pub columns: &'a [PlanOutput],
@@ -53,9 +51,19 @@ impl Plan {
     /// # Errors
     /// As [`Plan::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
-        let source = Source::of(document, tables);
+        // A plan names what it varies, or stands in it as one of its tables.
+        let own = if document.has("scene") { document.clone() } else { document.only(&["name", "vary"]) };
+        let source = Source::of(&own, tables);
         let raw: RawPlan = source.words(DocumentKind::Plan)?;
-        check(&source, &raw, settings)
+        let base = match &raw.scene {
+            Some(scene) => source.named(scene, "plan file")?,
+            None if document.base_kind().is_some() => document.clone(),
+            None => {
+                let advice = "give the path of a scene or a gearbox file, or write [vary] into one";
+                return Err(source.conflict(&(0..0), "a plan without `scene`", advice));
+            }
+        };
+        check(&source, &raw, (base, settings))
     }
 
     /// The plan of a scene that a command line says.
@@ -65,30 +73,16 @@ impl Plan {
     pub fn of_scene(document: Document, settings: &[Setting], words: &PlanWords<'_>) -> Result<Self, SceneError> {
         let wrong = |label: String, what: String| SceneError::Setting { label, what };
         let (mut axes, mut kinds) = (Vec::new(), Vec::new());
+        let classed = |key: &str, class: u32| {
+            let known = document.machine(settings).ok()?;
+            let pair = known.pair()?;
+            classed(pair, key, class, pair.number_at(key))
+        };
         for written in words.vary {
             let complain = |what: String| wrong(format!("--vary {written}"), what);
-            let AxisWord { keys, values } = AxisWord::parse(written).map_err(complain)?;
-            let (pitch, axis) = match values {
-                AxisValues::Between([from, to]) => {
-                    return Err(complain(format!(
-                        "say how many, as `={from}:{to}:9`, or draw them, as `~{from}:{to}`"
-                    )));
-                }
-                AxisValues::By(_) if keys.iter().any(|key| is_pitch(key)) => {
-                    return Err(complain("pitch errors are drawn within a class, as `~iso1328:6`".into()));
-                }
-                AxisValues::By(axis) => (None, axis),
-                AxisValues::Class(_) if keys.len() > 1 && keys.iter().any(|key| is_pitch(key)) => {
-                    return Err(complain("pitch errors of each gear are drawn by a `--vary` of its own".into()));
-                }
-                AxisValues::Class(class) => {
-                    let (known, key) = (document.machine(settings)?, &keys[0]);
-                    let found = known.pair().and_then(|pair| classed(pair, key, class, pair.number_at(key)));
-                    found.ok_or_else(|| complain(format!("ISO 1328 has no tolerance for it: {CLASSED}")))?
-                }
-            };
-            axes.push(PlanAxis { keys, pitch });
-            kinds.push(axis);
+            let (own, kind) = axis(written, &classed).map_err(complain)?;
+            axes.push(own);
+            kinds.push(kind);
         }
         let design = match words.design {
             None => DESIGNS[0].1,
@@ -110,8 +104,9 @@ impl Plan {
             seed: u64::from(words.seed.unwrap_or(SEED)),
         };
         let cases = Cases::new(kinds, &sampling).map_err(|e| wrong("--vary".into(), e.to_string()))?;
-        let outputs = words.outputs.iter().map(|key| PlanOutput::Headline(key.clone()));
-        let outputs = outputs.chain(words.columns.iter().cloned()).collect();
+        let output = |word: &String| PlanOutput::parse(word).map_err(|what| wrong(format!("--output {word}"), what));
+        let mut outputs = words.outputs.iter().map(output).collect::<Result<Vec<_>, _>>()?;
+        outputs.extend(words.columns.iter().cloned());
         let file = document.file().to_owned();
         let name = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
         let settings = settings.to_vec();

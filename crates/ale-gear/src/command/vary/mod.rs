@@ -155,7 +155,8 @@ impl VaryArgs {
         let kind = kind_of_file(&self.file);
         if kind == Some(DocumentKind::Gearbox) && (self.start != Start::Each || self.harris) {
             let word = if self.harris { "--harris" } else { "--start" };
-            let message = format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", self.file.display());
+            let message =
+                format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", self.file.display());
             let hint = "leave it out, and say `--vary KEY=FROM:TO:COUNT --output face_load_factor.0`".to_owned();
             return Err(CommandError::input(message, Some(hint)));
         }
