@@ -18,17 +18,10 @@ CASES, CHUNK = 2000, 100
 PLAN = f"""
 scene = "{REPOSITORY}/scenes/iso.toml"
 set = ["analysis.positions_per_cycle=360"]
+[vary]
+keys = ["operation.torque_nm~50:200", "wheel.profile_shift~0.0:0.2"]
+output = ["peak_to_peak_ste_um"]
 samples = {CASES}
-[[vary]]
-key = "operation.torque_nm"
-from = 50
-to = 200
-[[vary]]
-key = "wheel.profile_shift"
-from = 0.0
-to = 0.2
-[[output]]
-headline = "peak_to_peak_ste_um"
 """
 
 

@@ -157,9 +157,8 @@ fn gearbox() -> SmallDocument {
 fn other_than_scenes() -> Vec<SmallDocument> {
     let rest = at_rest(4, "[contact]\nslices = 6\n");
     let mapped = moving("model = \"mapped\"\ncycles = 2\n", &format!("{SETTLES}mesh_damping_ratio = 0.05\n"));
-    let plan = "scene = \"scene.toml\"\n[[output]]\nheadline = \"mean_ste_um\"\n[[output]]\nheadline = \"max_pressure_mpa\"\n[[vary]]\n\
-                key = \"operation.torque_nm\"\nvalues = [40.0, 80.0]\n[[vary]]\nkey = \"pinion.modification.lead_crowning_um\"\n\
-                values = [0.0, 10.0]\n";
+    let plan = "scene = \"scene.toml\"\n[vary]\nkeys = [\"operation.torque_nm=40,80\", \
+                \"pinion.modification.lead_crowning_um=0,10\"]\noutput = [\"mean_ste_um\", \"max_pressure_mpa\"]\n";
     let study = "[[case]]\nscene = \"scene.toml\"\nvalue = 1\n[[case]]\nscene = \"b.toml\"\nvalue = 2\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     vec![

@@ -11,6 +11,7 @@ use std::{
 use crate::{
     DocumentKind, Line, Place, SceneError,
     data_file::DataFiles,
+    document_kind::TASKS,
     excerpt::excerpt,
     input_text::read_text,
     origin::Origin,
@@ -77,7 +78,7 @@ impl Document {
     }
 
     /// Kind of what it describes, whatever is varied or optimised of it; `None` where it describes nothing.
-    pub(crate) fn base_kind(&self) -> Option<DocumentKind> {
+    pub fn base_kind(&self) -> Option<DocumentKind> {
         self.0.root.as_ref().ok().and_then(DocumentKind::of_machine)
     }
 
@@ -87,6 +88,19 @@ impl Document {
         let (file, text, files) = (file.clone(), text.clone(), Arc::clone(files));
         let root = root.clone().map(|root| root.only(|name| names.contains(&name)));
         Self(Arc::new(Read { file, text, root, origin: *origin, files, places: OnceLock::new() }))
+    }
+
+    /// That not both of a plan and an optimisation stand in it.
+    ///
+    /// # Errors
+    /// [`SceneError::Conflict`].
+    pub(crate) fn one_task(&self) -> Result<(), SceneError> {
+        if !TASKS.iter().all(|(_, name)| self.has(name)) {
+            return Ok(());
+        }
+        let what = "[vary] and [optimise] stand in one document".to_owned();
+        let advice = "write one of them into a file of its own, with `scene` the path of this one".to_owned();
+        Err(SceneError::Conflict { place: self.line(&(0..0)), what, advice })
     }
 
     /// Whether a name stands at its top.

@@ -92,7 +92,12 @@ impl Source<'_> {
 
     /// A complaint about a document that was to be a `wanted` one: that it is of another kind, where it is.
     pub(crate) fn of_kind(&self, complaint: SceneError, wanted: DocumentKind) -> SceneError {
-        complaint.unless_another_kind(self.document.kind(), self.file, wanted)
+        // A typo in a pair with a plan in it is one in the pair.
+        let found = match wanted {
+            DocumentKind::Scene | DocumentKind::Gearbox => self.document.base_kind().or(self.document.kind()),
+            _ => self.document.kind(),
+        };
+        complaint.unless_another_kind(found, self.file, wanted)
     }
 
     /// Ranges of the lines of the settings, behind the text of the document.

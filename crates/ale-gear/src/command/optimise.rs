@@ -121,7 +121,7 @@ impl OptimiseArgs {
             self.says_all_itself()?;
             return Ok(Optimisation::of(&document, &settings)?);
         }
-        if document.kind() == Some(DocumentKind::Gearbox) {
+        if document.base_kind() == Some(DocumentKind::Gearbox) {
             let message = format_args!("{}: of a gearbox a number of its headline is made small", self.file.display());
             let hint = "as `--goal face_load_factor.0 --vary 'mesh.0.scene.pinion.modification.lead_slope_um=-30:30'`";
             return Err(CommandError::input(message, Some(hint.into())));

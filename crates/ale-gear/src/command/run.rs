@@ -143,6 +143,12 @@ impl RunArgs {
                 Machine::Gearbox(file) => self.gearbox(*file),
             };
         }
+        // A document of many runs comes here through a pipe alone, which cannot be read twice.
+        if let Some(many) = text.kind().filter(|kind| !matches!(kind, DocumentKind::Scene | DocumentKind::Gearbox)) {
+            let message =
+                format_args!("{}: this is {many}, and what it names is found beside a file", self.file.display());
+            return Err(CommandError::input(message, Some("write it into a file".into())));
+        }
         if text.kind() == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
             return self.gearbox(text.gearbox(&self.overrides.settings()?)?);

@@ -68,7 +68,8 @@ impl ServeArgs {
             }
             Some(file) => {
                 let text = read_text(file).map_err(|source| SceneError::Read { file: file.clone(), source })?;
-                let kind = Document::new(text.clone(), file).kind();
+                let document = Document::new(text.clone(), file);
+                let kind = document.base_kind().or(document.kind());
                 if let Some(other) = kind.filter(|kind| *kind != DocumentKind::Scene) {
                     let message = format_args!("{}: this is {other}, and a pair is tried by hand", file.display());
                     let hint = format!("`ale-gear {} {} --out DIR` takes it", other.command(), file.display());

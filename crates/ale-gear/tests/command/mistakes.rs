@@ -232,8 +232,7 @@ fn files_of_another_kind_name_their_subcommand() {
     let copy = |scratch: Scratch, name: &str| scratch.file(name, std::fs::read(folder.join(name)).unwrap());
     let files = ["two_stages.toml", "first_stage.toml", "second_stage.toml"];
     let scratch = files.into_iter().fold(Scratch::new().file("a.toml", SCENE), copy);
-    let scratch =
-        scratch.file("plan.toml", "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nvalues = [50.0]\n");
+    let scratch = scratch.file("plan.toml", "scene = \"a.toml\"\n[vary]\nkeys = [\"operation.torque_nm=50.0\"]\n");
     for (words, text) in [
         (
             &["geometry", "two_stages.toml"][..],

@@ -34,8 +34,8 @@ fn tree(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     all
 }
 
-const PLAN: &str = "scene = \"rest.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nvalues = [100, 150, 200]\n\
-                    [[output]]\nheadline = \"mean_ste_um\"\n";
+const PLAN: &str = "scene = \"rest.toml\"\n[vary]\nkeys = [\"operation.torque_nm=100,150,200\"]\n\
+                    output = [\"mean_ste_um\"]\n";
 const STUDY: &str = "[[case]]\nscene = \"rest.toml\"\nvalue = 1\n[[case]]\nscene = \"iso.toml\"\nvalue = 2\n\
                      [[quantity]]\ncolumn = \"ste_um\"\n";
 

@@ -65,8 +65,8 @@ fn derivatives_are_those_of_central_differences() {
 fn a_plan_takes_the_derivatives_of_its_cases() {
     let (key, _) = KEYS[0];
     let names = ["d_ste_um", "d_kinematic_te_um"].map(|of| format!("{of}_per_{}", key.replace('.', "_")));
-    let outputs = names.each_ref().map(|name| format!("[[output]]\ncolumn = \"{name}\"\ntake = \"largest\"\n"));
-    let plan = format!("scene = \"a.toml\"\n[[vary]]\nkey = \"{key}\"\nvalues = [6, 10]\n{}", outputs.concat());
+    let outputs = names.each_ref().map(|name| format!("\"largest({name})\""));
+    let plan = format!("scene = \"a.toml\"\n[vary]\nkeys = [\"{key}=6,10\"]\noutput = [{}]\n", outputs.join(", "));
     let scene = relieved() + &format!("[output]\nderivatives = [\"{key}\"]\n");
     let scratch = Scratch::new().file("a.toml", scene).file("plan.toml", plan);
     for words in [["vary", "plan.toml", "--out", "o"], ["run", "a.toml", "--out", "of_10"]] {

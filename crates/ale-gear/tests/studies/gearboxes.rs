@@ -101,9 +101,8 @@ fn what_a_gearbox_has_not_is_told_before_any_work() {
 /// A case by itself and its report are those of its row; pieces that are put together are the plan in one piece.
 #[test]
 fn cases_of_a_gearbox_run_by_themselves_and_in_pieces() {
-    let plan = "scene = \"box.toml\"\n[[vary]]\nkey = \"bearing.0.position_mm\"\nvalues = [14, 15, 16]\n\
-                [[output]]\nheadline = \"max_pressure_mpa.1\"\n[[output]]\ncolumn = \"mesh_1_ste_um\"\ntake = \"mean\"\n\
-                [[output]]\ncolumn = \"mesh_1_ste_um\"\ntake = \"harmonic\"\norder = 1\n";
+    let plan = "scene = \"box.toml\"\n[vary]\nkeys = [\"bearing.0.position_mm=14,15,16\"]\n\
+                output = [\"max_pressure_mpa.1\", \"mean(mesh_1_ste_um)\", \"harmonic(mesh_1_ste_um)\"]\n";
     let text = two_stages().read("box.toml");
     let (at_rest, _) = text.split_once("[vibration]").unwrap();
     let scratch = two_stages().file("box.toml", at_rest).file("plan.toml", plan);
@@ -192,6 +191,11 @@ fn the_optimum_of_a_gearbox_is_that_of_a_scan() {
     let (before, after) = (number(&numbers[0], "before"), number(&numbers[0], "after"));
     // A step of the search that gains less than half a per cent is none.
     assert!(after <= 1.005 * least && after < 0.6 * before, "{after}, from {before}; the scan has {least}");
+    let file = format!("scene = \"box.toml\"\n[optimise]\nkeys = [\"{bounds}\"]\ngoal = [\"face_load_factor.0\"]\n");
+    std::fs::write(scratch.path().join("opt.toml"), file).unwrap();
+    let run = scratch.command(&["run", "opt.toml", "--out", "file"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(scratch.read("file/steps.csv"), scratch.read("o/steps.csv"), "the words of a file");
     let told = summary(&scratch, "o");
     let set: Vec<String> =
         told["headline"]["set"].as_array().unwrap().iter().map(|w| w.as_str().unwrap().into()).collect();

@@ -131,9 +131,9 @@ fn wrong_words_are_refused() {
 /// all designs; the design as it is drawn has none. The search runs over them.
 #[test]
 fn samples_have_pitch_deviations() {
-    let file = "scene = \"a.toml\"\nsamples = 3\nevaluations = 1\nset = [\"analysis.positions_per_cycle=4\"]\n[[parameter]]\nkey = \"pinion.modification.lead_crowning_um\"\n\
-                from = 0\nto = 10\n[[tolerance]]\nkey = \"pinion.pitch_errors_um\"\niso_1328_class = 7\n\
-                [[tolerance]]\nkey = \"pinion.modification.lead_crowning_um\"\niso_1328_class = 7\n";
+    let file = "scene = \"a.toml\"\nset = [\"analysis.positions_per_cycle=4\"]\n[optimise]\nsamples = 3\nevaluations = 1\n\
+                keys = [\"pinion.modification.lead_crowning_um=0:10\"]\n\
+                tolerances = [\"pinion.pitch_errors_um~iso1328:7\", \"pinion.modification.lead_crowning_um~iso1328:7\"]\n";
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("o.toml", file);
     let plan = Optimisation::read(&scratch.path().join("o.toml")).unwrap();
     let errors = |values: &[f64], sample| plan.scene(values, 100.0, sample).unwrap().pinion.pitch_errors_um;

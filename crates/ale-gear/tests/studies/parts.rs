@@ -4,13 +4,10 @@ use crate::util::{ISO_SCENE, Scratch};
 
 const PLAN: &str = r#"
 scene = "iso.toml"
+[vary]
+keys = ["operation.torque_nm~50:1e3"]
+output = ["mean_ste_um"]
 samples = 50
-[[vary]]
-key = "operation.torque_nm"
-from = 50
-to = 1e3
-[[output]]
-headline = "mean_ste_um"
 "#;
 
 fn scratch() -> Scratch {

@@ -215,10 +215,8 @@ fn a_column_over_a_key_is_a_plan() {
     let statuses: Vec<&str> = rows.iter().map(|row| row["status"].as_str()).collect();
     assert_eq!(statuses, ["solved", "failed"]);
     assert!(rows[1]["reason"].contains("would bend the teeth"), "{:?}", rows[1]);
-    let plan = "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.torque_nm\"\nfrom = 100\nto = 1e7\ncount = 2\nscale = \"log\"\n";
-    let plan = ["mean", "peak_to_peak", "least", "largest"]
-        .iter()
-        .fold(plan.to_owned(), |plan, take| format!("{plan}[[output]]\ncolumn = \"ste_um\"\ntake = \"{take}\"\n"));
+    let plan = "scene = \"a.toml\"\n[vary]\nkeys = [\"operation.torque_nm=100:1e7:2:log\"]\n\
+                output = [\"mean(ste_um)\", \"peak_to_peak(ste_um)\", \"least(ste_um)\", \"largest(ste_um)\"]\n";
     let scratch = scratch.file("plan.toml", plan);
     assert_eq!(scratch.ale_gear(["vary", "plan.toml", "--out", "p"]).code, Some(0));
     assert_eq!(scratch.read("o/cases.csv"), scratch.read("p/cases.csv"));

@@ -12,27 +12,14 @@ use crate::util::{ISO_SCENE, Scratch, chart_rows, column, five_teeth, motion_sce
 
 const PLAN: &str = r#"
 scene = "a.toml"
+[vary]
+keys = [
+    "pinion.modification.drive.lead_crowning_um+wheel.modification.drive.lead_crowning_um~0:6",
+    "operation.torque_nm=100,150,1e7",
+]
+output = ["peak_to_peak_ste_um", "ste_harmonics_um.1", "least(contact_line_length_mm)", "harmonic(ste_um, 2)"]
 samples = 4
 design = "sobol"
-[[vary]]
-key = "pinion.modification.drive.lead_crowning_um"
-also = ["wheel.modification.drive.lead_crowning_um"]
-from = 0
-to = 6
-[[vary]]
-key = "operation.torque_nm"
-values = [100, 150, 1e7]
-[[output]]
-headline = "peak_to_peak_ste_um"
-[[output]]
-headline = "ste_harmonics_um.1"
-[[output]]
-column = "contact_line_length_mm"
-take = "least"
-[[output]]
-column = "ste_um"
-take = "harmonic"
-order = 2
 "#;
 
 fn rows(scratch: &Scratch, file: &str) -> Vec<BTreeMap<String, String>> {
@@ -42,17 +29,11 @@ fn rows(scratch: &Scratch, file: &str) -> Vec<BTreeMap<String, String>> {
 /// A misspelt number is told before a case is solved: nothing is begun, also where rows of cases are made apart.
 #[test]
 fn numbers_that_no_case_will_have_are_told_before_any_work() {
-    let plan = |wanted: &str| PLAN.replace("headline = \"ste_harmonics_um.1\"", wanted);
+    let plan = |wanted: &str| PLAN.replace("\"ste_harmonics_um.1\"", &format!("\"{wanted}\""));
     for (wanted, said) in [
-        ("headline = \"mean_ste_u\"", "the headline has no `mean_ste_u`\nhint: did you mean `mean_ste_um`?"),
-        (
-            "headline = \"ste_harmonics_um.8\"",
-            "no number\nhint: it is a list: write `ste_harmonics_um.0` .. `ste_harmonics_um.7`",
-        ),
-        (
-            "column = \"max_pressure_mp\"\ntake = \"mean\"",
-            "no column `max_pressure_mp`\nhint: did you mean \"max_pressure_mpa\"?",
-        ),
+        ("mean_ste_u", "the headline has no `mean_ste_u`\nhint: did you mean `mean_ste_um`?"),
+        ("ste_harmonics_um.8", "no number\nhint: it is a list: write `ste_harmonics_um.0` .. `ste_harmonics_um.7`"),
+        ("mean(max_pressure_mp)", "no column `max_pressure_mp`\nhint: did you mean \"max_pressure_mpa\"?"),
     ] {
         let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan(wanted));
         for words in [&["vary", "plan.toml", "--out", "o"][..], &["vary", "plan.toml", "--cases", "0..2", "--out", "o"]]
@@ -166,9 +147,8 @@ pub fn lumped_scene() -> String {
 /// place where temporary files could go.
 #[test]
 fn motions_are_cases_as_well() {
-    let plan = "scene = \"a.toml\"\n[[vary]]\nkey = \"operation.speed_rpm\"\nvalues = [900, 1100]\n\
-                [[output]]\ncolumn = \"dte_um\"\ntake = \"peak_to_peak\"\n\
-                [[output]]\nheadline = \"rms_dte_um\"\n[[output]]\nheadline = \"mean_wheel_force_n.2\"\n";
+    let plan = "scene = \"a.toml\"\n[vary]\nkeys = [\"operation.speed_rpm=900,1100\"]\n\
+                output = [\"peak_to_peak(dte_um)\", \"rms_dte_um\", \"mean_wheel_force_n.2\"]\n";
     let reduced = motion_scene(1, "run = \"span\"\n");
     let mapped = reduced.replace("kind = \"dynamic\"", "kind = \"dynamic\"\nmodel = \"mapped\"");
     for scene in [reduced, mapped, lumped_scene()] {
@@ -209,28 +189,29 @@ fn words_of_a_plan_are_checked_first() {
         assert_eq!(run.code, Some(2), "{text}: {}", run.stderr);
         run.complaint()
     };
-    let vary = "[[vary]]\nkey = \"operation.torque_nm\"\nvalues = [1, 2]\n";
-    let output = "[[output]]\nheadline = \"mean_ste_um\"\n";
+    let whole = |scene: &str, keys: &str, output: &str, more: &str| {
+        format!("scene = \"{scene}\"\n[vary]\nkeys = [{keys}]\noutput = [{output}]\n{more}")
+    };
+    let (torque, mean) = ("\"operation.torque_nm=1,2\"", "\"mean_ste_um\"");
+    let keys = |keys: &str| whole("a.toml", keys, mean, "");
     for (text, said) in [
-        (format!("{vary}{output}"), "a plan without `scene`"),
-        (format!("scene = \"a.toml\"\n{output}"), "a plan that varies nothing"),
-        (format!("scene = \"a.toml\"\n{vary}"), "a plan that asks for nothing"),
-        (format!("scene = \"b.toml\"\n{vary}{output}"), "b.toml cannot be read"),
-        (format!("scene = \"a.toml\"\nsampels = 3\n{vary}{output}"), "did you mean `samples`"),
-        (format!("scene = \"a.toml\"\ndesign = \"sobo\"\n{vary}{output}"), "did you mean \"sobol\""),
-        (format!("scene = \"a.toml\"\n{vary}from = 1\n{output}"), "in one way what values there are"),
-        (format!("scene = \"a.toml\"\n{vary}{vary}{output}"), "`operation.torque_nm` is varied twice"),
-        (format!("scene = \"a.toml\"\n{vary}{output}{output}"), "`mean_ste_um` is asked for twice"),
-        (format!("scene = \"a.toml\"\n{}{output}", vary.replace("torque_nm", "torqe_nm")), "torqe_nm"),
-        (format!("scene = \"a.toml\"\n{}{output}", vary.replace("values = [1, 2]", "values = []")), "no values"),
-        (
-            format!("scene = \"a.toml\"\n{}{output}", vary.replace("values = [1, 2]", "mean = 1\ndeviation = 0")),
-            "a standard deviation is above 0",
-        ),
-        (
-            format!("scene = \"a.toml\"\n{}{output}", vary.replace("values = [1, 2]", "from = 3\nto = 1")),
-            "`from` lies below `to`",
-        ),
+        (whole("a.toml", torque, mean, "").replace("scene = \"a.toml\"\n", ""), "a plan without `scene`"),
+        (keys(""), "a plan that varies nothing"),
+        (whole("a.toml", torque, "", ""), "a plan that asks for nothing"),
+        (whole("b.toml", torque, mean, ""), "b.toml cannot be read"),
+        (whole("a.toml", torque, mean, "sampels = 3\n"), "did you mean `samples`"),
+        (whole("a.toml", torque, mean, "design = \"sobo\"\n"), "did you mean \"sobol\""),
+        (keys("\"operation.torque_nm=1:2\""), "say how many, as `=1:2:9`, or draw them, as `~1:2`"),
+        (keys(&format!("{torque}, {torque}")), "`operation.torque_nm` is varied twice"),
+        (whole("a.toml", torque, &format!("{mean}, {mean}"), ""), "`mean_ste_um` is asked for twice"),
+        (keys("\"operation.torqe_nm=1,2\""), "torqe_nm"),
+        (keys("\"operation.torque_nm=\""), "`` is no number"),
+        (keys("\"operation.torque_nm=1,nan\""), "`NaN` is no value"),
+        (keys("\"operation.torque_nm~normal:1:0\""), "a standard deviation is above 0"),
+        (keys("\"operation.torque_nm~3:1\""), "`from` lies below `to`"),
+        (whole("a.toml", torque, "\"meen(ste_um)\"", ""), "did you mean `mean(..)`?"),
+        (whole("a.toml", torque, "\"mean(ste_um, 2)\"", ""), "an order goes with `harmonic(..)`"),
+        (whole("a.toml", torque, "\"harmonic(ste_um, 0)\"", ""), "an order is a number, 1 to 1000"),
     ] {
         let complaint = plan(&text);
         assert!(complaint.contains(said), "{text}\n{complaint}");
@@ -252,12 +233,52 @@ fn words_of_a_plan_are_checked_first() {
     assert_eq!(scratch.names(), ["a.toml", "plan.toml"]);
 }
 
+/// A plan may stand in the document that it varies: the rows are those of a file of its own, and the document without it
+/// is what every other command takes.
+#[test]
+fn a_plan_stands_in_its_document_or_beside_it() {
+    let table = "[vary]\nkeys = [\"operation.torque_nm=70,90\"]\noutput = [\"mean_ste_um\"]\n";
+    let scratch = Scratch::new()
+        .file("a.toml", five_teeth())
+        .file("plan.toml", format!("scene = \"a.toml\"\n{table}"))
+        .file("own.toml", format!("{}{table}", five_teeth()));
+    for (file, out) in [("plan.toml", "beside"), ("own.toml", "own")] {
+        let run = scratch.ale_gear(["run", file, "--out", out]);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{file}: {}", run.stdout);
+    }
+    assert_eq!(scratch.read("beside/cases.csv"), scratch.read("own/cases.csv"));
+    let [own, plain] = ["own.toml", "a.toml"].map(|file| scratch.ale_gear(["geometry", file]));
+    assert_eq!((own.code, &own.stdout), (Some(0), &plain.stdout), "{}", own.stderr);
+    let words =
+        ["vary", "own.toml", "--vary", "operation.torque_nm=70,90", "--output", "mean_ste_um", "--out", "words"];
+    let run = scratch.ale_gear(words);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert_eq!(scratch.read("words/cases.csv"), scratch.read("own/cases.csv"));
+    let wrong = format!("{}{}", five_teeth(), table.replace("keys", "key"));
+    std::fs::write(scratch.path().join("wrong.toml"), wrong).unwrap();
+    let run = scratch.ale_gear(["run", "wrong.toml", "--out", "x"]);
+    assert!(run.code == Some(2) && run.stderr.contains("did you mean `keys`"), "{}", run.stderr);
+    // A typo in the pair is told at its line, and two questions in one document are refused by all who are asked one.
+    let typo = format!("{}{table}", five_teeth().replacen("teeth", "teeht", 1));
+    std::fs::write(scratch.path().join("typo.toml"), typo).unwrap();
+    for words in [&["run", "typo.toml", "--out", "x"][..], &["geometry", "typo.toml"]] {
+        let run = scratch.command(words);
+        assert!(run.code == Some(2) && run.stderr.contains("did you mean `teeth`"), "{words:?}: {}", run.stderr);
+    }
+    let both = format!("{}{table}[optimise]\nevaluations = 3\n", five_teeth());
+    std::fs::write(scratch.path().join("both.toml"), both).unwrap();
+    for command in ["run", "vary", "optimise"] {
+        let run = scratch.ale_gear([command, "both.toml", "--out", "x"]);
+        assert!(run.code == Some(2) && run.stderr.contains("[vary] and [optimise]"), "{command}: {}", run.stderr);
+    }
+}
+
 /// `run` takes a plan as `vary` does; `--set` holds for the scene of all cases, behind what the plan sets itself; words of
 /// a single run are refused.
 #[test]
 fn a_plan_is_run_as_any_document() {
-    let plan = "scene = \"a.toml\"\nset = [\"operation.torque_nm=70\"]\n[[vary]]\nkey = \"contact.friction\"\nvalues = [0, 0.05]\n\
-                [[output]]\nheadline = \"mean_ste_um\"\n";
+    let plan = "scene = \"a.toml\"\nset = [\"operation.torque_nm=70\"]\n[vary]\nkeys = [\"contact.friction=0,0.05\"]\n\
+                output = [\"mean_ste_um\"]\n";
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan);
     for words in [&["vary", "plan.toml", "--out", "v"][..], &["run", "plan.toml", "--out", "r"]] {
         let done = scratch.command(words);
@@ -291,8 +312,8 @@ fn a_plan_without_a_result_fails() {
 /// that gear's list; pieces make the bytes of one machine, another seed makes other gears, and no axis the other's.
 #[test]
 fn pitch_deviations_are_drawn_tooth_by_tooth() {
-    let plan = "scene = \"a.toml\"\nsamples = 4\n[[vary]]\nkey = \"pinion.pitch_errors_um\"\niso_1328_class = 7\n\
-                [[vary]]\nkey = \"wheel.pitch_errors_um\"\niso_1328_class = 7\n[[output]]\nheadline = \"mean_ste_um\"\n";
+    let plan = "scene = \"a.toml\"\n[vary]\nsamples = 4\nkeys = [\"pinion.pitch_errors_um~iso1328:7\", \"wheel.pitch_errors_um~iso1328:7\"]\n\
+                output = [\"mean_ste_um\"]\n";
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan);
     let run = scratch.ale_gear(["vary", "plan.toml", "--out", "o"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{}", run.stdout);
@@ -337,25 +358,19 @@ fn pitch_deviations_are_drawn_tooth_by_tooth() {
 #[test]
 fn pitch_deviations_want_a_class() {
     let scratch = Scratch::new().file("a.toml", five_teeth());
-    let output = "[[output]]\nheadline = \"mean_ste_um\"\n";
-    for (vary, said) in [
-        ("key = \"pinion.pitch_errors_um\"\nfrom = 0\nto = 5\n", "drawn together, within a tolerance class"),
-        (
-            "key = \"pinion.pitch_errors_um\"\nalso = [\"wheel.pitch_errors_um\"]\niso_1328_class = 6\n",
-            "each gear a table of its own",
-        ),
-        ("key = \"operation.torque_nm\"\niso_1328_class = 6\n", "ISO 1328 has no tolerance for `operation.torque_nm`"),
-        ("key = \"pinion.pitch_errors_um\"\niso_1328_class = 12\n", "iso_1328_class"),
-    ] {
-        std::fs::write(scratch.path().join("p.toml"), format!("scene = \"a.toml\"\n[[vary]]\n{vary}{output}")).unwrap();
-        let run = scratch.ale_gear(["vary", "p.toml", "--out", "o"]);
-        assert!(run.code == Some(2) && run.stderr.contains(said), "{vary}: {}", run.stderr);
-    }
     for (word, said) in [
         ("pinion.pitch_errors_um=1,2", "within a class, as `~iso1328:6`"),
         ("pinion.pitch_errors_um~iso1328:0", "a tolerance class is a number, 1 to 11"),
-        ("operation.torque_nm~iso1328:6", "ISO 1328 has no tolerance for it"),
+        ("operation.torque_nm~iso1328:6", "ISO 1328 has no tolerance for `operation.torque_nm`"),
+        ("pinion.pitch_errors_um~iso1328:12", "a tolerance class is a number, 1 to 11"),
+        ("pinion.pitch_errors_um~0:5", "drawn together, within a class"),
+        ("pinion.pitch_errors_um+wheel.pitch_errors_um~iso1328:6", "each gear are drawn by a word of its own"),
     ] {
+        let file = format!("scene = \"a.toml\"\n[vary]\nkeys = [\"{word}\"]\noutput = [\"mean_ste_um\"]\n");
+        std::fs::write(scratch.path().join("p.toml"), file).unwrap();
+        let run = scratch.ale_gear(["vary", "p.toml", "--out", "o"]);
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{word}: {}", run.stderr);
+        assert!(run.stderr.contains("p.toml:3: "), "{word}: {}", run.stderr);
         let run = scratch.ale_gear(["vary", "a.toml", "--vary", word, "--output", "mean_ste_um", "--out", "o"]);
         assert!(run.code == Some(2) && run.stderr.contains(said), "{word}: {}", run.stderr);
     }

@@ -9,7 +9,7 @@ use crate::{Number, Whole, Word};
 const TABLES: &[(&str, &[&str])] = &[
     ("", &["name", "scene", "set", "optimise"]),
     (
-        "[optimise]",
+        "optimise",
         &[
             "keys",
             "start",

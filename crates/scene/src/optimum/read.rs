@@ -39,6 +39,7 @@ impl Optimisation {
     /// # Errors
     /// As [`Optimisation::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        document.one_task()?;
         let own = own(document);
         let source = Source::of(&own, tables);
         let raw: RawOptimisation = source.words(DocumentKind::Optimisation)?;
@@ -47,7 +48,7 @@ impl Optimisation {
 
     /// Whether a document is an optimisation, and whether it is one of any numbers.
     pub fn is_one(document: &Document) -> (bool, bool) {
-        let is = document.kind() == Some(DocumentKind::Optimisation);
+        let is = document.has("optimise");
         let own = own(document);
         let raw = Source::of(&own, tables).words::<RawOptimisation>(DocumentKind::Optimisation);
         (is, is && raw.is_ok_and(|raw| !raw.optimise.goal.is_empty()))
@@ -146,6 +147,7 @@ impl NumberOptimisation {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place.
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        document.one_task()?;
         let own = own(document);
         let source = Source::of(&own, tables);
         let raw: RawOptimisation = source.words(DocumentKind::Optimisation)?;

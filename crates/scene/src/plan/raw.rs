@@ -7,7 +7,7 @@ use crate::{Whole, Word};
 
 /// Every table with its keys.
 const TABLES: &[(&str, &[&str])] =
-    &[("", &["name", "scene", "set", "vary"]), ("[vary]", &["keys", "output", "design", "samples", "seed"])];
+    &[("", &["name", "scene", "set", "vary"]), ("vary", &["keys", "output", "design", "samples", "seed"])];
 
 /// The same, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use cases::{Cases, Sampling};
 
 use super::{
-    Plan, PlanAxis, PlanOutput,
+    Plan, PlanOutput,
     check::{DESIGNS, SAMPLES, SEED, axis, check, finish},
     classed,
     raw::{RawPlan, tables},
@@ -51,6 +51,7 @@ impl Plan {
     /// # Errors
     /// As [`Plan::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
+        document.one_task()?;
         // A plan names what it varies, or stands in it as one of its tables.
         let own = if document.has("scene") { document.clone() } else { document.only(&["name", "vary"]) };
         let source = Source::of(&own, tables);

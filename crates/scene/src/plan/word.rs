@@ -57,7 +57,13 @@ fn axis(word: &str) -> Result<(Vec<String>, AxisValues), String> {
     let numbers = |parts: &[&str]| parts.iter().map(|part| number(part)).collect::<Result<Vec<f64>, String>>();
     let parts: Vec<&str> = values.split(':').collect();
     let axis = match (drawn, &parts[..]) {
-        (false, [list]) => Axis::Each(numbers(&list.split(',').collect::<Vec<_>>())?),
+        (false, [list]) => {
+            let values = numbers(&list.split(',').collect::<Vec<_>>())?;
+            if let Some(bad) = values.iter().find(|x| !x.is_finite()) {
+                return Err(format!("`{bad}` is no value"));
+            }
+            Axis::Each(values)
+        }
         (false, [from, to, count, scale @ ..]) => {
             let logarithmic = is_logarithmic(scale)?;
             let wrong = || format!("`{}` is no number of values, 1 or more", count.trim());
