@@ -26,7 +26,7 @@ pub use digest::{numbers_digest, plan_digest, study_digest};
 pub use known::{Column, KnownCases};
 pub use layout::{columns_of, columns_of_scene};
 pub use optimum::{NumberOptimum, OptimumError, goal_of, optimise_numbers};
-pub use outputs::{OutputError, check_numbers, check_outputs};
+pub use outputs::{OutputError, check_numbers, check_outputs, rows_file};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseLines, CaseRow, DoneCases};
 pub use solve::{CaseObserver, solve_cases};

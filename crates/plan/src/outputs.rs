@@ -63,6 +63,15 @@ fn keys_of(machine: &Machine) -> Vec<(&'static str, Holds)> {
     }
 }
 
+/// The file of the rows that a plan reads numbers off.
+pub fn rows_file(machine: &Machine) -> &'static str {
+    match machine {
+        Machine::Pair(_) => "history.csv",
+        Machine::Gearbox(file) if file.motion.is_some() => "motion.csv",
+        Machine::Gearbox(_) => "positions.csv",
+    }
+}
+
 fn of_rows(machine: &Machine, column: &str) -> Result<(), Missing> {
     let Some(all) = columns_of(machine).filter(|all| !all.iter().any(|name| name == column)) else { return Ok(()) };
     // Columns of single pairs go with the window, which is known when the analysis begins.
@@ -71,12 +80,7 @@ fn of_rows(machine: &Machine, column: &str) -> Result<(), Missing> {
     }
     let names: Vec<&str> = all.iter().map(String::as_str).collect();
     let hint = column_advice(column, &names).unwrap_or_else(|| SEE.into());
-    let rows = match machine {
-        Machine::Pair(_) => "history.csv",
-        Machine::Gearbox(file) if file.motion.is_some() => "motion.csv",
-        Machine::Gearbox(_) => "positions.csv",
-    };
-    Err((format!("{rows} has no column `{column}`"), hint))
+    Err((format!("{} has no column `{column}`", rows_file(machine)), hint))
 }
 
 fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missing> {

@@ -98,7 +98,7 @@ fn pressure_at_edges_is_limited() {
 /// What cannot be optimised is refused before any work, with what to do.
 #[test]
 fn wrong_words_are_refused() {
-    let file = "scene = \"a.toml\"\nquantile = 0.9\n";
+    let file = "scene = \"a.toml\"\n[optimise]\nquantile = 0.9\n";
     let scratch = Scratch::new().file("a.toml", five_teeth()).file("o.toml", file);
     let refused = |words: &[&str], wanted: &str| {
         let run = scratch.command(&[&["optimise"], words, &["--out", "o"]].concat());

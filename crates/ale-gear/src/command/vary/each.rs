@@ -3,7 +3,7 @@
 use std::{ops::Range, path::Path, sync::Arc};
 
 use analysis::{NoObserver, Observer, PhaseWork, Progress, SharedModels};
-use plan::{CaseLines, DoneCases, KnownCases, check_outputs, columns_of, plan_digest, solve_cases};
+use plan::{CaseLines, DoneCases, KnownCases, check_outputs, columns_of, plan_digest, rows_file, solve_cases};
 use report::{
     Written,
     plan_files::{PageWords, write_cases},
@@ -92,7 +92,7 @@ impl VaryArgs {
         };
         if let Some(all) = columns_of(&machine).filter(|all| !all.iter().any(|name| name == column)) {
             let names: Vec<&str> = all.iter().map(String::as_str).collect();
-            let what = format_args!("`--of {column}` is no column of the rows");
+            let what = format_args!("`--of {column}` is no column of {}", rows_file(&machine));
             return Err(CommandError::input(what, column_advice(column, &names)));
         }
         Ok(TAKES.map(|take| PlanOutput::Column { column: column.clone(), take }).into())
