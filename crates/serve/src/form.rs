@@ -7,8 +7,9 @@ use serde_json::Value;
 
 /// Tables of motions and of cheaper models, which a page of a pair at rest has nothing to show of. In the text of a
 /// scene they may stand.
-const NOT_AT_REST: [&str; 12] = [
+const NOT_AT_REST: [&str; 14] = [
     "body", "bearing", "shaft", "drive", "load", "modes", "motion", "mesh", "lumped8", "lumped12", "impact", "shaft18",
+    "vary", "optimise",
 ];
 
 /// A table of the scene.

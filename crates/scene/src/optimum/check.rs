@@ -9,7 +9,7 @@ use toml::Spanned;
 use super::{
     DesignParameter, Optimisation, TorqueWeight,
     file::TORQUE,
-    raw::{RawOptimisation, RawOptimise},
+    raw::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, RawOptimise, SAMPLES},
     words::parameter,
 };
 use crate::{
@@ -19,22 +19,13 @@ use crate::{
 
 type Checked<T> = Result<T, SceneError>;
 
-/// Evaluations where none are stated, and the most.
-pub(super) const EVALUATIONS: [u32; 2] = [20, 10_000];
-/// Limits of a pressure, MPa.
-pub(super) const PRESSURES: [f64; 2] = [1.0, 1e6];
-/// Points of the front at the most.
-pub(super) const FRONT: u32 = 100;
-/// Samples of the tolerances where none are stated.
-const SAMPLES: u32 = 20;
-
 pub(super) fn check(
     s: &Source<'_>,
     raw: &RawOptimisation,
     (document, more): (Document, &[Setting]),
 ) -> Checked<Optimisation> {
     let asked = &raw.optimise;
-    if let Some(limit) = asked.limit.first() {
+    if let Some(limit) = words(&asked.limit).first() {
         let advice = "name a `goal`, a number of the headline, or use `max_pressure_mpa`";
         return Err(s.conflict(&limit.span(), "`limit` goes with `goal`", advice));
     }
@@ -47,14 +38,18 @@ pub(super) fn check(
     let torques = torques(s, asked, own.operation.torque_nm)?;
     let sampling = Sampling {
         design: s.choice("design", &asked.design, &DESIGNS)?,
-        samples: s.whole("samples", &asked.samples, SAMPLES, 1, 1_000_000)?,
+        samples: s.whole("samples", &asked.samples, SAMPLES[0], 1, SAMPLES[1])?,
         seed: u64::from(s.whole("seed", &asked.seed, SEED, 0, u32::MAX)?),
     };
-    let (tolerances, kinds) = axes(s, &asked.tolerances, |key, class| classed(&own, key, class, Some(0.0)))?;
+    let (tolerances, kinds) = axes(s, words(&asked.tolerances), |key, class| classed(&own, key, class, Some(0.0)))?;
     if let Some(k) = kinds.iter().position(|kind| matches!(kind, Axis::Each(_))) {
-        return Err(s.conflict(&asked.tolerances[k].span(), "a tolerance is drawn", "as `KEY~normal:0:5`, `KEY~-5:5`"));
+        return Err(s.conflict(
+            &words(&asked.tolerances)[k].span(),
+            "a tolerance is drawn",
+            "as `KEY~normal:0:5`, `KEY~-5:5`",
+        ));
     }
-    let samples = Cases::new(kinds, &sampling).map_err(|e| unfit(s, &asked.tolerances, &e))?;
+    let samples = Cases::new(kinds, &sampling).map_err(|e| unfit(s, words(&asked.tolerances), &e))?;
     let limit = |key, value: &crate::Number| match value {
         Some(_) => s.number(key, value, 0.0, PRESSURES[0], PRESSURES[1]).map(Some),
         None => Ok(None),
@@ -128,6 +123,11 @@ pub(super) fn finish(all: Optimisation) -> Checked<Optimisation> {
     Ok(all)
 }
 
+/// Words of a list; none where it is not written.
+pub(super) fn words(list: &Option<Vec<Spanned<String>>>) -> &[Spanned<String>] {
+    list.as_deref().unwrap_or_default()
+}
+
 /// What an optimisation sets beside its document.
 pub(super) fn settings(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Vec<Setting>> {
     let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
@@ -144,8 +144,8 @@ pub(super) fn parameters(
     let one = |word: &Spanned<String>| {
         parameter(word.get_ref(), &known).map_err(|what| s.conflict(&word.span(), what, "as `KEY=FROM:TO`"))
     };
-    let mut all = raw.keys.iter().map(one).collect::<Checked<Vec<_>>>()?;
-    for word in &raw.start {
+    let mut all = words(&raw.keys).iter().map(one).collect::<Checked<Vec<_>>>()?;
+    for word in words(&raw.start) {
         let (k, value) = number_of(s, word, &all)?;
         let [low, high] = all[k].bounds;
         if !(low..=high).contains(&value) {
@@ -157,7 +157,7 @@ pub(super) fn parameters(
         }
         all[k].start = value;
     }
-    for word in &raw.round {
+    for word in words(&raw.round) {
         let (k, value) = number_of(s, word, &all)?;
         if value < 0.0 {
             return Err(s.conflict(&word.span(), "a grain below 0", "give one above 0, or 0 for any value"));
@@ -178,13 +178,18 @@ fn number_of(s: &Source<'_>, word: &Spanned<String>, all: &[DesignParameter]) ->
     Ok((place, value.ok_or_else(|| wrong("no number stands behind `=`".into()))?))
 }
 
+/// Numbers of a list without their places.
+fn plain(list: &Spanned<Vec<Spanned<f64>>>) -> Vec<f64> {
+    list.get_ref().iter().map(|x| *x.get_ref()).collect()
+}
+
 fn torques(s: &Source<'_>, raw: &RawOptimise, own: f64) -> Checked<Vec<TorqueWeight>> {
-    let list = raw.torques_nm.as_ref().map_or_else(|| vec![own], |list| list.get_ref().clone());
+    let list = raw.torques_nm.as_ref().map_or_else(|| vec![own], plain);
     let span = raw.torques_nm.as_ref().map_or(0..0, Spanned::span);
     if list.is_empty() || list.iter().any(|t| !(t.is_finite() && *t > 0.0)) {
         return Err(s.conflict(&span, "`torques_nm` holds what is no torque above 0", "give torques in N m"));
     }
-    let weights = raw.weights.as_ref().map_or_else(|| vec![1.0; list.len()], |w| w.get_ref().clone());
+    let weights = raw.weights.as_ref().map_or_else(|| vec![1.0; list.len()], plain);
     if weights.len() != list.len() || weights.iter().any(|w| !(w.is_finite() && *w > 0.0)) {
         let span = raw.weights.as_ref().map_or(span, Spanned::span);
         return Err(s.conflict(&span, "`weights` is not one number above 0 for each torque", "give as many weights"));
@@ -197,10 +202,12 @@ pub(super) const MEASURES: [(&str, Measure); 3] =
     [("peak-to-peak", Measure::PeakToPeak), ("rms", Measure::Rms), ("harmonics", Measure::Harmonics(Vec::new()))];
 
 fn goal(s: &Source<'_>, raw: &RawOptimise) -> Checked<Goal> {
-    let words: Vec<(&str, usize)> = MEASURES.iter().enumerate().map(|(i, (word, _))| (*word, i)).collect();
-    let mut measure = MEASURES[s.choice("measure", &raw.measure, &words)?].1.clone();
+    let known: Vec<(&str, usize)> = MEASURES.iter().enumerate().map(|(i, (word, _))| (*word, i)).collect();
+    let mut measure = MEASURES[s.choice("measure", &raw.measure, &known)?].1.clone();
     if let Measure::Harmonics(orders) = &mut measure {
-        *orders = raw.harmonics.as_ref().map_or_else(|| vec![1], |list| list.get_ref().clone());
+        // What is no order of a harmonic is 0, which is none.
+        let order = |order: &i64| u32::try_from(*order).unwrap_or(0);
+        *orders = raw.harmonics.as_ref().map_or_else(|| vec![1], |list| list.get_ref().iter().map(order).collect());
         let span = raw.harmonics.as_ref().map_or(0..0, Spanned::span);
         if orders.is_empty() || orders.iter().any(|&order| !(1..=1000).contains(&order)) {
             return Err(s.conflict(&span, "`harmonics` holds no orders, 1 to 1000", "as `harmonics = [1, 2]`"));
@@ -210,7 +217,7 @@ fn goal(s: &Source<'_>, raw: &RawOptimise) -> Checked<Goal> {
     }
     let over = match &raw.quantile {
         None => Over::Mean,
-        Some(_) if measure != Measure::PeakToPeak || raw.tolerances.is_empty() => {
+        Some(_) if measure != Measure::PeakToPeak || words(&raw.tolerances).is_empty() => {
             let what = "`quantile` goes with `measure = \"peak-to-peak\"` and `tolerances`";
             return Err(s.conflict(&(0..0), what, "leave it out"));
         }

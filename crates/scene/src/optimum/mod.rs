@@ -17,4 +17,5 @@ mod words;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
 pub use numbers::{NumberLimit, NumberOptimisation};
+pub(crate) use raw::OPTIMISE;
 pub use words::OptimisationWords;

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DesignParameter,
-    check::{EVALUATIONS, parameters, settings, stem},
-    raw::RawOptimisation,
+    check::{parameters, settings, stem, words as listed},
+    raw::{EVALUATIONS, RawOptimisation},
     words::{OptimisationWords, parameter},
 };
 use toml::Spanned;
@@ -174,7 +174,7 @@ pub(super) fn numbers(
         ("max_edge_pressure_mpa", asked.max_edge_pressure_mpa.is_some()),
         ("front", asked.front.is_some()),
         ("quantile", asked.quantile.is_some()),
-        ("tolerances", !asked.tolerances.is_empty()),
+        ("tolerances", asked.tolerances.is_some()),
         ("design", asked.design.is_some()),
         ("samples", asked.samples.is_some()),
         ("seed", asked.seed.is_some()),
@@ -190,9 +190,9 @@ pub(super) fn numbers(
         return Err(s.conflict(&(0..0), "nothing may change", "say `keys = [\"KEY=FROM:TO\"]` in [optimise]"));
     }
     let word = |word: &Spanned<String>, what: String| s.conflict(&word.span(), what, "see [optimise] in docs/scene.md");
-    let goals = asked.goal.iter().map(|w| PlanOutput::parse(w.get_ref()).map_err(|what| word(w, what)));
+    let goals = listed(&asked.goal).iter().map(|w| PlanOutput::parse(w.get_ref()).map_err(|what| word(w, what)));
     let goals = goals.collect::<Result<Vec<_>, _>>()?;
-    let limits = asked.limit.iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
+    let limits = listed(&asked.limit).iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
     let limits = limits.collect::<Result<Vec<_>, _>>()?;
     let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
     let (name, file) = (raw.name.clone().unwrap_or_else(|| stem(s.file)), s.file.to_owned());

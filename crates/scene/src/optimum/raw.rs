@@ -1,41 +1,47 @@
-//! The words of an optimisation, nothing checked yet.
+//! Every key of an optimisation once: type, range, default, meaning; and its words, nothing checked yet.
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use crate::{Number, Whole, Word};
+use crate::{Word, plan::SEED};
 
-/// Every table with its keys.
-const TABLES: &[(&str, &[&str])] = &[
-    ("", &["name", "scene", "set", "optimise"]),
-    (
-        "optimise",
-        &[
-            "keys",
-            "start",
-            "round",
-            "goal",
-            "limit",
-            "measure",
-            "harmonics",
-            "torques_nm",
-            "weights",
-            "evaluations",
-            "max_pressure_mpa",
-            "max_edge_pressure_mpa",
-            "front",
-            "quantile",
-            "tolerances",
-            "design",
-            "samples",
-            "seed",
-        ],
-    ),
-];
+/// Evaluations where none are stated, and the most.
+pub(super) const EVALUATIONS: [u32; 2] = [20, 10_000];
+/// Limits of a pressure, MPa.
+pub(super) const PRESSURES: [f64; 2] = [1.0, 1e6];
+/// Points of the front at the most.
+pub(super) const FRONT: u32 = 100;
+/// Samples of the tolerances where none are stated, and the most.
+pub(super) const SAMPLES: [u32; 2] = [20, 1_000_000];
 
-/// The same, as messages look them up.
+table! {
+    /// `[optimise]`
+    OPTIMISE, RawOptimise: "what may change, and what shall be small"; {
+        keys: texts(), "what may change, KEY=FROM:TO; default: tip reliefs, where they begin, lead crowning of the pinion";
+        start: texts(), "where the search begins, KEY=VALUE; default: what the scene says, else 0 or the middle";
+        round: texts(), "what a value is a whole multiple of in the end, KEY=VALUE; default: 1 for um, 0.1 for degrees, 0.01 for mm";
+        goal: texts(), "numbers of the headline that shall be small, in place of the transmission error";
+        limit: texts(), "limits of numbers of the headline, KEY=MOST; with goal";
+        measure: text(), "what of the transmission error shall be small: peak-to-peak, rms or harmonics; default: peak-to-peak";
+        harmonics: wholes(), "which mesh harmonics; default: the first";
+        torques_nm: numbers(), "torques at which it counts, N m; default: the scene's";
+        weights: numbers(), "what each of them counts; default: 1 each";
+        evaluations: whole(1, EVALUATIONS[1], EVALUATIONS[0]), "evaluations at the most";
+        max_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of the contact pressure, MPa";
+        max_edge_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of it at end faces and tip edges, MPa";
+        front: whole(0, FRONT, 0), "points of the trade-off against a lower pressure";
+        quantile: bare(0.0, 0.999), "with tolerances: the mean of the samples that are worse than this share of them";
+        tolerances: texts(), "deviations that are drawn, KEY~normal:0:5";
+        design: text(), "how samples are spread: latin-hypercube, sobol or random; default: latin-hypercube";
+        samples: whole(1, SAMPLES[1], SAMPLES[0]), "how many samples of the tolerances";
+        seed: whole(0, u32::MAX, SEED), "other samples for another seed";
+    }
+}
+
+/// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    TABLES.iter().map(|(name, keys)| ((*name).to_owned(), keys.to_vec())).collect()
+    let file = ["name", "scene", "set", "optimise"].to_vec();
+    vec![(String::new(), file), ("optimise".to_owned(), OPTIMISE.keys.iter().map(|key| key.name).collect())]
 }
 
 /// A file of its own, or the table of a document that it stands in.
@@ -48,34 +54,4 @@ pub(super) struct RawOptimisation {
     pub set: Vec<Spanned<String>>,
     #[serde(default)]
     pub optimise: RawOptimise,
-}
-
-/// `[optimise]`
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawOptimise {
-    #[serde(default)]
-    pub keys: Vec<Spanned<String>>,
-    #[serde(default)]
-    pub start: Vec<Spanned<String>>,
-    #[serde(default)]
-    pub round: Vec<Spanned<String>>,
-    #[serde(default)]
-    pub goal: Vec<Spanned<String>>,
-    #[serde(default)]
-    pub limit: Vec<Spanned<String>>,
-    pub measure: Word,
-    pub harmonics: Option<Spanned<Vec<u32>>>,
-    pub torques_nm: Option<Spanned<Vec<f64>>>,
-    pub weights: Option<Spanned<Vec<f64>>>,
-    pub evaluations: Whole,
-    pub max_pressure_mpa: Number,
-    pub max_edge_pressure_mpa: Number,
-    pub front: Whole,
-    pub quantile: Number,
-    #[serde(default)]
-    pub tolerances: Vec<Spanned<String>>,
-    pub design: Word,
-    pub samples: Whole,
-    pub seed: Whole,
 }

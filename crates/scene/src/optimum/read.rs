@@ -7,9 +7,9 @@ use design::{Goal, Measure, Over};
 
 use super::{
     NumberOptimisation, Optimisation, TorqueWeight,
-    check::{EVALUATIONS, FRONT, PRESSURES, check, default_parameters, finish, measure, stem},
+    check::{check, default_parameters, finish, measure, stem, words as listed},
     numbers::numbers,
-    raw::{RawOptimisation, tables},
+    raw::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, tables},
     words::{OptimisationWords, parameter},
 };
 use crate::{
@@ -51,7 +51,7 @@ impl Optimisation {
         let is = document.has("optimise");
         let own = own(document);
         let raw = Source::of(&own, tables).words::<RawOptimisation>(DocumentKind::Optimisation);
-        (is, is && raw.is_ok_and(|raw| !raw.optimise.goal.is_empty()))
+        (is, is && raw.is_ok_and(|raw| !listed(&raw.optimise.goal).is_empty()))
     }
 
     /// The optimisation of a scene that a command line says.

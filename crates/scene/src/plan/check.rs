@@ -4,7 +4,9 @@ use cases::{Axis, Cases, CasesError, Design, Sampling};
 use toml::Spanned;
 
 use super::{
-    AxisValues, AxisWord, PitchTolerance, Plan, PlanAxis, PlanOutput, classed, raw::RawPlan, tolerance::is_pitch,
+    AxisValues, AxisWord, PitchTolerance, Plan, PlanAxis, PlanOutput, classed,
+    raw::{RawPlan, SAMPLES, SEED},
+    tolerance::is_pitch,
 };
 use crate::{Document, SceneError, Setting, Source};
 
@@ -13,21 +15,18 @@ type Checked<T> = Result<T, SceneError>;
 /// Designs by their words; the first one where none is written.
 pub(crate) const DESIGNS: [(&str, Design); 3] =
     [("latin-hypercube", Design::LatinHypercube), ("sobol", Design::Sobol), ("random", Design::Random)];
-/// Samples where none are stated, and most of them.
-pub(super) const SAMPLES: [u32; 2] = [100, 10_000_000];
-/// Seed where none is stated.
-pub(crate) const SEED: u32 = 1;
 /// What a tolerance class is of.
 pub(super) const CLASSED: &str =
     "it has of profile_slope_um, profile_crowning_um, lead_slope_um, lead_crowning_um and pitch_errors_um of a gear";
 pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, &[Setting])) -> Checked<Plan> {
     let nothing = |what: &str, advice: &str| s.conflict(&(0..0), what, advice);
     let raw_vary = &raw.vary;
-    if raw_vary.keys.is_empty() {
+    let [keys, wanted] = [&raw_vary.keys, &raw_vary.output].map(|all| all.as_deref().unwrap_or_default());
+    if keys.is_empty() {
         let advice = "say keys and values: `keys = [\"operation.torque_nm=50,100,200\"]` in [vary]";
         return Err(nothing("a plan that varies nothing", advice));
     }
-    if raw_vary.output.is_empty() {
+    if wanted.is_empty() {
         let advice = "name numbers: `output = [\"peak_to_peak_ste_um\", \"least(contact_line_length_mm)\"]` in [vary]";
         return Err(nothing("a plan that asks for nothing", advice));
     }
@@ -43,12 +42,12 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
         let known = known.as_ref()?.pair()?;
         classed(known, key, class, known.number_at(key))
     };
-    let (axes, kinds) = axes(s, &raw_vary.keys, classed)?;
-    let cases = Cases::new(kinds, &sampling).map_err(|e| unfit(s, &raw_vary.keys, &e))?;
+    let (axes, kinds) = axes(s, keys, classed)?;
+    let cases = Cases::new(kinds, &sampling).map_err(|e| unfit(s, keys, &e))?;
     let output = |word: &Spanned<String>| {
         PlanOutput::parse(word.get_ref()).map_err(|what| s.conflict(&word.span(), what, OUTPUTS))
     };
-    let outputs = raw_vary.output.iter().map(output).collect::<Checked<Vec<_>>>()?;
+    let outputs = wanted.iter().map(output).collect::<Checked<Vec<_>>>()?;
     let name = raw.name.clone().unwrap_or_else(|| {
         s.file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned())
     });

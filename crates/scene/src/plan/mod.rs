@@ -15,8 +15,9 @@ mod read;
 mod tolerance;
 mod word;
 
-pub(crate) use check::{DESIGNS, SEED, axes, setting, unfit};
+pub(crate) use check::{DESIGNS, axes, setting, unfit};
 pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
+pub(crate) use raw::{SEED, VARY};
 pub use read::PlanWords;
 pub use tolerance::PitchTolerance;
 pub(crate) use tolerance::classed;

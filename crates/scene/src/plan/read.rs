@@ -6,9 +6,9 @@ use cases::{Cases, Sampling};
 
 use super::{
     Plan, PlanOutput,
-    check::{DESIGNS, SAMPLES, SEED, axis, check, finish},
+    check::{DESIGNS, axis, check, finish},
     classed,
-    raw::{RawPlan, tables},
+    raw::{RawPlan, SAMPLES, SEED, tables},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 

@@ -3,6 +3,8 @@
 use serde_json::{Map, Value, json};
 
 use super::SCENE;
+use crate::optimum::OPTIMISE;
+use crate::plan::VARY;
 use crate::table::{Key, Table, ValueKind};
 
 /// The schema of the scene file.
@@ -18,6 +20,10 @@ pub fn json_schema() -> Value {
 /// The schema of a kind of file by the table of all of it.
 pub(crate) fn schema_of(file: &Table, kind: &str) -> Value {
     let mut schema = object(file);
+    // What is asked of it beside a run.
+    for (name, task) in [("vary", &VARY), ("optimise", &OPTIMISE)] {
+        schema["properties"][name] = object(task);
+    }
     if let Value::Object(map) = &mut schema {
         map.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
         map.insert("title".into(), format!("ale-gear {kind}, version {}", env!("CARGO_PKG_VERSION")).into());
