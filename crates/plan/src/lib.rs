@@ -25,7 +25,7 @@ mod values;
 pub use digest::{numbers_digest, plan_digest, study_digest};
 pub use known::{Column, KnownCases};
 pub use layout::{columns_of, columns_of_scene};
-pub use optimum::{NumberOptimum, OptimumError, goal_of, optimise_numbers};
+pub use optimum::{NumberOptimum, OptimumError, goal_of, goal_unit, optimise_numbers};
 pub use outputs::{OutputError, check_numbers, check_outputs, rows_file};
 pub use part::{Part, PartError, merged};
 pub use rows::{CaseLines, CaseRow, DoneCases};

@@ -52,6 +52,13 @@ pub fn goal_of(numbers: &[f64], goals: usize) -> f64 {
     numbers[..goals].iter().map(|x| x.abs()).sum::<f64>() / goals as f64
 }
 
+/// Unit of the mean of the goals, where they all have one.
+pub fn goal_unit(plan: &NumberOptimisation) -> String {
+    let mut units = plan.goal_names().map(answer::unit_of);
+    let first = units.next().unwrap_or_default();
+    if units.all(|unit| unit == first) { first } else { String::new() }
+}
+
 /// Searches; `done` keeps each solved design and neighbour, so that a search that is cut short goes on from them, and
 /// `seen` is told of every evaluation: how many there were, and the goal; where it breaks, no more is evaluated.
 ///
@@ -78,17 +85,20 @@ pub fn optimise_numbers(
         goes_on = seen(count, found.as_ref().ok().map(|(e, _)| goal().value(&e.curves))).is_continue();
         found
     };
-    let mut before = Vec::new();
+    // Numbers of each design, the start the first.
+    let mut known: Vec<(Vec<f64>, Vec<f64>)> = Vec::new();
     let found = search.run(&plan.start(), |values| {
         let (evaluation, numbers) = at(values)?;
-        if before.is_empty() {
-            before = numbers;
-        }
+        known.push((values.to_vec(), numbers));
         Ok::<_, OptimumError>(evaluation)
     })?;
+    let before = known[0].1.clone();
     let grains: Vec<f64> = plan.parameters.iter().map(|p| p.grain).collect();
     let values = rounded(&found.values, &grains, &bounds, &found.evaluation, &goal());
-    let (evaluation, after) = at(&values)?;
+    let (evaluation, after) = match known.into_iter().find(|(own, _)| *own == values && values == found.values) {
+        Some((_, numbers)) => (found.evaluation.clone(), numbers),
+        None => at(&values)?,
+    };
     Ok(NumberOptimum { found, values, evaluation, before, after })
 }
 

@@ -7,7 +7,7 @@ use analysis::{
     optimum::{Optimised, Optimum, optimise, told},
     run_phase,
 };
-use plan::{CaseLines, DoneCases, OptimumError, check_numbers, numbers_digest, optimise_numbers};
+use plan::{CaseLines, DoneCases, OptimumError, check_numbers, goal_unit, numbers_digest, optimise_numbers};
 use report::optimum_files::{NumberOptimumResult, OptimumResult, passed_limits, write_number_optimum, write_optimum};
 use scene::{
     Document, DocumentKind,
@@ -209,11 +209,17 @@ impl OptimiseArgs {
         let cache = self.cache.open();
         let models = SharedModels::new(&cache);
         let most = u64::from(plan.evaluations) + 1;
+        let (allowed, unit) = (plan.evaluations as usize, goal_unit(&plan));
         let optimum = run_phase(&mut phases, "search", PhaseWork::AtMost(most), |progress| {
             optimise_numbers(&plan, &models, &|| Box::new(NoObserver), &done, |count, goal| {
                 progress.tick();
                 match goal {
-                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.6}")),
+                    Some(goal) if count > allowed => {
+                        talk::note(
+                            format!("values that a machine can be set to: {goal:.6} {unit}").trim_end().to_owned(),
+                        );
+                    }
+                    Some(goal) => talk::note(format!("evaluation {count}: {goal:.6} {unit}").trim_end().to_owned()),
                     None => talk::note(format!("evaluation {count}: no result")),
                 }
                 ControlFlow::Continue(())

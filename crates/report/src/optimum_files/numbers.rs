@@ -2,7 +2,7 @@
 
 use analysis::remark::{self, Remark};
 use answer::{Answer, Cost, Table};
-use plan::{NumberOptimum, goal_of};
+use plan::{NumberOptimum, goal_of, goal_unit};
 use scene::{Setting, optimum::NumberOptimisation};
 use serde_json::{Map, json};
 
@@ -118,10 +118,11 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
     let [start, best] = of.goals();
+    let unit = goal_unit(plan);
     page.push(Part::new("Before and after").closing().lines([
         Line::text("goal", names(of).join(", "), "mean absolute value"),
-        Line::number("goal at the start", start, 4, ""),
-        Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, ""),
+        Line::number("goal at the start", start, 4, &unit),
+        Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, &unit),
     ]));
     let rows = plan.outputs().into_iter().enumerate().map(|(k, output)| {
         let limit = k.checked_sub(plan.goals.len()).map(|k| plan.limits[k].most);

@@ -116,6 +116,14 @@ impl NumberOptimisation {
         self.goals.iter().cloned().chain(self.limits.iter().map(|limit| limit.output.clone())).collect()
     }
 
+    /// Names of the goals without the numbers of entries: their endings say the units.
+    pub fn goal_names(&self) -> impl Iterator<Item = &str> {
+        self.goals.iter().map(|output| match output {
+            PlanOutput::Headline(key) => key.split('.').rfind(|part| part.parse::<usize>().is_err()).unwrap_or(key),
+            PlanOutput::Column { column, .. } => column,
+        })
+    }
+
     /// The file of the pair or the gearbox.
     pub fn scene_file(&self) -> &Path {
         self.document.file()
