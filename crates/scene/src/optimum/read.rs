@@ -141,7 +141,7 @@ fn base(s: &Source<'_>, raw: &RawOptimisation, document: &Document) -> Result<Do
 }
 
 impl NumberOptimisation {
-    /// Checks a document whose [optimise] has a `goal`; `settings`: keys that are set otherwise, behind those that it sets
+    /// Checks a document whose `[optimise]` has a `goal`; `settings`: keys that are set otherwise, behind those that it sets
     /// itself.
     ///
     /// # Errors
