@@ -3,9 +3,6 @@
 use std::path::PathBuf;
 
 use columns::ColumnsError;
-use fem::FemError;
-use parquet::errors::ParquetError;
-use reduction::ReductionError;
 use scene::SceneError;
 use study::StudyError;
 
@@ -37,14 +34,6 @@ pub enum ReportError {
         /// What to do next.
         hint: &'static str,
     },
-    /// A Parquet file does not come out.
-    #[error("{file}: {cause}")]
-    Parquet {
-        /// The file.
-        file: &'static str,
-        /// What does not fit.
-        cause: ParquetError,
-    },
     /// A page does not come out: a template that cannot be filled is a fault of this program.
     #[error("{file}: {cause}")]
     Page {
@@ -53,9 +42,6 @@ pub enum ReportError {
         /// What the template or the packing says.
         cause: String,
     },
-    /// A solved position of reduced gears without a window.
-    #[error("the window is lost")]
-    NoWindow,
     /// No running pair can be made of the scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
@@ -68,29 +54,20 @@ pub enum ReportError {
     /// A record that no statistics can be made of.
     #[error(transparent)]
     Study(#[from] StudyError),
-    /// A displacement field that cannot be recovered.
-    #[error(transparent)]
-    Reduction(#[from] ReductionError),
-    /// A stress field that cannot be recovered.
-    #[error(transparent)]
-    Fem(#[from] FemError),
 }
 
 impl ReportError {
     /// What to do next.
     pub fn hint(&self) -> Option<String> {
         match self {
-            Self::Parquet { .. } => Some("is the disk full, or the folder write-protected?".to_owned()),
             Self::NoMarks { marks, .. } => Some(format!("put the two lines {marks} where the tables shall stand")),
             Self::NoResult { hint, .. } => Some((*hint).to_owned()),
-            Self::Page { .. } | Self::NoWindow => None,
+            Self::Page { .. } => None,
             Self::Table(e) => Some(e.hint().to_owned()),
             Self::Store(e) => e.hint(),
             Self::Columns(e) => Some(e.hint().to_owned()),
             Self::Scene(e) => e.hint(),
             Self::Study(e) => e.hint(),
-            Self::Reduction(e) => e.hint(),
-            Self::Fem(e) => e.hint(),
         }
     }
 }

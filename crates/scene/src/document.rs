@@ -16,7 +16,7 @@ use crate::{
     input_text::read_text,
     origin::Origin,
     places::Places,
-    setting::path,
+    setting::Setting,
     tree::{Fault, Node},
 };
 
@@ -108,9 +108,11 @@ impl Document {
         self.0.root.as_ref().is_ok_and(|root| root.entries().any(|(key, _)| key == name))
     }
 
-    /// The number that it says at a key with dots, as [`Setting`](crate::Setting) has keys.
-    pub(crate) fn number_at(&self, key: &str) -> Option<f64> {
-        self.0.root.as_ref().ok()?.number_at(&path(key)?)
+    /// The number that it says at the parts of a key, with some of its keys set otherwise.
+    pub(crate) fn number_at(&self, key: &[String], settings: &[Setting]) -> Option<f64> {
+        let mut root = self.0.root.as_ref().ok()?.clone();
+        settings.iter().for_each(|setting| root.put(setting.path(), setting.value().clone()));
+        root.number_at(key)
     }
 
     /// BLAKE3 of its text, hexadecimal.

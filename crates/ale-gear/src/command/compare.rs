@@ -55,8 +55,9 @@ impl CompareArgs {
         };
         // Curves go into files: a table on the terminal does without, and rows of a motion are many.
         let alone = without_a_number(&runs, &numbers);
-        let curves = if self.out.is_some() || alone.is_some() { overlays(&runs, axis) } else { Vec::new() };
-        if let Some(alone) = alone.filter(|run| !curves.iter().any(|curve| curve.is_of(&run.label()))) {
+        let curves = if self.out.is_some() || !alone.is_empty() { overlays(&runs, axis) } else { Vec::new() };
+        let shares = |run: &ResultFolder| curves.iter().any(|curve| curve.is_of(&run.label()));
+        if let Some(alone) = alone.into_iter().find(|run| !shares(run)) {
             return Err(CommandError::input(
                 format_args!(
                     "{} has neither a number of its headline nor a column of its rows in common with the others",
@@ -98,11 +99,11 @@ impl CompareArgs {
     }
 }
 
-/// A run that shares no number of its headline with another one.
-fn without_a_number<'a>(runs: &'a [ResultFolder], numbers: &[NumberRow]) -> Option<&'a ResultFolder> {
+/// The runs that share no number of their headlines with another one.
+fn without_a_number<'a>(runs: &'a [ResultFolder], numbers: &[NumberRow]) -> Vec<&'a ResultFolder> {
     let shares = |i: usize| {
         let shared = numbers.iter().filter(|row| !BESIDE.contains(&row.key.as_str()));
         shared.filter(|row| row.values[i].is_some()).any(|row| row.values.iter().flatten().count() > 1)
     };
-    (0..runs.len()).find(|&i| !shares(i)).map(|i| &runs[i])
+    (0..runs.len()).filter(|&i| !shares(i)).map(|i| &runs[i]).collect()
 }

@@ -17,12 +17,17 @@ pub(super) fn is_one(plan: &Plan, case: usize) -> Result<usize, CommandError> {
 
 /// The pair, or the gearbox, of a case, as it is run by itself.
 pub(super) fn machine_of(plan: &Plan, case: usize) -> Result<Machine, CommandError> {
-    Ok(match plan.machine(is_one(plan, case)?)? {
-        Machine::Pair(scene) => {
-            let scene = with_slices(*scene);
-            check_memory(&scene, memory::available_bytes())?;
-            Machine::Pair(Box::new(scene))
-        }
+    let machine = sliced(plan.machine(is_one(plan, case)?)?);
+    if let Some(scene) = machine.pair() {
+        check_memory(scene, memory::available_bytes())?;
+    }
+    Ok(machine)
+}
+
+/// A pair with the slices that it is run with; a gearbox as it is.
+pub(super) fn sliced(machine: Machine) -> Machine {
+    match machine {
+        Machine::Pair(scene) => Machine::Pair(Box::new(with_slices(*scene))),
         gearbox => gearbox,
-    })
+    }
 }

@@ -212,25 +212,25 @@ fn the_optimum_of_a_gearbox_is_that_of_a_scan() {
     assert_eq!(summary(&scratch, "q")["remarks"][0]["code"], "limit_passed");
 }
 
-/// Numbers of a pair can be the goal as well, where exact derivatives have none: the largest pressure.
+/// Numbers of a pair can be the goal as well, where exact derivatives have none: from too much crowning the largest
+/// pressure goes down to the least of a scan. The search begins at what is set beside the file.
 #[test]
 fn numbers_of_a_pair_are_made_small() {
+    let key = "pinion.modification.drive.lead_crowning_um";
+    let (bounds, scan, set) = (format!("{key}=0:20"), format!("{key}=0:20:21"), format!("{key}=15"));
     let scratch = Scratch::new().file("a.toml", crate::util::five_teeth());
-    let run = scratch.command(&[
-        "optimise",
-        "a.toml",
-        "--out",
-        "o",
-        "--goal",
-        "max_pressure_mpa",
-        "--vary",
-        "pinion.modification.drive.lead_crowning_um=0:20",
-        "--evaluations",
-        "10",
-    ]);
+    let pressure = "max_pressure_mpa";
+    let run = scratch.command(&["vary", "a.toml", "--out", "scan", "--vary", &scan, "--output", pressure]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let rows = chart_rows(&scratch.read("scan/cases.csv"));
+    let least = rows.iter().map(|row| number(row, pressure)).fold(f64::INFINITY, f64::min);
+    let words = ["optimise", "a.toml", "--out", "o", "--goal", pressure, "--vary", &bounds, "--set", &set];
+    let run = scratch.command(&words);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let numbers = chart_rows(&scratch.read("o/numbers.csv"));
-    assert!(number(&numbers[0], "after") <= number(&numbers[0], "before"), "{numbers:?}");
+    let (before, after) = (number(&numbers[0], "before"), number(&numbers[0], "after"));
+    assert_eq!(before, number(&rows[15], pressure), "the start is what is set");
+    assert!(after < 0.95 * before && after <= 1.01 * least, "{after}, from {before}; the scan has {least}");
     for (words, said) in [
         (&["--goal", "max_pressure_mp", "--vary", "operation.torque_nm=1:2"][..], "did you mean `max_pressure_mpa`?"),
         (&["--goal", "max_pressure_mpa"], "names no key that may change"),
@@ -241,4 +241,34 @@ fn numbers_of_a_pair_are_made_small() {
         assert_eq!(run.code, Some(2), "{words:?}: {}", run.stderr);
         assert!(run.stderr.contains(said), "{words:?}: {}", run.stderr);
     }
+}
+
+/// The search begins at what is set beside the file, by number or name; a mesh that is called by a number is meant by its
+/// place where it has one.
+#[test]
+fn keys_of_a_gearbox_mean_one_entry() {
+    let text = two_stages().read("box.toml");
+    let named = text.replace("name = \"first\"", "name = \"1\"").replace("name = \"second\"", "name = \"0\"");
+    assert_ne!(named, text);
+    let scratch = two_stages().file("named.toml", named);
+    let start = |file: &str, out: &str, more: &[&str]| {
+        let words = ["optimise", file, "--out", out, "--goal", "face_load_factor.0", "--evaluations", "1"];
+        let run = scratch.command(&[&words, more].concat());
+        assert_eq!(run.code, Some(0), "{more:?}: {}", run.stderr);
+        let told = summary(&scratch, out)["headline"]["parameters"].clone();
+        told.as_object().unwrap().values().next().unwrap()["start"].as_f64()
+    };
+    let set = "bearing.\"slow, fixed\".position_mm=17";
+    assert_eq!(start("box.toml", "a", &["--vary", "bearing.4.position_mm=10:20", "--set", set]), Some(17.0));
+    let set = "mesh.second.scene.pinion.modification.lead_slope_um=3";
+    let vary = "mesh.1.scene.pinion.modification.lead_slope_um=0:20";
+    assert_eq!(start("box.toml", "b", &["--vary", vary, "--set", set]), Some(3.0));
+    let factors = |set: &str, out: &str| {
+        let run = scratch.command(&["run", "named.toml", "--out", out, "--set", set]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        summary(&scratch, out)["headline"]["face_load_factor"].clone()
+    };
+    let own = |which: &str| format!("mesh.{which}.scene.pinion.modification.lead_slope_um=20");
+    let [first, second] = ["0", "1"].map(|which| factors(&own(which), which));
+    assert_ne!(first, second, "each is about one mesh");
 }

@@ -6,7 +6,7 @@ use plan::{NumberOptimum, goal_of, goal_unit};
 use scene::{Setting, optimum::NumberOptimisation};
 use serde_json::{Map, json};
 
-use super::{page::parameter_part, tables};
+use super::{HELD, page::parameter_part, tables};
 use crate::{
     ReportError, Written,
     charts::{Curve, line_chart},
@@ -25,9 +25,6 @@ pub struct NumberOptimumResult<'a> {
     /// The command that makes it again.
     pub again: &'a str,
 }
-
-/// Share by which a limit may be passed.
-const HELD: f64 = 2e-3;
 
 impl NumberOptimumResult<'_> {
     fn goals(&self) -> [f64; 2] {
@@ -52,7 +49,7 @@ impl NumberOptimumResult<'_> {
     }
 }
 
-/// The answer: `steps`, `numbers` before and after, `influences`.
+/// The answer about an optimisation of numbers: `steps`, and `numbers` before and after.
 pub fn number_optimum_answer(of: &NumberOptimumResult<'_>, cost: Cost) -> Answer {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let [start, best] = of.goals();

@@ -3,7 +3,9 @@
 use toml::Spanned;
 
 use super::bearing::bearing;
-use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, mid_face_offset};
+use super::file::{
+    Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, called, mid_face_offset,
+};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::motion::motion;
@@ -30,20 +32,18 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
-    let mut meshes = Vec::new();
-    for (i, table) in raw.mesh.iter().enumerate() {
-        let called = mesh_name(table.get_ref());
-        let is_meant = |which: &str| which.parse() == Ok(i) || called == which;
-        let set: Vec<Setting> =
-            of_pairs.iter().filter(|own| is_meant(&own.mesh)).map(|own| own.setting.clone()).collect();
-        meshes.push(mesh(s, table, &gears, set)?);
-    }
-    let is_there =
-        |which: &str| which.parse().is_ok_and(|i: usize| i < meshes.len()) || meshes.iter().any(|m| m.name == which);
-    if let Some(none) = of_pairs.iter().find(|own| !is_there(&own.mesh)) {
-        let names: Vec<String> = meshes.iter().enumerate().map(|(i, m)| format!("{i} (\"{}\")", m.name)).collect();
+    let called_meshes: Vec<String> = raw.mesh.iter().map(|table| mesh_name(table.get_ref())).collect();
+    let place = |own: &PairSetting| called(&own.mesh, called_meshes.iter().map(String::as_str));
+    if let Some(none) = of_pairs.iter().find(|own| place(own).is_none()) {
+        let names: Vec<String> =
+            called_meshes.iter().enumerate().map(|(i, name)| format!("{i} (\"{name}\")")).collect();
         let what = format!("there is no mesh `{}`; there are {}", none.mesh, names.join(", "));
         return Err(SceneError::Setting { label: format!("--set {}", none.key), what });
+    }
+    let mut meshes = Vec::new();
+    for (i, table) in raw.mesh.iter().enumerate() {
+        let own = of_pairs.iter().filter(|own| place(own) == Some(i)).map(|own| own.setting.clone());
+        meshes.push(mesh(s, table, &gears, own.collect())?);
     }
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
     let nothing = |what: &str, advice: &str| Err(s.conflict(&(0..0), what, advice));

@@ -50,6 +50,19 @@ pub(super) fn mid_face_offset(shafts: &[GearboxShaft], all: &[GearboxGear], gear
     Some(b - a).filter(|offset| offset.abs() > ONE_HEIGHT)
 }
 
+impl Gearbox {
+    /// The mesh that a part of a key means: by its number from 0, else by its name.
+    pub fn mesh_called(&self, which: &str) -> Option<usize> {
+        called(which, self.meshes.iter().map(|mesh| mesh.name.as_str()))
+    }
+}
+
+/// The place that a part of a key means among entries of these names: by its number from 0, else by its name.
+pub(super) fn called<'a>(which: &str, mut names: impl ExactSizeIterator<Item = &'a str>) -> Option<usize> {
+    let number = which.parse().ok().filter(|i| *i < names.len());
+    number.or_else(|| names.position(|name| name == which))
+}
+
 /// A shaft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxShaft {

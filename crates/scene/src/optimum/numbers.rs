@@ -10,7 +10,7 @@ use super::{
 };
 use toml::Spanned;
 
-use crate::{Document, Machine, Scene, SceneError, Setting, Source, gearbox::Gearbox, plan::PlanOutput};
+use crate::{Document, Machine, Scene, SceneError, Setting, Source, gearbox::Gearbox, plan::PlanOutput, setting::path};
 
 /// A pair or a gearbox, what of it may change, and which numbers of its headline shall be small.
 #[derive(Debug, Clone)]
@@ -67,7 +67,7 @@ impl NumberOptimisation {
             return Err(wrong(word.into(), "goes with the transmission error of a pair, not with `--goal`"));
         }
         let own = document.machine(settings)?;
-        let known = |key: &str| number_at(&document, &own, key);
+        let known = |key: &str| number_at((&document, settings), &own, key);
         let mut parameters = Vec::new();
         for word in words.parameters {
             let complain = |what: String| wrong(format!("--vary {word}"), &what);
@@ -193,7 +193,7 @@ pub(super) fn numbers(
     }
     let settings = settings(s, raw, more)?;
     let own = document.machine(&settings)?;
-    let parameters = parameters(s, asked, |key| number_at(&document, &own, key))?;
+    let parameters = parameters(s, asked, |key| number_at((&document, &settings), &own, key))?;
     if parameters.is_empty() {
         return Err(s.conflict(&(0..0), "nothing may change", "say `keys = [\"KEY=FROM:TO\"]` in [optimise]"));
     }
@@ -214,17 +214,17 @@ fn limit(word: &str) -> Result<NumberLimit, String> {
     Ok(NumberLimit { output: PlanOutput::parse(key)?, most: most.ok_or("says no number above 0")? })
 }
 
-/// The number that a document says at a key, if it says one.
-fn number_at(document: &Document, machine: &Machine, key: &str) -> Option<f64> {
-    match machine {
-        Machine::Pair(scene) => scene.number_at(key),
-        Machine::Gearbox(file) => match key.split('.').collect::<Vec<_>>()[..] {
-            ["mesh", which, "scene", ..] => {
-                let by_name = || file.meshes.iter().position(|mesh| mesh.name == which);
-                let mesh = file.meshes.get(which.parse().ok().or_else(by_name)?)?;
-                mesh.scene.number_at(&key[key.find(".scene.")? + ".scene.".len()..])
-            }
-            _ => document.number_at(key),
-        },
+/// The number that a document, with what is set beside it, says at a key, if it says one.
+fn number_at((document, settings): (&Document, &[Setting]), machine: &Machine, key: &str) -> Option<f64> {
+    let file = match machine {
+        Machine::Pair(scene) => return scene.number_at(key),
+        Machine::Gearbox(file) => file,
+    };
+    let path = path(key)?;
+    match &path[..] {
+        [mesh, which, scene, of_pair @ ..] if mesh == "mesh" && scene == "scene" => {
+            file.meshes[file.mesh_called(which)?].scene.number_at(&of_pair.join("."))
+        }
+        _ => document.number_at(&path, settings),
     }
 }

@@ -9,21 +9,20 @@ use report::{
     plan_files::{PageWords, write_cases},
 };
 use scene::{
-    Document, Machine,
+    Document,
     plan::{Plan, PlanOutput, PlanTake, PlanWords},
     study::{Take, column_advice},
 };
 use store::folder::{Cache, beside_results};
 
 use super::{
-    super::{Answer, case_reports::CaseReports},
+    super::{Answer, case_reports::CaseReports, plan_case::sliced},
     DrawnArgs, VaryArgs,
 };
 use crate::{
     error::CommandError,
     output::ResultDirectory,
     phases::Phases,
-    resolution::with_slices,
     scene::Setting,
     talk::{self, Loudness},
 };
@@ -86,10 +85,7 @@ impl VaryArgs {
     /// What is wanted of the column that `--of` names.
     fn outputs_of_column(&self, document: &Document, settings: &[Setting]) -> Result<Vec<PlanOutput>, CommandError> {
         let Some(column) = &self.of else { return Ok(Vec::new()) };
-        let machine = match document.machine(settings)? {
-            Machine::Pair(scene) => Machine::Pair(Box::new(with_slices(*scene))),
-            gearbox => gearbox,
-        };
+        let machine = sliced(document.machine(settings)?);
         if let Some(all) = columns_of(&machine).filter(|all| !all.iter().any(|name| name == column)) {
             let names: Vec<&str> = all.iter().map(String::as_str).collect();
             let what = format_args!("`--of {column}` is no column of {}", rows_file(&machine));
