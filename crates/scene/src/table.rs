@@ -92,6 +92,8 @@ pub(crate) enum ValueKind {
     Wholes,
     /// Rows of so many numbers; 0: of as many as other keys ask for.
     Rows { columns: usize },
+    /// The path of a document, or its tables, which stand there.
+    Document(&'static Table),
     /// A table of its own.
     Table(&'static Table),
     /// Tables of one kind, as many as one likes.
@@ -170,6 +172,11 @@ pub(crate) const fn rows(name: &'static str, columns: usize, about: &'static str
     key(name, ValueKind::Rows { columns }, about)
 }
 
+/// A document by its path, or by its tables.
+pub(crate) const fn document(name: &'static str, of: &'static Table, about: &'static str) -> Key {
+    key(name, ValueKind::Document(of), about)
+}
+
 pub(crate) const fn table(name: &'static str, of: &'static Table) -> Key {
     key(name, ValueKind::Table(of), of.about)
 }
@@ -203,6 +210,14 @@ impl Table {
             Some(&ValueKind::Whole { low, high, default }) => (low, high, default),
             _ => (0, u32::MAX, None),
         }
+    }
+
+    /// Every table of it with its keys, itself first, as messages look them up; a list of tables has brackets about its
+    /// name.
+    pub fn tables(&'static self) -> Vec<(String, Vec<&'static str>)> {
+        let mut all = Vec::new();
+        self.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
+        all
     }
 
     /// Visits the table and those in it, with their names; a list of tables has brackets about its name.

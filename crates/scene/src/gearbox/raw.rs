@@ -145,7 +145,7 @@ table! {
     /// `[[mesh]]`
     MESH, RawMesh: "two gears in mesh", needed ["scene", "pinion", "wheel"]; {
         name: text(), "name for tables; default: those of its gears";
-        scene: text(), "path of the scene of the pair";
+        scene: document(SCENE), "path of the scene of the pair, or its tables: [mesh.scene.pinion] and so on";
         set: texts(), "keys of that scene that are otherwise here, as after --set";
         pinion: text(), "name of the gear that is the scene's pinion";
         wheel: text(), "name of the gear that is the scene's wheel";
@@ -281,7 +281,5 @@ table! {
 
 /// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    let mut all = Vec::new();
-    GEARBOX.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
-    all
+    GEARBOX.tables()
 }

@@ -1,7 +1,5 @@
 //! From the words of an optimisation file to what they mean.
 
-use std::path::Path;
-
 use cases::{Axis, Cases, Sampling};
 use design::{Goal, Measure, Over};
 use toml::Spanned;
@@ -56,7 +54,7 @@ pub(super) fn check(
     };
     let max_pressure_mpa = limit("max_pressure_mpa", &asked.max_pressure_mpa)?;
     let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &asked.max_edge_pressure_mpa)?;
-    let name = raw.name.clone().unwrap_or_else(|| stem(s.file));
+    let name = s.title(&raw.name);
     finish(Optimisation {
         name,
         file: s.file.to_owned(),
@@ -75,10 +73,6 @@ pub(super) fn check(
         sampling,
         samples,
     })
-}
-
-pub(super) fn stem(file: &Path) -> String {
-    file.file_stem().map_or_else(|| "optimum".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// What the whole of an optimisation must be: keys are there once, and its start is a scene at rest.
@@ -130,7 +124,7 @@ pub(super) fn words(list: &Option<Vec<Spanned<String>>>) -> &[Spanned<String>] {
 
 /// What an optimisation sets beside its document.
 pub(super) fn settings(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Vec<Setting>> {
-    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().flatten().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     settings.extend_from_slice(more);
     Ok(settings)
 }

@@ -1,9 +1,6 @@
 //! Every key of an optimisation once: type, range, default, meaning; and its words, nothing checked yet.
 
-use serde::Deserialize;
-use toml::Spanned;
-
-use crate::{Word, plan::SEED};
+use crate::plan::SEED;
 
 /// Evaluations where none are stated, and the most.
 pub(super) const EVALUATIONS: [u32; 2] = [20, 10_000];
@@ -38,20 +35,17 @@ table! {
     }
 }
 
-/// Every table with its keys, as messages look them up.
-pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    let file = ["name", "scene", "set", "optimise"].to_vec();
-    vec![(String::new(), file), ("optimise".to_owned(), OPTIMISE.keys.iter().map(|key| key.name).collect())]
+table! {
+    /// A file of its own, or the table of a document that it stands in.
+    OPTIMISATION, RawOptimisation: "An optimisation of ale-gear: a pair or a gearbox whose best values are searched", needed ["scene", "optimise"]; {
+        name: text(), "title; default: the file's name";
+        scene: text(), "path of the document that is optimised; left out where [optimise] stands in it";
+        set: texts(), "keys of it that are otherwise, as after --set";
+        optimise: always(OPTIMISE: RawOptimise);
+    }
 }
 
-/// A file of its own, or the table of a document that it stands in.
-#[derive(Debug, Default, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub(super) struct RawOptimisation {
-    pub name: Option<String>,
-    pub scene: Word,
-    #[serde(default)]
-    pub set: Vec<Spanned<String>>,
-    #[serde(default)]
-    pub optimise: RawOptimise,
+/// Every table with its keys, as messages look them up.
+pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
+    OPTIMISATION.tables()
 }

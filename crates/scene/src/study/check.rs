@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
 use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
-use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use super::raw::{CYCLES, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
 use crate::{Place, Run, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
@@ -15,8 +15,6 @@ type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 const CASES: usize = 1000;
 /// Keys that a case sets at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
-/// Mesh cycles of a figure at the most.
-const CYCLES: u32 = 100_000_000;
 
 pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns: ColumnsOf<'_>) -> Checked<Study> {
     if let Some(table) = raw.case.get(CASES) {
@@ -49,17 +47,15 @@ pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns
     let over_time = over_time.collect::<Checked<_>>()?;
     let follow = raw.follow.iter().map(|t| follow(s, t, known)).collect::<Checked<_>>()?;
     let full = raw.full.as_ref().map(|t| full(s, t, &cases)).transpose()?.flatten();
-    let name = raw.name.unwrap_or_else(|| {
-        s.file.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned())
-    });
-    let parameter = raw.parameter.unwrap_or_else(|| "value".into());
+    let name = s.title(&raw.name);
+    let parameter = raw.parameter.map_or_else(|| "value".into(), Spanned::into_inner);
     Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
 }
 
 /// Refuses a setting of all scenes that no scene follows, since every case sets its key itself.
 fn has_effect(cases: &[Spanned<RawCase>], settings: &[Setting]) -> Checked<()> {
     let sets = |case: &Spanned<RawCase>, key: &str| {
-        let own = case.get_ref().set.iter().filter_map(|word| Setting::parse(word.get_ref()).ok());
+        let own = case.get_ref().set.iter().flatten().filter_map(|word| Setting::parse(word.get_ref()).ok());
         own.into_iter().any(|own| own.key() == key)
     };
     let idle = |setting: &&Setting| !cases.is_empty() && cases.iter().all(|case| sets(case, setting.key()));
@@ -77,12 +73,13 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
         return Err(missing(s, table, "[[case]]", "value", "its place on the axis of the parameter"));
     }
     let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
-    if let Some(word) = raw.set.get(SETTINGS) {
-        let what = format!("a case sets {} keys", raw.set.len());
+    let set = raw.set.as_deref().unwrap_or_default();
+    if let Some(word) = set.get(SETTINGS) {
+        let what = format!("a case sets {} keys", set.len());
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
-    let own = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    let document = s.named(word, "study file")?;
+    let own = set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let document = s.document(word, "study file")?;
     let (scene, refused) = match document.scene(&[settings, &own].concat()) {
         Ok(scene) => (scene, None),
         // A value may be wrong in one case alone; a scene that is wrong without it is wrong in all.
@@ -111,7 +108,12 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
             return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
         }
     }
-    Ok(StudyCase { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene, refused })
+    Ok(StudyCase { label: label(raw).unwrap_or_else(|| scene.name.clone()), value, scene, refused })
+}
+
+/// What a case is called where it says so.
+fn label(raw: &RawCase) -> Option<String> {
+    raw.label.clone().map(Spanned::into_inner)
 }
 
 fn refusal(e: &SceneError) -> RefusedCase {
@@ -151,7 +153,7 @@ fn follow(s: &Source<'_>, table: &Spanned<RawFollow>, known: Known<'_>) -> Check
 fn full(s: &Source<'_>, table: &Spanned<RawFull>, cases: &[StudyCase]) -> Checked<Option<FullRun>> {
     let raw = table.get_ref();
     let case = case_number(s, &raw.case, cases)?;
-    let positions = s.whole("positions", &raw.positions, 1, 0, 100_000)?;
+    let positions = s.whole_of(&FULL, "positions", &raw.positions)?;
     let scene = &cases[case].scene;
     let slices = scene.analysis.model.has_reduced_gears() && scene.contact.slices.is_some();
     if positions > 0 && !slices {
