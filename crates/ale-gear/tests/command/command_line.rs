@@ -112,7 +112,7 @@ fn the_schema_is_data_on_stdout() {
     fine(&run);
     let schema = json(&run.stdout);
     assert_eq!(schema["$schema"], "https://json-schema.org/draft/2020-12/schema");
-    let speed = &schema["properties"]["operation"]["properties"]["speed_rpm"];
+    let speed = &schema["$defs"]["pair"]["properties"]["operation"]["properties"]["speed_rpm"];
     assert_eq!((&speed["default"], &speed["maximum"]), (&Value::from(1000.0), &Value::from(1e7)));
     assert!(speed["description"].as_str().is_some_and(|d| d.contains("1/min")));
 }
