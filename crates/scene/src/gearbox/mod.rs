@@ -29,4 +29,5 @@ pub use file::{
     GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
 pub use motion::GearboxMotion;
+pub(crate) use raw::GEARBOX;
 pub use raw::{GearboxDrive, MeshModel, RollingKind};

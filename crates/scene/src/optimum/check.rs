@@ -56,7 +56,7 @@ pub(super) fn check(
     };
     let max_pressure_mpa = limit("max_pressure_mpa", &asked.max_pressure_mpa)?;
     let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &asked.max_edge_pressure_mpa)?;
-    let name = raw.name.clone().unwrap_or_else(|| stem(s.file));
+    let name = raw.name.as_ref().map_or_else(|| stem(s.file), |name| name.get_ref().clone());
     finish(Optimisation {
         name,
         file: s.file.to_owned(),
@@ -130,7 +130,7 @@ pub(super) fn words(list: &Option<Vec<Spanned<String>>>) -> &[Spanned<String>] {
 
 /// What an optimisation sets beside its document.
 pub(super) fn settings(s: &Source<'_>, raw: &RawOptimisation, more: &[Setting]) -> Checked<Vec<Setting>> {
-    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().flatten().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     settings.extend_from_slice(more);
     Ok(settings)
 }

@@ -17,5 +17,5 @@ mod words;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
 pub use numbers::{NumberLimit, NumberOptimisation};
-pub(crate) use raw::OPTIMISE;
+pub(crate) use raw::{OPTIMISATION, OPTIMISE};
 pub use words::OptimisationWords;

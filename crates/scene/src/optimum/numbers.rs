@@ -203,7 +203,8 @@ pub(super) fn numbers(
     let limits = listed(&asked.limit).iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
     let limits = limits.collect::<Result<Vec<_>, _>>()?;
     let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
-    let (name, file) = (raw.name.clone().unwrap_or_else(|| stem(s.file)), s.file.to_owned());
+    let (name, file) =
+        (raw.name.as_ref().map_or_else(|| stem(s.file), |name| name.get_ref().clone()), s.file.to_owned());
     NumberOptimisation { name, file, document, settings, parameters, goals, limits, evaluations }.finish()
 }
 

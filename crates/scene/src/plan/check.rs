@@ -30,7 +30,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
         let advice = "name numbers: `output = [\"peak_to_peak_ste_um\", \"least(contact_line_length_mm)\"]` in [vary]";
         return Err(nothing("a plan that asks for nothing", advice));
     }
-    let mut settings = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let mut settings = raw.set.iter().flatten().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     settings.extend_from_slice(more);
     let sampling = Sampling {
         design: s.choice("design", &raw_vary.design, &DESIGNS)?,
@@ -48,9 +48,8 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
         PlanOutput::parse(word.get_ref()).map_err(|what| s.conflict(&word.span(), what, OUTPUTS))
     };
     let outputs = wanted.iter().map(output).collect::<Checked<Vec<_>>>()?;
-    let name = raw.name.clone().unwrap_or_else(|| {
-        s.file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned())
-    });
+    let stem = || s.file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
+    let name = raw.name.as_ref().map_or_else(stem, |name| name.get_ref().clone());
     let file = s.file.to_owned();
     finish(Plan { name, file, document, settings, axes, sampling, cases, outputs })
 }

@@ -17,7 +17,7 @@ mod word;
 
 pub(crate) use check::{DESIGNS, axes, setting, unfit};
 pub use file::{Plan, PlanAxis, PlanOutput, PlanTake};
-pub(crate) use raw::{SEED, VARY};
+pub(crate) use raw::{PLAN, SEED, VARY};
 pub use read::PlanWords;
 pub use tolerance::PitchTolerance;
 pub(crate) use tolerance::classed;

@@ -64,9 +64,7 @@ pub(crate) fn meaning(name: &str) -> Option<&'static str> {
 
 /// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.
 pub(crate) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    let mut all = Vec::new();
-    SCENE.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
-    all
+    SCENE.names()
 }
 
 #[cfg(test)]

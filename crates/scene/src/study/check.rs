@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
-use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
-use super::raw::{RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity};
+use super::raw::{CASE, FOLLOW, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
 use crate::{Place, Run, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
@@ -15,9 +15,6 @@ type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 const CASES: usize = 1000;
 /// Keys that a case sets at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
-/// Mesh cycles of a figure at the most.
-const CYCLES: u32 = 100_000_000;
-
 pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns: ColumnsOf<'_>) -> Checked<Study> {
     if let Some(table) = raw.case.get(CASES) {
         let what = format!("a study of {} cases", raw.case.len());
@@ -49,17 +46,16 @@ pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns
     let over_time = over_time.collect::<Checked<_>>()?;
     let follow = raw.follow.iter().map(|t| follow(s, t, known)).collect::<Checked<_>>()?;
     let full = raw.full.as_ref().map(|t| full(s, t, &cases)).transpose()?.flatten();
-    let name = raw.name.unwrap_or_else(|| {
-        s.file.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned())
-    });
-    let parameter = raw.parameter.unwrap_or_else(|| "value".into());
+    let stem = || s.file.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
+    let name = raw.name.map_or_else(stem, Spanned::into_inner);
+    let parameter = raw.parameter.map_or_else(|| "value".into(), Spanned::into_inner);
     Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
 }
 
 /// Refuses a setting of all scenes that no scene follows, since every case sets its key itself.
 fn has_effect(cases: &[Spanned<RawCase>], settings: &[Setting]) -> Checked<()> {
     let sets = |case: &Spanned<RawCase>, key: &str| {
-        let own = case.get_ref().set.iter().filter_map(|word| Setting::parse(word.get_ref()).ok());
+        let own = case.get_ref().set.iter().flatten().filter_map(|word| Setting::parse(word.get_ref()).ok());
         own.into_iter().any(|own| own.key() == key)
     };
     let idle = |setting: &&Setting| !cases.is_empty() && cases.iter().all(|case| sets(case, setting.key()));
@@ -76,12 +72,13 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
     if raw.value.is_none() {
         return Err(missing(s, table, "[[case]]", "value", "its place on the axis of the parameter"));
     }
-    let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
-    if let Some(word) = raw.set.get(SETTINGS) {
-        let what = format!("a case sets {} keys", raw.set.len());
+    let value = s.number_of(&CASE, "value", &raw.value)?;
+    let set = raw.set.as_deref().unwrap_or_default();
+    if let Some(word) = set.get(SETTINGS) {
+        let what = format!("a case sets {} keys", set.len());
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
-    let own = raw.set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
+    let own = set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
     let document = s.named(word, "study file")?;
     let (scene, refused) = match document.scene(&[settings, &own].concat()) {
         Ok(scene) => (scene, None),
@@ -111,7 +108,12 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
             return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
         }
     }
-    Ok(StudyCase { label: raw.label.clone().unwrap_or_else(|| scene.name.clone()), value, scene, refused })
+    Ok(StudyCase {
+        label: raw.label.as_ref().map_or_else(|| scene.name.clone(), |label| label.get_ref().clone()),
+        value,
+        scene,
+        refused,
+    })
 }
 
 fn refusal(e: &SceneError) -> RefusedCase {
@@ -129,7 +131,7 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
 }
 
 fn quantity(s: &Source<'_>, table: &Spanned<RawQuantity>, known: Known<'_>) -> Checked<StudyQuantity> {
-    let take = s.choice("take", &table.get_ref().take, &Take::ALL.map(|t| (t.word(), t)))?;
+    let take = s.choice_of("take", &table.get_ref().take)?;
     Ok(StudyQuantity { column: column(s, table, &table.get_ref().column, known)?, take })
 }
 
@@ -151,7 +153,7 @@ fn follow(s: &Source<'_>, table: &Spanned<RawFollow>, known: Known<'_>) -> Check
 fn full(s: &Source<'_>, table: &Spanned<RawFull>, cases: &[StudyCase]) -> Checked<Option<FullRun>> {
     let raw = table.get_ref();
     let case = case_number(s, &raw.case, cases)?;
-    let positions = s.whole("positions", &raw.positions, 1, 0, 100_000)?;
+    let positions = s.whole_of(&FULL, "positions", &raw.positions)?;
     let scene = &cases[case].scene;
     let slices = scene.analysis.model.has_reduced_gears() && scene.contact.slices.is_some();
     if positions > 0 && !slices {
@@ -173,7 +175,7 @@ fn case_number(s: &Source<'_>, word: &Word, cases: &[StudyCase]) -> Checked<usiz
 }
 
 fn cycles(s: &Source<'_>, value: &Whole) -> Checked<Option<u32>> {
-    value.as_ref().map(|_| s.whole("cycles", value, 1, 1, CYCLES)).transpose()
+    value.as_ref().map(|_| s.whole_of(&FOLLOW, "cycles", value)).transpose()
 }
 
 fn column<T>(s: &Source<'_>, table: &Spanned<T>, word: &Word, known: Known<'_>) -> Checked<String> {

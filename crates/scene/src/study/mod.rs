@@ -16,3 +16,4 @@ mod read;
 pub(crate) use check::setting;
 pub use columns::{ColumnsOf, column_advice};
 pub use file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
+pub(crate) use raw::STUDY;
