@@ -230,7 +230,7 @@ impl Scene {
         all_keys()
     }
 
-    /// JSON Schema of a scene.
+    /// JSON Schema of all documents; each kind stands in `$defs`.
     #[staticmethod]
     fn schema(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         of_json(py, &json_schema().to_string())

@@ -128,7 +128,7 @@ def test_a_pair_comes_from_rexs(tmp_path, program):
 
 def test_every_key_has_a_place_in_the_schema():
     assert "operation.torque_nm" in Scene.keys()
-    assert Scene.schema()["properties"]["operation"]["properties"]["torque_nm"]["minimum"] == 0.0
+    assert Scene.schema()["$defs"]["pair"]["properties"]["operation"]["properties"]["torque_nm"]["minimum"] == 0.0
 
 
 def test_a_pair_wants_a_scene():

@@ -72,6 +72,11 @@ impl Document {
         &self.0.file
     }
 
+    /// The name of its file without the ending: what it is called where it has no `name`.
+    pub(crate) fn stem(&self) -> String {
+        self.file().file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+    }
+
     /// Kind of the document by its tables; `None` where it has none of a known kind, or is no TOML.
     pub fn kind(&self) -> Option<DocumentKind> {
         self.0.root.as_ref().ok().and_then(DocumentKind::of)
@@ -88,6 +93,14 @@ impl Document {
         let (file, text, files) = (file.clone(), text.clone(), Arc::clone(files));
         let root = root.clone().map(|root| root.only(|name| names.contains(&name)));
         Self(Arc::new(Read { file, text, root, origin: *origin, files, places: OnceLock::new() }))
+    }
+
+    /// The document whose tables stand at a place of this one; paths in it are relative to the same folder.
+    pub(crate) fn part(&self, span: &Range<usize>) -> Option<Self> {
+        let Read { file, text, root, origin, files, .. } = &*self.0;
+        let (root, file, text) = (root.as_ref().ok()?.part(span)?.clone(), file.clone(), text.clone());
+        let files = Arc::clone(files);
+        Some(Self(Arc::new(Read { file, text, root: Ok(root), origin: *origin, files, places: OnceLock::new() })))
     }
 
     /// That not both of a plan and an optimisation stand in it.

@@ -119,6 +119,7 @@ fn allowed(kind: &ValueKind) -> String {
         ValueKind::Wholes => "list of whole numbers".to_owned(),
         ValueKind::Rows { columns: 0 } => "rows of numbers".to_owned(),
         ValueKind::Rows { columns } => format!("rows of {columns} numbers"),
+        ValueKind::Document(_) => "path in quotes, or tables".to_owned(),
         ValueKind::Table(_) | ValueKind::Tables(_) => String::new(),
     }
 }

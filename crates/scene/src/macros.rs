@@ -70,6 +70,9 @@ macro_rules! checked_table {
 macro_rules! key {
     ($name:ident table ($of:ident: $raw:ident)) => { $crate::table::table(stringify!($name), &$of) };
     ($name:ident always ($of:ident: $raw:ident)) => { $crate::table::table(stringify!($name), &$of) };
+    ($name:ident document ($of:ident) $about:literal) => {
+        $crate::table::document(stringify!($name), &$crate::schema::$of, $about)
+    };
     ($name:ident list ($of:ident: $raw:ident)) => { $crate::table::list(stringify!($name), &$of) };
     ($name:ident word ($choice:ident) $about:literal) => {
         $crate::table::word(stringify!($name), <$choice as $crate::table::Choice>::WORDS, $about)
@@ -93,6 +96,7 @@ macro_rules! raw {
     (word $args:tt) => { $crate::spanned::Word };
     (bare_word $args:tt) => { $crate::spanned::Word };
     (text $args:tt) => { $crate::spanned::Word };
+    (document $args:tt) => { Option<toml::Spanned<$crate::spanned::Named>> };
     (shape $args:tt) => { $crate::spanned::Word };
     (path $args:tt) => { $crate::spanned::Word };
     (words $args:tt) => { $crate::spanned::Words };

@@ -18,6 +18,7 @@ use super::keys::{self, Tables};
 use super::origin::Origin;
 use super::places::Written;
 use super::setting::Setting;
+use super::spanned::{NAMED, Named, Word};
 use super::tree::Node;
 use super::{Place, error::SceneError};
 
@@ -124,6 +125,11 @@ impl Source<'_> {
         }
     }
 
+    /// What it calls itself, else the name of the file.
+    pub(crate) fn title(&self, name: &Word) -> String {
+        name.as_ref().map_or_else(|| self.document.stem(), |name| name.get_ref().clone())
+    }
+
     /// Where the scene that is read came from.
     pub(crate) fn written(&self) -> Written {
         let of_file = self.document.places();
@@ -167,6 +173,19 @@ impl Source<'_> {
         Ok(document)
     }
 
+    /// The document that a word names, or whose tables stand in its place.
+    ///
+    /// # Errors
+    /// As [`Source::named`].
+    pub(crate) fn document(&self, word: &Spanned<Named>, whose: &str) -> Result<Document, SceneError> {
+        match word.get_ref() {
+            Named::Path(path) => self.named(&Spanned::new(word.span(), path.clone()), whose),
+            Named::Here => self.document.part(&word.span()).ok_or_else(|| {
+                self.conflict(&word.span(), "tables that are set beside the file", "write them into the file")
+            }),
+        }
+    }
+
     /// A complaint about words that each are right and do not go together.
     pub fn conflict(&self, span: &Range<usize>, what: impl Into<String>, advice: impl Into<String>) -> SceneError {
         SceneError::Conflict { place: self.place(span), what: what.into(), advice: advice.into() }
@@ -189,6 +208,7 @@ impl Source<'_> {
                 "f64" => "a number".into(),
                 "i64" => "a whole number".into(),
                 "a boolean" => "true or false".into(),
+                NAMED => NAMED.into(),
                 e if e.contains("string") => "a text in quotes".into(),
                 e if e.starts_with("struct") || e.contains("map") => "a table".into(),
                 e if e.contains("sequence") => "a list".into(),

@@ -1,5 +1,11 @@
 //! Values of a scene file as written, each with its place.
 
+use std::fmt;
+
+use serde::{
+    Deserialize, Deserializer,
+    de::{Error, IgnoredAny, MapAccess, Visitor},
+};
 use toml::Spanned;
 
 /// A number as written.
@@ -19,3 +25,40 @@ pub(crate) type Numbers = Option<Spanned<Vec<Spanned<f64>>>>;
 pub(crate) type Wholes = Option<Spanned<Vec<i64>>>;
 /// Rows of numbers as written.
 pub(crate) type Rows = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
+
+/// A document as another one names it.
+#[derive(Debug, Clone)]
+pub(crate) enum Named {
+    /// By its path.
+    Path(String),
+    /// By its tables, which stand there.
+    Here,
+}
+
+/// What is expected of a [`Named`].
+pub(crate) const NAMED: &str = "a path in quotes, or the tables of a document";
+
+impl<'de> Deserialize<'de> for Named {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = Named;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str(NAMED)
+            }
+
+            fn visit_str<E: Error>(self, path: &str) -> Result<Named, E> {
+                Ok(Named::Path(path.to_owned()))
+            }
+
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Named, A::Error> {
+                while map.next_entry::<IgnoredAny, IgnoredAny>()?.is_some() {}
+                Ok(Named::Here)
+            }
+        }
+
+        deserializer.deserialize_any(Either)
+    }
+}

@@ -109,6 +109,8 @@ pub(crate) enum ValueKind {
     Wholes,
     /// Rows of so many numbers; 0: of as many as other keys ask for.
     Rows { columns: usize },
+    /// The path of a document, or its tables, which stand there.
+    Document(&'static Table),
     /// A table of its own.
     Table(&'static Table),
     /// Tables of one kind, as many as one likes.
@@ -185,6 +187,11 @@ pub(crate) const fn wholes(name: &'static str, about: &'static str) -> Key {
 
 pub(crate) const fn rows(name: &'static str, columns: usize, about: &'static str) -> Key {
     key(name, ValueKind::Rows { columns }, about)
+}
+
+/// A document by its path, or by its tables.
+pub(crate) const fn document(name: &'static str, of: &'static Table, about: &'static str) -> Key {
+    key(name, ValueKind::Document(of), about)
 }
 
 pub(crate) const fn table(name: &'static str, of: &'static Table) -> Key {

@@ -13,6 +13,9 @@ use toml::{
     de::{DeTable, DeValue},
 };
 
+/// The key behind which another document is named, or stands itself.
+const DOCUMENT: &str = "scene";
+
 /// A value and the bytes of the text that it stands in.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Node {
@@ -134,6 +137,18 @@ impl Node {
             Value::Text(name) if key == "name" => Some(format!("{number} (\"{name}\")")),
             _ => None,
         })
+    }
+
+    /// The document below that stands at a place: the table of a key that may be a path as well.
+    pub fn part(&self, span: &Range<usize>) -> Option<&Self> {
+        match &self.value {
+            Value::List(list) => list.iter().find_map(|own| own.part(span)),
+            Value::Table(table) => table.iter().find_map(|(key, own)| {
+                let is_it = key == DOCUMENT && own.node.span == *span && matches!(own.node.value, Value::Table(_));
+                if is_it { Some(&own.node) } else { own.node.part(span) }
+            }),
+            _ => None,
+        }
     }
 
     /// Whether it is this text.

@@ -113,7 +113,7 @@ type Solved = (Scene, StaticHistory, f64);
 impl<'a> Desk<'a> {
     /// With the text of a scene to begin with.
     pub fn new(start: &'a str, file: &Path, limits: Limits, cache: &'a dyn GearCache) -> Self {
-        let (models, schema) = (SharedModels::new(cache), scene::json_schema());
+        let (models, schema) = (SharedModels::new(cache), scene::json_schema()["$defs"]["pair"].take());
         let last = Mutex::new(Document::new(start.to_owned(), file));
         Self { start, last, limits, models, schema }
     }

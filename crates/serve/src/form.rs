@@ -41,7 +41,7 @@ pub(crate) struct FormRow {
 /// The form of the whole scene.
 pub(crate) fn form() -> FormTable {
     let order: BTreeMap<String, usize> = scene::all_keys().into_iter().zip(0..).collect();
-    table("", &scene::json_schema(), &order)
+    table("", &scene::json_schema()["$defs"]["pair"], &order)
 }
 
 /// Whether a key holds a text, so that digits in it are no number.
@@ -139,7 +139,7 @@ mod tests {
         );
         assert_eq!(form.tables[0].rows[0].key, "pinion.teeth");
         assert!(form.tables[0].rows[0].needed && form.tables[0].rows[0].kind == "number");
-        let schema = scene::json_schema();
+        let schema = scene::json_schema()["$defs"]["pair"].clone();
         assert!(is_text(&schema, "name") && is_text(&schema, "pinion.mesh") && !is_text(&schema, "pinion.teeth"));
         assert!(!is_text(&schema, "no.such.key"));
     }

@@ -10,6 +10,9 @@ use crate::{
 /// Keys that stand in place of the file's.
 #[derive(Debug, Clone, Default, clap::Args)]
 pub(super) struct Overrides {
+    /// What a plan sets itself: these words hold before it.
+    #[arg(skip)]
+    of_plan: Vec<Setting>,
     /// Set a key of the file, as `operation.torque_nm=200` or `gear.0.position_mm=50`; may be given again
     #[arg(long = "set", value_name = "KEY=VALUE", help_heading = "Overrides")]
     set: Vec<String>,
@@ -29,6 +32,7 @@ impl Overrides {
     pub fn settings(&self) -> Result<Vec<Setting>, SceneError> {
         // First, so that `--set analysis.model=reduced` holds beside it: what is asked is then estimated, not chosen.
         let mut all = self.accuracy.iter().map(|w| Setting::accuracy(w)).collect::<Result<Vec<_>, _>>()?.concat();
+        all.extend(self.of_plan.iter().cloned());
         for word in &self.set {
             all.push(Setting::parse(word)?);
         }
@@ -52,6 +56,11 @@ impl Overrides {
     pub fn behind(mut self, words: impl IntoIterator<Item = String>) -> Self {
         self.set.splice(0..0, words);
         self
+    }
+
+    /// These behind what a plan sets itself.
+    pub fn behind_plan(self, of_plan: Vec<Setting>) -> Self {
+        Self { of_plan, ..self }
     }
 
     /// The scene with these keys.

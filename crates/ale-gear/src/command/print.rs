@@ -1,8 +1,8 @@
 //! `ale-gear print`: what editors, shells, manuals and lawyers want to know.
 
-use clap::{CommandFactory, Subcommand, ValueEnum};
+use clap::{CommandFactory, Subcommand};
 use clap_complete::Shell;
-use scene::{gearbox::Gearbox, json_schema};
+use scene::json_schema;
 
 use super::Cli;
 use crate::error::CommandError;
@@ -10,12 +10,8 @@ use crate::error::CommandError;
 /// Subcommands of `ale-gear print`.
 #[derive(Debug, Subcommand)]
 pub(super) enum PrintCommand {
-    /// JSON Schema of the scene file, or of the gearbox file, for completion and checks in editors
-    Schema {
-        /// Which kind of file
-        #[arg(value_enum, default_value_t = Document::Scene)]
-        document: Document,
-    },
+    /// JSON Schema of documents, for completion and checks in editors
+    Schema,
     /// Script that completes words in a shell
     Completions {
         /// Which shell
@@ -28,15 +24,6 @@ pub(super) enum PrintCommand {
     Licences,
 }
 
-/// Kinds of file that have a schema.
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum Document {
-    /// The scene of a pair
-    Scene,
-    /// Shafts, bearings and meshes
-    Gearbox,
-}
-
 /// Licences of everything that the program carries; `.ci/notices` writes the file.
 const NOTICES: &str = include_str!("../../../../NOTICES.txt");
 
@@ -44,8 +31,7 @@ impl PrintCommand {
     /// The text.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         match self {
-            Self::Schema { document: Document::Scene } => Ok(format!("{:#}\n", json_schema())),
-            Self::Schema { document: Document::Gearbox } => Ok(format!("{:#}\n", Gearbox::json_schema())),
+            Self::Schema => Ok(format!("{:#}\n", json_schema())),
             Self::Completions { shell } => Ok(completions(shell)),
             Self::Man => man(),
             Self::Licences => Ok(NOTICES.to_owned()),

@@ -231,3 +231,47 @@ fn a_column_over_a_key_is_a_plan() {
         assert!(!scratch.path().join("q").exists());
     }
 }
+
+/// A plan that says how its values start is the words of the command line: the same bytes, from a file of its own and from
+/// the document itself; words take the place of what the document says.
+#[test]
+fn a_plan_of_motions_that_carry_on_is_its_words() {
+    let words = ["--vary", "operation.speed_rpm=700:1300:3", "--ways", "down", "--cycles", "4", "--settle", "20"];
+    let beside = ["--lyapunov", "0", "--set", "contact.friction=0"];
+    let (by_words, _) = sweep(seed("004"), &[&words[..], &beside].concat());
+    let table = "[vary]\nkeys = [\"operation.speed_rpm=700:1300:3\"]\nstart = \"carry\"\nways = [\"down\"]\n\
+                 cycles = 4\nsettle = 20\nlyapunov = 0\n";
+    let scratch = Scratch::new()
+        .file("a.toml", seed("004"))
+        .file("plan.toml", format!("scene = \"a.toml\"\nset = [\"contact.friction=0\"]\n{table}"))
+        .file("own.toml", format!("{}\n{table}", seed("004")));
+    let runs: [&[&str]; 3] = [
+        &["run", "plan.toml", "--out", "p"],
+        &["vary", "own.toml", "--out", "q", "--set", "contact.friction=0"],
+        &[
+            "vary",
+            "own.toml",
+            "--out",
+            "w",
+            "--start",
+            "carry",
+            "--vary",
+            "operation.speed_rpm=800,900",
+            "--ways",
+            "up",
+        ],
+    ];
+    for words in runs {
+        let run = scratch.command(words);
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{words:?}: {}", run.stdout);
+    }
+    for file in ["sweep.csv", "bifurcation.csv"] {
+        let own = by_words.read(&format!("o/{file}"));
+        assert_eq!(scratch.read(&format!("p/{file}")), own, "{file} of a plan");
+        assert_eq!(scratch.read(&format!("q/{file}")), own, "{file} of the document");
+    }
+    assert_eq!(column(&scratch.read("w/sweep.csv"), "operation.speed_rpm"), [800.0, 900.0]);
+    let cases = scratch.command(&["vary", "plan.toml", "--cases", "0..1", "--out", "part.csv"]);
+    assert_eq!(cases.code, Some(2));
+    assert!(cases.stderr.contains("plan.toml:5: values of this plan do not each start alone"), "{}", cases.stderr);
+}

@@ -54,7 +54,7 @@ pub use headline::{LumpedCertificate, LumpedHeadline};
 pub use mechanism::{LumpedMemory, StaticPoint};
 pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};
 pub use run_loop::{LumpedCheckpoint, LumpedResume};
-pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SectionEvery, SweepHeadline, SweepOptions, SweepPoint};
+pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SweepHeadline, SweepOptions, SweepPoint};
 
 pub(crate) use analysis::steady_rows;
 pub(crate) use excitation::{ExcitationSource, static_scene};

@@ -1,10 +1,9 @@
 //! Periodic motions along a key: what the branch says must be what motions in time do.
 
 use analysis::lumped::{
-    ContinuationAnalysis, ContinuationResult, KeySweep, LossName, LumpedAnalysis, LumpedQuantity, SectionEvery,
-    SweepOptions,
+    ContinuationAnalysis, ContinuationResult, KeySweep, LossName, LumpedAnalysis, LumpedQuantity, SweepOptions,
 };
-use scene::{Scene, SceneBuilder, SweepWay};
+use scene::{Scene, SceneBuilder, SweepWay, plan::SectionEvery};
 
 /// A lightly damped, lightly loaded pair.
 pub fn pair(model: &str, (helix_angle_deg, slices): (f64, i64)) -> SceneBuilder {

@@ -2,10 +2,10 @@
 
 use analysis::{
     AnalysisError,
-    lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, SectionEvery, SweepOptions},
+    lumped::{KeySweep, LumpedAnalysis, LumpedQuantity, SweepOptions},
     motion::MotionAnalysis,
 };
-use scene::{Scene, SceneBuilder, SweepWay};
+use scene::{Scene, SceneBuilder, SweepWay, plan::SectionEvery};
 
 /// A small pair at a speed at which it vibrates, until it repeats itself.
 pub fn small(model: &str) -> SceneBuilder {

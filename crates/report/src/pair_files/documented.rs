@@ -1,10 +1,11 @@
 //! Tables beside the histories without rows: the columns that `docs/outputs.md` lists.
 
 use analysis::{
-    lumped::{LumpedQuantity, SectionEvery, SweepOptions},
+    lumped::{LumpedQuantity, SweepOptions},
     motion::{MotionSpectrum, OrderCut, Passage},
 };
 use answer::Table;
+use scene::plan::SectionEvery;
 
 use super::{key_rows, rows};
 

@@ -47,7 +47,7 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
     let in_seconds = in_time.as_ref().is_some_and(|m| m.run == Run::Ramp || m.duration_s.is_some());
     let cycles = if in_seconds { 0 } else { analysis.cycles };
     let scene = Scene {
-        name: raw.name.as_ref().map(|name| name.get_ref().clone()).unwrap_or_else(|| default_name(source)),
+        name: source.title(&raw.name),
         file: source.file.to_owned(),
         written: source.written(),
         set: source.settings.iter().map(Setting::word).collect(),
@@ -86,8 +86,4 @@ fn all_given(source: &Source<'_>, raw: &RawScene) -> Checked<()> {
     ];
     let keys: Vec<String> = needed.into_iter().filter(|(_, gone)| *gone).map(|(key, _)| key.to_owned()).collect();
     if keys.is_empty() { Ok(()) } else { Err(SceneError::Missing { file: source.file.to_owned(), keys }) }
-}
-
-fn default_name(source: &Source<'_>) -> String {
-    source.file.file_stem().map_or_else(|| "scene".into(), |s| s.to_string_lossy().into_owned())
 }

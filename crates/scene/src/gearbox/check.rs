@@ -61,9 +61,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
-    let name = raw.name.map(Spanned::into_inner).unwrap_or_else(|| {
-        s.file.file_stem().map_or_else(|| "gearbox".into(), |stem| stem.to_string_lossy().into_owned())
-    });
+    let name = s.title(&raw.name);
     let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
         name,
@@ -126,7 +124,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
         return Err(s.conflict(&table.span(), said, "gears in mesh are on two shafts"));
     }
     let Some(word) = &raw.scene else {
-        return Err(missing(s, table, "[[mesh]]", "scene", "the path of the scene of this pair"));
+        return Err(missing(s, table, "[[mesh]]", "scene", "the path of the scene of this pair, or its tables"));
     };
     if let Some(own) = raw.set.iter().flatten().nth(SETTINGS) {
         let said = format!("a mesh sets more than {SETTINGS} keys");
@@ -134,7 +132,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     }
     let mut settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
     settings.extend(more);
-    let document = s.named(word, "gearbox file")?;
+    let document = s.document(word, "gearbox file")?;
     let scene = document.scene(&settings)?;
     let unfit = |what: &str, advice: &str| {
         Err(s.conflict(&word.span(), format!("{} {what}", document.file().display()), advice))

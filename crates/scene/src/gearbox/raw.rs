@@ -145,7 +145,7 @@ table! {
     /// `[[mesh]]`
     MESH, RawMesh: "two gears in mesh; torque, driver and rotation of the scene are those of a run by itself, its misalignment is added to what shafts and bearings make", needed ["scene", "pinion", "wheel"]; {
         name: text(), "name for tables; default: those of its gears";
-        scene: text(), "path of the scene of the pair";
+        scene: document(SCENE), "path of the scene of the pair, or its tables, as `[mesh.scene.pinion]` and so on";
         set: texts(), "keys of that scene that are otherwise here, as after --set";
         pinion: text(), "name of the gear that is the scene's pinion; either may drive";
         wheel: text(), "name of the gear that is the scene's wheel";

@@ -6,9 +6,9 @@ use super::{
     Gearbox,
     check::check,
     pair_setting::{PairSetting, is_of_pair},
-    raw::{GEARBOX, RawGearbox, tables},
+    raw::{RawGearbox, tables},
 };
-use crate::{Document, DocumentKind, SceneError, Setting, Source, schema::schema_of};
+use crate::{Document, DocumentKind, SceneError, Setting, Source};
 
 impl Gearbox {
     /// All keys of a gearbox file behind the names of their tables: `shaft.section.length_mm`.
@@ -18,11 +18,6 @@ impl Gearbox {
             keys.into_iter().map(move |key| if table.is_empty() { key.to_owned() } else { format!("{table}.{key}") })
         };
         tables().into_iter().flat_map(of).collect()
-    }
-
-    /// The gearbox file as JSON Schema, draft 2020-12.
-    pub fn json_schema() -> serde_json::Value {
-        schema_of(&GEARBOX, "gearbox file")
     }
 
     /// Reads and checks a gearbox file and the scenes of its meshes.

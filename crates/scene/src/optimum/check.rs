@@ -1,7 +1,5 @@
 //! From the words of an optimisation file to what they mean.
 
-use std::path::Path;
-
 use cases::{Axis, Cases, Sampling};
 use design::{Goal, Measure, Over};
 use toml::Spanned;
@@ -56,7 +54,7 @@ pub(super) fn check(
     };
     let max_pressure_mpa = limit("max_pressure_mpa", &asked.max_pressure_mpa)?;
     let max_edge_pressure_mpa = limit("max_edge_pressure_mpa", &asked.max_edge_pressure_mpa)?;
-    let name = raw.name.as_ref().map_or_else(|| stem(s.file), |name| name.get_ref().clone());
+    let name = s.title(&raw.name);
     finish(Optimisation {
         name,
         file: s.file.to_owned(),
@@ -75,10 +73,6 @@ pub(super) fn check(
         sampling,
         samples,
     })
-}
-
-pub(super) fn stem(file: &Path) -> String {
-    file.file_stem().map_or_else(|| "optimum".into(), |stem| stem.to_string_lossy().into_owned())
 }
 
 /// What the whole of an optimisation must be: keys are there once, and its start is a scene at rest.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::{
     DesignParameter,
-    check::{parameters, settings, stem, words as listed},
+    check::{parameters, settings, words as listed},
     raw::{EVALUATIONS, RawOptimisation},
     words::{OptimisationWords, parameter},
 };
@@ -81,7 +81,7 @@ impl NumberOptimisation {
         let goal = |word: &String| PlanOutput::parse(word).map_err(|what| wrong(format!("--goal {word}"), &what));
         let goals = words.goals.iter().map(goal).collect::<Result<Vec<_>, _>>()?;
         let evaluations = words.evaluations.clamp(1, EVALUATIONS[1]);
-        let (name, file) = (stem(document.file()), document.file().to_owned());
+        let (name, file) = (document.stem(), document.file().to_owned());
         Self { name, file, document, settings: settings.to_vec(), parameters, goals, limits, evaluations }.finish()
     }
 
@@ -203,8 +203,7 @@ pub(super) fn numbers(
     let limits = listed(&asked.limit).iter().map(|w| limit(w.get_ref()).map_err(|what| word(w, what)));
     let limits = limits.collect::<Result<Vec<_>, _>>()?;
     let evaluations = s.whole("evaluations", &asked.evaluations, EVALUATIONS[0], 1, EVALUATIONS[1])?;
-    let (name, file) =
-        (raw.name.as_ref().map_or_else(|| stem(s.file), |name| name.get_ref().clone()), s.file.to_owned());
+    let (name, file) = (s.title(&raw.name), s.file.to_owned());
     NumberOptimisation { name, file, document, settings, parameters, goals, limits, evaluations }.finish()
 }
 

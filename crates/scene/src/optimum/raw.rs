@@ -37,10 +37,10 @@ table! {
 
 table! {
     /// A file of its own, or the table of a document that it stands in.
-    OPTIMISATION, RawOptimisation: "an optimisation: some keys of one document are searched", needed ["scene"]; {
+    OPTIMISATION, RawOptimisation: "An optimisation of ale-gear: a pair or a gearbox whose best values are searched", needed ["scene", "optimise"]; {
         name: text(), "title; default: the file's name";
-        scene: text(), "path of the scene or the gearbox file, relative to this file";
-        set: texts(), "keys that all designs have otherwise, as after `--set`";
+        scene: text(), "path of the document that is optimised; left out where [optimise] stands in it";
+        set: texts(), "keys of it that are otherwise, as after --set";
         optimise: always(OPTIMISE: RawOptimise);
     }
 }

@@ -7,7 +7,7 @@ use design::{Goal, Measure, Over};
 
 use super::{
     NumberOptimisation, Optimisation, TorqueWeight,
-    check::{check, default_parameters, finish, measure, stem, words as listed},
+    check::{check, default_parameters, finish, measure, words as listed},
     numbers::numbers,
     raw::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, tables},
     words::{OptimisationWords, parameter},
@@ -103,7 +103,7 @@ impl Optimisation {
         let sampling = Sampling { design: DESIGNS[0].1, samples: 1, seed: u64::from(SEED) };
         let samples = Cases::new(Vec::new(), &sampling).map_err(|e| wrong("samples".into(), e.to_string()))?;
         finish(Self {
-            name: stem(document.file()),
+            name: document.stem(),
             file: document.file().to_owned(),
             document,
             drawn: own,

@@ -5,7 +5,8 @@ use toml::Spanned;
 
 use super::{
     AxisValues, AxisWord, PitchTolerance, Plan, PlanAxis, PlanOutput, classed,
-    raw::{RawPlan, SAMPLES, SEED},
+    raw::{RawPlan, RawVary, SAMPLES, SEED},
+    start::Start,
     tolerance::is_pitch,
 };
 use crate::{Document, SceneError, Setting, Source};
@@ -21,6 +22,13 @@ pub(super) const CLASSED: &str =
 pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, &[Setting])) -> Checked<Plan> {
     let nothing = |what: &str, advice: &str| s.conflict(&(0..0), what, advice);
     let raw_vary = &raw.vary;
+    let start: Start = s.choice_of("start", &raw_vary.start)?;
+    fits(s, start, raw)?;
+    if start != Start::Each {
+        let span = raw_vary.start.as_ref().map_or(0..0, Spanned::span);
+        let what = format!("values of this plan do not each start alone: `start = \"{}\"`", start.word());
+        return Err(s.conflict(&span, what, "`ale-gear run` takes it as a whole"));
+    }
     let [keys, wanted] = [&raw_vary.keys, &raw_vary.output].map(|all| all.as_deref().unwrap_or_default());
     if keys.is_empty() {
         let advice = "say keys and values: `keys = [\"operation.torque_nm=50,100,200\"]` in [vary]";
@@ -48,8 +56,7 @@ pub(super) fn check(s: &Source<'_>, raw: &RawPlan, (document, more): (Document, 
         PlanOutput::parse(word.get_ref()).map_err(|what| s.conflict(&word.span(), what, OUTPUTS))
     };
     let outputs = wanted.iter().map(output).collect::<Checked<Vec<_>>>()?;
-    let stem = || s.file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
-    let name = raw.name.as_ref().map_or_else(stem, |name| name.get_ref().clone());
+    let name = s.title(&raw.name);
     let file = s.file.to_owned();
     finish(Plan { name, file, document, settings, axes, sampling, cases, outputs })
 }
@@ -158,4 +165,32 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
         Err(SceneError::Setting { what, .. }) => Err(SceneError::Setting { label: format!("{place}: set"), what }),
         other => other,
     }
+}
+
+/// That every key of `[vary]` goes with how values start.
+pub(super) fn fits(s: &Source<'_>, start: Start, raw: &RawPlan) -> Result<(), SceneError> {
+    const EACH: &[Start] = &[Start::Each];
+    const CARRY: &[Start] = &[Start::Carry];
+    let RawVary { output, design, samples, seed, of, ways, once, cycles, settle, lyapunov, .. } = &raw.vary;
+    let of_list = |list: &Option<Vec<Spanned<String>>>| list.as_ref().map(|l| l.first().map_or(0..0, Spanned::span));
+    let given = [
+        ("output", of_list(output), EACH),
+        ("design", design.as_ref().map(Spanned::span), EACH),
+        ("samples", samples.as_ref().map(Spanned::span), EACH),
+        ("seed", seed.as_ref().map(Spanned::span), EACH),
+        ("of", of.as_ref().map(Spanned::span), CARRY),
+        ("ways", of_list(ways), CARRY),
+        ("once", once.as_ref().map(Spanned::span), CARRY),
+        ("cycles", cycles.as_ref().map(Spanned::span), CARRY),
+        ("settle", settle.as_ref().map(Spanned::span), CARRY),
+        ("lyapunov", lyapunov.as_ref().map(Spanned::span), CARRY),
+    ];
+    for (key, span, with) in given {
+        if let Some(span) = span.filter(|_| !with.contains(&start)) {
+            let what = format!("`{key}` does not go with `start = \"{}\"`", start.word());
+            let takes = with.first().map_or("", |own| own.word());
+            return Err(s.conflict(&span, what, format!("leave it out, or write `start = \"{takes}\"`")));
+        }
+    }
+    Ok(())
 }

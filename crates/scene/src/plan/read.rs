@@ -51,20 +51,9 @@ impl Plan {
     /// # Errors
     /// As [`Plan::read`].
     pub fn of(document: &Document, settings: &[Setting]) -> Result<Self, SceneError> {
-        document.one_task()?;
-        // A plan names what it varies, or stands in it as one of its tables.
-        let own = if document.has("scene") { document.clone() } else { document.only(&["name", "vary"]) };
-        let source = Source::of(&own, tables);
-        let raw: RawPlan = source.words(DocumentKind::Plan)?;
-        let base = match &raw.scene {
-            Some(scene) => source.named(scene, "plan file")?,
-            None if document.base_kind().is_some() => document.clone(),
-            None => {
-                let advice = "give the path of a scene or a gearbox file, or write [vary] into one";
-                return Err(source.conflict(&(0..0), "a plan without `scene`", advice));
-            }
-        };
-        check(&source, &raw, (base, settings))
+        let own = words_of(document)?;
+        let (source, raw) = (own.source(), own.raw()?);
+        check(&source, &raw, (base_of(&source, &raw, document)?, settings))
     }
 
     /// The plan of a scene that a command line says.
@@ -109,8 +98,41 @@ impl Plan {
         let mut outputs = words.outputs.iter().map(output).collect::<Result<Vec<_>, _>>()?;
         outputs.extend(words.columns.iter().cloned());
         let file = document.file().to_owned();
-        let name = file.file_stem().map_or_else(|| "plan".into(), |stem| stem.to_string_lossy().into_owned());
+        let name = document.stem();
         let settings = settings.to_vec();
         finish(Self { name, file, document, settings, axes, sampling, cases, outputs })
+    }
+}
+
+/// What a document says of a plan.
+pub(super) struct PlanTables(Document);
+
+/// The words of a plan in a document: of a file of its own, or of the table that stands in what it varies.
+pub(super) fn words_of(document: &Document) -> Result<PlanTables, SceneError> {
+    document.one_task()?;
+    // A plan names what it varies, or stands in it as one of its tables.
+    let own = if document.has("scene") { document.clone() } else { document.only(&["name", "vary"]) };
+    Ok(PlanTables(own))
+}
+
+impl PlanTables {
+    pub fn source(&self) -> Source<'_> {
+        Source::of(&self.0, tables)
+    }
+
+    pub fn raw(&self) -> Result<RawPlan, SceneError> {
+        self.source().words(DocumentKind::Plan)
+    }
+}
+
+/// What a plan varies: the document that it names, or the one that it stands in.
+pub(super) fn base_of(s: &Source<'_>, raw: &RawPlan, document: &Document) -> Result<Document, SceneError> {
+    match &raw.scene {
+        Some(scene) => s.named(scene, "plan file"),
+        None if document.base_kind().is_some() => Ok(document.clone()),
+        None => {
+            let advice = "give the path of a scene or a gearbox file, or write [vary] into one";
+            Err(s.conflict(&(0..0), "a plan without `scene`", advice))
+        }
     }
 }

@@ -3,30 +3,62 @@
 use serde_json::{Map, Value, json};
 
 use super::SCENE;
-use crate::optimum::OPTIMISE;
-use crate::plan::VARY;
+use crate::gearbox::GEARBOX;
+use crate::optimum::{OPTIMISATION, OPTIMISE};
+use crate::plan::{PLAN, VARY};
+use crate::study::STUDY;
 use crate::table::{Key, Table, ValueKind};
 
-/// The schema of the scene file.
+/// Documents by what stands at their top: a name, the keys of which one at least is there, and the table of all of it. The
+/// last one is what none of them is.
+const DOCUMENTS: [(&str, &[&str], &Table); 5] = [
+    ("gearbox", &["shaft", "gear", "bearing", "input"], &GEARBOX),
+    ("study", &["case"], &STUDY),
+    ("plan", &["vary"], &PLAN),
+    ("optimisation", &["optimise"], &OPTIMISATION),
+    ("pair", &[], &SCENE),
+];
+
+/// The schema of every document: a pair, a gearbox (what is varied or optimised of them may stand in them), or a plan, an
+/// optimisation, a study of other documents. Each of them stands in `$defs` by its name.
 ///
 /// ```
 /// let schema = scene::json_schema();
-/// assert_eq!(schema["properties"]["operation"]["properties"]["torque_nm"]["minimum"], 0.0);
+/// let pair = &schema["$defs"]["pair"];
+/// assert_eq!(pair["properties"]["operation"]["properties"]["torque_nm"]["minimum"], 0.0);
 /// ```
 pub fn json_schema() -> Value {
-    schema_of(&SCENE, "scene")
-}
-
-/// The schema of a kind of file by the table of all of it.
-pub(crate) fn schema_of(file: &Table, kind: &str) -> Value {
-    let mut schema = object(file);
-    // What is asked of it beside a run.
-    for (name, task) in [("vary", &VARY), ("optimise", &OPTIMISE)] {
-        schema["properties"][name] = object(task);
+    let of = |(name, _, table): &(&str, &[&str], &Table)| ((*name).to_owned(), object(table));
+    let mut all: Map<String, Value> = DOCUMENTS.iter().map(of).collect();
+    for machine in ["pair", "gearbox"] {
+        for (name, task) in [("vary", &VARY), ("optimise", &OPTIMISE)] {
+            all[machine]["properties"][name] = object(task);
+        }
     }
-    if let Value::Object(map) = &mut schema {
-        map.insert("$schema".into(), "https://json-schema.org/draft/2020-12/schema".into());
-        map.insert("title".into(), format!("ale-gear {kind}, version {}", env!("CARGO_PKG_VERSION")).into());
+    // A pair with [vary] in it is no plan of another document.
+    let own = |name: &str| json!({ "required": [name] });
+    let chosen = DOCUMENTS.iter().rev().fold(Value::Null, |rest, (name, keys, _)| {
+        let document = json!({ "$ref": format!("#/$defs/{name}") });
+        match (keys, *name) {
+            ([], _) => document,
+            ([key], "plan" | "optimisation") => {
+                json!({ "if": { "required": [key, "scene"] }, "then": document, "else": rest })
+            }
+            _ => {
+                let any: Vec<Value> = keys.iter().map(|key| own(key)).collect();
+                json!({ "if": { "anyOf": any }, "then": document, "else": rest })
+            }
+        }
+    });
+    let mut schema = json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": format!("ale-gear document, version {}", env!("CARGO_PKG_VERSION")),
+        "description": "What ale-gear runs: a pair of gears, a gearbox, a plan, an optimisation, a study",
+        "type": "object",
+        "$defs": all,
+    });
+    if let (Value::Object(schema), Value::Object(chosen)) = (&mut schema, chosen) {
+        schema.extend(chosen);
     }
     schema
 }
@@ -77,6 +109,7 @@ fn property(key: &Key) -> Value {
                 json!({ "type": "array", "items": { "type": "number" }, "minItems": columns, "maxItems": columns });
             json!({ "type": "array", "items": row, "minItems": 1 })
         }
+        ValueKind::Document(of) => json!({ "anyOf": [{ "type": "string" }, object(of)] }),
         ValueKind::Table(table) => object(table),
         ValueKind::Tables(table) => json!({ "type": "array", "items": object(table) }),
     };

@@ -30,7 +30,6 @@ pub(crate) use flank::{RawFlank, RawModification};
 pub use gear::Coupling;
 pub(crate) use gear::*;
 pub use json::json_schema;
-pub(crate) use json::schema_of;
 pub(crate) use ladder::*;
 pub use ladder::{ImpactScene, Law, Lumped12Scene, ShaftCoordinate, Sharing, StiffnessFrom, SupportScene};
 pub(crate) use motion::*;
@@ -74,6 +73,7 @@ mod tests {
     use super::*;
     use crate::Scene;
     use crate::keys::advice;
+    use crate::spanned::NAMED;
     use crate::table::Table;
 
     /// A scene of which every table has what it needs, with `line` in `table`.
@@ -139,6 +139,7 @@ mod tests {
                     | ValueKind::Wholes
                     | ValueKind::Rows { .. }
                     | ValueKind::Tables(_) => ("1", "must be a list"),
+                    ValueKind::Document(_) => ("1", NAMED),
                     ValueKind::Table(_) => ("1", "must be a table"),
                 };
                 // Tables that every scene has stand there already.

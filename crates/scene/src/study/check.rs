@@ -46,8 +46,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns
     let over_time = over_time.collect::<Checked<_>>()?;
     let follow = raw.follow.iter().map(|t| follow(s, t, known)).collect::<Checked<_>>()?;
     let full = raw.full.as_ref().map(|t| full(s, t, &cases)).transpose()?.flatten();
-    let stem = || s.file.file_stem().map_or_else(|| "study".into(), |stem| stem.to_string_lossy().into_owned());
-    let name = raw.name.map_or_else(stem, Spanned::into_inner);
+    let name = s.title(&raw.name);
     let parameter = raw.parameter.map_or_else(|| "value".into(), Spanned::into_inner);
     Ok(Study { name, file: s.file.to_owned(), parameter, cases, quantities, over_time, follow, full })
 }
@@ -79,7 +78,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
         return Err(s.conflict(&word.span(), what, format!("set {SETTINGS} at the most")));
     }
     let own = set.iter().map(|word| setting(s, word)).collect::<Checked<Vec<_>>>()?;
-    let document = s.named(word, "study file")?;
+    let document = s.document(word, "study file")?;
     let (scene, refused) = match document.scene(&[settings, &own].concat()) {
         Ok(scene) => (scene, None),
         // A value may be wrong in one case alone; a scene that is wrong without it is wrong in all.

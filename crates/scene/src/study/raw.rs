@@ -21,7 +21,7 @@ table! {
 table! {
     /// `[[case]]`
     CASE, RawCase: "a scene of the study", needed ["scene", "value"]; {
-        scene: text(), "path of the scene, relative to this file";
+        scene: document(SCENE), "path of the scene, relative to this file; or its tables, as `[case.scene.pinion]` and so on";
         set: texts(), "keys of the scene that this case has otherwise, as after `--set`; so one scene serves many cases";
         label: text(), "name in tables and legends, no two alike; default: the scene's name";
         value: must(-1e300, 1e300), "the case's place on the axis of the parameter";

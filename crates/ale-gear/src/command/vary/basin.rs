@@ -20,7 +20,8 @@ impl VaryArgs {
         let mut words = vec!["analysis.kind=dynamic".to_owned(), "motion.run=basins".to_owned()];
         let mut varied = Vec::new();
         for word in &self.vary {
-            let refuse = |what: &str| CommandError::input(format_args!("--vary {word}: {what}"), Some(example.into()));
+            let refuse =
+                |what: &str| CommandError::input(format_args!("{}: {what}", self.said(word)), Some(example.into()));
             let axis = AxisWord::parse(word).map_err(|e| refuse(&e))?;
             let plane = PLANE.iter().find(|(name, _)| axis.keys[..] == [*name]);
             let (_, keys) = plane.ok_or_else(|| refuse("starts differ in `start_um` and `start_mm_s`"))?;

@@ -17,9 +17,10 @@ impl VaryArgs {
             let what = format_args!("{} `--vary`: a branch is followed along one", self.vary.len());
             return Err(CommandError::input(what, Some(example.into())));
         };
-        let axis = AxisWord::parse(word).map_err(|e| CommandError::input(format_args!("--vary {word}: {e}"), None))?;
+        let axis =
+            AxisWord::parse(word).map_err(|e| CommandError::input(format_args!("{}: {e}", self.said(word)), None))?;
         let (AxisValues::Between([from, to]), [key]) = (&axis.values, &axis.keys[..]) else {
-            let what = format_args!("--vary {word}: a branch is followed along one key between two values");
+            let what = format_args!("{}: a branch is followed along one key between two values", self.said(word));
             return Err(CommandError::input(what, Some(example.into())));
         };
         let words = [

@@ -1,7 +1,8 @@
 //! Motions that carry on from the state of the last value, up and down: bifurcation diagrams and resonance curves.
 
-use analysis::lumped::{SectionEvery, SweepOptions, is_lumped};
-use scene::plan::AxisWord;
+use analysis::lumped::{SweepOptions, is_lumped};
+use clap::ValueEnum;
+use scene::plan::{AxisWord, SectionEvery};
 use store::check_sweep_memory;
 
 use super::{super::Answer, VaryArgs};
@@ -95,6 +96,17 @@ const STRETCHES: u32 = 200;
 const MOST: u32 = 100_000;
 
 impl SectionArgs {
+    /// The words of a plan: ways, how often, and points, mesh cycles before them, mesh cycles of the exponent.
+    pub(super) fn of_plan(
+        ways: &[SweepWay],
+        every: Option<SectionEvery>,
+        [cycles, settle, lyapunov]: [Option<u32>; 3],
+    ) -> Self {
+        let ways = ways.iter().filter_map(|way| Way::from_str(way.word(), false).ok()).collect();
+        let once = every.and_then(|every| Once::from_str(every.word(), false).ok());
+        Self { ways, once, cycles, settle, lyapunov }
+    }
+
     /// Words, and whether they were given.
     pub(super) fn given(&self) -> [(&'static str, bool); 5] {
         [
@@ -141,19 +153,20 @@ impl VaryArgs {
         let [word] = &self.vary[..] else {
             return refuse(format!("{} `--vary`: motions carry on along one", self.vary.len()), example);
         };
-        let axis = AxisWord::parse(word).map_err(|e| CommandError::input(format_args!("--vary {word}: {e}"), None))?;
+        let axis =
+            AxisWord::parse(word).map_err(|e| CommandError::input(format_args!("{}: {e}", self.said(word)), None))?;
         let Some(values) = axis.list() else {
             return refuse(
-                format!("--vary {word}: motions carry on from value to value, which it does not say"),
+                format!("{}: motions carry on from value to value, which it does not say", self.said(word)),
                 example,
             );
         };
         if !(2..=MOST as usize).contains(&values.len()) {
-            let what = format!("--vary {word}: {} values, allowed is 2 .. {MOST}", values.len());
+            let what = format!("{}: {} values, allowed is 2 .. {MOST}", self.said(word), values.len());
             return refuse(what, "a diagram has a few hundred");
         }
         if let Some(pair) = values.windows(2).find(|pair| !(pair[0] < pair[1] && pair[1].is_finite())) {
-            let what = format!("--vary {word}: {} is not below {}", pair[0], pair[1]);
+            let what = format!("{}: {} is not below {}", self.said(word), pair[0], pair[1]);
             return refuse(what, "write values in ascending order; `--ways` says which way they are gone through");
         }
         Ok((axis.keys.clone(), values.to_vec()))

@@ -21,7 +21,10 @@ pub(super) use part::MergeArgs;
 
 use std::path::PathBuf;
 
-use scene::DocumentKind;
+use scene::{
+    Document, DocumentKind,
+    plan::{self, StartedPlan},
+};
 
 use super::{Answer, FileWords, cache_args::CacheArgs, case_reports::CaseReports, kind_of_file, overrides::Overrides};
 use crate::error::CommandError;
@@ -39,6 +42,9 @@ pub(super) struct VaryArgs {
     /// value: `KEY+KEY=1,2,5`; may be given again
     #[arg(long, value_name = "WORDS", allow_hyphen_values = true)]
     vary: Vec<String>,
+    /// The plan that says what is varied, where no words do
+    #[arg(skip)]
+    plan_file: Option<PathBuf>,
     /// How the next value starts
     #[arg(long, value_enum, default_value_t = Start::Each)]
     start: Start,
@@ -106,6 +112,7 @@ impl VaryArgs {
             file,
             out: Some(out),
             vary: Vec::new(),
+            plan_file: None,
             start: Start::Each,
             output: Vec::new(),
             of: None,
@@ -150,24 +157,75 @@ impl VaryArgs {
         Err(CommandError::input(message, Some("leave it out; `ale-gear vary --help` tells what goes with what".into())))
     }
 
+    /// Words that say no plan: all others take the place of the one in the file.
+    const BESIDE: [&str; 3] = ["--json", "--reports", "--report-case"];
+
     /// Does what the file and the words ask for.
     pub(super) fn execute(self, quiet: bool) -> Result<Answer, CommandError> {
         let kind = kind_of_file(&self.file);
-        if kind == Some(DocumentKind::Gearbox) && (self.start != Start::Each || self.harris) {
+        let by_words = self.given().iter().any(|(word, given)| *given && !Self::BESIDE.contains(word));
+        if kind == Some(DocumentKind::Plan) && !by_words {
+            let document = Document::read(&self.file)?;
+            if let Some(plan) = StartedPlan::of(&document, &[])? {
+                return self.of_plan(plan).started(quiet);
+            }
+        }
+        match (kind, self.start) {
+            (Some(DocumentKind::Study), _) => self.study(quiet),
+            (_, Start::Each) if self.part.any() => self.part(quiet),
+            _ => self.started(quiet),
+        }
+    }
+
+    /// The same by the words of a plan whose values do not each start alone.
+    fn of_plan(self, plan: StartedPlan) -> Self {
+        let plan_file = Some(self.file);
+        Self {
+            file: plan.document.file().to_owned(),
+            plan_file,
+            vary: plan.keys,
+            start: match plan.start {
+                plan::Start::Each => Start::Each,
+                plan::Start::Carry => Start::Carry,
+                plan::Start::Branch => Start::Branch,
+                plan::Start::Basin => Start::Basin,
+            },
+            of: plan.of,
+            sections: carry::SectionArgs::of_plan(&plan.ways, plan.every, [plan.cycles, plan.settle, plan.lyapunov]),
+            overrides: self.overrides.behind_plan(plan.settings),
+            ..self
+        }
+    }
+
+    /// A word for what is varied, as messages name it.
+    fn said(&self, word: &str) -> String {
+        match &self.plan_file {
+            Some(file) => format!("{}: `{word}` in [vary]", file.display()),
+            None => format!("--vary {word}"),
+        }
+    }
+
+    /// Runs values by how each of them starts.
+    fn started(self, quiet: bool) -> Result<Answer, CommandError> {
+        let of_pairs = self.start != Start::Each || self.harris;
+        if of_pairs && self.base_kind() == Some(DocumentKind::Gearbox) {
             let word = if self.harris { "--harris" } else { "--start" };
             let message =
                 format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", self.file.display());
             let hint = "leave it out, and say `--vary KEY=FROM:TO:COUNT --output face_load_factor.0`".to_owned();
             return Err(CommandError::input(message, Some(hint)));
         }
-        match (kind, self.start) {
-            (Some(DocumentKind::Study), _) => self.study(quiet),
-            (_, Start::Each) if self.part.any() => self.part(quiet),
-            (_, Start::Each) => self.each(quiet),
-            (_, Start::Carry) => self.carry(quiet),
-            (_, Start::Branch) => self.branch(quiet),
-            (_, Start::Basin) => self.basin(quiet),
+        match self.start {
+            Start::Each => self.each(quiet),
+            Start::Carry => self.carry(quiet),
+            Start::Branch => self.branch(quiet),
+            Start::Basin => self.basin(quiet),
         }
+    }
+
+    /// Kind of what the file describes; `None` of a pipe, and where it describes nothing.
+    fn base_kind(&self) -> Option<DocumentKind> {
+        if self.file.is_file() { Document::read(&self.file).ok()?.base_kind() } else { None }
     }
 
     /// The folder of the results.

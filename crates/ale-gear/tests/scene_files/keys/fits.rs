@@ -7,17 +7,37 @@ const NOTES: [&str; 4] = ["$schema", "title", "description", "default"];
 
 /// Whether a value fits a schema, and where it does not.
 pub fn fits(schema: &Value, value: &Value) -> Result<(), String> {
-    at("", schema, value)
+    at(&schema["$defs"], "", schema, value)
 }
 
-fn at(path: &str, schema: &Value, value: &Value) -> Result<(), String> {
+/// `defs`: schemas that others refer to.
+fn at(defs: &Value, path: &str, schema: &Value, value: &Value) -> Result<(), String> {
     let rules = schema.as_object().ok_or("a schema is an object")?;
     for (rule, wanted) in rules {
         let broken = || Err(format!("{path}: {value} breaks {rule} {wanted}"));
         let fine = match rule.as_str() {
             note if NOTES.contains(&note) => true,
             "properties" | "additionalProperties" | "items" => {
-                inner(path, rule, wanted, rules, value)?;
+                inner(defs, path, rule, wanted, rules, value)?;
+                true
+            }
+            "$defs" | "then" | "else" => true,
+            "$ref" => {
+                let name = wanted.as_str().and_then(|name| name.strip_prefix("#/$defs/"));
+                at(defs, path, &defs[name.ok_or("a reference goes to $defs")?], value)?;
+                true
+            }
+            "if" => {
+                let held = at(defs, path, wanted, value).is_ok();
+                let rest = schema.get(if held { "then" } else { "else" });
+                rest.map_or(Ok(()), |rest| at(defs, path, rest, value))?;
+                true
+            }
+            "anyOf" => {
+                let all: Vec<_> = wanted.as_array().into_iter().flatten().map(|s| at(defs, path, s, value)).collect();
+                if all.iter().all(Result::is_err) {
+                    return all.into_iter().next_back().unwrap_or(Ok(()));
+                }
                 true
             }
             "type" => is_of(value, wanted.as_str().unwrap_or_default()),
@@ -40,6 +60,7 @@ fn at(path: &str, schema: &Value, value: &Value) -> Result<(), String> {
 }
 
 fn inner(
+    defs: &Value,
     path: &str,
     rule: &str,
     wanted: &Value,
@@ -50,7 +71,7 @@ fn inner(
         ("properties", Value::Object(map)) => map
             .iter()
             .filter(|(k, _)| !wanted[k.as_str()].is_null())
-            .try_for_each(|(k, v)| at(&format!("{path}.{k}"), &wanted[k.as_str()], v)),
+            .try_for_each(|(k, v)| at(defs, &format!("{path}.{k}"), &wanted[k.as_str()], v)),
         ("additionalProperties", Value::Object(map)) if *wanted == false => {
             match map.keys().find(|k| rules["properties"][k.as_str()].is_null()) {
                 Some(unknown) => Err(format!("{path}: `{unknown}` is no property")),
@@ -58,7 +79,7 @@ fn inner(
             }
         }
         ("items", Value::Array(list)) => {
-            list.iter().enumerate().try_for_each(|(i, v)| at(&format!("{path}[{i}]"), wanted, v))
+            list.iter().enumerate().try_for_each(|(i, v)| at(defs, &format!("{path}[{i}]"), wanted, v))
         }
         _ => Ok(()),
     }

@@ -5,65 +5,60 @@ mod fits;
 mod rows;
 
 use crate::util::{repository, scenes};
-use ale_gear::scene::{gearbox::Gearbox, json_schema};
+use ale_gear::scene::{Document, DocumentKind, gearbox::Gearbox, json_schema};
 use fits::fits;
 
 fn as_json(toml: &str) -> serde_json::Value {
     toml::from_str(toml).unwrap_or_else(|e| panic!("{e}\n{toml}"))
 }
 
-/// Every scene that is shipped fits the schema, and so does what `init` writes.
+/// Every document that is shipped fits the one schema, which is what the command prints: pairs, gearboxes, plans,
+/// optimisations, studies, and what `init` writes. What it is told for by its keys alone fits none of the others.
 #[test]
-fn shipped_scenes_fit_the_schema() {
+fn shipped_documents_fit_the_schema() {
+    let printed = crate::util::Scratch::new().ale_gear(["print", "schema"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
     let schema = json_schema();
-    let mut seen = 0;
+    assert_eq!(serde_json::from_str::<serde_json::Value>(&printed.stdout).unwrap(), schema);
+    let mut seen = std::collections::BTreeMap::<&str, usize>::new();
     for path in scenes() {
         let text = std::fs::read_to_string(&path).unwrap();
-        // Studies and plans stand beside scenes; a scene is what has a pinion.
-        if !text.contains("[pinion]") {
-            continue;
+        let kind = Document::new(text.clone(), &path).kind().unwrap_or_else(|| panic!("{}", path.display()));
+        let name = match kind {
+            DocumentKind::Scene => "pair",
+            DocumentKind::Gearbox => "gearbox",
+            DocumentKind::Plan => "plan",
+            DocumentKind::Study => "study",
+            DocumentKind::Optimisation => "optimisation",
+        };
+        let value = as_json(&text);
+        fits(&schema, &value).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        let others = ["pair", "gearbox", "study"].into_iter().filter(|other| *other != name);
+        for other in
+            others.filter(|_| matches!(kind, DocumentKind::Scene | DocumentKind::Gearbox | DocumentKind::Study))
+        {
+            let of_other = fits(&schema["$defs"][other], &value);
+            assert!(of_other.is_err(), "{}, {name}, fits {other}", path.display());
         }
-        fits(&schema, &as_json(&text)).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-        seen += 1;
+        *seen.entry(name).or_default() += 1;
     }
-    assert!(seen >= 10, "{seen} scenes only");
+    assert!(seen["pair"] >= 10 && seen["gearbox"] >= 6 && seen["study"] >= 1, "{seen:?}");
     let starter = scene::Starter::default().text("a.toml");
     fits(&schema, &as_json(&starter)).unwrap();
-}
-
-/// The gearbox files that are shipped: of `scenes/gearbox` those that have meshes.
-fn gearboxes() -> Vec<std::path::PathBuf> {
-    let all = std::fs::read_dir(repository().join("scenes/gearbox")).unwrap().map(|entry| entry.unwrap().path());
-    let is_box = |path: &std::path::PathBuf| {
-        path.extension().is_some_and(|e| e == "toml") && std::fs::read_to_string(path).unwrap().contains("[[mesh]]")
-    };
-    all.filter(is_box).collect()
-}
-
-/// Every gearbox file that is shipped fits its schema, which is what the command prints; a scene does not.
-#[test]
-fn shipped_gearboxes_fit_their_schema() {
-    let scratch = crate::util::Scratch::new();
-    let printed = scratch.ale_gear(["print", "schema", "gearbox"]);
-    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
-    let schema: serde_json::Value = serde_json::from_str(&printed.stdout).unwrap();
-    assert_eq!(schema, Gearbox::json_schema());
-    let all = gearboxes();
-    assert!(all.len() >= 6, "{} gearboxes only", all.len());
-    for path in all {
-        let text = std::fs::read_to_string(&path).unwrap();
-        fits(&schema, &as_json(&text)).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    }
-    fits(&schema, &as_json(crate::util::ISO_SCENE)).unwrap_err();
-    let scene = scratch.ale_gear(["print", "schema"]);
-    assert_eq!(serde_json::from_str::<serde_json::Value>(&scene.stdout).unwrap(), json_schema());
+    let plan = "scene = \"a.toml\"\n[vary]\nkeys = [\"a=1\"]\noutput = [\"b\"]\n";
+    fits(&schema, &as_json(plan)).unwrap();
+    fits(&schema, &as_json(&plan.replace("output", "outputs"))).unwrap_err();
+    fits(&schema, &as_json(&format!("{starter}\n[vary]\nkeys = [\"a=1\"]\nstart = \"branch\"\n"))).unwrap();
+    let goal = "scene = \"a.toml\"\n[optimise]\ngoal = [\"b\"]\n";
+    fits(&schema, &as_json(goal)).unwrap();
+    fits(&schema, &as_json(&goal.replace("scene = \"a.toml\"", ""))).unwrap_err();
 }
 
 /// What the reader refuses of a gearbox file does not fit its schema either: unknown keys of every table, wrong types,
 /// values out of range, words that are none, missing keys.
 #[test]
 fn wrong_gearboxes_do_not_fit_their_schema() {
-    let schema = Gearbox::json_schema();
+    let schema = json_schema();
     let file = repository().join("scenes/gearbox/two_stages.toml");
     let text = std::fs::read_to_string(&file).unwrap();
     for (old, new, said) in [

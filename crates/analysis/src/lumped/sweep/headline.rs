@@ -1,10 +1,10 @@
 //! What is read off the points of a sweep.
 
-use scene::{Scene, SweepWay};
+use scene::{Scene, SweepWay, plan::SectionEvery};
 use serde::Serialize;
 use study::{Bifurcation, Branch};
 
-use super::{SectionEvery, SweepOptions, SweepPoint};
+use super::{SweepOptions, SweepPoint};
 
 /// Answers of both ways are two when their extents differ by this share of the largest peak to peak.
 const APART: f64 = 0.02;

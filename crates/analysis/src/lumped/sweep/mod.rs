@@ -18,7 +18,7 @@ use std::sync::Arc;
 use scene::Scene;
 
 pub use headline::SweepHeadline;
-pub use options::{LumpedQuantity, SectionEvery, SweepOptions};
+pub use options::{LumpedQuantity, SweepOptions};
 pub use point::SweepPoint;
 
 use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};

@@ -2,8 +2,7 @@
 
 use std::{fmt, sync::Arc};
 
-use scene::{MotionScene, Run, Scene, SweepScene, SweepWay};
-use serde::Serialize;
+use scene::{MotionScene, Run, Scene, SweepScene, SweepWay, plan::SectionEvery};
 
 use super::super::LumpedRow;
 use crate::{AnalysisError, inputs::motion_of};
@@ -36,29 +35,6 @@ impl LumpedQuantity {
     /// Its number in a row.
     pub fn of(&self, row: &LumpedRow) -> f64 {
         (self.value)(row)
-    }
-}
-
-/// How often a section has a point.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SectionEvery {
-    /// Once a mesh cycle.
-    MeshCycle,
-    /// Once a turn of the pinion.
-    PinionTurn,
-    /// Once a turn of the wheel.
-    WheelTurn,
-}
-
-impl SectionEvery {
-    /// Mesh cycles from one point of a section to the next.
-    pub fn cycles(self, scene: &Scene) -> u32 {
-        match self {
-            Self::MeshCycle => 1,
-            Self::PinionTurn => scene.pinion.teeth,
-            Self::WheelTurn => scene.wheel.teeth,
-        }
     }
 }
 
