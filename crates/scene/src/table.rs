@@ -64,8 +64,25 @@ pub(crate) struct Key {
     pub name: &'static str,
     /// What may stand behind it.
     pub kind: ValueKind,
-    /// What it says.
+    /// What it says: its meaning in short, `; default: ` and what holds where none is written if that is no value of its
+    /// own, then whole sentences with all else.
     pub about: &'static str,
+}
+
+impl Key {
+    /// The first sentence, for messages.
+    fn brief(&self) -> &'static str {
+        self.about.split_once(". ").map_or(self.about, |(brief, _)| brief)
+    }
+
+    /// Meaning without the default that it tells, and that default.
+    pub fn meaning_and_default(&self) -> (String, Option<&'static str>) {
+        let Some((before, rest)) = self.about.split_once("; default: ") else { return (self.about.to_owned(), None) };
+        match rest.split_once(". ") {
+            Some((default, more)) => (format!("{before}. {more}"), Some(default)),
+            None => (before.to_owned(), Some(rest)),
+        }
+    }
 }
 
 /// What may stand behind a key.
@@ -199,9 +216,9 @@ impl Table {
         self.keys.iter().any(|k| k.name == name && matches!(k.kind, ValueKind::Switch { default: true }))
     }
 
-    /// What a key says; none of one that stands in another table.
+    /// What a key says in short; none of one that stands in another table.
     pub fn about(&self, name: &str) -> Option<&'static str> {
-        self.keys.iter().find(|k| k.name == name).map(|k| k.about)
+        self.keys.iter().find(|k| k.name == name).map(Key::brief)
     }
 
     /// Range and default of a whole number.
@@ -212,9 +229,8 @@ impl Table {
         }
     }
 
-    /// Every table of it with its keys, itself first, as messages look them up; a list of tables has brackets about its
-    /// name.
-    pub fn tables(&'static self) -> Vec<(String, Vec<&'static str>)> {
+    /// The names of its keys, and of those of every table in it, by the table.
+    pub fn names(&'static self) -> Vec<(String, Vec<&'static str>)> {
         let mut all = Vec::new();
         self.walk("", &mut |path, table| all.push((path.to_owned(), table.keys.iter().map(|k| k.name).collect())));
         all

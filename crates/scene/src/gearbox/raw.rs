@@ -24,24 +24,24 @@ table! {
 table! {
     /// `[[shaft]]`
     SHAFT, RawShaft: "a shaft along +z", needed ["name"]; {
-        name: text(), "what bearings, gears and loads call it by";
-        origin_mm: numbers(), "where its z = 0 lies: x, y, z; default: 0, 0, 0";
+        name: text(), "what bearings, gears and loads call it by; no two alike";
+        origin_mm: numbers(), "where its z = 0 lies: x, y, z, up to 1e6; default: 0, 0, 0. Distances of axes are those of the pairs that mesh; a `centre_distance_mm` that a pair states is held against them";
         section: list(SECTION: RawSection);
-        rexs: text(), "path of a REXS file that has its sections and its steel";
+        rexs: text(), "path of a REXS file that has its sections and its steel, in place of `[[shaft.section]]`. XML, components of the versions 1.0 to 1.4; cones become steps, as many as keep their bending to half a per cent; z = 0 is where the first section begins, along the shaft's own u";
         rexs_shaft: text(), "number or name of the shaft in that file; default: the only one";
         young_mpa: bare(1.0, 1e12), "Young's modulus, MPa; default: 206000, or the REXS file's";
         poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
-        density_kg_m3: bare(1.0, 1e5), "density, kg/m^3; default: 7850, or the REXS file's";
-        held: switch(false), "whether it is rigid in rigid bearings";
+        density_kg_m3: bare(1.0, 1e5), "density, kg/m^3, for vibration and motion; default: 7850, or the REXS file's";
+        held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
     }
 }
 
 table! {
     /// `[[shaft.section]]`
-    SECTION, RawSection: "a length of shaft of one section, from z = 0 on", needed ["length_mm", "outer_diameter_mm"]; {
+    SECTION, RawSection: "a length of shaft of one section, from z = 0 on; at least one where there is no `rexs`", needed ["length_mm", "outer_diameter_mm"]; {
         length_mm: must(1e-3, 1e6), "length, mm";
         outer_diameter_mm: must(1e-3, 1e6), "outer diameter, mm";
-        inner_diameter_mm: number(0.0, 1e6, 0.0), "inner diameter, mm; 0: solid";
+        inner_diameter_mm: number(0.0, 1e6, 0.0), "inner diameter, mm, below the outer one; 0: solid";
     }
 }
 
@@ -97,89 +97,89 @@ choices! {
 
 table! {
     /// `[[bearing]]`
-    BEARING, RawBearing: "a bearing between a shaft and the housing", needed ["shaft", "position_mm"]; {
+    BEARING, RawBearing: "a bearing between a shaft and the housing: single values, a matrix, or the `type` of a rolling bearing", needed ["shaft", "position_mm"]; {
         name: text(), "name for tables; default: its place";
         shaft: text(), "name of its shaft";
-        position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0";
-        stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm";
-        tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad; default: 0, 0";
-        matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z)";
-        damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm; default: 0, 0, 0";
-        r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness";
-        bore_mm: bare(1e-2, 1e5), "bore, mm, of a bearing that is estimated";
+        position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0, up to its length";
+        stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm, 0 .. 1e15 each; needed where there is no matrix and no `type`";
+        tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad, 0 .. 1e15 each; default: 0, 0";
+        matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z): N/mm, N/rad and N mm/mm, N mm/rad; symmetric, no negative stiffness";
+        damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm, 0 .. 1e12 each, for vibration and motion; default: 0, 0, 0";
+        r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness. Needle rollers are cylindrical ones; there is no law of spherical, toroidal, self-aligning, thrust, four-point contact and plain bearings: give their stiffness";
+        bore_mm: bare(1e-2, 1e5), "bore, mm. With outer diameter and static rating in place of what rolls, which is then estimated";
         outer_diameter_mm: bare(1e-2, 1e5), "outer diameter, mm, of a bearing that is estimated";
         static_rating_kn: bare(1e-6, 1e9), "C_0 of the whole bearing, kN, ISO 76";
         elements: bare_whole(3, 500), "rolling elements of one row";
         element_diameter_mm: bare(1e-2, 1e5), "their diameter, mm; of tapered rollers in the middle";
-        element_length_mm: bare(1e-2, 1e5), "of rollers: length that presses, mm";
+        element_length_mm: bare(1e-2, 1e5), "of rollers: the length that presses, mm";
         pitch_diameter_mm: bare(1e-2, 1e5), "diameter of the circle of their centres, mm; default: between bore and outer diameter";
-        contact_angle_deg: bare(1.0, 75.0), "nominal contact angle, degrees";
-        inner_conformity: number(0.502, 0.7, 0.52), "groove radius of the inner ring over the ball's diameter";
-        outer_conformity: number(0.502, 0.7, 0.53), "groove radius of the outer ring over the ball's diameter";
-        profile: word(RollerProfile), "relief of rollers to their ends";
-        radial_clearance_um: number(-1e3, 1e4, 0.0), "radial play from one side to the other, um; below 0: pressed";
-        axial_clearance_um: number(-1e3, 1e4, 0.0), "way of the shaft into a row's thrust until it touches, um; below 0: pressed";
-        preload_n: bare(0.0, 1e9), "force along the axis that presses each row before any load, N";
-        takes_thrust: bare_word(Thrust), "which thrust of the shaft it takes; default: as its rows do, cylindrical rollers none";
+        contact_angle_deg: bare(1.0, 75.0), "nominal contact angle, degrees: 5 .. 75 of balls, 1 .. 60 of tapered rollers; needed where there is one. Deep grooves get theirs from clearance and load";
+        inner_conformity: number(0.502, 0.7, 0.52), "groove radius of the inner ring over the ball's diameter. The default is that of ISO 76 and ISO 281";
+        outer_conformity: number(0.502, 0.7, 0.53), "groove radius of the outer ring over the ball's diameter. The default is that of ISO 76 and ISO 281";
+        profile: word(RollerProfile), "relief of rollers to their ends. logarithmic: as in ISO/TS 16281; straight: none";
+        radial_clearance_um: number(-1e3, 1e4, 0.0), "of deep grooves and cylindrical rollers: radial play from one side to the other, um; below 0: pressed";
+        axial_clearance_um: number(-1e3, 1e4, 0.0), "of angular contact and tapered rows: way of the shaft into a row's thrust until it touches, um; below 0: pressed";
+        preload_n: bare(0.0, 1e9), "in place of the axial clearance: force along the axis that presses each row before any load, N";
+        takes_thrust: bare_word(Thrust), "which thrust of the shaft it takes; default: both, cylindrical rollers none; needed of single and tandem rows with a contact angle. Of these +z or -z, the way in which the shaft may press: of a pair face to face -z at the lower z and +z at the higher one, back to back the other way round. Of the others how the outer ring sits: none floats along z and finds its place there, +z and -z have a shoulder on one side. Cylindrical rollers take none";
         rows: whole(1, 2, 1), "rows of rolling elements";
-        row_distance_mm: bare(1e-3, 1e5), "of two rows: distance of their middles, mm";
-        arrangement: bare_word(Arrangement), "how two rows with a contact angle are set";
+        row_distance_mm: bare(1e-3, 1e5), "of two rows: distance of their middles, mm; `position_mm` is between them";
+        arrangement: bare_word(Arrangement), "how two angular contact or tapered rows are set";
     }
 }
 
 table! {
     /// `[[gear]]`
-    GEAR, RawGear: "a gear on a shaft", needed ["name", "shaft", "position_mm"]; {
-        name: text(), "what meshes call it by";
+    GEAR, RawGear: "a gear on a shaft; in motion its mass and inertia are those of its mesh, or what the scene of its pair states", needed ["name", "shaft", "position_mm"]; {
+        name: text(), "what meshes call it by; no two alike";
         shaft: text(), "name of its shaft";
-        position_mm: must(-1e6, 1e6), "where its mid-face is, mm from the shaft's z = 0";
-        seat_mm: bare(0.0, INF), "cross-section that its bore moves with, mm from the shaft's z = 0; default: position_mm";
-        key_deg: number(-360.0, 360.0, 0.0), "angle of its tooth 0 against the mark of its shaft, degrees";
-        mass_kg: bare(1e-9, 1e12), "mass, kg; default: of its mesh";
-        transverse_inertia_kg_m2: bare(1e-15, 1e12), "inertia about an axis across its own, kg m^2; default: of its mesh";
+        position_mm: must(-1e6, 1e6), "where its mid-face is, mm from the shaft's z = 0; on the shaft where `seat_mm` is not stated. The difference of two gears in mesh is the offset of their mid-faces, with which what their scene states must agree";
+        seat_mm: bare(0.0, INF), "cross-section that its bore moves with, mm from the shaft's z = 0; default: position_mm. Of a mesh of hub and shaft in one the end of its stub: the shaft of this file is what is not meshed, and the gear may be beyond its end. A bore that is held about another place is remarked on";
+        key_deg: number(-360.0, 360.0, 0.0), "angle of its tooth 0 against the mark of its shaft, degrees: the phase of its mesh against others. The mark of the input's shaft is at 0; of any other shaft the first mesh that reaches it says where it is";
+        mass_kg: bare(1e-9, 1e12), "mass, kg, for vibration; default: of the mesh of its first pair, rim and teeth from bore to tip. A gear that meshes with nothing must state it";
+        transverse_inertia_kg_m2: bare(1e-15, 1e12), "inertia about an axis across its own, through the middle of its face, kg m^2; default: of its mesh";
         polar_inertia_kg_m2: bare(1e-15, 1e12), "inertia about its own axis, kg m^2; default: of its mesh";
     }
 }
 
 table! {
     /// `[[mesh]]`
-    MESH, RawMesh: "two gears in mesh", needed ["scene", "pinion", "wheel"]; {
+    MESH, RawMesh: "two gears in mesh; torque, driver and rotation of the scene are those of a run by itself, its misalignment is added to what shafts and bearings make", needed ["scene", "pinion", "wheel"]; {
         name: text(), "name for tables; default: those of its gears";
-        scene: document(SCENE), "path of the scene of the pair, or its tables: [mesh.scene.pinion] and so on";
+        scene: document(SCENE), "path of the scene of the pair, or its tables, as `[mesh.scene.pinion]` and so on";
         set: texts(), "keys of that scene that are otherwise here, as after --set";
-        pinion: text(), "name of the gear that is the scene's pinion";
+        pinion: text(), "name of the gear that is the scene's pinion; either may drive";
         wheel: text(), "name of the gear that is the scene's wheel";
     }
 }
 
 table! {
     /// `[input]`
-    INPUT, RawInput: "where the turn is given", needed ["shaft", "position_mm"]; {
+    INPUT, RawInput: "where the turn is given; the torque there is a result", needed ["shaft", "position_mm"]; {
         shaft: text(), "name of its shaft";
-        position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0";
-        rotation: word(Sense), "sense, seen from +z";
-        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2";
+        position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0, up to its length";
+        rotation: word(Sense), "sense, seen from +z. All others follow by the teeth";
+        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, for vibration and motion. It turns with the shaft and does not tilt with it";
     }
 }
 
 table! {
     /// `[[torque]]`
-    TORQUE, RawTorque: "a load on a shaft", needed ["shaft", "position_mm", "torque_nm"]; {
+    TORQUE, RawTorque: "a load on a shaft, one for each output", needed ["shaft", "position_mm", "torque_nm"]; {
         shaft: text(), "name of its shaft";
-        position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0";
+        position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0, up to its length";
         torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m";
-        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2";
+        inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, as at the input";
     }
 }
 
 table! {
     /// `[housing]`
-    HOUSING, RawHousing: "stiffness between the bearing seats; left out: rigid"; {
-        matrix_n_mm_rad: rows(0), "six rows a bearing, in their order";
-        file: text(), "path of the file of another program that has it";
+    HOUSING, RawHousing: "stiffness between the bearing seats, foundation included; left out: rigid"; {
+        matrix_n_mm_rad: rows(0), "six rows a bearing, in their order; symmetric";
+        file: text(), "path of the file of another program that has it, in N and mm, condensed to the seats alone. `.mtx`: the substructure matrix of CalculiX; all others: `DMIG` entries as Nastran punches them, real, square or symmetric";
         matrix: text(), "name of the DMIG matrix in that file; default: the first one";
-        nodes: wholes(), "with a file: node of each bearing's seat";
-        turn_nodes: wholes(), "nodes whose directions 1 to 3 are the turns; default: directions 4 to 6 of nodes";
+        nodes: wholes(), "with a file: node of each bearing's seat, in the order of the bearings";
+        turn_nodes: wholes(), "nodes whose directions 1 to 3 are the turns, in CalculiX those after `ROT NODE`; default: directions 4 to 6 of nodes";
     }
 }
 
@@ -187,7 +187,7 @@ table! {
     /// `[analysis]`
     ANALYSIS, RawAnalysis: "positions at rest"; {
         positions_per_cycle: whole(1, 10_000, 32), "positions of the input in a cycle of the first mesh";
-        cycles: whole(1, 10_000, 1), "cycles of the first mesh";
+        cycles: whole(1, 10_000, 1), "cycles of the first mesh, from where the keys put it. The other meshes go on by the teeth, and their cycles end elsewhere";
     }
 }
 
@@ -203,14 +203,14 @@ choices! {
 
 table! {
     /// `[vibration]`
-    VIBRATION, RawVibration: "vibration about where the gearbox stands; left out: none", needed ["from_rpm", "to_rpm"]; {
+    VIBRATION, RawVibration: "vibration about the equilibrium, order by order of every mesh; left out: none", needed ["from_rpm", "to_rpm"]; {
         from_rpm: must(1e-3, 1e6), "lowest speed of the input, 1/min";
         to_rpm: must(1e-3, 1e6), "highest speed of the input, 1/min";
-        speeds: whole(2, 2000, 101), "number of speeds, evenly spaced";
-        orders: whole(1, 50, 5), "orders of each mesh";
-        damping_ratio: number(1e-6, 1.0, 0.02), "share of critical damping of every mode";
+        speeds: whole(2, 2000, 101), "number of speeds, evenly spaced. The Campbell diagram has up to 21";
+        orders: whole(1, 50, 5), "orders of each mesh. Its cycle is solved at `positions_per_cycle` places, and at 16, or four times as many as the orders, at least";
+        damping_ratio: number(1e-6, 1.0, 0.02), "share of critical damping of every mode, which limits the peaks at resonance";
         modes: whole(1, 500, 20), "natural frequencies in the results";
-        input: word(InputTurn), "whether the input turns freely with its machine, or its turn is given";
+        input: word(InputTurn), "whether the input turns freely with its machine, or its turn is given. held: as by a machine of any inertia";
     }
 }
 
@@ -248,25 +248,25 @@ choices! {
 
 table! {
     /// `[motion]`
-    MOTION, RawMotion: "motion in time from the equilibrium on; left out: none", needed ["speed_rpm"]; {
+    MOTION, RawMotion: "motion in time from the equilibrium on, after the positions at rest; left out: none", needed ["speed_rpm"]; {
         run: word(GearboxRun), "what is run: from the equilibrium on, or from where the motion repeats itself";
         speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
-        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min; default: speed_rpm";
-        drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it";
-        input_torque_nm: bare(0.0, 1e12), "torque on the input, N m; default: what balances the loads";
-        mesh: word(MeshModel), "what stands for the meshes";
+        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed); default: speed_rpm. Steps are then turns of the input that are alike";
+        drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it from that speed on";
+        input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
+        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, the one that takes pitch errors. mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
-        steps_per_row: whole(1, 1_000_000, 1), "steps a row";
+        steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
         method: word(Integration), "method of integration";
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
-        error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length";
+        error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
         periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady)";
         warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady)";
         mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
-        modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode";
-        highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh";
+        modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode about the equilibrium, beside that of bearings and meshes";
+        highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh. Modes with seats held are kept up to twice that, and more until natural frequencies up to it are off by half a per cent at the most";
         map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at, over the mean approach";
         checkpoint_every_cycles: whole(0, 1_000_000, 0), "a checkpoint every so many cycles of the fastest mesh; 0: none";
     }
@@ -281,5 +281,5 @@ table! {
 
 /// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    GEARBOX.tables()
+    GEARBOX.names()
 }

@@ -14,21 +14,21 @@ pub(super) const SAMPLES: [u32; 2] = [20, 1_000_000];
 table! {
     /// `[optimise]`
     OPTIMISE, RawOptimise: "what may change, and what shall be small"; {
-        keys: texts(), "what may change, KEY=FROM:TO; default: tip reliefs, where they begin, lead crowning of the pinion";
-        start: texts(), "where the search begins, KEY=VALUE; default: what the scene says, else 0 or the middle";
-        round: texts(), "what a value is a whole multiple of in the end, KEY=VALUE; default: 1 for um, 0.1 for degrees, 0.01 for mm";
-        goal: texts(), "numbers of the headline that shall be small, in place of the transmission error";
-        limit: texts(), "limits of numbers of the headline, KEY=MOST; with goal";
-        measure: text(), "what of the transmission error shall be small: peak-to-peak, rms or harmonics; default: peak-to-peak";
+        keys: texts(), "what may change, `KEY=FROM:TO`; default: tip reliefs of both gears, where they begin, lead crowning of the pinion. Keys with `+` between get the same value";
+        start: texts(), "where the search begins, `KEY=VALUE`; default: what the scene says, else 0 or the middle";
+        round: texts(), "what a value is a whole multiple of in the end, what a machine can be set to, `KEY=VALUE`; default: 1 for um, 0.1 for degrees, 0.01 for mm. 0: any value";
+        goal: texts(), "numbers of the headline that shall be small, in place of the transmission error, such as `face_load_factor.0`";
+        limit: texts(), "limits of numbers of the headline, `KEY=MOST`; with goal";
+        measure: text(), "what of the transmission error shall be small: peak-to-peak, rms or harmonics; default: peak-to-peak. peak-to-peak: weighted mean over the torques; rms: of the error less its mean; harmonics: root mean square of some mesh harmonics";
         harmonics: wholes(), "which mesh harmonics; default: the first";
         torques_nm: numbers(), "torques at which it counts, N m; default: the scene's";
         weights: numbers(), "what each of them counts; default: 1 each";
-        evaluations: whole(1, EVALUATIONS[1], EVALUATIONS[0]), "evaluations at the most";
-        max_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of the contact pressure, MPa";
-        max_edge_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of it at end faces and tip edges, MPa";
-        front: whole(0, FRONT, 0), "points of the trade-off against a lower pressure";
-        quantile: bare(0.0, 0.999), "with tolerances: the mean of the samples that are worse than this share of them";
-        tolerances: texts(), "deviations that are drawn, KEY~normal:0:5";
+        evaluations: whole(1, EVALUATIONS[1], EVALUATIONS[0]), "evaluations at the most; one solves all torques and samples with their derivatives";
+        max_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of the contact pressure at all positions and torques, MPa";
+        max_edge_pressure_mpa: bare(PRESSURES[0], PRESSURES[1]), "limit of it at end faces and tip edges, MPa: where a slice ends at an end face or a tip edge presses (places 2 to 4 of `max_pressure_place`)";
+        front: whole(0, FRONT, 0), "points of the trade-off: optima below lower and lower limits of the pressure, down to that of the start, or by a tenth where that is no lower";
+        quantile: bare(0.0, 0.999), "with tolerances and peak-to-peak: the mean of the samples that are worse than this share of them, in place of the mean of all";
+        tolerances: texts(), "deviations that are drawn, `KEY~normal:0:5`. Each is added to what the design, or the scene, says of its key; each sample is a pair from the machine, and the goal is taken over all of them";
         design: text(), "how samples are spread: latin-hypercube, sobol or random; default: latin-hypercube";
         samples: whole(1, SAMPLES[1], SAMPLES[0]), "how many samples of the tolerances";
         seed: whole(0, u32::MAX, SEED), "other samples for another seed";
@@ -47,5 +47,5 @@ table! {
 
 /// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    OPTIMISATION.tables()
+    OPTIMISATION.names()
 }

@@ -37,7 +37,7 @@ macro_rules! quantities {
 
         table! {
             /// `[accuracy]`
-            ACCURACY, RawAccuracy: "how exact the headline numbers are to be, each as \"1 %\" of itself or as \"0.05 um\" in its unit; with it `model` is \"auto\" where none is written"; {
+            ACCURACY, RawAccuracy: "how exact the headline numbers are to be, each as \"1 %\" of itself or as \"0.05 um\" in its unit (um, line length mm, force N, stress MPa, stiffness N/um); with it `model` is \"auto\" where none is written"; {
                 $($key: text(), $about;)*
             }
         }

@@ -133,26 +133,26 @@ macro_rules! flank_tables {
 }
 
 flank_tables! {
-    tip_relief_um: um, "tip relief C_alpha_a: depth at the tip circle, um";
-    tip_relief_start_diameter_mm: diameter, "where the tip relief starts: diameter, mm";
-    tip_relief_start_roll_deg: roll, "or roll angle, degrees";
+    tip_relief_um: um, "tip relief C_alpha_a: depth at the tip circle, um; 0 where it starts";
+    tip_relief_start_diameter_mm: diameter, "where the tip relief starts: diameter d_Ca, mm";
+    tip_relief_start_roll_deg: roll, "where the tip relief starts: roll angle tan(alpha), degrees, in place of the diameter";
     tip_relief_shape: shape, "how the tip relief grows";
-    root_relief_um: um, "root relief C_alpha_f: depth at the root form circle, um";
-    root_relief_start_diameter_mm: diameter, "where the root relief starts: diameter, mm";
-    root_relief_start_roll_deg: roll, "or roll angle, degrees";
+    root_relief_um: um, "root relief C_alpha_f: depth at the root form circle, um; 0 where it starts";
+    root_relief_start_diameter_mm: diameter, "where the root relief starts: diameter d_Cf, mm";
+    root_relief_start_roll_deg: roll, "where the root relief starts: roll angle tan(alpha), degrees, in place of the diameter";
     root_relief_shape: shape, "how the root relief grows";
-    profile_crowning_um: um, "profile crowning C_alpha, um at both ends of the range";
-    profile_slope_um: um, "profile slope C_Halpha, um more at the tip than at the start of the range";
-    lead_crowning_um: um, "lead crowning C_beta, um at both ends of the face";
-    lead_slope_um: um, "lead slope C_Hbeta, um more at z = +b/2 than at z = -b/2";
-    end_relief_lower_um: um, "end relief C_beta_I: depth at z = -b/2, um";
-    end_relief_lower_length_mm: length, "its length, mm, up to the face width";
-    end_relief_upper_um: um, "end relief C_beta_II: depth at z = +b/2, um";
-    end_relief_upper_length_mm: length, "its length, mm, up to the face width";
-    end_relief_shape: shape, "how the end reliefs grow";
-    bias_um: um, "bias S_alpha, um: profile slope at z = +b/2 less that at z = -b/2";
-    topography: path, "file of measured depths";
-    evaluation_start_diameter_mm: diameter, "where the evaluation range of profile crowning, slope and bias starts, mm; default: the root form circle";
+    profile_crowning_um: um, "profile crowning C_alpha, um at both ends of the evaluation range: C p^2";
+    profile_slope_um: um, "profile slope C_Halpha, um more at the tip than at the start of the range: C p / 2; the pressure angle grows";
+    lead_crowning_um: um, "lead crowning C_beta, um at both ends of the face. C q^2 about the gear's mid-face, over its own face width";
+    lead_slope_um: um, "lead slope C_Hbeta, um more at z = +b/2 than at z = -b/2: C q / 2";
+    end_relief_lower_um: um, "end relief C_beta_I: depth at z = -b/2, um; 0 where it starts";
+    end_relief_lower_length_mm: length, "length of the end relief C_beta_I, mm, up to the face width";
+    end_relief_upper_um: um, "end relief C_beta_II: depth at z = +b/2, um; 0 where it starts";
+    end_relief_upper_length_mm: length, "length of the end relief C_beta_II, mm, up to the face width";
+    end_relief_shape: shape, "how both end reliefs grow";
+    bias_um: um, "flank twist (bias) S_alpha, um: profile slope at z = +b/2 less that at z = -b/2; S p q / 4";
+    topography: path, "file of measured depths, see below";
+    evaluation_start_diameter_mm: diameter, "where the evaluation range of profile crowning, slope and bias starts: diameter d_Cf, mm; default: the root form circle";
 }
 
 static DRIVE_FLANK: Table = Table {

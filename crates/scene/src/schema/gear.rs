@@ -7,18 +7,18 @@ use crate::table::{INF, Table};
 
 table! {
     /// `[pinion]`
-    GEAR, RawGear: "gear 1", needed ["teeth", "helix_angle_deg"]; {
+    GEAR, RawGear: "gear 1; the wheel has the same keys", needed ["teeth", "helix_angle_deg"]; {
         teeth: bare_whole(5, 2000), "number of teeth";
-        helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; the wheel's follows from the pinion's";
-        face_width_mm: bare(0.01, 1e4), "face width, mm; default: `face_width_mm` in [pair]";
-        bore_diameter_mm: bare(1e-3, INF), "diameter of the rigid bore, mm, below the reference diameter; default: 55 % of that, of few teeth half the root diameter";
-        profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient";
+        helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; default: of the wheel the pinion's, other hand. Stated for the wheel it must agree";
+        face_width_mm: bare(0.01, 1e4), "the gear's own face width about its own mid-face, mm; default: `face_width_mm` of `[pair]`. Where both gears state theirs, `[pair]` needs none";
+        bore_diameter_mm: bare(1e-3, INF), "diameter of the bore, mm, below the reference diameter; default: that of the `mesh`; without one 55 % of the reference diameter, or half the root diameter where that leaves no rim. Stated, it must be the mesh's within a thousandth";
+        profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient x";
         tip_diameter_mm: bare(0.0, INF), "tip diameter, mm, 0.5 to 2 reference diameters; default: from addendum and profile shift";
-        tip_edge_radius_mm: number(0.0, INF, 0.0), "radius of the arc that rounds the tip edges, mm, at most a quarter of the module; 0: sharp";
-        thickness_allowance_mm: number(0.0, INF, 0.0), "thinning of the tooth in the normal section, mm, at most half the module";
-        pitch_errors_um: numbers(), "cumulative pitch deviation of each tooth, um, -1000 .. 1000, tooth 0 first";
-        pitch_errors_file: text(), "file of them";
-        mesh: text(), "Gmsh mesh file of the gear, instead of the built-in mesher";
+        tip_edge_radius_mm: number(0.0, INF, 0.0), "radius of the arc that rounds the tip edges, mm, at most a quarter of the module; 0: sharp. Slices see it, the mesh does not";
+        thickness_allowance_mm: number(0.0, INF, 0.0), "thinning of the tooth in the normal section, mm, at most half the module; this gear's own";
+        pitch_errors_um: numbers(), "cumulative pitch (index) deviation of each tooth, um, -1000 .. 1000, tooth 0 first. Arc on the reference circle, positive where the tooth as a whole is too far counter-clockwise seen from +z, the direction in which teeth are numbered";
+        pitch_errors_file: text(), "file of them. Numbers in um, separated by commas, semicolons or blanks; # begins a comment";
+        mesh: text(), "Gmsh mesh file of the gear, in place of the built-in mesher";
         mesher: table(MESHER: RawMesher);
         groups: always(GROUPS: RawGroups);
         bore: table(BORE: RawBore);
@@ -35,14 +35,14 @@ pub(super) static WHEEL: Table = Table { about: "gear 2", keys: GEAR.keys, neede
 
 table! {
     /// `[pinion.mesher]`
-    MESHER, RawMesher: "the built-in structured mesher"; {
+    MESHER, RawMesher: "the built-in structured mesher, used where there is no `mesh`"; {
         order: whole(1, 2, 2), "1: hex8, 2: hex20";
         elements_profile: whole(1, 500, 6), "elements along the active flank";
         elements_fillet: whole(2, 500, 6), "elements along fillet and root land";
         elements_thickness: whole(1, 500, 4), "elements across the tooth";
-        elements_face: bare_whole(1, 2000), "elements along the face width; default: as many as it asks for, at least 6";
+        elements_face: bare_whole(1, 2000), "elements along the face width b; default: b / (1.7 m_n), with root stress b / m_n, at least 6; twice as many with order 1. A third of that or less is remarked on";
         elements_rim: whole(1, 500, 5), "elements from the root to the bore";
-        sector_teeth: whole(0, u32::MAX, 0), "0: whole gear; 1: periodic sector, which stands for the whole gear; k: open sector of k teeth, cut faces free, less than the gear has";
+        sector_teeth: whole(0, u32::MAX, 0), "0: whole gear; 1: periodic sector, which stands for the whole gear; k: open sector of k teeth, cut faces free, less than the gear has. One tooth of a whole gear is meshed where that is enough (reduced, no ParaView files)";
     }
 }
 
@@ -59,9 +59,9 @@ table! {
 
 table! {
     /// `[pinion.bore]`
-    BORE, RawBore: "how the shaft holds the bore; models with a mesh"; {
-        held_mm: numbers(), "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it";
-        coupling: word(Coupling), "kinematic: every node of the bore moves with the shaft; distributing: the bore deforms, and its area-weighted mean displacement and turn are the shaft's";
+    BORE, RawBore: "how the shaft holds the bore; models with a mesh, without `[accuracy]`"; {
+        held_mm: numbers(), "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it. Held are faces of the mesh that lie between the two as a whole; the mesher has rows of faces every face width over `elements_face`";
+        coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's, and the whole gear is condensed in one factor (not of the model full)";
     }
 }
 
@@ -77,7 +77,7 @@ choices! {
 
 table! {
     /// `[material]`; a gear's own table takes its defaults from this one.
-    MATERIAL, RawMaterial: "linear elastic material"; {
+    MATERIAL, RawMaterial: "linear elastic material; a gear's own table takes its defaults from `[material]`"; {
         young_mpa: number(1.0, 1e7, 2.06e5), "Young's modulus, MPa";
         poisson: number(-0.9, 0.499, 0.3), "Poisson's ratio";
         density_kg_m3: number(1.0, 1e5, 7850.0), "density, kg/m^3";

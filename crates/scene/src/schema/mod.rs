@@ -63,7 +63,7 @@ pub(crate) fn meaning(name: &str) -> Option<&'static str> {
 
 /// Every table of the scene file with its keys, the file itself first; a list of tables has brackets about its name.
 pub(crate) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    SCENE.tables()
+    SCENE.names()
 }
 
 #[cfg(test)]

@@ -3,8 +3,8 @@
 use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
-use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity, Take};
-use super::raw::{CYCLES, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity};
+use super::raw::{CASE, FOLLOW, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
 use crate::{Place, Run, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;
@@ -15,7 +15,6 @@ type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 const CASES: usize = 1000;
 /// Keys that a case sets at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
-
 pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns: ColumnsOf<'_>) -> Checked<Study> {
     if let Some(table) = raw.case.get(CASES) {
         let what = format!("a study of {} cases", raw.case.len());
@@ -72,7 +71,7 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
     if raw.value.is_none() {
         return Err(missing(s, table, "[[case]]", "value", "its place on the axis of the parameter"));
     }
-    let value = s.number("value", &raw.value, 0.0, -1e300, 1e300)?;
+    let value = s.number_of(&CASE, "value", &raw.value)?;
     let set = raw.set.as_deref().unwrap_or_default();
     if let Some(word) = set.get(SETTINGS) {
         let what = format!("a case sets {} keys", set.len());
@@ -108,12 +107,12 @@ fn case(s: &Source<'_>, table: &Spanned<RawCase>, settings: &[Setting]) -> Check
             return Err(s.conflict(&word.span(), what, "leave `checkpoint_every_cycles` out, or use `ale-gear run`"));
         }
     }
-    Ok(StudyCase { label: label(raw).unwrap_or_else(|| scene.name.clone()), value, scene, refused })
-}
-
-/// What a case is called where it says so.
-fn label(raw: &RawCase) -> Option<String> {
-    raw.label.clone().map(Spanned::into_inner)
+    Ok(StudyCase {
+        label: raw.label.as_ref().map_or_else(|| scene.name.clone(), |label| label.get_ref().clone()),
+        value,
+        scene,
+        refused,
+    })
 }
 
 fn refusal(e: &SceneError) -> RefusedCase {
@@ -131,7 +130,7 @@ pub(crate) fn setting(s: &Source<'_>, word: &Spanned<String>) -> Checked<Setting
 }
 
 fn quantity(s: &Source<'_>, table: &Spanned<RawQuantity>, known: Known<'_>) -> Checked<StudyQuantity> {
-    let take = s.choice("take", &table.get_ref().take, &Take::ALL.map(|t| (t.word(), t)))?;
+    let take = s.choice_of("take", &table.get_ref().take)?;
     Ok(StudyQuantity { column: column(s, table, &table.get_ref().column, known)?, take })
 }
 
@@ -175,7 +174,7 @@ fn case_number(s: &Source<'_>, word: &Word, cases: &[StudyCase]) -> Checked<usiz
 }
 
 fn cycles(s: &Source<'_>, value: &Whole) -> Checked<Option<u32>> {
-    value.as_ref().map(|_| s.whole("cycles", value, 1, 1, CYCLES)).transpose()
+    value.as_ref().map(|_| s.whole_of(&FOLLOW, "cycles", value)).transpose()
 }
 
 fn column<T>(s: &Source<'_>, table: &Spanned<T>, word: &Word, known: Known<'_>) -> Checked<String> {

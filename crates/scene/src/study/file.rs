@@ -60,18 +60,18 @@ pub struct StudyQuantity {
     pub take: Take,
 }
 
-/// What is taken of a column, over all rows written.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Take {
-    /// Arithmetic mean.
-    Mean,
-    /// Largest minus smallest.
-    PeakToPeak,
-    /// Smallest.
-    Least,
-    /// Largest.
-    Largest,
+choices! {
+    /// What is taken of a column, over all rows written.
+    pub enum Take {
+        /// Arithmetic mean.
+        Mean = "mean",
+        /// Largest minus smallest.
+        PeakToPeak = "peak_to_peak",
+        /// Smallest.
+        Least = "least",
+        /// Largest.
+        Largest = "largest",
+    }
 }
 
 /// One column of every case over time.
@@ -123,14 +123,4 @@ impl StudyQuantity {
 impl Take {
     /// All of them.
     pub const ALL: [Self; 4] = [Self::Mean, Self::PeakToPeak, Self::Least, Self::Largest];
-
-    /// The word in study files and column names.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Mean => "mean",
-            Self::PeakToPeak => "peak_to_peak",
-            Self::Least => "least",
-            Self::Largest => "largest",
-        }
-    }
 }

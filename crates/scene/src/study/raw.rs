@@ -1,13 +1,15 @@
-//! Every key of a study once: type, range, default, meaning; and its words, nothing checked yet.
+//! Every key of a study file once: type, range, default, meaning; and the words of a file, nothing checked yet.
+
+use super::file::Take;
 
 /// Mesh cycles of a figure at the most.
-pub(super) const CYCLES: u32 = 100_000_000;
+const CYCLES: u32 = 100_000_000;
 
 table! {
     /// The whole file.
-    STUDY, RawStudy: "A study of ale-gear: several scenes with the same figures", needed ["case"]; {
+    STUDY, RawStudy: "a study: scenes side by side, and what is drawn of all of them", needed ["case"]; {
         name: text(), "title; default: the file's name";
-        parameter: text(), "what the cases differ in, with its unit: the axis of the figures; default: value";
+        parameter: text(), "what the cases differ in, with its unit: the axis of figures over it; default: value";
         case: list(CASE: RawCase);
         quantity: list(QUANTITY: RawQuantity);
         over_time: list(OVER_TIME: RawOverTime);
@@ -19,48 +21,48 @@ table! {
 table! {
     /// `[[case]]`
     CASE, RawCase: "a scene of the study", needed ["scene", "value"]; {
-        scene: document(SCENE), "path of the scene, or its tables: [case.scene.pinion] and so on";
-        set: texts(), "keys of it that are otherwise here, as after --set";
-        label: text(), "what figures call it; default: the name of the scene";
-        value: must(-1e300, 1e300), "its place on the axis of the parameter";
+        scene: document(SCENE), "path of the scene, relative to this file; or its tables, as `[case.scene.pinion]` and so on";
+        set: texts(), "keys of the scene that this case has otherwise, as after `--set`; so one scene serves many cases";
+        label: text(), "name in tables and legends, no two alike; default: the scene's name";
+        value: must(-1e300, 1e300), "the case's place on the axis of the parameter";
     }
 }
 
 table! {
     /// `[[quantity]]`
-    QUANTITY, RawQuantity: "a number of each case over the parameter", needed ["column"]; {
+    QUANTITY, RawQuantity: "a number of every case: a column of the table and of study.csv, and a chart over the parameter", needed ["column"]; {
         column: text(), "column of history.csv";
-        take: text(), "what is taken of it: mean, peak_to_peak, least or largest; default: mean";
+        take: word(Take), "what is taken of all rows written";
     }
 }
 
 table! {
     /// `[[over_time]]`
-    OVER_TIME, RawOverTime: "a column of all cases over time", needed ["column"]; {
+    OVER_TIME, RawOverTime: "a chart over time, a curve a case, each from the beginning of its cycles shown", needed ["column"]; {
         column: text(), "column of history.csv";
-        cycles: bare_whole(1, CYCLES), "mesh cycles at the end that are drawn; default: all";
+        cycles: bare_whole(1, CYCLES), "the last so many mesh cycles, at the most those that are written; default: all";
     }
 }
 
 table! {
     /// `[[follow]]`
-    FOLLOW, RawFollow: "columns of one case over time", needed ["column", "beside"]; {
-        case: text(), "label of the case; default: the first one";
+    FOLLOW, RawFollow: "a column of one case beside others that it may follow: charts over mesh cycles and of one against the other, and the correlation of every case", needed ["column", "beside"]; {
+        case: text(), "label of the case that is drawn; default: the first";
         column: text(), "column of history.csv";
         beside: texts(), "columns that it may follow";
-        cycles: bare_whole(1, CYCLES), "mesh cycles at the end that are drawn; default: all";
+        cycles: bare_whole(1, CYCLES), "the last so many mesh cycles, at the most those that are written; default: all";
     }
 }
 
 table! {
     /// `[full]`
-    FULL, RawFull: "a case beside the model that is not reduced, alone on the machine and from cold"; {
-        case: text(), "label of the case; default: the first one";
-        positions: whole(0, 100_000, 1), "positions of the cycle that are run, at the most; 0: none";
+    FULL, RawFull: "what every degree of freedom would cost: one case is run at rest with the model full, after the others and alone, on the same meshes and from cold"; {
+        case: text(), "label of the case, a scene of the model reduced with slices; default: the first";
+        positions: whole(0, 100_000, 1), "positions of the cycle that are run, at the most (a divisor of `positions_per_cycle`); 0 leaves it out";
     }
 }
 
 /// Every table with its keys, as messages look them up.
 pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
-    STUDY.tables()
+    STUDY.names()
 }

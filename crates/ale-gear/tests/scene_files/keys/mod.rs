@@ -1,13 +1,11 @@
-//! The scene file's keys: schema, page and program agree, and none is read and ignored.
+//! The scene file's keys: schema and program agree, and none is read and ignored.
 
 mod effect;
 mod fits;
 mod rows;
 
-use std::collections::BTreeSet;
-
 use crate::util::{repository, scenes};
-use ale_gear::scene::{Document, DocumentKind, all_keys, gearbox::Gearbox, json_schema};
+use ale_gear::scene::{Document, DocumentKind, gearbox::Gearbox, json_schema};
 use fits::fits;
 
 fn as_json(toml: &str) -> serde_json::Value {
@@ -100,41 +98,4 @@ fn wrong_scenes_do_not_fit_the_schema() {
     wrong("torque_nm = 150.0", "torque_nm = \"150\"", "number");
     wrong("model = \"iso\"", "model = \"isu\"", "enum");
     wrong("torque_nm = 150.0", "", "torque_nm");
-}
-
-/// Words in backticks that look like keys.
-fn keys_on(page: &str) -> BTreeSet<String> {
-    let code = page.split('`').skip(1).step_by(2);
-    let is_key = |w: &&str| {
-        !w.is_empty() && w.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_' || c == '.')
-    };
-    code.filter(is_key).map(|w| w.rsplit('.').next().unwrap_or(w).to_owned()).collect()
-}
-
-/// Every key of the schema is on `docs/scene.md`, and every key in the first column of its tables is in the schema.
-#[test]
-fn the_page_and_the_schema_list_the_same_keys() {
-    let page = std::fs::read_to_string(repository().join("docs/scene.md")).unwrap();
-    let named = keys_on(&page);
-    let known: BTreeSet<String> = all_keys().iter().map(|k| k.rsplit('.').next().unwrap_or(k).to_owned()).collect();
-    let missing: Vec<_> = known.iter().filter(|key| !named.contains(*key)).collect();
-    assert!(missing.is_empty(), "not on docs/scene.md: {missing:?}");
-    let mut wrong = Vec::new();
-    let mut in_scene = true;
-    for line in page.lines() {
-        // Sections about other files and about command lines have tables of their own.
-        if line.starts_with("# The ") {
-            in_scene = line.contains("scene file");
-        }
-        if let Some(title) = line.strip_prefix("## ") {
-            in_scene = title.starts_with("`[") || title.starts_with("Motion") || title.starts_with("Cheaper");
-        }
-        let Some(first) = line.strip_prefix("| ").and_then(|rest| rest.split('|').next()).filter(|_| in_scene) else {
-            continue;
-        };
-        wrong.extend(keys_on(first).into_iter().filter(|key| !known.contains(key)));
-    }
-    // Models are listed in a table of what they take.
-    wrong.retain(|w| !["mapped", "lumped8", "lumped12", "shaft18", "impact"].contains(&w.as_str()));
-    assert!(wrong.is_empty(), "on docs/scene.md, but no keys: {wrong:?}");
 }
