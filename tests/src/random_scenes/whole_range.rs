@@ -54,7 +54,7 @@ const TASKS: [&str; 2] = ["vary", "optimise"];
 
 /// Every key of the scene file that is about the pair.
 pub fn keys_of_schema() -> Vec<Key> {
-    let (mut all, mut schema) = (Vec::new(), json_schema());
+    let (mut all, mut schema) = (Vec::new(), json_schema()["$defs"]["pair"].take());
     for task in TASKS {
         schema["properties"].as_object_mut().and_then(|tables| tables.remove(task)).expect("a table of the schema");
     }
