@@ -72,9 +72,10 @@ impl Document {
         &self.0.file
     }
 
-    /// The name of its file without the ending: what it is called where it has no `name`.
+    /// The name of its file without the ending: what it is called where it has no `name`. A text without a file is
+    /// untitled.
     pub(crate) fn stem(&self) -> String {
-        self.file().file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
+        self.file().file_stem().map_or_else(|| "untitled".into(), |stem| stem.to_string_lossy().into_owned())
     }
 
     /// Kind of the document by its tables; `None` where it has none of a known kind, or is no TOML.

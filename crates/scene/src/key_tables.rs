@@ -1,35 +1,29 @@
 //! Tables of keys as Markdown: what `docs/scene.md` lists.
 
 use crate::{
-    gearbox::GEARBOX,
-    optimum::OPTIMISATION,
-    plan::PLAN,
-    schema::SCENE,
-    study::STUDY,
+    schema::DOCUMENTS,
     table::{Key, Table, ValueKind},
 };
 
 /// A table of keys of a kind of document.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct KeyTable {
-    /// Document and table: `scene`, `scene pair.misalignment`, `gearbox shaft.section`.
+    /// Document and table: `pair`, `pair pair.misalignment`, `gearbox shaft.section`.
     pub name: String,
     /// What the table is about, then one row a key: name, default, what is allowed, meaning.
     pub markdown: String,
 }
 
-/// Every table of keys of every kind of document once, in the order of the documents. Tables with the same keys
+/// Every table of keys of every kind of document once. Tables with the same keys
 /// (`[pinion.mesher]`, `[wheel.mesher]`) are one; one whose keys its parent table has as well is a row of that.
 ///
 /// ```
 /// let tables = scene::key_tables();
-/// let pair = tables.iter().find(|table| table.name == "scene pair").unwrap();
+/// let pair = tables.iter().find(|table| table.name == "pair pair").unwrap();
 /// assert!(pair.markdown.contains("| **`normal_module_mm`** | | 0.01 .. 200 | normal module, mm |"));
 /// ```
 pub fn key_tables() -> Vec<KeyTable> {
-    let documents =
-        [("scene", &SCENE), ("gearbox", &GEARBOX), ("study", &STUDY), ("plan", &PLAN), ("optimisation", &OPTIMISATION)];
-    documents.into_iter().flat_map(|(kind, file)| of_document(kind, file)).collect()
+    DOCUMENTS.iter().flat_map(|(kind, _, file)| of_document(kind, file)).collect()
 }
 
 fn of_document(kind: &str, file: &'static Table) -> Vec<KeyTable> {

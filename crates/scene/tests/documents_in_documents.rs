@@ -60,6 +60,39 @@ fn pairs_may_stand_in_the_gearbox_file() {
     }
 }
 
+/// Tables below a document that has no heading of its own, `[mesh.scene.pinion]` alone, and one in braces are told apart: each
+/// mesh has its own pair.
+#[test]
+fn pairs_need_no_heading_of_their_own() {
+    let file = folder().join("two_stages.toml");
+    let apart = Gearbox::parse(&in_one_file(), &file).unwrap();
+    // What stands above the first table of a scene is its name alone.
+    let bare: String = {
+        let all = in_one_file();
+        let mut lines = all.lines().peekable();
+        let mut kept = String::new();
+        while let Some(line) = lines.next() {
+            if line == "[mesh.scene]" {
+                while lines.peek().is_some_and(|next| !next.starts_with('[')) {
+                    lines.next();
+                }
+            } else {
+                kept += line;
+                kept.push('\n');
+            }
+        }
+        kept
+    };
+    assert!(!bare.contains("[mesh.scene]") && bare.contains("[mesh.scene.pinion]"));
+    let mut one = Gearbox::parse(&bare, &file).unwrap();
+    assert_ne!(one.meshes[0].scene.pinion.teeth, one.meshes[1].scene.pinion.teeth);
+    for (own, other) in one.meshes.iter_mut().zip(&apart.meshes) {
+        assert_eq!(own.scene.name, "two_stages", "without a name it is called as its file");
+        own.scene.name.clone_from(&other.scene.name);
+    }
+    assert_eq!(one, apart);
+}
+
 /// What is wrong with a pair that stands in a gearbox file is told at its line there.
 #[test]
 fn what_is_wrong_with_a_pair_is_told_at_its_line() {

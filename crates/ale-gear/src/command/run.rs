@@ -36,6 +36,9 @@ pub(super) struct RunArgs {
     /// Whether it is the scene of the program instead.
     #[arg(skip)]
     default_scene: bool,
+    /// Whether what the document says of many runs is left out: words say it instead.
+    #[arg(skip)]
+    one_run: bool,
     /// Folder for the results; it appears when they are complete
     #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
@@ -71,6 +74,7 @@ impl RunArgs {
             (None, false, Vec::new(), false, false, false, None);
         Self {
             file,
+            one_run: true,
             case,
             default_scene,
             out,
@@ -143,13 +147,15 @@ impl RunArgs {
                 Machine::Gearbox(file) => self.gearbox(*file),
             };
         }
-        // A document of many runs comes here through a pipe alone, which cannot be read twice.
-        if let Some(many) = text.kind().filter(|kind| !matches!(kind, DocumentKind::Scene | DocumentKind::Gearbox)) {
+        // Words of `vary` take the place of what a document says of many runs; else one comes here through a pipe alone,
+        // which cannot be read twice.
+        let kind = if self.one_run { text.base_kind() } else { text.kind() };
+        if let Some(many) = kind.filter(|kind| !matches!(kind, DocumentKind::Scene | DocumentKind::Gearbox)) {
             let message =
                 format_args!("{}: this is {many}, and what it names is found beside a file", self.file.display());
             return Err(CommandError::input(message, Some("write it into a file".into())));
         }
-        if text.kind() == Some(DocumentKind::Gearbox) {
+        if kind == Some(DocumentKind::Gearbox) {
             self.fits_a_gearbox()?;
             return self.gearbox(text.gearbox(&self.overrides.settings()?)?);
         }

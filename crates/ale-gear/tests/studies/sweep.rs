@@ -275,3 +275,42 @@ fn a_plan_of_motions_that_carry_on_is_its_words() {
     assert_eq!(cases.code, Some(2));
     assert!(cases.stderr.contains("plan.toml:5: values of this plan do not each start alone"), "{}", cases.stderr);
 }
+
+/// Branches and basins by a plan are those by words: from a file of its own, and from the document that `[vary]` stands in.
+/// Words take the place of what the document says.
+#[test]
+fn branches_and_basins_of_a_plan_are_those_of_words() {
+    let branch = ["--vary", "operation.speed_rpm=900:1000", "--start", "branch"];
+    let basin = ["--vary", "start_um=-1:1:2", "--vary", "start_mm_s=-1:1:2", "--start", "basin"];
+    let of_branch = "[vary]\nkeys = [\"operation.speed_rpm=900:1000\"]\nstart = \"branch\"\n";
+    let of_basin = "[vary]\nkeys = [\"start_um=-1:1:2\", \"start_mm_s=-1:1:2\"]\nstart = \"basin\"\n";
+    let set = ["--set", "motion.continuation.longest_step=1", "--set", "motion.continuation.time_points=1"];
+    let scratch = Scratch::new()
+        .file("a.toml", seed("004"))
+        .file("branch.toml", format!("scene = \"a.toml\"\n{of_branch}"))
+        .file("basin.toml", format!("scene = \"a.toml\"\n{of_basin}"))
+        .file("own.toml", format!("{}\n{of_branch}", seed("004")));
+    let run = |words: &[&str], set: &[&str]| {
+        let run = scratch.command(&[words, set].concat());
+        assert_eq!(run.code, Some(0), "{words:?}: {}", run.stderr);
+    };
+    run(&[&["vary", "a.toml", "--out", "words"], &branch[..]].concat(), &set);
+    run(&["run", "branch.toml", "--out", "plan"], &set);
+    run(&["run", "own.toml", "--out", "own"], &set);
+    for out in ["plan", "own"] {
+        assert!(scratch.read(&format!("{out}/branch.csv")) == scratch.read("words/branch.csv"), "branch of {out}");
+    }
+    run(&[&["vary", "a.toml", "--out", "basin-words"], &basin[..]].concat(), &[]);
+    run(&["run", "basin.toml", "--out", "basin-plan"], &[]);
+    run(&[&["vary", "own.toml", "--out", "basin-own"], &basin[..]].concat(), &[]);
+    for out in ["basin-plan", "basin-own"] {
+        assert!(
+            scratch.read(&format!("{out}/basins.csv")) == scratch.read("basin-words/basins.csv"),
+            "basins of {out}"
+        );
+    }
+    let none = scratch.file("none.toml", "scene = \"a.toml\"\n[vary]\nkeys = []\nstart = \"branch\"\n");
+    let refused = none.command(&["run", "none.toml", "--out", "none"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("none.toml: 0 words in `keys` of [vary]"), "{}", refused.stderr);
+}

@@ -9,9 +9,9 @@ use crate::plan::{PLAN, VARY};
 use crate::study::STUDY;
 use crate::table::{Key, Table, ValueKind};
 
-/// Documents by what stands at their top: a name, the keys of which one at least is there, and the table of all of it. The
+/// Documents by what stands at their top: name, the keys of which one at least is there, and the table of all of it. The
 /// last one is what none of them is.
-const DOCUMENTS: [(&str, &[&str], &Table); 5] = [
+pub(crate) static DOCUMENTS: [(&str, &[&str], &Table); 5] = [
     ("gearbox", &["shaft", "gear", "bearing", "input"], &GEARBOX),
     ("study", &["case"], &STUDY),
     ("plan", &["vary"], &PLAN),

@@ -29,6 +29,7 @@ pub use flank::FlankScene;
 pub(crate) use flank::{RawFlank, RawModification};
 pub use gear::Coupling;
 pub(crate) use gear::*;
+pub(crate) use json::DOCUMENTS;
 pub use json::json_schema;
 pub(crate) use ladder::*;
 pub use ladder::{ImpactScene, Law, Lumped12Scene, ShaftCoordinate, Sharing, StiffnessFrom, SupportScene};

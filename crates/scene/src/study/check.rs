@@ -15,6 +15,7 @@ type Known<'a> = (&'a [StudyCase], ColumnsOf<'a>);
 const CASES: usize = 1000;
 /// Keys that a case sets at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
+
 pub(super) fn check(s: &Source<'_>, raw: RawStudy, settings: &[Setting], columns: ColumnsOf<'_>) -> Checked<Study> {
     if let Some(table) = raw.case.get(CASES) {
         let what = format!("a study of {} cases", raw.case.len());

@@ -14,7 +14,7 @@ impl VaryArgs {
         self.only(&["--vary", "--start", "--json"], "`--start branch`")?;
         let example = "as `--vary 'operation.speed_rpm=1000:6000'`";
         let [word] = &self.vary[..] else {
-            let what = format_args!("{} `--vary`: a branch is followed along one", self.vary.len());
+            let what = format_args!("{}: a branch is followed along one", self.axes());
             return Err(CommandError::input(what, Some(example.into())));
         };
         let axis =

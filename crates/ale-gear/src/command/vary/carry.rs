@@ -151,7 +151,7 @@ impl VaryArgs {
         }
         let example = "as `--vary 'operation.speed_rpm=1000:6000:101'`, with `:log` behind it or as a list";
         let [word] = &self.vary[..] else {
-            return refuse(format!("{} `--vary`: motions carry on along one", self.vary.len()), example);
+            return refuse(format!("{}: motions carry on along one", self.axes()), example);
         };
         let axis =
             AxisWord::parse(word).map_err(|e| CommandError::input(format_args!("{}: {e}", self.said(word)), None))?;

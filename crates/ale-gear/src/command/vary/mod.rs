@@ -197,6 +197,15 @@ impl VaryArgs {
         }
     }
 
+    /// How what is varied is written: in a plan or on the command line.
+    fn axes(&self) -> String {
+        let number = self.vary.len();
+        match &self.plan_file {
+            Some(file) => format!("{}: {number} words in `keys` of [vary]", file.display()),
+            None => format!("{number} `--vary`"),
+        }
+    }
+
     /// A word for what is varied, as messages name it.
     fn said(&self, word: &str) -> String {
         match &self.plan_file {
@@ -209,10 +218,13 @@ impl VaryArgs {
     fn started(self, quiet: bool) -> Result<Answer, CommandError> {
         let of_pairs = self.start != Start::Each || self.harris;
         if of_pairs && self.base_kind() == Some(DocumentKind::Gearbox) {
-            let word = if self.harris { "--harris" } else { "--start" };
-            let message =
-                format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", self.file.display());
-            let hint = "leave it out, and say `--vary KEY=FROM:TO:COUNT --output face_load_factor.0`".to_owned();
+            let (file, word) = match &self.plan_file {
+                Some(file) => (file, "start"),
+                None => (&self.file, if self.harris { "--harris" } else { "--start" }),
+            };
+            let message = format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", file.display());
+            let hint =
+                "leave it out, vary `KEY=FROM:TO:COUNT`, and ask for an output as `face_load_factor.0`".to_owned();
             return Err(CommandError::input(message, Some(hint)));
         }
         match self.start {
