@@ -7,7 +7,7 @@ use ale::Station;
 use contact::{Bulk, Pose, slice::MeshContact};
 use divan::{Bencher, black_box};
 use ltca::{StaticModel, StaticOptions};
-use verification::{default_data, quadratic};
+use testing::{default_data, quadratic};
 
 /// Positions of the mesh cycle whose contact is solved in turn.
 const POSITIONS: usize = 32;

@@ -10,7 +10,7 @@ use dynamics::{
 };
 use integrate::{Integrator, Scheme, StepControl};
 use nalgebra::Matrix6;
-use verification::{default_data, quadratic};
+use testing::{default_data, quadratic};
 
 const TORQUE: f64 = 150e3;
 const SPEED_RPM: f64 = 1000.0;
@@ -44,7 +44,7 @@ fn run(free: [bool; 6], scheme: Scheme) -> [(f64, f64); 2] {
     let mut model = case.reduced(contact.clone());
     let at_rest = model.solve(Station { cycle: 0, phase: 0.0 }).expect("a sound pair");
     let bodies = [0, 1].map(|i| {
-        let m = fem::mass_properties(case.meshes[i].mesh(), &verification::steel()).expect("a sound mesh");
+        let m = fem::mass_properties(case.meshes[i].mesh(), &fem::Material::STEEL).expect("a sound mesh");
         // Thirty sectors.
         let whole = 30.0;
         RigidBody::of_tensor(whole * m.mass_t, m.inertia_about_tmm2([0.0; 3]).map(|row| row.map(|x| whole * x)))

@@ -11,7 +11,7 @@ use contact::{complementarity::Law, flank::flank_grids};
 use ltca::{StaticModel, StaticOptions};
 use mesh::Extent;
 use reduction::{ElasticGear, GearReducer, ReductionOptions};
-use verification::{Case, default_data, quadratic, steel, summary};
+use testing::{Case, default_data, mean_and_peak_to_peak, quadratic};
 
 /// Positions of a mesh cycle for slices, and for points, which take long.
 const POSITIONS: [usize; 2] = [64, 16];
@@ -41,12 +41,12 @@ fn gears(case: &Case, options: &StaticOptions, on_grid: bool) -> [ElasticGear; 2
         let teeth: Vec<u32> = (0..count).map(|k| (o.first + k) % z).collect();
         let mesh = case.meshes[i].clone();
         let reducer = if on_grid {
-            GearReducer::on_grids(mesh, steel(), o, false, |mesh| {
+            GearReducer::on_grids(mesh, fem::Material::STEEL, o, false, |mesh| {
                 flank_grids(mesh, geometry, &teeth, &sides, GRID, options.contact.surface_tolerance)
             })
             .unwrap_or_else(|e: contact::ContactError| panic!("{e}"))
         } else {
-            GearReducer::new(mesh, steel(), o).unwrap_or_else(|e| panic!("{e}"))
+            GearReducer::new(mesh, fem::Material::STEEL, o).unwrap_or_else(|e| panic!("{e}"))
         };
         ElasticGear::Reduced(reducer)
     })
@@ -67,7 +67,7 @@ fn run(
     let started = Instant::now();
     let mut model = StaticModel::new(case.pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"));
     let history = model.run(positions, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
-    let (mean, swing) = summary(history.positions.iter().map(|p| 1e3 * p.transmission_error));
+    let (mean, swing) = mean_and_peak_to_peak(history.positions.iter().map(|p| 1e3 * p.transmission_error));
     ([mean, swing], [reduced, started.elapsed().as_secs_f64()])
 }
 

@@ -5,7 +5,7 @@ use std::{env, fs, process::Command, time::Instant};
 
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, Ordering};
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, Mesh, MshFormat, StructuredOptions};
+use mesh::{Extent, GroupNames, Mesh, MeshedGear, MshFormat, StructuredOptions};
 use reduction::{GearReducer, ReductionOptions};
 
 /// First two lines of a table of phases.
@@ -115,7 +115,7 @@ fn peak_mb() -> f64 {
 }
 
 /// A mesh written and read again: reading is a phase.
-fn read(rows: &mut Rows, counts: &[u32], extent: Extent) -> Result<GearMesh, Box<dyn std::error::Error>> {
+fn read(rows: &mut Rows, counts: &[u32], extent: Extent) -> Result<MeshedGear, Box<dyn std::error::Error>> {
     let data = GearData { teeth: TEETH, ..GearData::default() };
     let bore = 0.55 * data.normal_module * f64::from(TEETH) / data.helix_angle.cos();
     let gear = Gear::new(GearData { bore_diameter: bore, ..data })?;
@@ -135,7 +135,7 @@ fn read(rows: &mut Rows, counts: &[u32], extent: Extent) -> Result<GearMesh, Box
     let path = folder.path().join("gear.msh");
     mesh::generate(&gear, &options)?.write(&path, MshFormat::Binary41)?;
     let mesh = phase(rows, "read", || Mesh::read(&path))?;
-    Ok(GearMesh::from_groups(mesh, &GroupNames::default(), TEETH)?)
+    Ok(MeshedGear::from_groups(mesh, &GroupNames::default(), TEETH)?)
 }
 
 fn general(counts: &[u32]) -> Measured {

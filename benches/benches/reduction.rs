@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
 use reduction::{GearReducer, ReductionError, ReductionOptions, ReductionWay};
 
 /// Runs of which the fastest counts.
@@ -55,7 +55,7 @@ fn row(name: &str, teeth: u32, counts: [u32; 5]) -> Row {
     Row { name: name.to_owned(), teeth, dofs, sector, found, general }
 }
 
-fn meshed(gear: &Gear, [profile, fillet, thickness, face, rim]: [u32; 5], extent: Extent) -> GearMesh {
+fn meshed(gear: &Gear, [profile, fillet, thickness, face, rim]: [u32; 5], extent: Extent) -> MeshedGear {
     let options = StructuredOptions {
         order: 2,
         elements_profile: profile,
@@ -66,16 +66,16 @@ fn meshed(gear: &Gear, [profile, fillet, thickness, face, rim]: [u32; 5], extent
         extent,
     };
     let mesh = mesh::generate(gear, &options).expect("a mesh of a sound gear");
-    GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).expect("the mesher names all parts")
+    MeshedGear::from_groups(mesh, &GroupNames::default(), gear.teeth()).expect("the mesher names all parts")
 }
 
 fn options() -> ReductionOptions {
     ReductionOptions { sides: vec![Side::Left], window: 3, first: 0, elements: ElementOptions::default() }
 }
 
-type Way = fn(GearMesh, Material, ReductionOptions) -> Result<GearReducer, ReductionError>;
+type Way = fn(MeshedGear, Material, ReductionOptions) -> Result<GearReducer, ReductionError>;
 
-fn fastest(mesh: &GearMesh, reduce: Way) -> (f64, ReductionWay) {
+fn fastest(mesh: &MeshedGear, reduce: Way) -> (f64, ReductionWay) {
     let runs = (0..REPEATS).map(|_| {
         let mesh = mesh.clone();
         let start = Instant::now();

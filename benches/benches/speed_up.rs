@@ -7,7 +7,7 @@ use ale::Station;
 use geometry::GearData;
 use mesh::Extent;
 use study::power_law;
-use verification::{Case, default_data, quadratic};
+use testing::{Case, default_data, quadratic};
 
 /// Positions of one mesh cycle.
 const POSITIONS: usize = 8;

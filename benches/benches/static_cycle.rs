@@ -5,7 +5,7 @@ use divan::{Bencher, black_box};
 use fem::ElementOptions;
 use mesh::Mesh;
 use reduction::ElasticGear;
-use verification::{Case, meshes_folder};
+use testing::{Case, meshes_folder};
 
 fn main() {
     divan::main();

@@ -13,7 +13,7 @@ use ::scene::{
 use analysis::{
     AnalysisError, Context, GearCache, Observer, PhaseWork, Recorder, SharedModels,
     in_time::is_one_motion,
-    optimum::{optimise, told},
+    optimum::{optimise, summarise},
     solve,
 };
 use export::MotionFileSink;
@@ -90,10 +90,10 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     })?;
     watch.end();
     watch.begin("tell", PhaseWork::Unknown);
-    let told = told(held.models, &found)?;
+    let summary = summarise(held.models, &found)?;
     watch.end();
     let scene = found.plan.own_scene(&found.values).map_err(AnalysisError::from)?.standing_alone();
-    let of = OptimumResult { optimum: &found, told: &told, scene: &scene, again };
+    let of = OptimumResult { optimum: &found, summary: &summary, scene: &scene, again };
     let written = write_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
     Ok(Result::written("optimum", written.answer, folder, None))

@@ -7,7 +7,7 @@ use analysis::Recorder;
 use analysis::{
     AnalysisError, DerivativeRecorder, Derivatives, GearCache, SharedModels, SinkResult, StaticAnalysis, StaticResult,
     StaticSink,
-    facts::Facts,
+    facts::RunInfo,
     remark::Remark,
     results::{root_stress_headline, root_stress_warnings, static_headline},
     static_certificate,
@@ -27,7 +27,7 @@ use crate::{error::Complaint, work::Watch};
 pub struct AtRest {
     scene: Scene,
     history: StaticHistory,
-    facts: Facts,
+    facts: RunInfo,
     cost: Cost,
     /// Where the scene asks for some.
     derivatives: Option<Derivatives>,
@@ -107,7 +107,7 @@ impl AtRest {
             Some(model) => {
                 facts.first_result_s = first_result_s;
                 let root = root_stress_headline(&history).map(|root| root.largest_tensions());
-                history.warnings.extend(root.into_iter().flat_map(root_stress_warnings));
+                history.remarks.extend(root.into_iter().flat_map(root_stress_warnings));
                 InSpace::Remembered(Box::new((recorder, model)))
             }
             None => InSpace::Drawn(None, Vec::new()),
@@ -128,8 +128,8 @@ impl AtRest {
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[Remark] {
-        &self.history.warnings
+    pub fn remarks(&self) -> &[Remark] {
+        &self.history.remarks
     }
 
     /// Whether it holds.
@@ -163,7 +163,7 @@ impl AtRest {
             InSpace::Remembered(_) => (None, &[][..]),
         };
         let mut history = self.history.clone();
-        history.warnings.extend_from_slice(said);
+        history.remarks.extend_from_slice(said);
         let rows = (&history, self.derivatives.as_ref());
         write_static_result(&self.scene, rows, (&self.facts, &self.cost), view, results).map(|written| written.table)
     }

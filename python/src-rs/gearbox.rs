@@ -12,7 +12,7 @@ use tempfile::TempDir;
 use crate::{
     analyses::{self, Held},
     arguments::{Given, path, text},
-    error::{Complaint, Kind},
+    error::Complaint,
     pair::{cache_of, that_holds, threads_of},
     result::{FILES, Result},
     words::{numbers_of, plan_of},
@@ -158,9 +158,6 @@ fn solved(file: &GearboxFile, cache: &dyn GearCache, watch: &mut Watch) -> Answe
     let results = ResultDirectory::create(&folder.path().join(FILES))?;
     let written = write_gearbox(file, &solved, watch.cost(), &results)?;
     results.finish(drop)?;
-    let failure = solved.checks().failed().map(|failed| {
-        let words = format_args!("the result does not hold: {}", failed.missed);
-        Complaint::new(Kind::NoResult, words, Some(failed.hint.into()))
-    });
+    let failure = solved.verdict(file).err().map(Complaint::from);
     Ok(Result::written("gearbox", written.answer, folder, failure))
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use ::mesh::{ElementKind, Mesh as GearMesh, MshFormat};
+use ::mesh::{ElementKind, Mesh as MeshedGear, MshFormat};
 use numpy::{
     PyArray2, PyArrayMethods, PyUntypedArrayMethods,
     ndarray::{Array2, ArrayView2},
@@ -23,7 +23,7 @@ type Answer<T> = std::result::Result<T, Complaint>;
 /// A mesh of a gear: nodes in mm, volume elements, named faces.
 #[pyclass(frozen, module = "ale_gear")]
 pub struct Mesh {
-    mesh: GearMesh,
+    mesh: MeshedGear,
 }
 
 /// Gmsh's types of elements by their nodes: three-dimensional ones, and faces.
@@ -32,12 +32,12 @@ const FACES: [(usize, i32); 5] = [(3, 2), (4, 3), (6, 9), (8, 16), (9, 10)];
 
 impl Mesh {
     /// Of a mesh of the program.
-    pub fn of(mesh: GearMesh) -> Self {
+    pub fn of(mesh: MeshedGear) -> Self {
         Self { mesh }
     }
 
     /// Meshes of pinion and wheel that an argument gives.
-    pub fn two(any: &Bound<'_, PyAny>) -> Answer<[GearMesh; 2]> {
+    pub fn two(any: &Bound<'_, PyAny>) -> Answer<[MeshedGear; 2]> {
         let wrong = || {
             let what = format_args!("is {}, wanted are the meshes of pinion and wheel", shown(any)).to_string();
             Complaint::argument("meshes", what, "as `meshes=(pinion, wheel)`, each a Mesh, or what meshio has read")
@@ -48,7 +48,7 @@ impl Mesh {
     }
 
     /// A mesh of this package, or of meshio.
-    fn one(any: &Bound<'_, PyAny>) -> Answer<GearMesh> {
+    fn one(any: &Bound<'_, PyAny>) -> Answer<MeshedGear> {
         if let Ok(own) = any.cast::<Self>() {
             return Ok(own.get().mesh.clone());
         }
@@ -153,11 +153,11 @@ impl Msh {
         Ok(())
     }
 
-    fn mesh(mut self) -> Answer<GearMesh> {
+    fn mesh(mut self) -> Answer<MeshedGear> {
         self.bytes.extend(format!("$Elements\n{}\n", self.count).into_bytes());
         self.bytes.extend(self.elements);
         self.bytes.extend(b"\n$EndElements\n");
-        Ok(GearMesh::parse(&self.bytes, Path::new("mesh in memory"))?)
+        Ok(MeshedGear::parse(&self.bytes, Path::new("mesh in memory"))?)
     }
 }
 
@@ -214,7 +214,7 @@ impl Mesh {
     #[staticmethod]
     fn read(py: Python<'_>, file: &Bound<'_, PyAny>) -> Answer<Self> {
         let file = path("file", file)?;
-        Ok(Self { mesh: py.detach(|| GearMesh::read(&file)).map_err(|e| Complaint::from(e).about(&file))? })
+        Ok(Self { mesh: py.detach(|| MeshedGear::read(&file)).map_err(|e| Complaint::from(e).about(&file))? })
     }
 
     /// What meshio has read; groups are those of Gmsh, or sets of cells.

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use ::mesh::Mesh as GearMesh;
+use ::mesh::Mesh as MeshedGear;
 use ::scene::{
     Document, Kind as SceneKind, Setting,
     optimum::{Optimisation, OptimisationWords},
 };
-use analysis::{GearCache, NoCache, SharedModels, accuracy::KeptGears, in_time::is_one_motion};
+use analysis::{GearCache, NoCache, SharedModels, accuracy::GearMemo, in_time::is_one_motion};
 use pyo3::{
     prelude::*,
     types::{PyBool, PyList},
@@ -43,8 +43,8 @@ pub struct Pair {
 /// What the threads that work hold as well.
 struct Kept {
     models: SharedModels<'static>,
-    cache: Arc<KeptGears<'static>>,
-    meshes: Option<[GearMesh; 2]>,
+    cache: Arc<GearMemo<'static>>,
+    meshes: Option<[MeshedGear; 2]>,
 }
 
 impl Kept {
@@ -152,7 +152,7 @@ impl Pair {
         };
         let meshes = meshes.map(Mesh::two).transpose()?;
         let threads = threads.map(threads_of).transpose()?;
-        let cache = Arc::new(KeptGears::holding(cache_of(cache)?));
+        let cache = Arc::new(GearMemo::holding(cache_of(cache)?));
         let models = SharedModels::holding(Arc::clone(&cache) as Arc<dyn GearCache + Send>);
         let models = match &meshes {
             Some(meshes) => models.with_meshes(meshes.clone()),

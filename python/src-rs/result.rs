@@ -67,7 +67,7 @@ impl Result {
             name: name.to_owned(),
             tables: vec![solved.table()],
             headline: solved.headline()?,
-            remarks: solved.warnings().to_vec(),
+            remarks: solved.remarks().to_vec(),
             failure: solved.verdict().err().map(Complaint::from),
             files: Files::Held(Box::new(solved), OnceLock::new()),
         })
@@ -78,7 +78,7 @@ impl Result {
         let Answer { name, tables, headline, remarks, checks, .. } = answer;
         let failure = failure.or_else(|| {
             let failed = checks.failed()?;
-            let message = format!("{name}: the result does not hold: {}", failed.missed);
+            let message = format!("{name}: check failed: {}", failed.missed);
             Some(Complaint::new(Kind::NoResult, message, Some(failed.hint.to_owned())))
         });
         Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure }
@@ -282,7 +282,7 @@ impl Result {
     }
 
     fn __repr__(&self) -> String {
-        let word = if self.holds() { "" } else { ", which does not hold" };
+        let word = if self.holds() { "" } else { ", which failed a check" };
         let (rows, columns) = (self.rows(), self.own_columns().len());
         format!("Result({:?}, {}: {rows} rows of {columns} columns{word})", self.name, self.kind)
     }

@@ -10,12 +10,12 @@ use std::{
 };
 
 use serde_json::Value as Json;
-use testing::Random;
-
-use crate::{
-    program::ale_gear,
+use testing::{
+    Random,
     small_scenes::{self, SmallDocument},
 };
+
+use crate::program::ale_gear;
 
 /// Kills of one run at the most before it is left alone.
 const PATIENCE: u32 = 4;

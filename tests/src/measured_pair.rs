@@ -1,4 +1,4 @@
-//! What `measure_accuracy` has measured of a pair.
+//! What `measure_accuracy rest` has measured of a pair.
 
 use analysis::accuracy::{CalibratedMesh, Features, Sample, features};
 use geometry::GearPair;

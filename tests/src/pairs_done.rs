@@ -2,7 +2,7 @@
 
 use std::{
     error::Error,
-    fs::File,
+    fs::{self, File},
     io::{BufRead, BufReader},
 };
 
@@ -22,4 +22,18 @@ pub fn pairs_done(file: &str, seed: u64) -> Result<Vec<u64>, Box<dyn Error + Sen
         }
     }
     Ok(found)
+}
+
+/// All lines of some files.
+///
+/// # Errors
+/// What cannot be read.
+pub fn lines(files: &[String]) -> Result<Vec<Value>, Box<dyn Error + Send + Sync>> {
+    let mut all = Vec::new();
+    for file in files {
+        for line in fs::read_to_string(file)?.lines() {
+            all.push(serde_json::from_str(line)?);
+        }
+    }
+    Ok(all)
 }

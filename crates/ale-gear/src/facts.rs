@@ -12,7 +12,7 @@ pub struct ForFiles {
     /// The answer.
     pub solved: SolvedAtRest,
     /// What it took.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// The gears in space; `None` for a model without meshes, and where nobody asked.
     pub view: Option<View>,
 }

@@ -1,5 +1,5 @@
 //! A gearbox, from a checked gearbox file to a result folder: what is computed stands in
-//! [`analysis::gearbox_at_rest`], what is written in [`report::gearbox_files`].
+//! [`analysis::gearbox`], what is written in [`report::gearbox_files`].
 
 use analysis::{Context, Ending};
 use report::gearbox_files::write_gearbox;

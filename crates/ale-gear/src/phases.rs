@@ -15,7 +15,7 @@ use report::{Cost, Phase};
 use crate::memory;
 use crate::pace::Pace;
 use crate::printed;
-use crate::talk::{self, Loudness};
+use crate::talk::{self, Verbosity};
 use watch::Watch;
 use words::{filled, foreseen, left};
 
@@ -58,7 +58,7 @@ pub struct BarProgress {
     /// Of the steps so far; `None` where their number is only a limit.
     pace: Option<SharedPace>,
     /// What was foreseen for all of it, s, where it has no steps.
-    foreseen_s: Option<f64>,
+    estimated_seconds: Option<f64>,
 }
 
 /// The pace of a phase, for its bar and for its lines of text.
@@ -76,7 +76,7 @@ impl Progress for BarProgress {
     }
 
     fn say(&self, message: String) {
-        talk::say(Loudness::Details, || format!("  {}: {message}", self.bar.prefix()));
+        talk::say(Verbosity::Details, || format!("  {}: {message}", self.bar.prefix()));
         self.bar.set_message(printed::message(&message));
     }
 }
@@ -101,9 +101,9 @@ impl BarProgress {
         let open = length.unwrap_or(0).saturating_sub(done);
         let rest = match &self.pace {
             Some(pace) => rest(pace, open, seconds),
-            None => self.foreseen_s.map(foreseen).unwrap_or_default(),
+            None => self.estimated_seconds.map(foreseen).unwrap_or_default(),
         };
-        talk::say(Loudness::Bars, || {
+        talk::say(Verbosity::Bars, || {
             format!("{name}: {steps}after {seconds:.0} s{rest} {beside}").trim_end().to_owned()
         });
     }
@@ -156,19 +156,19 @@ impl Phases {
             (PhaseWork::Steps(steps) | PhaseWork::AtMost(steps), pace) => steps_bar(steps, pace.clone()),
         };
         // indicatif draws nothing when stderr is no terminal.
-        bar.set_draw_target(if self.bars && talk::loudness() == Loudness::Bars {
+        bar.set_draw_target(if self.bars && talk::verbosity() == Verbosity::Bars {
             ProgressDrawTarget::stderr()
         } else {
             ProgressDrawTarget::hidden()
         });
         bar.set_prefix(printed::message(name));
         bar.enable_steady_tick(Duration::from_millis(120));
-        talk::say(Loudness::Steps, || format!("{name} ..."));
+        talk::say(Verbosity::Steps, || format!("{name} ..."));
         let own_peak = memory::reset_peak();
-        let logs = self.bars && talk::loudness() >= Loudness::Bars && bar.is_hidden();
+        let logs = self.bars && talk::verbosity() >= Verbosity::Bars && bar.is_hidden();
         let due = talk::progress_after_s().filter(|_| logs).map(|s| Arc::new(AtomicU64::new(s)));
-        let foreseen_s = if let PhaseWork::Seconds(seconds) = work { Some(seconds) } else { None };
-        let progress = BarProgress { bar: bar.clone(), due, pace, foreseen_s };
+        let estimated_seconds = if let PhaseWork::Seconds(seconds) = work { Some(seconds) } else { None };
+        let progress = BarProgress { bar: bar.clone(), due, pace, estimated_seconds };
         let watch = progress.due.clone().and_then(|due| {
             let (bar, own) = (progress.bar.clone(), progress.clone());
             Watch::begin(Arc::clone(&due), move || bar.elapsed(), move || own.log(&due))
@@ -184,7 +184,7 @@ impl Phases {
         let wall_s = start.elapsed().as_secs_f64();
         let peak = memory::peak_mb();
         bar.finish_and_clear();
-        talk::say(Loudness::Steps, || format!("{name}: {wall_s:.2} s"));
+        talk::say(Verbosity::Steps, || format!("{name}: {wall_s:.2} s"));
         self.highest = match (self.highest, peak) {
             (Some(a), Some(b)) => Some(f64::max(a, b)),
             (a, b) => a.or(b),
@@ -239,7 +239,7 @@ impl Observer for Phases {
     }
 
     fn note(&mut self, message: String) {
-        talk::say(Loudness::Bars, || format!("ale-gear: {message}"));
+        talk::say(Verbosity::Bars, || format!("ale-gear: {message}"));
     }
 }
 

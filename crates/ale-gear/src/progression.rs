@@ -7,7 +7,7 @@ use store::checkpoint::{CheckpointFolder, Checkpoints, InputDigests, Resumable, 
 use crate::{
     certificate::Closing,
     error::CommandError,
-    talk::{self, Loudness},
+    talk::{self, Verbosity},
 };
 
 /// What is known of earlier and later runs of the same motion.
@@ -78,7 +78,7 @@ fn going_on<S: StoredState>(
     inputs: &InputDigests,
 ) -> Result<Option<Stored<S>>, CommandError> {
     if folder.is_without_state() {
-        talk::say(Loudness::Bars, || {
+        talk::say(Verbosity::Bars, || {
             format!(
                 "ale-gear: {}: the run was cut short before its first checkpoint and begins anew",
                 folder.path().display()

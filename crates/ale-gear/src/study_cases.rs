@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use analysis::{
-    PhaseWork, RestRequest, SharedModels, Solved, WarningsAtRest,
+    PhaseWork, RestRequest, SharedModels, Solved, WarningsAtRest, parallel_map,
     parameter_study::{CaseFailure, CaseRecord},
     remark::{self, Remark},
-    run_phase, side_by_side, solve_at_rest,
+    run_phase, solve_at_rest,
 };
 use columns::read_columns;
 use columns::solved_rows;
@@ -45,7 +45,7 @@ pub(crate) fn run_cases(
     runner: CaseRunner<'_>,
     done: &(dyn Fn(&StudyCase) + Sync),
 ) -> Vec<CaseResult> {
-    side_by_side(study.cases.len(), |i| {
+    parallel_map(study.cases.len(), |i| {
         let ran = one(study, i, kept, runner).unwrap_or_else(|e| Err(miss(e, false)));
         done(&study.cases[i]);
         ran
@@ -94,7 +94,7 @@ fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Res
         cost,
         steps: steps(&solved.headline()?),
         has_report: has_report(&folder),
-        warnings: solved.warnings().to_vec(),
+        remarks: solved.remarks().to_vec(),
     }))
 }
 
@@ -105,7 +105,7 @@ fn write_rows(
     results: &ResultDirectory,
 ) -> Result<(Solved, Cost), CommandError> {
     let mut phases = Phases::quiet();
-    let work = || solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Told));
+    let work = || solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Collected));
     let solved = run_phase(&mut phases, "solve", PhaseWork::Unknown, |_| work())?;
     let (facts, cost) = (solved.facts()?, phases.cost());
     let rows = (&solved.history, solved.derivatives.as_ref());
@@ -135,6 +135,6 @@ fn of_folder(scene: &Scene, folder: &Path) -> Result<Option<CaseRun>, CommandErr
         cost: serde_json::from_value(summary["cost"].clone()).unwrap_or_default(),
         steps: steps(&summary["headline"]),
         has_report: has_report(folder),
-        warnings: remarks.iter().filter_map(|said| Remark::read(said, remark::ALL)).collect(),
+        remarks: remarks.iter().filter_map(|said| Remark::read(said, remark::ALL)).collect(),
     }))
 }

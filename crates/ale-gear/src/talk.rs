@@ -8,7 +8,7 @@ use crate::{error::CommandError, printed};
 
 /// How much is said while work is done.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Loudness {
+pub enum Verbosity {
     /// Errors only.
     Quiet,
     /// Progress bars, where stderr is a terminal.
@@ -19,17 +19,17 @@ pub enum Loudness {
     Details,
 }
 
-const ALL: [Loudness; 4] = [Loudness::Quiet, Loudness::Bars, Loudness::Steps, Loudness::Details];
+const ALL: [Verbosity; 4] = [Verbosity::Quiet, Verbosity::Bars, Verbosity::Steps, Verbosity::Details];
 /// Of this process, as its command line says.
-static LOUDNESS: AtomicU8 = AtomicU8::new(Loudness::Bars as u8);
+static LOUDNESS: AtomicU8 = AtomicU8::new(Verbosity::Bars as u8);
 
 /// Sets how much the whole process says.
-pub fn set_loudness(loudness: Loudness) {
-    LOUDNESS.store(loudness as u8, Ordering::Relaxed);
+pub fn set_verbosity(verbosity: Verbosity) {
+    LOUDNESS.store(verbosity as u8, Ordering::Relaxed);
 }
 
 /// How much the process says.
-pub fn loudness() -> Loudness {
+pub fn verbosity() -> Verbosity {
     ALL[usize::from(LOUDNESS.load(Ordering::Relaxed)).min(ALL.len() - 1)]
 }
 
@@ -63,8 +63,8 @@ pub(crate) fn progress_after_s() -> Option<u64> {
 }
 
 /// Says a line on stderr if that much is wanted.
-pub(crate) fn say<D: Display>(from: Loudness, line: impl FnOnce() -> D) {
-    if loudness() >= from {
+pub(crate) fn say<D: Display>(from: Verbosity, line: impl FnOnce() -> D) {
+    if verbosity() >= from {
         write(&printed::message(&line().to_string()));
     }
 }
@@ -81,7 +81,7 @@ fn write(line: &str) {
 
 /// Says what the user should know however little is to be said.
 pub(crate) fn note(message: String) {
-    say(Loudness::Quiet, || format!("ale-gear: {message}"));
+    say(Verbosity::Quiet, || format!("ale-gear: {message}"));
 }
 
 /// Whether stderr takes colours: it is a terminal that can, and nobody has set `NO_COLOR`.

@@ -5,7 +5,7 @@ use contact::{Bulk, Method};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
 use ltca::{StaticModel, StaticOptions};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
 use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// Positions of the mesh cycle over which is averaged.
@@ -79,7 +79,7 @@ impl<'a> Coarse<'a> {
         let pair = pair.with_mid_face_offset(self.pair.mid_face_offset()).ok()?;
         let elastic = |i: usize| {
             let mesh = mesh::generate(&gears[i], &mesher(bodies[i].extent)).ok()?;
-            let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gears[i].teeth()).ok()?;
+            let (mesh, _) = MeshedGear::find(mesh, &gears[i], &GroupNames::default()).ok()?;
             let options = ReductionOptions {
                 sides: asked.contact.sides(),
                 window,

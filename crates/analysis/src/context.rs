@@ -28,7 +28,7 @@ pub struct Context<'a, Q: Question + ?Sized> {
     pub(crate) cache: &'a dyn GearCache,
     pub(crate) models: Option<&'a SharedModels<'a>>,
     pub(crate) meshes: Option<[&'a Mesh; 2]>,
-    pub(crate) warnings: WarningsAtRest,
+    pub(crate) remarks: WarningsAtRest,
     pub(crate) sink: Option<&'a mut Q::Sink<'a>>,
     pub(crate) from: Option<Q::State>,
     pub(crate) stop_after: Option<u64>,
@@ -38,7 +38,7 @@ impl<'a, Q: Question + ?Sized> Context<'a, Q> {
     /// Of who waits, without a cache, to the end, all rows in memory.
     pub fn new(observer: &'a mut dyn Observer) -> Self {
         let (models, meshes, sink, from, stop_after) = (None, None, None, None, None);
-        Self { observer, cache: &NoCache, models, meshes, warnings: WarningsAtRest::Told, sink, from, stop_after }
+        Self { observer, cache: &NoCache, models, meshes, remarks: WarningsAtRest::Collected, sink, from, stop_after }
     }
 
     /// With reduced gears from a cache, and into it.
@@ -91,8 +91,8 @@ impl<'a> Context<'a, Scene> {
 
     /// Whether it is found out what a user should hear of a pair at rest.
     #[must_use]
-    pub fn with_warnings(self, warnings: WarningsAtRest) -> Self {
-        Self { warnings, ..self }
+    pub fn with_warnings(self, remarks: WarningsAtRest) -> Self {
+        Self { remarks, ..self }
     }
 }
 

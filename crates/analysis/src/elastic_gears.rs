@@ -13,7 +13,7 @@ use scene::{Model, Scene};
 use crate::{
     AnalysisError, GearCache, Progress,
     error::{in_scene, solver_error},
-    foreseen::foreseen_gear_s,
+    estimated_time::estimated_gear_seconds,
     meshes::SceneMesh,
 };
 
@@ -25,7 +25,7 @@ pub struct ElasticGears {
     /// What the cache knows them by.
     pub keys: RecordKeys,
     /// What was wrong with files of the cache.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// What the cache knows the gears by; none where nothing is cached.
@@ -38,7 +38,7 @@ impl RecordKeys {
         &self.0
     }
 
-    /// Writes what was reduced in this run; the warnings are about what could not be written.
+    /// Writes what was reduced in this run; the remarks are about what could not be written.
     pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<Remark> {
         let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
             ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
@@ -70,8 +70,8 @@ pub fn elastic_gears(
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));
     let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
-    let warnings = said.into_iter().chain(also).collect();
-    Ok(ElasticGears { gears: [pinion, wheel], keys: RecordKeys([first_key, second_key]), warnings })
+    let remarks = said.into_iter().chain(also).collect();
+    Ok(ElasticGears { gears: [pinion, wheel], keys: RecordKeys([first_key, second_key]), remarks })
 }
 
 const NAMES: [&str; 2] = ["pinion", "wheel"];
@@ -113,7 +113,7 @@ fn one(
         None => {
             let watch = ReductionWatch { tell: &tell, wanted };
             let made = GearReducer::watched(mesh.gear.clone(), material, options, general, watch);
-            let long = foreseen_gear_s(general, mesh) >= LONG_S;
+            let long = estimated_gear_seconds(general, mesh) >= LONG_S;
             let kept = made.as_ref().ok().filter(|_| long).and_then(|gear| Some((key.as_ref()?, gear.record()?)));
             let said = kept.and_then(|(key, record)| cache.save(key, &record));
             (made, said)

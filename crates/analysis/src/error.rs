@@ -10,6 +10,7 @@ use ltca::StaticError;
 use lumped::LumpedError;
 use mesh::MeshError;
 use periodic::PeriodicError;
+use rating::RatingError;
 use reduction::ReductionError;
 use scene::{Scene, SceneError};
 use study::{StudyError, calculix::CalculixError};
@@ -41,6 +42,9 @@ pub enum AnalysisError {
     /// A cheaper model cannot be made of the scene, or finds no motion.
     #[error("{0}")]
     Lumped(Box<LumpedError>),
+    /// A standard has no rating of the pair.
+    #[error("{0}")]
+    Rating(Box<RatingError>),
     /// The pair does not move as it is asked to.
     #[error("{0}")]
     Motion(Box<PairMotionError>),
@@ -57,7 +61,7 @@ pub enum AnalysisError {
     #[error("{0}")]
     Refused(Box<Refusal>),
     /// A check of the result does not hold.
-    #[error("the result does not hold: {}", .0.missed)]
+    #[error("check failed: {}", .0.missed)]
     Certificate(FailedCheck),
     /// Who waits has given up, as `Progress::is_cancelled` says.
     #[error("stopped before the end")]
@@ -85,6 +89,7 @@ boxed! {
     ReductionError => Reduction,
     StaticError => Solver,
     LumpedError => Lumped,
+    RatingError => Rating,
     PairMotionError => Motion,
     GearboxError => Gearbox,
     PeriodicError<AnalysisError> => Periodic,
@@ -172,7 +177,7 @@ impl AnalysisError {
             Self::Gearbox(source) => source.is_without_result(),
             Self::Reduction(source) => source.is_without_result(),
             Self::Solver(source) => matches!(**source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. }),
-            Self::At(_) | Self::Shared(_) | Self::Scene(_) | Self::Mesh(_) => false,
+            Self::At(_) | Self::Shared(_) | Self::Scene(_) | Self::Mesh(_) | Self::Rating(_) => false,
         };
         if without_result { Blame::NoResult } else { Blame::Input }
     }
@@ -185,6 +190,7 @@ impl AnalysisError {
             Self::Reduction(source) => source.hint(),
             Self::Solver(source) => source.hint(),
             Self::Lumped(source) => source.hint(),
+            Self::Rating(_) => Some("`[rating]` asks for it: without the table the pair is solved as it is".to_owned()),
             Self::Motion(source) => Some(source.hint()),
             Self::Gearbox(source) => source.hint(),
             Self::Periodic(_) => Some(

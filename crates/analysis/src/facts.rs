@@ -3,6 +3,7 @@
 use geometry::{GearPair, GeometrySheet};
 use scene::Scene;
 use serde::Serialize;
+use serde_json::{Map, Value};
 
 use crate::{
     AnalysisError,
@@ -12,7 +13,6 @@ use crate::{
     gears, iso_root,
     loaded_pair::LoadedPair,
     nominal_pressure::{NominalPressure, nominal_pressure},
-    refused::{Blame, Refusal},
 };
 pub use crate::{
     gears::GeometryFacts,
@@ -20,50 +20,52 @@ pub use crate::{
     resolution::Resolution,
 };
 
-/// What a run was made of and what it cost.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct Facts {
-    /// Geometry of the pair.
-    pub geometry: GeometryFacts,
-    /// What a geometry sheet says of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub geometry_sheet: Option<GeometrySheet>,
-    /// Nominal pressure of its flanks under the scene's torque.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub nominal_pressure: Option<NominalPressure>,
-    /// Meshes of pinion and wheel; empty for a model without meshes.
-    pub meshes: Vec<MeshFacts>,
-    /// Degrees of freedom of pinion and wheel before reduction.
-    pub dof_before: [usize; 2],
-    /// Degrees of freedom of pinion and wheel that the analysis carries.
-    pub dof_after: [usize; 2],
-    /// Which way pinion and wheel were condensed: `cyclic sector` or `general`; empty for a model without reduction.
-    pub reduction: Vec<&'static str>,
-    /// Teeth in the window at the end.
-    pub window_teeth: Option<u32>,
-    /// Contact points of the window.
-    pub contact_points: Option<usize>,
-    /// How fine contact and meshes are along the face; `None` for a model without meshes.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub resolution: Option<Resolution>,
-    /// Wall time from the start of the program to the first solved position, s.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub first_result_s: Option<f64>,
-    /// Nominal root stress after ISO 6336-3; `None` where the standard has no value.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub iso_root_stress: Option<IsoRootStress>,
-    /// How exact the headline numbers are; `None` where nothing was asked.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub accuracy: Option<Accuracy>,
-    /// What must hold of the result.
-    #[serde(flatten)]
-    pub certificate: Checks,
-    /// What only one model knows, by key with unit.
-    #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
-    pub model: serde_json::Map<String, serde_json::Value>,
+described::described! {
+    /// What a run was made of and what it cost.
+    #[derive(Debug, Clone, Default, Serialize)]
+    pub struct RunInfo {
+        /// geometry of the pair
+        pub geometry: GeometryFacts,
+        /// numbers that drawings ask for
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub geometry_sheet: Option<GeometrySheet>,
+        /// pressure of nominal flanks under the scene's torque
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub nominal_pressure: Option<NominalPressure>,
+        /// meshes of pinion and wheel; empty for a model without meshes
+        pub meshes: Vec<MeshFacts>,
+        /// degrees of freedom of pinion and wheel before reduction
+        pub dof_before: [usize; 2],
+        /// degrees of freedom of pinion and wheel that the analysis carries
+        pub dof_after: [usize; 2],
+        /// reduction of pinion and wheel: `cyclic sector` or `general`; empty without reduction
+        pub reduction: Vec<&'static str>,
+        /// teeth of the window at the end
+        pub window_teeth: Option<u32>,
+        /// contact points of the window, or slices: those of a pair times the pairs
+        pub contact_points: Option<usize>,
+        /// resolution of contact and meshes along the face; missing for a model without meshes
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub resolution: Option<Resolution>,
+        /// time from the start of the program to the first solved position
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub first_result_s: Option<f64>,
+        /// nominal root stress after ISO 6336-3:2019, method B ([theory](theory.md), equation 23a), from the scene's torque, without load factors; missing where the standard has no value
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub iso_root_stress: Option<IsoRootStress>,
+        /// bounds of the headline numbers, where the scene has `[accuracy]`, and of a pair at rest like those of the calibration
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub accuracy: Option<Accuracy>,
+        /// what must hold of the result
+        #[serde(flatten)]
+        pub certificate: Checks,
+        /// numbers that only this model has
+        #[serde(skip_serializing_if = "serde_json::Map::is_empty")]
+        pub model: Map<String, Value>,
+    }
 }
 
-impl Facts {
+impl RunInfo {
     /// What follows from the pair and its nominal load alone.
     pub fn of_pair(scene: &Scene, pair: &GearPair) -> Self {
         let loaded = LoadedPair::of(scene, pair);
@@ -82,26 +84,21 @@ impl Facts {
     /// [`AnalysisError::Certificate`]; [`AnalysisError::Refused`] of a result less exact than asked.
     pub fn verdict(&self, scene: &Scene) -> Result<(), AnalysisError> {
         certificate::verdict(&self.certificate, scene)?;
-        let missed = self.accuracy.iter().flat_map(Accuracy::missed);
-        let missed: Vec<String> = missed.map(|b| format!("{} is {}", b.quantity.key(), b.words())).collect();
-        if missed.is_empty() {
-            return Ok(());
-        }
-        let what = format!("the accuracy asked for is not kept: {}", missed.join(", "));
-        let hint = Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".to_owned());
-        Err(in_scene(scene)(Refusal { what, hint, blame: Blame::Inexact }))
+        self.accuracy.as_ref().map_or(Ok(()), Accuracy::verdict).map_err(in_scene(scene))
     }
 }
 
-/// Where a mesh comes from and how large it is.
-#[derive(Debug, Clone, Default, Serialize)]
-pub struct MeshFacts {
-    /// File as the scene names it, or `built-in mesher`; and whether a sector was repeated.
-    pub source: String,
-    /// Number of nodes; of a repeated sector, those of the whole gear, as with the elements.
-    pub nodes: usize,
-    /// Number of volume elements.
-    pub elements: usize,
-    /// Kinds of elements with their numbers, as `hex8 1200`.
-    pub kinds: Vec<String>,
+described::described! {
+    /// Where a mesh comes from and how large it is.
+    #[derive(Debug, Clone, Default, Serialize)]
+    pub struct MeshFacts {
+        /// file as the scene names it, or `built-in mesher`; and whether a sector was repeated
+        pub source: String,
+        /// number of nodes; of a repeated sector those of the whole gear
+        pub nodes: usize,
+        /// number of volume elements; of a repeated sector those of the whole gear
+        pub elements: usize,
+        /// kinds of elements with their numbers, as `hex8 1200`
+        pub kinds: Vec<String>,
+    }
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use geometry::{Gear, Side, Vec3};
-use mesh::{DEFAULT_TOLERANCE_MODULES, GearMesh, GroupNames};
+use mesh::{DEFAULT_TOLERANCE_MODULES, GroupNames, MeshedGear};
 use nalgebra::Rotation3;
 
 use crate::{AnalysisError, error::mismatch};
@@ -15,7 +15,7 @@ pub(crate) struct NamedFlanks<'a> {
     /// `pinion` or `wheel`.
     pub whose: &'a str,
     /// The mesh with its parts.
-    pub found: &'a GearMesh,
+    pub found: &'a MeshedGear,
     /// The gear.
     pub exact: &'a Gear,
     /// What the mesh calls its parts.

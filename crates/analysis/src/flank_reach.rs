@@ -34,14 +34,14 @@ impl NamedFlanks<'_> {
             let nodes = found.flank(tooth, side).unwrap_or_default().iter().flat_map(|face| face.nodes());
             let places = nodes.map(|&node| {
                 let p = self.point(node);
-                [p.x.hypot(p.y), p.z]
+                [exact.sign() * p.x.hypot(p.y), p.z]
             });
             let none = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
             let [radii, heights] = places.fold(none, |[r, z], p| [widened(r, p[0]), widened(z, p[1])]);
-            // Places on the path of contact that the lowest and the highest node stand for.
+            // Radii and paths of a ring are negative: both grow towards the tip. Places on the path of contact that the lowest and the highest node stand for.
             let base = exact.base_radius();
-            let own = radii.map(|r| (r * r - base * base).max(0.0).sqrt());
-            let [from, to] = path.map(|xi| base.hypot(xi));
+            let own = radii.map(|r| exact.sign() * (r * r - base * base).max(0.0).sqrt());
+            let [from, to] = path.map(|xi| exact.sign() * base.hypot(xi));
             let flank = FlankName { tooth, side };
             let candidates = [
                 (radii[0] - from, Edge::Root, own[0] - path[0], path, [2.0 * radii[0], 2.0 * from]),

@@ -1,34 +1,36 @@
-//! What a user hears of the exact pair of a scene: warnings and derived geometry.
+//! What a user hears of the exact pair of a scene: remarks and derived geometry.
 
 use crate::remark;
 use geometry::GearPair;
 use serde::Serialize;
 
-/// Derived geometry of the pair.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
-pub struct GeometryFacts {
-    /// Working centre distance, mm.
-    pub centre_distance_mm: f64,
-    /// Transverse pressure angle, degrees.
-    pub transverse_pressure_angle_deg: f64,
-    /// Working transverse pressure angle, degrees.
-    pub working_pressure_angle_deg: f64,
-    /// Base helix angle, degrees.
-    pub base_helix_angle_deg: f64,
-    /// Base radii, mm.
-    pub base_radius_mm: [f64; 2],
-    /// Transverse base pitch, mm.
-    pub base_pitch_mm: f64,
-    /// Transverse contact ratio.
-    pub eps_alpha: f64,
-    /// Overlap ratio.
-    pub eps_beta: f64,
-    /// Total contact ratio.
-    pub eps_gamma: f64,
-    /// Mean of the analytic total contact-line length, mm.
-    pub mean_line_length_mm: f64,
-    /// Backlash on the transverse line of action, mm.
-    pub backlash_mm: f64,
+described::described! {
+    /// Derived geometry of the pair.
+    #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
+    pub struct GeometryFacts {
+        /// centre distance
+        pub centre_distance_mm: f64,
+        /// transverse pressure angle
+        pub transverse_pressure_angle_deg: f64,
+        /// working transverse pressure angle
+        pub working_pressure_angle_deg: f64,
+        /// helix angle on the base cylinder
+        pub base_helix_angle_deg: f64,
+        /// base radii of pinion and wheel
+        pub base_radius_mm: [f64; 2],
+        /// transverse base pitch
+        pub base_pitch_mm: f64,
+        /// transverse contact ratio
+        pub eps_alpha: f64,
+        /// overlap ratio
+        pub eps_beta: f64,
+        /// total contact ratio
+        pub eps_gamma: f64,
+        /// mean total contact-line length of the unloaded pair
+        pub mean_line_length_mm: f64,
+        /// backlash along the transverse line of action
+        pub backlash_mm: f64,
+    }
 }
 
 /// What a user should know of a pair that runs.
@@ -43,7 +45,16 @@ pub fn warnings(pair: &GearPair) -> Vec<answer::Remark> {
             gear.data().profile_shift,
         )
     });
-    told.collect()
+    let mut told: Vec<_> = told.collect();
+    if let Some(ring) = pair.sheet().ring {
+        if ring.trimming_margin_deg < 0.0 {
+            told.push(remark::axial_assembly(-ring.trimming_margin_deg));
+        }
+        if ring.shaper_trimming_margin_deg < 0.0 {
+            told.push(remark::shaper_trims(-ring.shaper_trimming_margin_deg, ring.shaper_teeth));
+        }
+    }
+    told
 }
 
 /// What the summary says of a pair.

@@ -8,7 +8,7 @@ use crate::{
     AnalysisError, GearCache, Observer,
     accuracy::motion::{AccurateMotion, MotionAnswer, MotionTold},
     context::Ending,
-    facts::Facts,
+    facts::RunInfo,
     lumped::{
         BasinAnalysis, BasinResult, BifurcationAnalysis, ContinuationAnalysis, ContinuationResult, KeySweep,
         LumpedAnalysis, LumpedQuantity, LumpedResult, NoLumpedSink, SweepOptions, is_lumped,
@@ -50,7 +50,7 @@ pub enum TimeAnswer {
     Basins(Box<BasinResult>),
 }
 
-/// Evaluates an expression with the result of whichever analysis: all of them have `facts`, `headline` and `warnings`.
+/// Evaluates an expression with the result of whichever analysis: all of them have `facts`, `headline` and `remarks`.
 macro_rules! of_any {
     ($answer:expr, $result:ident => $value:expr) => {
         match $answer {
@@ -72,13 +72,13 @@ impl SolvedInTime {
     }
 
     /// What the answer was made of, with its certificate.
-    pub fn facts(&self) -> &Facts {
+    pub fn facts(&self) -> &RunInfo {
         of_any!(&self.answer, result => &result.facts)
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[answer::Remark] {
-        of_any!(&self.answer, result => &result.warnings)
+    pub fn remarks(&self) -> &[answer::Remark] {
+        of_any!(&self.answer, result => &result.remarks)
     }
 
     /// Whether the answer holds and is as exact as was asked. The certificate of a sweep of a reduced-order

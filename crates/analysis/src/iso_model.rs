@@ -3,6 +3,7 @@
 use crate::remark;
 use std::f64::consts::PI;
 
+use answer::keyed;
 use contact::Wrench;
 use geometry::{ContactLine, GearPair, Vec3};
 use ltca::{Certificate, PairResult, StaticHistory, StaticPosition};
@@ -12,8 +13,28 @@ use lumped::{
 };
 
 use scene::Scene;
+use serde::Serialize;
 
-use crate::{AnalysisError, facts::Facts, iso_root, loaded_pair::LoadedPair};
+use crate::{AnalysisError, facts::RunInfo, iso_root, loaded_pair::LoadedPair};
+
+described::described! {
+    /// Facts that only the model `iso` has, after ISO 6336-1.
+    #[derive(Debug, Serialize)]
+    pub(crate) struct IsoFacts {
+        /// c'_th, theoretical single stiffness
+        iso_c_th_n_per_mm_um: f64,
+        /// c', single stiffness
+        iso_c_single_n_per_mm_um: f64,
+        /// c_gamma_alpha, mean mesh stiffness for the transmission error
+        iso_c_gamma_alpha_n_per_mm_um: f64,
+        /// c_gamma_beta, mean mesh stiffness for the face load
+        iso_c_gamma_beta_n_per_mm_um: f64,
+        /// mean transmission error of the standard: the load over c_gamma_alpha, without a mesh cycle
+        iso_mean_ste_closed_form_um: f64,
+        /// transmission error by which the axial force bends the bodies of pinion and wheel ([theory](theory.md), equation 24a); no part of the standard, included in `ste_um`
+        axial_bending_ste_um: [f64; 2],
+    }
+}
 
 /// Solves the scene in closed form.
 ///
@@ -24,7 +45,7 @@ use crate::{AnalysisError, facts::Facts, iso_root, loaded_pair::LoadedPair};
 ///
 /// # Errors
 /// [`AnalysisError::Lumped`] where ISO 6336-1 does not hold.
-pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Facts), AnalysisError> {
+pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, RunInfo), AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let base_force = loaded.base_force();
     let fail = |source: LumpedError| AnalysisError::from(source).of_part("model \"iso\"").in_file(&scene.file);
@@ -40,24 +61,21 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Fa
         })
         .collect();
 
-    let mut model = serde_json::Map::new();
     let mean_te = mean_transmission_error_um(&iso, base_force, pair.face_width());
-    for (key, value) in [
-        ("iso_c_th_n_per_mm_um", iso.c_theoretical),
-        ("iso_c_single_n_per_mm_um", iso.c_single),
-        ("iso_c_gamma_alpha_n_per_mm_um", iso.c_mesh),
-        ("iso_c_gamma_beta_n_per_mm_um", iso.c_mesh_beta),
-        ("iso_mean_ste_closed_form_um", mean_te),
-    ] {
-        model.insert(key.to_owned(), value.into());
-    }
-    model.insert("axial_bending_ste_um".to_owned(), bodies.map(|c| 1e3 * base_force * c).to_vec().into());
+    let model = keyed(&IsoFacts {
+        iso_c_th_n_per_mm_um: iso.c_theoretical,
+        iso_c_single_n_per_mm_um: iso.c_single,
+        iso_c_gamma_alpha_n_per_mm_um: iso.c_mesh,
+        iso_c_gamma_beta_n_per_mm_um: iso.c_mesh_beta,
+        iso_mean_ste_closed_form_um: mean_te,
+        axial_bending_ste_um: bodies.map(|c| 1e3 * base_force * c),
+    });
     let bending = 1e3 * base_force * mesh.bodies;
-    let mut warnings = vec![remark::iso_model(bending)];
-    warnings.extend(doubts(pair, bending / mean_te));
-    let facts = Facts { model, ..Facts::of_pair(scene, pair) };
-    warnings.extend(iso_root::warning(&loaded));
-    Ok((StaticHistory { positions, warnings, ..StaticHistory::default() }, facts))
+    let mut remarks = vec![remark::iso_model(bending)];
+    remarks.extend(doubts(pair, bending / mean_te));
+    let facts = RunInfo { model, ..RunInfo::of_pair(scene, pair) };
+    remarks.extend(iso_root::warning(&loaded));
+    Ok((StaticHistory { positions, remarks, ..StaticHistory::default() }, facts))
 }
 
 /// Transverse contact ratio below which ISO 6336-1 wants less stiffness than its formula and gives no figure.

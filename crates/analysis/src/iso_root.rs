@@ -12,31 +12,44 @@ use crate::loaded_pair::LoadedPair;
 /// Where the numbers come from; said wherever they are handed on.
 const METHOD: &str = "ISO 6336-3:2019 method B, nominal: without load factors K, worst load of the virtual spur gear, Y_DT of tolerance class 5 and above";
 
-/// Nominal root stresses of pinion and wheel; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct IsoRootStress {
-    /// Standard and what is left out.
-    pub method: &'static str,
-    /// Gear 1.
-    pub pinion: IsoGearRoot,
-    /// Gear 2.
-    pub wheel: IsoGearRoot,
+described::described! {
+    /// Nominal root stresses of pinion and wheel; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct IsoRootStress {
+        /// standard, and what is left out
+        pub method: &'static str,
+        /// nominal root stress of the pinion
+        pub pinion: IsoGearRoot,
+        /// nominal root stress of the wheel
+        pub wheel: IsoGearRoot,
+    }
 }
 
-/// Nominal root stress of one gear and what it is made of.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct IsoGearRoot {
-    pub nominal_root_stress_mpa: f64,
-    pub form_factor: f64,
-    pub stress_correction_factor: f64,
-    pub helix_factor: f64,
-    pub rim_thickness_factor: f64,
-    pub deep_tooth_factor: f64,
-    pub root_chord_mm: f64,
-    pub bending_lever_mm: f64,
-    pub fillet_radius_mm: f64,
-    pub rim_over_tooth_height: f64,
+described::described! {
+    /// Nominal root stress of one gear and what it is made of.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct IsoGearRoot {
+        /// sigma_F0
+        pub nominal_root_stress_mpa: f64,
+        /// Y_F, f_eps included
+        pub form_factor: f64,
+        /// Y_S
+        pub stress_correction_factor: f64,
+        /// Y_beta
+        pub helix_factor: f64,
+        /// Y_B
+        pub rim_thickness_factor: f64,
+        /// Y_DT
+        pub deep_tooth_factor: f64,
+        /// s_Fn of the virtual spur gear
+        pub root_chord_mm: f64,
+        /// h_Fe of the virtual spur gear
+        pub bending_lever_mm: f64,
+        /// rho_F of the virtual spur gear
+        pub fillet_radius_mm: f64,
+        /// rim between bore and root circle over tooth height; the standard ends at 0.5
+        pub rim_over_tooth_height: f64,
+    }
 }
 
 /// Says why there is no nominal root stress, to those who asked for root stress.

@@ -40,9 +40,9 @@ impl<'a> LoadedPair<'a> {
         self.driver.loaded_side(self.sense)
     }
 
-    /// Base radius of the driven gear, mm.
+    /// Base radius of the driven gear, mm, without the sign of a ring.
     pub fn driven_base_radius(&self) -> f64 {
-        [&self.pair.pinion, &self.pair.wheel][self.driver.driven()].base_radius()
+        [&self.pair.pinion, &self.pair.wheel][self.driver.driven()].base_radius().abs()
     }
 
     /// F_bt, N: torque on the driven gear over its base radius.
@@ -83,6 +83,7 @@ impl<'a> LoadedPair<'a> {
         let gears = [self.pair.pinion.data(), self.pair.wheel.data()];
         stiffness(&IsoPair {
             teeth: gears.map(|g| g.teeth),
+            internal: self.pair.is_internal(),
             profile_shift: gears.map(|g| g.profile_shift),
             helix_angle: gears[0].helix_angle,
             normal_pressure_angle: gears[0].normal_pressure_angle,

@@ -4,7 +4,7 @@ use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
 use mesh::{
-    BoreCoupling, Extent, GearMesh, GroupNames, Mesh, MeshError, MeshReport, Severity, StructuredError,
+    BoreCoupling, Extent, GroupNames, Mesh, MeshError, MeshReport, MeshedGear, Severity, StructuredError,
     StructuredOptions, SurfaceGroup, generate,
 };
 
@@ -22,11 +22,11 @@ use crate::{
 #[derive(Debug, Clone)]
 pub struct SceneMesh {
     /// The mesh with bore and flanks.
-    pub gear: GearMesh,
+    pub gear: MeshedGear,
     /// What the summary says of it.
     pub facts: MeshFacts,
     /// What the user should know of it.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// The meshes of pinion and wheel.
@@ -58,9 +58,9 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
             }
             let mesh = generated_with(scene, whose, exact, &options)?;
             let failed = |source| made_no_gear(whose, source);
-            let (found, _) = GearMesh::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
+            let (found, _) = MeshedGear::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
             let (gear, facts) = to_compute(scene, gear, found, "built-in mesher".to_owned()).map_err(failed)?;
-            Ok(SceneMesh { gear, facts, warnings: Vec::new() })
+            Ok(SceneMesh { gear, facts, remarks: Vec::new() })
         }
     }
 }
@@ -79,23 +79,23 @@ pub fn checked_mesh(
 ) -> Result<SceneMesh, AnalysisError> {
     let complain = |source| of_mesh(&file, source);
     of_this_size(&file, whose, &mesh, exact)?;
-    let mut warnings = sound(&file, &mesh, gear)?;
-    let (found, fit) = GearMesh::find(mesh, exact, &gear.groups).map_err(complain)?;
+    let mut remarks = sound(&file, &mesh, gear)?;
+    let (found, fit) = MeshedGear::find(mesh, exact, &gear.groups).map_err(complain)?;
     if let Some(fit) = fit {
         let turned = if fit.phase == 0.0 {
             String::new()
         } else {
             format!(", the mesh turned by {:.4} deg", -fit.phase.to_degrees())
         };
-        warnings.push(remark::flanks_found(&*file, fit.flanks.len(), 1e3 * fit.largest_deviation(), turned));
+        remarks.push(remark::flanks_found(&*file, fit.flanks.len(), 1e3 * fit.largest_deviation(), turned));
     }
     same_bore(scene, &file, whose, &found, exact)?;
     let flanks = NamedFlanks { file: &file, whose, found: &found, exact, names: &gear.groups };
     flanks.lie_on_the_gear()?;
     flanks.are_whole()?;
-    warnings.extend(flanks.reach(&scene.gear_pair()?)?);
+    remarks.extend(flanks.reach(&scene.gear_pair()?)?);
     let (gear, facts) = to_compute(scene, gear, found, source).map_err(complain)?;
-    Ok(SceneMesh { gear, facts, warnings })
+    Ok(SceneMesh { gear, facts, remarks })
 }
 
 /// The mesh that the built-in mesher makes of one gear.
@@ -164,7 +164,7 @@ fn made_no_gear(whose: &str, source: MeshError) -> AnalysisError {
 /// Refuses a mesh that is far larger or smaller than the gear: another unit, or another gear.
 fn of_this_size(file: &str, whose: &str, mesh: &Mesh, exact: &Gear) -> Result<(), AnalysisError> {
     let reach = mesh.nodes.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
-    let tip = exact.tip_radius();
+    let tip = exact.tip_radius().abs();
     if (0.5..2.0).contains(&(reach / tip)) {
         return Ok(());
     }
@@ -187,15 +187,15 @@ fn unit_of(size: f64) -> Option<(&'static str, f64)> {
     UNITS.into_iter().find(|(_, factor)| (0.9..1.1).contains(&(size * factor)))
 }
 
-/// Refuses a mesh with errors; hands on its warnings.
+/// Refuses a mesh with errors; hands on its remarks.
 fn sound(file: &str, mesh: &Mesh, gear: &GearScene) -> Result<Vec<Remark>, AnalysisError> {
     let report = MeshReport::of_gear(mesh, &gear.groups, Some(gear.teeth));
     if let Some(error) = report.findings.iter().find(|f| f.severity == Severity::Error) {
         let hint = format!("`ale-gear mesh check {file} --teeth {}` lists everything", gear.teeth);
         return Err(mismatch(file, &*error.text, hint));
     }
-    let warnings = report.findings.iter().filter(|f| f.severity == Severity::Warning);
-    Ok(warnings.map(|f| remark::mesh_finding(file, &*f.text)).collect())
+    let remarks = report.findings.iter().filter(|f| f.severity == Severity::Warning);
+    Ok(remarks.map(|f| remark::mesh_finding(file, &*f.text)).collect())
 }
 
 /// How far the stated bore may be from the mesh's, relative: digits that a user leaves out.
@@ -203,8 +203,8 @@ const BORE_AGREES: f64 = 1e-3;
 
 /// The mesh is held at its own bore: another one in the scene would be an answer for another gear, and another inertia
 /// where no mesh is needed.
-fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &Gear) -> Result<(), AnalysisError> {
-    let stated = exact.data().bore_diameter;
+fn same_bore(scene: &Scene, file: &str, whose: &str, found: &MeshedGear, exact: &Gear) -> Result<(), AnalysisError> {
+    let stated = exact.data().bore_diameter.abs();
     let [low, high] = found.mesh().radii(found.bore_nodes()).map(|r| 2.0 * r);
     if (low * (1.0 - BORE_AGREES)..=high * (1.0 + BORE_AGREES)).contains(&stated) {
         return Ok(());
@@ -222,9 +222,9 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &GearMesh, exact: &G
 fn to_compute(
     scene: &Scene,
     gear: &GearScene,
-    found: GearMesh,
+    found: MeshedGear,
     mut source: String,
-) -> Result<(GearMesh, MeshFacts), MeshError> {
+) -> Result<(MeshedGear, MeshFacts), MeshError> {
     let found = match gear.bore.held_mm {
         Some(part) => found.held_between(part)?,
         None => found,

@@ -12,32 +12,46 @@ use crate::loaded_pair::LoadedPair;
 const METHOD: &str = "Hertz pressure of nominal involutes under the torque of the scene, spread evenly over the contact lines of the position \
      in which one of them passes the point at mid-face; ISO 6336-2:2019 without load factors K and f_ZCa";
 
-/// Nominal pressures of a pair; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct NominalPressure {
-    pub method: &'static str,
-    pub normal_force_n: f64,
-    pub tangential_force_n: f64,
-    pub iso_contact_stress_mpa: f64,
-    pub zone_factor: f64,
-    pub elasticity_factor: f64,
-    pub contact_ratio_factor: f64,
-    pub helix_angle_factor: f64,
-    /// Z_B, Z_D.
-    pub single_contact_factors: Option<[f64; 2]>,
-    /// B, C, D; C alone unless between one and two pairs mesh.
-    pub hertz: Vec<PointPressure>,
+described::described! {
+    /// Nominal pressures of a pair; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct NominalPressure {
+        /// source of the numbers
+        pub method: &'static str,
+        /// F_bn, normal force of the mesh
+        pub normal_force_n: f64,
+        /// F_t, force on the reference circle
+        pub tangential_force_n: f64,
+        /// sigma_H0 of ISO 6336-2:2019 at the pitch point, without load factors ([theory](theory.md), equation 23c)
+        pub iso_contact_stress_mpa: f64,
+        /// Z_H
+        pub zone_factor: f64,
+        /// Z_E, in sqrt(MPa)
+        pub elasticity_factor: f64,
+        /// Z_eps
+        pub contact_ratio_factor: f64,
+        /// Z_beta
+        pub helix_angle_factor: f64,
+        /// Z_B and Z_D, to the inner points of single contact, without f_ZCa; `null` unless between one and two pairs mesh
+        pub single_contact_factors: Option<[f64; 2]>,
+        /// Hertz pressure at the points B, C and D; C alone unless between one and two pairs mesh
+        pub hertz: Vec<PointPressure>,
+    }
 }
 
-/// Hertz pressure at a point of the path of contact.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)]
-pub struct PointPressure {
-    pub name: char,
-    pub line_length_mm: f64,
-    pub relative_radius_mm: f64,
-    pub pressure_mpa: f64,
+described::described! {
+    /// Hertz pressure at a point of the path of contact.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct PointPressure {
+        /// `B`, `C` or `D`
+        pub name: char,
+        /// analytic length of all contact lines while one of them passes the point at mid-face; of a spur pair the face width
+        pub line_length_mm: f64,
+        /// relative radius of curvature in the normal section
+        pub relative_radius_mm: f64,
+        /// Hertz pressure of nominal involutes, the load spread evenly over the contact lines
+        pub pressure_mpa: f64,
+    }
 }
 
 /// Of a pair under its torque.

@@ -45,7 +45,7 @@ pub struct Findings {
     /// Pairs of columns of which one may follow the other.
     pub followers: Vec<Follower>,
     /// What could not be read off rows that are there.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// Numbers of one case.
@@ -108,7 +108,7 @@ pub fn findings(study: &Study, runs: &[CaseOutcome<'_>]) -> Result<Findings, Cas
         };
         return Err(CaseFailure { message, ..first.clone() });
     }
-    let mut all = Findings { cases, followers: Vec::new(), warnings: Vec::new() };
+    let mut all = Findings { cases, followers: Vec::new(), remarks: Vec::new() };
     for follow in &study.follow {
         for beside in &follow.beside {
             if all.followers.iter().any(|f| f.column == follow.column && f.beside == *beside) {
@@ -121,7 +121,7 @@ pub fn findings(study: &Study, runs: &[CaseOutcome<'_>]) -> Result<Findings, Cas
                     run.map(|run| study_correlation(run.rows.series(&follow.column)?, run.rows.series(beside)?));
                 if let Some(Err(e)) = &found {
                     let said = remark::no_correlation(follow.column.as_str(), beside.as_str(), e.to_string());
-                    all.warnings.push(said.about(&study.cases[i].label));
+                    all.remarks.push(said.about(&study.cases[i].label));
                 }
                 correlation.push(found.and_then(Result::ok).flatten());
             }

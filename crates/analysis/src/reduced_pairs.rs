@@ -30,7 +30,7 @@ pub(crate) struct ReducedPair {
     pub gears: Arc<[ElasticGear; 2]>,
     keys: RecordKeys,
     /// What was wrong with files of the cache.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
     saved: AtomicBool,
 }
 
@@ -87,9 +87,9 @@ impl ReducedPairs {
             return Ok(Arc::clone(pair));
         }
         let meshes = meshes_of(scene, pair, None)?;
-        let ElasticGears { gears, keys, warnings } =
+        let ElasticGears { gears, keys, remarks } =
             elastic_gears(scene, pair, options, &meshes, (cache, progress, wanted))?;
-        let pair = ReducedPair { meshes, gears: Arc::new(gears), keys, warnings, saved: AtomicBool::new(false) };
+        let pair = ReducedPair { meshes, gears: Arc::new(gears), keys, remarks, saved: AtomicBool::new(false) };
         Ok(Arc::clone(made.insert(Arc::new(pair))))
     }
 }

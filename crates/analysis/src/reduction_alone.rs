@@ -4,7 +4,7 @@ use answer::Remark;
 use fem::{ElementOptions, Material};
 use geometry::Side;
 use ltca::StaticModel;
-use mesh::GearMesh;
+use mesh::MeshedGear;
 use reduction::{ElasticGear, GearReducer, ReductionOptions, Window};
 use scene::Scene;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use crate::{
     AnalysisError, GearCache, Observer, PhaseWork,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     error::nothing_to_reduce,
-    foreseen::announced_s,
+    estimated_time::announced_seconds,
     meshes, options,
     refused::Refusal,
     run_phase, solver_error,
@@ -46,7 +46,7 @@ pub struct ReducedScene {
     /// What the cache knows them by.
     pub keys: RecordKeys,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// Reduces both gears of a scene for their first window, as a run does, and keeps the records in `cache`.
@@ -64,22 +64,22 @@ pub fn reduce_scene(
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
     let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;
     let options = options(scene, &pair);
-    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), &meshes), 1.0));
-    let ElasticGears { gears, keys, mut warnings } = run_phase(observer, "reduce", work, |progress| {
+    let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), &meshes), 1.0));
+    let ElasticGears { gears, keys, mut remarks } = run_phase(observer, "reduce", work, |progress| {
         elastic_gears(scene, &pair, &options, &meshes, (cache, progress, &|| true))
     })?;
     let set_up = || StaticModel::new(pair.clone(), gears, options);
     let model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up());
     let model = model.map_err(|e| solver_error(scene, e))?;
     if cache.is_on() {
-        warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
+        remarks.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
     }
     let row = |i: usize| {
         let ElasticGear::Reduced(gear) = &model.gears()[i] else { return None };
         let window = &model.contact_set().windows()?[i];
         Some(row(["pinion", "wheel"][i].to_owned(), gear, window))
     };
-    Ok(ReducedScene { rows: (0..2).filter_map(row).collect(), keys, warnings })
+    Ok(ReducedScene { rows: (0..2).filter_map(row).collect(), keys, remarks })
 }
 
 fn row(gear: String, of: &GearReducer, window: &Window) -> ReducedRow {
@@ -102,7 +102,7 @@ fn row(gear: String, of: &GearReducer, window: &Window) -> ReducedRow {
 /// gear needs.
 pub fn reduce_mesh(
     name: &str,
-    gear: GearMesh,
+    gear: MeshedGear,
     material: Material,
     window: usize,
     observer: &mut dyn Observer,

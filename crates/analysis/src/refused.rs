@@ -59,6 +59,6 @@ impl Refusal {
 
     /// A sweep over no values.
     pub fn no_values() -> Self {
-        Self::input("a sweep over no values", "give `--points 2` or more")
+        Self::input("empty sweep", "give `--points 2` or more")
     }
 }

@@ -27,6 +27,12 @@ answer::remarks! {
     undercut(gear, form_diameter_mm, least_profile_shift, profile_shift)
         "the {gear} is undercut: its involute begins at diameter {form_diameter_mm:.3} mm and its roots are weak",
         "a `profile_shift` of {least_profile_shift:.3} or more (it is {profile_shift}) or more teeth avoid that";
+    axial_assembly(overlap_deg)
+        "the pinion cannot be put into the ring radially: its tip corners would run into those of the ring by {overlap_deg:.3} deg of the pinion",
+        "put it in along the axis, or shorten the tips (`tip_diameter_mm`)";
+    shaper_trims(overlap_deg, shaper_teeth)
+        "a shaper of {shaper_teeth} teeth that is fed radially trims the tips of the ring, by {overlap_deg:.3} deg of the shaper; here they are whole",
+        "fewer `teeth` in [wheel.shaper] avoid that";
     root_stress_coarse(gear, stress_mpa, error_percent)
         "the {gear}'s root stress of {stress_mpa:.1} MPa may be {error_percent:.0} % off: its mesh is coarse in the fillet",
         "raise `elements_fillet`, `elements_thickness` and `elements_rim` together, or bring a mesh that is finer there";
@@ -38,9 +44,9 @@ answer::remarks! {
     few_slices(slices, mean_error_percent, swing_error_percent, peak_error_percent, slices_enough)
         "{slices} slices are few for this pair: a row of springs over its gaps is off by {mean_error_percent:.1} % in the mean, {swing_error_percent:.0} % in the peak to peak and {peak_error_percent:.0} % in the largest line load",
         "{slices_enough} would do (`slices` in [contact]; left out, the program chooses)";
-    unresolved_waves(gear, flank, share_percent, rms_um, longest_mm, wave_number_limit, half_width_mm, wave_number_rad_per_mm, wave_number_by_half_width, wavelength_mm)
-        "the topography of the {gear}'s {flank} flanks holds waves that slices do not resolve: {share_percent:.0} % of its deviation (rms {rms_um:.3} um, parabola taken off) is shorter than {longest_mm:.2} mm along the profile, k a above {wave_number_limit} beside a contact band of half-width a = {half_width_mm:.3} mm; the largest has k = {wave_number_rad_per_mm:.2} rad/mm (k a = {wave_number_by_half_width:.2}, wavelength {wavelength_mm:.3} mm). A slice takes value and curvature at one point, a band the mean over its width: transmission error and pressure by these waves may be far off",
-        "smooth the grid over that length, or take them for noise";
+    short_waves(gear, flank, share_percent, rms_um, longest_mm, wave_number_limit, half_width_mm, wave_number_rad_per_mm, wave_number_by_half_width, wavelength_mm, pressure_mpa)
+        "the topography of the {gear}'s {flank} flanks holds waves shorter than the contact band: {share_percent:.0} % of its deviation (rms {rms_um:.3} um, parabola taken off) is shorter than {longest_mm:.2} mm along the profile, k a above {wave_number_limit} beside a band of half-width a = {half_width_mm:.3} mm; the largest has k = {wave_number_rad_per_mm:.2} rad/mm (k a = {wave_number_by_half_width:.2}, wavelength {wavelength_mm:.3} mm). The transmission error has their mean over the band. The largest pressure is that of the smooth flank: pressed flat, these waves add {pressure_mpa:.0} MPa to it (rms)",
+        "pressed points (`method = \"nodal\"` in [contact]) see waves that their mesh resolves";
     window_widened(failure, teeth) "{failure}; the window was widened to {teeth} teeth", "";
     window_widened_in_motion(failure, teeth)
         "{failure}; the window was widened to {teeth} teeth and the motion begun again", "";
@@ -82,6 +88,12 @@ answer::remarks! {
         "`speed_rpm` is {speed_rpm}; {speed_rpm} rad/s are {speed_if_rad_per_s_rpm} 1/min, was that meant?", "";
 
     // Standards.
+    rating_outside(quantity, value, clause, range)
+        "the rating is outside of its standard: {quantity} is {value:.3}, {clause} covers {range}", "";
+    rating_fails(gear, failure, safety)
+        "the {gear} does not hold: its safety against {failure} is {safety:.3}", "";
+    spectrum_fails(gear, failure, damage)
+        "the {gear} does not outlive the load spectrum: Miner's sum of {failure} is {damage:.3}, above 1", "";
     no_iso_root_stress(reason) "no nominal root stress after ISO 6336-3: {reason}", "";
     iso_model(bending_um)
         "model \"iso\": stiffness after ISO 6336-1, load spread evenly over the contact lines, and {bending_um:.2} um by which the axial force bends the bodies, solid discs held at their bores; mean values are meant to hold within about 25 %, the shape over the mesh cycle is a rough guess",
@@ -101,13 +113,13 @@ answer::remarks! {
         "a mesh cycle lasts {periods:.0} periods of the fastest motion that steps have to show ({fastest_hz:.3e} Hz), so it takes {steps:.0} steps; so slow a pair has nearly the answer of `kind = \"static\"`",
         "";
     many_steps(estimate, highest_hz)
-        "with its normal modes this motion takes {estimate}: the highest kept mode, {highest_hz:.0} Hz, says how long they are, and the lowest settles slowly",
+        "with its normal modes this motion takes {estimate}: the highest kept mode, {highest_hz:.0} Hz, sets their length, and the lowest settles slowly",
         "fewer modes (`below_hz` in [modes]), more damping of them or a larger `periodic_tolerance` make it shorter";
     no_backlash(effect)
         "the pair has no backlash: {effect}",
         "give `thickness_allowance_mm` in [pinion] and [wheel] (or a larger `centre_distance_mm` in [pair])";
     mesh_without_backlash(or)
-        "the mesh has no backlash: where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
+        "the mesh has no backlash: where the driving flanks lose contact the coast flanks press at once, and there is no loss of contact as with a clearance",
         "give {or}`thickness_allowance_mm` in [pinion] and [wheel]";
     repeats_and_drifts(tolerance, mesh_cycles, off)
         "the motion repeated itself to {tolerance:.0e} of its peak to peak after {mesh_cycles} mesh cycles, but those that were written do so to {off:.1e} only",
@@ -123,7 +135,7 @@ answer::remarks! {
         "energy closes to {share:.1e} of the energy of the vibration only (asked: {limit:.0e})",
         "take smaller steps or `method = \"energy\"`";
     gap_beyond_backlash(gap_um, backlash_um)
-        "the flanks part by {gap_um:.1} um, more than the backlash of {backlash_um:.1} um: the coast flanks would touch",
+        "the gap between the driving flanks reaches {gap_um:.1} um, more than the backlash of {backlash_um:.1} um: the coast flanks would touch",
         "use `flanks = \"both\"`";
     both_flanks_press(rows, bound_um)
         "in {rows} rows driving and coast flanks press at once; that either bends the other is left out, which changes places by up to {bound_um:.3} um",
@@ -132,16 +144,16 @@ answer::remarks! {
         "the driver's mean speed is {mean_rpm:.1}/min, it began with {start_rpm:.1}/min: mesh cycles, and orders of the spectrum, are those of the start",
         "";
     few_rows(rows, share_percent, from_order, to_order, limit_percent)
-        "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (told from {limit_percent:.0} % on); peaks fall between the rows",
+        "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (reported from {limit_percent:.0} % on); peaks fall between the rows",
         "take more `steps_per_mesh_cycle`";
     few_steps(steps_in_period, order, share_percent, steps_enough)
-        "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (told below 1/{steps_enough:.0})",
+        "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (reported below 1/{steps_enough:.0})",
         "take more `steps_per_mesh_cycle` or `steps_per_resonance`";
     fast_rotation(share_percent, limit_percent)
-        "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (told from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",
+        "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (reported from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",
         "";
     quasi_static_elasticity(harmonic, harmonic_hz, ratio, gear, mode, change_um, change_percent, limit_percent, remedy, price)
-        "mesh harmonic {harmonic} at {harmonic_hz:.0} Hz is {ratio:.2} of the {gear}'s {mode}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {change_um:.3} um, {change_percent:.0} % of it (told from {limit_percent:.1} % on)",
+        "mesh harmonic {harmonic} at {harmonic_hz:.0} Hz is {ratio:.2} of the {gear}'s {mode}; elasticity is quasi-static there, and its inertia may change the peak to peak of the DTE by up to {change_um:.3} um, {change_percent:.0} % of it (reported from {limit_percent:.1} % on)",
         "{remedy}, {price}";
     inertia_not_judged()
         "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed says so",
@@ -230,7 +242,7 @@ answer::remarks! {
     case_unsolved(reason) "no result: {reason}; tables, charts and correlations are without it", "";
     no_correlation(column, beside, reason) "no correlation of {column} with {beside}: {reason}", "";
     no_full_model(reason) "nothing to compare every degree of freedom with: {reason}", "";
-    result_does_not_hold(run, words) "{run} DOES NOT HOLD: {words}", "";
+    result_failed(run, words) "{run} FAILED A CHECK: {words}", "";
 
     // Stores and pictures.
     gear_not_loaded(file, reason) "{file}: {reason}; the gear was reduced again", "";

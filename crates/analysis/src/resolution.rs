@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
 
-use crate::{loaded_pair::LoadedPair, options, waves::unresolved_waves};
+use crate::{loaded_pair::LoadedPair, options, waves::short_waves};
 
 /// Key of the number of slices.
 const SLICES: &str = "contact.slices";
@@ -18,22 +18,23 @@ const COARSE: f64 = 2.0;
 /// So is a stated number of face elements that is this many times smaller than the chosen one.
 const FEW: u32 = 3;
 
-/// How fine a pair's contact is made along the face, as the summary says it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Resolution {
-    /// Slices over the face width; `None` for pressed points.
-    pub slices: Option<usize>,
-    /// Whether the program chose them.
-    pub slices_chosen: bool,
-    /// Slices that the program would choose.
-    pub slices_that_would_do: Option<usize>,
-    /// What a row of springs over the same gaps loses with these slices, per cent: of its mean approach, of the peak to
-    /// peak, of the largest line load.
-    pub slice_error_percent: Option<[f64; 3]>,
-    /// Elements along the face of pinion and wheel; `None` for a mesh that was read, and for rigid gears.
-    pub face_elements: [Option<u32>; 2],
-    /// Elements that the program would choose; `None` for rigid gears.
-    pub face_elements_that_would_do: [Option<u32>; 2],
+described::described! {
+    /// How fine a pair's contact is made along the face, as the summary says it.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct Resolution {
+        /// slices over the face width; `null` for contact points
+        pub slices: Option<usize>,
+        /// whether the program chose them
+        pub slices_chosen: bool,
+        /// slices that the program would choose
+        pub slices_that_would_do: Option<usize>,
+        /// error of a row of springs over the same gaps with these slices: of mean, peak to peak, largest line load ([theory](theory.md), equation 21c)
+        pub slice_error_percent: Option<[f64; 3]>,
+        /// elements along the face of pinion and wheel; `null` for a mesh that was read, and for a rigid gear
+        pub face_elements: [Option<u32>; 2],
+        /// elements along the face that the program would choose; `null` for a rigid gear
+        pub face_elements_that_would_do: [Option<u32>; 2],
+    }
 }
 
 /// Whether a model cuts contact into slices, or is fed by one that does.
@@ -76,7 +77,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
         said.extend(few_slices(options.contact.slices, needed.count, &errors));
     }
     said.extend(few_elements(face_elements, would_do));
-    said.extend(unresolved_waves(&LoadedPair::of(scene, pair), options));
+    said.extend(short_waves(&LoadedPair::of(scene, pair), options));
     let resolution = Resolution {
         slices: sliced.then_some(options.contact.slices),
         slices_chosen,
@@ -96,7 +97,7 @@ pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &Stat
     }
     let (face_elements, would_do) = face_elements(scene);
     let mut said = few_elements(face_elements, would_do);
-    said.extend(unresolved_waves(&LoadedPair::of(scene, pair), options));
+    said.extend(short_waves(&LoadedPair::of(scene, pair), options));
     said
 }
 

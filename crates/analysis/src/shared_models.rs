@@ -14,7 +14,7 @@ use crate::{
     alike::{kind, of_gears},
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
-    inputs::{meshes_of, settled_scene},
+    inputs::{meshes_of, resolved_scene},
     meshes::SceneMesh,
     options::options,
     reduced_pairs::ReducedPairs,
@@ -116,7 +116,7 @@ impl<'a> SharedModels<'a> {
         if scene.analysis.model != Model::Reduced {
             return Err(crate::error::nothing_to_reduce(scene));
         }
-        let scene = settled_scene(scene, self.meshes.is_some());
+        let scene = resolved_scene(scene, self.meshes.is_some());
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
         self.base(&scene, &pair, options, &|| true).map_err(|failure| failure.into_error(&scene)).map(|_| ())

@@ -20,7 +20,7 @@ use crate::{
     alike::shares,
     failure::Failure,
     gears,
-    inputs::settled_scene,
+    inputs::resolved_scene,
     interest::Interest,
     light_load,
     options::options,
@@ -37,10 +37,10 @@ use crate::{
 /// of a quick case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum WarningsAtRest {
-    /// The history has all warnings that a run by itself has.
-    Told,
-    /// The history has the warnings of its own positions alone.
-    Left,
+    /// The history has all remarks that a run by itself has.
+    Collected,
+    /// The history has the remarks of its own positions alone.
+    Skipped,
 }
 
 /// Derivatives that are asked for beside the positions: by which parameters, of the unloaded pair too or not.
@@ -53,17 +53,17 @@ pub(crate) struct Rates<'a> {
 /// What is asked of a scene at rest.
 #[derive(Clone, Copy, Debug)]
 pub struct RestRequest<'a> {
-    /// Whether warnings about pair, meshes and bodies are found out.
-    pub warnings: WarningsAtRest,
+    /// Whether remarks about pair, meshes and bodies are found out.
+    pub remarks: WarningsAtRest,
     /// Whether the answer is still wanted; the solve ends with [`AnalysisError::Cancelled`] where it is not. A scene that
     /// shares nothing reduces its gears to the end.
     pub interest: Interest<'a>,
 }
 
 impl RestRequest<'static> {
-    /// A result to its end with these warnings.
-    pub const fn to_the_end(warnings: WarningsAtRest) -> Self {
-        Self { warnings, interest: Interest::LASTING }
+    /// A result to its end with these remarks.
+    pub const fn to_the_end(remarks: WarningsAtRest) -> Self {
+        Self { remarks, interest: Interest::LASTING }
     }
 }
 
@@ -113,7 +113,7 @@ impl SharedModels<'_> {
             return Err(AnalysisError::Cancelled);
         }
         hold(&solved.scene, &solved.history)?;
-        if request.warnings == WarningsAtRest::Told {
+        if request.remarks == WarningsAtRest::Collected {
             warn(&base, &solved.scene, &mut solved.history)?;
         }
         Ok(solved)
@@ -133,7 +133,7 @@ impl SharedModels<'_> {
         asked: Rates<'_>,
         interest: Interest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
-        let scene = settled_scene(scene, self.meshes().is_some());
+        let scene = resolved_scene(scene, self.meshes().is_some());
         let pair = scene.gear_pair()?;
         refuse(&scene, &pair)?;
         light_load::check(&scene, &pair)?;
@@ -185,14 +185,14 @@ fn hold(scene: &Scene, history: &StaticHistory) -> Result<(), AnalysisError> {
 /// Adds what a user should hear of pair, meshes and bodies, as a run by itself says it.
 fn warn(base: &Base, scene: &Scene, history: &mut StaticHistory) -> Result<(), AnalysisError> {
     let pair = scene.gear_pair()?;
-    history.warnings.extend(gears::warnings(&pair));
-    history.warnings.extend(base.meshes.iter().flat_map(|m| m.warnings.clone()));
+    history.remarks.extend(gears::warnings(&pair));
+    history.remarks.extend(base.meshes.iter().flat_map(|m| m.remarks.clone()));
     let options = options(scene, &pair);
-    history.warnings.extend(resolution_warnings(scene, &pair, &options));
-    history.warnings.extend(jammed_pair(&history.positions, &pair, &options));
-    history.warnings.extend(base.body_warnings().iter().cloned());
+    history.remarks.extend(resolution_warnings(scene, &pair, &options));
+    history.remarks.extend(jammed_pair(&history.positions, &pair, &options));
+    history.remarks.extend(base.body_warnings().iter().cloned());
     let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
-    history.warnings.extend(deflection_warnings(&history.positions, module, distance));
+    history.remarks.extend(deflection_warnings(&history.positions, module, distance));
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use crate::{
     certificate::Checks,
     context::{Context, Ending, Question},
     error::unasked,
-    facts::Facts,
+    facts::RunInfo,
     gears,
     in_time::{InTime, SolvedInTime},
     motion::{MotionCheckpoint, MotionRow, MotionSink, NoMotionSink},
@@ -58,7 +58,7 @@ impl Question for Scene {
     type State = (MotionCheckpoint, Vec<MotionRow>);
 
     fn answer(&self, context: Context<'_, Self>) -> Result<Ending<Solved>, AnalysisError> {
-        let Context { observer, cache, models, meshes, warnings, sink, from, stop_after } = context;
+        let Context { observer, cache, models, meshes, remarks, sink, from, stop_after } = context;
         if self.motion.is_some() {
             let analysis = InTime { meshes, cache, from, stop_after };
             let solved = match sink {
@@ -70,7 +70,7 @@ impl Question for Scene {
         if sink.is_some() || from.is_some() || stop_after.is_some() {
             return Err(unasked(self, "motion"));
         }
-        let request = RestRequest::to_the_end(warnings);
+        let request = RestRequest::to_the_end(remarks);
         let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| match models {
             Some(models) => solve_at_rest(self, models, request),
             None => {
@@ -116,13 +116,13 @@ impl SolvedAtRest {
     ///
     /// # Errors
     /// Where the scene is no pair.
-    pub fn facts(&self) -> Result<Facts, AnalysisError> {
+    pub fn facts(&self) -> Result<RunInfo, AnalysisError> {
         let pair = self.scene.gear_pair()?;
-        Ok(Facts {
+        Ok(RunInfo {
             geometry: gears::geometry_facts(&pair),
             geometry_sheet: Some(pair.sheet()),
             certificate: self.certificate(),
-            ..Facts::default()
+            ..RunInfo::default()
         })
     }
 
@@ -167,7 +167,7 @@ impl Solved {
     ///
     /// # Errors
     /// Where a scene at rest is no pair.
-    pub fn facts(&self) -> Result<Cow<'_, Facts>, AnalysisError> {
+    pub fn facts(&self) -> Result<Cow<'_, RunInfo>, AnalysisError> {
         match self {
             Self::AtRest(solved) => solved.facts().map(Cow::Owned),
             Self::InTime(solved) => Ok(Cow::Borrowed(solved.facts())),
@@ -175,10 +175,10 @@ impl Solved {
     }
 
     /// What a user should hear.
-    pub fn warnings(&self) -> &[answer::Remark] {
+    pub fn remarks(&self) -> &[answer::Remark] {
         match self {
-            Self::AtRest(solved) => &solved.history.warnings,
-            Self::InTime(solved) => solved.warnings(),
+            Self::AtRest(solved) => &solved.history.remarks,
+            Self::InTime(solved) => solved.remarks(),
         }
     }
 

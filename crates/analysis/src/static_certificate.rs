@@ -20,13 +20,13 @@ const POSE: f64 = 2e-3;
 /// Round-off of places over the approach of the flanks.
 pub(crate) const ROUND_OFF: f64 = 1e-2;
 
-const WAY_OUT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
+const HINT: &str = "the contact solver has not found what it was asked for: is the torque in N m, and are loads and sizes those of gears? See `certificate_checks` in summary.json";
 
 /// The worst of all positions of a scene: torque balance, complementarity, action and reaction, digits that are left,
 /// deflection and pressure that linear elasticity holds for.
 pub fn static_certificate(scene: &Scene, positions: &[StaticPosition]) -> Checks {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, worse);
-    let check = |name: &'static str, value, bound| Check::new(name, value, bound, WAY_OUT);
+    let check = |name: &'static str, value, bound| Check::new(name, value, bound, HINT);
     Checks::new([
         check("torque_residual", worst(|p| p.certificate.torque_residual), TORQUE),
         check("complementarity_residual", worst(|p| p.certificate.complementarity_residual), COMPLEMENTARITY),

@@ -13,8 +13,8 @@ use scene::{Model, Scene};
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork, StaticSink,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
+    estimated_time::announced_seconds,
     failure::Failure,
-    foreseen::announced_s,
     meshes::SceneMesh,
     run_phase,
     shared_models::{Base, SharedModels},
@@ -85,15 +85,15 @@ fn attempt(
 ) -> Result<(StaticModel, StaticHistory), Failure> {
     let CycleInputs { scene, cache, shared, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
-    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), meshes), 1.0));
-    let (base, mut warnings) = run_phase(observer, name, work, |progress| match shared {
+    let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), meshes), 1.0));
+    let (base, mut remarks) = run_phase(observer, name, work, |progress| match shared {
         Some(models) => {
             models.base(scene, pair, options.clone(), &|| true).map(|base| (GearsOf::Shared(base), Vec::new()))
         }
         None => {
-            let ElasticGears { gears, keys, warnings } =
+            let ElasticGears { gears, keys, remarks } =
                 elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true))?;
-            Ok((GearsOf::Own(Box::new(gears), keys), warnings))
+            Ok((GearsOf::Own(Box::new(gears), keys), remarks))
         }
     })?;
     let (mut model, keys) = run_phase(observer, "contact", PhaseWork::Unknown, |_| match base {
@@ -135,8 +135,8 @@ fn attempt(
     }
     if let (Some(keys), true) = (keys, cache.is_on()) {
         // After the run, when every window and half tooth that it took is known.
-        warnings.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
+        remarks.extend(run_phase(observer, "store", PhaseWork::Unknown, |_| keys.save(cache, model.gears())));
     }
-    history.warnings.extend(warnings);
+    history.remarks.extend(remarks);
     Ok((model, history))
 }

@@ -2,23 +2,26 @@
 
 use std::sync::Arc;
 
+use answer::keyed;
 use geometry::GearPair;
 use ltca::{StaticHistory, StaticModel};
 use mesh::Mesh;
 use reduction::GearReducer;
 use scene::{Model, Scene};
+use serde::Serialize;
 
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, NoSink, Observer, PhaseWork, StaticSink,
-    facts::Facts,
+    facts::RunInfo,
     gear_dofs::{dof_after, free_dofs, reduced},
     gears,
-    inputs::{meshes_of, settled_scene},
+    inputs::{meshes_of, resolved_scene},
     iso_model, iso_root, light_load,
     loaded_pair::LoadedPair,
     meshes::SceneMesh,
     options::options,
-    plausible::{refuse, remarks},
+    pair_rating,
+    plausible::{self, refuse},
     resolution::resolution,
     run_phase,
     shared_models::SharedModels,
@@ -33,10 +36,10 @@ pub struct StaticResult {
     pub scene: Scene,
     /// The exact pair.
     pub pair: GearPair,
-    /// Position by position, with warnings.
+    /// Position by position, with remarks.
     pub history: StaticHistory,
     /// What it was made of.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// The model with its reduced gears, for more of the same; `None` for a model without meshes.
     pub model: Option<StaticModel>,
 }
@@ -101,7 +104,7 @@ impl<'a> CycleAnalysis<'a> {
 
     /// The scene as it is solved.
     fn settled(&self) -> Scene {
-        if self.slices_stand { self.scene.clone() } else { settled_scene(self.scene, self.has_meshes()) }
+        if self.slices_stand { self.scene.clone() } else { resolved_scene(self.scene, self.has_meshes()) }
     }
 
     /// Solves it, telling nobody.
@@ -124,18 +127,20 @@ impl<'a> CycleAnalysis<'a> {
         let (scene, cache) = (&self.settled(), self.cache);
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
+        pair_rating::check(scene, &pair)?;
         if scene.analysis.model != Model::Iso {
             light_load::check(scene, &pair)?;
         }
-        let unlikely = remarks(scene, &pair);
+        let unlikely = plausible::remarks(scene, &pair);
         if !self.slices_stand {
             unlikely.iter().for_each(|said| observer.note(said.to_string()));
         }
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
             let (mut history, facts) = solved?;
-            history.warnings.extend(gears::warnings(&pair));
-            history.warnings.extend(unlikely);
+            history.remarks.extend(gears::warnings(&pair));
+            history.remarks.extend(unlikely);
+            history.remarks.extend(pair_rating::remarks(scene, &history));
             return Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: None });
         }
         let shared = self.shared.filter(|_| scene.analysis.model == Model::Reduced);
@@ -144,43 +149,54 @@ impl<'a> CycleAnalysis<'a> {
             Some(models) => models.scene_meshes(scene, &pair),
             None => meshes_of(scene, &pair, own).map(Arc::new),
         })?;
-        let mut warnings = gears::warnings(&pair);
-        warnings.extend(unlikely);
-        warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
+        let mut remarks = gears::warnings(&pair);
+        remarks.extend(unlikely);
+        remarks.extend(meshes.iter().flat_map(|m| m.remarks.clone()));
         let options = options(scene, &pair);
         let (resolution, said) = resolution(scene, &pair, &options);
-        warnings.extend(said);
+        remarks.extend(said);
         let inputs = CycleInputs { scene, cache, shared, pair: &pair, meshes: &meshes };
         let SolvedStaticCycle { model, mut history, widened } = inputs.solve(&options, observer, sink)?;
-        warnings.extend(widened);
+        remarks.extend(widened);
         let mut facts = facts_of(scene, &model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
-            warnings.extend(iso_root::warning(&LoadedPair::of(scene, &pair)));
+            remarks.extend(iso_root::warning(&LoadedPair::of(scene, &pair)));
         }
-        warnings.extend(body_warnings(&model));
-        warnings.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
-        warnings.extend(jammed_pair(&history.positions, &pair, &options));
-        history.warnings.extend(warnings);
+        remarks.extend(body_warnings(&model));
+        remarks.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
+        remarks.extend(jammed_pair(&history.positions, &pair, &options));
+        remarks.extend(pair_rating::remarks(scene, &history));
+        history.remarks.extend(remarks);
         Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: Some(model) })
     }
 }
 
+described::described! {
+    /// Facts that only a model with meshes has.
+    #[derive(Debug, Serialize)]
+    pub(crate) struct ReducedFacts {
+        /// whether both gears have the same matrices in every window
+        cyclic_gears: bool,
+        /// gears that came from the [cache](cache.md)
+        gears_from_cache: usize,
+    }
+}
+
 /// What the summary says of a solved model.
-fn facts_of(scene: &Scene, model: &StaticModel, meshes: &[SceneMesh; 2]) -> Facts {
+fn facts_of(scene: &Scene, model: &StaticModel, meshes: &[SceneMesh; 2]) -> RunInfo {
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
-    let mut facts = Facts {
+    let mut facts = RunInfo {
         meshes: meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),
         window_teeth: Some(model.window().count() as u32),
         contact_points: Some(model.contact_set().candidate_count()),
-        ..Facts::of_pair(scene, model.pair())
+        ..RunInfo::of_pair(scene, model.pair())
     };
     let cyclic = model.gears().iter().all(|g| reduced(g).is_some_and(GearReducer::is_cyclic));
-    facts.model.insert("cyclic_gears".into(), cyclic.into());
     let stored = model.gears().iter().filter(|g| reduced(g).is_some_and(GearReducer::is_from_record)).count();
-    facts.model.insert("gears_from_cache".into(), stored.into());
+    facts.model = keyed(&ReducedFacts { cyclic_gears: cyclic, gears_from_cache: stored });
     facts.reduction = model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect();
     facts
 }
@@ -206,7 +222,7 @@ mod tests {
             let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0);
             base.face_width_mm(120.0).torque_nm(300.0).set("pinion.modification.drive.lead_crowning_um", 30.0)
         };
-        let slices = |scene: Scene| settled_scene(&scene, false).contact.slices;
+        let slices = |scene: Scene| resolved_scene(&scene, false).contact.slices;
         let chosen = slices(wide().build().unwrap());
         assert!(chosen.is_some_and(|n| n > 32), "b/m_n = 40 with 30 um of crowning: {chosen:?} slices");
         assert_eq!(slices(wide().set("contact.slices", 32).build().unwrap()), Some(32), "stated");

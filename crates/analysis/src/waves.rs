@@ -1,17 +1,17 @@
-//! Waves on measured flanks that are shorter than what a slice sees of them. Theory (26a).
+//! Waves on measured flanks that are shorter than the band of contact. Theory (26a).
 
 use crate::remark;
 use answer::Remark;
 use std::f64::consts::{PI, TAU};
 
 use contact::Method;
-use geometry::{FlankModification, Gear, GearModifications, GearPair, Side};
+use geometry::{FlankModification, Gear, GearModifications, GearPair, Side, modification::TopographyGrid};
 use ltca::StaticOptions;
 
 use crate::loaded_pair::LoadedPair;
 use crate::nominal_pressure::{PointPressure, nominal_pressure};
 
-/// k a up to which value and curvature at one point say what the whole band sees: J_0(k a) is 0.94 there.
+/// k a from which on a wave is short beside a band: J_0(k a) is 0.94 there.
 const RESOLVED: f64 = 0.5;
 /// Change of the relative curvature by shorter waves, root mean square, up to which nobody has to hear of them.
 const NOTICED: f64 = 0.01;
@@ -22,8 +22,8 @@ const PLACES: [usize; 2] = [256, 2048];
 const HEIGHTS: usize = 9;
 
 /// What a user should hear of topographies under the load of a scene: where contact is made of slices, one remark for each
-/// flank that bears waves shorter than its contact band resolves.
-pub(crate) fn unresolved_waves(loaded: &LoadedPair<'_>, options: &StaticOptions) -> Vec<Remark> {
+/// flank that bears waves shorter than its contact band.
+pub(crate) fn short_waves(loaded: &LoadedPair<'_>, options: &StaticOptions) -> Vec<Remark> {
     if options.contact.method != Method::Slice || options.torque == 0.0 {
         return Vec::new();
     }
@@ -33,11 +33,11 @@ pub(crate) fn unresolved_waves(loaded: &LoadedPair<'_>, options: &StaticOptions)
     let widest = nominal.hertz.iter().map(of).filter(|a| a.is_finite()).fold(0.0, f64::max);
     let sides = [(options.side(), true), (options.side().opposite(), options.contact.both_flanks)];
     let touching = sides.into_iter().filter(|(_, touches)| *touches).map(|(side, _)| side);
-    touching.flat_map(|side| waves_on(loaded.pair, side, widest)).collect()
+    touching.flat_map(|side| waves_on(loaded.pair, side, widest, loaded.effective_modulus())).collect()
 }
 
-/// What is said of the flanks on `side` beside a band of half-width a, mm.
-pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<Remark> {
+/// What is said of the flanks on `side` beside a band of half-width a (mm), of materials with E* (MPa).
+pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64, modulus: f64) -> Vec<Remark> {
     if half_width <= 0.0 {
         return Vec::new();
     }
@@ -49,7 +49,7 @@ pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<Rema
             return None;
         }
         let (k, flank) = (waves.wave_number, side.name());
-        Some(remark::unresolved_waves(
+        Some(remark::short_waves(
             whose,
             flank,
             100.0 * waves.share,
@@ -60,6 +60,7 @@ pub(crate) fn waves_on(pair: &GearPair, side: Side, half_width: f64) -> Vec<Rema
             k,
             k * half_width,
             TAU / k,
+            0.5 * modulus * waves.slope,
         ))
     });
     said.collect()
@@ -79,28 +80,37 @@ struct Waves {
     share: f64,
     /// Wave number of the largest wave beyond it, rad/mm.
     wave_number: f64,
-    /// Root mean square of the curvature beyond it, 1/mm.
+    /// Root mean square of slope and curvature (1/mm) beyond it.
+    slope: f64,
     curvature: f64,
 }
 
 impl Waves {
-    /// Of the topography alone of one flank, along its profile at some heights; `None` without one.
+    /// Of the topography alone of the flanks on one side, along their profiles at some heights; of the teeth with flanks
+    /// of their own the one with the largest curvature. `None` without one.
+    fn of(gear: &Gear, side: Side, beyond: f64) -> Option<Self> {
+        let topography = gear.modifications().on(side).topography.as_ref()?;
+        let all = topography.grids().iter().filter_map(|grid| Self::of_grid(gear, side, grid, beyond));
+        all.max_by(|a, b| a.curvature.total_cmp(&b.curvature))
+    }
+
+    /// Of one grid.
     ///
     /// ```text
     /// x = r_b u^2/2,   f(x) - parabola, Hann window,   F_j,   k_j = 2 pi j/l
     /// ```
-    fn of(gear: &Gear, side: Side, beyond: f64) -> Option<Self> {
-        let topography = gear.modifications().on(side).topography.clone()?;
-        let lines = topography.depths().len() / topography.heights().len().max(1);
+    /// A sinusoid of slope k A pressed flat adds E* k A/2 to the pressure (Westergaard).
+    fn of_grid(gear: &Gear, side: Side, grid: &TopographyGrid, beyond: f64) -> Option<Self> {
+        let lines = grid.depths().len() / grid.heights().len().max(1);
         let places = (PER_LINE * lines).clamp(PLACES[0], PLACES[1]);
-        let alone = FlankModification { topography: Some(topography), ..FlankModification::default() };
+        let alone = FlankModification { topography: Some(grid.clone().into()), ..FlankModification::default() };
         let bare = gear.clone().with_modifications(GearModifications::both(alone)).ok()?;
         let (base, profile) = (gear.base_radius(), gear.profile());
         let [from, to] = [profile.roll_form(), profile.roll_tip()].map(|u| 0.5 * base * u * u);
         let step = (to - from) / places as f64;
         let table: Vec<[f64; 2]> =
             (0..places).map(|i| (TAU * i as f64 / places as f64).sin_cos()).map(|(sin, cos)| [cos, sin]).collect();
-        let [mut whole, mut high, mut bent] = [0.0; 3];
+        let [mut whole, mut high, mut steep, mut bent] = [0.0; 4];
         let mut powers = vec![0.0; places / 2];
         for line in 0..HEIGHTS {
             let z = gear.face_width() * ((line as f64 + 0.5) / HEIGHTS as f64 - 0.5);
@@ -128,6 +138,7 @@ impl Waves {
             let k = wave_number(j);
             if k > beyond {
                 high += power;
+                steep += power * k * k;
                 bent += power * k.powi(4);
                 if power * k.powi(4) > largest.0 {
                     largest = (power * k.powi(4), j);
@@ -136,7 +147,13 @@ impl Waves {
         }
         let mean = |sum: f64| (sum / HEIGHTS as f64).sqrt();
         let share = if whole > 0.0 { (high / whole).sqrt() } else { 0.0 };
-        Some(Self { whole: mean(whole), share, wave_number: wave_number(largest.1), curvature: mean(bent) })
+        Some(Self {
+            whole: mean(whole),
+            share,
+            wave_number: wave_number(largest.1),
+            slope: mean(steep),
+            curvature: mean(bent),
+        })
     }
 }
 

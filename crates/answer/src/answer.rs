@@ -1,5 +1,6 @@
 //! All that a run answers.
 
+use serde::Serialize;
 use serde_json::{Map, Value};
 
 use crate::{Checks, Cost, Remark, Table};
@@ -32,5 +33,14 @@ impl Answer {
     /// The table of that name.
     pub fn table(&self, name: &str) -> Option<&Table> {
         self.tables.iter().find(|table| table.name == name)
+    }
+}
+
+/// An object as its keys with their values.
+pub fn keyed(of: &impl Serialize) -> Map<String, Value> {
+    // Strings, numbers, lists and objects, all keys are strings: there is nothing that JSON could refuse.
+    match serde_json::to_value(of) {
+        Ok(Value::Object(map)) => map,
+        _ => Map::new(),
     }
 }

@@ -7,21 +7,26 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use described::Key;
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-/// One measure with its bound.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Check {
-    /// What is measured, as `docs/outputs.md` names it; the key of the check.
-    #[serde(skip)]
-    pub name: Cow<'static, str>,
-    /// What was found, never below zero; the larger, the worse.
-    pub value: f64,
-    /// The largest value that holds.
-    pub bound: f64,
-    /// What to do where it does not.
-    #[serde(skip)]
-    pub hint: &'static str,
+use crate::digits;
+
+described::described! {
+    /// One measure with its bound.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct Check {
+        /// name of the check
+        #[serde(skip)]
+        pub name: Cow<'static, str>,
+        /// measured value, never below zero; the larger, the worse
+        pub value: f64,
+        /// largest value that passes
+        pub bound: f64,
+        /// action where the check fails
+        #[serde(skip)]
+        pub hint: &'static str,
+    }
 }
 
 impl Check {
@@ -43,7 +48,7 @@ impl Check {
 
     /// Value and bound in words.
     pub fn words(&self) -> String {
-        format!("{} is {:.1e}, the bound is {:.0e}", self.name, self.value, self.bound)
+        format!("{} {}, limit {}", self.name, digits(self.value), digits(self.bound))
     }
 }
 
@@ -61,6 +66,13 @@ pub struct FailedCheck {
 pub struct Checks(Vec<Check>);
 
 impl Checks {
+    /// Keys of an object that checks stand in; where nothing is checked it has none of them.
+    pub const KEYS: &'static [Key] = &[
+        Key::new("certificate", "String", "`held`, or `failed` where a check is missed"),
+        Key::new("certificate_checks", "Checks", "checks by name, each with its `value` and `bound`"),
+        Key::new("certificate_missed", "Vec<String>", "missed checks in words"),
+    ];
+
     /// Of these checks.
     pub fn new(checks: impl IntoIterator<Item = Check>) -> Self {
         Self(checks.into_iter().collect())

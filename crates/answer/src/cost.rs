@@ -2,26 +2,30 @@
 
 use serde::{Deserialize, Serialize};
 
-/// What one phase cost.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Phase {
-    /// What was done: `read`, `reduce`, `solve`, ...
-    pub name: String,
-    /// Wall time, s.
-    pub wall_s: f64,
-    /// Largest resident set during the phase, MB; `null` where the system cannot tell a phase's own.
-    pub peak_memory_mb: Option<f64>,
+described::described! {
+    /// What one phase cost.
+    #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+    pub struct Phase {
+        /// name of the phase: `read`, `reduce`, `solve`, ..
+        pub name: String,
+        /// wall time of the phase
+        pub wall_s: f64,
+        /// largest resident set during the phase; `null` where the system does not tell
+        pub peak_memory_mb: Option<f64>,
+    }
 }
 
-/// What the whole run cost.
-#[derive(Debug, Clone, Default, Serialize, Deserialize)]
-pub struct Cost {
-    /// Threads of the computation.
-    pub threads: usize,
-    /// Wall time from reading the scene to the last file but this one, s.
-    pub wall_s: f64,
-    /// Largest resident set, MB; `null` where the system does not tell.
-    pub peak_memory_mb: Option<f64>,
-    /// Phase by phase.
-    pub phases: Vec<Phase>,
+described::described! {
+    /// What the whole run cost.
+    #[derive(Debug, Clone, Default, Serialize, Deserialize)]
+    pub struct Cost {
+        /// threads of the computation
+        pub threads: usize,
+        /// wall time from reading the document to the last file but this one
+        pub wall_s: f64,
+        /// largest resident set of the run; `null` where the system does not tell
+        pub peak_memory_mb: Option<f64>,
+        /// wall time and memory of each phase
+        pub phases: Vec<Phase>,
+    }
 }

@@ -14,6 +14,7 @@
 //! | [`Numbers`] | numbers with so many digits, for the script of a page |
 //! | [`Cost`], [`Phase`] | time and memory of a run |
 //! | [`Answer`] | all of it together |
+//! | [`keyed`] | an object as its keys with their values |
 
 mod answer;
 mod check;
@@ -26,7 +27,7 @@ mod remark;
 mod table;
 mod unit;
 
-pub use answer::Answer;
+pub use answer::{Answer, keyed};
 pub use check::{Check, Checks, FailedCheck};
 pub use columnar::parquet_bytes;
 pub use cost::{Cost, Phase};

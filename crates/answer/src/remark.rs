@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use described::Key;
 use serde::{Deserialize, Serialize, Serializer, ser::SerializeMap};
 use serde_json::Value;
 
@@ -102,6 +103,15 @@ pub struct Remark {
 }
 
 impl Remark {
+    /// Keys of a remark in a summary.
+    pub const KEYS: &'static [Key] = &[
+        Key::new("code", "String", "code of the remark: [all codes](remarks.md)"),
+        Key::new("about", "String", "mesh or case that the remark is about; missing where there is only one"),
+        Key::new("text", "String", "the sentence"),
+        Key::new("hint", "String", "action to take; missing where there is none"),
+        Key::new("values", "BTreeMap<String, RemarkValue>", "values by name with unit"),
+    ];
+
     /// Of a kind; [`remarks!`](crate::remarks) makes a function for each that takes its values.
     #[doc(hidden)]
     pub fn new(kind: &'static RemarkKind, values: Vec<RemarkValue>) -> Self {

@@ -1,12 +1,18 @@
 //! The unit that a name ends with.
 
 /// Endings of names and their units, the longest first where one ends with another.
-const UNITS: [(&str, &str); 28] = [
+const UNITS: [(&str, &str); 35] = [
+    ("n_per_mm_um", "N/(mm um)"),
+    ("mm_s_per_rpm", "mm/s at 1/min"),
+    ("n_mm_rad", "N, mm, rad"),
+    ("urad_per_s", "urad/s"),
+    ("per_cent", "%"),
     ("kg_m2", "kg m2"),
     ("n_s_per_mm", "N s/mm"),
     ("n_per_um", "N/um"),
     ("n_per_mm", "N/mm"),
     ("um_per_s", "um/s"),
+    ("m_per_s", "m/s"),
     ("mm_s", "mm/s"),
     ("per_s", "1/s"),
     ("pct", "%"),
@@ -27,6 +33,7 @@ const UNITS: [(&str, &str); 28] = [
     ("mb", "MB"),
     ("percent", "%"),
     ("ms", "ms"),
+    ("h", "h"),
     ("s", "s"),
     ("n", "N"),
     ("w", "W"),
@@ -44,8 +51,9 @@ const UNITS: [(&str, &str); 28] = [
 /// assert_eq!(answer::unit_of("pairs_in_contact"), "");
 /// ```
 pub fn unit_of(name: &str) -> String {
-    if let Some((_, unit)) = ending(name) {
-        return match name.split_once("_per_").filter(|(_, below)| ending_alone(below)) {
+    if let Some((end, unit)) = ending(name) {
+        let ratio = name.split_once("_per_").filter(|(_, below)| !end.contains("_per_") && ending_alone(below));
+        return match ratio {
             Some((above, below)) => format!("{}/{}", unit_of(above), unit_of(below)),
             None => unit.to_owned(),
         };

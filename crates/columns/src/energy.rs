@@ -13,18 +13,18 @@ impl Rows for EnergyRows {
 }
 
 columns!(EnergyRows, ALL, |(), _| true, {
-    TIME = "time_s" ["s"] "time as in the row of `history.csv`", |(), row, _| row.time_s;
+    TIME = "time_s" ["s"] "time of the row of `history.csv`", |(), row, _| row.time_s;
     KINETIC = "kinetic_mj" ["mJ"] "kinetic energy", |(), row, _| row.kinetic_mj;
     ELASTIC = "elastic_mj" ["mJ"] "elastic energy of teeth, bearings and modes", |(), row, _| row.elastic_mj;
     SUPPLIED = "supplied_mj" ["mJ"]
-        "work of drive and load on the vibration, and what friction and the dampers of `impact` and `shaft18` take of the nominal turn and of the teeth's errors",
+        "work of drive and load on the vibration, and energy that friction and the dampers of `impact` and `shaft18` take from the nominal rotation and from the tooth errors",
         |(), row, _| row.supplied_mj;
-    PARAMETRIC = "parametric_mj" ["mJ"] "what the turning of the teeth under load does to their elastic energy",
+    PARAMETRIC = "parametric_mj" ["mJ"] "change of elastic energy by the rotation of the loaded teeth",
         |(), row, _| row.parametric_mj;
     DISSIPATED = "dissipated_mj" ["mJ"]
-        "in dampers and by friction, never falling; friction of `lumped8` and `lumped12` is a load, in `supplied_mj`",
+        "energy dissipated in dampers and by friction, never falling; friction of `lumped8` and `lumped12` is a load, in `supplied_mj`",
         |(), row, _| row.dissipated_mj;
-    RESIDUAL = "residual_mj" ["mJ"] "what the integrator adds or takes", |(), row, _| row.residual_mj;
+    RESIDUAL = "residual_mj" ["mJ"] "energy that the integrator adds or takes", |(), row, _| row.residual_mj;
 });
 
 /// All columns of a ledger.

@@ -13,8 +13,8 @@ pub enum ColumnsError {
         /// What the system says.
         cause: io::Error,
     },
-    /// It holds what is no number.
-    #[error("{}: holds what is no number", file.display())]
+    /// It contains a value that is not a number.
+    #[error("{}: contains a value that is not a number", file.display())]
     NoNumber {
         /// The file.
         file: PathBuf,

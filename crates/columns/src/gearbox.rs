@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox_at_rest::GearboxResult;
+use analysis::gearbox::{GearboxResult, MeshResult};
 use answer::{Table, Values};
 use gearbox::{
     BearingState, GearboxPosition, ShaftLine, line_load, motion::GearboxInstant, rolling_bearing::RollingState,
@@ -23,20 +23,20 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
     push("input_angle_deg".into(), "angle of the input", &|p| p.input_angle.to_degrees());
     push("input_torque_nm".into(), "torque that holds the input, about +z", &|p| 1e-3 * p.input_torque);
     for i in 0..file.torques.len() {
-        let meaning = "how far the output stays behind its nominal turn: the transmission error from input to output";
+        let meaning = "lag of the output behind its nominal rotation: the transmission error from input to output";
         push(format!("output_{}_lag_urad", i + 1), meaning, &|p| 1e6 * p.output_lags[i]);
     }
     for i in 0..file.meshes.len() {
         let name = |what: &str| format!("mesh_{}_{what}", i + 1);
-        push(name("cycles"), "whole mesh cycles and the phase", &|p| p.meshes[i].cycles);
-        let meaning = "transmission error by the turns of both gears, positive when the driven gear lags";
+        push(name("cycles"), "mesh cycles since the start: whole ones and the phase", &|p| p.meshes[i].cycles);
+        let meaning = "static transmission error from the rotations of both gears, positive when the driven gear lags";
         push(name("ste_um"), meaning, &|p| 1e3 * p.meshes[i].transmission_error);
         push(name("normal_force_n"), "sum of the normal forces", &|p| p.meshes[i].normal_force);
-        let meaning = "misalignment of the wheel's axis against the pinion's over the common face width, in the plane of action, positive where the gap opens as z grows";
+        let meaning = "misalignment of the wheel's axis against the pinion's in the plane of action, over the common face width, by shafts, bearings and housing; positive where the gap opens as z grows";
         push(name("misalignment_in_plane_um"), meaning, &|p| 1e3 * p.meshes[i].misalignment_in_plane);
-        let meaning = "the same across the plane of action";
+        let meaning = "misalignment of the wheel's axis against the pinion's across the plane of action, over the common face width";
         push(name("misalignment_across_um"), meaning, &|p| 1e3 * p.meshes[i].misalignment_across);
-        push(name("max_pressure_mpa"), "largest pressure", &|p| {
+        push(name("max_pressure_mpa"), "largest contact pressure", &|p| {
             p.meshes[i].slices.iter().map(|s| s.pressure).fold(0.0, f64::max)
         });
     }
@@ -45,15 +45,15 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
         if file.bearings[i].rolling.is_some() {
             let of = |p: &GearboxPosition, what: fn(&RollingState) -> f64| p.rolling[i].as_ref().map_or(0.0, what);
             let name = |what: &str| format!("bearing_{}_{what}", i + 1);
-            push(name("element_force_n"), "force of the hardest pressed rolling element", &|p| {
-                of(p, |s| s.element_force)
+            push(name("element_force_n"), "force on the most loaded rolling element", &|p| of(p, |s| s.element_force));
+            push(name("hertz_pressure_mpa"), "contact pressure of the most loaded rolling element", &|p| {
+                of(p, |s| s.pressure)
             });
-            push(name("hertz_pressure_mpa"), "its pressure", &|p| of(p, |s| s.pressure));
-            push(name("loaded_elements"), "rolling elements that carry", &|p| of(p, |s| s.loaded as f64));
+            push(name("loaded_elements"), "number of loaded rolling elements", &|p| of(p, |s| s.loaded as f64));
         }
     }
-    push("residual".into(), "forces left over at the gears over the load", &|p| p.certificate.residual);
-    let meaning = "sum of forces, or moments, on a shaft over the largest of them";
+    push("residual".into(), "unbalanced forces at the gears over the load", &|p| p.certificate.residual);
+    let meaning = "sum of the forces, or moments, on a shaft over the largest of them";
     push("body_balance".into(), meaning, &|p| p.certificate.body_balance);
     table
 }
@@ -72,9 +72,9 @@ fn bearing(i: usize, push: BearingColumn<'_>) {
 }
 
 /// `shafts`: one row a node of a shaft at a position.
-pub fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
+pub fn shafts(file: &Gearbox, positions: &[GearboxPosition]) -> Table {
     let nodes = || {
-        result.positions.iter().flat_map(|position| {
+        positions.iter().flat_map(|position| {
             let of_line = move |(i, line): (usize, &'_ ShaftLine)| (0..line.positions.len()).map(move |k| (i, k));
             position.shafts.iter().enumerate().flat_map(of_line).map(move |(i, k)| (position, i, k))
         })
@@ -89,17 +89,15 @@ pub fn shafts(file: &Gearbox, result: &GearboxResult) -> Table {
         .numbers("x_um", "displacement along x", displacement(0, 1e3))
         .numbers("y_um", "displacement along y", displacement(1, 1e3))
         .numbers("z_um", "displacement along z", displacement(2, 1e3))
-        .numbers("turn_x_urad", "turn about x", displacement(3, 1e6))
-        .numbers("turn_y_urad", "turn about y", displacement(4, 1e6))
-        .numbers("turn_z_urad", "turn about z", displacement(5, 1e6))
+        .numbers("turn_x_urad", "rotation about x", displacement(3, 1e6))
+        .numbers("turn_y_urad", "rotation about y", displacement(4, 1e6))
+        .numbers("turn_z_urad", "rotation about z", displacement(5, 1e6))
 }
 
 /// `line_load`: the largest line load that each height of a face sees.
-pub fn line_loads(result: &GearboxResult) -> Table {
-    let all: Vec<(&str, f64, f64)> = (result.meshes.iter().enumerate())
-        .flat_map(|(i, mesh)| {
-            line_load(&result.positions, i).into_iter().map(|(z, load)| (mesh.name.as_str(), z, load))
-        })
+pub fn line_loads(meshes: &[MeshResult], positions: &[GearboxPosition]) -> Table {
+    let all: Vec<(&str, f64, f64)> = (meshes.iter().enumerate())
+        .flat_map(|(i, mesh)| line_load(positions, i).into_iter().map(|(z, load)| (mesh.name.as_str(), z, load)))
         .collect();
     Table::new("line_load")
         .texts("mesh", "name of the mesh", all.iter().map(|row| row.0))
@@ -116,15 +114,17 @@ pub fn motion(file: &Gearbox, rows: &[GearboxInstant]) -> Table {
     push("time_s".into(), "time since the start", &|p| p.time);
     push("input_angle_deg".into(), "angle of the input", &|p| p.input[0].to_degrees());
     push("input_speed_rpm".into(), "speed of the input about +z", &|p| PER_MINUTE * p.input[1]);
-    let meaning = "torque on the input about +z; the torque that keeps a given speed is a result";
+    let meaning = "torque on the input about +z; with a given speed the torque that keeps it";
     push("input_torque_nm".into(), meaning, &|p| 1e-3 * p.input_torque);
     for i in 0..file.torques.len() {
         push(format!("output_{}_speed_rpm", i + 1), "speed of the output", &|p| PER_MINUTE * p.output_speeds[i]);
     }
     for i in 0..file.meshes.len() {
         let name = |what: &str| format!("mesh_{}_{what}", i + 1);
-        push(name("cycles"), "whole mesh cycles and the phase", &|p| p.meshes[i].cycles);
-        push(name("dte_um"), "dynamic transmission error", &|p| 1e3 * p.meshes[i].transmission_error);
+        push(name("cycles"), "mesh cycles since the start: whole ones and the phase", &|p| p.meshes[i].cycles);
+        push(name("dte_um"), "dynamic transmission error from the rotations of both gears", &|p| {
+            1e3 * p.meshes[i].transmission_error
+        });
         push(name("normal_force_n"), "sum of the normal forces, without damping", &|p| p.meshes[i].normal_force);
     }
     for i in 0..file.bearings.len() {

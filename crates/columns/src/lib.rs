@@ -15,6 +15,7 @@ mod solved;
 pub mod static_history;
 mod table;
 
+pub use derivatives::derivative_columns;
 pub use energy::{ENERGY, EnergyRows};
 pub use error::ColumnsError;
 pub use lumped_history::{LUMPED_HISTORY, LumpedLayout, LumpedRows, lumped_columns, lumped_quantity};

@@ -96,14 +96,14 @@ columns!(LumpedRows, LEADING, |_, _| true, {
         @ |l, _| l.is_shafts(), |_, row, _| or_none(row.mesh_cycles);
     PINION_ANGLE = "pinion_angle_deg" ["deg"] "angle of the pinion in the sense of rotation (not of shaft18)",
         @ |l, _| !l.is_shafts(), |_, row, _| or_none(row.pinion_angle).to_degrees();
-    MESH_PHASE = "mesh_phase" [""] "0 .. 1 within the mesh cycle", |_, row, _| row.mesh_phase;
-    PINION_SPEED = "pinion_speed_rpm" ["1/min"] "about +z (impact, mapped)",
+    MESH_PHASE = "mesh_phase" [""] "phase of the mesh cycle, 0 .. 1", |_, row, _| row.mesh_phase;
+    PINION_SPEED = "pinion_speed_rpm" ["1/min"] "speed of the gear about +z (impact, mapped)",
         @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[0])) * 60.0 / TAU;
-    WHEEL_SPEED = "wheel_speed_rpm" ["1/min"] "about +z (impact, mapped)",
+    WHEEL_SPEED = "wheel_speed_rpm" ["1/min"] "speed of the gear about +z (impact, mapped)",
         @ |l, _| l.has_flanks(), |_, row, _| or_none(row.speeds.map(|s| s[1])) * 60.0 / TAU;
-    DTE = "dte_um" ["um"] "lag of the driven gear on its base circle: the dynamic transmission error", |_, row, _| row.transmission_error_um;
+    DTE = "dte_um" ["um"] "dynamic transmission error (DTE): lag of the driven gear on its base circle", |_, row, _| row.transmission_error_um;
     DEFLECTION = "mesh_deflection_um" ["um"]
-        "displacement of the flanks on the transverse line of action: the transmission error and what the supports give way (lumped8, lumped12)",
+        "displacement of the flanks on the transverse line of action: transmission error and deflection of the supports (lumped8, lumped12)",
         @ |l, _| l.is_gears(), |_, row, _| 1e3 * or_none(row.mesh_deflection);
     STIFFNESS = "mesh_stiffness_n_per_um" ["N/um"] "stiffness on the transverse line of action (lumped8, lumped12)",
         @ |l, _| l.is_gears(), |_, row, _| 1e-3 * or_none(row.mesh_stiffness);
@@ -115,7 +115,7 @@ columns!(LumpedRows, LEADING, |_, _| true, {
     NORMAL_STIFFNESS = "normal_mesh_stiffness_n_per_um" ["N/um"] "stiffness along the normal (shaft18)",
         @ |l, _| l.is_shafts(), |_, row, _| 1e-3 * or_none(row.normal_mesh_stiffness);
     LINE_LENGTH = "contact_line_length_mm" ["mm"]
-        "0 where the flanks are apart; `impact`: of the slices that overlap, those at tip edges too (not of shaft18)",
+        "contact-line length, 0 where the flanks are apart; of `impact` that of the overlapping slices, tip edges included (not of shaft18)",
         @ |l, _| !l.is_shafts(), |_, row, _| or_none(row.contact_line_length);
     PAIRS = "pairs_in_contact" [""] "tooth pairs whose driving flanks carry load (impact)",
         @ |l, _| l.is_rigid(), |_, row, _| or_none(row.pairs_in_contact.map(|n| n as f64));
@@ -137,13 +137,13 @@ columns!(LumpedRows, LEADING, |_, _| true, {
 });
 
 columns!(LumpedRows, WRENCH, |_, _| true, {
-    FORCE_X = "<gear>_force_x_n" ["N"] "of the mesh on the gear, fixed axes", |_, row, at| row.wrench[at.gear][0];
-    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear", |_, row, at| row.wrench[at.gear][1];
-    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear: the axial force", |_, row, at| row.wrench[at.gear][2];
-    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "mesh moment on the gear about its centre, fixed axes",
+    FORCE_X = "<gear>_force_x_n" ["N"] "x component of the mesh force on the gear, fixed axes", |_, row, at| row.wrench[at.gear][0];
+    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear, fixed axes", |_, row, at| row.wrench[at.gear][1];
+    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear, the axial force", |_, row, at| row.wrench[at.gear][2];
+    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "x component of the mesh moment on the gear about its centre, fixed axes",
         |_, row, at| row.wrench[at.gear][3];
-    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment: the tilting moment", |_, row, at| row.wrench[at.gear][4];
-    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment", |_, row, at| row.wrench[at.gear][5];
+    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment on the gear, the tilting moment", |_, row, at| row.wrench[at.gear][4];
+    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment on the gear", |_, row, at| row.wrench[at.gear][5];
 });
 
 /// Friction's part of a component of the wrench.
@@ -152,15 +152,15 @@ fn friction(row: &LumpedRow, at: At, component: usize) -> f64 {
 }
 
 columns!(LumpedRows, FRICTION, |l, _| l.is_rigid(), {
-    FRICTION_FORCE_X = "<gear>_friction_force_x_n" ["N"] "the part of `<gear>_force_x_n` that is friction (impact)",
+    FRICTION_FORCE_X = "<gear>_friction_force_x_n" ["N"] "friction in `<gear>_force_x_n` (impact)",
         |_, row, at| friction(row, at, 0);
-    FRICTION_FORCE_Y = "<gear>_friction_force_y_n" ["N"] "y component of the friction force (impact)", |_, row, at| friction(row, at, 1);
-    FRICTION_FORCE_Z = "<gear>_friction_force_z_n" ["N"] "z component of the friction force (impact)", |_, row, at| friction(row, at, 2);
-    FRICTION_MOMENT_X = "<gear>_friction_moment_x_nmm" ["N mm"] "x component of the moment of friction on the gear (impact)",
+    FRICTION_FORCE_Y = "<gear>_friction_force_y_n" ["N"] "friction in `<gear>_force_y_n` (impact)", |_, row, at| friction(row, at, 1);
+    FRICTION_FORCE_Z = "<gear>_friction_force_z_n" ["N"] "friction in `<gear>_force_z_n` (impact)", |_, row, at| friction(row, at, 2);
+    FRICTION_MOMENT_X = "<gear>_friction_moment_x_nmm" ["N mm"] "friction in `<gear>_moment_x_nmm` (impact)",
         |_, row, at| friction(row, at, 3);
-    FRICTION_MOMENT_Y = "<gear>_friction_moment_y_nmm" ["N mm"] "y component of the moment of friction (impact)",
+    FRICTION_MOMENT_Y = "<gear>_friction_moment_y_nmm" ["N mm"] "friction in `<gear>_moment_y_nmm` (impact)",
         |_, row, at| friction(row, at, 4);
-    FRICTION_MOMENT_Z = "<gear>_friction_moment_z_nmm" ["N mm"] "z component of the moment of friction (impact)",
+    FRICTION_MOMENT_Z = "<gear>_friction_moment_z_nmm" ["N mm"] "friction in `<gear>_moment_z_nmm` (impact)",
         |_, row, at| friction(row, at, 5);
 });
 
@@ -180,13 +180,13 @@ columns!(LumpedRows, DISPLACEMENTS, |_, _| true, {
     Z = "<gear>_z_um" ["um"] "displacement along the axis (not of impact)",
         @ |l, at| l.has(at, CoordinateAxis::Z),
         |l, row, at| 1e3 * l.coordinate(&row.displacement, at, CoordinateAxis::Z);
-    TILT_X = "<gear>_tilt_x_urad" ["urad"] "turn about x (lumped12, shaft18)",
+    TILT_X = "<gear>_tilt_x_urad" ["urad"] "tilt about x (lumped12, shaft18)",
         @ |l, at| l.has(at, CoordinateAxis::TiltX),
         |l, row, at| 1e6 * l.coordinate(&row.displacement, at, CoordinateAxis::TiltX);
-    TILT_Y = "<gear>_tilt_y_urad" ["urad"] "turn about y (lumped12, shaft18)",
+    TILT_Y = "<gear>_tilt_y_urad" ["urad"] "tilt about y (lumped12, shaft18)",
         @ |l, at| l.has(at, CoordinateAxis::TiltY),
         |l, row, at| 1e6 * l.coordinate(&row.displacement, at, CoordinateAxis::TiltY);
-    TURN = "<gear>_turn_urad" ["urad"] "turn about the axis beyond the nominal one (not of impact)",
+    TURN = "<gear>_turn_urad" ["urad"] "rotation about the axis beyond the nominal one (not of impact)",
         @ |l, at| l.has(at, CoordinateAxis::Turn),
         |l, row, at| 1e6 * l.coordinate(&row.displacement, at, CoordinateAxis::Turn);
 });

@@ -24,7 +24,7 @@ pub fn read_columns(path: &Path) -> Result<Columns, ColumnsError> {
     parse_columns(&text).ok_or_else(|| ColumnsError::NoNumber { file: path.to_owned() })
 }
 
-/// The columns of a file's text; `None` where it holds what is no number, or two columns of one name.
+/// The columns of a file's text; `None` where it contains a value that is not a number, or two columns of one name.
 pub fn parse_columns(text: &str) -> Option<Columns> {
     let mut lines = text.lines();
     let names = lines.next()?.split(',');

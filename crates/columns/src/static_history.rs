@@ -72,95 +72,95 @@ impl StaticLayout {
 }
 
 columns!(StaticRows, LEADING, |_, _| true, {
-    TIME = "time_s" ["s"] "since the first position, from `speed_rpm`", |l, p, _| (p.pinion_angle - l.start) / l.speed;
+    TIME = "time_s" ["s"] "time since the first position, from `speed_rpm`", |l, p, _| (p.pinion_angle - l.start) / l.speed;
     PINION_ANGLE = "pinion_angle_deg" ["deg"]
-        "in the sense of rotation; 0 where pair 0 stands, in the middle of the common face, in the middle of the path of contact",
+        "angle of the pinion in the sense of rotation; 0 where pair 0 touches the middle of the path of contact, in the middle of the common face",
         |_, p, _| p.pinion_angle.to_degrees();
-    MESH_PHASE = "mesh_phase" [""] "0 .. 1 within the mesh cycle; 0.5 at pinion angle 0", |_, p, _| p.mesh_phase;
+    MESH_PHASE = "mesh_phase" [""] "phase of the mesh cycle, 0 .. 1; 0.5 at pinion angle 0", |_, p, _| p.mesh_phase;
     STE = "ste_um" ["um"]
-        "static transmission error on the transverse line of action, positive when the driven gear lags",
+        "static transmission error (STE) on the transverse line of action, positive when the driven gear lags; 0 where the unmodified flanks would touch with parallel axes",
         |_, p, _| p.transmission_error * 1e3;
     KINEMATIC_TE = "kinematic_te_um" ["um"]
-        "no-load transmission error: of micro-geometry, pitch errors and misalignment alone. Both errors count from where the unmodified flanks would touch with parallel axes",
+        "no-load transmission error, of micro-geometry, pitch errors and misalignment alone; 0 as of `ste_um`",
         |_, p, _| p.kinematic_transmission_error * 1e3;
-    SECANT_STIFFNESS = "mesh_stiffness_n_per_um" ["N/um"] "secant: F_bt / (STE - kinematic TE)",
+    SECANT_STIFFNESS = "mesh_stiffness_n_per_um" ["N/um"] "secant mesh stiffness F_bt / (STE - no-load transmission error)",
         |_, p, _| p.secant_stiffness * 1e-3;
-    TANGENT_STIFFNESS = "mesh_stiffness_tangent_n_per_um" ["N/um"] "dF_bt / dSTE",
+    TANGENT_STIFFNESS = "mesh_stiffness_tangent_n_per_um" ["N/um"] "tangent mesh stiffness dF_bt / dSTE",
         |_, p, _| p.tangent_stiffness * 1e-3;
     LINE_LENGTH = "contact_line_length_mm" ["mm"]
-        "total, from the deformed gaps under load; contact beyond the nominal path included",
+        "total contact-line length from the deformed gaps under load; contact beyond the nominal path included",
         |_, p, _| p.contact_line_length;
-    GEOMETRIC_LENGTH = "geometric_line_length_mm" ["mm"] "total, of the unloaded pair, analytic",
+    GEOMETRIC_LENGTH = "geometric_line_length_mm" ["mm"] "total contact-line length of the unloaded pair, analytic",
         |_, p, _| p.geometric_line_length;
     PAIRS = "pairs_in_contact" [""] "tooth pairs that carry load",
         |_, p, _| p.pairs.iter().filter(|pair| pair.normal_force > 0.0).count() as f64;
 });
 
 columns!(StaticRows, WRENCH, |_, _| true, {
-    FORCE_X = "<gear>_force_x_n" ["N"] "mesh force on the gear, fixed axes", |_, p, at| p.wrench[at.gear].force[0];
-    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear", |_, p, at| p.wrench[at.gear].force[1];
-    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear: the axial force", |_, p, at| p.wrench[at.gear].force[2];
-    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "mesh moment on the gear about its own centre, fixed axes",
+    FORCE_X = "<gear>_force_x_n" ["N"] "x component of the mesh force on the gear, fixed axes", |_, p, at| p.wrench[at.gear].force[0];
+    FORCE_Y = "<gear>_force_y_n" ["N"] "y component of the mesh force on the gear, fixed axes", |_, p, at| p.wrench[at.gear].force[1];
+    FORCE_Z = "<gear>_force_z_n" ["N"] "z component of the mesh force on the gear, the axial force", |_, p, at| p.wrench[at.gear].force[2];
+    MOMENT_X = "<gear>_moment_x_nmm" ["N mm"] "x component of the mesh moment on the gear about its own centre, fixed axes",
         |_, p, at| p.wrench[at.gear].moment[0];
-    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment: the tilting moment",
+    MOMENT_Y = "<gear>_moment_y_nmm" ["N mm"] "y component of the mesh moment on the gear, the tilting moment",
         |_, p, at| p.wrench[at.gear].moment[1];
-    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment", |_, p, at| p.wrench[at.gear].moment[2];
+    MOMENT_Z = "<gear>_moment_z_nmm" ["N mm"] "z component of the mesh moment on the gear", |_, p, at| p.wrench[at.gear].moment[2];
 });
 
 columns!(StaticRows, SHARING, |_, _| true, {
     PAIR_FORCE = "normal_force_pair_<k>_n" ["N"]
-        "normal force of a tooth pair: k = 0 passes the middle of its path during this cycle, 1 is one pitch ahead in the sense of rotation, -1 one behind",
+        "normal force of a tooth pair: pair 0 passes the middle of its path during this cycle, 1 is one pitch ahead in the sense of rotation, -1 one behind",
         |l, p, at| pairs::force(p, at.pair, l.pitch);
 });
 
 columns!(StaticRows, TRAILING, |_, _| true, {
     MAX_PRESSURE = "max_pressure_mpa" ["MPa"]
-        "largest Hertzian pressure; of slices that of the hardest pressed one, of points: line load over axial bins of one and a half elements, curvatures of the exact flanks ([theory](theory.md), equation 22); good to some ten per cent on coarse meshes",
+        "largest Hertzian pressure of any slice; of points from the line load over axial bins of one and a half elements and the curvatures of the exact flanks ([theory](theory.md), equation 22), good to some ten per cent on coarse meshes",
         |_, p, _| p.max_pressure;
     PRESSURE_PLACE = "max_pressure_place" [""]
-        "where that is: 1 flank, 2 a slice that ends at an end face, 3 the pinion's tip edge, 4 the wheel's (it presses off the line of action, or lies within the band); 0 without load. Of models with slices, as the next two",
+        "place of the largest pressure: 1 flank, 2 a slice that ends at an end face, 3 tip edge of the pinion, 4 tip edge of the wheel (it presses off the line of action, or lies within the band); 0 without load; models with slices",
         @ |l, _| l.slices, |l, p, _| l.place(p)[0];
-    PRESSURE_Z = "max_pressure_z_mm" ["mm"] "height of the place on the pinion; `NaN` without load",
+    PRESSURE_Z = "max_pressure_z_mm" ["mm"] "height of the place on the pinion; `NaN` without load; models with slices",
         @ |l, _| l.slices, |l, p, _| l.place(p)[1];
-    PRESSURE_DIAMETER = "max_pressure_pinion_diameter_mm" ["mm"] "diameter of the place on the pinion; `NaN` without load",
+    PRESSURE_DIAMETER = "max_pressure_pinion_diameter_mm" ["mm"] "diameter of the place on the pinion; `NaN` without load; models with slices",
         @ |l, _| l.slices, |l, p, _| l.place(p)[2];
-    STRAIN_ENERGY = "strain_energy_nmm" ["N mm"] "of both gears", |_, p, _| p.strain_energy;
+    STRAIN_ENERGY = "strain_energy_nmm" ["N mm"] "strain energy of both gears", |_, p, _| p.strain_energy;
     FRICTION_LOSS = "friction_power_loss_w" ["W"]
-        "power that friction takes at the scene's speed; 0 without friction", |l, p, _| 1e-3 * p.friction_work * l.speed;
-    TOOTH_CHANGES = "tooth_changes" [""] "slides of the window since the start",
+        "power lost to friction at the scene's speed", |l, p, _| 1e-3 * p.friction_work * l.speed;
+    TOOTH_CHANGES = "tooth_changes" [""] "tooth changes of the window since the start",
         |_, p, _| p.tooth_changes as f64;
-    TORQUE_RESIDUAL = "torque_residual" [""] "contact torque against applied torque, relative",
+    TORQUE_RESIDUAL = "torque_residual" [""] "relative difference of contact torque and applied torque",
         |_, p, _| p.certificate.torque_residual;
     COMPLEMENTARITY_RESIDUAL = "complementarity_residual" [""]
-        "violation of gap >= 0, pressure >= 0, one of them zero; relative",
+        "relative violation of gap >= 0, pressure >= 0, one of them zero",
         |_, p, _| p.certificate.complementarity_residual;
     ACTION_REACTION_RESIDUAL = "action_reaction_residual" [""]
-        "force on the pinion plus force on the wheel, relative", |_, p, _| p.certificate.action_reaction_residual;
+        "relative difference of the forces on pinion and wheel", |_, p, _| p.certificate.action_reaction_residual;
     WINDOW_EDGE_LOAD = "window_edge_load" [""]
-        "share of the load on the more loaded end pair of the window. With the least window it is 0.5 whenever only an end pair and its neighbour are in contact, so it is no alarm; a window that is too small ends the run with a message",
+        "share of the load on the more loaded end pair of the window; with the smallest window 0.5 is usual. A window that is too small ends the run with a message",
         |_, p, _| p.certificate.window_edge_load;
-    ITERATIONS = "iterations" [""] "of the contact solver", |_, p, _| p.certificate.iterations as f64;
+    ITERATIONS = "iterations" [""] "iterations of the contact solver", |_, p, _| p.certificate.iterations as f64;
 });
 
 columns!(StaticRows, ROOT_STRESS, |l, _| l.root_stress, {
     ROOT_TENSION = "<gear>_root_stress_max_principal_mpa" ["MPa"]
-        "largest first principal stress (tension) in any fillet of the window's teeth",
+        "largest first principal stress (tension) in any fillet of the window's teeth; with `root_stress = true` ([theory](theory.md), equations 22a, 22c)",
         |_, p, at| MAX_PRINCIPAL.stress(&p.root_stress[at.gear], None);
     ROOT_COMPRESSION = "<gear>_root_stress_min_principal_mpa" ["MPa"]
-        "smallest third principal stress (compression, negative)",
+        "smallest third principal stress (compression, negative) in the fillets of the window; with `root_stress = true`",
         |_, p, at| MIN_PRINCIPAL.stress(&p.root_stress[at.gear], None);
-    ROOT_VON_MISES = "<gear>_root_stress_von_mises_mpa" ["MPa"] "largest von Mises stress",
+    ROOT_VON_MISES = "<gear>_root_stress_von_mises_mpa" ["MPa"] "largest von Mises stress in the fillets of the window; with `root_stress = true`",
         |_, p, at| VON_MISES.stress(&p.root_stress[at.gear], None);
     ROOT_ERROR = "<gear>_root_stress_estimated_error_percent" ["%"]
-        "estimate of how far the largest tension is from that of an infinitely fine mesh: a share of the difference between two recoveries, and what both share by the turn of the surface within one face; above 3 % in the largest of the run there is a warning",
+        "estimated distance of the largest tension from that of an infinitely fine mesh: a share of the difference between two recoveries, and the error that both share by the rotation of the surface within one face; a remark tells of more than 3 % in the largest of the run",
         |_, p, at| error_percent(&p.root_stress[at.gear]);
 });
 
 columns!(StaticRows, TOOTH_STRESS, |l, _| l.root_stress, {
     TOOTH_TENSION = "<gear>_root_stress_max_principal_pair_<k>_mpa" ["MPa"]
-        "the largest first principal stress in both fillets of this gear's tooth of pair k (numbered as `normal_force_pair_<k>_n`); `NaN` where the pair is not in the window",
+        "largest first principal stress in both fillets of this gear's tooth of pair k (numbered as `normal_force_pair_<k>_n`); `NaN` where the pair is not in the window",
         |l, p, at| l.tooth_stress(p, at, MAX_PRINCIPAL);
-    TOOTH_VON_MISES = "<gear>_root_stress_von_mises_pair_<k>_mpa" ["MPa"] "the largest von Mises stress there",
+    TOOTH_VON_MISES = "<gear>_root_stress_von_mises_pair_<k>_mpa" ["MPa"] "largest von Mises stress in both fillets of this gear's tooth of pair k",
         |l, p, at| l.tooth_stress(p, at, VON_MISES);
 });
 
@@ -187,8 +187,8 @@ pub fn history_table(scene: &Scene, history: &StaticHistory, derivatives: Option
     let rows: Vec<Vec<f64>> = (history.positions.iter().enumerate())
         .map(|(i, position)| derivatives::row(rates, i, position, &numbers, layout.pitch))
         .collect();
-    for (k, name) in derivatives::names(&rates.keys, &numbers).into_iter().enumerate() {
-        table.push_numbers(name, "derivative by the key", rows.iter().map(|row| row[k]));
+    for (k, (name, meaning)) in derivatives::named(&rates.keys, &numbers).into_iter().enumerate() {
+        table.push_numbers(name, meaning, rows.iter().map(|row| row[k]));
     }
     table
 }

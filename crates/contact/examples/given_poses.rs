@@ -10,7 +10,7 @@ use ale::{SlidingWindow, Station, teeth_needed};
 use contact::{ContactOptions, ContactSet, Method, WindowContact, pose::frames};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions, generate};
 use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let window = sliding.window();
     let reduce = |gear: &Gear, first: u32| -> Result<ElasticGear, Box<dyn Error>> {
         let sector = StructuredOptions { extent: Extent::Periodic, ..StructuredOptions::default() };
-        let mesh = GearMesh::from_groups(generate(gear, &sector)?, &GroupNames::default(), gear.teeth())?;
+        let mesh = MeshedGear::from_groups(generate(gear, &sector)?, &GroupNames::default(), gear.teeth())?;
         let kept =
             ReductionOptions { sides: options.sides(), window: count, first, elements: ElementOptions::default() };
         Ok(ElasticGear::Reduced(GearReducer::new(mesh, Material::STEEL, kept)?))

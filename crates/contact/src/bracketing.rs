@@ -24,7 +24,7 @@ pub(crate) fn bracket_zero(f: impl FnMut(f64) -> f64, ends: [f64; 2], values: [f
     bracket_zero_within(f, ends, values, 0.0)
 }
 
-/// The same to a bracket as wide as `within`, or to round-off.
+/// Shrinks a bracket of a zero of `f` to a width of `within`, or to round-off ([`bracket_zero`]).
 pub(crate) fn bracket_zero_within(
     mut f: impl FnMut(f64) -> f64,
     [a, b]: [f64; 2],

@@ -68,7 +68,7 @@ impl ElasticContact<'_> {
     /// gear `body` turns.
     ///
     /// # Errors
-    /// [`ContactError::NotConverged`], [`ContactError::NoLever`], and those of the elastic model.
+    /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`], and those of the elastic model.
     pub fn solve(
         &self,
         of: &CandidateRows,

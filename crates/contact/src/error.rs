@@ -1,4 +1,4 @@
-//! What can go wrong in contact.
+//! Errors of contact.
 
 /// Contact could not be set up or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,11 +9,11 @@ pub enum ContactError {
         "node {node} of {patch} is {distance_mm:.4} mm away from the flank's smooth surface (allowed: {tolerance_mm:.4} mm)"
     )]
     OffSurface {
-        /// Which flank.
+        /// Name of the flank.
         patch: String,
         /// Node of the mesh.
         node: u32,
-        /// Its distance, mm.
+        /// Distance of the node, mm.
         distance_mm: f64,
         /// Largest distance allowed, mm.
         tolerance_mm: f64,
@@ -21,7 +21,7 @@ pub enum ContactError {
     /// A node of a flank is none of the nodes that the gear's matrices know.
     #[error("node {node} of {patch} is no boundary node of the gear's matrices")]
     NotOnBoundary {
-        /// Which flank.
+        /// Name of the flank.
         patch: String,
         /// Node of the mesh.
         node: u32,
@@ -44,7 +44,7 @@ pub enum ContactError {
     },
     /// The load cannot be carried by the points at hand.
     #[error("no contact point can carry the torque: the largest lever is {lever_mm:.3e} mm")]
-    NoLever {
+    CannotCarryTorque {
         /// Largest lever arm, mm.
         lever_mm: f64,
     },
@@ -74,7 +74,7 @@ pub enum ContactError {
     Reduction {
         /// `pinion` or `wheel`.
         gear: &'static str,
-        /// What happened.
+        /// Error of the reduction.
         source: reduction::ReductionError,
     },
     /// The flanks of a gear's mesh are not those of its geometry.
@@ -82,7 +82,7 @@ pub enum ContactError {
     Flank {
         /// `pinion` or `wheel`.
         gear: &'static str,
-        /// What happened.
+        /// Error of the contact.
         source: Box<ContactError>,
     },
     /// A value out of its range.
@@ -90,7 +90,7 @@ pub enum ContactError {
     OutOfRange {
         /// Name of the quantity.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// The permitted range.
         expected: &'static str,
@@ -114,7 +114,7 @@ impl ContactError {
             }
             Self::NoCandidates { .. } => "check centre distance, hands of helix and the flank groups of the meshes".into(),
             Self::NotConverged { .. } => "try a finite penalty (contact.penalty_mpa_per_mm) or other points_per_face_edge".into(),
-            Self::NoLever { .. } => "the contact normals point at the axis: check the flank groups".into(),
+            Self::CannotCarryTorque { .. } => "the contact normals point at the axis: check the flank groups".into(),
             Self::NotPositiveDefinite { .. } => "the mesh compliance is damaged: run `ale-gear mesh check`".into(),
             Self::Reduction { source, .. } => return source.hint(),
             Self::Flank { source, .. } => return source.hint(),

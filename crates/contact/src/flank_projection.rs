@@ -31,7 +31,7 @@ pub struct FlankProjection {
 }
 
 impl FlankProjection {
-    /// Of the flanks on a side.
+    /// Approach and tilt of the flanks on a side.
     pub fn new(pair: &GearPair, side: Side) -> Self {
         let s = side.sign();
         let (sin, cos) = pair.working_pressure_angle().sin_cos();

@@ -65,9 +65,9 @@ fn sliding(ratio: f64, poses: &[Pose; 2], row: &ContactRow) -> Vec3 {
     v - row.normal * row.normal.dot(&v)
 }
 
-/// Turn of the wheel for a turn of the pinion.
+/// Turn of the wheel, against that of the pinion, for a turn of the pinion; negative of a ring, which turns as its pinion does.
 fn ratio(pair: &GearPair) -> f64 {
-    f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth())
+    pair.pinion.signed_teeth() / pair.wheel.signed_teeth()
 }
 
 /// Largest sliding on the path of contact, mm per radian of the pinion: distance from the pitch point times (1 + z1 /

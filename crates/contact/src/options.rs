@@ -1,10 +1,10 @@
-//! What is asked of the contact of a pair.
+//! Options of the contact of a pair.
 
 use geometry::{Driver, GearPair, Sense, Side};
 
 use crate::{Offset, complementarity::Law, flank::GapSource};
 
-/// How contact is made discrete.
+/// Discretisation of contact.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// One line load an axial slice; bulk compliance from the mesh, local compliance in closed form.
@@ -13,7 +13,7 @@ pub enum Method {
     Nodal,
 }
 
-/// How the bulk compliance behind slices is held.
+/// Storage of the bulk compliance behind slices.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bulk {
     /// The mesh's own matrices, entry by entry.
@@ -33,7 +33,7 @@ impl Default for Bulk {
 /// Which flanks touch, where the gears stand, and how contact is made discrete.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ContactOptions {
-    /// Which gear drives.
+    /// Driving gear.
     pub driver: Driver,
     /// Sense in which the pinion turns.
     pub sense: Sense,

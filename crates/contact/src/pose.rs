@@ -3,7 +3,7 @@
 
 use ale::{Station, ToothWindow};
 use geometry::GearPair;
-use nalgebra::{SMatrix, Translation3, UnitQuaternion};
+use nalgebra::{Matrix3, SMatrix, Translation3, UnitQuaternion};
 
 use crate::{ContactError, ContactOptions, ContactSet, Pose, Vec3};
 
@@ -48,9 +48,11 @@ pub fn check_offsets(pair: &GearPair, options: &ContactOptions) -> Result<(), Co
         }
     }
     let [a, b] = [0, 1].map(|i| gear_centre(pair, options, i));
-    let distance = (b - a).xy().norm();
+    // Signed as the radii are: negative of a ring.
+    let sign = pair.wheel.sign();
+    let distance = sign * (b - a).xy().norm();
     let least = pair.pinion.base_radius() + pair.wheel.base_radius();
-    if !(distance > least && distance < pair.pinion.tip_radius() + pair.wheel.tip_radius()) {
+    if !(sign * distance > sign * least && distance < pair.pinion.tip_radius() + pair.wheel.tip_radius()) {
         return bad("distance of the displaced axes [mm]", distance, "between the sums of base and of tip radii");
     }
     let apart = options.offsets[1].z - options.offsets[0].z;
@@ -98,21 +100,41 @@ pub fn displaced(nominal: [Pose; 2], d: &[f64; 12]) -> [Pose; 2] {
     })
 }
 
-/// G of the forces on the displacements of [`displaced`]; none where both axes are along z, and G is 1.
+/// G of the forces on the displacements `d` of [`displaced`] that led to `poses`; none where no gear tilts and both axes are along z, and G is 1. Theory (45c).
 ///
 /// ```text
-/// f_d = G f,   -df_d/dd = G K G',   row of a turn: the moment about the gear's own axis in place of that about z
+/// f_d = G f,   d rotation/d d_k = w_k:   w_tilt = J e,   w_turn = the gear's own axis,   row of a tilt or turn of G: w'
+/// J = 1 + (1 - cos a)/a^2 [p] + (a - sin a)/a^3 [p]^2,   p = (tilt x, tilt y, 0),   a = |p|
 /// ```
-/// f: forces and moments in common axes, twelve. Work of the forces is then that of the displacements also on an axis that
-/// is misaligned or tilted, and the contact has one energy.
-pub fn own_turns(poses: &[Pose; 2]) -> Option<SMatrix<f64, 12, 12>> {
+/// f: forces and moments in common axes, twelve. Work of the forces is then that of the displacements, exactly, also on an axis that is misaligned or tilted: the contact has one energy V and f_d = -dV/dd. A turn has the moment about the gear's own axis in place of that about z; a tilt has half of the other tilt's share of the moment about z taken off. J: left Jacobian of a rotation vector (Sola, Deray and Atchuthan, A micro Lie theory, 2018, eq. 145). Of the slope, -df_d/dd = G K G' holds but for terms of the size of the moments themselves, which are small beside a stiffness on a lever.
+pub fn generalised(poses: &[Pose; 2], d: &[f64; 12]) -> Option<SMatrix<f64, 12, 12>> {
     let axes = poses.map(|pose| pose.rotation * Vec3::z());
-    if axes.iter().all(|axis| *axis == Vec3::z()) {
+    let tilts = [0, 1].map(|g| Vec3::new(d[6 * g + 3], d[6 * g + 4], 0.0));
+    if axes.iter().all(|axis| *axis == Vec3::z()) && tilts.iter().all(|tilt| *tilt == Vec3::zeros()) {
         return None;
     }
     let mut all = SMatrix::identity();
-    for (gear, axis) in axes.iter().enumerate() {
-        (0..3).for_each(|k| all[(6 * gear + 5, 6 * gear + 3 + k)] = axis[k]);
+    for (gear, (axis, tilt)) in axes.iter().zip(&tilts).enumerate() {
+        let at = 6 * gear + 3;
+        let rates = left_jacobian(tilt);
+        for k in 0..3 {
+            (all[(at, at + k)], all[(at + 1, at + k)]) = (rates[(k, 0)], rates[(k, 1)]);
+            all[(at + 2, at + k)] = axis[k];
+        }
     }
     Some(all)
+}
+
+/// Angular velocity of a rotation vector `p` by its rate, 3 x 3.
+fn left_jacobian(p: &Vec3) -> Matrix3<f64> {
+    let square = p.norm_squared();
+    // Below this the next term of either series is under the last bit.
+    let (first, second) = if square < 1e-8 {
+        (0.5 - square / 24.0, 1.0 / 6.0 - square / 120.0)
+    } else {
+        let angle = square.sqrt();
+        ((1.0 - angle.cos()) / square, (angle - angle.sin()) / (square * angle))
+    };
+    let cross = p.cross_matrix();
+    Matrix3::identity() + first * cross + second * cross * cross
 }

@@ -1,4 +1,4 @@
-//! What contact hands on: forces and moments on the gears, and the state of each loaded slice.
+//! Results of contact: forces and moments on the gears, and the state of each loaded slice.
 
 use geometry::Side;
 use serde::Serialize;
@@ -48,7 +48,7 @@ impl MeshForce {
     }
 }
 
-/// What part of the flanks presses.
+/// Part of the flanks that presses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Site {
@@ -87,7 +87,7 @@ pub struct SliceResult {
     /// How far past a tip edge the smooth flanks would touch, mm of arc: the edge presses, off the line of action; 0
     /// for flank on flank.
     pub off_line: f64,
-    /// What part of the flanks presses here.
+    /// Part of the flanks that presses here.
     pub site: Site,
 }
 
@@ -129,7 +129,7 @@ pub struct SliceState {
 }
 
 impl SliceState {
-    /// Of a slice of some length (mm) under a force (N).
+    /// State of a slice of a length (mm) under a force (N).
     pub fn new(law: &LocalLaw, length: f64, force: f64) -> Self {
         if force <= 0.0 {
             return Self::default();

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use ale::ToothWindow;
-use geometry::{Gear, GearPair, Side};
+use geometry::{Gear, GearPair, ModifiedFlank, Side};
 use reduction::{ElasticGear, Window};
 
 use crate::{
@@ -24,7 +24,7 @@ pub struct ContactSet {
     windows: Option<[Window; 2]>,
 }
 
-/// What all windows with the same matrices share.
+/// Data that all windows with the same matrices share.
 #[derive(Debug)]
 struct Shared {
     patches: [Vec<FlankPatch>; 2],
@@ -36,7 +36,7 @@ struct Shared {
     first: [u32; 2],
     slices: Option<Arc<SliceSet>>,
     /// Whether a gear's teeth differ, so that the flanks of a window belong to its very teeth.
-    pitch_errors: [bool; 2],
+    own_teeth: [bool; 2],
 }
 
 /// What the contact of points needs beside the flank patches.
@@ -79,7 +79,8 @@ impl ContactSet {
         let geometry = [&pair.pinion, &pair.wheel];
         let mut parts = Vec::with_capacity(2);
         for i in 0..2 {
-            parts.push(flanks(&gears[i], geometry[i], first_teeth[i], window.count(), options, NAMES[i])?);
+            let own = (geometry[i], slice_width(pair, options));
+            parts.push(flanks(&gears[i], own, first_teeth[i], window.count(), options, NAMES[i])?);
         }
         let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
             <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
@@ -96,9 +97,9 @@ impl ContactSet {
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
         let slices = slices.map(|s| Arc::new(s.with_tables([&p1, &p2], windows.as_ref(), options)));
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
-        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let own_teeth = geometry.map(Gear::has_own_teeth);
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
-        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, pitch_errors });
+        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, own_teeth });
         Ok(Self { shared, windows })
     }
 
@@ -119,14 +120,15 @@ impl ContactSet {
         let patches = [0, 1].map(|i| {
             let shift = i64::from(windows[i].shift);
             let of_flank = |(patch, &side): (&FlankPatch, &Side)| {
-                patch.with_surface(Box::new(geometry[i].modified_flank_at(side, patch.tooth, patch.tooth + shift)))
+                let flank = geometry[i].modified_flank_at(side, patch.tooth, patch.tooth + shift);
+                patch.with_surface(Box::new(as_contact_sees_it(flank, slice_width(pair, options))))
             };
             shared.patches[i].iter().zip(&shared.sides[i]).map(of_flank).collect::<Vec<_>>()
         });
         let nodal = shared.nodal.as_ref().map(|_| NodalFlanks::new(patches.each_ref().map(|p| &p[..]), options));
-        let pitch_errors = geometry.map(|g| g.modifications().has_pitch_errors());
+        let own_teeth = geometry.map(Gear::has_own_teeth);
         let (sides, first, slices) = (shared.sides.clone(), shared.first, shared.slices.clone());
-        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, pitch_errors });
+        let shared = Arc::new(Shared { patches, nodal, sides, first, slices, own_teeth });
         Ok(Some(Self { shared, windows: Some(windows) }))
     }
 
@@ -155,11 +157,27 @@ impl ContactSet {
         let next = self.windows_with_these_matrices(gears, window)?;
         let (Some(mine), Some(next)) = (&mut self.windows, next) else { return Ok(false) };
         // Teeth with errors of their own are others in another place.
-        if (0..2).any(|i| next[i].shift != mine[i].shift && self.shared.pitch_errors[i]) {
+        if (0..2).any(|i| next[i].shift != mine[i].shift && self.shared.own_teeth[i]) {
             return Ok(false);
         }
         *mine = next;
         Ok(true)
+    }
+
+    /// The set of another window with the same matrices: this one where it serves, else with the flanks of the teeth there.
+    /// `None` where that window has matrices of its own.
+    ///
+    /// # Errors
+    /// [`ContactError`] for a window that the gears do not have.
+    pub fn in_window(
+        &self,
+        pair: &GearPair,
+        gears: &[ElasticGear; 2],
+        window: &ToothWindow,
+        options: &ContactOptions,
+    ) -> Result<Option<Self>, ContactError> {
+        let mut own = self.clone();
+        if own.move_to(gears, window)? { Ok(Some(own)) } else { self.modified(pair, gears, window, options) }
     }
 
     /// Whether another window's flanks and matrices are these.
@@ -317,10 +335,24 @@ impl ContactSet {
 
 type Flanks = (Vec<FlankPatch>, Vec<Side>, u32, Option<Window>);
 
+/// Axial length of a slice, mm; none where points are pressed.
+fn slice_width(pair: &GearPair, options: &ContactOptions) -> Option<f64> {
+    (options.method == Method::Slice).then(|| pair.face_width() / options.slices.max(1) as f64)
+}
+
+/// Slices of an axial length (mm) see a measured flank by its smooth part, and the rest by means over their bands; points
+/// see it as it is.
+fn as_contact_sees_it(flank: ModifiedFlank, slice: Option<f64>) -> ModifiedFlank {
+    match slice {
+        Some(width) => flank.split(width),
+        None => flank,
+    }
+}
+
 /// Flank patches of one gear's window, tooth by tooth counter-clockwise, in the frame of its matrices.
 fn flanks(
     elastic: &ElasticGear,
-    geometry: &Gear,
+    (geometry, slice): (&Gear, Option<f64>),
     first: u32,
     count: usize,
     options: &ContactOptions,
@@ -343,7 +375,8 @@ fn flanks(
                 source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
             })?;
             let number = |node: u32| boundary_number(elastic, window.as_ref(), (tooth, side), node);
-            let surface = Box::new(geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift)));
+            let flank = geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift));
+            let surface = Box::new(as_contact_sees_it(flank, slice));
             let patch = FlankPatch::new(i64::from(tooth), surface, nodes, faces, number, options.surface_tolerance)
                 .map_err(|source| ContactError::Flank { gear: name, source: Box::new(source) })?;
             patches.push(patch);

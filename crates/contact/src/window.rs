@@ -16,7 +16,7 @@ pub struct WindowContact {
 }
 
 impl WindowContact {
-    /// With the flanks and matrices of a window.
+    /// Contact with the flanks and matrices of a window.
     ///
     /// # Errors
     /// [`ContactError`].
@@ -44,7 +44,7 @@ impl WindowContact {
         }
     }
 
-    /// Goes over to another window, with the flanks and matrices of `set` where they serve it.
+    /// Enters another window, with the flanks and matrices of `set` where they serve it.
     ///
     /// # Errors
     /// [`ContactError`] when the window cannot be set up.
@@ -62,10 +62,10 @@ impl WindowContact {
                 self.set = slices.contact_set().clone();
             }
             None => {
-                self.set = set;
-                if !self.set.move_to(gears, window)? {
-                    self.set = ContactSet::new(pair, gears, window, options)?;
-                }
+                self.set = match set.in_window(pair, gears, window, options)? {
+                    Some(own) => own,
+                    None => ContactSet::new(pair, gears, window, options)?,
+                };
             }
         }
         Ok(())

@@ -13,7 +13,7 @@ use crate::{
     spline::Axis,
 };
 
-/// What a map has to hold, and how well.
+/// Plan of a map: range and tolerances.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MapPlan {
     /// Force that the pair carries on average, N: errors are relative to the mean approach under it.
@@ -298,7 +298,7 @@ where
     Ok(all)
 }
 
-/// How far the approach is off at one place, mm.
+/// Error of the approach at one place, mm.
 fn error_at<C, E>(
     map: &ContactMap,
     at: &(impl Fn(f64) -> Result<C, E> + Sync),

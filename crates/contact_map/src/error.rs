@@ -11,7 +11,7 @@ pub enum MapError<E> {
         phase: f64,
         /// Approach along the normal, um.
         approach_um: f64,
-        /// What happened.
+        /// Error of the contact.
         source: E,
     },
     /// No approach was found at which the mesh presses with a force.
@@ -41,9 +41,9 @@ pub enum MapError<E> {
         phases: usize,
         /// Forces of the finest map.
         loads: usize,
-        /// How far it is off, relative.
+        /// Error of the map, relative.
         error: f64,
-        /// What is allowed.
+        /// Largest error allowed, relative.
         allowed: f64,
     },
     /// A request without meaning.
@@ -51,9 +51,9 @@ pub enum MapError<E> {
     OutOfRange {
         /// Which.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
-        /// What it may be.
+        /// The permitted range.
         expected: &'static str,
     },
 }

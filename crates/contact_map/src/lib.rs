@@ -6,15 +6,15 @@ mod column;
 mod damping;
 mod damping_table;
 mod error;
-mod kept_places;
 mod load_axis;
 mod map;
 mod sampler;
 mod spline;
+mod spline_cache;
 
 pub use build::MapPlan;
 pub use damping::MapDamping;
 pub use error::MapError;
-pub use kept_places::KeptPlaces;
 pub use map::{ContactMap, CutPlace, MapCertificate, MapContact, Wanted};
 pub use sampler::{ContactSample, LoadedSlice, PhaseContact};
+pub use spline_cache::SplineCache;

@@ -16,12 +16,12 @@ pub struct LoadAxis {
 }
 
 impl LoadAxis {
-    /// Up to `force` (N) in so many intervals.
+    /// Axis up to `force` (N) in so many intervals.
     pub fn new(intervals: usize, force: f64) -> Self {
         Self { intervals, force }
     }
 
-    /// Its axis.
+    /// Spline axis of the places.
     pub fn axis(self) -> Axis {
         Axis::Open(self.intervals)
     }
@@ -51,12 +51,12 @@ impl LoadAxis {
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadCurve {
     axis: LoadAxis,
-    /// Of the splines, one more than the intervals' ends and one beyond either.
+    /// Coefficients of the splines: one at each end of an interval, and one beyond either end of the axis.
     coefficients: Vec<f64>,
 }
 
 impl LoadCurve {
-    /// Becomes nothing, in its own memory.
+    /// Empties the curve and keeps its memory.
     pub fn clear(&mut self, axis: LoadAxis) {
         self.axis = axis;
         self.coefficients.clear();
@@ -74,7 +74,7 @@ impl LoadCurve {
         }
     }
 
-    /// Of an interval, a cubic in the place from its beginning.
+    /// Coefficients of an interval's cubic in the place from its beginning, lowest power first.
     #[inline]
     fn cubic(&self, cell: usize) -> [f64; 4] {
         let k = &self.coefficients[cell..cell + 4];
@@ -86,7 +86,7 @@ impl LoadCurve {
         ]
     }
 
-    /// Its values at the ends of all intervals.
+    /// Value of the curve at the beginning of interval `i`.
     #[inline]
     fn knot(&self, i: usize) -> f64 {
         let k = &self.coefficients[i..i + 3];

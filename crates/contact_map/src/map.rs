@@ -32,7 +32,7 @@ pub struct ContactMap {
     pub(crate) certificate: MapCertificate,
 }
 
-/// How good a map is, and what it cost.
+/// Certificate of a map: errors and cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MapCertificate {
     /// Phases of a mesh cycle.

@@ -1,8 +1,8 @@
-//! What a map is made from: the contact itself.
+//! Contact that a map is sampled from.
 
 /// The contact of one side of the teeth at one phase, as a map asks for it.
 pub trait PhaseContact {
-    /// What can go wrong in it.
+    /// Error of the contact.
     type Error;
 
     /// Deepest overlap of the undeformed flanks along their normal, mm; negative where they are apart.
@@ -11,7 +11,7 @@ pub trait PhaseContact {
     /// The contact at an approach (mm) and a tilt (rad).
     ///
     /// # Errors
-    /// Its own.
+    /// [`Self::Error`].
     fn sample(&mut self, approach: f64, tilt: f64) -> Result<ContactSample, Self::Error>;
 }
 

@@ -24,7 +24,7 @@ pub enum Axis {
 pub struct Splines {
     /// Number of the first one's coefficient.
     pub first: usize,
-    /// How many: 4, or 1 on an axis with a single value.
+    /// Number of weights: 4, or 1 on an axis with a single value.
     pub count: usize,
     /// Their values, slopes and second derivatives, per unit of the spacing.
     pub values: [f64; 4],

@@ -18,13 +18,13 @@ pub struct RigidBody {
 }
 
 impl RigidBody {
-    /// From mass and inertia tensor about the gear's centre, by averaging over the turn: a gear turns, and its body is
-    /// round.
+    /// Body of a mass and an inertia tensor about the gear's centre, averaged over the rotation: a gear rotates, and
+    /// its body is round.
     pub fn of_tensor(mass: f64, inertia: [[f64; 3]; 3]) -> Self {
         Self { mass, transverse_inertia: 0.5 * (inertia[0][0] + inertia[1][1]), polar_inertia: inertia[2][2] }
     }
 
-    /// With an engine's, a load's or a shaft's inertia (t mm^2) on the same axis.
+    /// Body with the inertia (t mm^2) of an engine, a load or a shaft on the same axis added.
     #[must_use]
     pub fn with_polar(self, added: f64) -> Self {
         Self { polar_inertia: self.polar_inertia + added, ..self }

@@ -1,4 +1,4 @@
-//! Which rigid coordinates are free, and what they mean.
+//! Free rigid coordinates of a pair, and their displacements.
 
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SVector};
@@ -64,7 +64,7 @@ impl Coordinates {
         Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
-    /// The same with the lag shared between both gears, so that it leaves the momentum of their common motion alone.
+    /// Coordinates with the lag shared between both gears, so that it leaves the momentum of their common motion alone.
     /// Theory (45a).
     ///
     /// ```text

@@ -1,4 +1,4 @@
-//! What turns the pair: speed or torque of the driver, torque on the driven gear.
+//! Drive and load of a pair: speed or torque of the driver, torque on the driven gear.
 
 use std::f64::consts::TAU;
 
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Speed {
     /// Always the same, rad/s.
     Constant(f64),
-    /// From one speed to another between two times by the smooth step 3 x^2 - 2 x^3, rad/s and s.
+    /// Speed that goes from one value to another between two times by the smooth step 3 x^2 - 2 x^3, rad/s and s.
     Ramp {
         /// Before.
         from: f64,
@@ -17,7 +17,7 @@ pub enum Speed {
         to: f64,
         /// Begin, s.
         start: f64,
-        /// How long, s, > 0.
+        /// Duration of the ramp, s, > 0.
         duration: f64,
     },
 }

@@ -10,3 +10,10 @@ pub(super) struct ElasticDisplacement {
     pub d: Displacement,
     pub q: DVector<f64>,
 }
+
+impl ElasticDisplacement {
+    /// Of gears without modes.
+    pub fn rigid(d: Displacement) -> Self {
+        Self { d, q: DVector::zeros(0) }
+    }
+}

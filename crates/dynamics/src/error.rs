@@ -83,7 +83,7 @@ impl PairMotionError {
         }
     }
 
-    /// What the user can do next.
+    /// Hint: an action that cures the error.
     pub fn hint(&self) -> String {
         match self {
             Self::Integration(source) => {

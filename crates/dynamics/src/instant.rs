@@ -4,7 +4,7 @@ use crate::Displacement;
 use contact::SliceResult;
 use ltca::FilletStress;
 
-/// What the results hold of one instant.
+/// Quantities of one instant of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Instant {
     /// Time, s.
@@ -15,7 +15,7 @@ pub struct Instant {
     pub speeds: [f64; 2],
     /// Lag of the driven gear behind the nominal motion on its base circle, mm: the dynamic transmission error.
     pub transmission_error: f64,
-    /// Its rate, mm/s.
+    /// Rate of the transmission error, mm/s.
     pub transmission_error_rate: f64,
     /// Displacements of both gears.
     pub displacement: Displacement,
@@ -52,6 +52,6 @@ pub struct Instant {
 pub struct LoadedSlice {
     /// Running number of the tooth pair.
     pub pair: i64,
-    /// Where it is pressed, and how hard.
+    /// Contact of the slice: place, line load, pressure.
     pub slice: SliceResult,
 }

@@ -119,7 +119,7 @@ impl Modal {
 #[derive(Debug)]
 pub(super) struct ModalBalance<'a> {
     modal: &'a Modal,
-    /// With a potential: normal forces and -Omega^2 q.
+    /// Forces with a potential: normal forces and -Omega^2 q.
     pub conservative: DVector<f64>,
     /// Friction and damping.
     pub other: DVector<f64>,
@@ -131,7 +131,7 @@ pub(super) struct ModalBalance<'a> {
 }
 
 impl<'a> ModalBalance<'a> {
-    /// Of the modes by themselves.
+    /// Forces and tangents of the modes by themselves, without contact.
     pub fn new(modal: &'a Modal, q: &DVector<f64>, rate: &DVector<f64>) -> Self {
         let n = 2 * COORDINATES + modal.count();
         let on_diagonal = |values: &DVector<f64>| {

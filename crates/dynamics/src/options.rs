@@ -1,19 +1,19 @@
-//! What is asked of a motion.
+//! Options of a motion.
 
 use serde::{Deserialize, Serialize};
 
 use crate::{Bearing, RigidBody, Speed, Torque, body::COORDINATES};
 use ltca::StaticOptions;
 
-/// How the driver is driven.
+/// Drive of the pair: what is prescribed of the driver.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum Drive {
-    /// Its angle is prescribed: it counts as infinitely heavy.
+    /// The driver's angle is prescribed: its inertia counts as infinite.
     Speed(Speed),
-    /// Both gears turn against each other, and the speed of their common motion is prescribed (of the driver): the
-    /// driver's torque balances the load at every instant. Theory (45a).
+    /// The speed of the common motion of both gears is prescribed (of the driver), their motion against each other is
+    /// free: the driver's torque balances the load at every instant. Theory (45a).
     Balanced(Speed),
-    /// It starts at a speed (rad/s) and a torque (N mm, in the running sense) acts on it.
+    /// The driver starts at a speed (rad/s), and a torque (N mm, in the running sense) acts on it.
     Torque {
         /// Speed at the start, rad/s.
         start: f64,
@@ -40,7 +40,7 @@ pub struct MotionOptions {
     pub statics: StaticOptions,
     /// Pinion and wheel.
     pub bodies: [RigidBody; 2],
-    /// Their bearings.
+    /// Bearings of both gears.
     pub bearings: [Bearing; 2],
     /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's
     /// always.

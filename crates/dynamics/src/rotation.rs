@@ -1,4 +1,4 @@
-//! What rotation does to elastic bodies.
+//! Inertia forces of rotating elastic bodies.
 
 use std::f64::consts::TAU;
 

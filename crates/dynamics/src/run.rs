@@ -8,7 +8,7 @@ use nalgebra::DVector;
 
 use crate::{Instant, PairMechanism, PairMotionError};
 
-/// How a pair's motion is integrated.
+/// Settings of the integration of a pair's motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionSettings {
     /// Method.

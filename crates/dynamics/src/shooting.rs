@@ -107,7 +107,7 @@ struct Search {
     periods: usize,
 }
 
-/// Where a period ends.
+/// End of a period.
 struct End {
     state: State,
     residual: f64,
@@ -181,7 +181,8 @@ fn moved(state: &State, by: &DVector<f64>) -> State {
     next
 }
 
-/// Its size; infinite where none is found, so that nothing is called stable that is not known to be.
+/// Size of the largest eigenvalue of a matrix; infinite where none is found, so that nothing is called stable that is
+/// not known to be.
 fn largest_eigenvalue(matrix: &DMatrix<f64>) -> f64 {
     let all = integrate::eigenvalues(matrix.clone());
     all.map_or(f64::INFINITY, |all| all.iter().map(|e| e.norm()).fold(0.0, f64::max))

@@ -1,4 +1,4 @@
-//! What presses on the flanks at an instant: what fields are made of.
+//! Loads on the flanks at an instant, from which fields of displacement are made.
 
 use contact::{ContactSet, Pose, nodal::ContactRow};
 use reduction::ElasticGear;
@@ -28,7 +28,7 @@ impl SideLoads<'_> {
 }
 
 impl PairMechanism {
-    /// What presses on the flanks at the instant that was asked for last: driving ones, and coast ones where they do.
+    /// Loads on the flanks at the instant that was evaluated last: driving ones, and coast ones where they do.
     pub fn side_loads(&self, at: &Instant) -> Vec<SideLoads<'_>> {
         let presses = [true, at.normal_forces[1] > 0.0];
         let sides = self.sides().zip(presses).filter(|(_, presses)| *presses);

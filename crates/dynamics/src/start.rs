@@ -1,4 +1,4 @@
-//! Where a motion begins: in quasi-static equilibrium, so that nothing rings that the motion itself does not set off.
+//! Start of a motion: in quasi-static equilibrium, so that nothing rings that the motion itself does not set off.
 
 use std::cell::Cell;
 
@@ -11,11 +11,11 @@ use integrate::{Forces, Mechanism, MotionError, State};
 const STEPS: usize = 200;
 /// Residual force over the force of the load that is equilibrium.
 const TOLERANCE: f64 = 1e-9;
-/// The same where no step lowers it any more.
+/// Residual force over the force of the load that is equilibrium where no step lowers it any more.
 const ROUND_OFF: f64 = 1e3 * TOLERANCE;
-/// The same where round-off of places is what is left, and no more can be had.
+/// Residual force over the force of the load that is equilibrium where round-off of places is all that is left.
 const UNFELT: f64 = 1e-4;
-/// So many of the last bits of places are not known.
+/// Round-off of places, in units of the last bit.
 const LAST_BITS: f64 = 256.0;
 /// A load that is not so many times what round-off makes has no digit.
 const ONE_DIGIT: f64 = 10.0;
@@ -73,7 +73,7 @@ pub(super) fn quasi_static_balance(
     balance(system, time, from, scale)
 }
 
-/// Where the search for balance begins: the driven gear lags by `guess` (mm), or as much beyond the backlash.
+/// Start of the search for balance: the driven gear lags by `guess` (mm), or as much beyond the backlash.
 pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<f64> {
     let mut q = DVector::zeros(system.count());
     let coasts = system.load_on_lag(time) < 0.0;

@@ -1,4 +1,4 @@
-//! The same pair at many speeds.
+//! Steady motions of a pair at many speeds.
 
 use std::ops::ControlFlow;
 
@@ -10,25 +10,25 @@ use crate::{
     quasi_static_start, run::steady_goal, shoot,
 };
 
-/// How a steady state is found.
+/// Method that finds a steady state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SteadyBy {
-    /// By waiting.
+    /// By integration until the motion repeats.
     Running,
-    /// Directly, then by waiting for what is left.
+    /// By shooting, then by integration for what is left.
     Shooting,
 }
 
-/// What is asked of a steady state.
+/// Options of the search for a steady state.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SteadyOptions {
-    /// How it is found.
+    /// Method that finds it.
     pub by: SteadyBy,
     /// Difference over a period over the peak to peak that counts as none.
     pub tolerance: f64,
     /// Mesh cycles to wait at the most.
     pub most: u64,
-    /// Mesh cycles that are looked at then.
+    /// Mesh cycles with rows after that.
     pub cycles: u64,
 }
 
@@ -56,7 +56,7 @@ pub struct SweepPoint {
     pub way: SweepDirection,
     /// Whether it began in its own quasi-static equilibrium, not where a speed beside it ended.
     pub own_start: bool,
-    /// How well it repeats itself.
+    /// Periodicity of the motion: how well it repeats itself.
     pub periodicity: Periodicity,
     /// Mesh cycles waited.
     pub waited: u64,
@@ -81,7 +81,7 @@ pub struct SweepPoint {
 pub struct SweepMiss {
     /// Speed of the driver, rad/s.
     pub speed: f64,
-    /// Which way it was come to.
+    /// Direction of the sweep.
     pub way: SweepDirection,
     /// Why: of its own quasi-static start, where it was tried from there as well.
     pub error: PairMotionError,

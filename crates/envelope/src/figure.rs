@@ -57,9 +57,9 @@ impl Shown {
         }
     }
 
-    /// The first of `warnings` that holds `words`, or that there is none.
-    pub fn warned(warnings: &[impl ToString], words: &'static str) -> Self {
-        let found = warnings.iter().map(ToString::to_string).find(|w| w.contains(words));
+    /// The first of `remarks` that holds `words`, or that there is none.
+    pub fn warned(remarks: &[impl ToString], words: &'static str) -> Self {
+        let found = remarks.iter().map(ToString::to_string).find(|w| w.contains(words));
         Self::says(found.unwrap_or_else(|| "no such warning".to_owned()), words)
     }
 

@@ -86,12 +86,12 @@ impl MotionSink for MotionFileSink<'_> {
 
     fn quasi_static(&mut self, model: &StaticModel, observer: &mut dyn Observer) -> Vec<answer::Remark> {
         let recorder = std::mem::replace(&mut self.recorder, ViewRecorder::new(self.scene));
-        let mut warnings = Vec::new();
+        let mut remarks = Vec::new();
         let view = run_phase(observer, "view", PhaseWork::Unknown, |_| {
-            recorder.view_or_warning(self.scene, model, &mut warnings)
+            recorder.view_or_warning(self.scene, model, &mut remarks)
         });
         self.view = view.map(View::quasi_static);
-        warnings
+        remarks
     }
 
     fn begin_rows(&mut self, layout: &MotionLayout, from: Option<&MotionCheckpoint>) -> SinkResult {

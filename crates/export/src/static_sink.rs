@@ -45,8 +45,8 @@ impl<'a> StaticFileSink<'a> {
     }
 
     /// The gears in space, from what the positions left.
-    pub fn into_view(self, model: &StaticModel, warnings: &mut Vec<answer::Remark>) -> Option<View> {
-        self.recorder?.view_or_warning(self.scene, model, warnings)
+    pub fn into_view(self, model: &StaticModel, remarks: &mut Vec<answer::Remark>) -> Option<View> {
+        self.recorder?.view_or_warning(self.scene, model, remarks)
     }
 }
 

@@ -54,7 +54,7 @@ impl Assembly {
         Ok(Self { structure, lines, first, discs, bearings, reaches, supports })
     }
 
-    /// What it was made from.
+    /// Structure that the assembly was made from.
     pub fn structure(&self) -> &Structure {
         &self.structure
     }
@@ -113,7 +113,7 @@ impl Assembly {
         DVector::from_fn(self.supports.stiffness.nrows(), |i, _| q[self.of_support(i)])
     }
 
-    /// Where a coordinate of the supports is among all.
+    /// Index of a coordinate of the supports among all coordinates.
     fn of_support(&self, i: usize) -> usize {
         let shafts = 6 * self.bearings.len();
         if i < shafts { self.bearings[i / 6] + i % 6 } else { self.nodes() + i - shafts }

@@ -13,7 +13,8 @@ const HALVINGS: usize = 24;
 const FINE: f64 = 1e-9;
 /// Residual over the load beyond which a fine step is not the last one.
 const LEFT: f64 = 1e-6;
-/// The same where round-off of the contact does not let the residual fall any more.
+/// Residual over the load beyond which a fine step is not the last one, where round-off of the contact does not let the
+/// residual fall any more.
 const ROUND_OFF: f64 = 1e-7;
 
 /// Newton's step over that of K_0 beyond which the tangent holds nothing.
@@ -30,9 +31,9 @@ pub(crate) struct Left {
 }
 
 /// Equilibrium, and how well it was found.
-pub(crate) struct Found {
+pub(crate) struct Converged {
     pub displacements: DVector<f64>,
-    /// How far they are from where the meshes were evaluated last: forces follow by their tangents.
+    /// Difference from the displacements at which the meshes were evaluated last: forces follow by their tangents.
     pub last_step: DVector<f64>,
     /// Residual where the meshes were evaluated last, over the load, in the norm of the compliance.
     pub residual: f64,
@@ -48,7 +49,7 @@ pub(crate) struct Norms {
 }
 
 impl Norms {
-    /// Of a symmetric positive definite stiffness.
+    /// Norms of a symmetric positive definite stiffness.
     pub fn new(stiffness: DMatrix<f64>) -> Result<Self, GearboxError> {
         let free = |dof| fem::FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 };
         if let Some(dof) = (0..stiffness.nrows()).find(|i| stiffness[(*i, *i)].is_nan() || stiffness[(*i, *i)] <= 0.0) {
@@ -117,7 +118,7 @@ pub(crate) fn equilibrium(
     load: &DVector<f64>,
     start: DVector<f64>,
     mut left_at: impl FnMut(&DVector<f64>) -> Result<Left, GearboxError>,
-) -> Result<Found, GearboxError> {
+) -> Result<Converged, GearboxError> {
     let whole = norms.of_forces(load).max(f64::MIN_POSITIVE);
     let mut z = start;
     let mut left = left_at(&z)?;
@@ -126,7 +127,7 @@ pub(crate) fn equilibrium(
     for iterations in 0..STEPS {
         let found = |z: DVector<f64>, step: DVector<f64>| {
             let residual = merit / whole;
-            Found { displacements: z + &step, last_step: step, residual, iterations }
+            Converged { displacements: z + &step, last_step: step, residual, iterations }
         };
         if merit == 0.0 {
             let nothing = DVector::zeros(z.len());

@@ -1,4 +1,4 @@
-//! What a gearbox refuses, and what can go wrong on the way.
+//! Errors of a gearbox: refused inputs, and failures of the solution.
 
 use fem::FemError;
 use integrate::MotionError;
@@ -19,7 +19,7 @@ pub enum GearboxError {
     Shaft {
         /// Name of the shaft.
         shaft: String,
-        /// What is wrong.
+        /// Error of the shaft.
         source: FemError,
     },
     /// A shaft that its bearings do not hold.
@@ -27,7 +27,7 @@ pub enum GearboxError {
     Loose {
         /// Name of the shaft.
         shaft: String,
-        /// How it can move.
+        /// Direction in which it can move.
         motion: &'static str,
     },
     /// A shaft whose bearings all take thrust one way, and that is pressed the other way.
@@ -61,7 +61,7 @@ pub enum GearboxError {
     Bearing {
         /// Name of the bearing.
         bearing: String,
-        /// What is wrong.
+        /// Error of the rolling bearing.
         source: RollingBearingError,
     },
     /// Rolling elements where springs are needed.
@@ -77,7 +77,7 @@ pub enum GearboxError {
         part: String,
         /// The shaft it names.
         shaft: usize,
-        /// How many there are.
+        /// Number of shafts.
         count: usize,
     },
     /// A part names a disc or gear that is not there.
@@ -87,7 +87,7 @@ pub enum GearboxError {
         part: String,
         /// The disc it names.
         disc: usize,
-        /// How many there are.
+        /// Number of discs.
         count: usize,
     },
     /// Something else at the cross-section that a disc with a reach moves with.
@@ -111,9 +111,9 @@ pub enum GearboxError {
     /// A state of another gearbox.
     #[error("the state to go on from has {checkpoint} meshes, and the motion has {motion}")]
     OtherMeshes {
-        /// Those of the state.
+        /// Meshes of the stored state.
         checkpoint: usize,
-        /// Those of the motion.
+        /// Meshes of the motion.
         motion: usize,
     },
     /// A motion that is to settle, and may not wait until it could repeat itself.
@@ -134,7 +134,7 @@ pub enum GearboxError {
         part: String,
         /// The quantity, with its unit.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
     /// A stiffness or damping matrix that is not symmetric, or pushes where it should hold.
@@ -142,9 +142,9 @@ pub enum GearboxError {
     NotElastic {
         /// Name of the part.
         part: String,
-        /// Which of its matrices.
+        /// Matrix: stiffness or damping.
         matrix: &'static str,
-        /// How far off it is, relative.
+        /// Deviation over the largest entry.
         off: f64,
     },
     /// A matrix between bearing seats of another size.
@@ -160,11 +160,11 @@ pub enum GearboxError {
     /// A list that should have one entry for each part.
     #[error("{found} {what} are given for {wanted}")]
     Count {
-        /// What is counted.
+        /// Entries that are counted.
         what: &'static str,
-        /// How many are there.
+        /// Number found.
         found: usize,
-        /// How many are needed.
+        /// Number required.
         wanted: usize,
     },
     /// More nodes than dense matrices hold.
@@ -172,7 +172,7 @@ pub enum GearboxError {
     TooLarge {
         /// Nodes that the elements would have.
         nodes: f64,
-        /// How many are allowed.
+        /// Largest number allowed.
         most: usize,
     },
     /// Linear algebra of the whole.
@@ -195,7 +195,7 @@ pub enum GearboxError {
     Beside {
         /// Name of the mesh.
         mesh: String,
-        /// Where the shafts have it, mm along +z.
+        /// Offset that the shafts give, mm along +z.
         offset_mm: f64,
         /// Offset of the pair's mid-faces, mm.
         pair_mm: f64,
@@ -263,7 +263,7 @@ pub enum GearboxError {
     AtMesh {
         /// Name of the mesh.
         mesh: String,
-        /// What is wrong.
+        /// Error of the mesh.
         source: Box<GearboxError>,
     },
     /// The exact contact of a pair of gears.
@@ -274,7 +274,7 @@ pub enum GearboxError {
     Mesh {
         /// Name of the mesh.
         mesh: String,
-        /// What is wrong.
+        /// Error of the lumped mesh.
         source: LumpedError,
     },
 }
@@ -292,7 +292,10 @@ impl GearboxError {
             },
             Self::AtMesh { source, .. } => source.is_without_result(),
             Self::Contact(source) => {
-                matches!(source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. })
+                matches!(
+                    source,
+                    StaticError::Contact { .. } | StaticError::NoEquilibrium { .. } | StaticError::PassedThrough { .. }
+                )
             }
             _ => false,
         }

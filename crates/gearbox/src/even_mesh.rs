@@ -4,7 +4,7 @@ use geometry::GearPair;
 use lumped::shaft18::MeshGeometry;
 use nalgebra::SMatrix;
 
-use crate::{GearboxError, Mesh, Vector12};
+use crate::{GearMesh, GearboxError, Vector12};
 
 /// Turn of vectors from a mesh's axes to the common ones.
 pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
@@ -21,7 +21,7 @@ pub(crate) fn turn(direction: f64) -> SMatrix<f64, 12, 12> {
 }
 
 /// What displacements of both gears compress an evenly loaded mesh by, own axes.
-pub(crate) fn guessed_lever(mesh: &Mesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
+pub(crate) fn guessed_lever(mesh: &GearMesh, meshing: &crate::Meshing) -> Result<Vector12, GearboxError> {
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line();
     let line = line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })?;
     Ok(Vector12::from_fn(|k, _| line.levers[k / 6][k % 6]))

@@ -6,7 +6,7 @@ use ale::{SlidingWindow, Station};
 use contact::{
     ContactError, ContactSet, MeshForce, Pose, SliceResult,
     line::NeighbourPairs,
-    pose::{displaced, frames, own_turns},
+    pose::{displaced, frames, generalised},
     slice::MeshContact,
     slice_result,
 };
@@ -15,7 +15,7 @@ use ltca::{StaticError, StaticOptions};
 use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
-use crate::{GearboxError, MeshElement, MeshReply, Vector12, mesh_element::finite_cycles};
+use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
 
 /// Slices of two reduced gears, station by station, as `ltca` solves them for a pair alone.
 #[derive(Debug)]
@@ -29,8 +29,6 @@ pub struct ExactMesh {
     poses: [Pose; 2],
     /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
     within: Option<f64>,
-    /// Whether the next search is for all rows, whatever the last one found.
-    is_wide: bool,
 }
 
 /// Overlap over that of the last evaluation up to which the search is narrow.
@@ -54,17 +52,7 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
-        Ok(Self {
-            pair,
-            gears,
-            options,
-            contact,
-            window,
-            station,
-            poses: [Pose::identity(); 2],
-            within: None,
-            is_wide: false,
-        })
+        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], within: None })
     }
 
     /// The pair.
@@ -85,7 +73,7 @@ impl ExactMesh {
         {
             return Ok(found.clone());
         }
-        let overlap = if std::mem::take(&mut self.is_wide) { 0.0 } else { self.contact.deepest_overlap() };
+        let overlap = self.contact.deepest_overlap();
         let found = if overlap > 0.0 {
             self.contact.evaluate_within(&self.poses, REACH * overlap)?.clone()
         } else {
@@ -114,22 +102,6 @@ impl ExactMesh {
     pub(crate) fn forget(&mut self) {
         self.contact.forget_places();
         self.within = None;
-    }
-
-    /// The same, and how deep flanks overlapped: the next search is as wide as the first one.
-    pub(crate) fn forget_history(&mut self) {
-        self.forget();
-        self.is_wide = true;
-    }
-
-    /// Deepest overlap of the flanks where they were evaluated last, mm; 0 or below without contact.
-    pub(crate) fn deepest_overlap(&self) -> f64 {
-        self.contact.deepest_overlap()
-    }
-
-    /// Elastic energy of the last evaluation, N mm.
-    pub(crate) fn strain_energy(&self) -> f64 {
-        self.contact.strain_energy()
     }
 
     /// Place (mm), normal force (N) and length (mm) of the slices that carried load in the last evaluation.
@@ -162,7 +134,7 @@ impl MeshElement for ExactMesh {
         Ok(())
     }
 
-    fn evaluate(&mut self, d: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, d: &Vector12) -> Result<MeshForces, GearboxError> {
         self.place(d);
         let found = match self.find() {
             Ok(found) => found,
@@ -174,9 +146,9 @@ impl MeshElement for ExactMesh {
         });
         let tangent = SMatrix::from_fn(|i, j| found.tangent[i][j]);
         let normal_force = found.pair_forces.iter().sum();
-        Ok(match own_turns(&self.poses) {
-            None => MeshReply { force, tangent, normal_force },
-            Some(g) => MeshReply { force: g * force, tangent: g * tangent * g.transpose(), normal_force },
+        Ok(match generalised(&self.poses, &(*d).into()) {
+            None => MeshForces { force, tangent, normal_force },
+            Some(g) => MeshForces { force: g * force, tangent: g * tangent * g.transpose(), normal_force },
         })
     }
 

@@ -6,8 +6,8 @@ use crate::{
 };
 
 impl Structure {
-    /// The same with springs in place of rolling elements: about their mean over some positions of it at rest, each
-    /// with the mean of its tangents. What swings and moves is made of it.
+    /// The structure with springs in place of rolling elements: about the mean over some positions at rest, each with
+    /// the mean of its tangents. Models of vibration and motion are made of it.
     ///
     /// # Errors
     /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.
@@ -28,7 +28,7 @@ impl Structure {
         Ok(linear)
     }
 
-    /// That all bearings are springs.
+    /// Checks that all bearings are springs.
     pub(crate) fn check_linear(&self) -> Result<(), GearboxError> {
         match self.bearings.iter().find(|b| b.law.is_some()) {
             Some(own) => Err(GearboxError::NotLinear { bearing: own.name.clone() }),

@@ -11,9 +11,9 @@ pub type Vector12 = SVector<f64, 12>;
 
 /// Forces of a mesh and how they follow the displacements.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeshReply {
+pub struct MeshForces {
     /// Forces (N) and moments (N mm, about the gears' own centres) on gear 1 and gear 2: what does the work of the
-    /// displacements, so that the moments of the turns are those about the gears' own axes ([`contact::pose::own_turns`]).
+    /// displacements, so that the moments of the turns are those about the gears' own axes ([`contact::pose::generalised`]).
     pub force: Vector12,
     /// df/dq: N/mm, N, N mm.
     pub tangent: SMatrix<f64, 12, 12>,
@@ -24,7 +24,8 @@ pub struct MeshReply {
 /// A mesh between two gears whose nominal motion is given: displacements count from where the unmodified flanks touch
 /// without load, at any phase.
 pub trait MeshElement {
-    /// Goes on to a place in the mesh cycles: gear 1 has turned by this many pitches, [`crate::Train::cycles`].
+    /// Moves the element to a place in the mesh cycles: gear 1 has rotated by this many pitches,
+    /// [`crate::Train::cycles`].
     ///
     /// # Errors
     /// [`GearboxError`] when the element cannot follow.
@@ -34,7 +35,7 @@ pub trait MeshElement {
     ///
     /// # Errors
     /// [`GearboxError`] when there are none.
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError>;
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError>;
 
     /// Asked once equilibrium is found, after the last [`MeshElement::evaluate`]: whether the forces are all there are.
     ///
@@ -72,12 +73,12 @@ impl MeshElement for LinearMesh {
         Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let h = Vector12::from_fn(|i, _| self.levers[i / 6][i % 6]);
         let compression = h.dot(displacements) + self.excess;
         // Also no force for a compression that is no number: the solver then says that there is no equilibrium.
         let stiffness = if compression > 0.0 { self.stiffness } else { 0.0 };
         let normal_force = if compression > 0.0 { self.stiffness * compression } else { 0.0 };
-        Ok(MeshReply { force: -normal_force * h, tangent: -stiffness * h * h.transpose(), normal_force })
+        Ok(MeshForces { force: -normal_force * h, tangent: -stiffness * h * h.transpose(), normal_force })
     }
 }

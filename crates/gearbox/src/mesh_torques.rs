@@ -1,6 +1,6 @@
 //! Torques of the meshes of a train without rings, from equilibrium alone.
 
-use crate::{Mesh, Operation, Structure};
+use crate::{GearMesh, Operation, Structure};
 
 /// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, friction left out; `None` where meshes close a
 /// ring, whose shares are a matter of stiffness.
@@ -8,7 +8,7 @@ use crate::{Mesh, Operation, Structure};
 /// ```text
 /// T_mesh + sum T_loads + sum T_meshes beyond = 0 on every shaft but that of the input,   T_1 / T_2 = z_1 / z_2
 /// ```
-pub fn mesh_torques(structure: &Structure, meshes: &[Mesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
+pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
     let shaft = |disc: usize| Some(structure.discs.get(disc)?.shaft);
     let ends = meshes.iter().map(|m| Some([shaft(m.discs[0])?, shaft(m.discs[1])?])).collect::<Option<Vec<_>>>()?;
     // Shafts from the input on, each with the mesh and the end of it by which it was reached.

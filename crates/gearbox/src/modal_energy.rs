@@ -26,7 +26,7 @@ pub enum Component {
 pub struct EnergyShare {
     /// The part.
     pub component: Component,
-    /// Its share.
+    /// Share of the energy, 0 .. 1.
     pub share: f64,
 }
 
@@ -44,7 +44,7 @@ pub struct ModalEnergy {
 const ROUND_OFF: f64 = 1e-12;
 
 impl ModalEnergy {
-    /// Of complex amplitudes x: x^H K x and x^H M x, part by part, over those of all matrices.
+    /// Energy shares of complex amplitudes x: x^H K x and x^H M x, part by part, over those of all matrices.
     pub(crate) fn of(assembly: &Assembly, [k, m]: [&DMatrix<f64>; 2], shape: &DVector<Complex<f64>>) -> Self {
         let parts = [shape.map(|x| x.re), shape.map(|x| x.im)];
         let sections = parts.each_ref().map(|p| assembly.of_sections(p));

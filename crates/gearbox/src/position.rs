@@ -1,12 +1,12 @@
-//! What is read off a solved position of a gearbox. Theory (85).
+//! Results of a solved position of a gearbox. Theory (85).
 
 use contact::SliceResult;
 use nalgebra::{DVector, Vector3, Vector6};
 
 use crate::{
-    GearboxPosition, MeshReply, MeshState, StaticGearbox, Vector12,
+    GearboxPosition, MeshForces, MeshState, StaticGearbox, Vector12,
     balance::{Balance, balances},
-    equilibrium::Found,
+    equilibrium::Converged,
     rolling_bearing::{RollingReply, RollingState},
     static_result::{BearingState, GearboxCertificate, ShaftLine},
 };
@@ -15,9 +15,9 @@ use crate::{
 pub(crate) struct Solved {
     pub angle: f64,
     pub cycles: Vec<f64>,
-    pub found: Found,
-    pub replies: Vec<MeshReply>,
-    /// Of bearings with rolling elements.
+    pub found: Converged,
+    pub replies: Vec<MeshForces>,
+    /// Replies of bearings with rolling elements.
     pub pressed: Vec<RollingReply>,
     /// Forces on the gears, common axes.
     pub forces: Vec<Vector12>,
@@ -39,7 +39,7 @@ pub(crate) fn position(gearbox: &StaticGearbox, solved: Solved) -> GearboxPositi
     let step = &gearbox.seats.basis * &found.last_step;
     let at_rest = |b: &crate::Bearing| b.law.as_ref().map(|_| RollingState::at_rest());
     let mut rolling: Vec<Option<RollingState>> = structure.bearings.iter().map(at_rest).collect();
-    for (own, reply) in gearbox.pliant.iter().zip(&pressed) {
+    for (own, reply) in gearbox.compliant_support.iter().zip(&pressed) {
         rolling[own.bearing] = Some(own.state(reply, &seats, &step));
     }
     let bearings: Vec<BearingState> = (0..structure.bearings.len())
@@ -104,7 +104,7 @@ fn mesh_state(
     mesh: usize,
     seats: &DVector<f64>,
     cycles: f64,
-    reply: &MeshReply,
+    reply: &MeshForces,
     force: &Vector12,
     slices: Vec<SliceResult>,
 ) -> MeshState {

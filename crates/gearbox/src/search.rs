@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    GearboxError, MeshReply, StaticGearbox,
-    equilibrium::{Found, Left, equilibrium},
+    GearboxError, MeshForces, StaticGearbox,
+    equilibrium::{Converged, Left, equilibrium},
     rolling_bearing::RollingReply,
     static_gearbox::at_mesh,
 };
@@ -14,16 +14,16 @@ const HEAVIER: f64 = 8.0;
 const MOST_POWERS: i32 = 8;
 
 /// Equilibrium, with what meshes and rolling bearings did there.
-pub(crate) struct Sought {
-    pub found: Found,
-    pub replies: Vec<MeshReply>,
+pub(crate) struct Trial {
+    pub found: Converged,
+    pub replies: Vec<MeshForces>,
     pub pressed: Vec<RollingReply>,
 }
 
 impl StaticGearbox {
     /// Equilibrium of the seats under a load, from `start` on.
-    pub(crate) fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Sought, GearboxError> {
-        let Self { seats, elements, to_gears, stiffness, pliant, norms, meshes, .. } = self;
+    pub(crate) fn search(&mut self, load: &DVector<f64>, start: DVector<f64>) -> Result<Trial, GearboxError> {
+        let Self { seats, elements, to_gears, stiffness, compliant_support, norms, meshes, .. } = self;
         let (mut replies, mut pressed) = (Vec::new(), Vec::new());
         let found = equilibrium(norms, load, start, |z| {
             replies.clear();
@@ -34,21 +34,21 @@ impl StaticGearbox {
                 left.tangent -= to_gears.tr_mul(&(reply.tangent * to_gears));
                 replies.push(reply);
             }
-            if !pliant.is_empty() {
+            if !compliant_support.is_empty() {
                 let y = &seats.basis * z;
                 let (mut forces, mut slopes) = (DVector::zeros(y.len()), DMatrix::zeros(y.len(), y.len()));
-                pressed = pliant.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
+                pressed = compliant_support.iter().map(|own| own.add(&y, &mut forces, &mut slopes)).collect();
                 left.residual -= seats.basis.tr_mul(&forces);
                 left.tangent -= seats.basis.tr_mul(&(slopes * &seats.basis));
             }
             Ok(left)
         })?;
-        Ok(Sought { found, replies, pressed })
+        Ok(Trial { found, replies, pressed })
     }
 
-    /// The same by way of heavier loads. Under a light one play is a bent valley with walls that are hard beside the
+    /// Search by way of heavier loads. Under a light load play is a bent valley with walls that are hard beside the
     /// load: steps along it are short. A heavy load finds the way through, and the way back is short.
-    pub(crate) fn by_heavier_loads(&mut self, load: &DVector<f64>) -> Option<Sought> {
+    pub(crate) fn by_heavier_loads(&mut self, load: &DVector<f64>) -> Option<Trial> {
         for powers in 1..=MOST_POWERS {
             let heavy = load * HEAVIER.powi(powers);
             let start = self.norms.displacements(&heavy);

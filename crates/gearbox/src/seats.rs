@@ -27,7 +27,7 @@ pub(crate) struct Seats {
 }
 
 impl Seats {
-    /// Of the discs that forces act on. `held`: which shafts are rigid in rigid bearings.
+    /// Seats of the discs that forces act on. `held`: which shafts are rigid in rigid bearings.
     pub fn new(assembly: &Assembly, discs: &[usize], held: &[bool], input: usize) -> Result<Self, GearboxError> {
         let (mut nodes, mut shafts) = (Vec::new(), Vec::new());
         for &disc in discs {

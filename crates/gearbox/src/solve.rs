@@ -4,9 +4,9 @@ use contact::SliceResult;
 use nalgebra::DVector;
 
 use crate::{
-    GearboxError, GearboxPosition, MeshReply, StaticGearbox, Vector12,
+    GearboxError, GearboxPosition, MeshForces, StaticGearbox, Vector12,
     position::{Solved, position},
-    search::Sought,
+    search::Trial,
     static_gearbox::at_mesh,
 };
 
@@ -27,12 +27,12 @@ impl StaticGearbox {
         let load = self.seats.basis.transpose() * &self.load;
         let start = continued(&self.last, angle).unwrap_or_else(|| self.norms.displacements(&load));
         let sought = match self.search(&load, start) {
-            Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.pliant.is_empty() => {
+            Err(failed @ GearboxError::NoEquilibrium { .. }) if !self.compliant_support.is_empty() => {
                 self.by_heavier_loads(&load).ok_or(failed)
             }
             other => other,
         };
-        let Sought { found, mut replies, pressed } = sought?;
+        let Trial { found, mut replies, pressed } = sought?;
         let Self { elements, meshes, last, .. } = self;
         let mut slices: Vec<Vec<SliceResult>> = elements.iter().map(|e| e.slices()).collect();
         for (element, mesh) in elements.iter_mut().zip(meshes.iter()) {
@@ -48,7 +48,7 @@ impl StaticGearbox {
 
     /// Forces of the meshes after a last small step. Where the load lies does not change in it: forces of the slices, and their
     /// sum, go with the moment on gear 2, pressures as its square root.
-    fn follow(&self, replies: &mut [MeshReply], slices: &mut [Vec<SliceResult>], step: &DVector<f64>) {
+    fn follow(&self, replies: &mut [MeshForces], slices: &mut [Vec<SliceResult>], step: &DVector<f64>) {
         for ((to_gears, reply), slices) in self.to_gears.iter().zip(replies).zip(slices) {
             let before = reply.force[11];
             reply.force += reply.tangent * (to_gears * step);
@@ -64,7 +64,7 @@ impl StaticGearbox {
     }
 
     /// Forces and moments of the meshes on their gears, common axes.
-    fn in_common_axes(&self, replies: &[MeshReply]) -> Vec<Vector12> {
+    fn in_common_axes(&self, replies: &[MeshForces]) -> Vec<Vector12> {
         self.places.iter().zip(replies).map(|((_, turn), reply)| turn * reply.force).collect()
     }
 }

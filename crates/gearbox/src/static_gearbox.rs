@@ -4,12 +4,12 @@ use geometry::Sense;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use crate::{
-    Assembly, GearboxError, Mesh, MeshElement, MeshReply, Structure, Train, Vector12,
+    Assembly, GearMesh, GearboxError, MeshElement, MeshForces, Structure, Train, Vector12,
+    compliant_support::CompliantBearing,
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
-    loose::check_held,
-    pliant::PliantBearing,
     seats::Seats,
+    unconstrained::check_held,
 };
 
 /// A torque on a disc.
@@ -21,7 +21,7 @@ pub struct Torque {
     pub torque: f64,
 }
 
-/// How a gearbox is driven and loaded.
+/// Operation of a gearbox: input, sense, torques, held shafts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Operation {
     /// Disc whose turn is given: the input coupling.
@@ -40,7 +40,7 @@ pub struct Operation {
 /// A gearbox at rest: any number of shafts and meshes.
 pub struct StaticGearbox {
     pub(crate) assembly: Assembly,
-    pub(crate) meshes: Vec<Mesh>,
+    pub(crate) meshes: Vec<GearMesh>,
     pub(crate) train: Train,
     pub(crate) operation: Operation,
     pub(crate) held: Vec<bool>,
@@ -54,24 +54,24 @@ pub struct StaticGearbox {
     pub(crate) load: DVector<f64>,
     pub(crate) stiffness: DMatrix<f64>,
     /// Bearings with rolling elements.
-    pub(crate) pliant: Vec<PliantBearing>,
+    pub(crate) compliant_support: Vec<CompliantBearing>,
     pub(crate) norms: Norms,
     /// Angle and solution of the last two positions, the last one first.
     pub(crate) last: Vec<(f64, DVector<f64>)>,
     /// Meshes of the last position, in their own axes.
-    pub(crate) replies: Vec<MeshReply>,
+    pub(crate) replies: Vec<MeshForces>,
 }
 
 impl StaticGearbox {
-    /// With one element a mesh, in their order; `elements` makes them from how the mesh runs.
+    /// Gearbox with one element a mesh, in their order; `elements` makes them from how the mesh runs.
     ///
     /// # Errors
     /// [`GearboxError`]: where parts do not fit, a torque drives, or something moves freely.
     pub fn new(
         structure: Structure,
-        meshes: Vec<Mesh>,
+        meshes: Vec<GearMesh>,
         operation: Operation,
-        mut elements: impl FnMut(usize, &Mesh, &crate::Meshing) -> Result<Box<dyn MeshElement>, GearboxError>,
+        mut elements: impl FnMut(usize, &GearMesh, &crate::Meshing) -> Result<Box<dyn MeshElement>, GearboxError>,
     ) -> Result<Self, GearboxError> {
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
         check(&structure, &train, &operation)?;
@@ -89,10 +89,10 @@ impl StaticGearbox {
             }
         }
         let stiffness = seats.basis.transpose() * &seats.stiffness * &seats.basis;
-        let pliant = PliantBearing::all(&assembly, &seats, &held);
+        let compliant_support = CompliantBearing::all(&assembly, &seats, &held);
         let mut rough = DMatrix::zeros(seats.size(), seats.size());
         let force = guessed_force(&meshes, &operation);
-        for own in &pliant {
+        for own in &compliant_support {
             own.add_stiffness(&assembly.structure().bearings[own.bearing].rough_stiffness(force), &mut rough);
         }
         let mut guessed = &stiffness + seats.basis.transpose() * rough * &seats.basis;
@@ -122,7 +122,7 @@ impl StaticGearbox {
             to_gears,
             load,
             stiffness,
-            pliant,
+            compliant_support,
             norms,
             last: Vec::new(),
             replies: Vec::new(),
@@ -140,11 +140,11 @@ impl StaticGearbox {
     }
 
     /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
-    pub fn replies(&self) -> &[MeshReply] {
+    pub fn replies(&self) -> &[MeshForces] {
         &self.replies
     }
 
-    /// Where the gears of a mesh are among the seats' coordinates, and the turn of its axes.
+    /// Places of the gears of a mesh among the seats' coordinates, and the rotation of its axes.
     pub(crate) fn place(&self, mesh: usize) -> &([usize; 2], SMatrix<f64, 12, 12>) {
         &self.places[mesh]
     }
@@ -159,11 +159,11 @@ impl StaticGearbox {
     }
 }
 
-pub(crate) fn at_mesh(mesh: &Mesh, source: GearboxError) -> GearboxError {
+pub(crate) fn at_mesh(mesh: &GearMesh, source: GearboxError) -> GearboxError {
     GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
 }
 
-/// That loads and held shafts are there, and loads do not drive.
+/// Checks that loads and held shafts exist, and that loads do not drive.
 pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation) -> Result<(), GearboxError> {
     let count = structure.shafts.len();
     if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
@@ -192,7 +192,7 @@ pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<
 }
 
 /// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
-fn guessed_force(meshes: &[Mesh], operation: &Operation) -> f64 {
+fn guessed_force(meshes: &[GearMesh], operation: &Operation) -> f64 {
     let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
     let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
     // Without a load any force will do.

@@ -1,10 +1,10 @@
-//! What a gearbox at rest hands on, position by position.
+//! Results of a gearbox at rest, position by position.
 
 use contact::SliceResult;
 
 use crate::rolling_bearing::RollingState;
 
-/// How a shaft bends.
+/// Deflection line of a shaft.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShaftLine {
     /// Nodes, mm from the shaft's z = 0, ascending.
@@ -25,7 +25,7 @@ pub struct BearingState {
     pub displacement: [f64; 6],
 }
 
-/// How a mesh stands.
+/// State of a mesh.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshState {
     /// Mesh cycles: whole ones, and the phase behind the point ([`crate::Train::cycles`]).
@@ -55,7 +55,7 @@ pub struct MeshState {
     pub slices: Vec<SliceResult>,
 }
 
-/// How well a position is solved.
+/// Residuals of a solved position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxCertificate {
     /// Forces left over at the seats over the load, in the norm of the compliance, before the last small step.
@@ -86,7 +86,7 @@ pub struct GearboxPosition {
     /// How far the discs of the torques stay behind their nominal turn, rad, in the order of the torques: the
     /// transmission error from input to output.
     pub output_lags: Vec<f64>,
-    /// How well it is solved.
+    /// Residuals of the solution.
     pub certificate: GearboxCertificate,
 }
 

@@ -1,4 +1,4 @@
-//! What a gearbox is made of: shafts, discs, bearings, a housing and linear meshes.
+//! Structure of a gearbox: shafts, discs, bearings, a housing and linear meshes.
 
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use crate::{Bearing, GearboxError};
 pub struct Shaft {
     /// Name for messages and tables.
     pub name: String,
-    /// Where its own z = 0 lies in the gearbox, mm. Axes of all shafts are along +z.
+    /// Place of the shaft's own z = 0 in the gearbox, mm. Axes of all shafts are along +z.
     pub origin: [f64; 3],
     /// Sections, from its own z = 0 on.
     pub pieces: Vec<BeamPiece>,
@@ -50,7 +50,7 @@ pub struct MeshSpring {
     pub name: String,
     /// Gears 1 and 2, numbers of discs.
     pub discs: [usize; 2],
-    /// What displacements and turns of gear 1 and gear 2 compress it by: 1, mm.
+    /// Compression of the spring for unit displacements and rotations of gear 1 and gear 2: 1, mm.
     pub levers: [Vector6<f64>; 2],
     /// Stiffness along the normal, N/mm.
     pub stiffness: f64,
@@ -123,12 +123,12 @@ impl Disc {
         Self { name: name.into(), shaft, position, reach: 0.0, mass, diametral_inertia, polar_inertia }
     }
 
-    /// The same, moving with the cross-section at `seat` (mm from the shaft's z = 0).
+    /// The disc, moving with the cross-section at `seat` (mm from the shaft's z = 0).
     pub fn seated_at(self, seat: f64) -> Self {
         Self { reach: self.position - seat, ..self }
     }
 
-    /// Where its cross-section is, mm from the shaft's z = 0.
+    /// Place of the disc's cross-section, mm from the shaft's z = 0.
     pub(crate) fn seat_position(&self) -> f64 {
         self.position - self.reach
     }
@@ -152,7 +152,7 @@ impl MeshSpring {
 }
 
 impl Structure {
-    /// That all parts are where something is, and all values have a meaning.
+    /// Checks that all parts sit on existing shafts, and all values have a meaning.
     pub(crate) fn check(&self) -> Result<(), GearboxError> {
         if self.shafts.is_empty() {
             return Err(GearboxError::NoShafts);
@@ -205,7 +205,7 @@ impl Structure {
         Ok(())
     }
 
-    /// That matrices of all nodes are of a size that dense algebra stands.
+    /// Checks that the matrices of all nodes are small enough for dense algebra.
     fn check_size(&self) -> Result<(), GearboxError> {
         const MOST: usize = 600;
         let of_shaft = |shaft: &Shaft| {
@@ -217,7 +217,7 @@ impl Structure {
         if nodes > MOST as f64 { Err(GearboxError::TooLarge { nodes, most: MOST }) } else { Ok(()) }
     }
 
-    /// That the discs a mesh names are there.
+    /// Checks that the discs of a mesh exist.
     pub(crate) fn has_discs(&self, part: &str, discs: [usize; 2]) -> Result<(), GearboxError> {
         let count = self.discs.len();
         match discs.into_iter().find(|d| *d >= count) {

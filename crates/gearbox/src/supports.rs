@@ -10,7 +10,7 @@ use crate::{GearboxError, Structure};
 pub struct Supports {
     /// Stiffness for displacements of the shafts at the bearings, and of open seats.
     pub stiffness: DMatrix<f64>,
-    /// Damping of the same.
+    /// Damping for velocities of the shafts at the bearings, and of open seats.
     pub damping: DMatrix<f64>,
     /// Force on the shafts at the bearings with nothing displaced.
     pub(crate) preload: DVector<f64>,
@@ -18,7 +18,7 @@ pub struct Supports {
     open: Vec<usize>,
     /// Bearings alone, block by block.
     bearings: DMatrix<f64>,
-    /// What the seats follow by: u_seat = R u_shaft + u_0.
+    /// R of the seats: u_seat = R u_shaft + u_0.
     seats: DMatrix<f64>,
     /// u_0: where preloads press the seats to with the shafts in their places.
     pressed: DVector<f64>,
@@ -28,7 +28,7 @@ pub struct Supports {
 }
 
 impl Supports {
-    /// Of the bearings and the housing of a structure that has been checked.
+    /// Supports by the bearings and the housing of a structure that has been checked.
     ///
     /// ```text
     /// (K_b + K_h) u_seat = K_b u_shaft - g,   u_seat = R u_shaft + u_0,   S = K_b (1 - R),   C = (1 - R)' C_b (1 - R)

@@ -8,7 +8,7 @@ use crate::{GearboxError, Structure};
 
 /// A mesh: two gears, seats on their shafts, and what shape they are.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Mesh {
+pub struct GearMesh {
     /// Name for messages and tables.
     pub name: String,
     /// Discs of gear 1 and gear 2, whichever drives.
@@ -17,12 +17,12 @@ pub struct Mesh {
     pub pair: GearPair,
 }
 
-/// How one mesh runs.
+/// Running of one mesh: driver, sense, flanks, direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Meshing {
     /// Sense in which gear 1 turns.
     pub sense: Sense,
-    /// Which gear drives: the one that is nearer to the input.
+    /// Driving gear: the one that is nearer to the input.
     pub driver: Driver,
     /// Direction from gear 1's axis to gear 2's, rad from +x towards +y.
     pub direction: f64,
@@ -61,7 +61,7 @@ impl Train {
     /// disagree, shafts that nothing drives.
     pub fn new(
         structure: &Structure,
-        meshes: &[Mesh],
+        meshes: &[GearMesh],
         keys: &[f64],
         input: usize,
         sense: Sense,
@@ -84,12 +84,12 @@ impl Train {
         // Where every shaft is driven, every mesh has been reached.
         let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
         let middle =
-            |(mesh, own): (&Mesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
+            |(mesh, own): (&GearMesh, &Meshing)| [mesh.pair.middle_angle(own.side()), mesh.pair.pinion.pitch_angle()];
         let middles = meshes.iter().zip(&meshing).map(middle).collect();
         Ok(Self { meshes: meshing, middles, ratios })
     }
 
-    /// How each mesh runs.
+    /// Running of each mesh, in their order.
     pub fn meshing(&self) -> &[Meshing] {
         &self.meshes
     }
@@ -117,12 +117,13 @@ impl Train {
 /// The way through the train so far.
 struct Walk<'a> {
     structure: &'a Structure,
-    meshes: &'a [Mesh],
+    meshes: &'a [GearMesh],
     keys: &'a [f64],
     sense: Sense,
     directions: Vec<f64>,
-    /// Of each shaft that has been reached: turns a turn of the input, and the angle of its mark with the input at 0.
+    /// Rotations of each shaft that has been reached per rotation of the input.
     ratios: Vec<Option<f64>>,
+    /// Angle of the mark of each shaft that has been reached with the input at 0, rad.
     marks: Vec<f64>,
     found: Vec<Option<Meshing>>,
 }
@@ -130,7 +131,7 @@ struct Walk<'a> {
 impl<'a> Walk<'a> {
     fn new(
         structure: &'a Structure,
-        meshes: &'a [Mesh],
+        meshes: &'a [GearMesh],
         (keys, sense): (&'a [f64], Sense),
     ) -> Result<Self, GearboxError> {
         let directions = meshes.iter().map(|mesh| direction(structure, mesh)).collect::<Result<_, _>>()?;
@@ -205,7 +206,7 @@ impl Meshing {
 }
 
 /// Direction of a mesh's line of centres, where its gears stand as the pair was made to.
-fn direction(structure: &Structure, mesh: &Mesh) -> Result<f64, GearboxError> {
+fn direction(structure: &Structure, mesh: &GearMesh) -> Result<f64, GearboxError> {
     structure.has_discs(&mesh.name, mesh.discs)?;
     let centre = |disc: usize| {
         let disc = &structure.discs[disc];

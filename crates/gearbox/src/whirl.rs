@@ -30,7 +30,7 @@ pub struct WhirlMode {
     /// w = -2 sign(Omega) sum Im(conj(x) y) / sum (|x|^2 + |y|^2)      over the nodes
     /// ```
     pub whirl: Vec<f64>,
-    /// Where its energy is.
+    /// Shares of the mode's energy.
     pub energy: ModalEnergy,
 }
 
@@ -41,7 +41,7 @@ pub struct WhirlModes {
     pub speeds: Vec<f64>,
     /// Oscillating ones, ascending in frequency.
     pub modes: Vec<WhirlMode>,
-    /// How many eigenvalues are zero: two for each rigid motion that nothing holds.
+    /// Number of zero eigenvalues: two for each rigid motion that nothing holds.
     pub zeros: usize,
     /// Rates of motions that die away without oscillating, 1/s, ascending.
     pub decaying: Vec<f64>,
@@ -60,7 +60,7 @@ pub struct Rotors {
     pub(crate) unit_damping: DMatrix<f64>,
 }
 
-/// What does not move, or as a whole.
+/// Held parts: what does not move, or moves as a whole.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Held {
     /// Shafts that are rigid in rigid bearings: they turn about their axes and do nothing else.
@@ -93,7 +93,7 @@ impl Rotors {
         Self::holding(assembly, &Held::default())
     }
 
-    /// The same with something held: q = B z, B'K B and B'M B.
+    /// Rotors with something held: q = B z, B'K B and B'M B.
     ///
     /// # Errors
     /// As [`Rotors::new`]; [`GearboxError::NoShaft`], [`GearboxError::NoDisc`] for what is not there.

@@ -44,7 +44,7 @@ impl GearPair {
     pub fn mean_sliding(&self, side: Side, pinion_angle: f64, line: &ContactLine) -> f64 {
         let pitch_point = self.pinion.base_radius() * self.working_pressure_angle().tan();
         let [a, b] = line.z.map(|z| self.path_coordinate(side, pinion_angle, line.tooth, z) - pitch_point);
-        let ratio = f64::from(self.pinion.teeth()) / f64::from(self.wheel.teeth());
+        let ratio = self.pinion.signed_teeth() / self.wheel.signed_teeth();
         let sum = a.abs() + b.abs();
         let mean = if a * b >= 0.0 { 0.5 * sum } else { 0.5 * (a * a + b * b) / sum };
         (1.0 + ratio) * mean

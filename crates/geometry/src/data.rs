@@ -2,10 +2,21 @@
 
 use serde::Serialize;
 
-/// Data of one external cylindrical gear, in ISO 21771 terms.
+/// Shaper cutter that makes the teeth of an internal gear.
+///
+/// Its teeth have the ring's module, pressure angle and helix, are thicker than the profile shift says by the ring's thickness allowance, and are as high as the ring's root diameter asks. The rounding of its tip edges, of radius `root_radius_coefficient` m_n of the ring, is a circle in the transverse section.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Shaper {
+    /// Number of teeth z_0.
+    pub teeth: u32,
+    /// Profile shift coefficient x_0.
+    pub profile_shift: f64,
+}
+
+/// Data of one cylindrical gear, in ISO 21771 terms: diameters of an internal gear are negative.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearData {
-    /// Number of teeth z.
+    /// Number of teeth, without the sign that an internal gear has.
     pub teeth: u32,
     /// Normal module m_n, mm.
     pub normal_module: f64,
@@ -25,12 +36,15 @@ pub struct GearData {
     pub dedendum_coefficient: f64,
     /// Tip radius of the generating rack rho_fP / m_n, a circle in the normal section.
     pub root_radius_coefficient: f64,
-    /// Tip diameter, mm; without it d + 2 m_n (h_a + x).
+    /// Tip diameter, mm; without it d + 2 m_n (h_a + x). Negative for an internal gear.
     pub tip_diameter: Option<f64>,
     /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
     pub tip_edge_radius: f64,
-    /// Bore diameter, mm.
+    /// Diameter of the cylinder that holds the gear, mm: the bore; of an internal gear its outside, negative.
     pub bore_diameter: f64,
+    /// The tool of an internal gear; `None`: an external gear, made by a rack.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaper: Option<Shaper>,
 }
 
 impl Default for GearData {
@@ -50,21 +64,24 @@ impl Default for GearData {
             tip_diameter: None,
             tip_edge_radius: 0.0,
             bore_diameter: 60.0,
+            shaper: None,
         }
     }
 }
 
 impl GearData {
-    /// Largest coefficient rho_fP / m_n that the rack has room for: a full rounding of its tip.
-    ///
-    /// ```text
-    /// rho_fP/m_n = [pi/4 + A_s/(2 m_n) - (h_fP/m_n) tan a_n] cos a_n / (1 - sin a_n)
-    /// ```
-    /// A_s is the thinning. Zero or below where the rack ends in a point above h_fP.
-    pub fn largest_root_radius_coefficient(&self) -> f64 {
-        let (sin, cos) = self.normal_pressure_angle.sin_cos();
-        let thinning = 0.5 * self.thickness_allowance / self.normal_module;
-        let tip = std::f64::consts::FRAC_PI_4 + thinning - self.dedendum_coefficient * sin / cos;
-        tip * cos / (1.0 - sin)
+    /// Whether the teeth point inwards.
+    pub fn is_internal(&self) -> bool {
+        self.shaper.is_some()
+    }
+
+    /// +1 of an external gear, -1 of an internal one: the sign of z and of all diameters.
+    pub fn sign(&self) -> f64 {
+        if self.is_internal() { -1.0 } else { 1.0 }
+    }
+
+    /// Number of teeth z after ISO 21771, negative of an internal gear.
+    pub fn signed_teeth(&self) -> f64 {
+        self.sign() * f64::from(self.teeth)
     }
 }

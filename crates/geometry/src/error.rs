@@ -11,6 +11,15 @@ pub struct Undercut {
     pub moves_axes: bool,
 }
 
+/// How teeth inside a ring run into it beside their roots.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InternalInterference {
+    /// The ring's tip reaches below the base circle of the gear inside.
+    Involute,
+    /// The tip corners run into each other after they have left contact.
+    Trochoid,
+}
+
 /// Gear data from which no gear, or no running pair, can be made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -106,6 +115,54 @@ pub enum GeometryError {
         /// Root form diameter of the gear whose fillet it is, mm.
         form_diameter_mm: f64,
     },
+    /// A ring as gear 1, or in a ring.
+    #[error("the pinion is an internal gear: a ring is the wheel of its pair")]
+    InternalPinion,
+    /// The tips of a ring and of the gear inside it run into each other away from the path of contact.
+    #[error(
+        "trochoid interference: the tip corners of pinion and ring run into each other by {:.4} deg of the ring",
+        -margin.to_degrees()
+    )]
+    Trochoid {
+        /// Angle of the ring by which the corners pass each other, rad; negative.
+        margin: f64,
+        /// Largest tip diameter of the pinion that has none, mm; none where no tip is short enough.
+        pinion_tip_mm: Option<f64>,
+    },
+    /// The ring's tip reaches below the pinion's base circle or into its fillet.
+    #[error(
+        "involute interference: the ring's tip ({tip_diameter_mm:.3} mm) asks for involute of the pinion from {path_mm:.4} mm on \
+         along the line of action, which has it from {form_mm:.4} mm on; the tip enters the pinion by {depth_mm:.4} mm"
+    )]
+    Involute {
+        /// Tip diameter of the ring, mm; negative.
+        tip_diameter_mm: f64,
+        /// Path coordinate where the ring's tip touches, from the pinion's tangent point, mm.
+        path_mm: f64,
+        /// Path coordinate where the pinion's involute starts, mm.
+        form_mm: f64,
+        /// Largest depth along the arc in the transverse section, mm.
+        depth_mm: f64,
+        /// Tip diameter of the ring that reaches no further than the pinion's involute, mm; none where there is none.
+        ring_tip_mm: Option<f64>,
+    },
+    /// The shaper takes away the ring's tips.
+    #[error(
+        "the shaper of {teeth} teeth interferes with the tips of the ring that it makes: {}", match kind {
+            InternalInterference::Involute => format!("they reach {:.4} mm below its base circle along the line of action", -amount),
+            InternalInterference::Trochoid => format!("its tip corners run into them by {:.4} deg of the ring", -amount.to_degrees()),
+        }
+    )]
+    ShaperInterference {
+        /// Of which kind.
+        kind: InternalInterference,
+        /// mm along the line of action, or rad of the ring; negative.
+        amount: f64,
+        /// Teeth of the shaper.
+        teeth: u32,
+        /// Nearest number of teeth without interference.
+        cure: Option<u32>,
+    },
     /// The teeth do not reach each other.
     #[error(
         "the pair has no path of contact: the tips reach {overlap_mm:.4} mm into each other along the line of action"
@@ -153,6 +210,14 @@ pub enum GeometryError {
         /// `along the profile` or `across the face`.
         direction: &'static str,
     },
+    /// A topography of a tooth that the gear does not have.
+    #[error("the topography has a tooth {tooth}, but the gear has teeth 0 to {}", teeth.saturating_sub(1))]
+    NoSuchTooth {
+        /// The tooth.
+        tooth: u32,
+        /// Teeth of the gear.
+        teeth: u32,
+    },
     /// A list of pitch errors of another gear.
     #[error("{given} pitch errors for {teeth} teeth")]
     PitchErrors {
@@ -189,6 +254,21 @@ impl GeometryError {
             Self::Interference { tip, root, .. } => format!(
                 "shorten the {tip}'s tip (addendum, tip diameter), raise the dedendum or the centre distance, or shift the {root}'s profile outwards"
             ),
+            Self::InternalPinion => {
+                "make the ring the wheel: exchange the tables [pinion] and [wheel], and `driver` with them".into()
+            }
+            Self::Trochoid { pinion_tip_mm: Some(tip), .. } => {
+                format!("set `tip_diameter_mm` of the pinion to {tip}")
+            }
+            Self::Involute { ring_tip_mm: Some(tip), .. } => format!("set `tip_diameter_mm` of the ring to {tip}"),
+            Self::Trochoid { .. } | Self::Involute { .. } => {
+                "take fewer teeth of the pinion, or a larger pressure angle".into()
+            }
+            Self::ShaperInterference { cure: Some(teeth), .. } => format!("set `teeth` of the shaper to {teeth}"),
+            Self::ShaperInterference { .. } => {
+                "no shaper of this shift makes these tips: shorten them (`tip_diameter_mm`, `addendum_coefficient`)"
+                    .into()
+            }
             Self::NoContact { .. } => "lower the centre distance or raise the tip diameters".into(),
             Self::FacesApart { pinion_mm, wheel_mm } => {
                 let widths = 0.5 * (pinion_mm[1] - pinion_mm[0] + wheel_mm[1] - wheel_mm[0]);
@@ -212,6 +292,7 @@ impl GeometryError {
             Self::GridOffFlank { .. } => {
                 "rows are diameters (not radii) in mm or roll angles in deg, columns heights in mm from mid-face".into()
             }
+            Self::NoSuchTooth { .. } => "count teeth from 0, as pitch errors are".into(),
             Self::PitchErrors { teeth, .. } => format!("give {teeth} values, tooth 0 first"),
         })
     }

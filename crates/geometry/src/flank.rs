@@ -51,17 +51,19 @@ impl Side {
 /// u roll angle, s = +1 left / -1 right, c the tooth's centre angle, k = tan(b)/r the twist, sigma the half tooth
 /// angle at the base circle. The surface is developable: straight along its generators, so one principal
 /// curvature is 0 and the other cos(b_b)/(r_b u), in the direction e_r.
+///
+/// Of an internal gear r_b is negative, sigma is that of z < 0, and c has half a turn more: the same formulas then give a concave flank, and left and right are as ISO 21771 names them, with the tooth pointing up, towards the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flank {
     /// Which side of the tooth.
     pub side: Side,
-    /// r_b, mm.
+    /// r_b, mm; negative of an internal gear.
     pub base_radius: f64,
     /// sigma, rad.
     pub base_half_angle: f64,
     /// k, rad/mm.
     pub twist: f64,
-    /// b_b, rad, signed.
+    /// b_b, rad, with the sign of k r_b.
     pub base_helix_angle: f64,
     /// c, rad.
     pub centre_angle: f64,
@@ -154,6 +156,11 @@ impl Flank {
         [profile, Vec3::new(-self.twist * p.y, self.twist * p.x, 1.0)]
     }
 
+    /// Roll angles between which the flank reaches, the lower first: from the root form circle to the tip circle, of an internal gear from the tip circle on.
+    pub fn roll_range(&self) -> [f64; 2] {
+        [self.roll_form.min(self.roll_tip), self.roll_form.max(self.roll_tip)]
+    }
+
     /// Principal curvatures, 1/mm: across the generator (profile direction, convex positive) and along it (0).
     pub fn curvatures(&self, u: f64) -> [f64; 2] {
         [self.base_helix()[1] / (self.base_radius * u), 0.0]
@@ -188,7 +195,7 @@ impl Flank {
         if reach < -2.0 * LAST_DIGITS * base {
             return None;
         }
-        let w = reach.max(0.0).sqrt();
+        let w = reach.max(0.0).sqrt().copysign(self.base_radius);
         let [sin_b, cos_b] = self.base_helix();
         // R^2 exp(i phi) = (x + i y) (r_b - i s W)
         let [cos, sin] = [p.x * self.base_radius + s * w * p.y, p.y * self.base_radius - s * w * p.x];

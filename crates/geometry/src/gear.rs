@@ -4,18 +4,35 @@ use std::{f64::consts::PI, sync::Arc};
 
 use serde::Serialize;
 
+use crate::error::InternalInterference;
 use crate::modification::{Depth, DepthField, FlankSize, GearModifications, ModifiedFlank};
-use crate::{Flank, GearData, GeometryError, Side, TransverseProfile};
+use crate::{Flank, GearData, GeometryError, Shaper, Side, TransverseProfile};
 
-/// One external gear with everything ISO 21771 derives from its data.
+/// One gear with everything ISO 21771 derives from its data. Number of teeth, diameters and pitch angle of an internal gear are negative, so that the formulas of the standard hold for both kinds.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Gear {
     data: GearData,
     profile: TransverseProfile,
     modifications: GearModifications,
-    /// Depths of left and right flanks; `None` where the flank is nominal.
+    /// Depths of left and right flanks.
     #[serde(skip)]
-    fields: [Option<Arc<DepthField>>; 2],
+    fields: [FlankFields; 2],
+}
+
+/// Depths of the flanks on one side of all teeth.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct FlankFields {
+    /// Different ones; none where flanks are nominal.
+    fields: Vec<Arc<DepthField>>,
+    /// Which of them each tooth has; empty where all have the first.
+    of_tooth: Vec<usize>,
+}
+
+impl FlankFields {
+    /// Of a tooth, counted from 0 to z - 1.
+    fn of(&self, tooth: usize) -> Option<&Arc<DepthField>> {
+        self.fields.get(self.of_tooth.get(tooth).copied().unwrap_or(0))
+    }
 }
 
 impl Gear {
@@ -27,14 +44,14 @@ impl Gear {
         let positive = [
             ("normal module [mm]", data.normal_module),
             ("face width [mm]", data.face_width),
-            ("bore diameter [mm]", data.bore_diameter),
+            ("bore diameter [mm]", data.sign() * data.bore_diameter),
             ("addendum coefficient", data.addendum_coefficient),
             ("dedendum coefficient", data.dedendum_coefficient),
         ];
         for (name, value) in positive {
             check(name, value, value > 0.0, "above 0")?;
         }
-        check("teeth", f64::from(data.teeth), (5..=10_000).contains(&data.teeth), "5 to 10000")?;
+        check("teeth", f64::from(data.teeth), (5..=100_000).contains(&data.teeth), "5 to 100000")?;
         let (alpha, beta) = (data.normal_pressure_angle, data.helix_angle);
         check("normal pressure angle [rad]", alpha, alpha > 0.05 && alpha < 0.8, "0.05 to 0.8 (3 to 45 deg)")?;
         check("helix angle [rad]", beta, beta.abs() < 1.05, "between -1.05 and 1.05 (60 deg)")?;
@@ -49,7 +66,8 @@ impl Gear {
             "above 0, below the dedendum coefficient",
         )?;
         let profile = TransverseProfile::new(&data)?;
-        let gear = Self { data, profile, modifications: GearModifications::default(), fields: [None, None] };
+        let gear = Self { data, profile, modifications: GearModifications::default(), fields: Default::default() };
+        gear.check_cutting()?;
         if 0.5 * gear.data.bore_diameter >= gear.root_radius() {
             return Err(GeometryError::Bore {
                 bore_diameter_mm: gear.data.bore_diameter,
@@ -73,17 +91,26 @@ impl Gear {
         for &value in &modifications.pitch_errors {
             check("pitch error [mm]", value, value.abs() <= 1.0, "-1 mm to 1 mm")?;
         }
-        let size = FlankSize {
+        let size = |side: Side| FlankSize {
             roll: [self.profile.roll_form(), self.profile.roll_tip()],
             half_width: 0.5 * self.data.face_width,
             base_radius: self.base_radius(),
             normal_module: self.data.normal_module,
+            roll_by_height: side.sign() * self.twist(),
         };
-        let mut fields = [None, None];
-        for (field, side) in fields.iter_mut().zip([Side::Left, Side::Right]) {
+        let mut fields = [FlankFields::default(), FlankFields::default()];
+        for (fields, side) in fields.iter_mut().zip([Side::Left, Side::Right]) {
             let on_side = modifications.on(side);
-            if !on_side.is_none() {
-                *field = Some(Arc::new(DepthField::new(on_side, size)?));
+            if on_side.is_none() {
+                continue;
+            }
+            let of_grid = |grid| DepthField::new(on_side, grid, size(side)).map(Arc::new);
+            match &on_side.topography {
+                None => fields.fields = vec![of_grid(None)?],
+                Some(t) => {
+                    fields.of_tooth = t.of_teeth(self.data.teeth)?;
+                    fields.fields = t.grids().iter().map(|grid| of_grid(Some(grid))).collect::<Result<_, _>>()?;
+                }
             }
         }
         Ok(Self { modifications, fields, ..self })
@@ -96,20 +123,29 @@ impl Gear {
 
     /// Whether flanks on `side` are other than nominal.
     pub fn is_modified(&self, side: Side) -> bool {
-        self.field(side).is_some() || self.modifications.has_pitch_errors()
+        !self.fields_on(side).fields.is_empty() || self.modifications.has_pitch_errors()
     }
 
-    fn field(&self, side: Side) -> &Option<Arc<DepthField>> {
+    /// Whether teeth differ from each other, by a pitch error or by what was measured on them.
+    pub fn has_own_teeth(&self) -> bool {
+        self.modifications.has_pitch_errors() || self.fields.iter().any(|f| f.fields.len() > 1)
+    }
+
+    fn fields_on(&self, side: Side) -> &FlankFields {
         match side {
             Side::Left => &self.fields[0],
             Side::Right => &self.fields[1],
         }
     }
 
+    fn field(&self, side: Side, tooth: i64) -> Option<&Arc<DepthField>> {
+        self.fields_on(side).of(tooth.rem_euclid(i64::from(self.data.teeth)) as usize)
+    }
+
     /// Depth by which the pitch error of `tooth` (any integer) sets its flank on `side` back, mm.
     ///
     /// ```text
-    /// h = -s e cos(a_t) cos(b_b)     s = +1 left, -1 right; e arc on the reference circle, counter-clockwise positive
+    /// h = -s e cos(a_t) cos(b_b)     s = +1 left, -1 right; e arc on the reference circle, positive in the direction in which teeth are numbered
     /// ```
     pub fn pitch_depth(&self, side: Side, tooth: i64) -> f64 {
         let index = tooth.rem_euclid(i64::from(self.data.teeth)) as usize;
@@ -121,7 +157,7 @@ impl Gear {
 
     /// Depth at roll angle `u` and height `z` (mm) of `tooth` (any integer), pitch error included.
     pub fn depth(&self, side: Side, tooth: i64, u: f64, z: f64) -> Depth {
-        let mut depth = self.field(side).as_ref().map_or_else(Depth::default, |f| f.at(u, z));
+        let mut depth = self.field(side, tooth).map_or_else(Depth::default, |f| f.at(u, z));
         depth.value += self.pitch_depth(side, tooth);
         depth
     }
@@ -134,7 +170,7 @@ impl Gear {
     /// The flank of `tooth` at the place of tooth `place`: what a frame sees that is turned against the gear by whole
     /// pitches.
     pub fn modified_flank_at(&self, side: Side, place: i64, tooth: i64) -> ModifiedFlank {
-        ModifiedFlank::new(self.flank_of(side, place), self.field(side).clone(), self.pitch_depth(side, tooth))
+        ModifiedFlank::new(self.flank_of(side, place), self.field(side, tooth).cloned(), self.pitch_depth(side, tooth))
     }
 
     /// What the gear was made from.
@@ -142,9 +178,24 @@ impl Gear {
         &self.data
     }
 
-    /// Number of teeth z.
+    /// Number of teeth, without the sign of an internal gear.
     pub fn teeth(&self) -> u32 {
         self.data.teeth
+    }
+
+    /// Number of teeth z, negative of an internal gear.
+    pub fn signed_teeth(&self) -> f64 {
+        self.data.signed_teeth()
+    }
+
+    /// Whether the teeth point inwards.
+    pub fn is_internal(&self) -> bool {
+        self.data.is_internal()
+    }
+
+    /// +1 of an external gear, -1 of an internal one.
+    pub fn sign(&self) -> f64 {
+        self.data.sign()
     }
 
     /// Face width b, mm.
@@ -169,7 +220,7 @@ impl Gear {
 
     /// Reference radius, mm.
     pub fn reference_radius(&self) -> f64 {
-        0.5 * self.transverse_module() * f64::from(self.data.teeth)
+        0.5 * self.transverse_module() * self.signed_teeth()
     }
 
     /// Base radius r_b, mm.
@@ -187,13 +238,16 @@ impl Gear {
         self.profile.radius(self.profile.roll_form())
     }
 
-    /// Profile shift coefficient below which the rack's tip cuts away involute (undercut).
+    /// Profile shift coefficient below which the rack's tip cuts away involute (undercut); none is too low for an internal gear.
     ///
     /// ```text
     /// x_min = h_d* - rho* (1 - sin a_n) - z sin^2(a_t) / (2 cos b)        h_d*, rho* over the normal module
     /// ```
     pub fn undercut_limit(&self) -> f64 {
         let d = &self.data;
+        if d.is_internal() {
+            return f64::NEG_INFINITY;
+        }
         let straight = d.dedendum_coefficient - d.root_radius_coefficient * (1.0 - d.normal_pressure_angle.sin());
         let sin = self.transverse_pressure_angle().sin();
         straight - f64::from(d.teeth) * sin * sin / (2.0 * d.helix_angle.cos())
@@ -206,17 +260,44 @@ impl Gear {
 
     /// Transverse base pitch p_bt, mm.
     pub fn transverse_base_pitch(&self) -> f64 {
-        2.0 * PI * self.base_radius() / f64::from(self.data.teeth)
+        2.0 * PI * self.base_radius() / self.signed_teeth()
     }
 
-    /// Angular pitch 2 pi / z, rad.
+    /// A shaper cutter makes this ring without interference of its own.
+    ///
+    /// # Errors
+    /// [`GeometryError::ShaperInterference`].
+    fn check_cutting(&self) -> Result<(), GeometryError> {
+        let Some((kind, amount)) = self.cutting_fault() else { return Ok(()) };
+        let Some(shaper) = self.data.shaper else { return Ok(()) };
+        let runs = |teeth: u32| {
+            let data = GearData { shaper: Some(Shaper { teeth, ..shaper }), ..self.data.clone() };
+            let profile = TransverseProfile::new(&data).ok()?;
+            let tried = Self { data, profile, modifications: GearModifications::default(), fields: Default::default() };
+            tried.cutting_fault().is_none().then_some(teeth)
+        };
+        // The nearest number of teeth that cures it: more against involute interference, fewer against the other.
+        let cure = (1..self.data.teeth).find_map(|step| match kind {
+            InternalInterference::Involute => runs(shaper.teeth.saturating_add(step)),
+            InternalInterference::Trochoid => runs(shaper.teeth.saturating_sub(step)),
+        });
+        Err(GeometryError::ShaperInterference { kind, amount, teeth: shaper.teeth, cure })
+    }
+
+    /// What the cutter of this ring takes away of its tips: the kind, and by how much, mm or rad.
+    fn cutting_fault(&self) -> Option<(InternalInterference, f64)> {
+        let mesh = self.profile.cutter()?.mesh(self.tip_radius().abs());
+        mesh.fault()
+    }
+
+    /// Angle from a tooth to the next one, 2 pi / z, rad: teeth of an internal gear are numbered clockwise.
     pub fn pitch_angle(&self) -> f64 {
-        2.0 * PI / f64::from(self.data.teeth)
+        2.0 * PI / self.signed_teeth()
     }
 
     /// Twist of the teeth along the axis, tan(beta)/r, rad/mm; positive for a right hand.
     pub fn twist(&self) -> f64 {
-        self.data.helix_angle.tan() / self.reference_radius()
+        self.data.helix_angle.tan() / self.reference_radius().abs()
     }
 
     /// The transverse section of a tooth.
@@ -237,12 +318,28 @@ impl Gear {
             base_radius: self.base_radius(),
             base_half_angle: self.profile.base_half_angle(),
             twist: self.twist(),
-            base_helix_angle: self.base_helix_angle(),
-            centre_angle: tooth as f64 * self.pitch_angle(),
+            base_helix_angle: self.sign() * self.base_helix_angle(),
+            centre_angle: if self.is_internal() { PI } else { 0.0 } + tooth as f64 * self.pitch_angle(),
             roll_form: self.profile.roll_form(),
             roll_tip: self.profile.roll_tip(),
             half_width: 0.5 * self.data.face_width,
         }
+    }
+}
+
+impl GearData {
+    /// The same ring, made by the shaper that is taken where nothing is said: with a third of the ring's teeth, or as many more as it takes to make the ring's tips without interference.
+    #[must_use]
+    pub fn with_usual_shaper(self, profile_shift: f64) -> Self {
+        let of = |teeth: u32| GearData { shaper: Some(Shaper { teeth, profile_shift }), ..self.clone() };
+        let least = (self.teeth / 3).max(5);
+        let makes = |teeth: &u32| {
+            let profile = TransverseProfile::new(&of(*teeth)).ok()?;
+            let mesh = profile.cutter()?.mesh(profile.radius(profile.roll_tip()).abs());
+            mesh.fault().is_none().then_some(())
+        };
+        let teeth = (least..self.teeth).find(|teeth| makes(teeth).is_some()).unwrap_or(least);
+        of(teeth)
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use crate::roots::bisect;
 use crate::{Gear, GearPair};
 
 /// Positions at which the tip edge is looked at on its way through the tooth space.
@@ -12,7 +13,7 @@ impl GearPair {
     /// or the wheel (1), driving flanks touching along the line of action; 0: it passes free.
     ///
     /// ```text
-    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / r_b,m) ]
+    /// corner in the gear's frame   R(s / r_b) [ (a, 0) + r_a,m e(psi_0 + s / |r_b,m|) ]
     ///                              s from the tip's contact onwards
     /// its tooth                    |angle - centre line| <= half angle at that radius, involute or fillet
     /// ```
@@ -26,19 +27,25 @@ impl GearPair {
         let touch = (self.tangent_length() - rb_mate * mate.profile().roll_tip()) / rb;
         let (sin, cos) = a_wt.sin_cos();
         let contact = [rb * (cos + touch * sin), rb * (sin - touch * cos)];
-        let start = contact[1].atan2(contact[0] - a);
+        // Signed as the mate's radii are: its teeth that reach into this gear are about pi.
+        let inside = mate.sign();
+        let start = (inside * contact[1]).atan2(inside * (contact[0] - a));
         let centre_line = a_wt - touch + own.profile().base_half_angle();
         let outline = Outline::new(own);
         // From a little before the tip touches until the corner is well past the line of centres.
         let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
         let depth = |k: u32| {
-            let turn = to_centres * (2.5 * f64::from(k) / f64::from(SAMPLES) - 0.25);
+            let turn = inside * to_centres * (2.5 * f64::from(k) / f64::from(SAMPLES) - 0.25);
             let (s, c) = (start + turn).sin_cos();
             let (x, y) = (a + mate.tip_radius() * c, mate.tip_radius() * s);
-            let radius = x.hypot(y);
-            let angle = y.atan2(x) + turn * rb_mate / rb;
+            let (radius, own_sign) = (own.sign() * x.hypot(y), own.sign());
+            let angle = (own_sign * y).atan2(own_sign * x) + turn * rb_mate / rb;
             let off = (angle - centre_line + PI).rem_euclid(2.0 * PI) - PI;
-            if off.abs() >= outline.widest_from(radius) { 0.0 } else { radius * (half_angle(own, radius) - off.abs()) }
+            if off.abs() >= outline.widest_from(radius) {
+                0.0
+            } else {
+                radius.abs() * (half_angle(own, radius) - off.abs())
+            }
         };
         (0..=SAMPLES).map(depth).fold(0.0, f64::max)
     }
@@ -47,17 +54,18 @@ impl GearPair {
 /// Places on a fillet, ends included.
 const PLACES: usize = 17;
 
-/// How wide a tooth is at most: radii (mm) of places on its fillet, from the root land on, and the largest half angle
-/// (rad) from each of them outwards.
+/// How wide a tooth is at most: radii (mm, signed) of places on its fillet, from the root land on, and the largest half angle
+/// (rad) from each of them to the tip.
 struct Outline([(f64, f64); PLACES]);
 
 impl Outline {
     fn new(gear: &Gear) -> Self {
         let profile = gear.profile();
         let mut places: [_; PLACES] = std::array::from_fn(|i| profile.fillet(i as f64 / (PLACES - 1) as f64));
-        let mut widest = profile.half_angle(profile.roll_form());
+        let sign = gear.sign();
+        let mut widest = sign * profile.half_angle(profile.roll_form());
         for (_, half) in places.iter_mut().rev() {
-            widest = widest.max(*half);
+            widest = widest.max(sign * *half);
             *half = widest;
         }
         Self(places)
@@ -70,7 +78,7 @@ impl Outline {
     }
 }
 
-/// Half tooth angle at a radius (mm), on the involute or on the fillet; negative beyond the tip and below the root.
+/// Half tooth angle, without sign, at a signed radius (mm), on the involute or on the fillet; -pi beyond the tip and below the root.
 fn half_angle(gear: &Gear, radius: f64) -> f64 {
     let profile = gear.profile();
     if radius > gear.tip_radius() || radius < profile.fillet(0.0).0 {
@@ -78,10 +86,10 @@ fn half_angle(gear: &Gear, radius: f64) -> f64 {
     }
     if radius >= gear.form_radius() {
         let u = crate::profile::roll_angle(radius, gear.base_radius()).unwrap_or(0.0);
-        return profile.half_angle(u);
+        return gear.sign() * profile.half_angle(u);
     }
-    let t = crate::profile::bisect(0.0, 1.0, |t| radius - profile.fillet(t).0);
-    profile.fillet(t).1
+    let t = bisect(0.0, 1.0, |t| radius - profile.fillet(t).0);
+    gear.sign() * profile.fillet(t).1
 }
 
 #[cfg(test)]

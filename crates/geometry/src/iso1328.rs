@@ -16,7 +16,7 @@ pub const TOLERANCE_CLASSES: std::ops::RangeInclusive<u32> = 1..=11;
 /// f_fbT = (0.07 sqrt(d) + 0.45 sqrt(b) + 4) s    helix form
 /// s = sqrt(2)^(A - 5)
 /// ```
-/// d reference diameter, b face width, mm; A the class. As calculated: the standard rounds them for drawings.
+/// d reference diameter, of an internal gear its magnitude, b face width, mm; A the class. As calculated: the standard rounds them for drawings.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[allow(missing_docs)] // the names say what they are
 pub struct FlankTolerances {
@@ -31,7 +31,7 @@ pub struct FlankTolerances {
 impl FlankTolerances {
     /// Of a gear in a class of [`TOLERANCE_CLASSES`].
     pub fn new(gear: &Gear, class: u32) -> Self {
-        let (d, b, m) = (2.0 * gear.reference_radius(), gear.face_width(), gear.data().normal_module);
+        let (d, b, m) = (2.0 * gear.reference_radius().abs(), gear.face_width(), gear.data().normal_module);
         let step = 2f64.sqrt().powi(class as i32 - 5);
         Self {
             single_pitch_um: (0.001 * d + 0.4 * m + 5.0) * step,

@@ -1,11 +1,12 @@
 //! What shape is a gear pair, exactly?
 //!
-//! External involute gears after ISO 21771: spur and helical, either hand, profile shift, working centre
-//! distance, thinning and backlash, rack-generated root fillet; flanks as exact surfaces; contact lines in the
+//! Involute gears after ISO 21771, external ones and rings: spur and helical, either hand, profile shift, working centre
+//! distance, thinning and backlash, root fillet made by a rack or a shaper; flanks as exact surfaces; contact lines in the
 //! plane of action; micro-geometry. Lengths in mm, angles in rad.
 //!
 //! * A gear's own frame has its axis on +z, mid-face at z = 0 and the centre line of tooth 0 at mid-face on +x.
 //! * Teeth are numbered counter-clockwise seen from +z; the *left* flank is the counter-clockwise side of a tooth.
+//! * Signs of an internal gear are those of ISO 21771: z, all diameters and the centre distance are negative. Its teeth are numbered clockwise, and its left flank, seen with the tooth pointing up, is the clockwise side. So left flanks touch left flanks, and pinion tooth k wheel tooth -k, in pairs of both kinds.
 //! * Helix angle > 0: right hand.
 
 mod contact_lines;
@@ -15,15 +16,19 @@ mod even_loss;
 mod flank;
 mod gear;
 mod interference;
+mod internal_mesh;
 mod iso1328;
 pub mod modification;
 mod pair;
 mod profile;
+mod rack;
+mod roots;
 mod rotation;
+mod shaper;
 mod sheet;
 
 pub use contact_lines::ContactLine;
-pub use data::GearData;
+pub use data::{GearData, Shaper};
 pub use error::{GeometryError, Undercut};
 pub use flank::{Flank, FlankPoint, Side};
 pub use gear::Gear;
@@ -32,7 +37,7 @@ pub use modification::{FlankModification, GearModifications, ModifiedFlank};
 pub use pair::GearPair;
 pub use profile::TransverseProfile;
 pub use rotation::{Driver, Sense};
-pub use sheet::{Balls, GearSheet, GeometrySheet, PathPoint, Span};
+pub use sheet::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
 
 /// Points and vectors, mm.
 pub type Vec3 = nalgebra::Vector3<f64>;

@@ -1,17 +1,21 @@
 //! Two gears at a working centre distance. Theory (4), (5), (6), (6a), (6b).
 
 use std::f64::consts::PI;
+use std::mem::discriminant;
 
 use serde::Serialize;
 
-use crate::{Gear, GearData, GeometryError, Side, error::Undercut};
+use crate::error::Undercut;
+use crate::internal_mesh::InternalMesh;
+use crate::roots::bisect;
+use crate::{Gear, GearData, GeometryError, Side};
 
 /// Depth over the module from which on a tip in a fillet is more than rounded data.
 const INTERFERENCE_MODULES: f64 = 1e-3;
 /// Profile shifts that are tried against undercut, in steps of a tenth.
 const MOST_TENTHS: i32 = 20;
 
-/// A running pair: pinion at the origin, wheel at (a, 0, o), o the offset of its mid-face.
+/// A running pair: pinion at the origin, wheel at (a, 0, o), o the offset of its mid-face; a is negative where the wheel is a ring, which has its axis on the other side of the contact.
 ///
 /// ```text
 /// cos a_wt = (r_b1 + r_b2) / a
@@ -21,7 +25,7 @@ const MOST_TENTHS: i32 = 20;
 /// without offset, made longer and cut to other end faces. Its own frame is at its own mid-face.
 ///
 /// The path of contact is measured by xi (mm) from the pinion's tangent point T1 along the transverse line of
-/// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2.
+/// action; xi = r_b1 u1, and a sin(a_wt) - xi = r_b2 u2, both sides of which are negative for a ring.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearPair {
     /// Gear 1.
@@ -41,19 +45,31 @@ impl GearPair {
     /// [`GeometryError`] when the gears do not belong together, jam, or do not reach each other.
     pub fn new(pinion: Gear, wheel: Gear, centre_distance: Option<f64>) -> Result<Self, GeometryError> {
         let (a, b) = (pinion.data(), wheel.data());
+        if a.is_internal() {
+            return Err(GeometryError::InternalPinion);
+        }
+        let hand = if b.is_internal() {
+            ("helix angle of the same hand [rad]", a.helix_angle, b.helix_angle)
+        } else {
+            ("helix angle of opposite hand [rad]", a.helix_angle, -b.helix_angle)
+        };
         let alike = [
             ("normal module [mm]", a.normal_module, b.normal_module),
             ("normal pressure angle [rad]", a.normal_pressure_angle, b.normal_pressure_angle),
-            ("helix angle of opposite hand [rad]", a.helix_angle, -b.helix_angle),
+            hand,
         ];
         for (name, p, w) in alike {
             if (p - w).abs() > 1e-12 * (1.0 + p.abs()) {
                 return Err(GeometryError::Mismatch { name, pinion: p, wheel: w });
             }
         }
+        if b.is_internal() && a.teeth >= b.teeth {
+            let (name, expected) = ("teeth of the pinion", "fewer than the ring has");
+            return Err(GeometryError::OutOfRange { name, value: f64::from(a.teeth), expected });
+        }
         let centre_distance = centre_distance.unwrap_or_else(|| nominal_centre_distance(&pinion, &wheel));
         let pair = Self { pinion, wheel, centre_distance, mid_face_offset: 0.0 };
-        pair.check()?;
+        pair.check().map_err(|error| pair.with_cure(error))?;
         Ok(pair)
     }
 
@@ -86,7 +102,8 @@ impl GearPair {
     fn check_fit(&self) -> Result<(), GeometryError> {
         let a = self.pinion.data();
         let least = self.pinion.base_radius() + self.wheel.base_radius();
-        if !self.centre_distance.is_finite() || self.centre_distance <= least {
+        let sign = self.wheel.sign();
+        if !self.centre_distance.is_finite() || sign * self.centre_distance <= sign * least {
             return Err(GeometryError::CentreDistance { centre_distance_mm: self.centre_distance, least_mm: least });
         }
         // Published pairs without thinning have shifts and distances rounded to four digits: a few 1e-5 m_n of jam.
@@ -103,8 +120,14 @@ impl GearPair {
             }
         }
         let names = ["pinion", "wheel"];
+        if let Some(margin) = self.trochoid_margin().filter(|margin| *margin < 0.0) {
+            return Err(GeometryError::Trochoid { margin, pinion_tip_mm: None });
+        }
         for (i, gear) in [&self.pinion, &self.wheel].into_iter().enumerate() {
             let depth_mm = self.interference(i);
+            if i == 0 && self.is_internal() && depth_mm > INTERFERENCE_MODULES * a.normal_module {
+                return Err(self.involute_interference(depth_mm));
+            }
             if depth_mm > INTERFERENCE_MODULES * a.normal_module {
                 let form_diameter_mm = 2.0 * gear.form_radius();
                 return Err(GeometryError::Interference {
@@ -119,6 +142,78 @@ impl GearPair {
             return Err(GeometryError::NoContact { overlap_mm: self.path_length() });
         }
         Ok(())
+    }
+
+    /// Whether the wheel is a ring.
+    pub fn is_internal(&self) -> bool {
+        self.wheel.is_internal()
+    }
+
+    fn internal_mesh(&self) -> Option<InternalMesh> {
+        let gears = [&self.pinion, &self.wheel];
+        self.is_internal().then(|| InternalMesh {
+            teeth: gears.map(|gear| f64::from(gear.teeth())),
+            base: gears.map(|gear| gear.base_radius().abs()),
+            tip: gears.map(|gear| gear.tip_radius().abs()),
+            distance: self.centre_distance.abs(),
+            pressure_angle: self.working_pressure_angle(),
+        })
+    }
+
+    /// Angle of the ring (rad) by which the tip corners pass each other after they have left contact, flanks without backlash; below zero they run into each other, which [`GearPair::new`] refuses. Infinite where the tip circles do not cross; `None` of external gears.
+    pub fn trochoid_margin(&self) -> Option<f64> {
+        self.internal_mesh().map(|mesh| mesh.trochoid_margin())
+    }
+
+    /// Angle of the pinion (rad) by which it clears the ring's tip corners when it is put in radially; below zero it can be put in along the axis only; `None` of external gears.
+    pub fn trimming_margin(&self) -> Option<f64> {
+        self.internal_mesh().map(|mesh| mesh.trimming_margin())
+    }
+
+    /// What is wrong, with the tip diameter that cures an interference.
+    fn with_cure(&self, error: GeometryError) -> GeometryError {
+        match error {
+            GeometryError::Trochoid { margin, .. } => {
+                let tip = self.tip_without_trochoid();
+                GeometryError::Trochoid { margin, pinion_tip_mm: tip.and_then(|tip| self.cured_by_tip(&error, 0, tip)) }
+            }
+            GeometryError::Involute { tip_diameter_mm, path_mm, form_mm, depth_mm, .. } => {
+                let least = -2.0 * self.wheel.base_radius().hypot(self.tangent_length() - form_mm);
+                let ring_tip_mm = self.cured_by_tip(&error, 1, (1e3 * least).floor() / 1e3);
+                GeometryError::Involute { tip_diameter_mm, path_mm, form_mm, depth_mm, ring_tip_mm }
+            }
+            other => other,
+        }
+    }
+
+    /// A tip diameter (mm) of the pinion (0) or the wheel (1), if this pair is then without such an error.
+    fn cured_by_tip(&self, error: &GeometryError, gear: usize, tip_diameter: f64) -> Option<f64> {
+        let mut pair = self.clone();
+        let own = if gear == 0 { &mut pair.pinion } else { &mut pair.wheel };
+        *own = Gear::new(GearData { tip_diameter: Some(tip_diameter), ..own.data().clone() }).ok()?;
+        let same = pair.check().is_err_and(|other| discriminant(&other) == discriminant(error));
+        (!same).then_some(tip_diameter)
+    }
+
+    /// Largest tip diameter of the pinion (mm, three digits) at which its corners pass those of the ring.
+    fn tip_without_trochoid(&self) -> Option<f64> {
+        let mesh = self.internal_mesh()?;
+        let margin = |tip: f64| InternalMesh { tip: [tip, mesh.tip[1]], ..mesh }.trochoid_margin();
+        let least = mesh.tip[1] - mesh.distance;
+        let radius = bisect(least.max(self.pinion.form_radius()), mesh.tip[0], margin);
+        Some((2e3 * radius).floor() / 1e3 - 1e-3)
+    }
+
+    /// The ring's tip enters the pinion's teeth by `depth_mm`.
+    fn involute_interference(&self, depth_mm: f64) -> GeometryError {
+        let (length, ring) = (self.tangent_length(), &self.wheel);
+        GeometryError::Involute {
+            tip_diameter_mm: 2.0 * ring.tip_radius(),
+            path_mm: length - ring.base_radius() * ring.profile().roll_tip(),
+            form_mm: self.pinion.base_radius() * self.pinion.profile().roll_form(),
+            depth_mm,
+            ring_tip_mm: None,
+        }
     }
 
     fn check_contact_ratio(&self) -> Result<(), GeometryError> {
@@ -164,7 +259,7 @@ impl GearPair {
         Some(Undercut { gear: ["pinion", "wheel"][own], cure: kept.or(moved), moves_axes })
     }
 
-    /// Working centre distance a, mm.
+    /// Working centre distance a, mm; negative where the wheel is a ring.
     pub fn centre_distance(&self) -> f64 {
         self.centre_distance
     }
@@ -174,7 +269,7 @@ impl GearPair {
         ((self.pinion.base_radius() + self.wheel.base_radius()) / self.centre_distance).acos()
     }
 
-    /// Working pitch radii r_w1, r_w2, mm.
+    /// Working pitch radii r_w1, r_w2, mm; that of a ring is negative.
     pub fn working_radii(&self) -> [f64; 2] {
         let cos = self.working_pressure_angle().cos();
         [self.pinion.base_radius() / cos, self.wheel.base_radius() / cos]
@@ -220,7 +315,7 @@ impl GearPair {
         self.pinion.transverse_base_pitch()
     }
 
-    /// Distance T1 T2 of the tangent points, a sin(a_wt), mm.
+    /// Path coordinate of the wheel's tangent point T2, a sin(a_wt), mm; negative of a ring, whose tangent point lies before that of the pinion.
     pub fn tangent_length(&self) -> f64 {
         self.centre_distance * self.working_pressure_angle().sin()
     }
@@ -292,7 +387,7 @@ impl GearPair {
     /// ```text
     /// s (theta_2 - k_2 o - pi) r_b2 = a sin(a_wt) - r_b1 (s theta_1 + sigma_1 + a_wt) - r_b2 (sigma_2 + a_wt)
     /// ```
-    /// o: offset of the mid-faces, k_2: twist of the wheel's teeth. Both angles are of tooth 0 at its own mid-face.
+    /// o: offset of the mid-faces, k_2: twist of the wheel's teeth. Both angles are of tooth 0 at its own mid-face; for a ring, whose tooth 0 is on +x as that of any gear, pi falls away.
     pub fn wheel_angle(&self, side: Side, pinion_angle: f64) -> f64 {
         self.wheel_angle_at(side, pinion_angle, [self.centre_distance, 0.0])
     }
@@ -303,11 +398,14 @@ impl GearPair {
     pub fn wheel_angle_at(&self, side: Side, pinion_angle: f64, centre: [f64; 2]) -> f64 {
         let (rb1, rb2) = (self.pinion.base_radius(), self.wheel.base_radius());
         let (s1, s2) = (self.pinion.profile().base_half_angle(), self.wheel.profile().base_half_angle());
-        let (distance, turned) = (centre[0].hypot(centre[1]), centre[1].atan2(centre[0]));
+        // The direction of the contact: to the wheel's centre, and away from that of a ring.
+        let sign = self.wheel.sign();
+        let (distance, turned) = (sign * centre[0].hypot(centre[1]), (sign * centre[1]).atan2(sign * centre[0]));
+        let facing = if self.is_internal() { 0.0 } else { PI };
         let (s, a_wt) = (side.sign(), ((rb1 + rb2) / distance).acos());
         let tangents = distance * a_wt.sin();
         let rest = tangents - rb1 * (s * (pinion_angle - turned) + s1 + a_wt) - rb2 * (s2 + a_wt);
-        turned + (PI + s * rest / rb2) + self.wheel.twist() * self.mid_face_offset
+        turned + (facing + s * rest / rb2) + self.wheel.twist() * self.mid_face_offset
     }
 }
 
@@ -315,12 +413,8 @@ impl GearPair {
 fn nominal_centre_distance(pinion: &Gear, wheel: &Gear) -> f64 {
     let alpha_t = pinion.transverse_pressure_angle();
     let (x1, x2) = (pinion.data().profile_shift, wheel.data().profile_shift);
-    let teeth = f64::from(pinion.teeth() + wheel.teeth());
+    let teeth = pinion.signed_teeth() + wheel.signed_teeth();
     let target = crate::involute(alpha_t) + 2.0 * (x1 + x2) * pinion.data().normal_pressure_angle.tan() / teeth;
-    let a_wt = if x1 + x2 == 0.0 {
-        alpha_t
-    } else {
-        crate::profile::bisect(0.0, 1.4, |a| target.max(0.0) - crate::involute(a))
-    };
+    let a_wt = if x1 + x2 == 0.0 { alpha_t } else { bisect(0.0, 1.4, |a| target.max(0.0) - crate::involute(a)) };
     (pinion.base_radius() + wheel.base_radius()) / a_wt.cos()
 }

@@ -1,16 +1,19 @@
-//! Transverse section of one tooth: involute, rack-generated fillet, root land.
+//! Transverse section of one tooth: involute, fillet as the tool's tip makes it, root land.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use serde::Serialize;
 
+use crate::rack::RackTip;
+use crate::roots::bisect;
+use crate::shaper::Cutter;
 use crate::{GearData, GeometryError, involute};
 
 /// Half of the transverse tooth section, from the tip down to the middle of the tooth space.
 ///
-/// All angles are measured from the tooth's centre line; the other half is the mirror image.
-/// Source: ISO 21771; the fillet is the envelope of the rack's tip rounding, a circle in the normal section and
-/// so an ellipse (stretched by 1/cos beta) in the transverse one.
+/// All angles are measured from the tooth's centre line; the other half is the mirror image. Radii, angles and half pitch of an internal gear are negative: (r cos angle, r sin angle) is then the section of a tooth on the side of -x.
+/// Source: ISO 21771; the fillet is the envelope of the rounding of the tool's tip: of a rack, a circle in the normal section and
+/// so an ellipse (stretched by 1/cos beta) in the transverse one; of a shaper, a circle in the transverse section.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct TransverseProfile {
     base_radius: f64,
@@ -20,49 +23,41 @@ pub struct TransverseProfile {
     roll_form: f64,
     roll_tip: f64,
     undercut: bool,
-    rack: RackTip,
+    tool: Tool,
     fillet_end: f64,
 }
 
-/// Rounding of the generating rack's tip; origin at the pitch point, y away from the gear's centre.
+/// The tool whose tip makes the fillet.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-struct RackTip {
-    /// Centre of the rounding, normal section, mm.
-    centre: [f64; 2],
-    radius: f64,
-    cos_helix: f64,
+#[serde(untagged)]
+enum Tool {
+    Rack(RackTip),
+    Shaper(Cutter),
 }
 
-impl RackTip {
-    /// Point of the fillet made by the rounding's point at angle `theta` from its lowest point:
-    /// radius and angle from the middle of the tooth space.
-    ///
-    /// The rack touches the gear where its normal passes through the pitch point: x_f = y n_x / n_y; the gear has
-    /// then turned by (x_f - x)/r.
+impl Tool {
+    /// Radius (mm) and angle from the middle of the tooth space (rad) of the fillet's point that the tool's point at `theta` makes, 0 at its tip.
     fn generated(&self, theta: f64, reference_radius: f64) -> (f64, f64) {
-        let (sin, cos) = theta.sin_cos();
-        let x = (self.centre[0] + self.radius * sin) / self.cos_helix;
-        let y = self.centre[1] - self.radius * cos;
-        let touch = -y * sin * self.cos_helix / cos;
-        let radial = reference_radius + y;
-        (touch.hypot(radial), touch.atan2(radial) - (touch - x) / reference_radius)
+        match self {
+            Self::Rack(rack) => rack.generated(theta, reference_radius),
+            Self::Shaper(cutter) => cutter.generated(theta),
+        }
     }
-}
 
-impl RackTip {
-    /// Angle (rad) of the fillet's tangent at `theta` against the middle of the tooth space: the rack's own,
-    /// atan(cos theta / (cos beta sin theta)), less the gear's turn (x_f - x)/r.
+    /// Angle (rad) of the fillet's tangent there against the middle of the tooth space.
     fn tangent(&self, theta: f64, reference_radius: f64) -> f64 {
-        let (sin, cos) = theta.sin_cos();
-        let x = (self.centre[0] + self.radius * sin) / self.cos_helix;
-        let touch = -(self.centre[1] - self.radius * cos) * sin * self.cos_helix / cos;
-        cos.atan2(self.cos_helix * sin) - (touch - x) / reference_radius
+        match self {
+            Self::Rack(rack) => rack.tangent(theta, reference_radius),
+            Self::Shaper(cutter) => cutter.tangent(theta),
+        }
     }
 }
 
 /// Share of the base radius by which a place may lie below the base circle and count as on it: the digits of files, some
 /// of which have seven.
 pub(crate) const LAST_DIGITS: f64 = 1e-6;
+/// Roll angle, rad, at which every tooth of an internal gear has thickness.
+const FULL_TEETH: f64 = 10.0;
 /// Roll angle, rad, below zero down to which a rack that reaches too deep takes away half as much of the involute; where it
 /// is more their crossing is looked for.
 const SLIGHT_UNDERCUT: f64 = 1e-4;
@@ -80,7 +75,8 @@ impl TransverseProfile {
     /// # Errors
     /// [`GeometryError::Thickness`], [`GeometryError::PointedTooth`], [`GeometryError::RootRadius`].
     pub(crate) fn new(data: &GearData) -> Result<Self, GeometryError> {
-        let (m, z, x) = (data.normal_module, f64::from(data.teeth), data.profile_shift);
+        let (m, z, x) = (data.normal_module, data.signed_teeth(), data.profile_shift);
+        let sign = data.sign();
         let (alpha, beta) = (data.normal_pressure_angle, data.helix_angle);
         let alpha_t = (alpha.tan() / beta.cos()).atan();
         let reference_radius = 0.5 * m * z / beta.cos();
@@ -95,19 +91,37 @@ impl TransverseProfile {
             None => reference_radius + m * (data.addendum_coefficient + x),
         };
         let roll_tip = roll_angle(tip_radius, base_radius).unwrap_or(0.0);
-        if tip_radius <= base_radius {
+        if tip_radius.abs() <= base_radius.abs() {
             return Err(GeometryError::OutOfRange {
                 name: "tip diameter",
                 value: 2.0 * tip_radius,
                 expected: "above the base diameter",
             });
         }
-        if base_half_angle <= roll_tip - roll_tip.atan() {
-            let pointed = bisect(0.0, roll_tip, |u| base_half_angle - (u - u.atan()));
+        if sign * base_half_angle <= sign * (roll_tip - roll_tip.atan()) {
+            let thick = if data.is_internal() { FULL_TEETH } else { 0.0 };
+            let pointed = bisect(thick, roll_tip, |u| sign * (base_half_angle - (u - u.atan())));
             return Err(GeometryError::PointedTooth {
                 tip_diameter_mm: 2.0 * tip_radius,
                 pointed_diameter_mm: 2.0 * base_radius * (1.0 + pointed * pointed).sqrt(),
             });
+        }
+        let with = |tool: Tool, roll_form: f64, fillet_end: f64| Self {
+            base_radius,
+            reference_radius,
+            base_half_angle,
+            half_pitch: PI / z,
+            roll_form,
+            roll_tip,
+            undercut: false,
+            tool,
+            fillet_end,
+        };
+        if let Some(shaper) = data.shaper {
+            let cutter = Cutter::new(data, shaper)?;
+            let (roll_form, fillet_end) = cutter.end_of_fillet()?;
+            let profile = with(Tool::Shaper(cutter), roll_form, fillet_end);
+            return if roll_form > roll_tip { Ok(profile) } else { Err(profile.no_involute()) };
         }
         let rho = data.root_radius_coefficient * m;
         let depth = data.dedendum_coefficient * m - rho;
@@ -118,17 +132,7 @@ impl TransverseProfile {
             let largest = data.largest_root_radius_coefficient();
             return Err(GeometryError::RootRadius { coefficient: data.root_radius_coefficient, largest });
         }
-        let mut profile = Self {
-            base_radius,
-            reference_radius,
-            base_half_angle,
-            half_pitch: PI / z,
-            roll_form: 0.0,
-            roll_tip,
-            undercut: false,
-            rack,
-            fillet_end: FRAC_PI_2 - alpha,
-        };
+        let mut profile = with(Tool::Rack(rack), 0.0, FRAC_PI_2 - alpha);
         profile.join_fillet(x * m - depth - rho * alpha.sin(), alpha_t)?;
         Ok(profile)
     }
@@ -147,7 +151,7 @@ impl TransverseProfile {
             // Undercut: the rack's tip cuts into the involute; both curves cross at one radius above the base.
             self.undercut = true;
             let excess = |theta: f64| {
-                let (r, space) = self.rack.generated(theta, self.reference_radius);
+                let (r, space) = self.tool.generated(theta, self.reference_radius);
                 let u = roll_angle(r, self.base_radius).unwrap_or(0.0);
                 (r, space - (self.half_pitch - self.half_angle(u)))
             };
@@ -169,13 +173,18 @@ impl TransverseProfile {
             self.fillet_end = theta;
         }
         if self.roll_form >= self.roll_tip {
-            return Err(GeometryError::OutOfRange {
-                name: "tip diameter",
-                value: 2.0 * self.radius(self.roll_tip),
-                expected: "above the root form diameter",
-            });
+            return Err(self.no_involute());
         }
         Ok(())
+    }
+
+    /// The fillet reaches the tip.
+    fn no_involute(&self) -> GeometryError {
+        GeometryError::OutOfRange {
+            name: "tip diameter",
+            value: 2.0 * self.radius(self.roll_tip),
+            expected: "above the root form diameter",
+        }
     }
 
     /// Radius at roll angle `u`: r = r_b sqrt(1 + u^2), mm.
@@ -203,6 +212,14 @@ impl TransverseProfile {
         self.roll_tip
     }
 
+    /// The cutter of an internal gear.
+    pub(crate) fn cutter(&self) -> Option<&Cutter> {
+        match &self.tool {
+            Tool::Rack(_) => None,
+            Tool::Shaper(cutter) => Some(cutter),
+        }
+    }
+
     /// Whether the rack's tip cuts away involute above the base circle.
     pub fn is_undercut(&self) -> bool {
         self.undercut
@@ -211,14 +228,14 @@ impl TransverseProfile {
     /// Point of the fillet: radius (mm) and angle from the tooth's centre line (rad);
     /// `t` = 0 at the root land, 1 at the root form circle.
     pub fn fillet(&self, t: f64) -> (f64, f64) {
-        let (r, space) = self.rack.generated(t * self.fillet_end, self.reference_radius);
+        let (r, space) = self.tool.generated(t * self.fillet_end, self.reference_radius);
         (r, self.half_pitch - space)
     }
 
     /// Angle (rad) between the fillet's tangent at `t` and the tooth's centre line; falls from nearly pi/2 at the root
     /// land.
     pub fn fillet_tangent(&self, t: f64) -> f64 {
-        self.rack.tangent(t * self.fillet_end, self.reference_radius) - self.half_pitch
+        self.tool.tangent(t * self.fillet_end, self.reference_radius) - self.half_pitch
     }
 
     /// Where on the fillet, 0 .. 1, the tangent makes `angle` (rad) with the tooth's centre line; 1 when it is steeper
@@ -233,14 +250,21 @@ impl TransverseProfile {
     }
 }
 
-/// Root of `f` between `a` (f > 0) and `b` (f <= 0), to round-off.
-pub(crate) fn bisect(mut a: f64, mut b: f64, f: impl Fn(f64) -> f64) -> f64 {
-    for _ in 0..200 {
-        let middle = 0.5 * (a + b);
-        if middle == a || middle == b {
-            break;
+impl GearData {
+    /// Largest coefficient rho / m_n of tip rounding that the tool has room for: a full rounding of its tip.
+    ///
+    /// Of a rack:
+    /// ```text
+    /// rho_fP/m_n = [pi/4 + A_s/(2 m_n) - (h_fP/m_n) tan a_n] cos a_n / (1 - sin a_n)
+    /// ```
+    /// A_s is the thinning. Zero or below where the rack ends in a point above h_fP. Of a shaper: where its rounding meets that of the other side, by bisection; 0 where the cutter cannot make the gear.
+    pub fn largest_root_radius_coefficient(&self) -> f64 {
+        if let Some(shaper) = self.shaper {
+            return Cutter::new(self, shaper).map_or(0.0, |cutter| cutter.largest_rounding());
         }
-        if f(middle) > 0.0 { a = middle } else { b = middle }
+        let (sin, cos) = self.normal_pressure_angle.sin_cos();
+        let thinning = 0.5 * self.thickness_allowance / self.normal_module;
+        let tip = std::f64::consts::FRAC_PI_4 + thinning - self.dedendum_coefficient * sin / cos;
+        tip * cos / (1.0 - sin)
     }
-    0.5 * (a + b)
 }

@@ -11,7 +11,7 @@ pub enum MotionError<E> {
     Mechanism {
         /// Time, s.
         time: f64,
-        /// What happened.
+        /// Error of the mechanism.
         source: E,
     },
     /// Newton's method did not settle within a step.
@@ -91,7 +91,7 @@ pub enum MotionError<E> {
     NotPositive {
         /// Name of the quantity.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
     /// The motion comes to a stop before a cycle is over.
@@ -143,7 +143,7 @@ impl<E> MotionError<E> {
         })
     }
 
-    /// What to do about it.
+    /// Hint: an action that cures the error.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::Mechanism { .. } => {

@@ -7,20 +7,20 @@ use crate::{Mechanism, MotionError, State};
 /// Which way an event function went through zero.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Direction {
-    /// From below zero up.
+    /// Zero crossing from below.
     Up,
-    /// From above zero down.
+    /// Zero crossing from above.
     Down,
 }
 
 /// A located event.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Which event function.
+    /// Number of the event function.
     pub event: usize,
     /// When, s.
     pub time: f64,
-    /// Which way.
+    /// Direction of the crossing.
     pub direction: Direction,
 }
 

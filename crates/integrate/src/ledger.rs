@@ -1,4 +1,4 @@
-//! Where the energy went.
+//! Ledger of energy: what is stored, supplied and dissipated.
 
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
@@ -40,18 +40,18 @@ pub struct Ledger {
 const ROUND_OFF: f64 = 1e-9;
 
 impl Ledger {
-    /// At the start of a motion.
+    /// Ledger at the start of a motion.
     pub fn open(mass: &DMatrix<f64>, v: &DVector<f64>, potential: f64) -> Self {
         let kinetic = kinetic(mass, v);
         Self { kinetic, potential, initial: kinetic + potential, ..Self::default() }
     }
 
-    /// What does not close.
+    /// Residual of the ledger: energy that is not accounted for.
     pub fn residual(&self) -> f64 {
         self.kinetic + self.potential - self.initial - self.supplied - self.parametric + self.dissipated
     }
 
-    /// The same over all the work done.
+    /// Residual of the ledger over all the work done.
     pub fn relative_residual(&self) -> f64 {
         over(self.residual(), self.turnover.max(self.initial.abs()))
     }

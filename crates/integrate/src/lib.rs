@@ -3,22 +3,19 @@
 //! ```text
 //! M q'' = f(t, q, q')
 //! ```
-//! The same integrators, and the same [`Course`] of cycles, rows, events and checkpoints, run the meshed pair, the gearbox,
-//! the lumped models and a one-degree oscillator: what is shown for one holds for all. New physics brings a
+//! All mechanisms share the integrators and the [`Course`] of cycles, rows, events and checkpoints: the meshed pair,
+//! the gearbox, the lumped models, a one-degree oscillator. What is shown for one holds for all. New physics brings a
 //! [`Mechanism`], never a loop.
 
 mod course;
 mod eigenvalues;
-mod energy;
 mod error;
 mod events;
-mod generalised_alpha;
 mod integrator;
 mod ledger;
 mod mechanism;
 mod newton;
 mod periodicity;
-mod runge_kutta;
 mod scheme;
 mod stability;
 mod state;

@@ -1,4 +1,4 @@
-//! What an integrator must know of a system.
+//! Interface of a system to the integrators.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 ///
 /// Any consistent units; ale-gear's own are mm, rad, t, s, N, N mm.
 pub trait Mechanism {
-    /// What can go wrong when forces are asked for.
+    /// Error of an evaluation of forces.
     type Error;
 
     /// Mass matrix M, n x n, symmetric positive definite.

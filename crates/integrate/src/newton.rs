@@ -38,7 +38,7 @@ pub(crate) struct Newton {
     /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite
     /// after a part of a step, which says nothing of what is left.
     changes: [f64; 2],
-    /// The same of the last step, also of a part.
+    /// Largest change of a coordinate over its round-off in the last step, also in a part of one.
     last: f64,
     /// The step that is being followed.
     line: Option<LineSearch>,
@@ -59,7 +59,8 @@ struct LineSearch {
 }
 
 impl LineSearch {
-    /// From the residual `rest` where the line begins; `None` where the step does not go against it.
+    /// Line along a step from the residual `rest` at its beginning; `None` where the step does not go against the
+    /// residual.
     fn along(step: &DVector<f64>, rest: &DVector<f64>) -> Option<Self> {
         let work = rest.dot(step);
         (work > 0.0).then(|| Self {
@@ -89,7 +90,7 @@ impl LineSearch {
 }
 
 impl Newton {
-    /// For `n` coordinates.
+    /// Iteration for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let changes = [f64::INFINITY; 2];
         Self { factor: None, step: DVector::zeros(n), changes, last: f64::INFINITY, line: None, part: false }

@@ -23,7 +23,7 @@ pub struct Envelope {
 }
 
 impl Envelope {
-    /// Of one state.
+    /// Envelope of one state: least and largest are that state.
     pub fn new(state: &State) -> Self {
         let both = [state.q.clone(), state.v.clone()];
         Self { low: both.clone(), high: both }
@@ -47,7 +47,7 @@ impl Envelope {
         }
     }
 
-    /// Whether it is of `n` coordinates.
+    /// Whether the envelope is one of `n` coordinates.
     pub(crate) fn is_of(&self, n: usize) -> bool {
         self.low.iter().chain(&self.high).all(|part| part.len() == n)
     }
@@ -58,7 +58,7 @@ impl Envelope {
     }
 }
 
-/// How nearly a motion repeats itself.
+/// Periodicity of a motion: how nearly it repeats itself.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Periodicity {
     /// Periods after which it does best: 1, or more where a subharmonic answer has been found.
@@ -74,7 +74,7 @@ pub struct Recurrence {
 }
 
 impl Recurrence {
-    /// From a state on.
+    /// Comparison from a state on.
     pub fn from(state: &State) -> Self {
         Self { starts: VecDeque::from([[state.q.clone(), state.v.clone()]]) }
     }

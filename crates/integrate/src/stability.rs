@@ -156,7 +156,7 @@ pub(crate) struct StabilityGuard {
 }
 
 impl StabilityGuard {
-    /// For an explicit method; `None` for others, which need none.
+    /// Guard of an explicit method; `None` for others, which need none.
     pub fn new(scheme: Scheme) -> Option<Self> {
         let polynomial = scheme.stability_polynomial()?;
         Some(Self { safe: shortest_reach(&polynomial), polynomial, found: None })

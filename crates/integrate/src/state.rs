@@ -25,14 +25,14 @@ pub struct State {
 }
 
 impl State {
-    /// At rest or moving, accelerations still to be found by the integrator.
+    /// State of coordinates and velocities, accelerations still to be found by the integrator.
     pub fn new(time: f64, q: DVector<f64>, v: DVector<f64>) -> Self {
         let n = q.len();
         let rest = || DVector::zeros(n);
         Self { time, q, v, a: rest(), averaged: rest(), powers: [0.0; 2], next_step: 0.0, last_step: 0.0 }
     }
 
-    /// Becomes another state of as many coordinates, in its own memory.
+    /// Copies another state of as many coordinates into this one's memory.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         let Self { time, q, v, a, averaged, powers, next_step, last_step } = self;
         q.copy_from(&other.q);

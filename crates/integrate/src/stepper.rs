@@ -7,7 +7,7 @@ use crate::{Forces, Ledger, Mechanism, MotionError, State, newton::Newton};
 /// A step to be taken.
 #[derive(Debug)]
 pub(crate) struct Step<'a, M> {
-    /// What moves.
+    /// Mechanism that moves.
     pub system: &'a mut M,
     /// Factor of its mass matrix.
     pub mass: &'a Cholesky<f64, Dyn>,
@@ -37,16 +37,16 @@ pub(crate) type Stepped<M> = Result<(), MotionError<<M as Mechanism>::Error>>;
 pub(crate) struct StepWork {
     /// Local error of the coordinates of the last step.
     pub error: DVector<f64>,
-    /// Its Newton iteration.
+    /// Newton iteration of the last step.
     pub newton: Newton,
     /// Accelerations that an implicit step begins with.
     pub begun: DVector<f64>,
-    /// Residual of its balance of forces.
+    /// Residual of the balance of forces of the last step.
     pub rest: DVector<f64>,
 }
 
 impl StepWork {
-    /// For `n` coordinates.
+    /// Work vectors for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let zeros = || DVector::zeros(n);
         Self { error: zeros(), newton: Newton::new(n), begun: zeros(), rest: zeros() }

@@ -1,4 +1,4 @@
-//! The same question at many values, each answered from where the one before ended.
+//! A sweep over the values of a parameter: each answer starts where the one before ended.
 
 use std::ops::ControlFlow;
 
@@ -9,9 +9,9 @@ use rayon::prelude::*;
 pub enum SweepDirection {
     /// Every value starts by itself.
     Independent,
-    /// From the first value to the last, each beginning where the one before ended.
+    /// Sweep from the first value to the last, each beginning where the one before ended.
     Up,
-    /// From the last value to the first.
+    /// Sweep from the last value to the first.
     Down,
 }
 

@@ -50,7 +50,7 @@ pub(crate) fn wave(inputs: &CycleInputs<'_>, solver: &CycleSolver) -> usize {
     let window = solver.window.window();
     let teeth = [inputs.pair.pinion.teeth(), inputs.pair.wheel.teeth()];
     let shared = ToothWindow::new(window.first() + 1, window.count(), teeth)
-        .is_ok_and(|next| solver.contact.set.clone().move_to(inputs.gears, &next).is_ok_and(|moved| moved));
+        .is_ok_and(|next| in_window(inputs, solver, &next).is_some());
     if solver.contact.slices.is_some() && shared { WAVE } else { 1 }
 }
 
@@ -131,12 +131,17 @@ struct GroupStart {
 }
 
 impl GroupStart {
-    /// In the window that the station before asks for; `None` where its flanks or matrices are not those at hand.
+    /// Cycle in the window that the station before asks for; `None` where its flanks or matrices are not those at hand.
     fn new(inputs: &CycleInputs<'_>, solver: &CycleSolver, before: &Station) -> Option<Self> {
         let count = solver.window.window().count();
         let teeth = [inputs.pair.pinion.teeth(), inputs.pair.wheel.teeth()];
         let window = SlidingWindow::at(*before, count, teeth, inputs.options.contact.sense).ok()?;
-        let mut set = solver.contact.set.clone();
-        set.move_to(inputs.gears, window.window()).ok()?.then_some(Self { window, set })
+        let set = in_window(inputs, solver, window.window())?;
+        Some(Self { window, set })
     }
+}
+
+/// Flanks and matrices of another window, where the matrices are those at hand.
+fn in_window(inputs: &CycleInputs<'_>, solver: &CycleSolver, window: &ToothWindow) -> Option<ContactSet> {
+    solver.contact.set.in_window(inputs.pair, inputs.gears, window, &inputs.options.contact).ok()?
 }

@@ -29,7 +29,7 @@ pub(crate) struct CycleSolver {
 }
 
 impl CycleSolver {
-    /// At rest, in a window with the given flanks and matrices.
+    /// Solver at rest, in a window with the given flanks and matrices.
     ///
     /// # Errors
     /// [`StaticError`] when the contact cannot be set up.

@@ -33,7 +33,7 @@ impl DeflectionCourse {
         self.last.iter().enumerate().map(|(i, (_, rotation))| weight(i) * rotation).sum()
     }
 
-    /// Goes on to a station. What is known of that station already is replaced.
+    /// Course with the rotation at a further station, which replaces one that is known there.
     #[must_use]
     pub fn and(mut self, station: Station, rotation: f64) -> Self {
         self.last.retain(|(known, _)| *known != station);

@@ -21,15 +21,15 @@ use crate::{
 /// Solved contact at one station.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
-    /// Where.
+    /// Station of the mesh cycle.
     pub station: Station,
     /// Poses of the matrices' frames of both gears.
     pub poses: [Pose; 2],
     /// Rotation of the driven gear from the unloaded position, rad, about +z.
     pub rotation: f64,
-    /// The same without load: where the flanks just touch.
+    /// Rotation of the driven gear without load, rad about +z: where the flanks just touch.
     pub unloaded_rotation: f64,
-    /// Where they touch there; none where nominal flanks do so along their lines.
+    /// Place where the unloaded flanks touch; none where nominal flanks touch along lines.
     pub(crate) unloaded_touch: Option<Nearest>,
     /// Transmission error, mm; positive when the driven gear lags.
     pub transmission_error: f64,
@@ -126,7 +126,7 @@ pub(crate) fn equilibrium(
             last: None,
         },
     };
-    let force = options.torque / base_radius;
+    let force = options.base_force(pair);
     // Start: the position where the flanks touch, turned by the deflection of the stations before as it goes on.
     let deflection = guess.map_or(0.0, |g| g.course.at(station));
     let mut rotation = unloaded.rotation + deflection;
@@ -143,17 +143,17 @@ pub(crate) fn equilibrium(
     // Facets lie up to their sagitta above the smooth flanks: search as far as the mesh may be off.
     let facets =
         if options.contact.gap == contact::flank::GapSource::Facet { options.contact.surface_tolerance } else { 0.0 };
-    let of_guess = NEIGHBOURS_CLOSE * base_radius * deflection.abs();
+    let of_guess = NEIGHBOURS_CLOSE * base_radius.abs() * deflection.abs();
     let mut reach = facets + if deflection == 0.0 { 2.5 * guessed } else { of_guess };
     let mut iterations = 0;
-    let mut steps = PoseSteps::new(base_radius, pair.centre_distance());
+    let mut steps = PoseSteps::new(base_radius.abs(), pair.centre_distance());
     for _ in 0..POSE_STEPS {
         let poses = poses(windowed, station, rotation);
         let (turn, newton) = match solver.step(windowed, &poses, reach).map_err(fail)? {
             PoseStep::Turn(turn, newton) => (turn, newton),
             PoseStep::OutOfReach => {
                 if reach > module_mm {
-                    let turned = base_radius * (rotation - unloaded.rotation).abs();
+                    let turned = base_radius.abs() * (rotation - unloaded.rotation).abs();
                     let deflection_mm = turned.max(guessed);
                     if deflection_mm > TOO_FAR * module_mm {
                         return Err(overloaded(deflection_mm));
@@ -171,7 +171,7 @@ pub(crate) fn equilibrium(
         iterations += newton;
         let of_rows = rotation;
         rotation = steps.next(rotation, turn);
-        let elastic_mm = base_radius * (rotation - unloaded.rotation).abs();
+        let elastic_mm = base_radius.abs() * (rotation - unloaded.rotation).abs();
         if steps.is_last(elastic_mm, solver.tells_forces())
             && let Some(found) = solver.take_solution(steps.share_left())
         {

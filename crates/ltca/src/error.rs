@@ -1,4 +1,4 @@
-//! What can go wrong in an analysis.
+//! Errors of a quasi-static analysis.
 
 /// A quasi-static analysis could not go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -14,7 +14,7 @@ pub enum StaticError {
         cycle: i64,
         /// Phase, 0 .. 1.
         phase: f64,
-        /// What happened.
+        /// Error of the contact.
         source: contact::ContactError,
     },
     /// The pose did not settle.
@@ -83,7 +83,7 @@ pub enum StaticError {
     NoDerivative {
         /// Phase, 0 .. 1; no number where it is the same everywhere.
         phase: f64,
-        /// Of or where what.
+        /// Quantity or place without a derivative, as the message names it.
         what: &'static str,
     },
     /// A value out of its range.
@@ -91,7 +91,7 @@ pub enum StaticError {
     OutOfRange {
         /// Name of the quantity.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// The permitted range.
         expected: &'static str,

@@ -55,13 +55,13 @@ impl<'a> FlankGap<'a> {
         Self { flanks, half_widths, module, hint: Cell::default(), dips: Vec::new() }
     }
 
-    /// At the stations along the face.
+    /// Gap at the stations along the face.
     pub fn new(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64) -> Self {
         let gap = Self::unseen(flanks, poses, module);
         gap.looked(&[Some([f64::NEG_INFINITY; 2]); STATIONS], 0.0)
     }
 
-    /// At the stations along the face at which the gap may be as small as `enough`, mm, after what is foretold of them.
+    /// Gap at those stations along the face at which it may be as small as `enough`, mm, after the forecast of each.
     pub fn looked(self, foretold: &[Option<[f64; 2]>], enough: f64) -> Self {
         let mut gap = self;
         let z = |i: usize| gap.station(i);
@@ -94,7 +94,7 @@ impl<'a> FlankGap<'a> {
         self.half_widths[0]
     }
 
-    /// Where an earlier look at nearly the same poses saw dips: deeper than any other place.
+    /// Gap where an earlier search at nearly the same poses found dips: deeper than any other place.
     pub fn seen(flanks: &'a [FlankPatch; 2], poses: &'a [Pose; 2], module: f64, places: &[DipPlace]) -> Self {
         let dip = |&DipPlace { z, is_known }: &DipPlace| Dip {
             z,
@@ -211,7 +211,8 @@ const PLACE: f64 = 1e-8;
 const AT_END: f64 = 1e-6;
 /// Differences between gaps that are round-off, as one part in so many of the normal module: 2e-15 mm at 3 mm.
 const ROUND_OFF: f64 = 1.5e15;
-/// The same at a first look, which another one follows: a tenth of a nanometre at 3 mm.
+/// Round-off of a first search, which a finer one follows, as one part in so many of the normal module: a tenth of a
+/// nanometre at 3 mm.
 const FIRST_ROUND_OFF: f64 = 3e7;
 
 /// Place of the least value of `f` between two ends with known values, these included, from a place within: Brent's

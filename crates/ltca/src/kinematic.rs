@@ -2,7 +2,7 @@
 
 use ale::Station;
 use contact::{
-    ContactOptions, Pose, Vec3,
+    ContactOptions, Method, Pose, Vec3,
     flank::FlankPatch,
     line::{contact_intervals, covered},
     pose::{check_offsets, gear_pose, reference_angle},
@@ -37,7 +37,7 @@ pub(crate) struct Unloaded<'a> {
     station: Station,
     /// Rotation of the driven gear from the position of zero transmission error to where the flanks touch, rad.
     pub rotation: f64,
-    /// Where they touch; none where nominal flanks do so along their lines.
+    /// Place where the flanks touch; none where nominal flanks touch along lines.
     pub touch: Option<Nearest>,
 }
 
@@ -51,11 +51,11 @@ pub(crate) struct Nearest {
     tooth: i64,
 }
 
-/// Where the least gap is looked for.
+/// Teeth and places at which the least gap is searched.
 enum Look {
     /// All over the face of these teeth.
     All(Vec<i64>),
-    /// At these places of these teeth.
+    /// These places of these teeth.
     At(Vec<(i64, Vec<DipPlace>)>),
 }
 
@@ -85,7 +85,7 @@ impl<'a> Unloaded<'a> {
             return Ok(unloaded);
         }
         let round_off = round_off_of_places(pair.centre_distance());
-        let radius = pair.pinion.base_radius().max(pair.wheel.base_radius());
+        let radius = pair.pinion.base_radius().max(pair.wheel.base_radius().abs());
         let mut look = Look::All(unloaded.teeth().collect());
         // Rotations with the flanks apart, and with them in each other.
         let mut between = [None::<f64>; 2];
@@ -142,7 +142,8 @@ impl<'a> Unloaded<'a> {
         [0, 1].map(|i| gear_pose(pair, options, i, angles[i]))
     }
 
-    /// Flanks of the pair `tooth` teeth from the middle one, each with the pitch error of the tooth that is there.
+    /// Flanks of the pair `tooth` teeth from the middle one, each with the pitch error of the tooth that is there. What was
+    /// measured is searched by its smooth part, as under load.
     fn flanks(&self, tooth: i64) -> [ModifiedFlank; 2] {
         let side = self.options.side();
         let running = self.station.middle_pair(self.options.sense) + tooth;
@@ -150,13 +151,17 @@ impl<'a> Unloaded<'a> {
             self.pair.pinion.modified_flank_at(side, tooth, running),
             self.pair.wheel.modified_flank_at(side, -tooth, -running),
         ]
+        .map(|flank| match self.options.method {
+            Method::Slice => flank.split(0.0),
+            Method::Nodal => flank,
+        })
     }
 
-    /// The same as contact searches them.
+    /// Patches of the flanks of [`Self::flanks`], as the contact search takes them.
     fn patches(&self, tooth: i64) -> [FlankPatch; 2] {
         self.flanks(tooth).map(|flank| {
             let nominal = flank.nominal();
-            let (half, rolls) = (nominal.half_width, [nominal.roll_form, nominal.roll_tip]);
+            let (half, rolls) = (nominal.half_width, nominal.roll_range());
             FlankPatch::rigid(tooth, Box::new(flank), [[rolls[0], -half], [rolls[1], half]])
         })
     }
@@ -241,8 +246,9 @@ impl<'a> Unloaded<'a> {
         Some(-self.options.side().sign() * base_radius * gap / lever)
     }
 
-    /// The same touch at the very height of least gap, which a golden section knows to the root of the gap's round-off;
-    /// `None` where the flanks touch at the end of what they face of each other, which moves with the gears.
+    /// The touch moved to the height of least gap, which a golden section knows to the root of the gap's round-off.
+    /// `None` where the flanks touch at the end of the range in which they face each other: that end moves with the
+    /// gears.
     pub fn polished(&self, touch: &Nearest) -> Option<Nearest> {
         let (flanks, poses) = (self.patches(touch.tooth), self.poses());
         let gap = FlankGap::unseen(&flanks, &poses, self.module());

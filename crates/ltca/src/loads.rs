@@ -42,7 +42,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
     pairs.sort_by_key(|p| p.pair);
     let total: f64 = pairs.iter().map(|p| p.normal_force).sum();
     let edge = pairs.first().map_or(0.0, |p| p.normal_force).max(pairs.last().map_or(0.0, |p| p.normal_force));
-    let moment = -side.sign() * options.torque;
+    let moment = options.moment(pair);
     let elastic: f64 = e.solution.forces.iter().zip(&e.solution.openings).map(|(f, o)| 0.5 * f * o).sum();
     let local: f64 = e.states.iter().map(|state| state.curved_energy).sum();
     let penalty: f64 = match options.contact.law {
@@ -60,11 +60,7 @@ pub(crate) fn position(windowed: &WindowedPair, e: &Equilibrium, tooth_changes: 
         mesh_phase: e.station.phase,
         transmission_error: e.transmission_error,
         kinematic_transmission_error: e.kinematic_transmission_error,
-        secant_stiffness: if options.torque == 0.0 {
-            f64::NAN
-        } else {
-            options.torque / base_radius / e.elastic_error()
-        },
+        secant_stiffness: if options.torque == 0.0 { f64::NAN } else { options.base_force(pair) / e.elastic_error() },
         tangent_stiffness,
         contact_line_length: pairs.iter().map(|p| p.contact_line_length).sum(),
         geometric_line_length: pair.contact_line_length(side, theta1),
@@ -95,8 +91,7 @@ fn round_off_share(windowed: &WindowedPair, tangent_stiffness: f64) -> f64 {
     if options.torque == 0.0 {
         return 0.0;
     }
-    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
-    let approach = options.torque / base_radius / tangent_stiffness;
+    let approach = options.base_force(pair) / tangent_stiffness;
     round_off_of_places(pair.centre_distance()) / approach
 }
 

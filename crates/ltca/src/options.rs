@@ -1,4 +1,4 @@
-//! What is asked of a quasi-static analysis.
+//! Options of a quasi-static analysis.
 
 use ale::teeth_needed;
 use contact::ContactOptions;
@@ -23,7 +23,7 @@ impl StaticOptions {
         Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false }
     }
 
-    /// The same with other contact options.
+    /// Options with changed contact options.
     #[must_use]
     pub fn with_contact(mut self, change: impl FnOnce(&mut ContactOptions)) -> Self {
         change(&mut self.contact);
@@ -40,7 +40,18 @@ impl StaticOptions {
         self.contact.driven()
     }
 
-    /// The same with the other gear as the driver: the options of the coast flanks.
+    /// Moment of the torque about the axis of the driven gear, counter-clockwise positive, N mm: a ring turns as its pinion does, any other gear against it.
+    pub fn moment(&self, pair: &GearPair) -> f64 {
+        let driven = [&pair.pinion, &pair.wheel][self.driven()];
+        -self.side().sign() * driven.sign() * self.torque
+    }
+
+    /// Force of the torque along the transverse line of action, N.
+    pub fn base_force(&self, pair: &GearPair) -> f64 {
+        self.torque / [&pair.pinion, &pair.wheel][self.driven()].base_radius().abs()
+    }
+
+    /// Options of the coast flanks: the other gear drives.
     #[must_use]
     pub fn driven_backwards(&self) -> Self {
         self.clone().with_contact(|c| c.driver = c.driver.opposite())

@@ -56,7 +56,7 @@ impl PoseSolver<'_> {
     pub fn step(&mut self, windowed: &WindowedPair, poses: &[Pose; 2], reach: f64) -> Result<PoseStep, ContactError> {
         let WindowedPair { pair, gears, set, options, .. } = *windowed;
         let driven = options.driven();
-        let moment = -options.side().sign() * options.torque;
+        let moment = options.moment(pair);
         let carries = |rows: &[ContactRow]| rows.iter().any(|r| r.levers[driven] * moment > 0.0);
         let farthest =
             |rows: &[ContactRow], turn: f64| rows.iter().fold(0.0f64, |m, r| m.max((r.levers[driven] * turn).abs()));

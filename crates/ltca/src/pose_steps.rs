@@ -21,7 +21,7 @@ const JUMP: f64 = 2e-3;
 /// Smallest step (mm) that the flanks of gears this far apart (mm) resolve.
 pub fn round_off_of_places(centre_distance: f64) -> f64 {
     // An angle of a few radians resolves no smaller steps.
-    16.0 * f64::EPSILON * centre_distance
+    16.0 * f64::EPSILON * centre_distance.abs()
 }
 
 /// Steps of a rotation.
@@ -48,7 +48,7 @@ pub(crate) struct PoseSteps {
 }
 
 impl PoseSteps {
-    /// Of a gear with this base radius in a pair with this centre distance, mm.
+    /// No step yet of a gear with a base radius (mm) in a pair with a centre distance (mm).
     pub fn new(radius: f64, centre_distance: f64) -> Self {
         let round_off = round_off_of_places(centre_distance);
         let (turns, step_mm, before_mm) = ([None; 2], f64::INFINITY, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! What a quasi-static analysis hands on, position by position.
+//! Results of a quasi-static analysis, position by position.
 
 use ale::{Station, ToothWindow};
 use contact::{Site, SliceResult, Wrench};
@@ -29,7 +29,7 @@ pub struct PairResult {
     pub slices: Vec<SliceResult>,
 }
 
-/// How well a position is solved.
+/// Residuals of a solved position.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 pub struct Certificate {
     /// |contact torque - applied torque| / applied torque.
@@ -91,7 +91,7 @@ pub struct StaticPosition {
     pub strain_energy: f64,
     /// Tooth changes since the start of the run.
     pub tooth_changes: u64,
-    /// How well it is solved.
+    /// Residuals of the solution.
     pub certificate: Certificate,
 }
 
@@ -111,7 +111,7 @@ pub struct StaticHistory {
     /// Tooth changes on the way, in their order.
     pub tooth_changes: Vec<ToothChangeRecord>,
     /// What the user should know: neglected, doubtful, adjusted.
-    pub warnings: Vec<answer::Remark>,
+    pub remarks: Vec<answer::Remark>,
 }
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.
@@ -125,8 +125,8 @@ pub struct ToothChange {
     pub window: ToothWindow,
 }
 
-/// Where a tooth change was made, and what it changed of the solution there: nothing but round-off, for the outgoing
-/// teeth are free of load.
+/// Station of a tooth change, and what it changed of the solution there: nothing but round-off, for the outgoing teeth
+/// are free of load.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct ToothChangeRecord {
     /// Mesh cycles since the start.
@@ -144,7 +144,7 @@ pub struct ToothChangeRecord {
 }
 
 impl ToothChange {
-    /// Where it was made, and what it changed.
+    /// Record of the change at a station: what it changed of the solution.
     pub fn record(&self, station: Station) -> ToothChangeRecord {
         let Self { before, after, .. } = self;
         let only_in = |these: &StaticPosition, those: &StaticPosition| {

@@ -27,7 +27,7 @@ const BEYOND: f64 = 0.15;
 /// Largest errors of the spring model, relative to infinitely many slices: mean approach; its peak to peak, relative to
 /// itself or to a share of the mean where it is small; largest line load. Elastic gears have smaller errors, because
 /// teeth share load with their neighbourhood and springs do not: measured on pairs of 5, 8, 15 and 40 modules, crowned
-/// and misaligned (`tests/tests/micro_geometry/width_and_crowning.rs`).
+/// and misaligned (`crates/ltca/tests/ltca_laws/width_and_crowning.rs`).
 const MEAN: f64 = 0.0125;
 const SWING: f64 = 0.025;
 const LEAST_SWING: f64 = 0.01;
@@ -45,11 +45,11 @@ pub struct SliceCount {
 /// Errors of a row of springs that is cut into slices, relative.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct SpringErrors {
-    /// Of the mean approach.
+    /// Error of the mean approach.
     pub mean: f64,
-    /// Of its peak to peak, or of a hundredth of the mean where that is more.
+    /// Error of the approach's peak to peak, relative to it, or to a hundredth of the mean where that is larger.
     pub swing: f64,
-    /// Of the largest line load.
+    /// Error of the largest line load.
     pub peak: f64,
 }
 
@@ -93,8 +93,7 @@ type Line = Vec<f64>;
 
 impl Springs {
     fn new(pair: &GearPair, options: &StaticOptions) -> Self {
-        let driven = options.driven();
-        let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+        let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()].abs();
         let load = options.torque / (base_radius * GUESSED_LINE_STIFFNESS * pair.face_width());
         if !(load.is_finite() && load > 0.0) || check_offsets(pair, &options.contact).is_err() {
             return Self { phases: Vec::new(), load: 0.0 };
@@ -222,10 +221,13 @@ fn line(
     let side = options.side();
     let flanks =
         [pair.pinion.modified_flank_at(side, tooth, running), pair.wheel.modified_flank_at(side, -tooth, -running)];
+    // A slice takes the mean of what is rough: that asks for no more of them.
+    let flanks = flanks.map(|flank| flank.split(0.0));
     let patches = [0, 1].map(|i| {
         let flank = *flanks[i].nominal();
         let half = flank.half_width;
-        let range = [[flank.roll_form, -half], [flank.roll_tip, half]];
+        let [low, high] = flank.roll_range();
+        let range = [[low, -half], [high, half]];
         FlankPatch::rigid([tooth, -tooth][i], Box::new(flank), range)
     });
     let facing = RigidFlanks::new([&patches[0], &patches[1]], poses);

@@ -62,7 +62,7 @@ impl StaticModel {
         Self::with_set(pair, Arc::clone(&self.gears), options, known)
     }
 
-    /// With matrices and tables of any window of these gears, where one is known.
+    /// Model with matrices and tables of any window of these gears, where one is known.
     fn with_set(
         pair: GearPair,
         gears: Arc<[ElasticGear; 2]>,
@@ -218,7 +218,8 @@ impl StaticModel {
         })
     }
 
-    /// As [`StaticModel::run`]; `seen` may end the run, and the history has what was solved until then.
+    /// Solves mesh cycles as [`StaticModel::run`] does. `seen` may end the run; the history has the positions solved
+    /// until then.
     ///
     /// # Errors
     /// [`StaticError`] of the first station that cannot be solved.

@@ -12,7 +12,7 @@ use reduction::ElasticGear;
 pub struct WindowedPair<'a> {
     /// The pair.
     pub pair: &'a GearPair,
-    /// Its elastic gears.
+    /// Elastic gears of the pair.
     pub gears: &'a [ElasticGear; 2],
     /// Flanks and matrices of the window.
     pub set: &'a ContactSet,

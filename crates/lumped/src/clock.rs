@@ -26,7 +26,7 @@ pub struct MeshClock {
     /// Amplitude omega_a of the speed's fluctuation, rad/s, 0 .. omega_0.
     #[serde(default)]
     pub fluctuation: f64,
-    /// Its angular frequency nu, rad/s; > 0 where there is a fluctuation.
+    /// Angular frequency nu of the fluctuation, rad/s; > 0 where there is one.
     #[serde(default)]
     pub fluctuation_frequency: f64,
     /// Mesh cycles c_0 at t = 0.
@@ -35,7 +35,7 @@ pub struct MeshClock {
 }
 
 impl MeshClock {
-    /// At constant speed (rad/s), from phase 0 on.
+    /// Clock at constant speed (rad/s), from phase 0 on.
     pub fn steady(driver_teeth: u32, speed: f64) -> Self {
         Self { driver_teeth, speed, fluctuation: 0.0, fluctuation_frequency: 0.0, start: 0.0 }
     }
@@ -64,7 +64,7 @@ impl MeshClock {
         self.speed * f64::from(self.driver_teeth) / TAU
     }
 
-    /// The same at another mean speed (rad/s).
+    /// Clock at another mean speed (rad/s).
     #[must_use]
     pub fn at_speed(self, speed: f64) -> Self {
         Self { speed, ..self }

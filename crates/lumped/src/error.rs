@@ -1,4 +1,4 @@
-//! What a lumped model refuses.
+//! Errors of the lumped models.
 
 /// Why a lumped model cannot be set up.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,11 +9,11 @@ pub enum LumpedError {
     OutOfRange {
         /// Name of the input.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// The method.
         method: &'static str,
-        /// What it allows.
+        /// Range that the method allows.
         allowed: &'static str,
     },
     /// A mass, an inertia, a stiffness or a length that must be there is not.
@@ -21,7 +21,7 @@ pub enum LumpedError {
     NotPositive {
         /// Name and unit of the input.
         quantity: &'static str,
-        /// Its value, or the least of a series.
+        /// Value of the quantity, or the least of a series.
         value: f64,
     },
     /// A value that may be zero but not less.
@@ -29,7 +29,7 @@ pub enum LumpedError {
     Negative {
         /// Name and unit of the input.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
     },
     /// A value is NaN or infinite.
@@ -37,9 +37,9 @@ pub enum LumpedError {
     NotFinite {
         /// Name and unit of the input.
         quantity: &'static str,
-        /// Which number of it, from 0.
+        /// Index of the number, from 0.
         index: usize,
-        /// What stands there.
+        /// Value found.
         value: f64,
     },
     /// No samples where some are needed.
@@ -90,7 +90,7 @@ pub enum LumpedError {
     NoMesh {
         /// Mesh, from 0.
         mesh: usize,
-        /// How many there are.
+        /// Number of meshes.
         count: usize,
     },
     /// A shaft that no chain of meshes joins to shaft 0.
@@ -104,7 +104,7 @@ pub enum LumpedError {
     Ratios {
         /// Shaft, from 0.
         shaft: usize,
-        /// Both speed ratios to shaft 0.
+        /// Speed ratios to shaft 0 by both ways.
         ratios: [f64; 2],
     },
     /// What is left out of the coordinates of a shaft would move freely.
@@ -118,13 +118,13 @@ pub enum LumpedError {
     Loose {
         /// Shaft, from 0.
         shaft: usize,
-        /// How it can move.
+        /// Direction in which the shaft can move.
         motion: &'static str,
     },
     /// Torques that would set freely turning shafts going.
     #[error("torques are not in balance: {torque} N mm are left over, seen from shaft 0")]
     NotBalanced {
-        /// What is left over, N mm.
+        /// Torque that is not balanced, N mm.
         torque: f64,
     },
     /// Contact or displacements under steady loads were not found.

@@ -1,4 +1,4 @@
-//! What repeats with a phase: mesh stiffness, transmission error, torque.
+//! Fourier series over a phase: mesh stiffness, transmission error, torque.
 
 use std::f64::consts::TAU;
 
@@ -25,7 +25,7 @@ pub struct Fourier {
 }
 
 impl Fourier {
-    /// The same at every angle.
+    /// A constant: f_0 alone.
     pub fn constant(mean: f64) -> Self {
         Self { mean, ..Self::default() }
     }
@@ -99,7 +99,7 @@ impl Fourier {
         a.hypot(b)
     }
 
-    /// The same in another unit.
+    /// Series with all coefficients times a factor, as for another unit.
     #[must_use]
     pub fn scaled(&self, factor: f64) -> Self {
         let all = |list: &[f64]| list.iter().map(|x| factor * x).collect();

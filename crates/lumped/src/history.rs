@@ -46,7 +46,7 @@ pub trait LumpedModel: Mechanism<Error = Infallible> {
     /// Pair and operation.
     fn pair(&self) -> &LumpedPair;
 
-    /// What is what at a state.
+    /// Row of the history at a state.
     fn row(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> HistoryRow;
 
     /// Coordinates at which the loaded pair stands at `cycles` mesh cycles as speed goes to zero, the driver's turn
@@ -57,7 +57,7 @@ pub trait LumpedModel: Mechanism<Error = Infallible> {
     fn scale(&self) -> DVector<f64>;
 }
 
-/// How to run a model.
+/// Plan of a run of a model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RunPlan {
     /// Method of integration.
@@ -73,7 +73,7 @@ pub struct RunPlan {
 }
 
 impl RunPlan {
-    /// The same in time, for a mesh cycle that takes `period` (s).
+    /// Times of steps and rows of the plan, for a mesh cycle that takes `period` (s).
     ///
     /// # Errors
     /// [`MotionError::NotPositive`] for a plan without rows.

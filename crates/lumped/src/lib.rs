@@ -1,4 +1,4 @@
-//! The same pair with few degrees of freedom
+//! Models of a gear pair with few degrees of freedom.
 //!
 //! | module | what it is | DOF |
 //! |---|---|---|

@@ -78,7 +78,8 @@ impl MeshCycle {
         Ok(cycle)
     }
 
-    /// The same with ISO 6336-1's mean stiffness c_gamma_alpha b.
+    /// k in proportion to the total length of the contact lines, with the mean stiffness c_gamma_alpha b of ISO 6336-1;
+    /// no error.
     ///
     /// # Errors
     /// Those of [`crate::iso::stiffness`] and [`Self::by_contact_lines`].

@@ -37,9 +37,9 @@ pub struct LumpedPair {
 /// Operation of a pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {
-    /// Which gear drives.
+    /// Driving gear.
     pub driver: Driver,
-    /// Which way the driver turns.
+    /// Sense of rotation of the driver.
     pub sense: Sense,
     /// Speed of the driver, rad/s, > 0.
     pub speed: f64,
@@ -50,8 +50,8 @@ pub struct Operation {
 }
 
 impl LumpedPair {
-    /// From exact geometry, operation, bodies of pinion and wheel, and the mesh cycle (ISO's, given, or fed by another
-    /// model). The driver's torque balances the load.
+    /// Pair of exact geometry, operation, bodies of pinion and wheel, and the mesh cycle (ISO's, given, or fed by
+    /// another model). The driver's torque balances the load.
     ///
     /// # Errors
     /// [`LumpedError`] for what has no meaning.

@@ -77,7 +77,7 @@ pub struct LineMeans {
 }
 
 impl PlaneOfAction {
-    /// Of a pair; which gear drives and which way is in `frame`'s making.
+    /// Plane of action of a pair; `frame` holds which gear drives and in which sense.
     pub fn of_pair(pair: &GearPair, driver: Driver, frame: &MeshFrame) -> Self {
         let length = pair.tangent_length();
         let [start, end] = pair.path_of_contact();

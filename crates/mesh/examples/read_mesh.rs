@@ -6,7 +6,7 @@
 use std::{error::Error, path::PathBuf};
 
 use geometry::Side;
-use mesh::{GearMesh, GroupNames, Mesh, MeshInfo, MeshReport};
+use mesh::{GroupNames, Mesh, MeshInfo, MeshReport, MeshedGear};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut words = std::env::args().skip(1);
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     println!("{} findings", report.findings.len());
 
-    let gear = GearMesh::from_groups(mesh, &names, teeth)?;
+    let gear = MeshedGear::from_groups(mesh, &names, teeth)?;
     println!("{} nodes on the bore, flanks of {} teeth", gear.bore_nodes().len(), gear.teeth().len());
     for side in [Side::Left, Side::Right] {
         let faces = gear.flank(0, side).map_or(0, <[_]>::len);

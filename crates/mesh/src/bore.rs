@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 
 use nalgebra::Vector3;
 
-use crate::{BoreCoupling, Face, GearMesh, MeshError, SurfaceGroup};
+use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
 
-impl GearMesh {
+impl MeshedGear {
     /// The same gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a
     /// whole. All of its bore: the same mesh.
     ///
@@ -27,7 +27,9 @@ impl GearMesh {
         }
         let bore = SurfaceGroup { name: self.bore.name.clone(), faces };
         let coupling = self.coupling;
-        Ok(Self::from_parts(self.mesh, self.teeth, bore, self.flanks, self.cuts).coupled(coupling))
+        Ok(Self::from_parts(self.mesh, self.teeth, bore, self.flanks, self.cuts)
+            .coupled(coupling)
+            .numbered(self.clockwise))
     }
 
     /// The same gear with another coupling of its bore.

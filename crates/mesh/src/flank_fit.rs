@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use geometry::{Flank, Gear, Side, Vec3};
 
-use crate::{Face, FaceTable, GearMesh, GroupNames, Mesh, MeshError, SurfaceGroup};
+use crate::{Face, FaceTable, GroupNames, Mesh, MeshError, MeshedGear, SurfaceGroup};
 
 /// Nodes may lie this many modules off their flank: more than any micro-geometry, far less than a tooth.
 pub const DEFAULT_TOLERANCE_MODULES: f64 = 0.01;
@@ -19,7 +19,7 @@ const LEAST_COVERAGE: f64 = 0.5;
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankFit {
     /// The mesh with its parts, tooth 0 on +x.
-    pub gear: GearMesh,
+    pub gear: MeshedGear,
     /// Angle by which the mesh stood off, rad; it has been turned back by it. 0 when within the tolerance.
     pub phase: f64,
     /// Farthest that a node was allowed to lie off a flank, mm.
@@ -45,16 +45,17 @@ pub struct FlankDeviation {
     pub coverage: f64,
 }
 
-impl GearMesh {
+impl MeshedGear {
     /// Finds the parts of `gear` by names where any flank is named, else by fitting its helicoids
     /// ([`FlankFit`] with the default tolerance, also returned).
     ///
     /// # Errors
-    /// Those of [`GearMesh::from_groups`] and [`FlankFit::new`].
+    /// Those of [`MeshedGear::from_groups`] and [`FlankFit::new`].
     pub fn find(mesh: Mesh, gear: &Gear, names: &GroupNames) -> Result<(Self, Option<FlankFit>), MeshError> {
         names.check()?;
         if mesh.surfaces.iter().any(|s| names.parse(&s.name).is_some()) {
-            return Ok((Self::from_groups(mesh, names, gear.teeth())?, None));
+            let own = Self::from_groups(mesh, names, gear.teeth())?;
+            return Ok((own.numbered(gear.is_internal()), None));
         }
         let tolerance = DEFAULT_TOLERANCE_MODULES * gear.data().normal_module;
         let fit = FlankFit::new(mesh, gear, names, tolerance)?;
@@ -72,7 +73,7 @@ impl FlankFit {
     ///
     /// # Errors
     /// [`MeshError::NoFlanks`], [`MeshError::ToothThickness`], [`MeshError::MidFace`], [`MeshError::NoBore`] when the
-    /// mesh is not of this gear; errors of the named groups as [`GearMesh::from_groups`].
+    /// mesh is not of this gear; errors of the named groups as [`MeshedGear::from_groups`].
     pub fn new(mut mesh: Mesh, gear: &Gear, names: &GroupNames, tolerance: f64) -> Result<Self, MeshError> {
         check_mid_face(&mesh, tolerance)?;
         let table = FaceTable::new(&mesh);
@@ -106,10 +107,11 @@ impl FlankFit {
             return Err(MeshError::NoFlanks { coverage, tolerance_mm: tolerance });
         }
         let bore = bore(&mesh, &boundary, gear, names, &table, tolerance)?;
-        let cuts = GearMesh::find_cuts(&mesh, names, &table)?;
+        let cuts = MeshedGear::find_cuts(&mesh, names, &table)?;
         let flanks = found.iter().map(|(&(tooth, side), f)| f.deviation(tooth, side)).collect();
         let faces = found.into_iter().map(|(key, f)| (key, f.faces)).collect();
-        Ok(Self { gear: GearMesh::from_parts(mesh, gear.teeth(), bore, faces, cuts), phase, tolerance, flanks })
+        let own = MeshedGear::from_parts(mesh, gear.teeth(), bore, faces, cuts).numbered(gear.is_internal());
+        Ok(Self { gear: own, phase, tolerance, flanks })
     }
 
     fn coverage_of(mesh: &Mesh, boundary: &[Face], gear: &Gear, phase: f64, side: Side, tolerance: f64) -> f64 {
@@ -178,7 +180,7 @@ fn turn(mesh: &mut Mesh, angle: f64) {
 
 /// Whether a radius belongs to the active flank.
 fn is_active(p: &Vec3, gear: &Gear, tolerance: f64) -> bool {
-    let r = p.x.hypot(p.y);
+    let r = gear.sign() * p.x.hypot(p.y);
     r >= gear.form_radius() - tolerance && r <= gear.tip_radius() + tolerance
 }
 
@@ -193,8 +195,8 @@ fn angle_from(flank: &Flank, p: &Vec3) -> Option<f64> {
 /// Nodes of these flanks share one angle, those of all other surfaces scatter over the pitch.
 fn peak(mesh: &Mesh, boundary: &[Face], gear: &Gear, side: Side, tolerance: f64) -> Option<f64> {
     let flank = gear.flank(side);
-    let pitch = gear.pitch_angle();
-    let window = 2.0 * tolerance / (flank.base_radius * flank.base_helix_angle.cos());
+    let pitch = gear.pitch_angle().abs();
+    let window = 2.0 * tolerance / (flank.base_radius.abs() * flank.base_helix_angle.cos());
     let mut nodes: Vec<u32> = boundary.iter().flat_map(|f| f.nodes().iter().copied()).collect();
     nodes.sort_unstable();
     nodes.dedup();
@@ -293,14 +295,15 @@ fn bore(
     tolerance: f64,
 ) -> Result<SurfaceGroup, MeshError> {
     if mesh.surface(&names.bore).is_some() {
-        return GearMesh::find_group(mesh, &names.bore, table);
+        return MeshedGear::find_group(mesh, &names.bore, table);
     }
-    let wanted = 0.5 * gear.data().bore_diameter;
+    let wanted = 0.5 * gear.data().bore_diameter.abs();
     let radius = |n: u32| at(mesh, n).xy().norm();
     let on_bore = |f: &&Face| f.nodes().iter().all(|&n| (radius(n) - wanted).abs() <= tolerance);
     let faces: Vec<Face> = boundary.iter().filter(on_bore).copied().collect();
     if faces.is_empty() {
-        let found = (0..mesh.nodes.len() as u32).map(radius).fold(f64::INFINITY, f64::min);
+        let radii = (0..mesh.nodes.len() as u32).map(radius);
+        let found = if gear.is_internal() { radii.fold(0.0, f64::max) } else { radii.fold(f64::INFINITY, f64::min) };
         return Err(MeshError::NoBore { wanted_mm: wanted, found_mm: found });
     }
     Ok(SurfaceGroup { name: names.bore.clone(), faces })

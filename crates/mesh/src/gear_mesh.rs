@@ -8,7 +8,7 @@ use crate::{BoreCoupling, Face, FaceTable, GroupNames, Mesh, MeshError, SurfaceG
 
 /// A mesh with bore, flanks and cuts found; every face is a boundary face with its normal outwards.
 #[derive(Debug, Clone, PartialEq)]
-pub struct GearMesh {
+pub struct MeshedGear {
     pub(crate) mesh: Mesh,
     pub(crate) teeth: u32,
     pub(crate) bore: SurfaceGroup,
@@ -16,9 +16,11 @@ pub struct GearMesh {
     pub(crate) coupling: BoreCoupling,
     pub(crate) flanks: BTreeMap<(u32, Side), Vec<Face>>,
     pub(crate) cuts: Option<[SurfaceGroup; 2]>,
+    /// Whether teeth are numbered clockwise, as those of a ring are.
+    pub(crate) clockwise: bool,
 }
 
-impl GearMesh {
+impl MeshedGear {
     /// Finds the parts of a gear of `teeth` teeth by the names of the physical groups.
     ///
     /// The bore and at least one flank must be named; both cuts or none.
@@ -76,7 +78,23 @@ impl GearMesh {
         cuts: Option<[SurfaceGroup; 2]>,
     ) -> Self {
         let bore_nodes = bore.nodes();
-        Self { mesh, teeth, bore, bore_nodes, coupling: BoreCoupling::Kinematic, flanks, cuts }
+        Self { mesh, teeth, bore, bore_nodes, coupling: BoreCoupling::Kinematic, flanks, cuts, clockwise: false }
+    }
+
+    /// The same parts with teeth that are numbered clockwise, seen from +z, or counter-clockwise as they are where nothing is said: those of a ring are numbered clockwise.
+    #[must_use]
+    pub fn numbered(self, clockwise: bool) -> Self {
+        Self { clockwise, ..self }
+    }
+
+    /// +1 where teeth are numbered counter-clockwise, -1 where they are numbered clockwise.
+    pub fn numbering_sign(&self) -> f64 {
+        if self.clockwise { -1.0 } else { 1.0 }
+    }
+
+    /// Angle about z from a tooth to the one that is `pitches` teeth on, rad.
+    pub fn pitches_on(&self, pitches: u32) -> f64 {
+        self.numbering_sign() * (std::f64::consts::TAU * f64::from(pitches) / f64::from(self.teeth))
     }
 
     /// The mesh.
@@ -94,7 +112,7 @@ impl GearMesh {
         &self.bore
     }
 
-    /// Nodes of these faces, ascending; [`GearMesh::held_nodes`] are those that do not move.
+    /// Nodes of these faces, ascending; [`MeshedGear::held_nodes`] are those that do not move.
     pub fn bore_nodes(&self) -> &[u32] {
         &self.bore_nodes
     }
@@ -116,7 +134,7 @@ impl GearMesh {
         self.cuts.is_none() && self.flanks.len() as u64 == 2 * u64::from(self.teeth)
     }
 
-    /// The periodic faces of a sector: the clockwise one, then the counter-clockwise one.
+    /// The periodic faces of a sector: the one towards the tooth before, then the one towards the next tooth.
     pub fn cuts(&self) -> Option<[&SurfaceGroup; 2]> {
         self.cuts.as_ref().map(|[first, second]| [first, second])
     }

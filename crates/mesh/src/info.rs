@@ -178,9 +178,15 @@ fn likely_gear(mesh: &Mesh, names: &GroupNames, tip_radius: f64, face_width: f64
     named.dedup();
     let between_flanks = directions.iter().find_map(|(&(side, tooth), angle)| {
         let next = directions.get(&(side, tooth.checked_add(1)?))?;
-        Some((next - angle).rem_euclid(TAU))
+        let around = (next - angle).rem_euclid(TAU);
+        // Teeth of a ring are numbered clockwise.
+        Some(around.min(TAU - around))
     });
-    let pitch = between_flanks.or_else(|| Some(between_cuts(mesh, names)? / named.len() as f64));
+    let pitch = between_flanks.or_else(|| {
+        let around = between_cuts(mesh, names)?;
+        // One tooth of a ring goes on clockwise.
+        Some(if named.len() == 1 { around.min(TAU - around) } else { around / named.len() as f64 })
+    });
     let teeth = pitch.map(|p| TAU / p).filter(|z| (3.0..1e5).contains(z)).map(|z| z.round() as u32);
     LikelyGear { bore_radius, tip_radius, face_width, named_teeth: named.len(), teeth, angle_deg: angle_held(mesh) }
 }

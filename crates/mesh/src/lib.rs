@@ -29,7 +29,7 @@ pub use element::{ElementKind, FaceKind, gauss_legendre};
 pub use error::MeshError;
 pub use faces::{FaceOwner, FaceTable};
 pub use flank_fit::{DEFAULT_TOLERANCE_MODULES, FlankDeviation, FlankFit};
-pub use gear_mesh::GearMesh;
+pub use gear_mesh::MeshedGear;
 pub use group_names::GroupNames;
 pub use info::{GroupInfo, LikelyGear, MeshInfo};
 pub use model::{ElementBlock, Face, Mesh, SurfaceGroup};

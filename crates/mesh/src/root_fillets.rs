@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use geometry::{Gear, Side};
 
-use crate::{Face, FaceTable, GearMesh};
+use crate::{Face, FaceTable, MeshedGear};
 
 /// Nodes may lie this many modules below the root circle: mid-side nodes of straight edges across a hollow do.
 const BELOW_ROOT_MODULES: f64 = 0.02;
@@ -42,7 +42,7 @@ impl RootFillets {
     /// A node counts when it lies on a boundary face that is neither bore nor cut nor end face (|n_z| above 0.95), at a
     /// radius from the root circle of `gear` to the upper end of the fillet, and on no flank, where contact forces act.
     /// The angle against the tooth's twisted centre line says whose fillet it is on.
-    pub fn new(mesh: &GearMesh, gear: &Gear) -> Self {
+    pub fn new(mesh: &MeshedGear, gear: &Gear) -> Self {
         let body = mesh.mesh();
         let module = gear.data().normal_module;
         let upper = Self::upper_radius(gear) + ABOVE_MODULES * module;
@@ -55,7 +55,7 @@ impl RootFillets {
         for face in FaceTable::new(body).boundary().iter().map(|owner| owner.face(body)) {
             let on_radius = |&n: &u32| {
                 let [x, y, _] = body.nodes[n as usize];
-                radii.contains(&x.hypot(y))
+                radii.contains(&(gear.sign() * x.hypot(y)))
             };
             if !face.nodes().iter().any(on_radius) || elsewhere.binary_search(&face.corner_key()).is_ok() {
                 continue;
@@ -115,7 +115,7 @@ impl RootFillets {
         &self.faces
     }
 
-    /// Radius up to which the fillets of `gear` are followed, mm.
+    /// Radius up to which the fillets of `gear` are followed, mm; negative of a ring.
     pub fn upper_radius(gear: &Gear) -> f64 {
         let profile = gear.profile();
         profile.fillet(profile.fillet_at_tangent(STEEPEST_TANGENT)).0

@@ -10,7 +10,7 @@ use crate::{
     solution::{Condition, Equations, Point, Solved, unknowns},
 };
 
-/// What is asked of a branch.
+/// Options of a branch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BranchOptions {
     /// The branch ends where the parameter leaves this range.
@@ -23,7 +23,7 @@ pub struct BranchOptions {
     pub most: usize,
 }
 
-/// Where a branch changes its stability.
+/// Point at which a branch changes its stability.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bifurcation {
     /// How.
@@ -80,7 +80,7 @@ struct Place {
 }
 
 impl<'a, S: PeriodicFamily> Tracer<'a, S> {
-    /// For a system; `unit`: what counts as a large change of its parameter, > 0.
+    /// Tracer for a system; `unit`: what counts as a large change of its parameter, > 0.
     ///
     /// # Errors
     /// [`PeriodicError::OutOfRange`].

@@ -11,7 +11,7 @@ pub enum PeriodicError<E> {
         parameter: f64,
         /// Part of the period, 0 .. 1.
         phase: f64,
-        /// What happened.
+        /// Error of the system.
         source: E,
     },
     /// Newton's method did not settle.
@@ -26,7 +26,7 @@ pub enum PeriodicError<E> {
         iterations: usize,
         /// Harmonics.
         harmonics: usize,
-        /// What is left, relative.
+        /// Residual, relative.
         residual: f64,
     },
     /// The equations have no unique solution there.
@@ -44,9 +44,9 @@ pub enum PeriodicError<E> {
         parameter: f64,
         /// Largest number allowed.
         harmonics: usize,
-        /// What they leave out, relative.
+        /// Tail that the harmonics leave out, relative.
         tail: f64,
-        /// What is allowed.
+        /// Largest tail allowed.
         allowed: f64,
     },
     /// An option without meaning.
@@ -54,9 +54,9 @@ pub enum PeriodicError<E> {
     OutOfRange {
         /// Which.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
-        /// What it may be.
+        /// The permitted range.
         expected: &'static str,
     },
 }

@@ -1,4 +1,4 @@
-//! What the search for periodic motions must know of a system.
+//! Interface of a system to the search for periodic motions.
 
 use integrate::Mechanism;
 use nalgebra::DVector;

@@ -11,14 +11,18 @@ mod continuation;
 mod dense;
 mod error;
 mod family;
+mod free_direction;
 mod product;
 mod series;
+mod shooting;
 mod solution;
 mod stability;
 
 pub use continuation::{Bifurcation, Branch, BranchOptions, Tracer};
 pub use error::PeriodicError;
 pub use family::PeriodicFamily;
+pub use free_direction::FreeDirection;
 pub use series::FourierSeries;
+pub use shooting::Shooting;
 pub use solution::{BalanceOptions, PeriodicMotion};
 pub use stability::{Floquet, Loss, TangentFlow};

@@ -13,12 +13,12 @@ pub(crate) struct Wave {
 }
 
 impl Wave {
-    /// That of a column of coefficients: 1, cos, sin, cos 2, sin 2 and so on.
+    /// Wave of a column of coefficients: 1, cos, sin, cos 2, sin 2 and so on.
     pub fn of(column: usize) -> Self {
         Self { order: column.div_ceil(2), sine: column > 0 && column.is_multiple_of(2) }
     }
 
-    /// Its derivative: a factor and the other wave.
+    /// Derivative of the wave with respect to the phase: a factor and the other wave.
     pub fn rate(self) -> (f64, Self) {
         let factor = if self.sine { self.order as f64 } else { -(self.order as f64) };
         (factor, Self { sine: !self.sine, ..self })
@@ -39,12 +39,12 @@ pub(crate) struct WaveSums {
 }
 
 impl SeriesTransform {
-    /// Of so many samples a period.
+    /// Transform of `samples` samples a period.
     pub fn new(samples: usize) -> Self {
         Self { plan: RealFftPlanner::new().plan_fft_forward(samples), samples: vec![0.0; samples] }
     }
 
-    /// Of an entry of matrices, one a sample, times a factor; nothing where it is zero all the time.
+    /// Sums of an entry of matrices, one a sample, times a factor; `None` where the entry is zero in all of them.
     pub fn of(&mut self, matrices: &[DMatrix<f64>], entry: (usize, usize), factor: f64) -> Option<WaveSums> {
         if matrices.iter().all(|m| m[entry] == 0.0) {
             return None;

@@ -21,7 +21,8 @@ impl FourierSeries {
         Self { coefficients }
     }
 
-    /// Of samples at the phases 2 pi i / N, i = 0 .. N - 1, a column each. `None` with fewer than 2 H + 1 of them.
+    /// Series of samples at the phases 2 pi i / N, i = 0 .. N - 1, a column each. `None` with fewer than 2 H + 1
+    /// samples.
     pub fn of_samples(samples: &DMatrix<f64>, harmonics: usize) -> Option<Self> {
         (samples.ncols() > 2 * harmonics)
             .then(|| Self { coefficients: samples * Basis::new(harmonics, samples.ncols()).projection() })
@@ -89,7 +90,7 @@ impl FourierSeries {
         top(1.0) + top(-1.0)
     }
 
-    /// The same motion with another number of harmonics.
+    /// Series with another number of harmonics: higher ones are cut off, or added as zeros.
     #[must_use]
     pub fn with_harmonics(&self, harmonics: usize) -> Self {
         let columns = 2 * harmonics + 1;

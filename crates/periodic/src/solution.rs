@@ -9,7 +9,7 @@ use crate::{
     series::Basis,
 };
 
-/// How exact a motion is.
+/// Accuracy of a periodic motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BalanceOptions {
     /// Harmonics to begin with.
@@ -49,7 +49,7 @@ pub struct PeriodicMotion {
     pub series: FourierSeries,
     /// Period, s.
     pub period: f64,
-    /// What becomes of disturbances.
+    /// Floquet multipliers: growth of disturbances over a period.
     pub floquet: Floquet,
     /// What is left of the equations, over the terms that balance.
     pub residual: f64,

@@ -66,7 +66,7 @@ fn across(mass: &DMatrix<f64>, free: &DVector<f64>) -> Option<DMatrix<f64>> {
     lower.tr_solve_lower_triangular(&reflection.columns(1, n - 1).into_owned())
 }
 
-/// How a motion loses its stability.
+/// Kind of loss of stability.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Loss {
     /// A multiplier leaves at +1: the branch turns back (fold), or another one crosses it.
@@ -78,8 +78,8 @@ pub enum Loss {
 }
 
 impl Floquet {
-    /// From -df/dq and -df/dv at equal phases of a period of T s. A direction `free` along which nothing resists, ever,
-    /// is left out: a turn of the whole stays what it is, and says nothing of the motion.
+    /// Stability from -df/dq and -df/dv at equal phases of a period of T s. A direction `free` along which nothing
+    /// resists, ever, is left out: a turn of the whole stays what it is, and says nothing of the motion.
     pub(crate) fn of(
         mass: &DMatrix<f64>,
         stiffness: &[DMatrix<f64>],

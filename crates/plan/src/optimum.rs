@@ -6,7 +6,7 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::{SharedModels, side_by_side};
+use analysis::{SharedModels, parallel_map};
 use design::{Curve, Evaluation, Found, Goal, Limited, Measure, Over, Search, rounded};
 use scene::optimum::NumberOptimisation;
 
@@ -114,7 +114,7 @@ fn evaluate(
     let designs: Vec<(Vec<f64>, f64)> =
         std::iter::once((values.to_vec(), 0.0)).chain((0..values.len()).map(|k| plan.beside(values, k))).collect();
     let failed = Mutex::new(None);
-    let solved = side_by_side(designs.len(), |i| {
+    let solved = parallel_map(designs.len(), |i| {
         let (case, own) = (count * designs.len() + i, &designs[i].0);
         if let Some(known) = done.row(case).filter(|row| row.values == *own) {
             return known.outcome;

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use analysis::{HeadlineKey, gearbox_at_rest::GearboxResult, headline_keys};
+use analysis::{gearbox::GearboxResult, headline_keys};
+use described::Key;
 use scene::{
     Machine, nearest,
     plan::{Plan, PlanOutput},
@@ -53,7 +54,7 @@ const SEE: &str = "docs/outputs.md lists the keys of every headline and the colu
 
 /// Keys of the headline, each with what stands behind it.
 fn keys_of(machine: &Machine) -> Vec<(&'static str, Holds)> {
-    let of_pair = |keys: &[HeadlineKey]| keys.iter().map(|(key, holds)| (*key, Holds::of(holds))).collect();
+    let of_pair = |keys: &[Key]| keys.iter().map(|key| (key.name, Holds::of(key.holds))).collect();
     match machine {
         Machine::Pair(scene) => of_pair(headline_keys(scene)),
         Machine::Gearbox(file) => {
@@ -103,7 +104,7 @@ fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missi
         (Holds::Table, None) => format!("`{name}` is a table: write `{name}.KEY` with a key of it"),
         (Holds::Words, _) => "numbers alone can be wanted".into(),
     };
-    Err((format!("`{wanted}` of the headline is no number"), advice))
+    Err((format!("`{wanted}` of the headline is not a number"), advice))
 }
 
 /// What stands behind a key of a headline.
@@ -141,8 +142,8 @@ mod tests {
 
     use super::*;
 
-    fn says(keys: &[HeadlineKey], wanted: &str) -> String {
-        let keys: Vec<_> = keys.iter().map(|(key, holds)| (*key, Holds::of(holds))).collect();
+    fn says(keys: &[Key], wanted: &str) -> String {
+        let keys: Vec<_> = keys.iter().map(|key| (key.name, Holds::of(key.holds))).collect();
         of_headline(&keys, wanted).map_or_else(|(what, hint)| format!("{what}; {hint}"), |()| "there".into())
     }
 
@@ -156,9 +157,9 @@ mod tests {
             ("max_pressure_at.z_mm", "there"),
             (
                 "root_stress",
-                "`root_stress` of the headline is no number; `root_stress` is a table: write `root_stress.KEY` with a key of it",
+                "`root_stress` of the headline is not a number; `root_stress` is a table: write `root_stress.KEY` with a key of it",
             ),
-            ("mean_ste_um.0", "`mean_ste_um.0` of the headline is no number; `mean_ste_um` is a number by itself"),
+            ("mean_ste_um.0", "`mean_ste_um.0` of the headline is not a number; `mean_ste_um` is a number by itself"),
         ] {
             assert_eq!(says(StaticHeadline::KEYS, wanted), said);
         }
@@ -168,7 +169,7 @@ mod tests {
         assert!(says(StaticHeadline::KEYS, "mean_wheel_force_n.3").contains("`mean_wheel_force_n.2`"));
         for keys in [MotionHeadline::KEYS, LumpedHeadline::KEYS] {
             assert_eq!(says(keys, "dynamic_factor"), "there");
-            assert_eq!(says(keys, "run"), "`run` of the headline is no number; numbers alone can be wanted");
+            assert_eq!(says(keys, "run"), "`run` of the headline is not a number; numbers alone can be wanted");
             assert!(says(keys, "efficiency").starts_with("the headline has no `efficiency`"));
         }
     }

@@ -40,7 +40,7 @@ pub enum PartError {
         source: io::Error,
     },
     /// A file is no whole part.
-    #[error("{file} is no whole part of this plan: {what}")]
+    #[error("{file} is not a whole part of this plan: {what}")]
     NotWhole {
         /// The file.
         file: PathBuf,
@@ -48,7 +48,7 @@ pub enum PartError {
         what: &'static str,
     },
     /// A whole part of another plan.
-    #[error("{file} is no part of this plan: plan, scene or version of the program are others")]
+    #[error("{file} is not a part of this plan: plan, scene or version of the program are others")]
     AnotherPlan {
         /// The file.
         file: PathBuf,

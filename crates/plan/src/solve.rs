@@ -7,11 +7,11 @@ use std::{
 };
 
 use analysis::{
-    AnalysisError, Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, gearbox_at_rest::GearboxResult,
-    side_by_side, solve,
+    AnalysisError, Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, gearbox::GearboxResult,
+    parallel_map, solve,
 };
 use scene::{
-    Machine, Scene,
+    Machine, Quantity, Scene,
     gearbox::Gearbox,
     plan::{Plan, PlanOutput},
 };
@@ -39,7 +39,7 @@ pub fn solve_cases(
     let open: Vec<usize> = range.filter(|&case| !done.has(case)).collect();
     let failed = Mutex::new(None);
     let failure = || failed.lock().unwrap_or_else(PoisonError::into_inner);
-    side_by_side(open.len(), |i| {
+    parallel_map(open.len(), |i| {
         if failure().is_some() || progress.is_cancelled() {
             return;
         }
@@ -72,7 +72,7 @@ pub(crate) fn numbers(
         Machine::Pair(mut scene) => {
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
-            let context = Context::<Scene>::new(observer).with_models(models).with_warnings(WarningsAtRest::Left);
+            let context = Context::<Scene>::new(observer).with_models(models).with_warnings(WarningsAtRest::Skipped);
             let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
             solved.verdict().map_err(said)?;
             case_values(outputs, &solved)
@@ -80,7 +80,8 @@ pub(crate) fn numbers(
         Machine::Gearbox(mut file) => {
             let wants = wanted_in_time(outputs);
             // Nobody looks at the others.
-            file.vibration = file.vibration.filter(|_| wants[0]);
+            let bounded = file.accuracy.of(Quantity::NaturalFrequency).is_some();
+            file.vibration = file.vibration.filter(|_| wants[0] || bounded);
             file.motion = file.motion.filter(|_| wants[1]);
             let context = Context::<Gearbox>::new(observer).with_models(models);
             let result = solve(&*file, context).and_then(Ending::finished).map_err(said)?;

@@ -1,6 +1,6 @@
 //! The numbers that a plan wants of a case, read off its rows and its headline.
 
-use analysis::{Solved, gearbox_at_rest::GearboxResult};
+use analysis::{Solved, gearbox::GearboxResult};
 use scene::{
     gearbox::Gearbox,
     plan::{PlanOutput, PlanTake},
@@ -58,7 +58,7 @@ fn of_headline(headline: &Value, key: &str) -> Result<f64, String> {
         };
         value = next.ok_or_else(|| missing(headline, key))?;
     }
-    value.as_f64().ok_or_else(|| format!("`{key}` of the headline is no number"))
+    value.as_f64().ok_or_else(|| format!("`{key}` of the headline is not a number"))
 }
 
 /// A key that the headline has not, with what may have been meant.

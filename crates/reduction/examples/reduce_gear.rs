@@ -8,13 +8,13 @@ use std::{error::Error, path::Path};
 
 use fem::{ElementOptions, Material};
 use geometry::Side;
-use mesh::{GearMesh, GroupNames, Mesh};
+use mesh::{GroupNames, Mesh, MeshedGear};
 use reduction::{GearReducer, ReductionOptions};
 
 fn main() -> Result<(), Box<dyn Error>> {
     // A sector of one tooth with periodic cut faces stands for the gear of 30 teeth.
     let mesh = Mesh::read(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../meshes/periodic_hex20.msh")))?;
-    let gear = GearMesh::from_groups(mesh, &GroupNames::default(), 30)?;
+    let gear = MeshedGear::from_groups(mesh, &GroupNames::default(), 30)?;
     let options =
         ReductionOptions { sides: vec![Side::Left], window: 3, first: 0, elements: ElementOptions::default() };
     let reducer = GearReducer::new(gear, Material::STEEL, options)?;

@@ -2,13 +2,13 @@
 
 use crate::{GearReducer, ReductionError, Window};
 use fem::{DofMap, ElementOptions, Material, SymmetricMatrix};
-use mesh::{BoreCoupling, GearMesh};
+use mesh::{BoreCoupling, MeshedGear};
 
 /// A gear with all degrees of freedom kept, bore held.
 #[derive(Debug)]
 pub struct FullGear {
     /// The meshed gear.
-    pub gear: GearMesh,
+    pub gear: MeshedGear,
     /// Its material.
     pub material: Material,
     /// Element variants.
@@ -24,7 +24,7 @@ impl FullGear {
     ///
     /// # Errors
     /// [`ReductionError::Fem`]; [`ReductionError::NotReduced`] for a bore that is held by its means.
-    pub fn new(gear: GearMesh, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
+    pub fn new(gear: MeshedGear, material: Material, elements: &ElementOptions) -> Result<Self, ReductionError> {
         if gear.bore_coupling() == BoreCoupling::Distributing {
             return Err(ReductionError::NotReduced);
         }
@@ -57,7 +57,7 @@ impl ElasticGear {
     }
 
     /// The meshed gear.
-    pub fn gear(&self) -> &GearMesh {
+    pub fn gear(&self) -> &MeshedGear {
         match self {
             Self::Reduced(r) => r.gear(),
             Self::Full(f) => &f.gear,

@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatMut};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
-use mesh::{BoreCoupling, GearMesh, Mesh};
+use mesh::{BoreCoupling, Mesh, MeshedGear};
 
 use crate::{ReductionError, load::Load, mean_seat::MeanSeat};
 
@@ -30,7 +30,7 @@ pub(crate) enum Seen<'a> {
 impl GeneralGear {
     /// Assembles and factors with the nodes `last` (ascending) last.
     pub(crate) fn new(
-        gear: &GearMesh,
+        gear: &MeshedGear,
         material: &Material,
         elements: &ElementOptions,
         last: &[u32],

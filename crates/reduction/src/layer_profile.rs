@@ -189,7 +189,9 @@ impl Section {
             .into_iter()
             .map(|part| {
                 let arc = part * length;
-                let roll = if part >= 1.0 { form } else { (tip * tip - 2.0 * arc / base).max(form * form).sqrt() };
+                let square = tip * tip - 2.0 * arc / base;
+                let bound = if form < tip { square.max(form * form) } else { square.min(form * form) };
+                let roll = if part >= 1.0 { form } else { bound.sqrt() };
                 let across = profile.radius(roll) * profile.half_angle(roll).sin() + overshoot;
                 Station { roll, arc, depth: across * cos_base_helix }
             })
@@ -214,7 +216,7 @@ impl Section {
 
     fn point(&self, row: usize, column: usize) -> Vec2 {
         let [r, outer] = self.rows[row];
-        let inner = -(self.overshoot / r).clamp(0.0, 1.0).asin();
+        let inner = -(self.overshoot / r).clamp(-1.0, 1.0).asin();
         let angle = outer + (inner - outer) * self.columns[column];
         [r * angle.cos(), r * angle.sin() * self.cos_base_helix]
     }

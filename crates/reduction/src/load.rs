@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 
 use geometry::Side;
-use mesh::{Face, GearMesh};
+use mesh::{Face, MeshedGear};
 
 use crate::ReductionError;
 
@@ -44,7 +44,7 @@ impl Coordinates {
     }
 
     /// The boundary nodes of a window: numbers of the mesh, ascending, or of the grids' nodes in turn.
-    pub(crate) fn nodes(&self, gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<u32>, ReductionError> {
+    pub(crate) fn nodes(&self, gear: &MeshedGear, teeth: &[u32], sides: &[Side]) -> Result<Vec<u32>, ReductionError> {
         match self {
             Self::FlankNodes => boundary_nodes(gear, teeth, sides),
             Self::Grids(grids) => {
@@ -59,7 +59,7 @@ impl Coordinates {
     }
 
     /// The unit loads that belong to the boundary nodes.
-    pub(crate) fn loads(&self, gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<Load>, ReductionError> {
+    pub(crate) fn loads(&self, gear: &MeshedGear, teeth: &[u32], sides: &[Side]) -> Result<Vec<Load>, ReductionError> {
         match self {
             Self::FlankNodes => {
                 Ok(boundary_nodes(gear, teeth, sides)?.into_iter().map(|node| vec![(node, 1.0)]).collect())
@@ -85,12 +85,12 @@ fn for_each_flank(
 }
 
 /// The flank that a mesh or a set of grids does not have.
-pub(crate) fn missing(gear: &GearMesh, (tooth, side): (u32, Side)) -> ReductionError {
+pub(crate) fn missing(gear: &MeshedGear, (tooth, side): (u32, Side)) -> ReductionError {
     ReductionError::MissingFlank { tooth, side, available: gear.teeth() }
 }
 
 /// Nodes of the flanks, ascending, each once.
-fn boundary_nodes(gear: &GearMesh, teeth: &[u32], sides: &[Side]) -> Result<Vec<u32>, ReductionError> {
+fn boundary_nodes(gear: &MeshedGear, teeth: &[u32], sides: &[Side]) -> Result<Vec<u32>, ReductionError> {
     let mut nodes = Vec::new();
     for_each_flank(teeth, sides, |(tooth, side)| {
         let faces = gear.flank(tooth, side).ok_or_else(|| missing(gear, (tooth, side)))?;

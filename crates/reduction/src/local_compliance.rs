@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use faer::Mat;
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, SymmetricMatrix};
 use geometry::{Gear, Side};
-use mesh::{ElementBlock, GearMesh, Mesh};
+use mesh::{ElementBlock, Mesh, MeshedGear};
 
 use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general::load_compliance, load::missing};
 
@@ -39,7 +39,7 @@ impl LocalCompliance {
     /// # Errors
     /// [`ReductionError::MissingFlank`], [`ReductionError::Fem`].
     pub fn new(
-        gear: &GearMesh,
+        gear: &MeshedGear,
         geometry: &Gear,
         material: &Material,
         elements: &ElementOptions,
@@ -69,7 +69,7 @@ impl LocalCompliance {
     /// # Errors
     /// [`ReductionError::Fem`].
     pub fn on_grid(
-        gear: &GearMesh,
+        gear: &MeshedGear,
         geometry: &Gear,
         material: &Material,
         elements: &ElementOptions,
@@ -96,7 +96,7 @@ struct FreeHalf {
 
 impl FreeHalf {
     fn new(
-        gear: &GearMesh,
+        gear: &MeshedGear,
         geometry: &Gear,
         material: &Material,
         elements: &ElementOptions,
@@ -124,6 +124,8 @@ impl FreeHalf {
 /// Where the free half of a tooth is.
 struct ToothHalf {
     sign: f64,
+    /// -1 for a ring, whose radii are negative.
+    radial: f64,
     centre: f64,
     twist: f64,
     half_pitch: f64,
@@ -137,22 +139,25 @@ impl ToothHalf {
             sign: side.sign(),
             centre: geometry.flank_of(side, i64::from(tooth)).centre_angle,
             twist: geometry.twist(),
-            half_pitch: 0.5 * geometry.pitch_angle(),
+            half_pitch: 0.5 * geometry.pitch_angle().abs(),
+            radial: geometry.sign(),
             root_radius: geometry.root_radius(),
             tolerance: ON_SURFACE * geometry.data().normal_module,
         }
     }
 
-    /// Radius, and angle from the centre surface towards the flank, within half a turn.
+    /// Radius, and angle from the centre surface towards the flank, within half a turn; of a ring both are negative there.
     fn polar(&self, &[x, y, z]: &[f64; 3]) -> (f64, f64) {
-        let angle = y.atan2(x) - self.centre - self.twist * z;
+        let angle = (self.radial * y).atan2(self.radial * x) - self.centre - self.twist * z;
         let turn = std::f64::consts::TAU;
-        (x.hypot(y), self.sign * (angle - turn * (angle / turn).round()))
+        (self.radial * x.hypot(y), self.sign * (angle - turn * (angle / turn).round()))
     }
 
     fn is_free(&self, p: &[f64; 3]) -> bool {
         let (r, angle) = self.polar(p);
-        r > self.root_radius + self.tolerance && r * angle.sin() > self.tolerance && angle < self.half_pitch
+        r > self.root_radius + self.tolerance
+            && r * angle.sin() > self.tolerance
+            && self.radial * angle < self.half_pitch
     }
 
     /// Distance past the centre surface of a clamped point of the tooth, mm; `None` for points of the rim and the next

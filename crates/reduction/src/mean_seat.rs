@@ -2,7 +2,7 @@
 
 use faer::{Mat, MatMut};
 use fem::{DofMap, SymmetricMatrix};
-use mesh::GearMesh;
+use mesh::MeshedGear;
 use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::ReductionError;
@@ -14,7 +14,7 @@ use crate::ReductionError;
 /// K u = f - B l,   l = (R'B)^-1 R' f                             reactions, as the body is free otherwise
 /// u = P K~^-1 P' f,   P = 1 - R (R'B)^-1 B',   K~ = K + six springs
 /// ```
-/// W: integrals of the shape functions over the held faces ([`GearMesh::bore_weights`]), A their sum, c and rho
+/// W: integrals of the shape functions over the held faces ([`MeshedGear::bore_weights`]), A their sum, c and rho
 /// centroid and radius of gyration of the faces. The springs hold the body without any redundancy: forces in balance leave
 /// them without force, so that their stiffness is in no result.
 #[derive(Debug)]
@@ -32,7 +32,7 @@ const LEAST: f64 = 1e-8;
 
 impl MeanSeat {
     /// Of the held faces of a bore; all nodes of the mesh are free.
-    pub(crate) fn new(gear: &GearMesh, dofs: &DofMap) -> Result<Self, ReductionError> {
+    pub(crate) fn new(gear: &MeshedGear, dofs: &DofMap) -> Result<Self, ReductionError> {
         let (weights, nodes) = (gear.bore_weights(), &gear.mesh().nodes);
         let at = |node: u32| Vector3::from(nodes[node as usize]);
         let area: f64 = weights.iter().map(|(_, w)| w).sum();

@@ -1,6 +1,7 @@
 //! An answer of any kind as the files of a result.
 
 use answer::{Answer, Checks, Cost, Remark, parquet_bytes};
+use described::Key;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -10,23 +11,42 @@ use crate::{
 };
 use store::folder::ResultDirectory;
 
-#[derive(Serialize)]
-struct Summary<'a> {
-    program: &'static str,
-    version: &'static str,
-    schema: u32,
-    kind: &'static str,
-    name: &'a str,
-    inputs: &'a Value,
-    #[serde(flatten)]
-    info: &'a Map<String, Value>,
-    #[serde(flatten)]
-    checks: &'a Checks,
-    cost: &'a Cost,
-    headline: &'a Value,
-    remarks: &'a [Remark],
-    tables: Vec<&'a str>,
-    files: &'a [String],
+/// An object of a summary: its name, and its keys. The name goes on behind a comma where several objects have one key.
+pub(crate) type Object = (&'static str, &'static [Key]);
+
+described::described! {
+    /// `summary.json` of an answer of any kind.
+    #[derive(Serialize)]
+    pub(crate) struct Summary<'a> {
+        /// `ale-gear`
+        program: &'static str,
+        /// version of the program
+        version: &'static str,
+        /// 4; grows with every change after which an older reader would misread the file
+        schema: u32,
+        /// kind of question that is answered: `pair`, `gearbox`, `plan`, `study`, `optimum`, `chart`, `envelope`, `comparison`
+        kind: &'static str,
+        /// title of the document
+        name: &'a str,
+        /// document with every default filled in
+        inputs: &'a Value,
+        /// facts of one kind of answer
+        #[serde(flatten)]
+        info: &'a Map<String, Value>,
+        /// what must hold of the result
+        #[serde(flatten)]
+        checks: &'a Checks,
+        /// time and memory of the run
+        cost: &'a Cost,
+        /// numbers of the result
+        headline: &'a Value,
+        /// remarks about the result
+        remarks: &'a [Remark],
+        /// names of the tables, the rows first; `NAME.csv` is the file of each
+        tables: Vec<&'a str>,
+        /// all other files of the result
+        files: &'a [String],
+    }
 }
 
 /// An answer whose files are written.

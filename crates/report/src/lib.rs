@@ -8,6 +8,7 @@
 //! | [`contact_files`] | contact lines and contact pattern |
 //! | [`accuracy_chart`] | table and picture of accuracy against cost |
 //! | [`pair_files`] | the answer of every run of a pair |
+//! | [`measured_files`] | a measured gear: files for a scene, deviations, waves, pictures |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
 //! | [`gearbox_files`] | a gearbox at rest: meshes, bearings, shaft lines |
 //! | [`study_files`] | the same figures of several scenes, side by side |
@@ -16,6 +17,7 @@
 //! | [`compare`] | result folders side by side |
 //! | [`tables`] | the table at the end of a run |
 //! | [`write_in_time`] | files of a scene in time |
+//! | [`documented_tables`], [`documented_objects`] | columns and keys with their meanings, for `docs/outputs.md` |
 //! | [`Cost`], [`write_result`] | what a run cost; an answer into a result folder |
 
 pub mod accuracy_chart;
@@ -23,9 +25,12 @@ mod answer_files;
 pub mod charts;
 pub mod compare;
 pub mod contact_files;
+mod documented;
 mod error;
 pub mod gearbox_files;
+mod how_exact;
 mod marked_place;
+mod measured_files;
 pub mod motion_files;
 pub mod optimum_files;
 pub mod page;
@@ -36,8 +41,10 @@ pub mod tables;
 
 pub use answer::{Cost, Phase, csv};
 pub use answer_files::{Written, write_result, write_rows, write_summary, write_tables_and_page};
+pub use documented::{documented_objects, documented_tables};
 pub use error::ReportError;
 pub use marked_place::MarkedPlace;
+pub use measured_files::{MeasuredFiles, measured_files};
 pub use pair_files::{static_charts, write_in_time, write_key_sweep_result, write_static_result, write_static_rows};
 
 /// Schema of `summary.json`: grows with every change after which an older reader would misread it.

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Serialize, Serializer, ser::SerializeMap};
 
-use crate::schema::{Quantity, RawAccuracy};
+use crate::schema::{Asked, Quantity};
 use crate::{Scene, SceneError, Setting, source::Source};
 
 /// How far a number may be off.
@@ -29,7 +29,7 @@ impl Tolerance {
     pub fn words(self, quantity: Quantity) -> String {
         match self {
             Self::Relative(share) => format!("{} %", 1e6 * share / 1e4),
-            Self::Absolute(most) => format!("{most} {}", quantity.unit()),
+            Self::Absolute(most) => format!("{most} {}", quantity.unit()).trim_end().to_owned(),
         }
     }
 
@@ -56,7 +56,7 @@ impl Tolerance {
 
 /// Words that are no tolerance.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{words}` is no accuracy")]
+#[error("`{words}` is not an accuracy")]
 pub struct ToleranceError {
     /// As written.
     pub words: String,
@@ -67,7 +67,8 @@ pub struct ToleranceError {
 impl ToleranceError {
     /// How to write it.
     pub fn hint(&self) -> String {
-        format!("write a share, \"1 %\" (up to 100 %), or a number above zero with its unit, \"0.05 {}\"", self.unit)
+        let amount = format!("0.05 {}", self.unit);
+        format!("write a share, \"1 %\" (up to 100 %), or a number above zero with its unit, \"{}\"", amount.trim_end())
     }
 }
 
@@ -92,7 +93,7 @@ impl AccuracyScene {
         self.0.is_empty()
     }
 
-    /// What is asked, in the order of [`Quantity::ALL`].
+    /// What is asked, in the order of the quantities.
     pub fn tolerances(&self) -> &[(Quantity, Tolerance)] {
         &self.0
     }
@@ -106,7 +107,7 @@ impl AccuracyScene {
     ///
     /// # Errors
     /// [`SceneError::Conflict`] for words that are no tolerance.
-    pub(crate) fn read(s: &Source<'_>, raw: &RawAccuracy) -> Result<Self, SceneError> {
+    pub(crate) fn read(s: &Source<'_>, raw: &impl Asked) -> Result<Self, SceneError> {
         let one = |(quantity, word): (Quantity, &toml::Spanned<String>)| {
             let parsed = Tolerance::parse(word.get_ref(), quantity);
             let said = parsed.map_err(|e| s.conflict(&word.span(), format!("`{}`: {e}", quantity.key()), e.hint()));
@@ -173,6 +174,15 @@ mod tests {
         for words in ["", "1", "%", "-1 %", "0 um", "101 %", "nan %", "inf um", "1 mm", "um 1", "1 % %"] {
             assert!(of(words).is_err(), "{words}: {:?}", of(words));
         }
+    }
+
+    /// A ratio has no unit.
+    #[test]
+    fn an_amount_of_a_ratio_stands_alone() {
+        let of = |words: &str| Tolerance::parse(words, Quantity::FaceLoadFactor);
+        assert_eq!(of("0.02"), Ok(Tolerance::Absolute(0.02)));
+        assert_eq!(of(&Tolerance::Absolute(0.02).words(Quantity::FaceLoadFactor)), Ok(Tolerance::Absolute(0.02)));
+        assert!(of("0.02 um").is_err() && of("2 %") == Ok(Tolerance::Relative(0.02)));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Meshes, topographies and pitch errors that a document names: each file is read once.
+//! Meshes, topographies, pitch errors, load spectra and tables of materials that a document names: each file is read once.
 
 use std::{
     collections::BTreeMap,
@@ -12,6 +12,7 @@ use std::{
 use files::most;
 use geometry::modification::{DataFileError, Topography, parse_pitch_errors};
 use mesh::{Mesh, MeshError};
+use rating::{Lubricants, Materials, RatingError, Spectrum};
 use serde::{Serialize, Serializer};
 
 use crate::{
@@ -79,6 +80,9 @@ pub(crate) struct DataFiles {
     topographies: Known<Topography>,
     pitch_errors: Known<Vec<f64>>,
     meshes: Known<Mesh>,
+    materials: Known<Materials>,
+    lubricants: Known<Lubricants>,
+    spectra: Known<Spectrum>,
 }
 
 /// Files of one kind by where they are.
@@ -130,6 +134,9 @@ impl DataFiles {
             topographies: self.topographies.unchanged(),
             pitch_errors: self.pitch_errors.unchanged(),
             meshes: self.meshes.unchanged(),
+            materials: self.materials.unchanged(),
+            lubricants: self.lubricants.unchanged(),
+            spectra: self.spectra.unchanged(),
         }
     }
 
@@ -215,6 +222,40 @@ impl Content for Mesh {
     }
 }
 
+impl Content for Materials {
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.materials
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Self::parse(text(bytes, path)?).map_err(|source| damaged(path, source))
+    }
+}
+
+impl Content for Lubricants {
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.lubricants
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Self::parse(text(bytes, path)?).map_err(|source| damaged(path, source))
+    }
+}
+
+impl Content for Spectrum {
+    fn known(all: &DataFiles) -> &Known<Self> {
+        &all.spectra
+    }
+
+    fn parse(bytes: &[u8], path: &Path) -> Result<Self, SceneError> {
+        Self::parse(text(bytes, path)?).map_err(|source| damaged(path, source))
+    }
+}
+
+fn damaged(path: &Path, source: RatingError) -> SceneError {
+    SceneError::RatingTable { file: path.to_owned(), source: Box::new(source) }
+}
+
 fn text<'a>(bytes: &'a [u8], path: &Path) -> Result<&'a str, DataFileError> {
     from_utf8(bytes).map_err(|_| DataFileError::Read { path: path.to_owned(), source: files::no_text() })
 }
@@ -245,7 +286,7 @@ mod tests {
         let of = |scene: &Scene| {
             let pair = scene.gear_pair().unwrap();
             let said = pair.pinion.modifications();
-            let depth = |flank: &geometry::FlankModification| flank.topography.as_ref().unwrap().depths()[0];
+            let depth = |flank: &geometry::FlankModification| flank.topography.as_ref().unwrap().grids()[0].depths()[0];
             [said.pitch_errors[0], depth(&said.left), depth(&said.right)].map(|mm| (1e3 * mm).round())
         };
 

@@ -32,10 +32,18 @@ impl Scene {
     }
 
     /// Every file that the scene names, as it names it, with the BLAKE3 (hexadecimal) of its bytes as they were read:
-    /// meshes, topographies, pitch errors; pinion first, each once.
+    /// meshes, topographies, pitch errors, pinion first, then tables of materials and lubricants, load spectra; each once.
     pub fn files(&self) -> Vec<(&Path, String)> {
         let mut all: Vec<(&Path, String)> = Vec::new();
-        for file in self.gears().into_iter().flat_map(files_of) {
+        let rating = self.rating.iter().flat_map(|rating| {
+            let materials = rating.materials.as_ref().map(|file| (file.path(), file.blake3()));
+            let spectrum = rating.spectrum.as_ref().map(|file| (file.path(), file.blake3()));
+            materials
+                .into_iter()
+                .chain(spectrum)
+                .chain(rating.lubricants.as_ref().map(|file| (file.path(), file.blake3())))
+        });
+        for file in self.gears().into_iter().flat_map(files_of).chain(rating) {
             if !all.contains(&file) {
                 all.push(file);
             }

@@ -7,6 +7,7 @@ use files::Place;
 use geometry::GeometryError;
 use geometry::modification::DataFileError;
 use mesh::MeshError;
+use rating::RatingError;
 
 use crate::DocumentKind;
 
@@ -119,7 +120,7 @@ pub enum SceneError {
         advice: String,
     },
     /// What a scene made in code sets is no key.
-    #[error("`{key}` is no key")]
+    #[error("unknown key `{key}`")]
     NoKey {
         /// As the program says it.
         key: String,
@@ -149,6 +150,14 @@ pub enum SceneError {
     /// A topography or a list of pitch errors that cannot be read.
     #[error(transparent)]
     DataFile(Box<DataFileError>),
+    /// A table of materials, lubricants or loads that cannot be read.
+    #[error("{}: {source}", file.display())]
+    RatingTable {
+        /// The file.
+        file: PathBuf,
+        /// What is wrong with it.
+        source: Box<RatingError>,
+    },
     /// A mesh that cannot be read.
     #[error(transparent)]
     Mesh(Box<MeshError>),
@@ -203,6 +212,7 @@ impl SceneError {
             | Self::Setting { .. }
             | Self::NoKey { .. }
             | Self::Mesh(_)
+            | Self::RatingTable { .. }
             | Self::DataFile(_) => None,
             Self::Geometry { place, .. } => place.as_ref(),
             Self::Syntax { place, .. }
@@ -229,7 +239,7 @@ impl SceneError {
             Self::Missing { keys, .. } => keys.first().map(|key| key.trim_matches('`')),
             Self::Geometry { table, .. } => Some(table),
             Self::Read { .. } | Self::AnotherKind { .. } | Self::Twice { .. } | Self::Syntax { .. } => None,
-            Self::Conflict { .. } | Self::DataFile(_) | Self::Mesh(_) => None,
+            Self::Conflict { .. } | Self::DataFile(_) | Self::RatingTable { .. } | Self::Mesh(_) => None,
         }
     }
 
@@ -254,6 +264,10 @@ impl SceneError {
             Self::AnotherKind { file, found, .. } => {
                 Some(format!("`ale-gear {} {} --out DIR` takes it", found.command(), file.display()))
             }
+            Self::Missing { keys, .. } if keys.iter().all(|key| key.contains("[rating")) => {
+                Some("a rating assumes nothing: state each of them, or leave [rating] out".into())
+            }
+            Self::RatingTable { .. } => Some("docs/scene.md says what `materials`, `lubricants` and `spectrum` hold; `crates/rating/data` has tables to begin with".into()),
             Self::Missing { .. } => Some("teeth, module, helix angle, face width and torque have no default".into()),
             Self::Setting { label, .. } => Some(example(label).into()),
             Self::NoKey { .. } => Some("tables and key with dots between them, as `operation.torque_nm`".into()),

@@ -12,18 +12,21 @@ use crate::schema::{Coupling, MisalignmentScene};
 /// One gear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearScene {
-    /// Number of teeth.
+    /// Number of teeth, without the sign of an internal gear.
     pub teeth: u32,
+    /// The tool of an internal gear; `None`: an external one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub shaper: Option<ShaperScene>,
     /// Helix angle at the reference cylinder, right hand positive, degrees.
     pub helix_angle_deg: f64,
     /// Face width, mm; `None`: the pair's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub face_width_mm: Option<f64>,
-    /// Diameter of the rigid bore, mm.
+    /// Diameter of the rigid bore, of an internal gear of its outside, without sign, mm.
     pub bore_diameter_mm: f64,
     /// Profile shift coefficient.
     pub profile_shift: f64,
-    /// Tip diameter, mm; `None`: from addendum and profile shift.
+    /// Tip diameter, without sign, mm; `None`: from addendum and profile shift.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tip_diameter_mm: Option<f64>,
     /// Radius of the arc that rounds the tip edges, mm; 0: sharp.
@@ -61,6 +64,17 @@ pub struct GearScene {
     /// The shaft it sits on; set exactly for the model of shafts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaft: Option<ShaftScene>,
+}
+
+/// Shaper cutter of an internal gear.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct ShaperScene {
+    /// Number of teeth.
+    pub teeth: u32,
+    /// Profile shift coefficient.
+    pub profile_shift: f64,
+    /// Radius of its rounded tip edges over the module.
+    pub tip_rounding_coefficient: f64,
 }
 
 /// How a shaft holds a bore.
@@ -130,7 +144,7 @@ pub struct PairScene {
     /// gears.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mid_face_offset_mm: Option<f64>,
-    /// Working centre distance, mm; `None`: the nominal one that follows from the profile shifts.
+    /// Working centre distance, without the sign of an internal pair, mm; `None`: the nominal one that follows from the profile shifts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub centre_distance_mm: Option<f64>,
     /// Addendum of the basic rack over the normal module.
@@ -152,6 +166,11 @@ impl MisalignmentScene {
 }
 
 impl GearScene {
+    /// Whether it is a ring.
+    pub fn is_internal(&self) -> bool {
+        self.shaper.is_some()
+    }
+
     /// Helix angle, rad.
     pub fn helix_angle(&self) -> f64 {
         self.helix_angle_deg.to_radians()

@@ -1,6 +1,6 @@
 //! From a scene to the exact geometry of its pair: gear data, micro-geometry, pitch errors.
 
-use geometry::{Gear, GearData, GearModifications, GearPair, Side};
+use geometry::{Gear, GearData, GearModifications, GearPair, Shaper, Side};
 
 use crate::{GearScene, Scene, SceneError};
 
@@ -16,7 +16,8 @@ impl Scene {
         };
         let pinion = gear("pinion", &self.pinion)?;
         let wheel = gear("wheel", &self.wheel)?;
-        let pair = GearPair::new(pinion, wheel, self.pair.centre_distance_mm);
+        let sign = wheel.sign();
+        let pair = GearPair::new(pinion, wheel, self.pair.centre_distance_mm.map(|a| sign * a));
         let placed = match self.pair.mid_face_offset_mm {
             Some(offset) => pair.and_then(|pair| pair.with_mid_face_offset(offset)),
             None => pair,
@@ -27,6 +28,8 @@ impl Scene {
 
 /// Gear data of pinion and wheel in the program's own units.
 fn data(scene: &Scene, gear: &GearScene) -> GearData {
+    let sign = if gear.is_internal() { -1.0 } else { 1.0 };
+    let rounding = gear.shaper.map_or(scene.pair.root_radius_coefficient, |s| s.tip_rounding_coefficient);
     GearData {
         teeth: gear.teeth,
         normal_module: scene.pair.normal_module_mm,
@@ -37,10 +40,11 @@ fn data(scene: &Scene, gear: &GearScene) -> GearData {
         thickness_allowance: gear.thickness_allowance_mm,
         addendum_coefficient: scene.pair.addendum_coefficient,
         dedendum_coefficient: scene.pair.dedendum_coefficient,
-        root_radius_coefficient: scene.pair.root_radius_coefficient,
-        tip_diameter: gear.tip_diameter_mm,
+        root_radius_coefficient: rounding,
+        tip_diameter: gear.tip_diameter_mm.map(|d| sign * d),
         tip_edge_radius: gear.tip_edge_radius_mm,
-        bore_diameter: gear.bore_diameter_mm,
+        bore_diameter: sign * gear.bore_diameter_mm,
+        shaper: gear.shaper.map(|s| Shaper { teeth: s.teeth, profile_shift: s.profile_shift }),
     }
 }
 

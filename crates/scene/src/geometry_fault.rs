@@ -34,7 +34,12 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
             ]
         }
         GeometryError::RootRadius { .. } => {
-            vec![pair("root_radius_coefficient"), pair("dedendum_coefficient"), own("thickness_allowance_mm")]
+            vec![
+                own("shaper.tip_rounding_coefficient"),
+                pair("root_radius_coefficient"),
+                pair("dedendum_coefficient"),
+                own("thickness_allowance_mm"),
+            ]
         }
         GeometryError::Bore { .. } => vec![own("bore_diameter_mm"), pair("dedendum_coefficient"), own("profile_shift")],
         GeometryError::Mismatch { .. } => both("helix_angle_deg").into(),
@@ -56,6 +61,16 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
             pair("dedendum_coefficient"),
             of(root, "profile_shift"),
         ],
+        GeometryError::InternalPinion => vec![of("pinion", "teeth")],
+        GeometryError::Trochoid { .. } => {
+            [vec![of("pinion", "tip_diameter_mm")], both("teeth").into(), vec![pair("addendum_coefficient")]].concat()
+        }
+        GeometryError::Involute { .. } => {
+            vec![of("wheel", "tip_diameter_mm"), pair("addendum_coefficient"), of("pinion", "teeth")]
+        }
+        GeometryError::ShaperInterference { .. } => {
+            vec![own("shaper.teeth"), own("shaper"), own("tip_diameter_mm"), own("teeth")]
+        }
         GeometryError::ContactRatio { undercut: Some(own), .. } => {
             vec![of(own.gear, "profile_shift"), of(own.gear, "teeth")]
         }
@@ -69,7 +84,7 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
             [vec![pair("mid_face_offset_mm")], both("face_width_mm").into(), vec![pair("face_width_mm")]].concat()
         }
         GeometryError::OffFlank { name, .. } => on_flank(table, name),
-        GeometryError::GridOffFlank { .. } => flank_keys(table, &["topography"]),
+        GeometryError::GridOffFlank { .. } | GeometryError::NoSuchTooth { .. } => flank_keys(table, &["topography"]),
         GeometryError::PitchErrors { .. } => vec![own("pitch_errors_file"), own("pitch_errors_um")],
         _ => Vec::new(),
     }
@@ -77,7 +92,7 @@ fn keys(table: &str, error: &GeometryError) -> Vec<String> {
 
 /// A quantity that the geometry calls by its name.
 fn named(table: &str, name: &str) -> Vec<String> {
-    const NAMES: [(&str, &[&str]); 11] = [
+    const NAMES: [(&str, &[&str]); 15] = [
         ("normal module", &["pair.normal_module_mm"]),
         ("face width", &["face_width_mm", "pair.face_width_mm"]),
         ("offset of the mid-faces", &["pair.mid_face_offset_mm"]),
@@ -88,6 +103,10 @@ fn named(table: &str, name: &str) -> Vec<String> {
         ("normal pressure angle", &["pair.normal_pressure_angle_deg"]),
         ("tip diameter", &["tip_diameter_mm", "pair.addendum_coefficient", "profile_shift"]),
         ("pitch error", &["pitch_errors_file", "pitch_errors_um"]),
+        ("teeth of the shaper", &["shaper.teeth", "teeth"]),
+        ("profile shift of the shaper", &["shaper.profile_shift"]),
+        ("profile shifts of ring and shaper", &["profile_shift", "shaper.profile_shift"]),
+        ("teeth of the pinion", &["teeth"]),
         ("length of ", &[]),
     ];
     let found = NAMES.iter().find(|(start, _)| name.starts_with(start)).map(|(_, keys)| *keys);

@@ -15,16 +15,9 @@ pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String 
 /// Times by which a number passes the end of its range that is in the right unit all the same.
 const NEAR: f64 = 3.0;
 
-/// Of a number that is out of its range, in another unit within it, or of a negative number of teeth.
+/// Of a number that is out of its range and in another unit within it.
 pub(super) fn of_number(key: &str, value: f64, [low, high]: [f64; 2]) -> Option<String> {
     let fits = |x: f64| (low..=high).contains(&x);
-    if key == "teeth" && value < 0.0 && fits(-value) {
-        return Some(format!(
-            "a negative number of teeth is an internal gear, and there are only external ones here: `teeth = {}` is \
-             an external gear",
-            -value
-        ));
-    }
     // A unit is a factor of a hundred or more, or of 57 or 9.5: what misses the range by less is a number too large.
     let beyond = if value.abs() > high.abs().max(low.abs()) { value / high } else { low / value };
     let meant = in_another_unit(key, value, fits).filter(|_| !(0.0..NEAR).contains(&beyond.abs()))?;

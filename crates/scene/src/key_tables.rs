@@ -104,6 +104,10 @@ fn allowed(kind: &ValueKind) -> String {
             let high = if *high == u32::MAX { f64::INFINITY } else { f64::from(*high) };
             range(f64::from(*low), high)
         }
+        ValueKind::SignedWhole { low, high } => {
+            let [low, high] = [*low, *high].map(f64::from);
+            format!("{} or {}", range(low, high), range(-high, -low))
+        }
         ValueKind::Word { choices, .. } => words(choices),
         ValueKind::Words { choices } => format!("list of {}", words(choices)),
         ValueKind::Switch { .. } => "`true`, `false`".to_owned(),

@@ -47,6 +47,7 @@ mod origin;
 mod output;
 mod places;
 pub mod plan;
+mod rating;
 mod raw;
 mod rexs;
 mod schema;
@@ -76,7 +77,7 @@ pub use document::Document;
 pub use document_kind::DocumentKind;
 pub use error::SceneError;
 pub use files::{Line, Place};
-pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene};
+pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene, ShaperScene};
 pub use geometry::{Driver, Sense};
 pub use input_text::read_text;
 pub use key_tables::{KeyTable, key_tables};
@@ -87,12 +88,13 @@ pub use modification::ModificationScene;
 pub use motion::{BearingScene, BodyScene, DriveScene, ModesScene, MotionScene, SweepScene, TorqueScene};
 pub use output::OutputScene;
 pub use places::Written;
+pub use rating::{RatedGearScene, RatingScene};
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
     Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, FieldName, FlankScene, Flanks,
     Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation, Quantity,
-    RampScene, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepWay, all_keys,
-    json_schema,
+    RampScene, RatingEdition, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene,
+    SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;
@@ -168,8 +170,17 @@ pub struct Scene {
     /// Lumped shafts; likewise.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaft18: Option<Shaft18Scene>,
+    /// Whether it will hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rating: Option<RatingScene>,
     /// Which files are written beside the three that always are.
     pub output: OutputScene,
+}
+
+/// The path of a file of a scene as it is from anywhere.
+fn absolute_path(scene: &Scene, path: &Path) -> PathBuf {
+    let whole = scene.resolve(path);
+    std::path::absolute(&whole).unwrap_or(whole)
 }
 
 fn load_is_steady(load: &Option<TorqueScene>) -> bool {
@@ -220,10 +231,7 @@ impl Scene {
         let mut all = self.clone();
         for gear in [&mut all.pinion, &mut all.wheel] {
             let GearScene { modification, mesh, pitch_errors_file, .. } = gear;
-            let absolute = |path: &Path| {
-                let whole = self.resolve(path);
-                std::path::absolute(&whole).unwrap_or(whole)
-            };
+            let absolute = |path: &Path| absolute_path(self, path);
             for file in [&mut modification.drive.topography, &mut modification.coast.topography].into_iter().flatten() {
                 file.set_path(absolute(file.path()));
             }
@@ -232,6 +240,17 @@ impl Scene {
             }
             if let Some(file) = mesh {
                 file.set_path(absolute(file.path()));
+            }
+        }
+        if let Some(rating) = &mut all.rating {
+            if let Some(file) = &mut rating.materials {
+                file.set_path(absolute_path(self, file.path()));
+            }
+            if let Some(file) = &mut rating.spectrum {
+                file.set_path(absolute_path(self, file.path()));
+            }
+            if let Some(file) = &mut rating.lubricants {
+                file.set_path(absolute_path(self, file.path()));
             }
         }
         all

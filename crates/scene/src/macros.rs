@@ -103,6 +103,7 @@ macro_rules! raw {
     (texts $args:tt) => { $crate::spanned::Words };
     (whole $args:tt) => { $crate::spanned::Whole };
     (bare_whole $args:tt) => { $crate::spanned::Whole };
+    (signed_whole $args:tt) => { $crate::spanned::Whole };
     (switch $args:tt) => { $crate::spanned::Switch };
     (numbers $args:tt) => { $crate::spanned::Numbers };
     (wholes $args:tt) => { $crate::spanned::Wholes };

@@ -65,7 +65,7 @@ impl Setting {
 
     fn labelled(label: String, key: &str, value: &str) -> Result<Self, SceneError> {
         let Some(path) = path(key) else {
-            return Err(complaint(&label, &format!("`{key}` is no key")));
+            return Err(complaint(&label, &format!("unknown key `{key}`")));
         };
         let read = toml_value(value).and_then(|written| Some((Node::of_value(&written).ok()?, written)));
         match read {

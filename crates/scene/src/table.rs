@@ -93,6 +93,8 @@ pub(crate) enum ValueKind {
     Number { low: f64, high: f64, default: Option<f64> },
     /// A whole number.
     Whole { low: u32, high: u32, default: Option<u32> },
+    /// A whole number of either sign; the range is that of its magnitude.
+    SignedWhole { low: u32, high: u32 },
     /// One of some words; the first is what holds where none is written, unless that depends on other keys.
     Word { choices: &'static [&'static str], first_is_default: bool },
     /// Some of some words.
@@ -150,6 +152,11 @@ pub(crate) const fn whole(name: &'static str, low: u32, high: u32, default: u32,
 
 pub(crate) const fn bare_whole(name: &'static str, low: u32, high: u32, about: &'static str) -> Key {
     key(name, ValueKind::Whole { low, high, default: None }, about)
+}
+
+/// A whole number of either sign, its magnitude within a range.
+pub(crate) const fn signed_whole(name: &'static str, low: u32, high: u32, about: &'static str) -> Key {
+    key(name, ValueKind::SignedWhole { low, high }, about)
 }
 
 pub(crate) const fn word(name: &'static str, choices: &'static [&'static str], about: &'static str) -> Key {
@@ -225,6 +232,7 @@ impl Table {
     pub fn whole(&self, name: &str) -> (u32, u32, Option<u32>) {
         match self.keys.iter().find(|k| k.name == name).map(|k| &k.kind) {
             Some(&ValueKind::Whole { low, high, default }) => (low, high, default),
+            Some(&ValueKind::SignedWhole { low, high }) => (low, high, None),
             _ => (0, u32::MAX, None),
         }
     }

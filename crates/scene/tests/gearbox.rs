@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use scene::{
-    SceneError, Sense,
+    Quantity, SceneError, Sense, Tolerance,
     gearbox::{Gearbox, GearboxDrive, MeshModel},
 };
 
@@ -89,12 +89,15 @@ fn a_motion_settles_where_it_can() {
     };
     let motion = asked(steady).unwrap().motion.unwrap();
     assert_eq!((motion.settle, motion.error_tolerance, motion.stop_at_events), (Some((1e-6, 70)), None, false));
+    let shot = asked("run = \"shooting\"\nwarm_up_cycles = 70\n").unwrap().motion.unwrap();
+    assert_eq!((shot.settle, shot.shoots, motion.shoots), (motion.settle, true, false));
     assert_eq!(asked("").unwrap().motion.unwrap().settle, None, "from rest on, unless it says otherwise");
     for (words, said) in [
         ("drive = \"speed\"\nwarm_up_cycles = 70\n", "`warm_up_cycles` belongs to a motion that settles first"),
         ("periodic_tolerance = 1e-3\n", "`periodic_tolerance` belongs to a motion that settles first"),
         ("drive = \"torque\"\nrun = \"steady\"\n", "has no period"),
         ("run = \"steady\"\nto_speed_rpm = 900.0\n", "never repeats itself"),
+        ("drive = \"torque\"\nrun = \"shooting\"\n", "has no period"),
     ] {
         let error = asked(words).map(|_| ()).expect_err(words);
         assert!(error.to_string().contains(said) && error.hint().is_some(), "{words}: {error}");
@@ -103,6 +106,23 @@ fn a_motion_settles_where_it_can() {
         text().replacen("drive = \"torque\"\n", steady, 1).replacen("steps_per_row = 2", "steps_per_row = 3", 1);
     let error = Gearbox::parse(&beside, &folder().join("two_stages.toml")).unwrap_err();
     assert!(error.to_string().contains("rows of 3 steps do not meet the ends of cycles of 40"), "{error}");
+}
+
+/// Friction is in the contact itself: at rest, and in a motion that has it.
+#[test]
+fn friction_is_for_the_contact_itself() {
+    let rough = text().replacen("set = [\"contact.slices=16\"]", "set = [\"contact.friction=0.05\"]", 1);
+    let read = |text: &str| Gearbox::parse(text, &folder().join("two_stages.toml"));
+    assert!(read(&rough).unwrap_err().to_string().contains("has friction, and [vibration] has none"));
+    let (before, after) = rough.split_once("[vibration]").unwrap();
+    let rough = format!("{before}[motion]{}", after.split_once("[motion]").unwrap().1);
+    let error = read(&rough).unwrap_err();
+    assert!(
+        error.to_string().contains("\"first\" has friction, and a motion has it with `mesh = \"exact\"`"),
+        "{error}"
+    );
+    let exact = read(&rough.replacen("mesh = \"spring\"", "mesh = \"exact\"", 1)).unwrap();
+    assert_eq!(exact.meshes[0].scene.contact.friction, 0.05);
 }
 
 /// A mistake is told with its line, what is allowed, and what to do.
@@ -233,7 +253,7 @@ fn a_housing_is_read_from_files_of_other_programs() {
         ("file = \"house.pch\"\nnodes = [100, 90, 80, 70, 60, 40]\n".to_owned(), "of node 50, which is no seat"),
         (format!("file = \"none.pch\"\nnodes = {nodes}\n"), "cannot be read"),
         (format!("file = \"house.pch\"\nmatrix = \"MAAX\"\nnodes = {nodes}\n"), "without a matrix MAAX"),
-        (format!("file = \"house.pch\"\nmatrix_n_mm_rad = [[1.0]]\nnodes = {nodes}\n"), "told twice"),
+        (format!("file = \"house.pch\"\nmatrix_n_mm_rad = [[1.0]]\nnodes = {nodes}\n"), "given twice"),
         (format!("file = \"house.mtx\"\nnodes = {nodes}\n"), "which is no seat"),
         (format!("file = \"first_stage.toml\"\nnodes = {nodes}\n"), "without a DMIG entry"),
     ];
@@ -284,4 +304,35 @@ fn a_damaged_gearbox_is_read_or_refused() {
         }
     }
     assert!(read > 50 && told > 500, "{read} were read, {told} refused");
+}
+
+/// What [accuracy] of a gearbox asks is read; what it cannot have is refused with its line and a way out, and so is the
+/// table in the scene of a pair.
+#[test]
+fn an_accuracy_is_asked_in_the_document_of_the_gearbox() {
+    let file = folder().join("accurate.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let own = Gearbox::read(&file).unwrap();
+    assert_eq!(own.accuracy.of(Quantity::FaceLoadFactor), Some(Tolerance::Absolute(0.5)));
+    assert_eq!(own.accuracy.of(Quantity::BearingForce), Some(Tolerance::Relative(0.02)));
+    assert_eq!(own.shaft_elements, 12);
+    let without = |tables: &[&str]| {
+        let keep = |part: &&str| !tables.iter().any(|table| part.starts_with(table));
+        text.split("\n[").filter(keep).collect::<Vec<_>>().join("\n[")
+    };
+    let motion =
+        without(&["vibration]"]).replace("natural_frequency = \"2 %\"\n", "") + "[motion]\nspeed_rpm = 500.0\n";
+    for (wrong, says) in [
+        (motion, "[accuracy] with [motion]"),
+        (without(&["vibration]"]), "`natural_frequency` is asked for, but no vibration"),
+        (text.replace("face_load_factor = \"0.5\"", "face_load_factor = \"0.5 um\""), "`0.5 um` is not an accuracy"),
+        (
+            text.replace("[mesh.scene.operation]", "[mesh.scene.accuracy]\nmean_ste = \"1 %\"\n[mesh.scene.operation]"),
+            "asks for an accuracy",
+        ),
+        (text.replace("bearing_force", "rms_dte"), "rms_dte"),
+    ] {
+        let error = Gearbox::parse(&wrong, &file).map(|_| ()).expect_err(says);
+        assert!(error.to_string().contains(says) && error.hint().is_some(), "{says}: {error}");
+    }
 }

@@ -135,7 +135,7 @@ mod tests {
         let names: Vec<&str> = form.tables.iter().map(|t| t.path.as_str()).collect();
         assert_eq!(
             names,
-            ["pinion", "wheel", "pair", "material", "operation", "contact", "analysis", "accuracy", "output"]
+            ["pinion", "wheel", "pair", "material", "operation", "contact", "analysis", "accuracy", "rating", "output"]
         );
         assert_eq!(form.tables[0].rows[0].key, "pinion.teeth");
         assert!(form.tables[0].rows[0].needed && form.tables[0].rows[0].kind == "number");

@@ -14,13 +14,12 @@
 //! | `visit` | how many connections there may be, and how long each may take |
 //! | `queue` | the latest move of a page wins, and no page waits for another |
 //! | `workers` | threads that solve moves |
-//! | `desk` | a scene with its changes, solved, as the page takes it |
+//! | `session` | a scene with its changes, solved, as the page takes it |
 //! | `scene_text` | keys of a scene's text changed one by one; keys that a complaint is about |
 //! | `sliders` | what is moved by hand, and within which ends |
 //! | `form` | all keys of a scene at rest, from the schema |
 //! | `page` | the page itself |
 
-mod desk;
 mod fault;
 mod form;
 mod guard;
@@ -31,9 +30,10 @@ mod reply;
 mod routes;
 mod scene_text;
 mod server;
+mod session;
 mod sliders;
 mod visit;
 mod workers;
 
-pub use desk::Limits;
 pub use server::{ServeError, Server, Stop};
+pub use session::Limits;

@@ -18,12 +18,12 @@ use report::page::scripts;
 use tokio::sync::oneshot;
 
 use crate::{
-    desk::Change,
     fault::Fault,
     guard::Guard,
     page,
     queue::Queue,
     reply::{Reply, json, reply, says},
+    session::Change,
     visit::{TRANSFER, Visit},
 };
 

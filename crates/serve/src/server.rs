@@ -12,11 +12,11 @@ use analysis::GearCache;
 use tokio::{runtime, sync::Notify};
 
 use crate::{
-    desk::{Desk, Limits},
     guard::Guard,
     listen,
     queue::Queue,
     routes::Routes,
+    session::{Limits, Session},
     workers::Workers,
 };
 
@@ -118,8 +118,8 @@ impl Server {
             tokio::net::TcpListener::from_std(listener).map_err(start)?
         };
         let (queue, (work, jobs)) = (Arc::new(Queue::default()), mpsc::channel());
-        let desk = Desk::new(text, file, limits, cache);
-        let workers = Workers::new(&desk, &queue);
+        let session = Session::new(text, file, limits, cache);
+        let workers = Workers::new(&session, &queue);
         thread::scope(|scope| {
             let workers = &workers;
             let helper = |name: &str| thread::Builder::new().name(name.into());

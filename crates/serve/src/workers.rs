@@ -10,14 +10,14 @@ use analysis::Interest;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::{
-    desk::Desk,
     queue::{Asked, Queue},
     routes::Job,
+    session::Session,
 };
 
 /// Solves moves, each on threads of its own: a reduction of one page keeps no thread from another page.
 pub(crate) struct Workers<'a> {
-    desk: &'a Desk<'a>,
+    session: &'a Session<'a>,
     queue: &'a Queue,
     /// Threads that wait for a move.
     idle: Mutex<Vec<ThreadPool>>,
@@ -25,16 +25,16 @@ pub(crate) struct Workers<'a> {
 
 impl<'a> Workers<'a> {
     /// None is at work.
-    pub fn new(desk: &'a Desk<'a>, queue: &'a Queue) -> Self {
-        Self { desk, queue, idle: Mutex::default() }
+    pub fn new(session: &'a Session<'a>, queue: &'a Queue) -> Self {
+        Self { session, queue, idle: Mutex::default() }
     }
 
     /// Reduces the gears of the first scene while the browser opens; what is wrong with it the page will say.
     pub fn warm(&self) {
-        if let Some(scene) = self.desk.first_scene() {
+        if let Some(scene) = self.session.first_scene() {
             let gears = Arc::new(analysis::SharedGears::of(&scene));
             let wanted = || self.queue.may_want(&gears);
-            self.on_own_threads(|| self.desk.warm(&scene, Interest { gears: &wanted, positions: &wanted }));
+            self.on_own_threads(|| self.session.warm(&scene, Interest { gears: &wanted, positions: &wanted }));
         }
     }
 
@@ -49,11 +49,11 @@ impl<'a> Workers<'a> {
     fn solve(&self, job: Job) {
         let Job { change, gone, answer } = job;
         let answered = self.on_own_threads(|| {
-            let taken = self.desk.take(&change);
+            let taken = self.session.take(&change);
             let asked = Asked { page: change.page, number: change.number, gears: taken.gears(), gone };
             let turn = self.queue.turn(asked)?;
             let (gears, positions) = (|| turn.wants_gears(), || turn.wants_positions());
-            self.desk.answer(change.number, taken, Interest { gears: &gears, positions: &positions })
+            self.session.answer(change.number, taken, Interest { gears: &gears, positions: &positions })
         });
         if let Some(body) = answered {
             // Whoever asked may have gone.

@@ -17,14 +17,15 @@ pub struct LyapunovPlan {
     pub distance: f64,
 }
 
-/// Largest Lyapunov exponent and how well it is known.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Lyapunov {
-    /// Mean rate of growth of a small difference, per unit of time: > 0 in chaos, 0 for a torus (or a free shift in
-    /// time), < 0 for a motion that repeats.
-    pub exponent: f64,
-    /// Standard error from ten parts of the stretches.
-    pub error: f64,
+described::described! {
+    /// Largest Lyapunov exponent and how well it is known.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct Lyapunov {
+        /// mean rate of growth of a small difference, 1/s: above 0 chaos, 0 a quasi-periodic motion (or a free shift in time), below 0 a motion that repeats itself
+        pub exponent: f64,
+        /// standard error of the exponent from ten parts of the integration, 1/s
+        pub error: f64,
+    }
 }
 
 impl Lyapunov {

@@ -1,4 +1,5 @@
-//! Tests that need programs of others: which of them were left out?
+//! What tests of several crates share: gear pairs from numbers, their models at rest and in motion, one small document of every
+//! kind, random numbers, and a record of tests that need programs of others.
 //!
 //! A test that cannot be done on this machine has neither passed nor failed. A [`Suite`] shows it as *ignored*, with
 //! the reason, in the result line of its own test program, and keeps a record. Examples in documentation are tested
@@ -11,11 +12,19 @@
 //! assert_eq!(testing::summary(&nothing), "tests that need programs of others: none has been run yet\n");
 //! ```
 
+mod case;
+pub mod moving;
 mod programs;
 mod random;
 mod record;
+pub mod small_scenes;
 mod suite;
+pub mod waves;
 
+pub use case::{
+    Case, default_data, default_pair, generated, mean_and_peak_to_peak, meshes_folder, modified, of_order, of_widths,
+    quadratic, scaled, structured,
+};
 pub use programs::{browser, program, python};
 pub use random::Random;
 pub use record::{FOLDER, Record, folder, note, summary};

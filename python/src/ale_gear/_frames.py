@@ -102,7 +102,7 @@ def html(result: Any, pictures: list[str]) -> str:
             continue
         rows.append(f"<tr><td><code>{_html.escape(key)}</code></td><td>{value:.6g}</td></tr>")
     told = "".join(f"<p>&#9888; {_html.escape(str(said))}</p>" for said in result.remarks)
-    held = "" if result.holds else "<p><strong>This result does not hold.</strong></p>"
+    held = "" if result.holds else "<p><strong>This result failed a check.</strong></p>"
     shown = "".join(f'<div style="max-width:820px">{_scaled(svg)}</div>' for svg in pictures)
     return (
         f"<div><h3>{_html.escape(result.name)}</h3>{held}{told}"

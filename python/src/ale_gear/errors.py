@@ -29,7 +29,7 @@ class AleGearError(Exception):
     excerpt: str | None
     """The line with a mark below what is meant."""
     result: object
-    """The result that does not hold, where there is one."""
+    """The result that failed a check, where there is one."""
 
     def __init__(
         self,
@@ -68,7 +68,7 @@ class ArgumentError(AleGearError, TypeError, ValueError):
 
 
 class NoResultError(AleGearError, RuntimeError):
-    """The input is fine, but no result came out, or one that does not hold (then `result` has it)."""
+    """The input is fine, but there is no result, or the result failed a check (then `result` has it)."""
 
 
 class InexactError(NoResultError):

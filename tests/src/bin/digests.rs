@@ -6,10 +6,10 @@
 
 use std::{error::Error, fs, path::PathBuf, process::ExitCode};
 
+use testing::small_scenes;
 use verification::{
     program::{ale_gear, as_command},
     recorded::{Record, of_folder},
-    small_scenes,
 };
 
 fn main() -> ExitCode {

@@ -9,7 +9,7 @@ use std::time::Instant;
 use dynamics::{MapRequest, MappedPair, quasi_static_start};
 use fem::ElementOptions;
 use integrate::{Integrator, Scheme, StepControl};
-use verification::{Case, moving::MovingPair};
+use testing::{Case, moving::MovingPair};
 
 const STEPS: usize = 64;
 

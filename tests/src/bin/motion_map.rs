@@ -1,7 +1,7 @@
 //! Writes the page that says which model of a motion suffices at which speed and tolerance, from measured motions.
 //!
 //! `cargo run --release -p verification --bin motion_map -- docs/which_model.md FILE...`, the files of
-//! `measure_motion_accuracy`.
+//! `measure_accuracy motion`.
 
 use std::{error::Error, fmt::Write, fs};
 

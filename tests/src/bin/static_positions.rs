@@ -6,7 +6,7 @@
 
 use fem::ElementOptions;
 use ltca::{StaticError, StaticHistory, StaticModel};
-use verification::Case;
+use testing::Case;
 
 /// Positions of a mesh cycle in `scenes/default.toml`.
 const POSITIONS: usize = 32;

@@ -57,7 +57,7 @@ const MAY_BE_NAN: [&str; 5] =
 #[derive(Debug, Default)]
 pub struct Judged {
     /// Warnings of the result.
-    pub warnings: usize,
+    pub remarks: usize,
     /// What does not hold.
     pub wrong: Vec<String>,
 }
@@ -72,7 +72,7 @@ pub fn judge(folder: &Path) -> Judged {
             return judged;
         }
     };
-    judged.warnings = summary["remarks"].as_array().map_or(0, Vec::len);
+    judged.remarks = summary["remarks"].as_array().map_or(0, Vec::len);
     if summary["certificate"] == "failed" {
         // Exit status 1, with the reason: it is counted there.
         return judged;

@@ -15,7 +15,7 @@ fn lay_out(draft: &Draft, folder: &Path, name: &str) -> io::Result<()> {
     }
     let link = folder.join("meshes");
     if !link.exists() {
-        std::os::unix::fs::symlink(crate::meshes_folder().canonicalize()?, link)?;
+        std::os::unix::fs::symlink(testing::meshes_folder().canonicalize()?, link)?;
     }
     Ok(())
 }
@@ -40,7 +40,7 @@ pub fn try_scene(
     }
     if folder.join("o/summary.json").exists() {
         let judged = judge::judge(&folder.join("o"));
-        verdict.warnings = judged.warnings;
+        verdict.remarks = judged.remarks;
         verdict.wrong.extend(judged.wrong);
         if let (0, Some((other, turned))) = (index % MIRRORED, mirror::mirrored(index, scene))
             && attempt.status == Some(0)

@@ -44,7 +44,7 @@ impl Outcome {
     pub fn name(self) -> &'static str {
         match self {
             Self::Solved => "solved",
-            Self::SolvedWithWarnings => "solved with warnings",
+            Self::SolvedWithWarnings => "solved with remarks",
             Self::LessExact => "less exact than asked",
             Self::Refused => "refused",
             Self::NoSolution => "no solution",
@@ -69,7 +69,7 @@ pub struct Verdict {
     /// The message without the place.
     pub message: String,
     /// Warnings of the result.
-    pub warnings: usize,
+    pub remarks: usize,
     /// Whether it was compared with its mirror image.
     pub mirrored: bool,
     /// What is wrong: with any of these the program is at fault.
@@ -87,7 +87,7 @@ impl Verdict {
             _ if attempt.late => Outcome::Hung,
             Some(0) => Outcome::Solved,
             Some(3) => Outcome::LessExact,
-            Some(1) if message.contains("the result does not hold") => Outcome::Failed,
+            Some(1) if message.contains("check failed") => Outcome::Failed,
             Some(1) => Outcome::NoSolution,
             Some(2) => Outcome::Refused,
             _ => Outcome::Broken,
@@ -110,12 +110,12 @@ impl Verdict {
         }
         let model = scene.model.to_owned();
         let seconds = attempt.seconds;
-        Self { index, model, outcome, reason, message, warnings: 0, mirrored: false, wrong, seconds }
+        Self { index, model, outcome, reason, message, remarks: 0, mirrored: false, wrong, seconds }
     }
 
-    /// In one word, warnings known.
+    /// In one word, remarks known.
     pub fn outcome(&self) -> Outcome {
-        if self.outcome == Outcome::Solved && self.warnings > 0 { Outcome::SolvedWithWarnings } else { self.outcome }
+        if self.outcome == Outcome::Solved && self.remarks > 0 { Outcome::SolvedWithWarnings } else { self.outcome }
     }
 
     /// As a line of JSON.
@@ -126,7 +126,7 @@ impl Verdict {
             "outcome": self.outcome().name(),
             "reason": self.reason,
             "message": self.message,
-            "warnings": self.warnings,
+            "remarks": self.remarks,
             "mirrored": self.mirrored,
             "wrong": self.wrong,
             "seconds": (1e3 * self.seconds).round() / 1e3,

@@ -1,6 +1,6 @@
 //! Gmsh's mesh files.
 
-use mesh::{GearMesh, GroupNames, Mesh, MeshInfo, MeshReport};
+use mesh::{GroupNames, Mesh, MeshInfo, MeshReport, MeshedGear};
 
 /// Teeth of the gear that a mesh is taken for.
 const TEETH: u32 = 3;
@@ -20,7 +20,7 @@ pub fn gear_mesh(bytes: &[u8]) {
     for teeth in [None, Some(TEETH)] {
         let _ = MeshReport::of_gear(&mesh, &names, teeth);
     }
-    if let Err(e) = GearMesh::from_groups(mesh, &names, TEETH) {
+    if let Err(e) = MeshedGear::from_groups(mesh, &names, TEETH) {
         drop((e.to_string(), e.hint()));
     }
 }

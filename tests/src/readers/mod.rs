@@ -7,7 +7,7 @@
 //! |---|---|
 //! | `meshes` | `.msh` of Gmsh, and the gear in it |
 //! | `scenes` | scenes, words of `--set`, studies, gearbox files, REXS |
-//! | `measured` | topographies, pitch errors |
+//! | `measured` | topographies, pitch errors, curve files of measuring machines (MKA), gear data exchange (GDE) |
 //! | `kept` | records of reduced gears, checkpoints, rows, result folders, sources of pages |
 //! | `limited` | an allocator that ends the program at too much memory |
 
@@ -18,7 +18,7 @@ mod meshes;
 mod scenes;
 
 pub use kept::{checkpoint, page, record, results, rows, sealed_record};
-pub use measured::{pitch_errors, topography};
+pub use measured::{gde, mka, pitch_errors, topography};
 pub use meshes::{gear_mesh, mesh};
 pub use scenes::{gearbox, rexs, scene, setting, study};
 
@@ -26,7 +26,7 @@ pub use scenes::{gearbox, rexs, scene, setting, study};
 pub type Reader = fn(&[u8]);
 
 /// All of them, by the name of their target and of the folder of their corpus.
-pub const READERS: [(&str, Reader); 14] = [
+pub const READERS: [(&str, Reader); 16] = [
     ("mesh", mesh),
     ("gear_mesh", gear_mesh),
     ("scene", scene),
@@ -36,6 +36,8 @@ pub const READERS: [(&str, Reader); 14] = [
     ("rexs", rexs),
     ("topography", topography),
     ("pitch_errors", pitch_errors),
+    ("mka", mka),
+    ("gde", gde),
     ("record", record),
     ("checkpoint", checkpoint),
     ("rows", rows),

@@ -26,7 +26,7 @@ fn on(mesh: &str) -> SceneBuilder {
         .set("analysis.model", "reduced")
         .set("analysis.positions_per_cycle", 8)
         .set("accuracy.mean_ste", "50 %")
-        .relative_to(&verification::meshes_folder());
+        .relative_to(&testing::meshes_folder());
     for (gear, k) in [("pinion", 1), ("wheel", 2)] {
         scene = scene
             .set(&format!("{gear}.thickness_allowance_mm"), 0.05)

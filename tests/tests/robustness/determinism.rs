@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
+use testing::small_scenes::{self, SmallDocument};
 use verification::{
     killed::{Files, files_of},
     program::ale_gear,
     recorded::{Record, of_folder},
-    small_scenes::{self, SmallDocument},
 };
 
 use crate::program;

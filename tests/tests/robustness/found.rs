@@ -50,7 +50,7 @@ fn a_load_without_digits_is_refused() {
 #[test]
 fn a_force_that_jumps_is_balanced_between() {
     let folder = tempfile::tempdir().unwrap();
-    let scene = verification::meshes_folder().parent().unwrap().join("scenes/default.toml");
+    let scene = testing::meshes_folder().parent().unwrap().join("scenes/default.toml");
     let set =
         |gear: &str, key: &str, value: &str| ["--set".to_owned(), format!("{gear}.modification.drive.{key}={value}")];
     let mut words: Vec<String> = ["run", scene.to_str().unwrap(), "--out", "o", "--no-cache"].map(String::from).into();

@@ -45,7 +45,7 @@ fn no_key_is_left_out() {
     let of_schema: BTreeSet<String> = keys_of_schema().into_iter().map(|k| k.name).collect();
     assert_eq!(all, of_schema, "keys of the table and of the schema");
     let folder = tempfile::tempdir().unwrap();
-    std::os::unix::fs::symlink(verification::meshes_folder(), folder.path().join("meshes")).unwrap();
+    std::os::unix::fs::symlink(testing::meshes_folder(), folder.path().join("meshes")).unwrap();
     let mut left = all;
     for index in 0..DRAWN {
         if left.is_empty() {

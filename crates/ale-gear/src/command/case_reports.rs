@@ -5,7 +5,7 @@ use std::{
     sync::{Mutex, PoisonError},
 };
 
-use analysis::side_by_side;
+use analysis::parallel_map;
 use plan::KnownCases;
 use report::plan_files::report_folder;
 use scene::{Machine, plan::Plan};
@@ -102,7 +102,7 @@ impl CaseReports {
         }
         let failed = Mutex::new(None);
         phases.run_steps("reports", cases.len() as u64, |progress| {
-            side_by_side(cases.len(), |i| {
+            parallel_map(cases.len(), |i| {
                 let folder = results.path(&report_folder(cases[i]));
                 let written = machine_of(plan, cases[i])
                     .and_then(|machine| write_one(&machine, &mut Phases::quiet(), &folder, cache).map(|_| ()));

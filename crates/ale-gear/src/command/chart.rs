@@ -62,8 +62,8 @@ impl ChartArgs {
             return Err(self.other_scene("--methods", "an analysis in time", "say `kind = \"dynamic\"` in [analysis]"));
         }
         if self.resonance && scene.motion.as_ref().is_none_or(|m| m.sweep.is_none()) {
-            let way_out = "say `run = \"sweep\"` in [motion], and the speeds in [motion.sweep]";
-            return Err(self.other_scene("--resonance", "a sweep over speed", way_out));
+            let hint = "say `run = \"sweep\"` in [motion], and the speeds in [motion.sweep]";
+            return Err(self.other_scene("--resonance", "a sweep over speed", hint));
         }
         let mut options = if self.quick {
             scene.analysis.positions_per_cycle = scene.analysis.positions_per_cycle.min(QUICK_POSITIONS);
@@ -103,8 +103,8 @@ impl ChartArgs {
         Ok(format!("{text}\nresults: {}\n", self.out.display()))
     }
 
-    fn other_scene(&self, word: &str, wanted: &str, way_out: &str) -> CommandError {
+    fn other_scene(&self, word: &str, wanted: &str, hint: &str) -> CommandError {
         let what = format_args!("{}: `{word}` is for {wanted}", self.scene.display());
-        CommandError::input(what, Some(way_out.into()))
+        CommandError::input(what, Some(hint.into()))
     }
 }

@@ -57,12 +57,9 @@ impl EnvelopeArgs {
         let text = write_envelope(&found, "ale-gear envelope --maps --out DIR", phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         self.into.iter().try_for_each(|file| replace_envelope_tables(&found, file))?;
-        let failure = found.missed().map(|missed| {
-            CommandError::failed(
-                format_args!("of the envelope do not hold: {missed}"),
-                Some("the table says why".into()),
-            )
-        });
+        let failure = found
+            .missed()
+            .map(|missed| CommandError::failed(format_args!("failed: {missed}"), Some("the table says why".into())));
         Ok(Answer { text: format!("{text}\nresults: {}\n", self.out.display()), failure })
     }
 }

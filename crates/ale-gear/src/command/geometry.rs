@@ -2,11 +2,11 @@
 
 use std::path::PathBuf;
 
-use analysis::facts::Facts;
+use analysis::facts::RunInfo;
 use report::tables::{geometry_json, geometry_table, torque};
 use scene::rexs_of;
 
-use super::{overrides::Overrides, target::Target};
+use super::{measured::MeasuredArgs, overrides::Overrides, target::Target};
 use crate::error::CommandError;
 
 /// Words of `ale-gear geometry`.
@@ -20,6 +20,8 @@ pub(super) struct GeometryArgs {
     /// Write the pair as a REXS file (1.4, XML) as well, for other programs
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
+    #[command(flatten)]
+    measured: MeasuredArgs,
     #[command(flatten)]
     overrides: Overrides,
 }
@@ -35,7 +37,10 @@ impl GeometryArgs {
         if let Some(file) = &self.rexs {
             files::write_file(file, rexs_of(&pair).as_bytes()).map_err(|e| CommandError::write(file, &e))?;
         }
-        let facts = Facts::of_pair(&scene, &pair);
+        if let Some(text) = self.measured.execute(&scene, &pair)? {
+            return Ok(text);
+        }
+        let facts = RunInfo::of_pair(&scene, &pair);
         if self.json {
             return Ok(geometry_json(&facts) + "\n");
         }

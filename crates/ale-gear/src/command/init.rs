@@ -9,7 +9,11 @@ use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 use files::{write_file, write_new_file};
 
-use scene::{RexsGearbox, RexsPair, Starter, read_gearbox, read_pair, read_rexs};
+use scene::{
+    RexsGearbox, RexsPair, Starter,
+    gearbox::{Gearbox, gearbox_of_pair},
+    read_gearbox, read_pair, read_rexs,
+};
 
 use crate::{
     error::CommandError,
@@ -30,6 +34,9 @@ pub(super) struct InitArgs {
     /// the words on the pair go before it
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
+    /// Write the gearbox file of the pair in this scene: both shafts held, to add bearings and shafts to
+    #[arg(long, value_name = "SCENE", conflicts_with_all = ["rexs", "PairArgs"])]
+    of_pair: Option<PathBuf>,
     /// Take a cylindrical stage of the REXS file alone, as a pair
     #[arg(long, value_name = "N", requires = "rexs")]
     stage: Option<usize>,
@@ -87,6 +94,9 @@ enum KindWord {
 impl InitArgs {
     /// Writes the scene, or the gearbox; the text says what to do next.
     pub(super) fn execute(self, quiet: bool) -> Result<String, CommandError> {
+        if let Some(scene) = &self.of_pair {
+            return self.write_gearbox_of(scene, quiet);
+        }
         let nothing_said = self.pair == PairArgs::default() && self.rexs.is_none();
         let read = match &self.rexs {
             Some(file) => Some(self.of_rexs(file)?),
@@ -140,6 +150,22 @@ impl InitArgs {
         }
         let pair = read_pair(&text, self.stage.unwrap_or(1), case, &Starter::default()).map_err(wrong)?;
         Ok(OfRexs::Pair(Box::new(pair)))
+    }
+
+    /// Writes the gearbox file of a pair.
+    fn write_gearbox_of(&self, scene: &Path, quiet: bool) -> Result<String, CommandError> {
+        let text = gearbox_of_pair(&Scene::read(scene)?)?;
+        let file = self.gearbox_file();
+        if file.as_os_str() == "-" {
+            return Ok(text);
+        }
+        Gearbox::parse(&text, &file)?;
+        if !self.force {
+            absent(&file)?;
+        }
+        write_new(&file, &text, self.force)?;
+        let shown = file.display();
+        Ok(if quiet { String::new() } else { format!("{shown}: written; next\n  ale-gear run {shown} --out out\n") })
     }
 
     fn gearbox_file(&self) -> PathBuf {
@@ -390,7 +416,7 @@ where
     let tried = |word: &str| -> Result<Starter, String> {
         let whole = std::any::type_name::<T>() == std::any::type_name::<u32>();
         let number = word.trim().parse::<T>().map_err(|_| match word.contains(',') {
-            true => format!("`{word}` is no number: write it with a decimal point"),
+            true => format!("`{word}` is not a number: write it with a decimal point"),
             false => format!("`{word}` is no {}number", if whole { "whole " } else { "" }),
         })?;
         let mut with = starter.clone();

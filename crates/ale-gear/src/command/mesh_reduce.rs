@@ -10,7 +10,7 @@ use analysis::{
     remark::Remark,
 };
 use fem::Material;
-use mesh::{GearMesh, Mesh};
+use mesh::{Mesh, MeshedGear};
 use serde_json::json;
 
 use super::{
@@ -68,7 +68,7 @@ impl ReduceArgs {
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let mut phases = Phases::with_bars();
         let json = self.json;
-        let (rows, warnings) = if self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("msh")) {
+        let (rows, remarks) = if self.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("msh")) {
             (vec![self.of_mesh.reduce(&self.file, &self.overrides, &mut phases)?], Vec::new())
         } else {
             self.of_mesh.refuse(&self.file)?;
@@ -76,9 +76,9 @@ impl ReduceArgs {
             reduced(&scene, &mut phases, &self.cache.open())?
         };
         Ok(if json {
-            format!("{:#}\n", json!({ "gears": rows, "phases": phases.rows(), "remarks": warnings }))
+            format!("{:#}\n", json!({ "gears": rows, "phases": phases.rows(), "remarks": remarks }))
         } else {
-            table(&rows, &phases, &warnings)
+            table(&rows, &phases, &remarks)
         })
     }
 }
@@ -119,24 +119,24 @@ impl MeshArgs {
             ));
         };
         let of_file = |e: mesh::MeshError| CommandError::input(format_args!("{}: {e}", file.display()), e.hint());
-        let gear = GearMesh::from_groups(mesh, &names, teeth).map_err(of_file)?;
+        let gear = MeshedGear::from_groups(mesh, &names, teeth).map_err(of_file)?;
         let material = Material::new(self.young_mpa.unwrap_or(2.06e5), self.poisson.unwrap_or(0.3), STEEL)
             .map_err(|e| CommandError::input(&e, e.hint()))?;
         Ok(reduce_mesh(&file.display().to_string(), gear, material, self.window_teeth.unwrap_or(3), phases)?)
     }
 }
 
-/// Both gears of a scene, with the files of their records; warnings come second.
+/// Both gears of a scene, with the files of their records; remarks come second.
 fn reduced(scene: &Scene, phases: &mut Phases, cache: &Cache) -> Result<(Vec<ReducedRow>, Vec<Remark>), CommandError> {
-    let ReducedScene { mut rows, keys, warnings } = reduce_scene(scene, phases, cache)?;
+    let ReducedScene { mut rows, keys, remarks } = reduce_scene(scene, phases, cache)?;
     for (row, key) in rows.iter_mut().zip(keys.keys()) {
         let file = key.as_ref().and_then(|key| cache.file(key)).filter(|f| f.is_file());
         row.file = file.map(|f| f.display().to_string());
     }
-    Ok((rows, warnings))
+    Ok((rows, remarks))
 }
 
-fn table(rows: &[ReducedRow], phases: &Phases, warnings: &[Remark]) -> String {
+fn table(rows: &[ReducedRow], phases: &Phases, remarks: &[Remark]) -> String {
     let mut t = String::new();
     for row in rows {
         let source = if row.from_cache { ", from the cache" } else { "" };
@@ -155,7 +155,7 @@ fn table(rows: &[ReducedRow], phases: &Phases, warnings: &[Remark]) -> String {
         let mb = phase.peak_memory_mb.map_or_else(|| "-".to_owned(), |m| format!("{m:.0}"));
         let _ = writeln!(t, "  {:<14} {:>10.2} {mb:>14}", phase.name, phase.wall_s);
     }
-    for warning in warnings {
+    for warning in remarks {
         let _ = writeln!(t, "\nwarning: {warning}");
     }
     t

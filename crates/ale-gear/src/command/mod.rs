@@ -8,6 +8,7 @@ mod envelope;
 mod geometry;
 mod group_args;
 mod init;
+mod measured;
 mod mesh;
 mod mesh_reduce;
 mod optimise;
@@ -36,13 +37,13 @@ use crate::{
     printed,
     scene::{Document, DocumentKind},
     stop::on_stop,
-    talk::{Loudness, colours_on_stderr, read_progress_after, say, set_loudness},
+    talk::{Verbosity, colours_on_stderr, read_progress_after, say, set_verbosity},
 };
 
 /// Reduced finite-element contact of helical gears
 ///
 /// Without a subcommand it runs the default pair, which is in the program with its meshes, into out/default.
-/// Exit status: 0 solved, 1 no result or one that does not hold, 2 wrong input, 3 less exact than asked.
+/// Exit status: 0 solved, 1 no result or a failed check, 2 wrong input, 3 less exact than asked.
 #[derive(Debug, Parser)]
 #[command(name = "ale-gear", version)]
 pub struct Cli {
@@ -174,11 +175,11 @@ impl Cli {
     /// The one message for stderr, with the exit status.
     pub fn execute(self) -> Result<Answer, CommandError> {
         let Everywhere { quiet, verbose, threads } = self.everywhere;
-        set_loudness(match (quiet, verbose) {
-            (true, _) => Loudness::Quiet,
-            (_, 0) => Loudness::Bars,
-            (_, 1) => Loudness::Steps,
-            _ => Loudness::Details,
+        set_verbosity(match (quiet, verbose) {
+            (true, _) => Verbosity::Quiet,
+            (_, 0) => Verbosity::Bars,
+            (_, 1) => Verbosity::Steps,
+            _ => Verbosity::Details,
         });
         read_progress_after()?;
         on_stop();
@@ -267,7 +268,7 @@ const MOST_THREADS: usize = 1024;
 fn use_threads(threads: Option<usize>) {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     if let Some(threads) = threads.filter(|n| *n > OVER_CORES * cores) {
-        say(Loudness::Bars, || {
+        say(Verbosity::Bars, || {
             format!(
                 "ale-gear: {threads} threads on {cores} cores: most of them only wait and take memory; leave `--threads` out \
                  to use all cores"

@@ -4,7 +4,7 @@ use std::{ops::ControlFlow, path::PathBuf};
 
 use analysis::{
     NoObserver, PhaseWork, SharedModels,
-    optimum::{Optimised, Optimum, optimise, told},
+    optimum::{Optimised, Optimum, optimise, summarise},
     run_phase,
 };
 use plan::{CaseLines, DoneCases, OptimumError, check_numbers, goal_unit, numbers_digest, optimise_numbers};
@@ -174,10 +174,10 @@ impl OptimiseArgs {
                 ControlFlow::Continue(())
             })
         })?;
-        let told: Optimised = phases.run("tell", || told(&models, &optimum))?;
+        let summary: Optimised = phases.run("tell", || summarise(&models, &optimum))?;
         let scene = optimum.plan.own_scene(&optimum.values)?.standing_alone();
         let again = self.again();
-        let of = OptimumResult { optimum: &optimum, told: &told, scene: &scene, again: &again };
+        let of = OptimumResult { optimum: &optimum, summary: &summary, scene: &scene, again: &again };
         let text = write_optimum(&of, phases.cost(), &results)?.table;
         results.finish(talk::note)?;
         let hint = "allow more, or let more parameters change, within wider bounds (`--vary`)";

@@ -34,7 +34,7 @@ impl ReportArgs {
         files::write_file(&file, page.as_bytes()).map_err(|e| CommandError::write(&file, &e))?;
         let mut said = format!("{}: written\n", file.display());
         if !missed.is_empty() {
-            said.push_str(&format!("THE RESULT DOES NOT HOLD: {missed}\n"));
+            said.push_str(&format!("CHECK FAILED: {missed}\n"));
         }
         Ok(if quiet { String::new() } else { said })
     }

@@ -22,7 +22,7 @@ use crate::{
     resolution::with_slices,
     run::{self, InSpace},
     scene::{DocumentKind, Kind, Model, Run, Scene},
-    talk::{self, Loudness},
+    talk::{self, Verbosity},
 };
 
 /// Words of `ale-gear run`.
@@ -130,7 +130,7 @@ impl RunArgs {
     /// any file is written.
     fn machine(&self) -> Result<Machine, CommandError> {
         if self.default_scene {
-            talk::say(Loudness::Bars, || {
+            talk::say(Verbosity::Bars, || {
                 format!(
                     "ale-gear: no scene given: runs the default pair, which is in the program, into {}; \
                      `ale-gear run SCENE.toml --out DIR` runs another, `ale-gear init` writes one",
@@ -179,9 +179,10 @@ impl RunArgs {
     /// Refuses words that only a pair has a use for.
     fn fits_a_gearbox(&self) -> Result<(), CommandError> {
         let torque = "`--set torque.0.torque_nm=NM` sets the first torque of a gearbox";
+        let accuracy = "`--set \"accuracy.face_load_factor=2 %\"` asks it of a gearbox";
         let words = [
             (self.overrides.has_torque(), "--torque-nm", torque),
-            (self.overrides.has_accuracy(), "--accuracy", "leave it out: a gearbox has no bounds of its accuracy"),
+            (self.overrides.has_accuracy(), "--accuracy", accuracy),
             (!self.derivatives.is_empty(), "--derivatives", "leave it out, or run the scene of one of its pairs"),
             (self.vtu, "--vtu", "leave it out: the page shows the gearbox in space"),
             (self.no_view, "--no-view", "leave it out: nothing is saved by it"),

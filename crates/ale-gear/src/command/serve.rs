@@ -14,7 +14,7 @@ use crate::{
     memory,
     scene::{Document, DocumentKind, SceneError, Starter, read_text},
     stop,
-    talk::{self, Loudness},
+    talk::{self, Verbosity},
 };
 
 /// Words of `ale-gear serve`.
@@ -44,7 +44,7 @@ impl ServeArgs {
         stop::gently(move || handle.stop());
         let address = server.address();
         announce(&address)?;
-        talk::say(Loudness::Bars, || "ale-gear: serves this machine alone, until Ctrl-C");
+        talk::say(Verbosity::Bars, || "ale-gear: serves this machine alone, until Ctrl-C");
         if !self.no_browser
             && let Err(error) = open::that_detached(&address)
         {

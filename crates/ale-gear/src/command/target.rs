@@ -32,7 +32,7 @@ impl Target {
             return Ok(());
         }
         Err(CommandError::input(
-            format_args!("{word} {}: is there, and is no {}", path.display(), self.name()),
+            format_args!("{word} {}: exists and is not a {}", path.display(), self.name()),
             Some("give the name of a new file, or take that one away".into()),
         ))
     }

@@ -193,7 +193,11 @@ fn maps_are_those_of_their_version() {
     );
     fs::write(&file, map.replacen(version, "ale-gear maps 0", 1)).unwrap();
     let run = cached.run("again");
-    assert!(run.stdout.contains("is no file of maps of this version; the contact was mapped again"), "{}", run.stdout);
+    assert!(
+        run.stdout.contains("is not a file of maps of this version; the contact was mapped again"),
+        "{}",
+        run.stdout
+    );
     assert!(fs::read_to_string(&file).unwrap() == map);
 }
 

@@ -134,7 +134,14 @@ fn every_key_is_in_a_scene_that_runs() {
         let path = entry.unwrap().path();
         scratch.file(path.file_name().unwrap().to_str().unwrap(), std::fs::read(&path).unwrap())
     });
-    let boxes = ["two_stages.toml", "rolling_bearings.toml", "overhung_pinion.toml", "run_up.toml", "in_housing.toml"];
+    let boxes = [
+        "two_stages.toml",
+        "rolling_bearings.toml",
+        "overhung_pinion.toml",
+        "run_up.toml",
+        "in_housing.toml",
+        "accurate.toml",
+    ];
     let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
     let has = |key: &str| {
         all.lines().any(|l| l.split([' ', '=']).next() == Some(key) || l.trim_matches(['[', ']']).ends_with(key))
@@ -164,6 +171,50 @@ fn every_key_is_in_a_scene_that_runs() {
     // A tenth more than the load asks for makes it faster.
     let speeds = column(&scratch.read("in_housing/motion.csv"), "input_speed_rpm");
     assert!(speeds[speeds.len() - 1] < -1500.0, "{} 1/min", speeds[speeds.len() - 1]);
+}
+
+/// A gearbox that asks for an accuracy has its bounds beside its numbers, in the table, the page and the summary, and which
+/// settings were tried; what is less exact than asked ends with status 3 and all files.
+#[test]
+fn a_gearbox_is_as_exact_as_it_asks() {
+    let scratch =
+        Scratch::new().file("box.toml", std::fs::read(repository().join("scenes/gearbox/accurate.toml")).unwrap());
+    let run = scratch.ale_gear(["run", "box.toml", "--out", "o", "--no-cache"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    for word in ["face load factor, pair", "bearing force, slow, loose", "as asked", "natural frequency", "taken"] {
+        assert!(run.stdout.contains(word), "{word} is not in\n{}", run.stdout);
+    }
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let accuracy = &summary["accuracy"];
+    let bounds = accuracy["bounds"].as_array().unwrap();
+    assert_eq!(bounds.len(), 5 + 4 + 1, "five numbers of the mesh, four bearings, one frequency");
+    assert!(bounds.iter().all(|b| b["met"] == true && b["above"].as_f64() > Some(0.0)), "{bounds:?}");
+    let factor = bounds.iter().find(|b| b["quantity"] == "face_load_factor").unwrap();
+    assert_eq!((&factor["of"], &factor["value"]), (&"pair".into(), &summary["headline"]["face_load_factor"][0]));
+    let hertz = bounds.iter().find(|b| b["quantity"] == "natural_frequency").unwrap();
+    let (own, first) =
+        (hertz["value"].as_f64().unwrap(), summary["vibration"]["modes"][0]["frequency_hz"].as_f64().unwrap());
+    assert!((own / first - 1.0).abs() < 1e-12, "{own} beside {first} Hz");
+    let tried = accuracy["settings"].as_array().unwrap();
+    assert!(tried.last().unwrap().get("left_because").is_none() && tried[0]["shaft_elements"] == 12, "{tried:?}");
+    let page = scratch.read("o/report.html");
+    assert!(page.contains("How exact") && page.contains("by shaft elements"));
+    // Meshes, slices and positions that stay, and more than they can keep.
+    let coarse = ["pinion", "wheel"].map(|gear| format!("--set=mesh.0.scene.{gear}.mesher.elements_profile=2"));
+    let asked = "--set=accuracy.mean_ste=0.001 %";
+    let run = scratch.ale_gear([
+        "run",
+        "box.toml",
+        "--out",
+        "w",
+        &coarse[0],
+        &coarse[1],
+        "--set=mesh.0.scene.contact.slices=16",
+        asked,
+    ]);
+    assert_eq!(run.code, Some(3), "{}", run.stderr);
+    assert!(run.stderr.contains("the accuracy asked for is not kept: mean_ste of pair is"), "{}", run.stderr);
+    assert!(scratch.path().join("w/summary.json").exists() && run.stdout.contains("WAS ASKED"), "{}", run.stdout);
 }
 
 /// A mistake ends with status 2, line and hint, and leaves no folder.
@@ -257,7 +308,7 @@ fn words_for_pairs_are_refused_of_a_gearbox() {
         ),
         (
             &["--accuracy", "1%"],
-            "`--accuracy` is for pairs, and this is a gearbox file\nhint: leave it out: a gearbox has no bounds of its accuracy\n",
+            "`--accuracy` is for pairs, and this is a gearbox file\nhint: `--set \"accuracy.face_load_factor=2 %\"` asks it of a gearbox\n",
         ),
         (
             &["--derivatives", "a.b"],
@@ -393,4 +444,36 @@ fn mistakes_in_a_gearbox_are_told_at_once() {
         "ale-gear: box.toml:123: `from_rpm` is 0, allowed is 0.001 .. 1000000\n\
          hint: `from_rpm` means: lowest speed of the input, 1/min\n",
     );
+}
+
+/// `init --of-pair` writes the gearbox of two held shafts that a pair is the short form of: position by position the same
+/// transmission error, whichever gear drives and whichever way.
+#[test]
+fn a_pair_is_the_short_form_of_a_gearbox() {
+    for (driver, rotation) in [("pinion", "ccw"), ("wheel", "cw")] {
+        let scratch = Scratch::new().file(
+            "pair.toml",
+            format!(
+                "[pinion]\nteeth = 23\nhelix_angle_deg = 15.0\n[wheel]\nteeth = 41\n[pair]\nnormal_module_mm = 2.5\n\
+                 face_width_mm = 18.0\n[operation]\ntorque_nm = 80.0\ndriver = \"{driver}\"\nrotation = \"{rotation}\"\n\
+                 [contact]\nslices = 12\n[analysis]\npositions_per_cycle = 4\n"
+            ),
+        );
+        let fine = |words: &[&str]| {
+            let run = scratch.command(words);
+            assert_eq!(run.code, Some(0), "{}", run.stderr);
+        };
+        fine(&["run", "pair.toml", "--out", "p"]);
+        fine(&["init", "box.toml", "--of-pair", "pair.toml"]);
+        fine(&["run", "box.toml", "--out", "b"]);
+        let alone = column(&scratch.read("p/history.csv"), "ste_um");
+        let mesh = column(&scratch.read("b/positions.csv"), "mesh_1_ste_um");
+        assert_eq!((mesh.len(), alone.len()), (4, 4));
+        for (own, wanted) in mesh.iter().zip(&alone) {
+            assert!((own / wanted - 1.0).abs() < 1e-9, "{own} um of the gearbox, {wanted} um of the pair");
+        }
+    }
+    let scratch = Scratch::new();
+    let words = scratch.command(&["init", "box.toml", "--of-pair", "none.toml"]);
+    assert_eq!((words.code, scratch.path().join("box.toml").exists()), (Some(2), false), "{}", words.stderr);
 }

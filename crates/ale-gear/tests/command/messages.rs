@@ -180,7 +180,7 @@ fn a_wrong_type_names_both() {
 fn a_value_out_of_range_names_the_range() {
     says(
         &with("teeth = 30", "teeth = -3"),
-        "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\nhint: `teeth` means: number of teeth\n",
+        "ale-gear: a.toml:2: `teeth` is -3, allowed is 5 .. 2000\nhint: `teeth` means: number of teeth, negative of an internal gear (ISO 21771: z = -93)\n",
     );
     says(
         &with("face_width_mm = 20.0", "face_width_mm = nan"),

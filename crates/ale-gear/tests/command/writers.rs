@@ -163,7 +163,7 @@ fn only_files_of_a_result_are_replaced() {
             let line = line.replace("one one", "one ./one");
             let run = scratch.command(&[&words(&line)[..], &["--out", "o"]].concat());
             assert_eq!(run.code, Some(2), "{what}, {line}: {}", run.stderr);
-            let said = format!("ale-gear: --out o: holds `{named}`, which is no result file\nhint: ");
+            let said = format!("ale-gear: --out o: holds `{named}`, which is not a result file\nhint: ");
             assert!(run.stderr.starts_with(&said), "{what}, {line}: {}", run.stderr);
             assert!(tree(scratch.path()) == before, "{what}, {line}: something is another");
         }
@@ -211,7 +211,7 @@ fn only_files_of_the_same_kind_are_replaced() {
     ] {
         let run = scratch.command(&words(line));
         assert_eq!(run.code, Some(2), "{line}: {}", run.stderr);
-        assert!(run.stderr.contains(": is there, and is no ") && run.stderr.contains("\nhint: "), "{}", run.stderr);
+        assert!(run.stderr.contains(": exists and is not a ") && run.stderr.contains("\nhint: "), "{}", run.stderr);
         assert!(tree(scratch.path()) == before, "{line}: something is another");
     }
     for (line, _) in FILES {
@@ -252,11 +252,11 @@ fn what_stands_beside_a_result_is_not_taken_for_its_own() {
     let before = tree(scratch.path());
     for (line, said) in [
         ("vary plan.toml --out o", "--out o: o.cases holds no cases of this program\nhint: "),
-        ("run study.toml --out s", "--out s: s.cases is no folder of cases\nhint: "),
-        ("run study.toml --out o", "--out o: o.cases is no folder of cases\nhint: "),
+        ("run study.toml --out s", "--out s: s.cases is not a folder of cases\nhint: "),
+        ("run study.toml --out o", "--out o: o.cases is not a folder of cases\nhint: "),
         (
             "vary plan.toml --cases 0..2 --out part.csv",
-            "--out part.csv: is there, and is no file of `ale-gear vary --cases`\n",
+            "--out part.csv: exists and is not a file of `ale-gear vary --cases`\n",
         ),
         ("run motion.toml --out m --stop-after-cycles 2", "m.checkpoint: is there, and was not made by this program"),
     ] {

@@ -4,6 +4,7 @@ mod documents;
 #[path = "../markdown/mod.rs"]
 mod markdown;
 mod notices;
+mod output_lists;
 mod outputs;
 #[path = "../quantities/mod.rs"]
 mod quantities;

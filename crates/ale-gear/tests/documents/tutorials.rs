@@ -94,7 +94,7 @@ fn steps(page: &Page) -> Vec<(Step, String)> {
                 if words.first() == Some(&"value") {
                     let step = Step::of_number(&words, &page.text[range.end..]);
                     steps.push((
-                        step.unwrap_or_else(|| panic!("{place}: {inside} is no value with a number behind it")),
+                        step.unwrap_or_else(|| panic!("{place}: {inside} is not a value with a number behind it")),
                         place,
                     ));
                 } else {
@@ -238,4 +238,4 @@ macro_rules! tutorials {
     };
 }
 
-tutorials!(cluster, first_pair, harris_map, own_mesh, quiet_over_torque, run_up);
+tutorials!(cluster, first_pair, gear_whine, harris_map, own_mesh, quiet_over_torque, run_up);

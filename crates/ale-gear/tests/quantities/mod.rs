@@ -12,13 +12,12 @@ pub struct Documented(BTreeSet<String>);
 
 impl Documented {
     pub fn by(page: &Page) -> Self {
-        Self(page.code().into_iter().map(|(name, _)| name).collect())
+        let names = page.code().into_iter().map(|(name, _)| name);
+        Self(names.flat_map(|name| [generalised(&name), name]).collect())
     }
 
     fn has(&self, name: &str) -> bool {
         let general = generalised(name);
-        // `pinion_force_x_n` .. `wheel_moment_z_nmm` is documented as a range.
-        let wrench = ["force_", "moment_", "bearing_force_", "bearing_moment_", "friction_force_", "friction_moment_"];
         // Any column of `history.csv` may stand behind `mean_` where there is `mean_<column>`.
         let mut starts = self.0.iter().filter_map(|word| word.split_once("<column>").map(|(start, _)| start));
         // The same of derivatives, `d_<quantity>_per_<key>` of the scene.
@@ -26,8 +25,6 @@ impl Documented {
         self.0.contains(name)
             || by_key.any(|start| start.starts_with("d_") && general.starts_with(start))
             || self.0.contains(&general)
-            || general.strip_prefix("<gear>_").is_some_and(|rest| wrench.iter().any(|w| rest.starts_with(w)))
-            || self.0.iter().any(|word| word.starts_with('_') && general.ends_with(word.as_str()))
             || starts.any(|start| !start.is_empty() && !start.contains('<') && name.starts_with(start))
     }
 

@@ -87,26 +87,26 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     let scratch = Scratch::new().file("a.toml", failing).file("b.toml", ISO_SCENE);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}\n{}", run.stdout, run.stderr);
-    assert!(run.stderr.contains("the result does not hold: deflection_over_module is "), "{}", run.stderr);
-    assert!(run.stderr.contains(", the bound is 3e-1"), "{}", run.stderr);
-    assert!(run.stdout.contains("THE RESULT DOES NOT HOLD"), "{}", run.stdout);
+    assert!(run.stderr.contains("check failed: deflection_over_module "), "{}", run.stderr);
+    assert!(run.stderr.contains(", limit 0.3"), "{}", run.stderr);
+    assert!(run.stdout.contains("CHECK FAILED"), "{}", run.stdout);
     let summary = json(&scratch.read("o/summary.json"));
     assert_eq!(summary["certificate"], "failed");
     let check = &summary["certificate_checks"]["deflection_over_module"];
     assert!(check["bound"] == 0.3 && check["value"].as_f64().is_none_or(|v| v > 0.3), "{check}");
-    assert!(scratch.read("o/report.html").contains("This result does not hold."));
+    assert!(scratch.read("o/report.html").contains("This result failed a check."));
 
     let fine = scratch.ale_gear(["run", "b.toml", "--out", "p"]);
     assert_eq!((fine.code, fine.stderr.as_str()), (Some(0), ""));
     assert_eq!(json(&scratch.read("p/summary.json"))["certificate"], "held");
-    assert!(!scratch.read("p/report.html").contains("does not hold"));
+    assert!(!scratch.read("p/report.html").contains("failed a check"));
 
     let compared = scratch.ale_gear(["compare", "p", "o", "--out", "c"]);
-    assert!(compared.stdout.contains("DOES NOT HOLD: deflection_over_module"), "{}", compared.stdout);
-    assert!(scratch.read("c/report.html").contains("DOES NOT HOLD"));
+    assert!(compared.stdout.contains("FAILED A CHECK: deflection_over_module"), "{}", compared.stdout);
+    assert!(scratch.read("c/report.html").contains("FAILED A CHECK"));
     let again = scratch.ale_gear(["report", "o"]);
-    assert!(again.stdout.contains("THE RESULT DOES NOT HOLD: deflection_over_module"), "{}", again.stdout);
-    assert!(scratch.read("o/report.html").contains("This result does not hold."));
+    assert!(again.stdout.contains("CHECK FAILED: deflection_over_module"), "{}", again.stdout);
+    assert!(scratch.read("o/report.html").contains("This result failed a check."));
 }
 
 /// Steps so long that teeth leap over each other end the run at once, with where it happened and a way out; in a sweep

@@ -247,6 +247,6 @@ fn few_slices_are_remarked_on() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let warning = "4 slices are few for this pair: a row of springs over its gaps is off by";
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    let warnings = summary["remarks"].to_string();
-    assert!(warnings.contains(warning) && warnings.contains(&format!("{enough} would do")), "{warnings}");
+    let remarks = summary["remarks"].to_string();
+    assert!(remarks.contains(warning) && remarks.contains(&format!("{enough} would do")), "{remarks}");
 }

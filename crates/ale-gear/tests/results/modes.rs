@@ -15,7 +15,7 @@ fn unresolved(scene: &str) -> (serde_json::Value, String) {
     let scratch = Scratch::new().file("a.toml", scene);
     let run = scratch.ale_gear(["run", "a.toml", "--out", "o"]);
     assert_eq!(run.code, Some(1), "{}", run.stdout);
-    assert!(run.stderr.contains("the result does not hold: energy_residual"), "{}", run.stderr);
+    assert!(run.stderr.contains("check failed: energy_residual"), "{}", run.stderr);
     let (summary, text) = answer(&scratch, &run.stdout);
     assert_eq!(summary["certificate_missed"].as_array().map(Vec::len), Some(1), "{}", summary["certificate_missed"]);
     (summary, text)

@@ -110,7 +110,7 @@ fn pattern_and_root_stress_of_a_slow_motion_are_those_at_rest() {
     let scratch = Scratch::new().file("a.toml", &moving).file("still.toml", &still);
     // Steps of a second resolve no vibration, and the method takes it away: of its energy nothing closes, and that is said.
     let moved = scratch.command(&["run", "a.toml", "--out", "o"]);
-    assert!(moved.stderr.contains("the result does not hold: energy_residual"), "{}", moved.stderr);
+    assert!(moved.stderr.contains("check failed: energy_residual"), "{}", moved.stderr);
     assert_eq!(scratch.command(&["run", "still.toml", "--out", "s"]).code, Some(0));
     let (rows, positions) = (scratch.read("o/history.csv"), scratch.read("s/history.csv"));
     for gear in ["pinion", "wheel"] {
@@ -253,7 +253,7 @@ fn wrong_motions_are_told_with_line_and_hint() {
     );
     says(
         of("[wheel.body]\nfree = [\"x\", \"turn\"]\n"),
-        "25: `free` lists \"turn\", which is no choice\nhint: leave it out: the driven gear's turn is always free, the \
+        "25: `free` lists \"turn\", which is not a choice\nhint: leave it out: the driven gear's turn is always free, the \
          driver's when a torque drives it",
     );
     says(

@@ -1,6 +1,7 @@
 //! The scene file: its keys, what is set beside it, its meshes and the way they are reduced.
 
 mod keys;
+mod measured;
 mod meshes;
 mod reduction_way;
 mod scene;

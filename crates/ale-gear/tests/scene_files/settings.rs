@@ -65,7 +65,10 @@ fn complaints_name_the_setting() {
     for (word, text) in [
         ("pair.face_widht_mm=3", "--set pair.face_widht_mm: unknown key `face_widht_mm`|did you mean `face_width_mm`?"),
         ("operatoin.torque_nm=3", "--set operatoin.torque_nm: unknown key `operatoin`|did you mean `operation`?"),
-        ("pinion.teeth=-3", "--set pinion.teeth: `teeth` is -3, allowed is 5 .. 2000|`teeth` means: number of teeth"),
+        (
+            "pinion.teeth=-3",
+            "--set pinion.teeth: `teeth` is -3, allowed is 5 .. 2000|`teeth` means: number of teeth, negative of an internal gear (ISO 21771: z = -93)",
+        ),
         (
             "pinion.teeth=many",
             "--set pinion.teeth: `pinion.teeth` must be a whole number, found string \"many\"|write numbers without quotes and without a unit: the \
@@ -77,7 +80,7 @@ fn complaints_name_the_setting() {
         ),
         (
             "a b=3",
-            "--set a b: `a b` is no key|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
+            "--set a b: unknown key `a b`|write `--set operation.torque_nm=200`: tables and key with dots between them, then the value",
         ),
     ] {
         assert_eq!(said(&[word]), text);

@@ -92,7 +92,7 @@ fn what_is_no_result_is_refused() {
     std::fs::write(scratch.path().join("newer/summary.json"), newer).unwrap();
     for (folder, said) in [
         ("nowhere", "nowhere: there is no such folder"),
-        ("iso.toml", "iso.toml: is no folder"),
+        ("iso.toml", "iso.toml: is not a folder"),
         ("empty", "empty: has no summary.json"),
         ("other", "other: summary.json is of another program"),
         ("broken", "broken: summary.json is no JSON"),

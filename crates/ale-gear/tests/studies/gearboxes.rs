@@ -81,7 +81,7 @@ fn what_a_gearbox_has_not_is_told_before_any_work() {
             &["--vary", "bearing.0.position_mm=14,15", "--output", "face_load_facto.0"],
             "did you mean `face_load_factor`?",
         ),
-        (&["--vary", "bearing.0.position_mm=14,15", "--of", "mesh_1_ste"], "no column of motion.csv"),
+        (&["--vary", "bearing.0.position_mm=14,15", "--of", "mesh_1_ste"], "is not a column of motion.csv"),
         (&["--vary", &format!("{SLOPE}~iso1328:6"), "--output", "face_load_factor.0"], "ISO 1328"),
         (&["--vary", "input.speed=1,2", "--start", "carry"], "cases of a gearbox are each alone"),
         (&["--harris"], "`--harris` is for pairs"),

@@ -110,9 +110,9 @@ fn wrong_words_are_refused() {
     refused(&["a.toml", "--vary", "pair.face_width_mm=10:20"], "micro-geometry and misalignment may change");
     refused(&["a.toml", "--vary", "pinion.modification.bias_um=2:1"], "second bound is not above");
     refused(&["a.toml", "--vary", "pinion.modification.bias_um"], "it has neither `=`");
-    refused(&["a.toml", "--torques", "0"], "is no torque above 0");
-    refused(&["a.toml", "--max-pressure", "0"], "is no limit");
-    refused(&["a.toml", "--max-edge-pressure", "0"], "is no limit");
+    refused(&["a.toml", "--torques", "0"], "is not a torque above 0");
+    refused(&["a.toml", "--max-pressure", "0"], "is not a limit");
+    refused(&["a.toml", "--max-edge-pressure", "0"], "is not a limit");
     refused(&["a.toml", "--front", "1000"], "is more than 100");
     let own = ["--set", "pinion.modification.drive.lead_crowning_um=3"];
     let both = ["--vary", "pinion.modification.lead_crowning_um=0:10"];

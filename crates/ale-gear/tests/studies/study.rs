@@ -290,7 +290,7 @@ fn a_case_that_does_not_hold_leaves_its_files() {
         assert_eq!(run.code, Some(0), "{}{}", run.stdout, run.stderr);
         let mut summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
         let case = summary["headline"]["cases"][1].take();
-        assert!(case["reason"].as_str().is_some_and(|r| r.contains("does not hold: deflection_over_module")), "{case}");
+        assert!(case["reason"].as_str().is_some_and(|r| r.contains("check failed: deflection_over_module")), "{case}");
         assert!(case["quantities"].is_null(), "{case}");
         case
     };
@@ -370,7 +370,7 @@ fn a_killed_study_goes_on() {
     std::fs::create_dir(&kept).unwrap();
     std::fs::write(kept.join("thesis.tex"), "years of work").unwrap();
     let refused = scratch.ale_gear(["run", "s.toml", "--out", "cut"]);
-    assert!(refused.code == Some(2) && refused.stderr.contains("is no folder of cases"), "{}", refused.stderr);
+    assert!(refused.code == Some(2) && refused.stderr.contains("is not a folder of cases"), "{}", refused.stderr);
 }
 
 /// Words that say something else than a study's file are refused, not ignored.

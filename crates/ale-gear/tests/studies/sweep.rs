@@ -224,7 +224,7 @@ fn a_column_over_a_key_is_a_plan() {
         (&["--of", "ste_um", "--ways", "up"][..], "`--ways` does not go with cases that are run each alone"),
         (&["--of", "ste_um", "--lyapunov", "3"], "`--lyapunov` does not go with cases"),
         (&["--of", "ste_um", "--start", "carry"], "only a motion of one model carries on"),
-        (&["--of", "ste_mm"], "`--of ste_mm` is no column of history.csv\nhint: did you mean \"ste_um\"?"),
+        (&["--of", "ste_mm"], "`--of ste_mm` is not a column of history.csv\nhint: did you mean \"ste_um\"?"),
     ] {
         let run = scratch.command(&[&["vary", "a.toml", "--out", "q"], &key[..], words].concat());
         assert!(run.code == Some(2) && run.stderr.contains(said), "{words:?}: {}", run.stderr);

@@ -32,7 +32,7 @@ fn numbers_that_no_case_will_have_are_told_before_any_work() {
     let plan = |wanted: &str| PLAN.replace("\"ste_harmonics_um.1\"", &format!("\"{wanted}\""));
     for (wanted, said) in [
         ("mean_ste_u", "the headline has no `mean_ste_u`\nhint: did you mean `mean_ste_um`?"),
-        ("ste_harmonics_um.8", "no number\nhint: it is a list: write `ste_harmonics_um.0` .. `ste_harmonics_um.7`"),
+        ("ste_harmonics_um.8", "not a number\nhint: it is a list: write `ste_harmonics_um.0` .. `ste_harmonics_um.7`"),
         ("mean(max_pressure_mp)", "no column `max_pressure_mp`\nhint: did you mean \"max_pressure_mpa\"?"),
     ] {
         let scratch = Scratch::new().file("a.toml", five_teeth()).file("plan.toml", plan(wanted));
@@ -205,8 +205,8 @@ fn words_of_a_plan_are_checked_first() {
         (keys(&format!("{torque}, {torque}")), "`operation.torque_nm` is varied twice"),
         (whole("a.toml", torque, &format!("{mean}, {mean}"), ""), "`mean_ste_um` is asked for twice"),
         (keys("\"operation.torqe_nm=1,2\""), "torqe_nm"),
-        (keys("\"operation.torque_nm=\""), "`` is no number"),
-        (keys("\"operation.torque_nm=1,nan\""), "`NaN` is no value"),
+        (keys("\"operation.torque_nm=\""), "`` is not a number"),
+        (keys("\"operation.torque_nm=1,nan\""), "`NaN` is not a value"),
         (keys("\"operation.torque_nm~normal:1:0\""), "a standard deviation is above 0"),
         (keys("\"operation.torque_nm~3:1\""), "`from` lies below `to`"),
         (whole("a.toml", torque, "\"meen(ste_um)\"", ""), "did you mean `mean(..)`?"),
@@ -219,8 +219,8 @@ fn words_of_a_plan_are_checked_first() {
     for (words, said) in [
         (&["--vary", "operation.torque_nm=1"][..], "`--output` says what is wanted"),
         (&["--vary", "operation.torque_nm", "--output", "mean_ste_um"], "neither `=` (each value) nor `~` (drawn)"),
-        (&["--vary", "operation.torque_nm=1:2:0", "--output", "mean_ste_um"], "`0` is no number of values"),
-        (&["--vary", "operation.torque_nm~a:2", "--output", "mean_ste_um"], "`a` is no number"),
+        (&["--vary", "operation.torque_nm=1:2:0", "--output", "mean_ste_um"], "`0` is not a number of values"),
+        (&["--vary", "operation.torque_nm~a:2", "--output", "mean_ste_um"], "`a` is not a number"),
         (&["--samples", "3"], "a plan file says samples and seed itself"),
         (
             &["--vary", "operation.torque_nm~1:2", "--samples", "0", "--output", "mean_ste_um"],

@@ -19,6 +19,8 @@ pub enum Cause {
     Interpolation,
     /// Contact iterations that end.
     Iteration,
+    /// Elements along the shafts of a gearbox that vibrates.
+    ShaftElements,
     /// Steps of time.
     Step,
     /// Inertia of elastic deformation that the model leaves out.
@@ -29,15 +31,17 @@ pub enum Cause {
     Settling,
 }
 
-/// A share of a bound, in the unit of its quantity.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Term {
-    /// Where it comes from.
-    pub cause: Cause,
-    /// Known part of the error, taken off in the corrected value.
-    pub known: f64,
-    /// How much it may be beyond that, either way.
-    pub amount: f64,
+described::described! {
+    /// A share of a bound, in the unit of its quantity.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct Term {
+        /// `mesh`, `slices`, `positions`, `interpolation`, `iteration`; in motion `mesh`, `step`, `quasi_static_elasticity`, `model`, `settling`
+        pub cause: Cause,
+        /// known part of the error, which `corrected` is without
+        pub known: f64,
+        /// possible error beyond the known part, either way
+        pub amount: f64,
+    }
 }
 
 impl Term {
@@ -52,31 +56,36 @@ impl Term {
     }
 }
 
-/// What a headline number is off by at the most, with the coverage of the calibration.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Bound {
-    /// Which number.
-    pub quantity: Quantity,
-    /// Its unit.
-    pub unit: &'static str,
-    /// As it was computed.
-    pub value: f64,
-    /// The exact value is at least `value - below`.
-    pub below: f64,
-    /// The exact value is at most `value + above`.
-    pub above: f64,
-    /// The value with those known parts of its error taken off that are larger than their own uncertainty.
-    pub corrected: f64,
-    /// The exact value is within this of the corrected one.
-    pub corrected_within: f64,
-    /// What the bound of the corrected value is made of.
-    pub terms: Vec<Term>,
-    /// What the scene asks for, in the unit.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub asked: Option<f64>,
-    /// Whether value and bounds keep it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub met: Option<bool>,
+described::described! {
+    /// What a headline number is off by at the most, with the coverage of the calibration.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct Bound {
+        /// number of the headline
+        pub quantity: Quantity,
+        /// mesh or bearing of a gearbox that the number is of; missing for a number of the whole
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub of: Option<String>,
+        /// unit of the number
+        pub unit: &'static str,
+        /// number as computed
+        pub value: f64,
+        /// the exact value is at least `value - below`
+        pub below: f64,
+        /// the exact value is at most `value + above`
+        pub above: f64,
+        /// value without those known parts of the error that are larger than their own uncertainty
+        pub corrected: f64,
+        /// distance of the exact value from `corrected`, at most
+        pub corrected_within: f64,
+        /// parts of the bound, by cause
+        pub terms: Vec<Term>,
+        /// bound that the scene asks for; missing where it asks for none
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub asked: Option<f64>,
+        /// whether the asked bound is kept
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub met: Option<bool>,
+    }
 }
 
 impl Bound {
@@ -91,6 +100,7 @@ impl Bound {
         let terms: Vec<Term> = terms.into_iter().map(Term::offered).collect();
         Self {
             quantity,
+            of: None,
             unit: quantity.unit(),
             value,
             below: worse(value - expected + within, 0.0),
@@ -101,6 +111,18 @@ impl Bound {
             asked: None,
             met: None,
         }
+    }
+
+    /// The same of a mesh or a bearing.
+    #[must_use]
+    pub fn of(self, name: Option<String>) -> Self {
+        Self { of: name, ..self }
+    }
+
+    /// Key of the number, and what it is of: `face_load_factor of first`.
+    pub fn name(&self) -> String {
+        let key = self.quantity.key();
+        self.of.as_ref().map_or_else(|| key.to_owned(), |of| format!("{key} of {of}"))
     }
 
     /// The same against what is asked; a share is one of the value.
@@ -116,16 +138,34 @@ impl Bound {
         worse(self.above, self.below)
     }
 
+    /// How many times the bound is larger than what is asked; 0 where nothing is.
+    pub(super) fn over(&self) -> f64 {
+        self.largest() / self.asked.unwrap_or(f64::INFINITY)
+    }
+
+    /// What a cause makes of the bound: what is known of it, and what is not.
+    pub fn by(&self, cause: Cause) -> f64 {
+        self.terms.iter().filter(|t| t.cause == cause).map(|t| t.known.abs() + t.amount).sum()
+    }
+
+    /// Bound beside what is asked, in words.
+    pub fn shortfall(&self) -> String {
+        let asked = self.asked.unwrap_or(f64::NAN);
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" {}", self.unit) };
+        format!("{} is known to {:.2e}{unit}, {asked:.2e} is asked", self.name(), self.largest())
+    }
+
     /// Value and bounds in words: `9.37 um +0.04 -0.01`.
     pub fn words(&self) -> String {
         let Self { value, above, below, unit, .. } = self;
         // Two digits of the larger side say enough.
         let places = (1.0 - self.largest().log10().floor()).clamp(0.0, 9.0) as usize;
-        if above == below {
+        let words = if above == below {
             format!("{value:.places$} +-{above:.places$} {unit}")
         } else {
             format!("{value:.places$} +{above:.places$} -{below:.places$} {unit}")
-        }
+        };
+        words.trim_end().to_owned()
     }
 }
 

@@ -1,6 +1,6 @@
 //! What was learnt from random pairs: how errors of headline numbers go with what is known of a run.
 //!
-//! The table is made by `cargo run --release -p verification --bin calibrate_accuracy` from measured pairs.
+//! The table is made by `cargo run --release -p verification --bin calibrate_accuracy -- rest` from measured pairs.
 
 use std::sync::LazyLock;
 

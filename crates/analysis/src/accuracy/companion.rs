@@ -49,14 +49,14 @@ impl Standing {
 }
 
 /// Every so manieth position of a run at which it is held against another one.
-pub(super) fn stride(positions: u32) -> u32 {
+pub(crate) fn stride(positions: u32) -> u32 {
     let fits = |s: &u32| positions.is_multiple_of(*s) && positions / s >= LEAST_POSITIONS;
     [8, 4, 2].into_iter().find(fits).unwrap_or(1)
 }
 
 /// Samples of the companion of a run.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Companion {
+pub(crate) struct Companion {
     /// At the slices of the run.
     pub sample: Sample,
     /// At half of them.
@@ -65,7 +65,7 @@ pub(super) struct Companion {
 
 /// The last companion, for runs that differ in their positions alone.
 #[derive(Debug, Default)]
-pub(super) struct Companions(Option<(Scene, Companion)>);
+pub(crate) struct Companions(Option<(Scene, Companion)>);
 
 impl Companions {
     /// The companion of a run, solved where the last one is of another scene.

@@ -3,7 +3,7 @@
 use std::{f64::consts::PI, ops::RangeInclusive};
 
 use fem::mass_properties;
-use mesh::GearMesh;
+use mesh::MeshedGear;
 use scene::{GearScene, Scene};
 
 use super::{Rung, companion::Standing, coverage_flanks::other_flanks};
@@ -133,7 +133,7 @@ fn other_bodies(scene: &Scene, result: &StaticResult) -> Result<Vec<String>, Ana
     for (i, name) in ["pinion", "wheel"].into_iter().enumerate() {
         let exact = [&result.pair.pinion, &result.pair.wheel][i];
         let solid = meshes::gear_mesh(&coarse, name, coarse.gears()[i], exact)?;
-        let volume = |gear: &GearMesh| {
+        let volume = |gear: &MeshedGear| {
             let properties = mass_properties(gear.mesh(), &material(scene, i)?);
             let tooth = |p: fem::MassProperties| p.volume_mm3 / gear.teeth().len() as f64;
             properties.map(tooth).map_err(|source| AnalysisError::from(source).of_part(name))

@@ -68,9 +68,8 @@ fn accuracy(
         calibrated_on_pairs: calibration.pairs,
         held_against: standing.words(),
         bounds,
-        rungs: Vec::new(),
-        models: Vec::new(),
         not_covered,
+        ..Accuracy::default()
     })
 }
 

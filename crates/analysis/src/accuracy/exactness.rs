@@ -3,26 +3,32 @@
 use serde::Serialize;
 
 use super::{Bound, motion::MotionModel};
+use crate::refused::{Blame, Refusal};
 
-/// How exact a result is, and how that is known.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Accuracy {
-    /// Share of the pairs of the calibration that lie within their bounds, by cause.
-    pub coverage: f64,
-    /// Pairs that the calibration was made of.
-    pub calibrated_on_pairs: usize,
-    /// What the run was held against.
-    pub held_against: String,
-    /// Bounds of all headline numbers that the run has.
-    pub bounds: Vec<Bound>,
-    /// Rungs of the ladder that were tried, in their order; empty where the scene says what is taken.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub rungs: Vec<TriedRung>,
-    /// Models of a motion that were tried, in their order; empty where the scene says what is taken, and at rest.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub models: Vec<TriedModel>,
-    /// What the bounds do not cover.
-    pub not_covered: Vec<String>,
+described::described! {
+    /// How exact a result is, and how that is known.
+    #[derive(Debug, Clone, Default, PartialEq, Serialize)]
+    pub struct Accuracy {
+        /// share of the random pairs of the calibration whose error lies within the bound
+        pub coverage: f64,
+        /// number of these pairs
+        pub calibrated_on_pairs: usize,
+        /// what the run was compared with
+        pub held_against: String,
+        /// bounds of all headline numbers that the run has
+        pub bounds: Vec<Bound>,
+        /// rungs of the ladder that were tried, in their order; missing where the scene says what is taken
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub rungs: Vec<TriedRung>,
+        /// models of a motion that were tried, in their order; missing at rest and where the scene says what is taken
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub models: Vec<TriedModel>,
+        /// settings of a gearbox that were tried, in their order; missing for a pair
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        pub settings: Vec<TriedSettings>,
+        /// errors that the bounds do not cover
+        pub not_covered: Vec<String>,
+    }
 }
 
 impl Accuracy {
@@ -35,36 +41,83 @@ impl Accuracy {
     pub fn missed(&self) -> impl Iterator<Item = &Bound> {
         self.bounds.iter().filter(|b| b.met == Some(false))
     }
+
+    /// Whether everything that is asked is kept.
+    ///
+    /// # Errors
+    /// [`Refusal`] of numbers that are less exact than asked.
+    pub(crate) fn verdict(&self) -> Result<(), Refusal> {
+        let missed: Vec<String> = self.missed().map(|b| format!("{} is {}", b.name(), b.words())).collect();
+        if missed.is_empty() {
+            return Ok(());
+        }
+        let what = format!("the accuracy asked for is not kept: {}", missed.join(", "));
+        let hint = Some("ask for less, or see `accuracy` in summary.json for what the bounds are made of".to_owned());
+        Err(Refusal { what, hint, blame: Blame::Inexact })
+    }
+
+    /// The bound that is most times larger than what is asked; `None` where everything is kept.
+    pub(crate) fn worst(&self) -> Option<&Bound> {
+        self.missed().max_by(|a, b| a.over().total_cmp(&b.over()))
+    }
+
+    /// What is asked and not kept, in words.
+    pub(crate) fn shortfall(&self) -> String {
+        self.missed().map(Bound::shortfall).collect::<Vec<_>>().join("; ")
+    }
 }
 
-/// A rung that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TriedRung {
-    /// Elements along the profile, as many in proportion in all other directions; `None` for meshes of the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_profile: Option<u32>,
-    /// Slices over the face width.
-    pub slices: Option<u32>,
-    /// Positions of the mesh cycle.
-    pub positions_per_cycle: u32,
-    /// Why it was left; `None` for the one that was taken.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_because: Option<String>,
+described::described! {
+    /// A rung that was tried.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct TriedRung {
+        /// elements along the profile, all other directions in proportion; missing for meshes of the scene
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub elements_profile: Option<u32>,
+        /// slices over the face width
+        pub slices: Option<u32>,
+        /// positions of the mesh cycle
+        pub positions_per_cycle: u32,
+        /// reason why the rung was left; missing for the one that was taken
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub left_because: Option<String>,
+    }
 }
 
-/// A model that was tried.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct TriedModel {
-    /// Which.
-    pub model: MotionModel,
-    /// Elements along the profile, as many in proportion in all other directions; `None` for meshes of the scene.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub elements_profile: Option<u32>,
-    /// Slices over the face width.
-    pub slices: Option<u32>,
-    /// Steps in a period of the fastest motion, at least.
-    pub steps_per_resonance: u32,
-    /// Why it was left; `None` for the one that was taken.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub left_because: Option<String>,
+described::described! {
+    /// A model that was tried.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct TriedModel {
+        /// model of the motion
+        pub model: MotionModel,
+        /// elements along the profile, all other directions in proportion; missing for meshes of the scene
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub elements_profile: Option<u32>,
+        /// slices over the face width
+        pub slices: Option<u32>,
+        /// steps in a period of the fastest motion, at least
+        pub steps_per_resonance: u32,
+        /// reason why the model was left; missing for the one that was taken
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub left_because: Option<String>,
+    }
+}
+
+described::described! {
+    /// Settings of a gearbox that were tried.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct TriedSettings {
+        /// elements along the profile, all other directions in proportion, of the meshes that the program makes; missing where the scenes of all pairs state theirs
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub elements_profile: Option<u32>,
+        /// slices over the face width of every mesh
+        pub slices: Vec<u32>,
+        /// positions in a cycle of the first mesh
+        pub positions_per_cycle: u32,
+        /// elements along every shaft, at least
+        pub shaft_elements: u32,
+        /// reason why the settings were left; missing for those that were taken
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub left_because: Option<String>,
+    }
 }

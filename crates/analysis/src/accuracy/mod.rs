@@ -7,8 +7,9 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | `analysis` | which rung is exact enough? |
-//! | `rung`, `kept_gears` | which meshes are there, and which gears are reduced already? |
+//! | `analysis` | which bounds does a scene at rest get? |
+//! | `climb`, `rest_ladder` | which rung is exact enough? |
+//! | `rung`, `gear_memo` | which meshes are there, and which gears are reduced already? |
 //! | `estimate`, `companion`, `solved_cycle` | what is seen of the error of a run? |
 //! | `exactness` | what is said of a run's error in the end? |
 //! | `of_results` | what are the bounds of runs that are solved? |
@@ -21,17 +22,19 @@ mod analysis;
 mod bound;
 mod calibrated_mesh;
 mod calibration;
+mod climb;
 mod companion;
 mod coverage;
 mod coverage_flanks;
 mod estimate;
 mod exactness;
 mod features;
-mod kept_gears;
+mod gear_memo;
 mod law;
 pub mod motion;
 mod of_results;
 mod quantity;
+mod rest_ladder;
 mod rung;
 mod solved_cycle;
 
@@ -39,13 +42,16 @@ pub use analysis::StaticAnalysis;
 pub use bound::{Bound, Cause, Term};
 pub use calibrated_mesh::CalibratedMesh;
 pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
-pub use exactness::{Accuracy, TriedRung};
+pub(crate) use climb::{Climbed, Ladder, climb};
+pub(crate) use companion::{Companions, stride};
+pub use exactness::{Accuracy, TriedRung, TriedSettings};
 pub use features::{FEATURES, Features, features};
-pub use kept_gears::KeptGears;
+pub use gear_memo::GearMemo;
 pub use law::Law;
-pub(crate) use of_results::BoundsOfResults;
+pub(crate) use of_results::{BoundsOfResults, bounds_of};
 pub use quantity::Sample;
 use quantity::goes_with_deflection;
 pub use rung::Rung;
+pub(crate) use rung::has_own_mesh;
 pub use scene::Quantity;
 pub use solved_cycle::SolvedCycle;

@@ -2,19 +2,19 @@
 
 use scene::{AccuracyScene, Scene};
 
-use super::{Accuracy, companion::Companions, estimate::estimate, kept_gears::KeptGears};
-use crate::{AnalysisError, NoCache, NoObserver, StaticResult};
+use super::{Accuracy, companion::Companions, estimate::estimate, gear_memo::GearMemo};
+use crate::{AnalysisError, GearCache, NoCache, NoObserver, StaticResult};
 
 /// Bounds of one result after the other; what they are held against is solved once where it is the same.
 pub(crate) struct BoundsOfResults {
-    kept: KeptGears<'static>,
+    kept: GearMemo<'static>,
     companions: Companions,
 }
 
 impl BoundsOfResults {
     /// Nothing solved yet.
     pub(crate) fn new() -> Self {
-        Self { kept: KeptGears::new(&NoCache), companions: Companions::default() }
+        Self { kept: GearMemo::new(&NoCache), companions: Companions::default() }
     }
 
     /// Those of a scene as it was solved, whatever accuracy it asks for.
@@ -22,7 +22,20 @@ impl BoundsOfResults {
     /// # Errors
     /// [`AnalysisError`] where what it is held against cannot be solved.
     pub(crate) fn of(&mut self, scene: &Scene, result: &StaticResult) -> Result<Accuracy, AnalysisError> {
-        let scene = Scene { accuracy: AccuracyScene::default(), ..scene.clone() };
-        estimate(&scene, result, &self.kept, &mut self.companions, &mut NoObserver)
+        bounds_of(scene, result, &self.kept, &mut self.companions)
     }
+}
+
+/// Bounds of a result, whatever accuracy its scene asks for; what it is held against is solved with a cache.
+///
+/// # Errors
+/// [`AnalysisError`] where what it is held against cannot be solved.
+pub(crate) fn bounds_of(
+    scene: &Scene,
+    result: &StaticResult,
+    cache: &dyn GearCache,
+    companions: &mut Companions,
+) -> Result<Accuracy, AnalysisError> {
+    let scene = Scene { accuracy: AccuracyScene::default(), ..scene.clone() };
+    estimate(&scene, result, cache, companions, &mut NoObserver)
 }

@@ -6,7 +6,7 @@ use study::StudyError;
 
 use crate::results::{RootStressHeadline, StaticHeadline, static_headline};
 
-/// The value of a quantity in a run; `None` where the run does not have it.
+/// The value of a quantity in a run of a pair at rest; `None` where the run does not have it.
 pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
     let root = |of: fn(&RootStressHeadline) -> f64| headline.root_stress.as_ref().map(of);
     let harmonic = |order: usize| headline.ste_harmonics_um.get(order - 1).copied();
@@ -23,7 +23,12 @@ pub fn value_of(quantity: Quantity, headline: &StaticHeadline) -> Option<f64> {
         Quantity::ContactLineLength => Some(headline.mean_contact_line_length_mm),
         Quantity::MeshStiffness => Some(headline.mean_mesh_stiffness_n_per_um),
         Quantity::MeshStiffnessTangent => Some(headline.mean_mesh_stiffness_tangent_n_per_um),
-        Quantity::RmsDte | Quantity::PeakToPeakDte => None,
+        Quantity::RmsDte
+        | Quantity::PeakToPeakDte
+        | Quantity::MisalignmentInPlane
+        | Quantity::FaceLoadFactor
+        | Quantity::BearingForce
+        | Quantity::NaturalFrequency => None,
     }
 }
 
@@ -74,7 +79,7 @@ impl Sample {
 
     /// The value of a quantity; `None` where the run does not have it.
     pub fn get(&self, quantity: Quantity) -> Option<f64> {
-        Some(self.values[quantity as usize]).filter(|v| v.is_finite())
+        self.values.get(quantity as usize).copied().filter(|v| v.is_finite())
     }
 
     /// What errors of a quantity are measured against; `None` where the run does not have it.

@@ -94,3 +94,8 @@ impl Rung {
         own
     }
 }
+
+/// Whether the scene brings a mesh that no rung replaces.
+pub(crate) fn has_own_mesh(scene: &Scene) -> bool {
+    scene.gears().iter().any(|g| g.mesh.is_some())
+}

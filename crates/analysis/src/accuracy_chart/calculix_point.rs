@@ -35,7 +35,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
     let scratch = tools.scratch.ok_or_else(|| Refusal::no_result("no folder for the files of CalculiX", None))?;
     let side = scene.side();
     let driven = options.driven();
-    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+    let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven].abs();
     let mut work = Work {
         offline_s: 0.0,
         cycle_s: 0.0,

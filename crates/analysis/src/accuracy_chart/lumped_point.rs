@@ -58,7 +58,7 @@ pub(super) fn measure(point: &Point, tools: ChartTools<'_>) -> Result<Measured, 
             ste_um: found.iter().map(|p| 1e3 * p.error).collect(),
             line_length_mm: lengths.unwrap_or_default(),
         },
-        note: system.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
+        note: system.remarks.iter().map(ToString::to_string).collect::<Vec<_>>().join("; "),
         accuracy: Err("no bounds of models with rigid gears".into()),
     })
 }

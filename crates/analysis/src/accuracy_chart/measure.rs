@@ -59,7 +59,7 @@ fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults
     };
     let StaticResult { history, facts, model, .. } = solved;
     let further_s = match model {
-        Some(model) if run_s < LONG => Some(time_again(&point.scene, model)?),
+        Some(model) if run_s < LONG => Some(warm_solve_seconds(&point.scene, model)?),
         Some(_) => None,
         None => Some(time_closed_form(&point.scene, tools)?),
     };
@@ -77,7 +77,7 @@ fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults
         dof_before: facts.dof_before.iter().sum(),
         dof_after: facts.dof_after.iter().sum(),
     };
-    let widened = history.warnings.iter().find(|w| w.code() == "window_widened");
+    let widened = history.remarks.iter().find(|w| w.code() == "window_widened");
     Ok(Measured { work, answer, note: widened.map(ToString::to_string).unwrap_or_default(), accuracy })
 }
 
@@ -85,7 +85,7 @@ fn own(point: &Point, tools: ChartTools<'_>, bounds: Option<&mut BoundsOfResults
 ///
 /// # Errors
 /// [`AnalysisError::Solver`].
-fn time_again(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisError> {
+fn warm_solve_seconds(scene: &Scene, mut model: StaticModel) -> Result<f64, AnalysisError> {
     let start = std::time::Instant::now();
     let Analysis { positions_per_cycle, cycles, .. } = scene.analysis;
     let run = model.run(positions_per_cycle as usize, cycles as usize, |_, _, _| ());

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use mesh::GearMesh;
+use mesh::MeshedGear;
 use scene::{Model, Scene, StiffnessFrom};
 use study::{Answer, Work};
 
@@ -35,7 +35,7 @@ pub(super) struct Measured {
 ///
 /// # Errors
 /// As reading and meshing complain.
-pub(super) fn point_meshes(scene: &Scene) -> Result<[GearMesh; 2], AnalysisError> {
+pub(super) fn point_meshes(scene: &Scene) -> Result<[MeshedGear; 2], AnalysisError> {
     let pair = scene.gear_pair()?;
     let pinion = meshes::gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
     let wheel = meshes::gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;

@@ -11,21 +11,33 @@ use super::{
 };
 use crate::AnalysisError;
 
-/// Times of both models; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are measured
-pub struct SpeedUp {
-    pub dof: usize,
-    pub dof_kept: usize,
-    pub positions_of_cycle: usize,
-    pub full_positions_run: usize,
-    pub full_offline_s: f64,
-    pub full_position_s: f64,
-    pub reduced_offline_s: f64,
-    pub reduced_position_s: f64,
-    pub times_faster_position: f64,
-    pub times_faster_first_cycle: f64,
-    pub relative_difference_of_ste: f64,
+described::described! {
+    /// Times of both models; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct SpeedUp {
+        /// degrees of freedom of both meshes, bores held
+        pub dof: usize,
+        /// degrees of freedom that the reduced pair keeps
+        pub dof_kept: usize,
+        /// positions of the quasi-static cycle
+        pub positions_of_cycle: usize,
+        /// positions that were run with every degree of freedom
+        pub full_positions_run: usize,
+        /// wall time of the matrices with every degree of freedom
+        pub full_offline_s: f64,
+        /// wall time of one position with every degree of freedom: Newton steps, each with a factorisation of the whole system
+        pub full_position_s: f64,
+        /// wall time of the reduction
+        pub reduced_offline_s: f64,
+        /// wall time of one reduced position of a further cycle on the same gears
+        pub reduced_position_s: f64,
+        /// ratio of the wall times of a position
+        pub times_faster_position: f64,
+        /// ratio of the wall times of the first cycle with everything before it; the full one is scaled from the positions run
+        pub times_faster_first_cycle: f64,
+        /// mean transmission error of the whole model over that of the reduced one at the same positions, minus 1
+        pub relative_difference_of_ste: f64,
+    }
 }
 
 /// Runs `positions` positions (at the most; a divisor of those of the cycle) of the scene with every degree of

@@ -12,7 +12,7 @@ use super::{
     campbell::{LumpedCampbell, campbell},
     excitation::ExcitationSource,
     exponent::exponent,
-    free_turn::FreeTurn,
+    free_turn::free_turn,
     headline::{HeadlineInputs, LumpedHeadline, headline},
     inputs::{LumpedInputs, LumpedSystem},
     integration::{MeshFrequencies, stable_step},
@@ -23,12 +23,11 @@ use super::{
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
     certificate::Checks,
-    facts::{Facts, Resolution},
+    facts::{Resolution, RunInfo},
     gears,
     inputs::motion_of,
-    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, Passage},
-    options,
-    plausible::remarks,
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp},
+    options, plausible,
     refused::Refusal,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled, worse,
@@ -40,7 +39,7 @@ pub fn is_lumped(scene: &Scene) -> bool {
 }
 
 /// Mesh cycles over which the exponent of a motion is found that does not repeat itself.
-const STRETCHES: u32 = 200;
+const LYAPUNOV_INTERVALS: u32 = 200;
 
 /// Gets the rows of a cheaper model as they come.
 pub trait LumpedSink {
@@ -73,7 +72,7 @@ impl LumpedSink for NoLumpedSink {
 #[derive(Debug)]
 pub struct LumpedResult {
     /// What it was made of, and what must hold of it.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// Row by row, equally many in each mesh cycle.
     pub rows: Vec<LumpedRow>,
     /// Energy since the start, row by row and at the end.
@@ -85,13 +84,13 @@ pub struct LumpedResult {
     /// Lines of the mesh cycles that are judged.
     pub spectrum: MotionSpectrum,
     /// What is largest over speed, of a ramp.
-    pub passage: Option<Passage>,
+    pub run_up: Option<RunUp>,
     /// Frequencies over speed, of a linear model.
     pub campbell: Option<LumpedCampbell>,
     /// The few numbers that it is made for.
     pub headline: LumpedHeadline,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 impl LumpedResult {
@@ -154,7 +153,7 @@ impl<'a> LumpedAnalysis<'a> {
     }
 
     /// Runs it; rows go into `sink` as they come. A result whose certificate does not hold is a result all the same:
-    /// [`Facts::verdict`] says so.
+    /// [`RunInfo::verdict`] says so.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -170,15 +169,15 @@ impl<'a> LumpedAnalysis<'a> {
         }
         let inputs = LumpedInputs::gather(&scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;
-        let (mut facts, mut warnings) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.warnings));
-        warnings.extend(gears::warnings(&inputs.pair));
-        warnings.extend(no_backlash(&inputs));
+        let (mut facts, mut remarks) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.remarks));
+        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(no_backlash(&inputs));
         if !scene.analysis.model.has_reduced_gears() {
-            warnings.extend(remarks(&scene, &inputs.pair));
+            remarks.extend(plausible::remarks(&scene, &inputs.pair));
         }
-        if let Some((resolution, remarks)) = slice_resolution(&inputs) {
+        if let Some((resolution, said)) = slice_resolution(&inputs) {
             facts.resolution = Some(resolution);
-            warnings.extend(remarks);
+            remarks.extend(said);
         }
         let frequencies = inputs.frequencies(motion, system.resonance_hz);
         refuse_unstable(&scene, motion, &mut system.model, frequencies)?;
@@ -187,7 +186,7 @@ impl<'a> LumpedAnalysis<'a> {
         let positions = scene.analysis.positions_per_cycle as usize;
         let static_cycle = run_phase(observer, "quasi-static", PhaseWork::Unknown, |_| system.static_cycle(positions));
         // Standing, the model stands where it begins: this comes before the run.
-        let free = FreeTurn::of(&mut system.model).map_err(|e| e.of(&scene))?;
+        let free = free_turn(&mut system.model).map_err(|e| e.of(&scene))?;
         let steps = PhaseWork::Steps(u64::from(scene.analysis.cycles));
         let run = run_phase(observer, "motion", steps, |progress| {
             let Self { checkpoint_every, resume, .. } = *self;
@@ -203,22 +202,22 @@ impl<'a> LumpedAnalysis<'a> {
         let mut found = || {
             let of = (&mut system.model, free.as_ref());
             let found = run_phase(observer, "exponent", PhaseWork::Unknown, |_| {
-                exponent(of, motion, &run.end, frequencies, STRETCHES)
+                exponent(of, motion, &run.end, frequencies, LYAPUNOV_INTERVALS)
             });
             found.map_err(|e| e.of(&scene))
         };
         let lyapunov = restless.then(&mut found).transpose()?;
-        result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, lyapunov, warnings })
+        result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, lyapunov, remarks })
     }
 }
 
 /// What is known of a model beside its run.
 struct RunResults {
-    facts: Facts,
+    facts: RunInfo,
     static_cycle: Option<Vec<StaticPoint>>,
     campbell: Option<LumpedCampbell>,
     lyapunov: Option<Lyapunov>,
-    warnings: Vec<Remark>,
+    remarks: Vec<Remark>,
 }
 
 /// Reads headline and spectra off a run.
@@ -228,17 +227,17 @@ fn result(
     run: LumpedRun,
     known: RunResults,
 ) -> Result<LumpedResult, AnalysisError> {
-    let RunResults { facts, static_cycle, campbell, lyapunov, mut warnings } = known;
+    let RunResults { facts, static_cycle, campbell, lyapunov, mut remarks } = known;
     let scene = &inputs.scene;
     let motion = motion_of(scene)?;
     let frequencies = inputs.frequencies(motion, system.resonance_hz);
     let static_errors: Option<Vec<f64>> = static_cycle.as_ref().map(|all| all.iter().map(|p| p.error).collect());
     let static_normal_force = inputs.static_normal_force();
-    let passage = motion.ramp.map(|_| {
+    let run_up = motion.ramp.map(|_| {
         let driver = (motion::speed(scene), scene.driver_teeth());
-        Passage::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &[])
+        RunUp::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &[])
     });
-    let passage = passage.transpose()?;
+    let run_up = run_up.transpose()?;
     let beside = HeadlineInputs {
         coordinates: system.coordinates(),
         mesh_frequency_hz: frequencies.mesh_hz,
@@ -248,24 +247,24 @@ fn result(
         lyapunov,
     };
     let mut headline = headline(scene, motion, &run, &beside)?;
-    headline.ramp = passage.as_ref().and_then(Passage::headline);
-    warnings.extend(certificate_warnings(motion, &headline));
-    warnings.extend(inputs.warnings_of(motion, &headline));
+    headline.ramp = run_up.as_ref().and_then(RunUp::headline);
+    remarks.extend(certificate_warnings(motion, &headline));
+    remarks.extend(inputs.warnings_of(motion, &headline));
     let judged = motion_series(run.judged_rows());
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
             Some(_) => f64::INFINITY,
         };
-        warnings.extend(motion::unresolved(&judged.dte_um, run.judged, steps));
+        remarks.extend(motion::unresolved(&judged.dte_um, run.judged, steps));
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
-            warnings.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
+            remarks.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
         }
     }
     let spectrum = MotionSpectrum::of(&judged, run.judged, frequencies.mesh_hz, window(motion, &run))?;
     let LumpedRun { rows, energy, end, .. } = run;
-    Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, passage, campbell, headline, warnings })
+    Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
 }
 
 /// Passes rows on, and counts mesh cycles.
@@ -335,13 +334,10 @@ pub(super) fn refuse_unstable(
 
 /// Rows that hold numbers only.
 fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
-    let hint = "the motion has left all bounds: take smaller steps, or look at supports and damping";
-    let refused = || Refusal::no_result("holds what is no number", Some(hint.to_owned()));
-    if rows.iter().all(LumpedRow::is_finite) {
-        Ok(())
-    } else {
-        Err(AnalysisError::from(refused()).of_part("history.csv"))
-    }
+    let Some(row) = rows.iter().find(|row| !row.is_finite()) else { return Ok(()) };
+    let what = format!("the motion diverged at t = {} s", answer::digits(row.time));
+    let hint = "take smaller steps, or check supports and damping".to_owned();
+    Err(AnalysisError::from(Refusal::no_result(what, Some(hint))).of_part("history.csv"))
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,
@@ -369,9 +365,9 @@ fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<It
 }
 
 /// Geometry, and coordinates as degrees of freedom.
-pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> Facts {
+pub(super) fn facts(inputs: &LumpedInputs, coordinates: usize) -> RunInfo {
     let dof_after = [coordinates.div_ceil(2), coordinates / 2];
-    Facts { dof_after, ..Facts::of_pair(&inputs.scene, &inputs.pair) }
+    RunInfo { dof_after, ..RunInfo::of_pair(&inputs.scene, &inputs.pair) }
 }
 
 /// How rigid gears are cut into slices, with what a user should hear of it; other models are not.

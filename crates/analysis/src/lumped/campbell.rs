@@ -4,10 +4,11 @@ use ::lumped::{
     LumpedError,
     shaft18::{ShaftSystem, continuum_modes},
 };
+use answer::keyed;
 use fem::beam::BeamTheory;
 use scene::Driver;
 use serde::Serialize;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 use study::{Campbell, campbell as diagram};
 
@@ -36,13 +37,31 @@ pub struct LumpedCampbell {
     pub continuum_hz: Option<Vec<f64>>,
 }
 
-/// An excitation that meets a mode.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct Meeting<'a> {
-    excitation: &'a str,
-    mode: usize,
-    speed_rpm: f64,
-    frequency_hz: f64,
+described::described! {
+    /// An excitation that meets a mode.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub(crate) struct Meeting<'a> {
+        /// mesh order or rotation of a gear that excites
+        excitation: &'a str,
+        /// number of the mode, from 1
+        mode: usize,
+        /// speed of the driver
+        speed_rpm: f64,
+        /// natural frequency there
+        frequency_hz: f64,
+    }
+
+    /// Facts that only a linear model has.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub(crate) struct FrequencyFacts<'a> {
+        /// undamped natural frequencies at rest, the free rotation among them
+        natural_frequencies_hz: &'a [f64],
+        /// natural frequencies of the same shafts in Timoshenko beam elements; model `shaft18`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        continuum_frequencies_hz: Option<&'a [f64]>,
+        /// speeds at which an order of excitation meets a natural frequency
+        critical_speeds: Vec<Meeting<'a>>,
+    }
 }
 
 /// Diagram of a linear model; `None` of one that is not.
@@ -95,18 +114,12 @@ fn continuum(system: &ShaftSystem) -> Result<Vec<f64>, LumpedError> {
 impl LumpedCampbell {
     /// What the summary says of it.
     pub fn facts(&self) -> Map<String, Value> {
-        let mut facts = Map::new();
-        facts.insert("natural_frequencies_hz".into(), json!(self.at_rest_hz));
-        if let Some(continuum) = &self.continuum_hz {
-            let as_many = &continuum[..self.at_rest_hz.len().min(continuum.len())];
-            facts.insert("continuum_frequencies_hz".into(), json!(as_many));
-        }
         let free = self.at_rest_hz.len() - self.diagram.frequencies.len().min(self.at_rest_hz.len());
         let name = |order: f64| {
             let at = self.diagram.orders.iter().position(|o| *o == order);
             at.map_or("", |i| self.names[i].as_str())
         };
-        let meetings: Vec<Meeting<'_>> = self
+        let meetings = self
             .diagram
             .resonances
             .iter()
@@ -117,7 +130,13 @@ impl LumpedCampbell {
                 frequency_hz: r.frequency,
             })
             .collect();
-        facts.insert("critical_speeds".into(), json!(meetings));
-        facts
+        keyed(&FrequencyFacts {
+            natural_frequencies_hz: &self.at_rest_hz,
+            continuum_frequencies_hz: self
+                .continuum_hz
+                .as_ref()
+                .map(|all| &all[..self.at_rest_hz.len().min(all.len())]),
+            critical_speeds: meetings,
+        })
     }
 }

@@ -43,7 +43,7 @@ pub(crate) struct ElasticPair {
     elasticity: Elasticity,
     pace: Pace,
     frame: ElasticFrame,
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// How contact is found.
@@ -66,7 +66,7 @@ impl ElasticPair {
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
-        let PreparedMotion { system, settings, quasi_static, elasticity, mut warnings, keys, .. } = ready;
+        let PreparedMotion { system, settings, quasi_static, elasticity, mut remarks, keys, .. } = ready;
         let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
         let place = |c: &GearCoordinate| COORDINATES * c.gear + axis_number(c.axis);
         let free = gear_coordinates(scene).iter().map(place).collect();
@@ -77,7 +77,7 @@ impl ElasticPair {
                 let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, worst: WORST_MAP, lag };
                 let key = cache.is_on().then(|| MapKey::new(&keys, &contact_words(scene, &inputs.pair, &request)));
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |_| {
-                    mapped(system, &request, (cache, key.as_ref()), &mut warnings)
+                    mapped(system, &request, (cache, key.as_ref()), &mut remarks)
                 });
                 let made = made.map_err(in_scene(scene))?;
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
@@ -86,7 +86,7 @@ impl ElasticPair {
             _ => (PairContact::Solved(Box::new(system)), 0),
         };
         let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
-        Ok(Self { contact, resonance, elasticity, pace, frame, warnings })
+        Ok(Self { contact, resonance, elasticity, pace, frame, remarks })
     }
 
     /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
@@ -134,16 +134,16 @@ fn mapped(
     system: PairMechanism,
     request: &MapRequest,
     (cache, key): (&dyn GearCache, Option<&MapKey>),
-    warnings: &mut Vec<Remark>,
+    remarks: &mut Vec<Remark>,
 ) -> Result<MappedPair, PairMotionError> {
     let Some(key) = key else { return MappedPair::new(system, request) };
     let (kept, said) = cache.load_maps(key);
-    warnings.extend(said);
+    remarks.extend(said);
     if let Some(maps) = kept.and_then(|kept| kept.of(key)).filter(|maps| MappedPair::can_stand_on(&system, maps)) {
         return MappedPair::on(system, maps);
     }
     let made = MappedPair::new(system, request)?;
-    warnings.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
+    remarks.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
     Ok(made)
 }
 

@@ -20,11 +20,11 @@ use crate::{
     static_certificate, statics::CycleAnalysis,
 };
 
-/// Stiffness and error over the mesh cycle in the phase of scenes, with warnings of their making.
+/// Stiffness and error over the mesh cycle in the phase of scenes, with remarks of their making.
 #[derive(Debug, Clone)]
 pub(crate) struct MeshExcitation {
     pub cycle: MeshCycle,
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// Makes the excitation of scene after scene.
@@ -65,7 +65,7 @@ impl<'a> ExcitationSource<'a> {
                     sine: mesh.stiffness_sin_n_per_um.clone(),
                 };
                 let stiffness = along_normal.scaled(1e3 * projection(scene, pair));
-                Ok(MeshExcitation { cycle: MeshCycle::new(stiffness, error), warnings: Vec::new() })
+                Ok(MeshExcitation { cycle: MeshCycle::new(stiffness, error), remarks: Vec::new() })
             }
             StiffnessFrom::Iso => {
                 let loaded = LoadedPair::of(scene, pair);
@@ -73,7 +73,7 @@ impl<'a> ExcitationSource<'a> {
                 let bodies: f64 = iso_model::bodies(&loaded).iter().sum();
                 let mean = 1.0 / (1.0 / (1e3 * iso.c_mesh * pair.face_width()) + bodies);
                 let own = MeshCycle::by_contact_lines(plane, mean).map_err(complain)?;
-                Ok(MeshExcitation { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, warnings: Vec::new() })
+                Ok(MeshExcitation { cycle: MeshCycle { error, ..half_a_cycle_on(&own) }, remarks: Vec::new() })
             }
             StiffnessFrom::Reduced => self.of_reduced_model(scene, pair),
         }
@@ -113,7 +113,7 @@ impl<'a> ExcitationSource<'a> {
             LoadedPair::of(scene, pair).base_force(),
         )
         .map_err(in_scene(scene))?;
-        let excitation = MeshExcitation { cycle, warnings: solved.history.warnings };
+        let excitation = MeshExcitation { cycle, remarks: solved.history.remarks };
         self.last = Some((at_rest, excitation.clone()));
         Ok(excitation)
     }

@@ -5,12 +5,11 @@ use std::f64::consts::TAU;
 use ::lumped::LumpedError;
 use integrate::{Forces, Mechanism, MotionError, State};
 use nalgebra::DMatrix;
-use periodic::TangentFlow;
+use periodic::{FreeDirection, TangentFlow};
 use scene::MotionScene;
 use study::Lyapunov;
 
 use super::{
-    free_turn::FreeTurn,
     integration::{MeshFrequencies, integrator},
     mechanism::{BoxedMechanism, ModelFailure},
 };
@@ -25,7 +24,7 @@ const SETTLING: u32 = 5;
 /// ```
 /// Of the gears' free turn, which nothing holds, it says nothing.
 pub(super) fn exponent(
-    (model, free): (&mut BoxedMechanism, Option<&FreeTurn>),
+    (model, free): (&mut BoxedMechanism, Option<&FreeDirection>),
     motion: &MotionScene,
     end: &State,
     frequencies: MeshFrequencies,

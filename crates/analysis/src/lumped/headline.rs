@@ -7,68 +7,109 @@ use serde::Serialize;
 use study::{Lyapunov, StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
 use super::{LumpedRow, run_loop::LumpedRun};
-use crate::{motion::PassageHeadline, with_keys::with_keys};
+use crate::motion::RunUpHeadline;
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
 
-with_keys! {
-/// The few numbers that a run is made for; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct LumpedHeadline {
-    pub run: Run,
-    pub coordinates: usize,
-    pub speed_rpm: f64,
-    pub mesh_frequency_hz: f64,
-    pub mesh_resonance_hz: Option<f64>,
-    pub rows_per_cycle: u32,
-    pub steps_per_row: u32,
-    pub cycles: u64,
-    pub judged_cycles: u64,
-    pub mean_dte_um: f64,
-    pub rms_dte_um: f64,
-    pub peak_to_peak_dte_um: f64,
-    pub min_dte_um: f64,
-    pub max_dte_um: f64,
-    pub dte_harmonics_um: Vec<f64>,
-    pub mean_ste_um: Option<f64>,
-    pub peak_to_peak_ste_um: Option<f64>,
-    pub mean_mesh_stiffness_n_per_um: Option<f64>,
-    pub mean_contact_line_length_mm: Option<f64>,
-    pub static_normal_force_n: f64,
-    pub mean_normal_force_n: f64,
-    pub min_normal_force_n: f64,
-    pub max_normal_force_n: f64,
-    pub dynamic_factor: Option<f64>,
-    pub mean_wheel_force_n: [f64; 3],
-    pub mean_pinion_tilting_moment_nmm: f64,
-    pub mean_wheel_tilting_moment_nmm: f64,
-    pub max_coast_normal_force_n: Option<f64>,
-    pub least_slice_force_n: Option<f64>,
-    pub mean_wheel_speed_rpm: Option<f64>,
-    pub mean_pinion_speed_rpm: Option<f64>,
-    /// The largest of a ramp, and where.
-    pub ramp: Option<PassageHeadline>,
-    pub certificate: LumpedCertificate,
-}
+described::described! {
+    /// The few numbers that a run is made for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct LumpedHeadline {
+        /// kind of motion: `steady`, `span` or `ramp`
+        pub run: Run,
+        /// coordinates of the model
+        pub coordinates: usize,
+        /// speed of the driver; of a ramp the last one
+        pub speed_rpm: f64,
+        /// mesh frequency at `speed_rpm`
+        pub mesh_frequency_hz: f64,
+        /// natural frequency of the mesh; `null` where the model has none
+        pub mesh_resonance_hz: Option<f64>,
+        /// rows per mesh cycle
+        pub rows_per_cycle: u32,
+        /// steps from row to row
+        pub steps_per_row: u32,
+        /// mesh cycles that are written
+        pub cycles: u64,
+        /// mesh cycles at the end that the headline is made of; after a ramp those at the last speed
+        pub judged_cycles: u64,
+        /// mean dynamic transmission error (DTE)
+        pub mean_dte_um: f64,
+        /// root mean square of the DTE about its mean
+        pub rms_dte_um: f64,
+        /// largest minus smallest DTE of a mesh cycle, averaged over the cycles
+        pub peak_to_peak_dte_um: f64,
+        /// smallest DTE
+        pub min_dte_um: f64,
+        /// largest DTE
+        pub max_dte_um: f64,
+        /// single-sided amplitudes of the mesh harmonics 1 .. 8 of the DTE
+        pub dte_harmonics_um: Vec<f64>,
+        /// mean transmission error of the model at rest under its mean load; of `impact` without damping and friction
+        pub mean_ste_um: Option<f64>,
+        /// peak to peak of the transmission error of the model at rest
+        pub peak_to_peak_ste_um: Option<f64>,
+        /// mean mesh stiffness; `null` where the model has none
+        pub mean_mesh_stiffness_n_per_um: Option<f64>,
+        /// mean contact-line length; `null` where the model has none
+        pub mean_contact_line_length_mm: Option<f64>,
+        /// T / (r_b cos b_b) of the mean load
+        pub static_normal_force_n: f64,
+        /// mean normal force
+        pub mean_normal_force_n: f64,
+        /// smallest normal force
+        pub min_normal_force_n: f64,
+        /// largest normal force
+        pub max_normal_force_n: f64,
+        /// largest normal force over the static one; `null` without load
+        pub dynamic_factor: Option<f64>,
+        /// mean mesh force on the wheel: x, y, z in fixed axes
+        pub mean_wheel_force_n: [f64; 3],
+        /// mean mesh moment on the pinion about y through its centre
+        pub mean_pinion_tilting_moment_nmm: f64,
+        /// mean mesh moment on the wheel about y through its centre
+        pub mean_wheel_tilting_moment_nmm: f64,
+        /// largest sum of the normal forces on the coast flanks; `impact` and `mapped`
+        pub max_coast_normal_force_n: Option<f64>,
+        /// smallest force of a slice in contact; `impact`
+        pub least_slice_force_n: Option<f64>,
+        /// mean speed of the wheel about +z; `impact` and `mapped`
+        pub mean_wheel_speed_rpm: Option<f64>,
+        /// mean speed of the pinion about +z; `impact` and `mapped`
+        pub mean_pinion_speed_rpm: Option<f64>,
+        /// largest values of a ramp of `impact` and where they are; else `null`
+        pub ramp: Option<RunUpHeadline>,
+        /// measures of how exact the motion is
+        pub certificate: LumpedCertificate,
+    }
 }
 
-/// How far a run can be trusted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // as above
-pub struct LumpedCertificate {
-    pub ledger_residual_mj: f64,
-    pub ledger_residual_over_turnover: f64,
-    pub energy_open_over_vibration: f64,
-    pub period_cycles: Option<usize>,
-    pub periodicity: Option<f64>,
-    /// Largest exponent of a motion that does not repeat itself, 1/s.
-    pub lyapunov: Option<Lyapunov>,
-    pub warm_up_cycles: u64,
-    pub rows_without_contact: usize,
-    pub steps: u64,
-    pub refused_steps: u64,
+described::described! {
+    /// How far a run can be trusted.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct LumpedCertificate {
+        /// energy that does not close since the start
+        pub ledger_residual_mj: f64,
+        /// `ledger_residual_mj` over all work done
+        pub ledger_residual_over_turnover: f64,
+        /// energy that the steps add or take by themselves, over the changes of kinetic and elastic energy, each step by its amount
+        pub energy_open_over_vibration: f64,
+        /// mesh cycles after which the motion repeats itself best
+        pub period_cycles: Option<usize>,
+        /// largest difference of a coordinate or velocity after that period, over its peak to peak
+        pub periodicity: Option<f64>,
+        /// largest Lyapunov exponent of a motion that does not repeat itself; not of `impact`
+        pub lyapunov: Option<Lyapunov>,
+        /// mesh cycles before the first row
+        pub warm_up_cycles: u64,
+        /// rows in which the flanks are apart
+        pub rows_without_contact: usize,
+        /// steps that were taken
+        pub steps: u64,
+        /// steps that were taken back and divided
+        pub refused_steps: u64,
+    }
 }
 
 /// What the headline takes beside the run.

@@ -21,7 +21,7 @@ use crate::{
     options,
 };
 
-/// The model of a scene, and its warnings.
+/// The model of a scene, and its remarks.
 ///
 /// # Errors
 /// [`LumpedError`] for what has no meaning.
@@ -31,7 +31,7 @@ pub(super) fn impact(
     gears: &GearPair,
 ) -> Result<(ImpactMechanism, Vec<answer::Remark>), LumpedError> {
     let running = options(scene, gears);
-    let (stiffness, warnings) = match own.stiffness_n_per_mm_to_exponent {
+    let (stiffness, remarks) = match own.stiffness_n_per_mm_to_exponent {
         Some(given) => (given, Vec::new()),
         None => formula(scene, own, gears)?,
     };
@@ -65,7 +65,7 @@ pub(super) fn impact(
         slices: running.contact.slices,
         start_cycles: 0.0,
     };
-    Ok((ImpactMechanism::new(gears.clone(), impact)?, warnings))
+    Ok((ImpactMechanism::new(gears.clone(), impact)?, remarks))
 }
 
 fn load(scene: &Scene) -> Torque {

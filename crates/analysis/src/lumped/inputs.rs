@@ -36,7 +36,7 @@ pub(crate) struct LumpedSystem {
     pub model: BoxedMechanism,
     /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
     pub resonance_hz: f64,
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
     /// The system of shafts, where it is one: for the continuum beside it.
     pub shafts: Option<ShaftSystem>,
 }
@@ -94,25 +94,25 @@ impl LumpedInputs {
         let none = || crate::error::unasked(scene, "model of the ladder");
         if let Some(gears) = elastic {
             let (model, resonance_hz) = gears.model(scene, pair)?;
-            let warnings = gears.warnings.clone();
-            return Ok(LumpedSystem { model, resonance_hz, warnings, shafts: None });
+            let remarks = gears.remarks.clone();
+            return Ok(LumpedSystem { model, resonance_hz, remarks, shafts: None });
         }
         if let Some(own) = &scene.impact {
-            let (model, warnings) = impact::impact(scene, own, pair).map_err(complain)?;
+            let (model, remarks) = impact::impact(scene, own, pair).map_err(complain)?;
             return Ok(LumpedSystem {
                 model: BoxedMechanism::new(Formulas(model)),
                 resonance_hz: 0.0,
-                warnings,
+                remarks,
                 shafts: None,
             });
         }
         // The scene's checks let no other model come here.
         let (Some(mesh), Some(excitation)) = (&scene.mesh, excitation) else { return Err(none()) };
-        let warnings = excitation.warnings.clone();
+        let remarks = excitation.remarks.clone();
         if let Some(own) = &scene.shaft18 {
             let (system, resonance) = shafts::system(scene, own, mesh, pair, excitation).map_err(complain)?;
             let model = BoxedMechanism::new(Formulas(ShaftMechanism::new(&system).map_err(complain)?));
-            return Ok(LumpedSystem { model, resonance_hz: resonance / TAU, warnings, shafts: Some(system) });
+            return Ok(LumpedSystem { model, resonance_hz: resonance / TAU, remarks, shafts: Some(system) });
         }
         let (lumped, bodies) = lumped_pair::lumped_pair(scene, mesh, pair, excitation).map_err(complain)?;
         let resonance_hz = lumped.natural_frequency() / TAU;
@@ -123,7 +123,7 @@ impl LumpedInputs {
         } else {
             return Err(none());
         };
-        Ok(LumpedSystem { model: model.map_err(complain)?, resonance_hz, warnings, shafts: None })
+        Ok(LumpedSystem { model: model.map_err(complain)?, resonance_hz, remarks, shafts: None })
     }
 
     /// What a user should hear of a run, beside what the model itself says.

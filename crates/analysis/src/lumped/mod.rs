@@ -13,11 +13,10 @@
 //! | `bodies` | bodies, supports and torques of the scene |
 //! | `lumped_pair`, `shafts`, `impact`, `elastic_pair`, `elastic_frame`, `mapped`, `reduced` | the models |
 //! | `free_turn` | the motion that nothing holds |
-//! | `shooting` | the periodic state by Newton's method |
 //! | `exponent` | the largest Lyapunov exponent of a motion |
 //! | `integration`, `run_loop` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
-//! | `headline`, `warnings` | what is read off the rows |
+//! | `headline`, `remarks` | what is read off the rows |
 
 mod analysis;
 mod basins;
@@ -40,7 +39,6 @@ mod reduced;
 mod row;
 mod run_loop;
 mod shafts;
-mod shooting;
 mod sweep;
 mod warnings;
 
@@ -50,6 +48,7 @@ pub use branch::{
     BranchPoint, BranchTurn, ContinuationAnalysis, ContinuationHeadline, ContinuationResult, LossName, TimePoint,
 };
 pub use campbell::LumpedCampbell;
+pub(crate) use campbell::{FrequencyFacts, Meeting};
 pub use headline::{LumpedCertificate, LumpedHeadline};
 pub use mechanism::{LumpedMemory, StaticPoint};
 pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};

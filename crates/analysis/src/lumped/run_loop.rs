@@ -1,17 +1,20 @@
 //! A run of a model: its mesh cycles, and what is read off them.
 
+use std::f64::consts::TAU;
+
 use integrate::{
     Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
     Settle, State, StepControl, Stop, Timetable,
 };
 use ltca::StaticError;
+use periodic::Shooting;
 use scene::{Analysis, MotionScene, Run, Scene};
 
 use super::{
     LumpedRow,
-    integration::{MeshFrequencies, method},
+    free_turn::free_turn,
+    integration::{MeshFrequencies, integrator, method},
     mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
-    shooting::Shooting,
 };
 use crate::{AnalysisError, SinkResult, motion::EnergyRow};
 
@@ -232,9 +235,19 @@ impl RunPlan<'_> {
         (period, tolerance): (usize, f64),
     ) -> Result<Option<State>, ModelFailure> {
         let Self { motion, frequencies, .. } = *self;
-        let search = |period: usize| Shooting { motion, frequencies, period, tolerance };
-        let once = search(1).near(model, state)?;
-        if once.is_some() || period == 1 { Ok(once) } else { search(period).near(model, state) }
+        let free = free_turn(model)?;
+        let search = |model: &mut BoxedMechanism, period: usize| {
+            let shooting = Shooting {
+                period: period as f64 / frequencies.mesh_hz,
+                tolerance,
+                scale: model.scale(),
+                frequency: TAU * frequencies.mesh_hz.max(frequencies.resonance_hz),
+                free: free.as_ref(),
+            };
+            shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
+        };
+        let once = search(model, 1)?;
+        Ok(if once.is_some() || period == 1 { once } else { search(model, period)? })
     }
 }
 

@@ -55,17 +55,17 @@ fn why_not(exponent: Option<Lyapunov>) -> String {
 
 /// What the certificate says that a user should hear.
 pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
-    let mut warnings = Vec::new();
+    let mut remarks = Vec::new();
     let c = &headline.certificate;
     if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {
         if found > asked {
-            warnings.push(remark::not_periodic(c.warm_up_cycles, found, asked, why_not(c.lyapunov)));
+            remarks.push(remark::not_periodic(c.warm_up_cycles, found, asked, why_not(c.lyapunov)));
         } else if let Some(period) = c.period_cycles.filter(|p| *p > 1) {
-            warnings.push(remark::subharmonic(period));
+            remarks.push(remark::subharmonic(period));
         }
     }
     if c.energy_open_over_vibration > OPEN_ENERGY {
-        warnings.push(remark::vibration_energy_open(c.energy_open_over_vibration, OPEN_ENERGY));
+        remarks.push(remark::vibration_energy_open(c.energy_open_over_vibration, OPEN_ENERGY));
     }
-    warnings
+    remarks
 }

@@ -9,7 +9,7 @@ use study::Window;
 
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
-    MotionSpectrum, NoMotionSink, Passage, WaterfallLine,
+    MotionSpectrum, NoMotionSink, RunUp, WaterfallLine,
     checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
     headline,
@@ -20,9 +20,9 @@ use super::{
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
     error::{in_scene, unasked},
-    facts::Facts,
+    facts::RunInfo,
     failure::Failure,
-    inputs::settled_scene,
+    inputs::resolved_scene,
     refused::Refusal,
     results::{GearPattern, root_stress_warnings},
 };
@@ -75,16 +75,16 @@ pub struct MotionResult {
     /// What the driving flanks were pressed by.
     pub patterns: [GearPattern; 2],
     /// What it was made of, with its certificate.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 /// What a run-up or run-down shows over speed.
 #[derive(Debug, Clone)]
 pub struct RampResult {
     /// Mesh cycle by mesh cycle.
-    pub passage: Passage,
+    pub run_up: RunUp,
     /// Order spectra, stretch by stretch.
     pub waterfall: Vec<WaterfallLine>,
     /// Mesh orders through the pair's frequencies.
@@ -149,7 +149,7 @@ impl<'a> MotionAnalysis<'a> {
     /// Follows the motion to its end, or to where it is to stop, with window after window until one suffices.
     fn follow(self, observer: &mut dyn Observer, sink: &mut dyn MotionSink) -> Result<FollowedMotion, AnalysisError> {
         let Self { meshes, cache, mut from, stop_after, .. } = self;
-        let scene = settled_scene(self.scene, meshes.is_some());
+        let scene = resolved_scene(self.scene, meshes.is_some());
         if !scene.accuracy.is_none() {
             return Err(in_scene(&scene)(Refusal::with_accuracy()));
         }
@@ -187,7 +187,7 @@ impl<'a> MotionAnalysis<'a> {
             },
         );
         let (mut prepared, done) = solved.map_err(|e: Failure| e.into_error(&scene))?;
-        prepared.warnings.extend(widened);
+        prepared.remarks.extend(widened);
         let (pair, motion) = (inputs.pair, motion.clone());
         Ok(FollowedMotion { scene, motion, pair, prepared, done })
     }
@@ -223,13 +223,13 @@ pub(super) fn ready(
     let MotionInputs { scene, motion, .. } = *inputs;
     let mut prepared = prepare(inputs, observer, sink, window)?;
     warnings::unstable(scene, &prepared)?;
-    prepared.warnings.extend(warnings::coarse(scene, motion, &prepared));
-    prepared.warnings.extend(warnings::no_backlash(scene, prepared.system.pair()));
+    prepared.remarks.extend(warnings::coarse(scene, motion, &prepared));
+    prepared.remarks.extend(warnings::no_backlash(scene, prepared.system.pair()));
     let slow = warnings::slow(scene, motion, &prepared).or_else(|| warnings::long(scene, motion, &prepared));
     if let Some(slow) = slow {
         // Who waits should hear it before the end.
         observer.note(slow.to_string());
-        prepared.warnings.push(slow);
+        prepared.remarks.push(slow);
     }
     Ok(prepared)
 }
@@ -258,11 +258,11 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     if let Some(asked) = motion.ramp {
         let waterfall = waterfall(&series, per_cycle, asked.waterfall_cycles as usize, scene.pinion.teeth)?;
         let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
-        let passage = Passage::of(&series, per_cycle, (law, teeth), force, &waterfall)?;
-        ramp = Some(RampResult { passage, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });
+        let run_up = RunUp::of(&series, per_cycle, (law, teeth), force, &waterfall)?;
+        ramp = Some(RampResult { run_up, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });
     }
-    let passage = ramp.as_ref().map(|r| &r.passage);
-    let mut headline = headline::headline((scene, motion), &prepared, &done, passage)?;
+    let run_up = ramp.as_ref().map(|r| &r.run_up);
+    let mut headline = headline::headline((scene, motion), &prepared, &done, run_up)?;
     if let Some(ramp) = &ramp {
         headline.critical_speeds = ramp.campbell.critical_speeds();
     }
@@ -274,18 +274,18 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         }
     };
     let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
-    let mut warnings = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    let mut remarks = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (step_s * headline.mesh_frequency_hz),
             Some(_) => f64::INFINITY,
         };
-        warnings.extend(unresolved(&series.dte_um, headline.cycles, steps));
+        remarks.extend(unresolved(&series.dte_um, headline.cycles, steps));
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
-    Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, warnings })
+    Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
 }
 
 /// What was heard before the motion, and what its numbers say.
@@ -296,7 +296,7 @@ fn warnings_of(
     mesh_hz: [f64; 2],
     wall_s: f64,
 ) -> Vec<Remark> {
-    let mut all = prepared.warnings.clone();
+    let mut all = prepared.remarks.clone();
     all.extend(warnings::of_motion(motion, prepared, headline));
     let resonance = prepared.system.mesh_resonance();
     let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };

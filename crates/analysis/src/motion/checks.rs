@@ -13,23 +13,23 @@ use crate::{
 
 /// Energy that an integrator may add or take, over that of the vibration.
 const ENERGY: f64 = 1e-2;
-const ENERGY_WAY_OUT: &str = "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or `method = \"energy\"`, which keeps energy at any step";
+const ENERGY_HINT: &str = "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or `method = \"energy\"`, which keeps energy at any step";
 /// What to do where a motion does not hold.
-pub const MOTION_WAY_OUT: &str = ENERGY_WAY_OUT;
+pub const MOTION_HINT: &str = ENERGY_HINT;
 /// Forces that should not be, over the largest normal force.
 const CONTACT: f64 = 1e-6;
 /// The same of a jump at a tooth change, which is the difference of two forces found from different starts: up to some
 /// 1e-6 with long steps.
 const JUMP: f64 = 1e-4;
-const EXCURSION_WAY_OUT: &str = "the flanks are a module or more in each other or apart, as no teeth are: look at the units of torque, stiffnesses and masses, give \
+const EXCURSION_HINT: &str = "the flanks are a module or more in each other or apart, as no teeth are: look at the units of torque, stiffnesses and masses, give \
                                  bearings that hold the gears in mesh, or more damping";
-const CONTACT_WAY_OUT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
+const CONTACT_HINT: &str = "take smaller steps, and let the window grow (leave `window_teeth` out)";
 
 /// Energy that steps add or take by themselves, over the kinetic and elastic energy that comes and goes in them
 /// ([`integrate::Ledger::open_over_vibration`]). What goes through the pair is no measure of it: in a light vibration it
 /// is many thousand times the energy of that.
 pub fn energy_check(open_over_vibration: f64) -> Check {
-    Check { name: "energy_residual".into(), value: open_over_vibration, bound: ENERGY, hint: ENERGY_WAY_OUT }
+    Check { name: "energy_residual".into(), value: open_over_vibration, bound: ENERGY, hint: ENERGY_HINT }
 }
 
 /// The least force of a slice in contact (N), below zero where a flank pulls, over the largest normal force (N).
@@ -63,12 +63,12 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
 /// How far flanks are in each other or apart beyond their clearances (mm), over the module (mm): from a whole module on
 /// teeth have passed each other, and no law of a mesh holds.
 pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {
-    Check { name: "flank_excursion".into(), value: farthest_mm / module_mm, bound: 1.0, hint: EXCURSION_WAY_OUT }
+    Check { name: "flank_excursion".into(), value: farthest_mm / module_mm, bound: 1.0, hint: EXCURSION_HINT }
 }
 
 /// A force that should not be (N) over the largest normal force (N).
 fn contact_check(name: &'static str, force_n: f64, largest_n: f64) -> Check {
-    Check { name: name.into(), value: over(force_n, largest_n), bound: CONTACT, hint: CONTACT_WAY_OUT }
+    Check { name: name.into(), value: over(force_n, largest_n), bound: CONTACT, hint: CONTACT_HINT }
 }
 
 /// A share; nothing is no share of anything.

@@ -106,7 +106,7 @@ pub(super) fn run(
         .map_err(|e| e.of(scene))?;
     }
     let wall_s = clock.elapsed().as_secs_f64();
-    let Told { sink, layout, rows, pattern, .. } = told;
+    let Outcome { sink, layout, rows, pattern, .. } = told;
     sink.finish().map_err(AnalysisError::Sink)?;
     let patterns = pattern.patterns(scene, motion.system().pair());
     Ok(FinishedMotion { motion, shooting, stopped, rows, layout, patterns, wall_s })
@@ -119,7 +119,7 @@ fn begin<'a>(
     prepared: &PreparedMotion,
     (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
     Span { from, .. }: Span,
-) -> Result<(Motion, Option<ShootingResult>, Told<'a>), Failure> {
+) -> Result<(Motion, Option<ShootingResult>, Outcome<'a>), Failure> {
     let PreparedMotion { system, settings, quasi_static, facts, .. } = prepared;
     let window = facts.window_teeth.unwrap_or(0) as usize;
     let layout = MotionLayout::of(scene, window);
@@ -131,9 +131,9 @@ fn begin<'a>(
         let MotionCheckpoint { motion: at, patterns, .. } = checkpoint;
         let pattern = pattern(Some(patterns))?;
         let motion = Course::resume(own, settings.clone(), at).map_err(|e| fail(e.into()))?;
-        return Ok((motion, None, Told { sink, window, layout, rows, pattern }));
+        return Ok((motion, None, Outcome { sink, window, layout, rows, pattern }));
     }
-    let told = Told { sink, window, layout, rows: Vec::new(), pattern: pattern(None)? };
+    let told = Outcome { sink, window, layout, rows: Vec::new(), pattern: pattern(None)? };
     let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
     let start =
         run_phase(observer, "start", PhaseWork::Unknown, |_| quasi_static_start(&mut own, 0.0, guess, &settings.scale));
@@ -150,7 +150,7 @@ fn begin<'a>(
 }
 
 /// Who is told of a motion, and what was read off it so far.
-struct Told<'a> {
+struct Outcome<'a> {
     sink: &'a mut dyn MotionSink,
     window: usize,
     layout: MotionLayout,
@@ -160,7 +160,7 @@ struct Told<'a> {
 
 /// The same in one phase of the analysis.
 struct InPhase<'a, 'b> {
-    told: &'a mut Told<'b>,
+    told: &'a mut Outcome<'b>,
     progress: &'a dyn Progress,
     /// Tolerance to which the motion settles in this phase.
     settling: Option<f64>,
@@ -197,7 +197,7 @@ impl Follower<PairMechanism> for InPhase<'_, '_> {
     type Error = Ended;
 
     fn row(&mut self, Row { system, state, ledger }: Row<'_, PairMechanism>) -> Result<(), Ended> {
-        let Told { sink, layout, rows, pattern, .. } = &mut *self.told;
+        let Outcome { sink, layout, rows, pattern, .. } = &mut *self.told;
         let State { time, q, v, .. } = state;
         let contact = |source| Ended::Motion(PairMotionError::contact(*time, source));
         let now = system.instant(*time, q, v).map_err(contact)?;
@@ -227,7 +227,7 @@ impl Follower<PairMechanism> for InPhase<'_, '_> {
     }
 
     fn checkpoint(&mut self, motion: Checkpoint<dynamics::MechanismState>) -> Result<(), Ended> {
-        let Told { sink, window, pattern, .. } = &mut *self.told;
+        let Outcome { sink, window, pattern, .. } = &mut *self.told;
         let state = MotionCheckpoint { window: *window, motion, patterns: pattern.grids().clone() };
         Ok(sink.checkpoint(state).map_err(AnalysisError::Sink)?)
     }

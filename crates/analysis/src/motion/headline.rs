@@ -8,59 +8,97 @@ use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, peak_to_
 use super::{
     MotionRow,
     course::FinishedMotion,
-    orders::{CriticalSpeed, Passage, PassageHeadline},
+    orders::{CriticalSpeed, RunUp, RunUpHeadline},
     setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration, mesh_range_hz},
 };
-use crate::{results::PressurePlace, with_keys::with_keys};
+use crate::results::PressurePlace;
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
 
-with_keys! {
-/// The few numbers that a motion is run for; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct MotionHeadline {
-    pub run: Run,
-    pub speed_rpm: f64,
-    pub mesh_frequency_hz: f64,
-    pub mesh_resonance_hz: f64,
-    pub inertia: InertiaHeadline,
-    pub elasticity: ElasticHeadline,
-    pub rows_per_cycle: u32,
-    pub cycles: u64,
-    pub free_coordinates: Vec<String>,
-    pub mean_dte_um: f64,
-    pub rms_dte_um: f64,
-    pub peak_to_peak_dte_um: f64,
-    pub min_dte_um: f64,
-    pub max_dte_um: f64,
-    pub dte_harmonics_um: Vec<f64>,
-    pub mean_ste_um: f64,
-    pub peak_to_peak_ste_um: f64,
-    pub mean_mesh_stiffness_n_per_um: f64,
-    pub mean_contact_line_length_mm: f64,
-    pub mean_normal_force_n: f64,
-    pub min_normal_force_n: f64,
-    pub max_normal_force_n: f64,
-    pub mean_static_normal_force_n: f64,
-    pub dynamic_factor: f64,
-    pub max_coast_normal_force_n: f64,
-    pub mean_wheel_force_n: [f64; 3],
-    pub peak_to_peak_wheel_axial_force_n: f64,
-    pub mean_pinion_tilting_moment_nmm: f64,
-    pub peak_to_peak_pinion_tilting_moment_nmm: f64,
-    pub mean_wheel_tilting_moment_nmm: f64,
-    pub max_bearing_force_n: f64,
-    pub max_pressure_mpa: f64,
-    pub max_pressure_at: Option<PressurePlace>,
-    pub max_root_tension_mpa: Option<[f64; 2]>,
-    pub max_root_tension_estimated_error_percent: Option<[f64; 2]>,
-    pub tooth_changes: u64,
-    pub ramp: Option<PassageHeadline>,
-    pub critical_speeds: Vec<CriticalSpeed>,
-    pub certificate: MotionCertificate,
-}
+described::described! {
+    /// The few numbers that a motion is run for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct MotionHeadline {
+        /// kind of motion: `steady`, `span` or `ramp`
+        pub run: Run,
+        /// speed of the driver: the given one, else the mean of the rows
+        pub speed_rpm: f64,
+        /// mesh frequency at `speed_rpm`
+        pub mesh_frequency_hz: f64,
+        /// sqrt(k_m / m_e) / (2 pi): k_m mean tangent stiffness of the quasi-static cycle, m_e `equivalent_mass_kg`
+        pub mesh_resonance_hz: f64,
+        /// inertia of the gears, and the mesh resonance with either choice of it
+        pub inertia: InertiaHeadline,
+        /// elastic frequencies of the gears beside the mesh harmonics
+        pub elasticity: ElasticHeadline,
+        /// rows per mesh cycle
+        pub rows_per_cycle: u32,
+        /// mesh cycles that are written
+        pub cycles: u64,
+        /// coordinates of the axes that are free
+        pub free_coordinates: Vec<String>,
+        /// mean dynamic transmission error (DTE) of the rows
+        pub mean_dte_um: f64,
+        /// root mean square of the DTE about its mean
+        pub rms_dte_um: f64,
+        /// largest minus smallest DTE of a mesh cycle, averaged over the cycles; of a ramp the largest of a cycle
+        pub peak_to_peak_dte_um: f64,
+        /// smallest DTE of the rows
+        pub min_dte_um: f64,
+        /// largest DTE of the rows
+        pub max_dte_um: f64,
+        /// single-sided amplitudes of the mesh harmonics 1 .. 8 of the DTE; of a ramp the largest over speed
+        pub dte_harmonics_um: Vec<f64>,
+        /// mean static transmission error under the same load
+        pub mean_ste_um: f64,
+        /// peak to peak of the static transmission error under the same load
+        pub peak_to_peak_ste_um: f64,
+        /// mean tangent mesh stiffness of the quasi-static cycle
+        pub mean_mesh_stiffness_n_per_um: f64,
+        /// mean total contact-line length of the driving flanks
+        pub mean_contact_line_length_mm: f64,
+        /// mean sum of the normal forces on the driving flanks
+        pub mean_normal_force_n: f64,
+        /// smallest sum of the normal forces on the driving flanks
+        pub min_normal_force_n: f64,
+        /// largest sum of the normal forces on the driving flanks
+        pub max_normal_force_n: f64,
+        /// mean sum of the normal forces of the quasi-static cycle
+        pub mean_static_normal_force_n: f64,
+        /// largest sum of normal forces on driving or coast flanks over the mean quasi-static one, of this motion. It is not K_v of ISO 6336-1, which is estimated from speed, resonance and tooth deviations
+        pub dynamic_factor: f64,
+        /// largest sum of the normal forces on the coast flanks
+        pub max_coast_normal_force_n: f64,
+        /// mean mesh force on the wheel: x, y, z in fixed axes
+        pub mean_wheel_force_n: [f64; 3],
+        /// peak to peak of the axial mesh force on the wheel
+        pub peak_to_peak_wheel_axial_force_n: f64,
+        /// mean mesh moment on the pinion about y through its centre
+        pub mean_pinion_tilting_moment_nmm: f64,
+        /// peak to peak of the mesh moment on the pinion about y
+        pub peak_to_peak_pinion_tilting_moment_nmm: f64,
+        /// mean mesh moment on the wheel about y through its centre
+        pub mean_wheel_tilting_moment_nmm: f64,
+        /// largest force of a bearing; 0 where no axis is free
+        pub max_bearing_force_n: f64,
+        /// largest contact pressure of the rows
+        pub max_pressure_mpa: f64,
+        /// place of the largest pressure; `null` without slices
+        pub max_pressure_at: Option<PressurePlace>,
+        /// largest root tension of pinion and wheel; `null` where it is not asked for
+        pub max_root_tension_mpa: Option<[f64; 2]>,
+        /// estimated error of the largest root tension of pinion and wheel
+        pub max_root_tension_estimated_error_percent: Option<[f64; 2]>,
+        /// tooth changes of the window since the quasi-static start
+        pub tooth_changes: u64,
+        /// largest values of a ramp and where they are; `null` without a ramp
+        pub ramp: Option<RunUpHeadline>,
+        /// speeds, up to the highest of the run, at which a mesh order meets a natural frequency
+        pub critical_speeds: Vec<CriticalSpeed>,
+        /// measures of how exact the motion is
+        pub certificate: MotionCertificate,
+    }
 }
 
 impl MotionHeadline {
@@ -71,34 +109,55 @@ impl MotionHeadline {
     }
 }
 
-/// How far a motion can be trusted.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // as above
-pub struct MotionCertificate {
-    pub ledger_residual_mj: f64,
-    pub work_through_pair_mj: f64,
-    pub ledger_residual_over_work: f64,
-    pub ledger_residual_over_turnover: f64,
-    pub energy_open_over_vibration: f64,
-    pub least_contact_force_n: Option<f64>,
-    pub force_jump_at_tooth_change_n: f64,
-    pub period_cycles: Option<usize>,
-    pub periodicity: Option<f64>,
-    pub shooting_multiplier: Option<f64>,
-    pub shooting_periods: Option<usize>,
-    pub warm_up_cycles: u64,
-    pub contact_losses: u64,
-    pub steps_without_contact: u64,
-    pub largest_gap_um: f64,
-    pub coast_contacts: u64,
-    pub rows_on_both_flanks: usize,
-    pub flank_coupling_bound_um: f64,
-    pub steps: u64,
-    pub refused_steps: u64,
+described::described! {
+    /// How far a motion can be trusted.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct MotionCertificate {
+        /// energy that does not close since the start
+        pub ledger_residual_mj: f64,
+        /// load torque times nominal rotation
+        pub work_through_pair_mj: f64,
+        /// `ledger_residual_mj` over `work_through_pair_mj`
+        pub ledger_residual_over_work: f64,
+        /// `ledger_residual_mj` over all work that changed the deviations from the nominal motion
+        pub ledger_residual_over_turnover: f64,
+        /// energy that the steps add or take by themselves, over the changes of kinetic and elastic energy, each step by its amount; the check `energy_residual` judges it
+        pub energy_open_over_vibration: f64,
+        /// smallest force of a slice in contact, damping included, at the end of any step; below 0 a flank would pull
+        pub least_contact_force_n: Option<f64>,
+        /// largest difference of the sum of normal forces before and after a tooth change at the same place, each solved by itself
+        pub force_jump_at_tooth_change_n: f64,
+        /// mesh cycles after which the motion repeats itself best
+        pub period_cycles: Option<usize>,
+        /// largest difference of a coordinate or velocity after that period, over its peak to peak
+        pub periodicity: Option<f64>,
+        /// share of a disturbance that is left after a period (below 1: stable); `null` without shooting
+        pub shooting_multiplier: Option<f64>,
+        /// periods that shooting integrated
+        pub shooting_periods: Option<usize>,
+        /// mesh cycles before the first row
+        pub warm_up_cycles: u64,
+        /// losses of contact of all driving flanks together
+        pub contact_losses: u64,
+        /// steps in which no driving flank touches
+        pub steps_without_contact: u64,
+        /// largest gap between the driving flanks
+        pub largest_gap_um: f64,
+        /// contacts of the coast flanks
+        pub coast_contacts: u64,
+        /// rows in which driving and coast flanks press at once
+        pub rows_on_both_flanks: usize,
+        /// bound of the displacement that such rows leave out, because in motion neither flank bends the other: the smaller of both forces over the mean mesh stiffness along the normal
+        pub flank_coupling_bound_um: f64,
+        /// steps that were taken
+        pub steps: u64,
+        /// steps that were taken back and divided: too large an error, no solution, or beyond the stability limit of an explicit method
+        pub refused_steps: u64,
+    }
 }
 
 /// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of
-/// its `passage`.
+/// its `run_up`.
 ///
 /// # Errors
 /// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.
@@ -106,7 +165,7 @@ pub(super) fn headline(
     (scene, motion): (&Scene, &MotionScene),
     prepared: &PreparedMotion,
     done: &FinishedMotion,
-    passage: Option<&Passage>,
+    run_up: Option<&RunUp>,
 ) -> Result<MotionHeadline, StudyError> {
     let cycles = done.motion.stage().recorded;
     let rows = &done.rows;
@@ -131,7 +190,7 @@ pub(super) fn headline(
     let tilting = [0, 1].map(|gear| series(&|r| r.moment_nmm[gear][1]));
     let static_force = prepared.quasi_static.normal_force;
     let tension = root_tension(rows);
-    let ramp = passage.and_then(Passage::headline);
+    let ramp = run_up.and_then(RunUp::headline);
     let (peak, harmonics): (f64, Vec<f64>) = match &ramp {
         Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
         None => {

@@ -10,7 +10,7 @@
 //! | `pattern` | what the flanks are pressed by |
 //! | `headline` | the few numbers that a motion is made for |
 //! | `checks`, `certificate` | what must hold of any motion, and of these |
-//! | `warnings`, `step_estimate` | what a user should hear; how many steps the fastest motion and a longer analysis take |
+//! | `remarks`, `step_estimate` | what a user should hear; how many steps the fastest motion and a longer analysis take |
 //! | `sweep` | [`SweepAnalysis`]: steady states over speed |
 //! | `precision` | step sizes against errors of every method |
 
@@ -33,12 +33,12 @@ mod warnings;
 pub use crate::unstable_steps::Steps;
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
 pub use checks::{
-    MOTION_WAY_OUT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
+    MOTION_HINT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
 };
 pub use headline::{MotionCertificate, MotionHeadline};
 pub use orders::{
-    CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, Passage, PassageCycle, PassageHeadline,
-    PeakOverSpeed, WaterfallLine, waterfall,
+    CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
+    RunUpHeadline, WaterfallLine, waterfall,
 };
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
 pub(crate) use resolved::unresolved;

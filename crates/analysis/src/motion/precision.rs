@@ -12,7 +12,7 @@ use super::{
     course::failure,
     setup::{MotionInputs, PreparedMotion, prepare},
 };
-use crate::{AnalysisError, NoCache, Observer, PhaseWork, error::unasked, inputs::settled_scene, run_phase};
+use crate::{AnalysisError, NoCache, Observer, PhaseWork, error::unasked, inputs::resolved_scene, run_phase};
 
 /// Methods that a scene can ask for, with their usual parameters.
 const METHODS: [(&str, Scheme); 4] = [
@@ -82,7 +82,7 @@ pub fn motion_precision(
     observer: &mut dyn Observer,
     quick: bool,
 ) -> Result<MotionPrecision, AnalysisError> {
-    let scene = &settled_scene(scene, false);
+    let scene = &resolved_scene(scene, false);
     let motion = scene.motion.as_ref().filter(|_| scene.analysis.model.is_reduced());
     let motion = motion.ok_or_else(|| unasked(scene, "motion of reduced gears"))?;
     let inputs = MotionInputs::new((scene, motion), None, &NoCache, observer)?;

@@ -39,7 +39,7 @@ pub trait MotionSink {
     /// found.
     fn position(&mut self, _index: usize, _position: &StaticPosition, _model: &StaticModel) {}
 
-    /// The quasi-static mesh cycle is solved. What comes back are warnings.
+    /// The quasi-static mesh cycle is solved. What comes back are remarks.
     fn quasi_static(&mut self, _model: &StaticModel, _observer: &mut dyn Observer) -> Vec<answer::Remark> {
         Vec::new()
     }

@@ -109,7 +109,7 @@ pub(crate) fn no_backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
     let backlash_um = 1e3 * pair.backlash();
     (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
         let what = match scene.contact.flanks {
-            Flanks::Both => "where the driving flanks part the coast flanks press at once, and there is no loss of contact as with a clearance",
+            Flanks::Both => "where the driving flanks lose contact the coast flanks press at once, and there is no loss of contact as with a clearance",
             Flanks::Driving => "with `flanks = \"driving\"` teeth that part fly as if there were room behind them",
         };
         remark::no_backlash(what)

@@ -4,10 +4,9 @@ use design::{Curve, Evaluation, Limited};
 use scene::{Scene, optimum::Optimisation};
 
 use crate::{
-    AnalysisError, RestRequest, SharedModels, VariedScene, WarningsAtRest,
+    AnalysisError, RestRequest, SharedModels, VariedScene, WarningsAtRest, parallel_map,
     resolution::with_slices,
     shared_solutions::{Rates, SolvedWithRates},
-    side_by_side,
 };
 
 /// Slices that serve all designs, so that none jumps to another number: as many as the start and the middle of all
@@ -37,11 +36,11 @@ pub(super) fn evaluate(
     limits: PressureLimits,
 ) -> Result<Evaluation, AnalysisError> {
     let torques = plan.torques.len();
-    let solved = side_by_side(torques * plan.samples(), |i| {
+    let solved = parallel_map(torques * plan.samples(), |i| {
         let (sample, torque) = (i / torques, plan.torques[i % torques].torque_nm);
         let at = |values: &[f64]| plan.scene(values, torque, Some(sample));
         let rates = Rates { of: &varied(plan, values, at)?, of_unloaded: false };
-        models.solve(&at(values)?, rates, RestRequest::to_the_end(WarningsAtRest::Left))
+        models.solve(&at(values)?, rates, RestRequest::to_the_end(WarningsAtRest::Skipped))
     });
     let mut evaluation = Evaluation::default();
     for (i, solved) in solved.into_iter().enumerate() {

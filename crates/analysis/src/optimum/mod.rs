@@ -4,11 +4,11 @@
 //! |---|---|
 //! | `evaluate` | all torques and samples of a design |
 //! | `run` | the search, whole values of a machine, the trade-off against pressure |
-//! | `told` | what a user is told of the optimum: before and after, over torques, what each parameter does |
+//! | `summary` | what is reported of an optimum: before and after, over torques, what each parameter does |
 
 mod evaluate;
 mod run;
-mod told;
+mod summary;
 
 pub use run::{FrontPoint, Optimum, optimise};
-pub use told::{HarrisPoint, Influence, Optimised, TorqueLine, told};
+pub use summary::{HarrisPoint, Influence, Optimised, TorqueLine, summarise};

@@ -14,7 +14,7 @@ pub(super) const DEFLECTION_BOUND: f64 = 0.3;
 /// plastics at 0.1.
 pub(super) const PRESSURE_BOUND: f64 = 0.3;
 
-const WAY_OUT: &str = "elasticity here is linear and holds for small deflections: is the torque in N m, Young's modulus in MPa, the face width in mm, micro-geometry in um?";
+const HINT: &str = "elasticity here is linear and holds for small deflections: is the torque in N m, Young's modulus in MPa, the face width in mm, micro-geometry in um?";
 
 /// E* of the materials of both gears, MPa: `1/E* = sum (1 - nu^2)/E`.
 pub(crate) fn effective_modulus(scene: &Scene) -> f64 {
@@ -24,13 +24,13 @@ pub(crate) fn effective_modulus(scene: &Scene) -> f64 {
 /// The largest deflection of a pair over its module (both mm).
 pub(crate) fn deflection_check(module_mm: f64, deflection_mm: f64) -> Check {
     let value = deflection_mm / module_mm;
-    Check { name: "deflection_over_module".into(), value, bound: DEFLECTION_BOUND, hint: WAY_OUT }
+    Check { name: "deflection_over_module".into(), value, bound: DEFLECTION_BOUND, hint: HINT }
 }
 
 /// The largest pressure over E* (both MPa).
 pub(crate) fn pressure_check(modulus_mpa: f64, pressure_mpa: f64) -> Check {
     let value = pressure_mpa / modulus_mpa;
-    Check { name: "pressure_over_modulus".into(), value, bound: PRESSURE_BOUND, hint: WAY_OUT }
+    Check { name: "pressure_over_modulus".into(), value, bound: PRESSURE_BOUND, hint: HINT }
 }
 
 /// Deflection (mm) at the least that a transmission error between two values (mm) stands for in a motion, whose flanks

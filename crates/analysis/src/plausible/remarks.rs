@@ -75,7 +75,7 @@ fn density(dynamic: bool, name: &str, gear: &GearScene) -> Option<Remark> {
 }
 
 fn bore(name: &str, gear: &GearScene, exact: &Gear) -> Option<Remark> {
-    let (bore, reference) = (gear.bore_diameter_mm, 2.0 * exact.reference_radius());
+    let (bore, reference) = (gear.bore_diameter_mm, 2.0 * exact.reference_radius().abs());
     (bore < BORE * reference).then(|| {
         let other = meant("bore_diameter_mm", bore, |x| (0.1 * reference..reference).contains(&x));
         remark::small_bore(name, bore, reference, other)

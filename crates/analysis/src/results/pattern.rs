@@ -73,7 +73,7 @@ pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Resu
 pub fn untouched(scene: &Scene, pair: &GearPair, gear: usize) -> Result<FlankPattern, StudyError> {
     let flank = [&pair.pinion, &pair.wheel][gear].flank(scene.side());
     let stations = stations(pair, gear, scene.contact.slices.unwrap_or(1) as usize);
-    FlankPattern::new([flank.roll_form, flank.roll_tip], PROFILE_STEPS, stations)
+    FlankPattern::new(flank.roll_range(), PROFILE_STEPS, stations)
 }
 
 /// A grid with the flank that it lies on.

@@ -8,21 +8,30 @@ use scene::Scene;
 
 use super::pattern::diameter;
 
-/// Place of the largest pressure of a run.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct PressurePlace {
-    pub place: Site,
-    pub z_mm: f64,
-    pub pinion_diameter_mm: f64,
-    pub pinion_angle_deg: f64,
-    pub mesh_phase: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wheel_diameter_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub pinion_tooth: Option<u32>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub wheel_tooth: Option<u32>,
+described::described! {
+    /// Place of the largest pressure of a run.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct PressurePlace {
+        /// `flank`, `end_face` (a slice that ends at an end face), `pinion_tip_edge` or `wheel_tip_edge`
+        pub place: Site,
+        /// height on the pinion, from its mid-face
+        pub z_mm: f64,
+        /// diameter on the pinion
+        pub pinion_diameter_mm: f64,
+        /// angle of the pinion at that position
+        pub pinion_angle_deg: f64,
+        /// phase of the mesh cycle at that position
+        pub mesh_phase: f64,
+        /// diameter on the wheel; at rest
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub wheel_diameter_mm: Option<f64>,
+        /// number of the pinion's tooth; at rest
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub pinion_tooth: Option<u32>,
+        /// number of the wheel's tooth; at rest
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub wheel_tooth: Option<u32>,
+    }
 }
 
 impl PressurePlace {

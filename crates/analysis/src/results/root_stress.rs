@@ -4,38 +4,57 @@ use geometry::Side;
 use ltca::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, StaticHistory, StaticPosition, StressPeak};
 use serde::Serialize;
 
-/// Largest root stresses of a run; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct RootStressHeadline {
-    pub definition: &'static str,
-    pub averaging: &'static str,
-    pub pinion: GearRootStress,
-    pub wheel: GearRootStress,
+described::described! {
+    /// Largest root stresses of a run; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct RootStressHeadline {
+        /// definition of root stress
+        pub definition: &'static str,
+        /// method by which it is recovered from the elements
+        pub averaging: &'static str,
+        /// largest root stresses of the pinion
+        pub pinion: GearRootStress,
+        /// largest root stresses of the wheel
+        pub wheel: GearRootStress,
+    }
 }
 
-/// Largest root stresses of one gear over all positions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)]
-pub struct GearRootStress {
-    pub max_principal: Place,
-    pub min_principal: Place,
-    pub von_mises: Place,
+described::described! {
+    /// Largest root stresses of one gear over all positions.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct GearRootStress {
+        /// largest first principal stress (tension) of all positions
+        pub max_principal: Place,
+        /// smallest third principal stress (compression, negative)
+        pub min_principal: Place,
+        /// largest von Mises stress
+        pub von_mises: Place,
+    }
 }
 
-/// A stress with the place and the position where it is found.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)]
-pub struct Place {
-    pub stress_mpa: f64,
-    pub estimated_error_percent: f64,
-    pub tooth: u32,
-    pub side: Side,
-    pub radius_mm: f64,
-    pub z_mm: f64,
-    pub node: u64,
-    pub pinion_angle_deg: f64,
-    pub mesh_phase: f64,
+described::described! {
+    /// A stress with the place and the position where it is found.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct Place {
+        /// the stress
+        pub stress_mpa: f64,
+        /// estimated distance from the stress of an infinitely fine mesh, as in the column of `history.csv`
+        pub estimated_error_percent: f64,
+        /// number of the tooth, from 0
+        pub tooth: u32,
+        /// side of the tooth whose fillet it is
+        pub side: Side,
+        /// distance from the gear's axis
+        pub radius_mm: f64,
+        /// height from the gear's mid-face
+        pub z_mm: f64,
+        /// node: the tag of the mesh file; 1, 2, .. of the built-in mesher; of a periodic sector the number in the sector
+        pub node: u64,
+        /// angle of the pinion at that position
+        pub pinion_angle_deg: f64,
+        /// phase of the mesh cycle at that position
+        pub mesh_phase: f64,
+    }
 }
 
 /// A measure of stress in a fillet; the sign says which end of it is the worst.

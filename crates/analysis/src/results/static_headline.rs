@@ -9,54 +9,89 @@ use super::{
     PressurePlace, RootStressHeadline, ToothChangeHeadline, face_load_factor, load_sharing_ratio, root_stress_headline,
     transverse_load_factor,
 };
-use crate::{with_keys::with_keys, worse};
+use crate::{pair_rating::RatingHeadline, worse};
 
 /// Mesh harmonics of the transmission error that are listed.
 const ORDERS: usize = 8;
 
-with_keys! {
-/// The few numbers that a run is made for; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct StaticHeadline {
-    pub mean_ste_um: f64,
-    pub peak_to_peak_ste_um: f64,
-    pub min_ste_um: f64,
-    pub max_ste_um: f64,
-    pub samples_per_cycle: usize,
-    pub cycles: usize,
-    pub ste_harmonics_um: Vec<f64>,
-    pub mean_mesh_stiffness_n_per_um: f64,
-    pub mean_mesh_stiffness_tangent_n_per_um: f64,
-    pub mean_contact_line_length_mm: f64,
-    pub mean_geometric_line_length_mm: f64,
-    pub mean_normal_force_n: f64,
-    pub mean_wheel_force_n: [f64; 3],
-    pub mean_pinion_tilting_moment_nmm: f64,
-    pub mean_wheel_tilting_moment_nmm: f64,
-    pub mean_friction_power_loss_w: f64,
-    pub efficiency: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub tooth_loss_factor: Option<f64>,
-    pub max_pair_force_n: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub face_load_factor: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub transverse_load_factor: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub load_sharing_ratio: Option<f64>,
-    pub max_pressure_mpa: f64,
-    pub max_pressure_at: Option<PressurePlace>,
-    pub root_stress: Option<RootStressHeadline>,
-    pub tooth_changes: usize,
-    pub tooth_change: Option<ToothChangeHeadline>,
-    pub worst_torque_residual: f64,
-    pub worst_complementarity_residual: f64,
-    pub worst_action_reaction_residual: f64,
-    pub worst_window_edge_load: f64,
-    pub bulk_compliance_error: f64,
-    pub iterations: usize,
-}
+described::described! {
+    /// The few numbers that a run is made for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct StaticHeadline {
+        /// mean static transmission error (STE) over all positions
+        pub mean_ste_um: f64,
+        /// largest minus smallest sampled STE of a mesh cycle, averaged over the cycles; it belongs to `samples_per_cycle`
+        pub peak_to_peak_ste_um: f64,
+        /// smallest STE of all positions
+        pub min_ste_um: f64,
+        /// largest STE of all positions
+        pub max_ste_um: f64,
+        /// positions per mesh cycle
+        pub samples_per_cycle: usize,
+        /// mesh cycles that were solved
+        pub cycles: usize,
+        /// single-sided amplitudes of the mesh harmonics 1 .. 8 of the STE (a sine of amplitude 1 reads 1), without a window function, since the history is whole cycles
+        pub ste_harmonics_um: Vec<f64>,
+        /// mean secant mesh stiffness
+        pub mean_mesh_stiffness_n_per_um: f64,
+        /// mean tangent mesh stiffness
+        pub mean_mesh_stiffness_tangent_n_per_um: f64,
+        /// mean total contact-line length under load
+        pub mean_contact_line_length_mm: f64,
+        /// mean total contact-line length of the unloaded pair, analytic
+        pub mean_geometric_line_length_mm: f64,
+        /// mean sum of the normal forces of all tooth pairs
+        pub mean_normal_force_n: f64,
+        /// mean mesh force on the wheel: x, y, z in fixed axes
+        pub mean_wheel_force_n: [f64; 3],
+        /// mean mesh moment on the pinion about y through its centre
+        pub mean_pinion_tilting_moment_nmm: f64,
+        /// mean mesh moment on the wheel about y through its centre
+        pub mean_wheel_tilting_moment_nmm: f64,
+        /// mean power lost to friction at the scene's speed
+        pub mean_friction_power_loss_w: f64,
+        /// mean output power over mean input power
+        pub efficiency: f64,
+        /// H_VL: sum of the solved normal forces times the sliding of the flanks, over the work of the driver. A coefficient of friction mu loses mu H_VL of the power (to first order: the forces are those of the run). Known without friction; missing without torque
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub tooth_loss_factor: Option<f64>,
+        /// largest normal force of one tooth pair
+        pub max_pair_force_n: f64,
+        /// K_Hbeta as ISO 6336-1 defines it, from the solved distribution of the load: of the largest line loads that each height of the face sees over the mesh, the largest over their mean. Models with slices
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub face_load_factor: Option<f64>,
+        /// K_Halpha of ISO 6336-1 from the solved distribution of the load: `load_sharing_ratio`, or 1 where that is below 1 ([theory](theory.md), equation 34a); missing without load
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub transverse_load_factor: Option<f64>,
+        /// largest normal force of a tooth pair over the largest that it would have if the pairs in mesh shared the load as the analytic lengths of their contact lines. 1 for a spur pair of which one pair carries all for a while, below 1 where load spreads over more pairs; missing without load
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub load_sharing_ratio: Option<f64>,
+        /// largest contact pressure of all positions
+        pub max_pressure_mpa: f64,
+        /// place of the largest pressure; `null` without slices
+        pub max_pressure_at: Option<PressurePlace>,
+        /// largest root stresses; `null` where they are not asked for
+        pub root_stress: Option<RootStressHeadline>,
+        /// ratings of the pair; missing without `[rating]`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub rating: Option<RatingHeadline>,
+        /// tooth changes of the window in the mesh cycles, one that closes the last of them included
+        pub tooth_changes: usize,
+        /// first tooth change, and the largest jumps at any of them; `null` without one
+        pub tooth_change: Option<ToothChangeHeadline>,
+        /// largest relative difference between the torque of the contact and the applied one
+        pub worst_torque_residual: f64,
+        /// largest relative violation of gap >= 0, pressure >= 0, one of them zero
+        pub worst_complementarity_residual: f64,
+        /// largest relative difference between the forces on pinion and wheel
+        pub worst_action_reaction_residual: f64,
+        /// largest share of the load on an end pair of the window
+        pub worst_window_edge_load: f64,
+        /// largest error of the interpolated bulk compliance of slices, over the largest self-compliance ([theory](theory.md), equation 36)
+        pub bulk_compliance_error: f64,
+        /// iterations of the contact solver, sum over all positions
+        pub iterations: usize,
+    }
 }
 
 /// Headline numbers of a history over the scene's whole mesh cycles.
@@ -100,6 +135,7 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         max_pressure_mpa: worst(&|p| p.max_pressure),
         max_pressure_at: PressurePlace::of(scene, history),
         root_stress: root_stress_headline(history),
+        rating: RatingHeadline::of(scene, history),
         tooth_changes: history.tooth_changes.len(),
         tooth_change: ToothChangeHeadline::of(history),
         worst_torque_residual: worst(&|p| p.certificate.torque_residual),

@@ -3,18 +3,27 @@
 use ltca::{StaticHistory, ToothChangeRecord};
 use serde::Serialize;
 
-/// The first tooth change of a run, and the largest jump that any of them makes.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct ToothChangeHeadline {
-    pub mesh_cycles: f64,
-    pub pinion_angle_deg: f64,
-    pub outgoing_pinion_tooth: u32,
-    pub outgoing_wheel_tooth: u32,
-    pub oncoming_pinion_tooth: u32,
-    pub oncoming_wheel_tooth: u32,
-    pub max_ste_jump_um: f64,
-    pub max_normal_force_jump_n: f64,
+described::described! {
+    /// The first tooth change of a run, and the largest jump that any of them makes.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct ToothChangeHeadline {
+        /// mesh cycles from the start to the first tooth change
+        pub mesh_cycles: f64,
+        /// angle of the pinion at the first tooth change
+        pub pinion_angle_deg: f64,
+        /// tooth of the pinion that leaves the window
+        pub outgoing_pinion_tooth: u32,
+        /// tooth of the wheel that leaves the window
+        pub outgoing_wheel_tooth: u32,
+        /// tooth of the pinion that enters the window
+        pub oncoming_pinion_tooth: u32,
+        /// tooth of the wheel that enters the window
+        pub oncoming_wheel_tooth: u32,
+        /// largest difference of the STE between the two windows at the same place, of all tooth changes
+        pub max_ste_jump_um: f64,
+        /// largest difference of the sum of normal forces between the two windows, of all tooth changes
+        pub max_normal_force_jump_n: f64,
+    }
 }
 
 impl ToothChangeHeadline {

@@ -44,7 +44,7 @@ fn starts_end_in_the_stable_motions_of_the_branch() {
     stable.sort_by(f64::total_cmp);
     assert_eq!(stable.len(), 2, "{there:?}");
     let found = solved(&plane(of(), ([-12.0, 12.0], 5), ([-60.0, 60.0], 4)));
-    assert_eq!(found.headline.failed, 0, "{:?}", found.warnings);
+    assert_eq!(found.headline.failed, 0, "{:?}", found.remarks);
     let amplitudes: Vec<f64> = found.attractors.iter().map(|a| a.peak_to_peak_dte_um()).collect();
     assert_eq!(amplitudes.len(), 2, "{:?}, on the branch {stable:?}", found.attractors);
     for (a, b) in amplitudes.iter().zip(&stable) {

@@ -83,7 +83,7 @@ fn closed_forms_have_no_names() {
     apart("geometry sheet", sheet, 1e-12);
     let nominal = |e| {
         let scene = built(pair(e));
-        let pressure = analysis::facts::Facts::of_pair(&scene, &scene.gear_pair().unwrap()).nominal_pressure.unwrap();
+        let pressure = analysis::facts::RunInfo::of_pair(&scene, &scene.gear_pair().unwrap()).nominal_pressure.unwrap();
         [pressure.iso_contact_stress_mpa, pressure.normal_force_n]
     };
     apart("ISO 6336-2", nominal, 1e-12);

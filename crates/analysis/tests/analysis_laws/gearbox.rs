@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use analysis::{AnalysisError, Blame, Context, NoObserver, StaticAnalysis, gearbox_at_rest::GearboxResult};
+use analysis::{AnalysisError, Blame, Context, NoObserver, StaticAnalysis, gearbox::GearboxResult};
 use scene::{Scene, Setting, gearbox::Gearbox};
 
 fn folder() -> PathBuf {

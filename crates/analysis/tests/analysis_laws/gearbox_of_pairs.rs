@@ -5,14 +5,12 @@ use std::path::{Path, PathBuf};
 
 use analysis::{Context, Ending, NoObserver, StaticAnalysis, solve};
 use contact::SliceResult;
-use fem::{
-    Material,
-    beam::{BeamPiece, BeamSection},
-};
-use gearbox::{Disc, MeshState, Shaft, Structure, Train};
-use geometry::Sense;
+use gearbox::MeshState;
 use ltca::StaticPosition;
-use scene::{Driver, Scene, gearbox::Gearbox};
+use scene::{
+    Scene,
+    gearbox::{Gearbox, gearbox_of_pair},
+};
 
 /// Positions of a mesh cycle.
 const POSITIONS: usize = 3;
@@ -36,63 +34,6 @@ fn files(folder: &Path) -> Vec<PathBuf> {
         name && std::fs::read_to_string(path).unwrap().lines().any(|line| line == "[pair]")
     };
     all.into_iter().flat_map(within).filter(is_pair).collect()
-}
-
-/// The driver's key, rad, with which the pair begins where a run by itself does: at the beginning of mesh cycle 0.
-fn key(scene: &Scene) -> f64 {
-    let pair = scene.gear_pair().unwrap();
-    let section = BeamSection::new(20.0, 0.0, Material::STEEL).unwrap();
-    let shaft = |name: &str, x: f64| Shaft {
-        name: name.into(),
-        origin: [x, 0.0, 0.0],
-        pieces: vec![BeamPiece { length: 100.0, section }],
-        longest_element: 100.0,
-    };
-    let structure = Structure {
-        shafts: vec![shaft("pinion", 0.0), shaft("wheel", pair.centre_distance())],
-        discs: vec![Disc::seat("pinion", 0, 50.0), Disc::seat("wheel", 1, 50.0)],
-        ..Structure::default()
-    };
-    let mesh = gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair };
-    let train = Train::new(&structure, &[mesh], &[0.0; 2], driver(scene), sense_of_input(scene)).unwrap();
-    let (start, on) = (train.cycles(0.0)[0], train.cycles(1.0)[0]);
-    -start / (on - start)
-}
-
-fn driver(scene: &Scene) -> usize {
-    usize::from(scene.operation.driver == Driver::Wheel)
-}
-
-fn sense_of_input(scene: &Scene) -> Sense {
-    let ccw = (scene.operation.rotation == Sense::Ccw) == (driver(scene) == 0);
-    if ccw { Sense::Ccw } else { Sense::Cw }
-}
-
-/// The gearbox file of a scene: both shafts held, the driver's turned, the other one loaded.
-fn held(scene: &Scene) -> String {
-    let apart = scene.gear_pair().unwrap().centre_distance();
-    let shaft = |name: &str, x: f64| {
-        format!(
-            "[[shaft]]\nname = \"{name}\"\norigin_mm = [{x:?}, 0.0, 0.0]\nheld = true\n\
-             [[shaft.section]]\nlength_mm = 100.0\nouter_diameter_mm = 20.0\n"
-        )
-    };
-    let names = ["pinion", "wheel"];
-    let gear = |i: usize| {
-        let key_deg = if i == driver(scene) { key(scene).to_degrees() } else { 0.0 };
-        let name = names[i];
-        format!("[[gear]]\nname = \"{name}\"\nshaft = \"{name}\"\nposition_mm = 50.0\nkey_deg = {key_deg:?}\n")
-    };
-    let mesh = "[[mesh]]\nscene = \"pair.toml\"\npinion = \"pinion\"\nwheel = \"wheel\"\n".to_owned();
-    let sense = if sense_of_input(scene) == Sense::Ccw { "ccw" } else { "cw" };
-    let (driver, driven) = (names[driver(scene)], names[1 - driver(scene)]);
-    let load = format!(
-        "[input]\nshaft = \"{driver}\"\nposition_mm = 0.0\nrotation = \"{sense}\"\n\
-         [[torque]]\nshaft = \"{driven}\"\nposition_mm = 0.0\ntorque_nm = {:?}\n",
-        scene.operation.torque_nm
-    );
-    let run = format!("[analysis]\npositions_per_cycle = {POSITIONS}\n");
-    [shaft(names[0], 0.0), shaft(names[1], apart), gear(0), gear(1), mesh, load, run].concat()
 }
 
 /// Largest difference of two lists of numbers over the largest of the second, of which the first may have the beginning.
@@ -176,7 +117,8 @@ fn beside(pair: &str) -> Result<Vec<(&'static str, f64)>, String> {
     std::fs::write(&own, pair).unwrap();
     let scene = Scene::read(&own).map_err(|e| say(&e))?;
     let alone = StaticAnalysis::new(&scene).solve().map_err(|e| say(&e))?;
-    let file = Gearbox::parse(&held(&scene), &folder.path().join("held.toml")).map_err(|e| say(&e))?;
+    let file = Gearbox::parse(&gearbox_of_pair(&scene).map_err(|e| say(&e))?, &folder.path().join("held.toml"))
+        .map_err(|e| say(&e))?;
     let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).map_err(|e| say(&e))?;
     assert_eq!((found.positions.len(), alone.history.positions.len()), (POSITIONS, POSITIONS));
     let mut all = Vec::new();

@@ -15,7 +15,7 @@ fn quick() -> SceneBuilder {
     })
 }
 
-/// Positions, warnings and facts are those of an analysis by itself, whatever was asked before.
+/// Positions, remarks and facts are those of an analysis by itself, whatever was asked before.
 #[test]
 fn a_held_pair_answers_as_a_new_one() {
     let models = SharedModels::new(&NoCache);
@@ -25,7 +25,7 @@ fn a_held_pair_answers_as_a_new_one() {
         let held = StaticAnalysis::new(&scene).with_shared(&models).solve().unwrap();
         let alone = StaticAnalysis::new(&scene).solve().unwrap();
         assert_eq!(held.history, alone.history, "{} N m", scene.operation.torque_nm);
-        let facts = |facts: &analysis::facts::Facts| serde_json::to_string(facts).unwrap();
+        let facts = |facts: &analysis::facts::RunInfo| serde_json::to_string(facts).unwrap();
         assert_eq!(facts(&held.facts), facts(&alone.facts));
     }
 }

@@ -28,8 +28,8 @@ fn flanks_that_jam_are_told() {
         let thinned = ["pinion", "wheel"]
             .iter()
             .fold(askew, |s, gear| s.set(&format!("{gear}.thickness_allowance_mm"), allowance_mm));
-        let warnings = StaticAnalysis::new(&built(thinned)).solve().unwrap_or_else(|e| panic!("{e}")).history.warnings;
-        warnings.into_iter().find(|w| w.code() == "jammed").map(|w| w.to_string())
+        let remarks = StaticAnalysis::new(&built(thinned)).solve().unwrap_or_else(|e| panic!("{e}")).history.remarks;
+        remarks.into_iter().find(|w| w.code() == "jammed").map(|w| w.to_string())
     };
     let told = said("both", 0.0).expect("flanks on both sides press");
     assert!(told.contains("in 2 of 2 positions") && told.contains("thickness_allowance_mm"), "{told}");

@@ -3,7 +3,7 @@
 use analysis::{
     Blame, NoCache, NoObserver,
     accuracy::{
-        Bound, Cause, KeptGears, Quantity,
+        Bound, Cause, GearMemo, Quantity,
         motion::{AccurateMotion, AccurateMotionResult, MotionAnswer, MotionCalibration, MotionModel, UsualBound},
     },
     motion::MotionAnalysis,
@@ -63,7 +63,7 @@ fn bounds_of_a_reduced_motion_hold_that_with_modes() {
     assert!(result.answer.facts().accuracy.as_ref().unwrap().models.is_empty());
     assert!(result.answer.facts().verdict(&result.scene).unwrap_err().blame() == Blame::Inexact);
     let fine = own.set("analysis.model", "reduced+modes").set("modes.count", 4).set("motion.steps_per_resonance", 8);
-    let fine = MotionAnswer::quietly(&fine.build().unwrap(), &KeptGears::new(&NoCache), &mut NoObserver).unwrap();
+    let fine = MotionAnswer::quietly(&fine.build().unwrap(), &GearMemo::new(&NoCache), &mut NoObserver).unwrap();
     for quantity in Quantity::OF_MOTION {
         let b = bound(&result, quantity);
         let exact = fine.sample().get(quantity);

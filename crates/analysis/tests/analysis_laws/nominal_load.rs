@@ -2,7 +2,7 @@
 
 use analysis::{
     StaticAnalysis, StaticResult,
-    facts::Facts,
+    facts::RunInfo,
     results::{StaticHeadline, static_headline},
 };
 use geometry::Side;
@@ -22,8 +22,8 @@ fn solved(scene: &Scene) -> (StaticResult, StaticHeadline) {
     (result, headline)
 }
 
-fn facts(scene: &Scene) -> Facts {
-    Facts::of_pair(scene, &scene.gear_pair().unwrap())
+fn facts(scene: &Scene) -> RunInfo {
+    RunInfo::of_pair(scene, &scene.gear_pair().unwrap())
 }
 
 /// ISO/TR 6336-30, example 1, with the rounded tip diameters of the report.

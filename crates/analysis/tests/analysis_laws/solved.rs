@@ -22,7 +22,7 @@ fn solved(scene: &Scene) -> Solved {
     solved
 }
 
-/// At rest and in time: headline, certificate and warnings are those of the analysis that the scene asks for.
+/// At rest and in time: headline, certificate and remarks are those of the analysis that the scene asks for.
 #[test]
 fn one_door_gives_what_each_analysis_gives() {
     let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(100.0);
@@ -31,13 +31,13 @@ fn one_door_gives_what_each_analysis_gives() {
     let headline = static_headline(&rest, &own.history).unwrap();
     assert_eq!(door.headline().unwrap(), serde_json::to_value(headline).unwrap());
     assert_eq!(door.facts().unwrap().geometry, own.facts.geometry);
-    assert_eq!(door.warnings(), own.history.warnings);
+    assert_eq!(door.remarks(), own.history.remarks);
 
     let moving = built(lumped8().set("motion.run", "span").set("analysis.cycles", 3));
     let (door, own) = (solved(&moving), LumpedAnalysis::new(&moving).solve().unwrap());
     assert_eq!(door.headline().unwrap(), serde_json::to_value(&own.headline).unwrap());
     assert_eq!(door.facts().unwrap().certificate, own.facts.certificate);
-    assert_eq!(door.warnings(), own.warnings);
+    assert_eq!(door.remarks(), own.remarks);
     let Solved::InTime(door) = door else { panic!("a motion at rest") };
     let TimeAnswer::Lumped(result) = door.answer else { panic!("another analysis") };
     assert_eq!(result.rows.len(), own.rows.len());

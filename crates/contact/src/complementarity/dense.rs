@@ -10,7 +10,7 @@ use crate::ContactError;
 /// Coordinates of two rigid bodies.
 pub(super) const RIGID: usize = 12;
 
-/// What stands against the contact forces.
+/// Balance of the contact forces: with a moment, or at held bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Balance {
     /// The bodies stand still, whatever the forces.
@@ -151,7 +151,7 @@ impl DenseSolver {
     /// circles, tangents are held while the set is found by pivots that cannot.
     ///
     /// # Errors
-    /// [`ContactError::NotConverged`], [`ContactError::NoLever`], [`ContactError::NotPositiveDefinite`].
+    /// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`], [`ContactError::NotPositiveDefinite`].
     pub fn solve(
         &mut self,
         problem: &DenseProblem<'_>,
@@ -161,8 +161,8 @@ impl DenseSolver {
         self.solve_to(0.0, problem, local, start)
     }
 
-    /// The same until the conditions are violated by no more than `accuracy`, relative to the largest approach; at least
-    /// by as much as in any solution.
+    /// Solves the contact until the conditions are violated by no more than `accuracy`, relative to the largest
+    /// approach; no accuracy below that of [`DenseSolver::solve`] is reached.
     ///
     /// # Errors
     /// As [`DenseSolver::solve`].
@@ -178,7 +178,7 @@ impl DenseSolver {
         self.newton(problem, local, accuracy)
     }
 
-    /// The same from the forces as they are.
+    /// Solves the contact from the present forces.
     pub(super) fn newton(
         &mut self,
         problem: &DenseProblem<'_>,
@@ -229,7 +229,7 @@ impl DenseSolver {
                 let driving = moment.signum();
                 let lever_mm = problem.levers.iter().fold(0.0f64, |m, l| m.max(l * driving));
                 if n == 0 || lever_mm <= 0.0 || !moment.is_finite() || moment == 0.0 {
-                    return Err(ContactError::NoLever { lever_mm });
+                    return Err(ContactError::CannotCarryTorque { lever_mm });
                 }
                 let way = |i: usize| problem.gaps[i] / (problem.levers[i] * driving);
                 self.order.clear();

@@ -27,7 +27,7 @@ pub(crate) use proximal::LAST_COMPLIANCE;
 pub use proximal::solve;
 pub(crate) use slices::solve_slices;
 
-/// How a point resists penetration.
+/// Law of a contact point's resistance to penetration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Law {
     /// No penetration.
@@ -118,7 +118,7 @@ struct DrivenRows {
 /// Levers of the rows on a body, which must be able to carry the moment.
 ///
 /// # Errors
-/// [`ContactError::NoLever`].
+/// [`ContactError::CannotCarryTorque`].
 fn driven_rows(rows: &[ContactRow], body: usize, balance: Balance) -> Result<DrivenRows, ContactError> {
     let levers = rows.iter().map(|r| r.levers[body]).collect();
     let torque_levers = rows.iter().map(|r| r.torque_levers[body]).collect();
@@ -126,7 +126,7 @@ fn driven_rows(rows: &[ContactRow], body: usize, balance: Balance) -> Result<Dri
     let (moment, held) = balance.moment();
     let lever_mm = driven.longest();
     let carries = !rows.is_empty() && lever_mm > 0.0 && moment.is_finite() && moment != 0.0;
-    if held || carries { Ok(driven) } else { Err(ContactError::NoLever { lever_mm }) }
+    if held || carries { Ok(driven) } else { Err(ContactError::CannotCarryTorque { lever_mm }) }
 }
 
 impl DrivenRows {

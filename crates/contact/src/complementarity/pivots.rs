@@ -1,4 +1,4 @@
-//! Which rows press: block principal pivoting, and single steps that cannot cycle.
+//! Active set, the rows that press: block principal pivoting, and single steps that cannot cycle.
 
 use super::{Equality, LinearContact, Problem};
 use crate::ContactError;
@@ -8,8 +8,8 @@ const PATIENCE: usize = 10;
 /// Violation below which a point does not change sides, relative to the largest approach or force: the round-off of a
 /// solve with the last compliance.
 pub(super) const PIVOT_TOLERANCE: f64 = 2e-12;
-/// The same at most, where single steps go round in circles; what is left is for the proximal steps, and the residual
-/// tells.
+/// Loosest violation below which a point does not change sides, where single steps go round in circles. The proximal
+/// steps take what is left, and the residual reports it.
 const LOOSEST_PIVOT: f64 = 1e-7;
 
 /// The active set on which no inactive row is penetrated and no active row pulls: block pivots while they make

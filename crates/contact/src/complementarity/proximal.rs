@@ -30,7 +30,7 @@ const PATIENCE: usize = 12;
 /// solution at these rows, or zeros.
 ///
 /// # Errors
-/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+/// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`].
 pub fn solve(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],

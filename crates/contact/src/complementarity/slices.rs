@@ -17,7 +17,7 @@ const SLICE_STEPS: usize = 60;
 /// slope (mm/N); slopes are positive.
 ///
 /// # Errors
-/// [`ContactError::NotConverged`], [`ContactError::NoLever`].
+/// [`ContactError::NotConverged`], [`ContactError::CannotCarryTorque`].
 pub(crate) fn solve_slices(
     bodies: &mut dyn LinearContact,
     rows: &[ContactRow],

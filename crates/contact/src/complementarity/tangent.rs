@@ -1,4 +1,4 @@
-//! How contact forces follow the motion of the bodies.
+//! Tangent: change of contact forces with the motion of the bodies.
 
 use faer::{MatMut, MatRef, Par, linalg::triangular_solve};
 

@@ -31,7 +31,7 @@ impl<'a> Condensed<'a> {
         Self { rows, compliance, columns: vec![[None, None]; rows.len()], correction: None }
     }
 
-    /// The same with a correction X between rows, mm/N, symmetric.
+    /// Compliance with a correction X between rows, mm/N, symmetric.
     #[must_use]
     pub fn corrected(self, correction: Option<Mat<f64>>) -> Self {
         Self { correction, ..self }

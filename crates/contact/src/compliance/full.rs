@@ -10,8 +10,8 @@ use fem::{IndefiniteFactor, SymmetricMatrix};
 
 use reduction::FullGear;
 
-/// Both gears whole; the tangent of the system with contact is assembled, ordered and factored at every call, as a
-/// general finite-element code does in each Newton step.
+/// Contact of whole gears; the tangent of the system with contact is assembled, ordered and factored at every call, as
+/// a general finite-element code does in each Newton step.
 ///
 /// ```text
 /// [ K   -A'   0 ] [ u      ]   [ 0  ]

@@ -68,7 +68,7 @@ pub struct ModalForces {
 /// Shapes on the boundary of one gear.
 #[derive(Debug)]
 enum Shapes {
-    /// At the points of its table, mode by mode.
+    /// Mode shapes at the points of the gear's table, mode by mode.
     Table(Vec<Vec<f64>>),
     /// Phi_B.
     Nodes(Mat<f64>),
@@ -157,7 +157,7 @@ impl ModalFlanks {
         }
     }
 
-    /// The same from the nodes that rows rest on.
+    /// Takes the openings and loads of rows from the nodes that they rest on.
     pub(crate) fn read_rows(&self, of: &mut ModalRows, rows: &[ContactRow]) {
         let m = self.count();
         for (i, row) in rows.iter().enumerate() {
@@ -186,7 +186,7 @@ impl ModalFlanks {
         dot(of.opening(row), &self.amplitudes)
     }
 
-    /// From S to R, n x n, column by column.
+    /// Subtracts the modes' share from the compliance S, which becomes R: n x n, column by column.
     pub(crate) fn take_from(&self, of: &ModalRows, n: usize, compliance: &mut [f64]) {
         let mut flexible = vec![0.0; self.count()];
         for (j, column) in compliance.chunks_mut(n.max(1)).enumerate() {
@@ -240,7 +240,7 @@ impl ModalFlanks {
         self.forces.tangent.extend_from_slice(tangent);
     }
 
-    /// What was found last.
+    /// Forces on the modes of the last solution.
     pub fn forces(&self) -> &ModalForces {
         &self.forces
     }

@@ -1,6 +1,6 @@
-//! What gaps are measured between.
+//! Surfaces between which gaps are measured.
 
-/// What a gap is measured between.
+/// Surfaces between which a gap is measured.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GapSource {
     /// The smooth flanks.

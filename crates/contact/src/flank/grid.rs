@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use geometry::{Gear, Side};
-use mesh::{Face, FaceKind, GearMesh};
+use mesh::{Face, FaceKind, MeshedGear};
 use reduction::{FlankGrid, FlankGrids};
 
 use crate::{ContactError, flank::FlankPatch};
@@ -17,7 +17,7 @@ use crate::{ContactError, flank::FlankPatch};
 /// [`ContactError::Reduction`] for a flank that the mesh does not have, [`ContactError::Flank`] when it does not lie on
 /// its smooth surface.
 pub fn flank_grids(
-    gear: &GearMesh,
+    gear: &MeshedGear,
     geometry: &Gear,
     teeth: &[u32],
     sides: &[Side],

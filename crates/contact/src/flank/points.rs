@@ -10,7 +10,7 @@ use crate::{
 /// One contact point of a patch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ContactPoint {
-    /// Where on the faces.
+    /// Place of the point on the faces.
     pub at: FacePoint,
     /// Surface coordinates.
     pub coordinates: [f64; 2],
@@ -24,7 +24,7 @@ pub struct ContactPoint {
 ///
 /// Every weight is positive, and a uniform pressure gives consistent nodal forces from 2 (linear) or 3 (quadratic
 /// faces) points an edge on. 6 do in every case: a band narrower than an element is then seen by several points, and on
-/// faces finer than the band the nodal pressure converges to Hertz's (`tests/tests/line_contact/hertz.rs`). A single
+/// faces finer than the band the nodal pressure converges to Hertz's (`crates/contact/tests/contact_laws/hertz.rs`). A single
 /// point a face leaves the alternating pressure free: 20 to 40 % off there, at any refinement.
 pub fn contact_points(patch: &FlankPatch, per_edge: usize, source: GapSource) -> Vec<ContactPoint> {
     let gauss = gauss_legendre(per_edge.max(1));

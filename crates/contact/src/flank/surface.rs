@@ -61,6 +61,18 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn least_depth(&self) -> f64 {
         0.0
     }
+    /// What the flank lies below this surface at surface coordinates, mm: of a measured flank what its smooth part leaves.
+    fn deviation(&self, _at: [f64; 2]) -> f64 {
+        0.0
+    }
+    /// Largest [`Surface::deviation`] either way, mm.
+    fn largest_deviation(&self) -> f64 {
+        0.0
+    }
+    /// First surface coordinate at a distance (mm) along the profile.
+    fn along_profile(&self, at: [f64; 2], distance: f64) -> f64 {
+        at[0] + distance / self.profile_tangent(at).norm()
+    }
     /// Half of a usual band of contact, mm, as which curvatures of [`Surface::depth`] are seen; 0 without depth.
     fn band(&self) -> f64 {
         0.0
@@ -141,7 +153,7 @@ impl Surface for geometry::ModifiedFlank {
         let slope = |u: f64| geometry::ModifiedFlank::depth(self, u, z).by_roll;
         let added = (slope(u + step) - slope(u - step)) / (2.0 * step * arc * arc);
         // A hollow is no Hertzian contact; a tenth of the convexity left keeps its band finite.
-        curvature + added.max(-0.9 * curvature)
+        curvature + added.max(-0.9 * curvature.abs())
     }
 
     fn locate(&self, p: &Vec3) -> Option<Foot> {
@@ -178,6 +190,19 @@ impl Surface for geometry::ModifiedFlank {
 
     fn least_depth(&self) -> f64 {
         geometry::ModifiedFlank::least_depth(self)
+    }
+
+    fn deviation(&self, [u, z]: [f64; 2]) -> f64 {
+        geometry::ModifiedFlank::deviation(self, u, z)
+    }
+
+    fn largest_deviation(&self) -> f64 {
+        geometry::ModifiedFlank::largest_deviation(self)
+    }
+
+    /// On the nominal flank: x = r_b u^2 / 2.
+    fn along_profile(&self, [u, _]: [f64; 2], distance: f64) -> f64 {
+        (u * u + 2.0 * distance / self.nominal().base_radius).max(0.0).sqrt()
     }
 
     fn band(&self) -> f64 {

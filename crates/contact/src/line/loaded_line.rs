@@ -172,8 +172,8 @@ impl<G: FnMut(usize, f64) -> f64, U: FnMut(usize, f64) -> f64> Line<'_, G, U> {
         known.iter().enumerate().map(|(i, (_, opened))| weight(i) * opened).sum()
     }
 
-    /// Where between `inside`, a station that presses, and `outside` the line ends; all of the way if it does not.
-    /// `there`: gap at `outside`, if it is known.
+    /// Place between `inside`, a station that presses, and `outside` at which the line ends; `outside` where
+    /// that presses too. `there`: gap at `outside`, if it is known.
     fn zero(&mut self, station: usize, [inside, outside]: [f64; 2], there: Option<f64>) -> f64 {
         let here = self.solved[station].map_or(0.0, |s| s.gap);
         let there = there.unwrap_or_else(|| self.under_load(station, outside));

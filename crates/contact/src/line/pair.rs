@@ -67,10 +67,10 @@ pub fn line_pressure(
         .fold(0.0, f64::max)
 }
 
-/// rho_n = rho_1 rho_2 / ((rho_1 + rho_2) cos b_b) at path coordinate xi = rho_1, mm.
+/// rho_n = rho_1 rho_2 / ((rho_1 + rho_2) cos b_b), rho_2 of a ring negative, at path coordinate xi = rho_1, mm.
 fn relative_radius(pair: &GearPair, xi: f64) -> f64 {
     let length = pair.tangent_length();
-    let rho = xi.clamp(1e-3 * length, 0.999 * length);
+    let rho = if pair.is_internal() { xi.max(-1e-3 * length) } else { xi.clamp(1e-3 * length, 0.999 * length) };
     rho * (length - rho) / (length * pair.base_helix_angle().cos())
 }
 
@@ -102,8 +102,9 @@ pub fn nodal_contact_line(
     contact_intervals(|z| gap(z).unwrap_or(f64::INFINITY), range, LINE_SAMPLES, TOUCHING * approach)
 }
 
-/// The same from slices: `opened` is what of a row's gap under load is not the undeformed flanks' own
-/// ([`LineStation`]). `displacements` are those of both gears' boundary coordinates, mm, asked for where no row is near.
+/// Axial intervals over which a pair of patches touches, from slices. `opened` is the part of a row's gap under load
+/// that is not the undeformed flanks' own ([`LineStation`]). `displacements` are those of both gears' boundary
+/// coordinates, mm, requested where no row is near.
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],
@@ -166,7 +167,7 @@ pub struct NeighbourPairs<'a> {
     pub set: &'a ContactSet,
     /// The window.
     pub window: &'a ToothWindow,
-    /// Where the pair stands.
+    /// Station of the pair in the mesh cycle.
     pub station: Station,
     /// Frames of the matrices of both gears.
     pub poses: &'a [Pose; 2],
@@ -198,7 +199,7 @@ fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
     let theta1 = station.pinion_angle(pair, side, options.sense);
     let tooth = running - station.middle_pair(options.sense);
     let (half, [middle, _]) = (0.5 * pair.face_width(), pair.common_middle());
-    let (w_low, w_high) = (flank2.nominal().roll_form, flank2.nominal().roll_tip);
+    let [w_low, w_high] = flank2.nominal().roll_range();
     (0..=32)
         .map(|i| {
             let z = middle + half * (f64::from(i) / 16.0 - 1.0);

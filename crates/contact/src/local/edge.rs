@@ -19,7 +19,7 @@
 //! approach = (K + K') q [ln(2/a) + 1/2 + P(D) - e ln(a l(D, e))],   a l: distance of the load from the edge
 //! ```
 //! P is exact ([`cut_off`]), l a fit to the solved contact ([`reach`]); together within 0.02 of the bracket for e <
-//! 0.4, 0.05 for e < 1.3, -10 < D (`tests/tests/line_contact/local_approach.rs`).
+//! 0.4, 0.05 for e < 1.3, -10 < D (`crates/contact/tests/contact_laws/local_approach.rs`).
 //!
 //! An edge rounded by an arc of radius r, tangent to flank and tip land, softens the tooth exactly as the sharp corner
 //! would from which the arc was cut (resolved by finite elements: 0.5 %), but the flank ends at the tangent point, and

@@ -1,5 +1,6 @@
 //! Local compliance of a line contact: what the mesh of a gear is too coarse to know. Theory (19c).
 
+mod deviation;
 mod edge;
 mod end_face;
 mod layer;
@@ -7,6 +8,8 @@ mod layer;
 use std::f64::consts::PI;
 
 use crate::line::hertz;
+pub use deviation::BandMean;
+pub(crate) use deviation::SAMPLES;
 use edge::Edge;
 pub use edge::wedge_softening;
 pub use end_face::EndFace;
@@ -39,9 +42,9 @@ pub struct LocalBody {
 }
 
 /// Line contact of two flanks at one axial station.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct LocalContact {
-    /// Both flanks.
+    /// Bodies of both flanks.
     pub bodies: [LocalBody; 2],
     /// Relative radius of curvature in the normal plane, mm.
     pub radius: f64,
@@ -50,6 +53,8 @@ pub struct LocalContact {
     ///
     /// It is radius times the angle (rad) at which the flanks recede from each other at the edge.
     pub off_line: f64,
+    /// What the band sees of flanks that deviate from their smooth surfaces, `None` where they do not; m(0) is part of the gap, not of the approach.
+    pub deviation: Option<Box<BandMean>>,
 }
 
 /// A line contact under load.
@@ -70,11 +75,12 @@ impl LocalContact {
     ///
     /// ```text
     /// delta = sum over both flanks of K_b q [ln(2 t / a) + 1/2 + c + E + eta ln(t / l) + g (l - d)] + (K_1 + K_2) q P
+    ///         + m(a) - m(0)
     /// K_b = 2 (1 - nu^2) / (pi E)
     /// ```
     /// a: half-width after Hertz; c: [`LocalBody::layer`]; E: softening by the end faces; eta: [`wedge_softening`]; l:
     /// distance between load and tip edge, d where the band is narrow; g: [`LocalBody::tip_gradient`]; P: what is lost
-    /// where the edge cuts the band off. All continuous with their slopes, from the middle of the flank to an edge far
+    /// where the edge cuts the band off; m: [`BandMean`]. All continuous with their slopes, from the middle of the flank to an edge far
     /// off the line of action. Without load, all is 0 and the slope is that of a load small enough not to matter.
     pub fn under(&self, load: f64) -> LocalState {
         self.law().under(load)
@@ -98,7 +104,7 @@ impl LocalContact {
                 face_distance: body.ends[0].distance.min(body.ends[1].distance),
             }
         });
-        LocalLaw { modulus, radius: self.radius, bodies }
+        LocalLaw { modulus, radius: self.radius, bodies, deviation: self.deviation.clone() }
     }
 
     /// What rounding the edge adds to the gap between the sharp flanks, mm: the arc lies behind the corner that it
@@ -123,11 +129,12 @@ impl LocalContact {
 }
 
 /// A [`LocalContact`] ready to be loaded: for many loads at one place.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct LocalLaw {
     modulus: f64,
     radius: f64,
     bodies: [BodyLaw; 2],
+    deviation: Option<Box<BandMean>>,
 }
 
 /// Distances from edges and end faces, in radii of curvature (the half-width is 2 p / E* of it, a fortieth), from which
@@ -156,7 +163,7 @@ struct BodyLaw {
     tip_gradient: f64,
     tip_distance: f64,
     ends: [end_face::Softening; 2],
-    /// Of the nearer end face, mm.
+    /// Distance of the nearer end face, mm.
     face_distance: f64,
 }
 
@@ -168,7 +175,12 @@ impl LocalLaw {
         let half_width = hertz::half_width(q, self.radius, self.modulus);
         let (bracket, growth) = self.bracket(half_width);
         // a grows with the square root of q.
-        let (approach, slope) = (q * bracket, bracket + 0.5 * growth);
+        let (mut approach, mut slope) = (q * bracket, bracket + 0.5 * growth);
+        if let Some(deviation) = &self.deviation {
+            // a^2 grows with q.
+            let (change, by_load) = deviation.change(deviation.share(half_width));
+            (approach, slope) = (approach + change, slope + by_load / q);
+        }
         let slope = slope.max(LEAST_SLOPE * (self.bodies[0].softness + self.bodies[1].softness));
         if load < least {
             return LocalState { approach: approach * (load / least).max(0.0), slope, ..LocalState::default() };
@@ -200,7 +212,15 @@ impl LocalLaw {
             let added = |x: f64| self.bracket(a * x.sqrt()).0 - value + 0.5 * both * x.ln();
             JACOBI.iter().map(|(x, w)| w * added(*x)).sum()
         };
-        -load * load * (both / 8.0 + of_rest)
+        let curved = -load * load * (both / 8.0 + of_rest);
+        let Some(deviation) = &self.deviation else { return curved };
+        let t = deviation.share(a);
+        curved + load * (deviation.mean_change(t) - 0.5 * deviation.change(t).0)
+    }
+
+    /// Load of a band of half-width a (mm), N/mm.
+    pub(crate) fn load_of(&self, half_width: f64) -> f64 {
+        0.25 * PI * self.modulus * half_width * half_width / self.radius
     }
 
     /// Whether edges and faces are many half-widths away under any load that steel stands.

@@ -31,7 +31,7 @@ pub struct Scene<'a> {
 /// Points of least gap, by pair of patches.
 pub type LinePoints = BTreeMap<(usize, usize), Vec<ContactPoint>>;
 
-/// How a unit contact force loads one body: weights on boundary nodes, along one direction.
+/// Load of a unit contact force on one body: weights on boundary nodes, along one direction.
 ///
 /// Opening of the gap by the body's displacement u: sum_i w_i d . u_i; the same weights distribute the force.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -40,7 +40,7 @@ pub struct Support {
     pub nodes: [u32; 9],
     /// Shape functions.
     pub weights: [f64; 9],
-    /// How many of them are used.
+    /// Number of nodes that are used.
     pub count: usize,
     /// Direction d in the body's own frame: the direction of the normal force on the body.
     pub direction: Vec3,
@@ -211,7 +211,7 @@ pub(crate) fn support_at(
 }
 
 impl Support {
-    /// Of a direction alone, without nodes.
+    /// Support of a direction alone, without nodes.
     fn free(direction: Vec3) -> Self {
         Self { nodes: [0; 9], weights: [0.0; 9], count: 0, direction, load: direction }
     }

@@ -25,6 +25,8 @@ const MOST_PLACES: usize = 48;
 /// g = cos b_b kappa s^2 / 2 + h_1(u_1, z) + h_2(u_2, z)
 /// s = r_b1 (u_1^2 - u_10(z)^2) / 2 = r_b2 (u_20(z)^2 - u_2^2) / 2,   kappa = 1/(r_b1 u_10) + 1/(r_b2 u_20)
 /// ```
+/// r_b of a ring and the distance to it are negative.
+///
 /// Nominal flanks on parallel axes touch where the generating angle of the first is -sigma alpha_w against the line of
 /// centres, and both roll angles make up the length between the base circles, r_b1 u_10 + r_b2 u_20 = a sin(alpha_w).
 /// What is left of it by the second flank as it stands is the gap between them.
@@ -37,12 +39,12 @@ pub(super) struct FirstOrderGap {
     rolls: [[f64; 2]; 2],
     /// Roll angles of nominal contact at the first one's mid-face; they go beyond the flanks as if these went on.
     touch: [f64; 2],
-    /// Of the first one with height, rad/mm.
+    /// Change of the first flank's roll angle of nominal contact with height, rad/mm.
     twist: f64,
     /// Height of the second one's mid-face over the first one's, mm.
     offset: f64,
     cos_base_helix: f64,
-    /// Between places, mm of the first flank's arc in its middle.
+    /// Distance between places, mm along the first flank's arc in its middle.
     stride: f64,
     /// Gap of the nominal flanks at mid-face, mm.
     apart: f64,
@@ -89,9 +91,11 @@ impl FirstOrderGap {
     pub fn new(surfaces: [&dyn Surface; 2], rolls: [[f64; 2]; 2], poses: [&Pose; 2]) -> Option<Self> {
         let [first, second] = [surfaces[0].nominal_flank()?, surfaces[1].nominal_flank()?];
         let across = poses[1].translation.vector - poses[0].translation.vector;
-        let distance = across.x.hypot(across.y);
+        // Where one of them is a ring's the distance is negative, and contact is beyond the other axis, as seen from it.
+        let sign = first.base_radius.signum() * second.base_radius.signum();
+        let distance = sign * across.x.hypot(across.y);
         let pressure_angle = ((first.base_radius + second.base_radius) / distance).acos();
-        let line = across.y.atan2(across.x);
+        let line = (sign * across.y).atan2(sign * across.x);
         let s = first.side.sign();
         // Both touch the line of action at the same turn from the line of centres, seen from their own centres.
         let at = |(flank, z): (&Flank, f64), pose: &Pose, [low, high]: [f64; 2], line: f64| {
@@ -106,7 +110,7 @@ impl FirstOrderGap {
             [at((first, 0.0), poses[0], rolls[0], line), at((second, -offset), poses[1], rolls[1], line + PI)];
         let length = distance * pressure_angle.sin() - first.base_radius * u1;
         let [low, high] = rolls[0];
-        let stride = first.base_radius * 0.5 * (high * high - low * low) / STRIDES;
+        let stride = first.base_radius.abs() * 0.5 * (high * high - low * low) / STRIDES;
         let cos_base_helix = first.base_helix_angle.cos();
         let apart = cos_base_helix * (length - second.base_radius * own);
         let axes = poses.map(|pose| pose.rotation * Vec3::z());
@@ -129,7 +133,7 @@ impl FirstOrderGap {
 
     /// Angle of a stride about a roll angle of the first flank, rad.
     pub fn stride_at(&self, u: f64) -> f64 {
-        self.stride / (self.base_radius[0] * u.max(self.least_roll()))
+        self.stride / (self.base_radius[0].abs() * u.max(self.least_roll()))
     }
 
     fn least_roll(&self) -> f64 {
@@ -160,9 +164,16 @@ impl FirstOrderGap {
         // Arcs from the place of touch, going on where the involute has ended.
         let square = touch.map(|u| u * u.abs());
         let ends = self.rolls.map(|ends| ends.map(|u| u * u));
-        let own = ends[0].map(|u| 0.5 * r1 * (u - square[0]));
-        let other = ends[1].map(|u| 0.5 * r2 * (square[1] - u));
-        let (low, high) = (own[0].max(other[1]), own[1].min(other[0]));
+        let mut own = ends[0].map(|u| 0.5 * r1 * (u - square[0]));
+        let mut other = ends[1].map(|u| 0.5 * r2 * (square[1] - u));
+        // Arcs count the other way along a ring's profile.
+        if r1 < 0.0 {
+            own.reverse();
+        }
+        if r2 > 0.0 {
+            other.reverse();
+        }
+        let (low, high) = (own[0].max(other[0]), own[1].min(other[1]));
         let slack = NEARLY * self.stride;
         if low > high {
             // To first order the ends are known to a part of a stride.

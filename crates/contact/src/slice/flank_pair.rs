@@ -3,7 +3,7 @@
 use crate::{
     Pose,
     flank::FlankPatch,
-    local::LocalContact,
+    local::{BandMean, LocalContact, SAMPLES},
     nodal::{ContactRow, row_at},
     slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
     slice::{SliceHint, ToothLayer},
@@ -14,12 +14,12 @@ use crate::{
 pub struct SliceFlank<'a> {
     /// Smooth surface, and faces that carry the load.
     pub patch: &'a FlankPatch,
-    /// What stands behind it.
+    /// Layer of the tooth behind the flank.
     pub layer: &'a ToothLayer,
 }
 
 /// One slice of a contact line.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Slice {
     /// Height z of the station on body 1, mm.
     pub z: f64,
@@ -37,6 +37,8 @@ pub(crate) struct FlankPair<'a> {
     flanks: [SliceFlank<'a>; 2],
     poses: &'a [Pose; 2],
     profiles: ProfilePair<'a>,
+    /// Largest deviation of both flanks from their smooth surfaces, mm.
+    deviation: f64,
 }
 
 /// Place of a slice before anything is made of it.
@@ -45,12 +47,14 @@ pub(crate) struct SlicePoint {
     point: LeastGapPoint,
     sample: GapSample,
     z: f64,
+    /// What both flanks lie below their smooth surfaces, as a band without width sees it, mm.
+    deviation: f64,
 }
 
 impl SlicePoint {
     /// Least gap between the flanks along the profile, mm; what rounding of an edge adds to it is left out.
     pub fn gap(&self) -> f64 {
-        self.sample.gap
+        self.sample.gap + self.deviation
     }
 }
 
@@ -86,7 +90,8 @@ impl<'a> FlankPair<'a> {
     /// Two flanks with their bodies at `poses`.
     pub fn new(flanks: [SliceFlank<'a>; 2], poses: &'a [Pose; 2]) -> Self {
         let profiles = ProfilePair::new(flanks.map(|f| f.patch), [&poses[0], &poses[1]]);
-        Self { flanks, poses, profiles }
+        let deviation = flanks.iter().map(|f| f.patch.surface().largest_deviation()).sum();
+        Self { flanks, poses, profiles, deviation }
     }
 
     fn patches(&self) -> [&'a FlankPatch; 2] {
@@ -98,19 +103,56 @@ impl<'a> FlankPair<'a> {
         self.nearest_within(z, hint, f64::INFINITY)
     }
 
-    /// The same, if the gap there is at most `reach` (mm): of one that is wider the place is not always looked for.
+    /// Where the flanks are nearest at height `z` (mm) of body 1, if the gap there is at most `reach` (mm): the place
+    /// of a wider gap is not always searched.
     pub(crate) fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<SlicePoint> {
-        let (point, sample) = self.profiles.nearest_within(z, hint, reach)?;
-        Some(SlicePoint { point, sample, z })
+        let (point, sample) = self.profiles.nearest_within(z, hint, reach + self.deviation)?;
+        let nearest = SlicePoint { point, sample, z, deviation: 0.0 };
+        if self.deviation == 0.0 || sample.gap > reach + self.deviation {
+            return Some(nearest);
+        }
+        Some(SlicePoint { deviation: self.band_mean(&nearest).map_or(0.0, |mean| mean.at_rest()), ..nearest })
+    }
+
+    /// What bands at a place see of the flanks' deviations from their smooth surfaces.
+    fn band_mean(&self, nearest: &SlicePoint) -> Option<Box<BandMean>> {
+        if self.deviation == 0.0 {
+            return None;
+        }
+        let (at, off) = self.place(nearest)?;
+        let local = local(self.flanks, at, off, None);
+        let widest = BandMean::widest(local.radius);
+        let mut samples = [0.0; SAMPLES];
+        for (flank, at) in self.flanks.iter().zip(at) {
+            let surface = flank.patch.surface();
+            for (sum, x) in samples.iter_mut().zip(BandMean::places()) {
+                let both = [x * widest, -x * widest].map(|x| surface.deviation([surface.along_profile(at, x), at[1]]));
+                *sum += 0.5 * (both[0] + both[1]);
+            }
+        }
+        let law = local.law();
+        let load = law.load_of(widest);
+        Some(Box::new(BandMean::new(widest, &samples).kept_rising(load, law.under(load).slope)))
+    }
+
+    /// Surface coordinates of the contact on each flank, and how far off the line of action.
+    fn place(&self, nearest: &SlicePoint) -> Option<([[f64; 2]; 2], f64)> {
+        let SlicePoint { point, sample, z, .. } = *nearest;
+        let at = [[point.roll(), z], sample.foot];
+        match point {
+            LeastGapPoint::Inside(_) | LeastGapPoint::OtherKink(_) => Some((at, 0.0)),
+            LeastGapPoint::OwnEnd(_) => Some((at, off_line(self.patches(), sample.slope, at))),
+            LeastGapPoint::OtherEnd(_) => self.other_edge(&sample).map(|(at, _, off)| (at, off)),
+        }
     }
 
     /// The gap that the slice at a place has, mm: [`SlicePoint::gap`] and what the rounding of an edge adds.
     pub fn gap(&self, nearest: &SlicePoint) -> f64 {
-        let SlicePoint { point, sample, z } = *nearest;
-        match point {
+        let SlicePoint { point, sample, z, deviation } = *nearest;
+        let smooth = match point {
             LeastGapPoint::OtherKink(_) => sample.gap,
             LeastGapPoint::OtherEnd(_) => {
-                let Some((at, sample, off)) = self.other_edge(&sample) else { return sample.gap };
+                let Some((at, sample, off)) = self.other_edge(&sample) else { return nearest.gap() };
                 sample.gap + self.edge_opening(at, off)
             }
             LeastGapPoint::Inside(_) | LeastGapPoint::OwnEnd(_) => {
@@ -119,7 +161,8 @@ impl<'a> FlankPair<'a> {
                 sample.gap
                     + self.edge_opening(at, if inside { 0.0 } else { off_line(self.patches(), sample.slope, at) })
             }
-        }
+        };
+        smooth + deviation
     }
 
     /// Whether an edge presses at a place, off the line of action.
@@ -134,7 +177,7 @@ impl<'a> FlankPair<'a> {
 
     fn edge_opening(&self, at: [[f64; 2]; 2], off_line: f64) -> f64 {
         let rounded = self.flanks.iter().any(|f| f.layer.edge_radius() > 0.0);
-        if rounded { local(self.flanks, at, off_line).edge_opening() } else { 0.0 }
+        if rounded { local(self.flanks, at, off_line, None).edge_opening() } else { 0.0 }
     }
 
     /// Body 2's edge on body 1: from the other body the same place is its own end. Surface coordinates, what is seen
@@ -154,7 +197,8 @@ impl<'a> FlankPair<'a> {
         station: usize,
         length: f64,
     ) -> Option<(ContactRow, Slice)> {
-        let SlicePoint { point, sample, z } = *nearest;
+        let SlicePoint { point, sample, z, deviation: at_rest } = *nearest;
+        let deviation = self.band_mean(nearest);
         let (patches, poses) = (self.patches(), self.poses);
         let at = [[point.roll(), z], sample.foot];
         match point {
@@ -162,19 +206,19 @@ impl<'a> FlankPair<'a> {
                 let mut row = row_at(patches, poses, numbers, station, at, sample.gap);
                 let inside = matches!(point, LeastGapPoint::Inside(_));
                 let off = if inside { 0.0 } else { off_line(patches, sample.slope, at) };
-                let local = local(self.flanks, at, off);
-                row.gap += local.edge_opening();
+                let local = local(self.flanks, at, off, deviation);
+                row.gap += local.edge_opening() + at_rest;
                 Some((row, Slice { z, at, length, local }))
             }
             LeastGapPoint::OtherKink(_) => {
-                let row = self.edge_row(numbers, station, at, sample.gap);
-                Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0) }))
+                let row = self.edge_row(numbers, station, at, nearest.gap());
+                Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0, deviation) }))
             }
             LeastGapPoint::OtherEnd(_) => {
                 let (at, sample, off) = self.other_edge(&sample)?;
                 let mut row = self.edge_row(numbers, station, at, sample.gap);
-                let local = local(self.flanks, at, off);
-                row.gap += local.edge_opening();
+                let local = local(self.flanks, at, off, deviation);
+                row.gap += local.edge_opening() + at_rest;
                 Some((row, Slice { z, at, length, local }))
             }
         }
@@ -216,7 +260,7 @@ pub(crate) fn opposite_edge(
     sample: &GapSample,
 ) -> Option<([f64; 2], GapSample)> {
     let turned = ProfilePair::new([b, a], [&poses[1], &poses[0]]);
-    let edge = [b.range()[1][0], sample.foot[1]];
+    let edge = [b.tip(), sample.foot[1]];
     Some((edge, turned.sample(edge)?))
 }
 
@@ -234,11 +278,12 @@ fn off_line(patches: [&FlankPatch; 2], slope: f64, at: [[f64; 2]; 2]) -> f64 {
     receding / (curvature[0] + curvature[1])
 }
 
-fn local(flanks: [SliceFlank; 2], at: [[f64; 2]; 2], off_line: f64) -> LocalContact {
+fn local(flanks: [SliceFlank; 2], at: [[f64; 2]; 2], off_line: f64, deviation: Option<Box<BandMean>>) -> LocalContact {
     let curvature: f64 = [0, 1].map(|i| flanks[i].patch.surface().curvature(at[i])).iter().sum();
     LocalContact {
         bodies: [0, 1].map(|i| flanks[i].layer.body(at[i])),
         radius: curvature.max(f64::MIN_POSITIVE).recip(),
         off_line,
+        deviation,
     }
 }

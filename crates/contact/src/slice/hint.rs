@@ -10,7 +10,7 @@ pub struct SliceHint {
 }
 
 impl SliceHint {
-    /// Where a search goes on from here that was at `before` a station ago: as far again.
+    /// Hint for the next station of a search that was at `before` a station ago: as far again.
     #[must_use]
     pub fn beyond(&self, before: &Self) -> Self {
         let roll = match (self.roll, before.roll) {

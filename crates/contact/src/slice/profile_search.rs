@@ -16,7 +16,7 @@ pub(crate) struct ProfilePair<'a> {
     pub patches: [&'a FlankPatch; 2],
     turn: Matrix3<f64>,
     shift: Vector3<f64>,
-    /// Whether both profiles are convex arcs: the gap then has one minimum, and Newton's method finds it.
+    /// Whether both profiles are arcs without relief, one of which may be hollow and is then the flatter one: the gap then has one minimum, and Newton's method finds it.
     single: bool,
     /// Where dips may be, of modified flanks that nearly touch.
     guide: Option<FirstOrderGap>,
@@ -66,7 +66,8 @@ const NEWTON_STEPS: usize = 24;
 const RESOLUTION: f64 = 1e-13;
 /// After a longer step than this the gap is sampled again, rad: the slope is not yet linear.
 const NEAR: f64 = 1e-6;
-/// The same after the first step, rad: the curvatures tell the slope's derivative to a per cent.
+/// After a longer first step than this the gap is sampled again, rad: the curvatures give the slope's derivative to a
+/// per cent.
 const NEAR_AT_ONCE: f64 = 1e-8;
 /// Steps as short as this change no gap, rad.
 const SAME_PLACE: f64 = 1e-11;
@@ -135,7 +136,8 @@ impl<'a> ProfilePair<'a> {
         self.nearest_within(z, hint, f64::INFINITY)
     }
 
-    /// The same, if the gap there is at most `reach` (mm): of one that is wider the place is not always looked for.
+    /// Point of least gap at height `z` (mm) of body 1, and the gap there, if it is at most `reach` (mm): the place of
+    /// a wider gap is not always searched.
     pub fn nearest_within(&self, z: f64, hint: &mut SliceHint, reach: f64) -> Option<(LeastGapPoint, GapSample)> {
         let (point, sample) = self.search(z, hint.roll, reach)?;
         hint.roll = Some(point.roll());
@@ -207,7 +209,8 @@ impl<'a> ProfilePair<'a> {
             }
             // Downhill is further beyond the end of the other profile.
             let foot = sample.foot[0];
-            if (slope > 0.0 && foot > other_high) || (slope < 0.0 && foot < other_low) {
+            let falls = if self.has_ring() { -slope } else { slope };
+            if (falls > 0.0 && foot > other_high) || (falls < 0.0 && foot < other_low) {
                 return self.within_other(z, (LeastGapPoint::Inside(u), None), &sample, reach);
             }
             let secant = before.map(|[v, s]| (slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
@@ -326,8 +329,9 @@ impl<'a> ProfilePair<'a> {
         if sample.gap > reach {
             return Ok(None);
         }
-        // Foot points go down the other profile as points go up this one.
-        let (bound, end) = if foot > other_high { (other_high, high) } else { (other_low, low) };
+        // Foot points go down the other profile as points go up this one; with a ring they go up.
+        let (bound, beyond) = if foot > other_high { (other_high, true) } else { (other_low, false) };
+        let end = if beyond != self.has_ring() { high } else { low };
         let past = |u: f64| self.sample([u, z]).map(|l| l.foot[0] - bound).ok_or(());
         let (here, there) = (foot - bound, past(end)?);
         if here * there > 0.0 {
@@ -349,8 +353,14 @@ impl<'a> ProfilePair<'a> {
         }
         // Of the bracket, the side from which the other flank is faced: that of `end`.
         let u = if (inner - end).abs() < (outer - end).abs() { inner } else { outer };
-        let point = if foot > other_high { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) };
+        let at_tip = beyond != self.patches[1].is_hollow();
+        let point = if at_tip { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) };
         Ok(Some((point, None)))
+    }
+
+    /// Whether one of the flanks is a ring's.
+    fn has_ring(&self) -> bool {
+        self.patches.iter().any(|patch| patch.is_hollow())
     }
 
     /// d slope / du where flanks touch, mm.
@@ -359,7 +369,7 @@ impl<'a> ProfilePair<'a> {
         first.profile_tangent(at).norm_squared() * (first.curvature(at) + second.curvature(foot))
     }
 
-    /// For any profiles: the sample of least gap, its neighbours as a bracket, and the zero of the slope in it.
+    /// Search for any profiles: the sample of least gap, its neighbours as a bracket, and the zero of the slope in it.
     fn scan_search(&self, z: f64) -> Option<LeastGapPoint> {
         let [low, high] = self.rolls(0);
         let [other_low, other_high] = self.rolls(1);
@@ -384,7 +394,8 @@ impl<'a> ProfilePair<'a> {
         let slope = |u: f64| sample(u).map_or(0.0, |l| l.slope);
         let stop = |u: f64, cut: bool| {
             // The other flank ends at its tip, or at its root form circle, which is no edge.
-            let at_tip = sample(u).is_some_and(|l| 2.0 * l.foot[0] > other_low + other_high);
+            let hollow = self.patches[1].is_hollow();
+            let at_tip = sample(u).is_some_and(|l| (2.0 * l.foot[0] > other_low + other_high) != hollow);
             if cut && at_tip { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) }
         };
         let slopes = [slope(a), slope(b)];

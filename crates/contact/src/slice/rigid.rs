@@ -31,34 +31,47 @@ pub struct NearestPoint {
 pub struct RigidFlanks<'a> {
     poses: &'a [Pose; 2],
     profiles: ProfilePair<'a>,
+    /// Largest deviation of both flanks from their smooth surfaces, mm.
+    deviation: f64,
 }
 
 impl<'a> RigidFlanks<'a> {
     /// Two flanks with their bodies at `poses`.
     pub fn new(patches: [&'a FlankPatch; 2], poses: &'a [Pose; 2]) -> Self {
-        Self { poses, profiles: ProfilePair::new(patches, [&poses[0], &poses[1]]) }
+        let deviation = patches.iter().map(|patch| patch.surface().largest_deviation()).sum();
+        Self { poses, profiles: ProfilePair::new(patches, [&poses[0], &poses[1]]), deviation }
     }
 
     /// Roll angle of body 1 where they are nearest at height `z` (mm), the gap there (mm) and its foot on body 2, all
     /// seen from body 1 also where an edge of body 2 presses; `None` where they do not face each other.
     pub fn least_gap(&self, z: f64, hint: &mut SliceHint) -> Option<(f64, f64, [f64; 2])> {
         let (point, sample) = self.profiles.nearest_point(z, hint)?;
-        Some((point.roll(), sample.gap, sample.foot))
+        Some((point.roll(), sample.gap + self.deviation([[point.roll(), z], sample.foot]), sample.foot))
     }
 
     /// The least gap at height `z` to first order (mm), from which to which; `None` where nothing is faced.
     pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
-        self.profiles.foretold(z)
+        self.profiles.foretold(z).map(|[low, high]| [low - self.deviation, high + self.deviation])
     }
 
-    /// Where they are nearest at height `z` (mm, body 1's own frame); `None` where they do not face each other.
+    /// What both flanks lie below their smooth surfaces at a place of contact, mm. A flank that was taken apart
+    /// (`geometry::ModifiedFlank::split`) is searched by its smooth part; the rest counts where that touches.
+    fn deviation(&self, at: [[f64; 2]; 2]) -> f64 {
+        if self.deviation == 0.0 {
+            return 0.0;
+        }
+        self.profiles.patches.iter().zip(at).map(|(patch, at)| patch.surface().deviation(at)).sum()
+    }
+
+    /// Place where the flanks are nearest at height `z` (mm, body 1's own frame); `None` where they do not face each
+    /// other.
     ///
     /// Gap and normal fit together: moving a body by a small d changes the gap by the normal's part of it, as the place
     /// is a least one or stays on an edge.
     pub fn nearest(&self, z: f64, hint: &mut SliceHint) -> Option<NearestPoint> {
         let (point, sample) = self.profiles.nearest_point(z, hint)?;
         let [first, second] = self.profiles.patches.map(FlankPatch::surface);
-        match point {
+        let nearest = match point {
             LeastGapPoint::Inside(u) | LeastGapPoint::OwnEnd(u) => Some(NearestPoint {
                 gap: sample.gap,
                 position: self.poses[0].transform_point(&first.point([u, z]).into()).coords,
@@ -80,6 +93,7 @@ impl<'a> RigidFlanks<'a> {
                     at: [opposite.foot, edge],
                 })
             }
-        }
+        };
+        nearest.map(|own| NearestPoint { gap: own.gap + self.deviation(own.at), ..own })
     }
 }

@@ -56,9 +56,12 @@ impl ContactSet {
 }
 
 impl SameSlices {
-    /// Those of a list of rows.
+    /// Slices of a list of rows.
     pub fn of(rows: &[ContactRow], slices: &[Slice], which: &[usize]) -> Self {
-        Self { rows: which.iter().map(|&i| rows[i]).collect(), slices: which.iter().map(|&i| slices[i]).collect() }
+        Self {
+            rows: which.iter().map(|&i| rows[i]).collect(),
+            slices: which.iter().map(|&i| slices[i].clone()).collect(),
+        }
     }
 
     /// What the flanks are apart under forces (N) with their own deformation, mm: 0 where they press.

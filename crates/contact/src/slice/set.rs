@@ -71,8 +71,8 @@ impl SliceSet {
         Ok(Self { stations, length, bodies, corner_contact: options.corner_contact, bulk: None })
     }
 
-    /// With the bulk compliance of the given windows in tables, if that is asked for and they can be made as good as
-    /// asked.
+    /// Set with the bulk compliance of the given windows in tables, if tables are requested and reach the requested
+    /// accuracy.
     pub(crate) fn with_tables(
         mut self,
         patches: [&[FlankPatch]; 2],

@@ -1,4 +1,4 @@
-//! What stands behind a flank: the half of a tooth as a layer that rests on its centre surface.
+//! Tooth layer: the half of a tooth behind a flank, which rests on its centre surface.
 
 use geometry::Flank;
 use reduction::LayerProfile;
@@ -51,7 +51,7 @@ impl ToothLayer {
             poisson: self.poisson,
             layer: self.profile.constant(u),
             // A pointed tip has no depth.
-            depth: depth.max(1e-3 * f.base_radius),
+            depth: depth.max(1e-3 * f.base_radius.abs()),
             tip_distance: (0.5 * f.base_radius * (f.roll_tip * f.roll_tip - u * u)).max(0.0),
             tip_angle: self.profile.tip_angle(),
             tip_gradient: self.profile.tip_gradient(),

@@ -113,5 +113,5 @@ fn no_lever_is_an_error() {
     let c = Mat::from_fn(1, 1, |_, _| 1e-5);
     let refused = complementarity::solve(&mut Dense(c), &[row(0.0, 1.0)], 0, Balance::Moment(-4.0), Law::Exact, &[0.0])
         .unwrap_err();
-    assert!(matches!(refused, ContactError::NoLever { .. }), "{refused}");
+    assert!(matches!(refused, ContactError::CannotCarryTorque { .. }), "{refused}");
 }

@@ -28,6 +28,7 @@ fn contact(distance: f64, edge_radius: f64) -> LocalContact {
         bodies: [steel(distance.max(0.0), 1.2 + 0.5 * distance.max(0.0)), steel(4.0, 2.2)],
         radius: RADIUS,
         off_line: (-distance).max(0.0),
+        deviation: None,
     }
 }
 
@@ -48,7 +49,7 @@ fn approach_is_the_layers_kernel_under_hertzian_pressure() {
         edge_radius: 0.0,
         ends: [EndFace::FAR; 2],
     };
-    let contact = LocalContact { bodies: depths.map(body), radius: RADIUS, off_line: 0.0 };
+    let contact = LocalContact { bodies: depths.map(body), radius: RADIUS, off_line: 0.0, deviation: None };
     let softness = 2.0 * (1.0 - poisson * poisson) / (PI * young);
     for load in [1.0, 30.0, 400.0] {
         // Hertz, two alike bodies: a^2 = 4 q R / (pi E*), 1/E* = 2 (1 - nu^2) / E; p = 2 q / (pi a) sqrt(1 - s^2/a^2).
@@ -180,7 +181,7 @@ fn small_radius_is_sharp() {
 fn scales_as_elasticity_does() {
     for distance in [-0.1, 0.05, 2.0] {
         let (small, s) = (contact(distance, 0.1), 8.0);
-        let mut large = small;
+        let mut large = small.clone();
         large.radius *= s;
         large.off_line *= s;
         for b in &mut large.bodies {

@@ -6,13 +6,13 @@ use contact::{
     flank::{Candidates, FlankPatch, GapSource, contact_points},
     nodal::{LinePoints, Scene, closest_points, contact_row},
 };
-use geometry::{Gear, GearData, GearPair, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use geometry::{GearPair, Side};
+use mesh::{Extent, StructuredOptions};
 use nalgebra::{Translation3, UnitQuaternion};
 use proptest::prelude::*;
 use rayon::prelude::*;
 
-use testing::Random;
+use testing::{Random, default_pair, structured};
 
 struct Flanks {
     pair: GearPair,
@@ -24,9 +24,7 @@ fn flanks(order: u32) -> Flanks {
 }
 
 fn flanks_of(order: u32, [profile, face]: [u32; 2]) -> Flanks {
-    let data = GearData::default();
-    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
-    let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let pair = default_pair();
     let options = StructuredOptions {
         order,
         elements_profile: profile,
@@ -34,9 +32,8 @@ fn flanks_of(order: u32, [profile, face]: [u32; 2]) -> Flanks {
         extent: Extent::Sector(3),
         ..StructuredOptions::default()
     };
-    let patches = [&pair.pinion, &pair.wheel].map(|gear| {
-        let mesh = generate(gear, &options).unwrap();
-        let parts = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap();
+    let meshes = structured(&pair, &options);
+    let patches = [(&pair.pinion, &meshes[0]), (&pair.wheel, &meshes[1])].map(|(gear, parts)| {
         let mut made = Vec::new();
         for tooth in parts.teeth() {
             let faces = parts.flank(tooth, Side::Left).unwrap();

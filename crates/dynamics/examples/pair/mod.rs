@@ -5,17 +5,17 @@ use std::{error::Error, path::Path};
 use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
 use ltca::{StaticModel, StaticOptions};
-use mesh::{GearMesh, GroupNames, Mesh};
+use mesh::{GroupNames, Mesh, MeshedGear};
 use reduction::{ElasticGear, GearReducer, ReductionOptions};
 
 /// 30/30 teeth, module 3 mm, helix angle 20 degrees, and the meshes of both gears.
-pub fn coarse() -> Result<(GearPair, [GearMesh; 2]), Box<dyn Error>> {
+pub fn coarse() -> Result<(GearPair, [MeshedGear; 2]), Box<dyn Error>> {
     let pinion = GearData::default();
     let wheel = GearData { helix_angle: -pinion.helix_angle, ..pinion.clone() };
     let pair = GearPair::new(Gear::new(pinion)?, Gear::new(wheel)?, None)?;
-    let read = |gear: &str, teeth: u32| -> Result<GearMesh, Box<dyn Error>> {
+    let read = |gear: &str, teeth: u32| -> Result<MeshedGear, Box<dyn Error>> {
         let file = format!("{}/../../meshes/coarse_hex8_{gear}.msh", env!("CARGO_MANIFEST_DIR"));
-        Ok(GearMesh::from_groups(Mesh::read(Path::new(&file))?, &GroupNames::default(), teeth)?)
+        Ok(MeshedGear::from_groups(Mesh::read(Path::new(&file))?, &GroupNames::default(), teeth)?)
     };
     let meshes = [read("pinion", pair.pinion.teeth())?, read("wheel", pair.wheel.teeth())?];
     Ok((pair, meshes))
@@ -24,7 +24,7 @@ pub fn coarse() -> Result<(GearPair, [GearMesh; 2]), Box<dyn Error>> {
 /// Both gears condensed to the flanks that these options press, in the window that a run begins with.
 pub fn reduced(
     pair: &GearPair,
-    meshes: &[GearMesh; 2],
+    meshes: &[MeshedGear; 2],
     options: &StaticOptions,
 ) -> Result<[ElasticGear; 2], Box<dyn Error>> {
     let first = StaticModel::first_teeth(pair, options)?;

@@ -6,7 +6,7 @@ use contact_map::Wanted;
 use integrate::{Forces, Mechanism, Resumable};
 use nalgebra::{DMatrix, DVector};
 
-use super::{KeptPlaces, MapExcess, MappedPair, MappedSide};
+use super::{MapExcess, MappedPair, MappedSide, SplineCache};
 
 impl Mechanism for MappedPair {
     type Error = Infallible;
@@ -83,7 +83,7 @@ impl Mechanism for MappedPair {
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
         let phase = self.phase(t, q);
-        let energy = |(side, kept): (&MappedSide, &mut KeptPlaces)| {
+        let energy = |(side, kept): (&MappedSide, &mut SplineCache)| {
             let [approach, tilt] = side.motion(q);
             side.map.energy(kept.at(&side.map, phase, tilt), approach)
         };

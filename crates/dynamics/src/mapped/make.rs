@@ -5,7 +5,7 @@ use std::sync::Arc;
 use contact_map::{ContactMap, MapError, MapPlan};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::{KeptPlaces, MapExcess, MappedPair, MappedSide, Projection, sampler::SidePhase};
+use super::{MapExcess, MappedPair, MappedSide, Projection, SplineCache, sampler::SidePhase};
 use crate::{COORDINATES, Displacement, Drive, PairMechanism, PairMotionError, Speed, start::quasi_static_balance};
 use ltca::StaticError;
 
@@ -16,7 +16,8 @@ pub struct MapRequest {
     pub overload: f64,
     /// Root mean square of the approach's error over the mean approach that is aimed at.
     pub tolerance: f64,
-    /// The same with which a map is taken that cannot be made finer in some hundred mesh cycles at rest.
+    /// Largest root mean square of the approach's error over the mean approach of a map that is taken: of one that some
+    /// hundred mesh cycles at rest cannot refine.
     pub worst: f64,
     /// Approximate lag of the driven gear under the load, mm.
     pub lag: f64,
@@ -95,7 +96,7 @@ impl MappedPair {
         Ok(Self::of(system, sides.into_iter().zip(maps.into_iter().map(Arc::new)).collect()))
     }
 
-    /// The same pair at its beginning on the same maps, with another speed or torque of the driver.
+    /// The pair at its start on its maps, with another speed or torque of the driver.
     ///
     /// # Errors
     /// [`PairMotionError::Unmapped`] for a drive that frees other coordinates; those of the contact.
@@ -107,7 +108,7 @@ impl MappedPair {
         Ok(Self::of(system, self.sides.iter().map(|side| (side.projection, Arc::clone(&side.map))).collect()))
     }
 
-    /// The same under the mean of its load.
+    /// The pair at its start on its maps, under the mean of its load.
     ///
     /// # Errors
     /// Those of the contact.
@@ -122,7 +123,7 @@ impl MappedPair {
         &mut self.system
     }
 
-    /// The same pair at its beginning on the same maps.
+    /// The pair at its start on its maps.
     ///
     /// # Errors
     /// Those of the contact.
@@ -158,7 +159,7 @@ impl MappedPair {
             damping: unless_zero(on_coordinates(&damping)),
             gyroscopic: unless_zero(on_coordinates(&system.gyroscopic_at_unit_speed())),
             loading: DMatrix::from_fn(n, 12, |i, j| loading[(i, j)]),
-            kept: vec![KeptPlaces::default(); sides.len()],
+            kept: vec![SplineCache::default(); sides.len()],
             sides,
             phase_of_driver,
             excess: MapExcess::default(),
@@ -177,14 +178,14 @@ fn has_tilt(system: &PairMechanism, projection: &Projection) -> bool {
     system.coordinates().map().tr_mul(&projection.tilt).amax() > 1e-12
 }
 
-/// What no map holds.
+/// Refuses motions that no map holds.
 fn refuse(system: &PairMechanism) -> Result<(), PairMotionError> {
     let what = if system.has_modes() {
         "normal modes of the gears: the contact then depends on their amplitudes"
     } else if system.options().statics.contact.friction > 0.0 {
         "friction: it turns round with the sliding"
-    } else if system.has_pitch_errors() {
-        "pitch errors: the contact then comes back after whole turns, not after a mesh cycle"
+    } else if system.has_own_teeth() {
+        "pitch errors or flanks by tooth: the contact then comes back after whole turns, not after a mesh cycle"
     } else {
         return Ok(());
     };

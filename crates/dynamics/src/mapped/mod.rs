@@ -5,7 +5,7 @@ mod make;
 mod sampler;
 
 use contact::FlankProjection as Projection;
-use contact_map::{ContactMap, KeptPlaces, MapContact, Wanted};
+use contact_map::{ContactMap, MapContact, SplineCache, Wanted};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -38,7 +38,7 @@ pub struct MappedPair {
     loading: DMatrix<f64>,
     /// Mesh cycles a radian of the driver's turn, where that is a coordinate.
     phase_of_driver: Option<(usize, f64)>,
-    kept: Vec<KeptPlaces>,
+    kept: Vec<SplineCache>,
     excess: MapExcess,
 }
 
@@ -82,7 +82,7 @@ impl MappedSide {
     }
 
     /// Contact with the gears displaced: several states of a step are at one phase, and share what belongs to it.
-    fn contact(&self, kept: &mut KeptPlaces, phase: f64, q: &DVector<f64>, wanted: Wanted) -> MapContact {
+    fn contact(&self, kept: &mut SplineCache, phase: f64, q: &DVector<f64>, wanted: Wanted) -> MapContact {
         let [approach, tilt] = self.motion(q);
         self.map.contact(kept.at(&self.map, phase, tilt), approach, wanted)
     }
@@ -139,7 +139,7 @@ impl MappedPair {
         self.system.cycles(t) + own
     }
 
-    /// Both sides at a state; without coast flanks nothing is there.
+    /// Instants of the driving and the coast flanks at a state; all zero for coast flanks that the pair does not have.
     pub fn instant(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [MappedInstant; 2] {
         let mut all = [MappedInstant::default(); 2];
         let phase = self.phase(t, q);

@@ -2,11 +2,10 @@
 
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::{PairMechanism, external::about_own_axis};
+use super::PairMechanism;
 use crate::{
     COORDINATES, Displacement, NominalState,
     elastic_displacement::ElasticDisplacement,
-    mesh_side::{MeshSide, SideContacts},
     modal::{ModalBalance, expansion},
 };
 use integrate::{Forces, Mechanism};
@@ -23,7 +22,7 @@ impl Mechanism for PairMechanism {
         let (at, moving) = (self.elastic_displacement(t, q), self.elastic_displacement(t, v));
         let (d, rate) = (at.d, moving.d);
         let nominal = self.nominal_state(t);
-        let SideContacts { driving, coast, .. } = self.contact(t, &at, out.tangents)?;
+        let contacts = self.contact(t, &at, out.tangents)?;
         let cycles = self.cycles(t);
         let mut normal = Displacement::zeros();
         let mut other = self.external(t, &nominal);
@@ -32,13 +31,12 @@ impl Mechanism for PairMechanism {
         let mut damping = self.bearing[1];
         out.dissipated += rate.dot(&(self.bearing[1] * rate));
         let mut modal = self.modal.as_ref().map(|modal| ModalBalance::new(modal, &at.q, &moving.q));
-        for (side, force) in [(Some(&self.drive_side), Some(&driving)), (self.coast_side.as_ref(), coast.as_ref())] {
-            let (Some(side), Some(force)) = (side, force) else { continue };
+        for (side, force) in self.flanks.with_forces(&contacts) {
             normal += force.normal;
             other += force.friction;
-            let poses = side.poses(&self.pair, cycles, &d);
+            let placed = side.placed(&self.pair, cycles, &d);
             let matrix = out.tangents.then_some(&mut damping);
-            let (damped, power) = side.damping(&poses, &rate, self.damping, matrix);
+            let (damped, power) = side.damping(&placed, &rate, self.damping, matrix);
             other += damped;
             out.dissipated += power;
             // Friction goes against the sliding of the turn, and takes its power there. What it does to the deviations,
@@ -52,10 +50,10 @@ impl Mechanism for PairMechanism {
             }
         }
         if out.tangents && modal.is_none() {
-            let Self { pair, drive_side, coast_side, damping: per_length, .. } = self;
-            for side in std::iter::once(drive_side).chain(coast_side) {
-                let poses = side.poses(pair, cycles, &d);
-                stiffness += side.held_damping(&poses, &rate, *per_length).unwrap_or_else(SMatrix::zeros);
+            let Self { pair, flanks, damping: per_length, .. } = self;
+            for side in std::iter::once(&mut flanks.driving).chain(flanks.coast.as_mut()) {
+                let placed = side.placed(pair, cycles, &d);
+                stiffness += side.held_damping(&placed, &rate, *per_length).unwrap_or_else(SMatrix::zeros);
             }
         }
         let gyroscopic = self.gyroscopic(&nominal);
@@ -66,8 +64,7 @@ impl Mechanism for PairMechanism {
         let balancing = self.balancing_torque(&other);
         other[driver] += balancing;
         out.supplied += balancing * rate[driver];
-        let mut conservative = about_own_axis(normal - self.bearing[0] * d, &d);
-        let mut other = about_own_axis(other, &d);
+        let mut conservative = normal - self.bearing[0] * d;
         match modal {
             None if out.tangents => {
                 self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
@@ -111,18 +108,17 @@ impl Mechanism for PairMechanism {
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
         let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
-        let of = |side: &MeshSide| side.contact().strain_energy();
-        let contact = of(&self.drive_side) + self.coast_side.as_ref().map_or(0.0, of);
-        Ok(contact + self.bearing_and_modal_energy(&at))
+        Ok(self.flanks.strain_energy() + self.bearing_and_modal_energy(&at))
     }
 
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
         let at = self.elastic_displacement(t, q);
-        Ok(self.contact_energy(t, &at)? + self.bearing_and_modal_energy(&at))
+        let cycles = self.cycles(t);
+        Ok(self.flanks.energy_of(&self.pair, cycles, &at)? + self.bearing_and_modal_energy(&at))
     }
 
     fn events(&self) -> usize {
-        1 + usize::from(self.coast_side.is_some())
+        1 + usize::from(self.flanks.has_coast_flanks())
     }
 
     /// Least gap of the driving flanks and of the coast flanks, mm, with the sign turned: positive in contact.
@@ -130,52 +126,22 @@ impl Mechanism for PairMechanism {
         let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
-        let pair = &self.pair;
-        for (side, value) in std::iter::once(&mut self.drive_side).chain(self.coast_side.as_mut()).zip(out) {
-            *value = side.overlap(pair, cycles, &at);
-        }
-        if self.modal.is_some() {
-            self.last = None;
-        }
+        let overlaps = self.flanks.overlaps_of(&self.pair, cycles, &at);
+        out.iter_mut().zip(overlaps).for_each(|(value, overlap)| *value = overlap);
         Ok(())
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
         let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
-        self.check_passage(t, &at.d)?;
-        let turned = self.turned_cycles(t, &at.d);
-        for side in std::iter::once(&self.drive_side).chain(&self.coast_side) {
-            side.check_pace(turned)?;
-        }
-        // Several teeth may be due after a long step.
-        loop {
-            let before = self.contact(t, &at, false)?;
-            let Self { pair, drive_side, coast_side, .. } = self;
-            let loads = |side: &MeshSide| side.contact().force().pair_forces.iter().sum::<f64>();
-            let sums = [Some(loads(drive_side)), coast_side.as_ref().map(loads)];
-            let moved = [
-                drive_side.follow(pair, turned)?,
-                coast_side.as_mut().map_or(Ok(false), |side| side.follow(pair, turned))?,
-            ];
-            if moved == [false; 2] {
-                self.update_extremes(t, &before.at.1, &rate, turned)?;
-                return Ok(());
-            }
-            self.last = None;
-            self.contact(t, &at, false)?;
-            for ((side, moved), sum) in
-                [Some(&mut self.drive_side), self.coast_side.as_mut()].into_iter().zip(moved).zip(sums)
-            {
-                if let (Some(side), true, Some(sum)) = (side, moved, sum) {
-                    side.record_jump(sum);
-                }
-            }
-        }
+        let (cycles, turned) = (self.cycles(t), self.turned_cycles(t, &at.d));
+        self.flanks.check_passage(&self.pair, cycles, &at.d)?;
+        self.flanks.follow_of(&self.pair, cycles, &at, turned)?;
+        self.update_extremes(t, &at, &rate, turned)
     }
 
     /// Forgets the last contact solution: later results depend on state and windows alone, bit by bit.
     fn forget(&mut self) {
-        self.forget_contact();
+        self.flanks.forget();
     }
 
     fn end_cycle(&mut self, begin: f64, end: f64) {

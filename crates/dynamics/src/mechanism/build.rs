@@ -8,7 +8,7 @@ use nalgebra::{DMatrix, SMatrix};
 use super::PairMechanism;
 use crate::{
     Bearing, COORDINATES, Coordinates, Drive, Extremes, GearVibration, MeshDamping, MotionOptions, Nominal, Speed,
-    equivalent_mass::equivalent_mass_of, mesh_side::MeshSide, modal::Modal,
+    equivalent_mass::equivalent_mass_of, mesh_flanks::MeshFlanks, modal::Modal,
 };
 use ltca::StaticError;
 use reduction::ElasticGear;
@@ -27,30 +27,26 @@ impl PairMechanism {
         means: [f64; 2],
     ) -> Result<Self, StaticError> {
         let cycles = options.start_cycles;
-        let drive_side = MeshSide::new(&pair, driving.into(), options.statics.clone(), &options.statics, cycles)?;
-        let coast_side = coast
-            .map(|gears| MeshSide::new(&pair, gears, options.statics.driven_backwards(), &options.statics, cycles))
-            .transpose()?;
-        Ok(Self::of(pair, drive_side, coast_side, options, means))
+        let flanks = MeshFlanks::new(&pair, driving.into(), coast, &options.statics, cycles)?;
+        Ok(Self::of(pair, flanks, options, means))
     }
 
-    /// The same pair at its beginning with another drive; gears and tables are shared.
+    /// The pair at its start with another drive; gears and tables are shared.
     ///
     /// # Errors
     /// [`StaticError`].
     pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
         let options = MotionOptions { drive, ..self.options.clone() };
-        let drive_side = self.drive_side.copy_at_start(&self.pair)?;
-        let coast_side = self.coast_side.as_ref().map(|side| side.copy_at_start(&self.pair)).transpose()?;
-        let mut other = Self::of(self.pair.clone(), drive_side, coast_side, options, self.means);
+        let flanks = self.flanks.copy_at_start(&self.pair)?;
+        let mut other = Self::of(self.pair.clone(), flanks, options, self.means);
         if let Some(modal) = self.modal.clone() {
             other.add_modes(modal);
         }
         Ok(other)
     }
 
-    /// The same pair with normal modes of both gears as coordinates of their own: what they share of the teeth's and
-    /// bodies' compliance gets its inertia, the rest stays quasi-static.
+    /// The pair with normal modes of both gears as coordinates of their own: their share of the compliance of teeth and
+    /// bodies gets inertia, the rest stays quasi-static.
     ///
     /// The coordinates are p = q + L D d, amplitudes with what rigid motion shares of them: so mass is constant and
     /// without coupling, and a gear that moves as a rigid body for a moment keeps its p. Neither they nor their
@@ -65,10 +61,7 @@ impl PairMechanism {
             return Err(StaticError::OutOfRange { name: "modal damping ratio", value, expected: "a number >= 0" });
         }
         let modes = gears.each_ref().map(|g| Arc::clone(&g.modes));
-        self.drive_side.keep_modes(modes.clone())?;
-        if let Some(side) = &mut self.coast_side {
-            side.keep_modes(modes)?;
-        }
+        self.flanks.keep_modes(&modes)?;
         self.add_modes(Modal::new(gears));
         if nalgebra::Cholesky::new(self.mass.clone()).is_none() {
             let least = self.mass.diagonal().min();
@@ -85,18 +78,12 @@ impl PairMechanism {
         self.mass = DMatrix::identity(n + m, n + m);
         self.mass.view_mut((0, 0), (n, n)).copy_from(&rigid);
         self.modal = Some(modal);
-        self.last = None;
+        self.flanks.forget_last();
         // What the modes bend is not in the forces of the flanks.
         self.roots = None;
     }
 
-    fn of(
-        pair: GearPair,
-        drive_side: MeshSide,
-        coast_side: Option<MeshSide>,
-        options: MotionOptions,
-        means: [f64; 2],
-    ) -> Self {
+    fn of(pair: GearPair, flanks: MeshFlanks, options: MotionOptions, means: [f64; 2]) -> Self {
         let mut free = options.free;
         let driver = 1 - options.statics.driven();
         let (speed, by_torque) = match &options.drive {
@@ -119,22 +106,19 @@ impl PairMechanism {
         };
         let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
         let damping = per_length(&pair, &options, means);
-        let (last, extremes) = (None, Extremes::default());
-        let roots = options.statics.root_stress.then(|| drive_side.root_fillets(&pair));
+        let roots = options.statics.root_stress.then(|| flanks.driving.root_fillets(&pair));
         Self {
             pair,
             options,
             coordinates,
             mass,
             nominal,
-            drive_side,
-            coast_side,
+            flanks,
             bearing,
             damping,
             means,
             modal: None,
-            last,
-            extremes,
+            extremes: Extremes::default(),
             throughput: 0.0,
             roots,
         }

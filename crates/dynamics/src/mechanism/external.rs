@@ -1,6 +1,6 @@
 //! Forces that do not come from the teeth: loads, drives, gyroscopic moments.
 
-use nalgebra::{DVector, Matrix3, SMatrix, Vector3};
+use nalgebra::{DVector, Matrix3, SMatrix};
 
 use super::PairMechanism;
 use crate::{COORDINATES, Displacement, Drive, NominalState, RigidBody};
@@ -79,15 +79,4 @@ impl PairMechanism {
             }
         }
     }
-}
-
-/// The turn of a tilted gear is about its own axis.
-pub(super) fn about_own_axis(mut f: Displacement, d: &Displacement) -> Displacement {
-    for g in 0..2 {
-        let at = COORDINATES * g + 3;
-        let tilt = nalgebra::UnitQuaternion::from_scaled_axis(Vector3::new(d[at], d[at + 1], 0.0));
-        let moment = Vector3::new(f[at], f[at + 1], f[at + 2]);
-        f[at + 2] = moment.dot(&(tilt * Vector3::z()));
-    }
-    f
 }

@@ -14,26 +14,28 @@ impl PairMechanism {
         turned: f64,
     ) -> Result<(), StaticError> {
         let (cycles, d) = (self.cycles(t), &at.d);
-        let poses = self.drive_side.poses(&self.pair, cycles, d);
-        self.drive_side.check_neighbours(&self.pair, turned, &poses)?;
+        let placed = self.flanks.driving.placed(&self.pair, cycles, d);
+        self.flanks.driving.check_neighbours(&self.pair, turned, &placed.poses)?;
         let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
         let mut least = f64::INFINITY;
-        if touches(&self.drive_side) {
-            let [sum, smallest] = self.drive_side.normal_forces(&poses, rate, self.damping);
+        if touches(&self.flanks.driving) {
+            let [sum, smallest] = self.flanks.driving.normal_forces(&placed, rate, self.damping);
             self.extremes.largest_force = self.extremes.largest_force.max(sum);
             least = smallest;
         } else {
             self.extremes.steps_apart += 1;
-            let gap = -self.drive_side.overlap(&self.pair, cycles, at);
-            self.last = self.last.take().filter(|_| self.modal.is_none());
+            let gap = -self.flanks.driving.overlap(&self.pair, cycles, at);
+            if self.modal.is_some() {
+                self.flanks.forget_last();
+            }
             self.extremes.largest_gap = self.extremes.largest_gap.max(gap);
         }
-        if let Some(side) = &mut self.coast_side
+        if let Some(side) = &mut self.flanks.coast
             && touches(side)
         {
-            let poses = side.poses(&self.pair, cycles, d);
-            side.check_neighbours(&self.pair, turned, &poses)?;
-            least = least.min(side.normal_forces(&poses, rate, self.damping)[1]);
+            let placed = side.placed(&self.pair, cycles, d);
+            side.check_neighbours(&self.pair, turned, &placed.poses)?;
+            least = least.min(side.normal_forces(&placed, rate, self.damping)[1]);
             self.extremes.steps_on_coast += 1;
         }
         if least.is_finite() {

@@ -1,4 +1,4 @@
-//! What a pair is beside coordinates and velocities: teeth in its windows, extremes, and what has gone through it.
+//! State of a pair beside coordinates and velocities: teeth in its windows, extremes, and what has gone through it.
 
 use std::f64::consts::TAU;
 
@@ -6,18 +6,8 @@ use integrate::Resumable;
 use ltca::StaticError;
 
 use super::{MechanismState, PairMechanism};
-use crate::mesh_side::MeshSide;
 
 impl PairMechanism {
-    /// Forgets the last contact solution.
-    pub(super) fn forget_contact(&mut self) {
-        self.drive_side.forget();
-        if let Some(side) = &mut self.coast_side {
-            side.forget();
-        }
-        self.last = None;
-    }
-
     /// Load torque times the driven gear's nominal turn between two times, N mm (Simpson's rule).
     pub(super) fn throughput_between(&self, begin: f64, end: f64) -> f64 {
         let statics = &self.options.statics;
@@ -34,17 +24,12 @@ impl Resumable for PairMechanism {
     type Memory = MechanismState;
 
     fn memory(&self) -> MechanismState {
-        let coast = self.coast_side.as_ref().map(MeshSide::state);
-        let (extremes, throughput) = (self.extremes, self.throughput);
-        MechanismState { driving: self.drive_side.state(), coast, extremes, throughput }
+        MechanismState { flanks: self.flanks.state(), extremes: self.extremes, throughput: self.throughput }
     }
 
     fn restore(&mut self, memory: &MechanismState) -> Result<(), StaticError> {
-        self.drive_side.restore(&self.pair, memory.driving)?;
-        if let (Some(side), Some(coast)) = (&mut self.coast_side, memory.coast) {
-            side.restore(&self.pair, coast)?;
-        }
-        (self.last, self.extremes, self.throughput) = (None, memory.extremes, memory.throughput);
+        self.flanks.restore(&self.pair, &memory.flanks)?;
+        (self.extremes, self.throughput) = (memory.extremes, memory.throughput);
         Ok(())
     }
 }

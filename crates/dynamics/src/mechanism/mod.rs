@@ -6,18 +6,17 @@ mod external;
 mod extremes;
 mod memory;
 mod observe;
-mod passage;
-mod side_contacts;
 
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Extremes, MeshDamping, MeshResonance, MotionOptions, Nominal, NominalState,
-    SideState, Speed, ToothChanges, Torque,
+    COORDINATES, Coordinates, Displacement, Extremes, FlankStates, MeshDamping, MeshResonance, MotionOptions, Nominal,
+    NominalState, Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
+    mesh_flanks::MeshFlanks,
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
 };
@@ -40,15 +39,13 @@ pub struct PairMechanism {
     coordinates: Coordinates,
     mass: DMatrix<f64>,
     nominal: Nominal,
-    drive_side: MeshSide,
-    coast_side: Option<MeshSide>,
+    flanks: MeshFlanks,
     bearing: [SMatrix<f64, 12, 12>; 2],
     /// Mesh damping per length of contact line, N s/mm^2.
     damping: f64,
     /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
     means: [f64; 2],
     modal: Option<Modal>,
-    last: Option<SideContacts>,
     extremes: Extremes,
     /// Work that the load took from the driven gear in its nominal motion, over the cycles so far, N mm.
     throughput: f64,
@@ -59,10 +56,8 @@ pub struct PairMechanism {
 /// Windows of both sides and extremes so far. With an [`integrate::State`] this is the whole state of a motion.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MechanismState {
-    /// Driving flanks.
-    pub driving: SideState,
-    /// Coast flanks.
-    pub coast: Option<SideState>,
+    /// Windows of both sides.
+    pub flanks: FlankStates,
     /// Gathered so far.
     pub extremes: Extremes,
     /// Work that the load took from the driven gear in its nominal motion so far, N mm: what goes through the pair.
@@ -83,15 +78,15 @@ impl PairMechanism {
 
     /// Whether the coast flanks may touch.
     pub fn has_coast_flanks(&self) -> bool {
-        self.coast_side.is_some()
+        self.flanks.has_coast_flanks()
     }
 
     /// Tooth changes of the driving flanks.
     pub fn changes(&self) -> ToothChanges {
-        self.drive_side.state().changes
+        self.flanks.changes()
     }
 
-    /// What is asked of the motion.
+    /// Options of the motion.
     pub fn options(&self) -> &MotionOptions {
         &self.options
     }
@@ -102,8 +97,8 @@ impl PairMechanism {
         (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
     }
 
-    /// The same with both gears free, and with the driver's angle prescribed, Hz: which inertia counts is a matter of
-    /// the drive.
+    /// Frequencies of [`Self::mesh_resonance_hz`] with both gears free, and with the driver's angle prescribed, Hz: the
+    /// drive decides which inertia counts.
     pub fn mesh_resonances_hz(&self) -> [f64; 2] {
         let inertia = self.base_circle_masses();
         let driver = 1 - self.options.statics.driven();
@@ -147,7 +142,7 @@ impl PairMechanism {
 
     /// Sizes of all coordinates from those of the rigid ones: a mode's is what moves a flank by `length` (mm).
     pub fn scales(&self, rigid: &DVector<f64>, length: f64) -> DVector<f64> {
-        let sizes = self.drive_side.contact().modal().map_or(&[][..], |modal| modal.sizes());
+        let sizes = self.flanks.driving.contact().modal().map_or(&[][..], |modal| modal.sizes());
         let modes = sizes.iter().map(|s| length / s);
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }
@@ -195,9 +190,9 @@ impl PairMechanism {
         self.modal.is_some()
     }
 
-    /// Whether the teeth of a gear stand unevenly.
-    pub(crate) fn has_pitch_errors(&self) -> bool {
-        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.modifications().has_pitch_errors())
+    /// Whether the teeth of a gear differ from each other.
+    pub(crate) fn has_own_teeth(&self) -> bool {
+        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_teeth())
     }
 
     /// Stiffness and damping of the bearings on the twelve coordinates.
@@ -207,7 +202,7 @@ impl PairMechanism {
 
     /// Driving flanks, and coast flanks where these may touch.
     pub(crate) fn sides(&self) -> impl Iterator<Item = &MeshSide> {
-        std::iter::once(&self.drive_side).chain(&self.coast_side)
+        self.flanks.sides()
     }
 
     /// Gyroscopic matrix with the pinion at 1 rad/s.
@@ -232,7 +227,6 @@ impl PairMechanism {
     /// Gives the driver another speed, rad/s.
     pub fn set_speed(&mut self, speed: Speed) {
         self.nominal.speed = speed;
-        self.last = None;
     }
 
     /// Damps the mesh otherwise; a ratio refers to the means that the pair was made with.
@@ -241,7 +235,7 @@ impl PairMechanism {
         self.damping = per_length(&self.pair, &self.options, self.means);
     }
 
-    /// The same pair at its beginning under the mean of its load.
+    /// The pair at its start under the mean of its load.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -291,7 +285,7 @@ impl PairMechanism {
     fn coupling(&self, t: f64) -> DMatrix<f64> {
         match &self.modal {
             None => DMatrix::zeros(0, 2 * COORDINATES),
-            Some(modal) => modal.coupling(self.drive_side.angles(&self.pair, self.cycles(t))),
+            Some(modal) => modal.coupling(self.flanks.driving.angles(&self.pair, self.cycles(t))),
         }
     }
 
@@ -303,5 +297,11 @@ impl PairMechanism {
             Some(modal) => modal.amplitudes(&self.coupling(t), &d, &q.as_slice()[self.coordinates.count()..]),
         };
         ElasticDisplacement { d, q }
+    }
+
+    /// Contact of both sides.
+    fn contact(&mut self, t: f64, at: &ElasticDisplacement, tangents: bool) -> Result<SideContacts, StaticError> {
+        let cycles = self.cycles(t);
+        self.flanks.contact(&self.pair, cycles, at, tangents)
     }
 }

@@ -1,4 +1,4 @@
-//! What the results hold of a state.
+//! Quantities of an instant from a state.
 
 use nalgebra::DVector;
 
@@ -21,29 +21,29 @@ impl PairMechanism {
         let d = at.d;
         let SideContacts { driving, coast, .. } = self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
-        let poses = self.drive_side.poses(&self.pair, cycles, &d);
-        let mut losses = driving.friction + self.drive_side.damping(&poses, &rate, self.damping, None).0;
+        let placed = self.flanks.driving.placed(&self.pair, cycles, &d);
+        let mut losses = driving.friction + self.flanks.driving.damping(&placed, &rate, self.damping, None).0;
         let mut normal = driving.normal;
-        let mut normal_forces = [self.drive_side.normal_forces(&poses, &rate, self.damping)[0], 0.0];
-        if let (Some(side), Some(force)) = (&self.coast_side, &coast) {
-            let poses = side.poses(&self.pair, cycles, &d);
-            losses += force.friction + side.damping(&poses, &rate, self.damping, None).0;
+        let mut normal_forces = [self.flanks.driving.normal_forces(&placed, &rate, self.damping)[0], 0.0];
+        if let (Some(side), Some(force)) = (&self.flanks.coast, &coast) {
+            let placed = side.placed(&self.pair, cycles, &d);
+            losses += force.friction + side.damping(&placed, &rate, self.damping, None).0;
             normal += force.normal;
-            normal_forces[1] = side.normal_forces(&poses, &rate, self.damping)[0];
+            normal_forces[1] = side.normal_forces(&placed, &rate, self.damping)[0];
         }
         let mesh = normal + losses;
-        let contact = self.drive_side.contact();
-        let slices = self.drive_side.loaded_slices();
+        let contact = self.flanks.driving.contact();
+        let slices = self.flanks.driving.loaded_slices();
         let max_pressure = slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure));
-        let (window, tooth_changes) = self.drive_side.window();
+        let (window, tooth_changes) = self.flanks.driving.window();
         let nominal = self.nominal_state(t);
         let shared = self.modal_reaction(t, &at, v, [Some(&driving), coast.as_ref()], &nominal);
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| nominal.velocity[g] + rate[of_turn(g)]);
         let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
-        let contact_line_length = contact.line_length(&self.pair, &poses);
+        let contact_line_length = contact.line_length(&self.pair, &placed.poses);
         let root_stress = match &self.roots {
-            Some(roots) => self.drive_side.root_stress(&self.pair, &poses, roots)?,
+            Some(roots) => self.flanks.driving.root_stress(&self.pair, &placed.poses, roots)?,
             None => Default::default(),
         };
         Ok(Instant {

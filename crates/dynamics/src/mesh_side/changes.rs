@@ -11,7 +11,7 @@ use super::MeshSide;
 /// Tooth changes of one side so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ToothChanges {
-    /// How many.
+    /// Number of tooth changes.
     pub count: u64,
     /// Largest jump of the sum of normal forces across a change at the same place, N. Contact is solved anew in the new
     /// window, so a force that was dropped shows here.

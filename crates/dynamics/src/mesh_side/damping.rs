@@ -1,9 +1,8 @@
 //! Damping between the flanks of one side.
 
-use contact::Pose;
 use nalgebra::SMatrix;
 
-use super::MeshSide;
+use super::{MeshSide, Placed};
 use crate::{COORDINATES, Displacement};
 
 /// A slice that carries force.
@@ -12,7 +11,7 @@ struct DampedSlice {
     force: f64,
     /// Damping, N s/mm.
     damping: f64,
-    /// dg/dd.
+    /// dg/dd: its moments are those that do the work of tilts and turns.
     j: Displacement,
     /// dg/dt by the rigid bodies, mm/s.
     opening: f64,
@@ -28,10 +27,10 @@ impl DampedSlice {
 }
 
 impl MeshSide {
-    /// Slices that carry force, with the gears at `poses` moving at `rate`.
+    /// Slices that carry force, with the gears at `placed` moving at `rate`.
     fn damped_slices<'a>(
         &'a self,
-        poses: &'a [Pose; 2],
+        placed: &'a Placed,
         rate: &'a Displacement,
         per_length: f64,
     ) -> impl Iterator<Item = DampedSlice> + 'a {
@@ -39,12 +38,13 @@ impl MeshSide {
         rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| {
             let mut j = Displacement::zeros();
             for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
-                let moment = (row.position - poses[g].translation.vector).cross(&row.normal);
+                let moment = (row.position - placed.poses[g].translation.vector).cross(&row.normal);
                 for i in 0..3 {
                     j[COORDINATES * g + i] = sign * row.normal[i];
                     j[COORDINATES * g + 3 + i] = sign * moment[i];
                 }
             }
+            let j = placed.generalised(j);
             DampedSlice { force, damping: per_length * slice.length, j, opening: j.dot(rate) }
         })
     }
@@ -63,13 +63,13 @@ impl MeshSide {
     /// have dampers of their own.
     pub fn damping(
         &self,
-        poses: &[Pose; 2],
+        placed: &Placed,
         rate: &Displacement,
         per_length: f64,
         mut matrix: Option<&mut SMatrix<f64, 12, 12>>,
     ) -> (Displacement, f64) {
         let (mut total, mut taken) = (Displacement::zeros(), 0.0);
-        for slice in self.damped_slices(poses, rate, per_length) {
+        for slice in self.damped_slices(placed, rate, per_length) {
             let [force, slope, power] = slice.resisted();
             total -= force * slice.j;
             taken += power;
@@ -84,14 +84,14 @@ impl MeshSide {
     /// `None` where none is held. After an evaluation with its tangent.
     pub fn held_damping(
         &mut self,
-        poses: &[Pose; 2],
+        placed: &Placed,
         rate: &Displacement,
         per_length: f64,
     ) -> Option<SMatrix<f64, 12, 12>> {
         let mut shares = vec![0.0; self.contact.rows().len()];
         let pressed = (0..shares.len()).filter(|&i| self.contact.solver().forces()[i] > 0.0);
         let pressed: Vec<usize> = pressed.collect();
-        for (i, slice) in pressed.into_iter().zip(self.damped_slices(poses, rate, per_length)) {
+        for (i, slice) in pressed.into_iter().zip(self.damped_slices(placed, rate, per_length)) {
             let asked = slice.damping * slice.opening;
             if asked.abs() > slice.force {
                 shares[i] = asked.signum();
@@ -101,14 +101,14 @@ impl MeshSide {
             return None;
         }
         let tangent = self.contact.tangent_of_shares(|i| shares[i]);
-        Some(SMatrix::from_fn(|i, j| tangent[i][j]))
+        Some(placed.generalised_slope(SMatrix::from_fn(|i, j| tangent[i][j])))
     }
 
     /// Sum and least value of the normal forces of the slices with their damping, N; the least one tells whether any
     /// flank pulls. Zeros without contact.
-    pub fn normal_forces(&self, poses: &[Pose; 2], rate: &Displacement, per_length: f64) -> [f64; 2] {
+    pub fn normal_forces(&self, placed: &Placed, rate: &Displacement, per_length: f64) -> [f64; 2] {
         let (mut sum, mut least) = (0.0, f64::INFINITY);
-        for slice in self.damped_slices(poses, rate, per_length) {
+        for slice in self.damped_slices(placed, rate, per_length) {
             let total = slice.force - slice.resisted()[0];
             sum += total;
             least = least.min(total);

@@ -1,22 +1,22 @@
 //! Forces of one side, with their slopes.
 
-use contact::{ContactError, Pose, Wrench, pose::own_turns, slice::EvaluationLevel};
+use contact::{ContactError, Wrench, slice::EvaluationLevel};
 use geometry::GearPair;
 use nalgebra::{DMatrix, DVector, SMatrix};
 
-use super::MeshSide;
+use super::{MeshSide, Placed};
 use crate::{COORDINATES, Displacement, elastic_displacement::ElasticDisplacement};
 
 /// Forces of one side on the twelve coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct SideForce {
-    /// Normal forces: N, N mm. Turns have the moment about the gear's own axis ([`own_turns`]).
+    /// Normal forces: N, N mm. What does the work of the coordinates: turns have the moment about the gear's own axis ([`Placed`]).
     pub normal: Displacement,
     /// Friction.
     pub friction: Displacement,
     /// -d(normal + friction)/dd.
     pub stiffness: SMatrix<f64, 12, 12>,
-    /// The same with the modes.
+    /// Forces on the normal modes and their tangents; none without modes.
     pub modal: Option<ModalForce>,
 }
 
@@ -31,9 +31,10 @@ pub(crate) struct ModalForce {
     pub stiffness: Option<DMatrix<f64>>,
 }
 
-/// Contact of both sides at one time and displacement.
+/// Contact of both sides at one place and displacement.
 #[derive(Debug, Clone)]
 pub(crate) struct SideContacts {
+    /// Mesh cycles, and displacement.
     pub at: (f64, ElasticDisplacement),
     pub driving: SideForce,
     pub coast: Option<SideForce>,
@@ -58,19 +59,16 @@ impl MeshSide {
         at: &ElasticDisplacement,
         tangents: bool,
     ) -> Result<SideForce, ContactError> {
-        let poses = self.poses(pair, cycles, &at.d);
+        let placed = self.placed(pair, cycles, &at.d);
         self.contact.deform(at.q.as_slice());
-        let force = self
-            .contact
-            .evaluate_near(&poses, if tangents { EvaluationLevel::Tangent } else { EvaluationLevel::Forces })?;
-        let mut all = vector(&force.wrench);
+        let level = if tangents { EvaluationLevel::Tangent } else { EvaluationLevel::Forces };
+        let force = self.contact.evaluate_near(&placed.poses, level)?;
+        let all = placed.generalised(vector(&force.wrench));
         let mut stiffness = SMatrix::from_fn(|i, j| -force.tangent[i][j]);
-        let mut friction = self.friction(&poses);
-        let turns = own_turns(&poses);
-        if let Some(g) = &turns {
-            (all, friction) = (g * all, g * friction);
-            stiffness = if tangents { g * stiffness * g.transpose() } else { stiffness };
+        if tangents {
+            stiffness = placed.generalised_slope(stiffness);
         }
+        let friction = self.friction(&placed);
         let modal = self.contact.modal().map(|modal| {
             let (forces, n) = (modal.forces(), 2 * COORDINATES + modal.count());
             ModalForce {
@@ -78,7 +76,7 @@ impl MeshSide {
                 friction: DVector::from_column_slice(&forces.friction),
                 stiffness: tangents.then(|| {
                     let common = -DMatrix::from_row_slice(n, n, &forces.tangent);
-                    let Some(g) = &turns else { return common };
+                    let Some(g) = &placed.work else { return common };
                     let mut whole = DMatrix::identity(n, n);
                     whole.view_mut((0, 0), (2 * COORDINATES, 2 * COORDINATES)).copy_from(g);
                     &whole * common * whole.transpose()
@@ -102,7 +100,7 @@ impl MeshSide {
     }
 
     /// Friction alone, from the rows of the last evaluation.
-    fn friction(&self, poses: &[Pose; 2]) -> Displacement {
+    fn friction(&self, placed: &Placed) -> Displacement {
         let mut sum = Displacement::zeros();
         if self.options.contact.friction == 0.0 {
             return sum;
@@ -110,7 +108,7 @@ impl MeshSide {
         for (row, &f) in self.contact.rows().iter().zip(self.contact.solver().forces()) {
             let force = f * (row.traction - row.normal);
             for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
-                let arm = row.position - poses[g].translation.vector;
+                let arm = row.position - placed.poses[g].translation.vector;
                 let moment = arm.cross(&force);
                 for i in 0..3 {
                     sum[COORDINATES * g + i] += sign * force[i];
@@ -118,7 +116,7 @@ impl MeshSide {
                 }
             }
         }
-        sum
+        placed.generalised(sum)
     }
 }
 

@@ -9,13 +9,13 @@ use std::sync::Arc;
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::{
     ContactSet, Pose,
-    pose::{displaced, frames, reference_angle},
+    pose::{displaced, frames, generalised, reference_angle},
     slice::MeshContact,
     slice_result,
 };
 use geometry::{GearPair, Side};
 use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
-use nalgebra::Vector3;
+use nalgebra::{SMatrix, Vector3};
 use reduction::{ElasticGear, GearModes};
 
 use super::{COORDINATES, Displacement, LoadedSlice};
@@ -74,7 +74,7 @@ impl MeshSide {
         Ok(self.contact.keep_modes(&self.gears, modes)?)
     }
 
-    /// The same side at its beginning, with the same gears and tables.
+    /// A copy of the side at its start; gears and tables are shared.
     pub fn copy_at_start(&self, pair: &GearPair) -> Result<Self, StaticError> {
         let (window, set) = self.home.clone();
         let mut copy_at_start = Self {
@@ -103,15 +103,25 @@ impl MeshSide {
         self.options.side()
     }
 
-    /// The same side at a phase, in mesh cycles, with the same gears and tables.
+    /// A copy of the side at a phase, in mesh cycles; gears and tables are shared.
     pub fn copy_at(&self, pair: &GearPair, cycles: f64) -> Result<Self, StaticError> {
         let mut copy = self.copy_at_start(pair)?;
+        copy.begin_at(pair, cycles)?;
+        Ok(copy)
+    }
+
+    /// Takes the window that is due at a phase, in mesh cycles, with no tooth change counted.
+    pub fn begin_at(&mut self, pair: &GearPair, cycles: f64) -> Result<(), StaticError> {
         let teeth = [pair.pinion.teeth(), pair.wheel.teeth()];
         let (count, sense) = (self.window.window().count(), self.options.contact.sense);
         let window = SlidingWindow::at(Station::at_cycles(cycles + self.ahead), count, teeth, sense)?;
         let first = window.window().first();
-        copy.restore(pair, SideState { first, changes: ToothChanges::default() })?;
-        Ok(copy)
+        self.restore(pair, SideState { first, changes: ToothChanges::default() })
+    }
+
+    /// Sum of the normal forces of the last evaluation, N.
+    pub fn sum_of_forces(&self) -> f64 {
+        self.contact.force().pair_forces.iter().sum()
     }
 
     /// Deepest overlap of the undeformed flanks with the gears' frames at `poses`, mm; negative where they are apart.
@@ -189,6 +199,12 @@ impl MeshSide {
         displaced(nominal, &(*d).into())
     }
 
+    /// Frames of the matrices with the gears displaced, and what forces there do to the displacements.
+    pub fn placed(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Placed {
+        let poses = self.poses(pair, cycles, d);
+        Placed { work: generalised(&poses, &(*d).into()), poses }
+    }
+
     /// The last evaluation.
     pub fn contact(&self) -> &MeshContact {
         &self.contact
@@ -197,5 +213,26 @@ impl MeshSide {
     /// The window, and how often it has moved.
     pub fn window(&self) -> (&ToothWindow, u64) {
         (self.window.window(), self.changes.count)
+    }
+}
+
+/// Where both gears of a side stand.
+#[derive(Debug)]
+pub(crate) struct Placed {
+    /// Frames of the matrices.
+    pub poses: [Pose; 2],
+    /// What forces and moments in common axes do to the displacements ([`generalised`]); none: what they are.
+    work: Option<SMatrix<f64, 12, 12>>,
+}
+
+impl Placed {
+    /// Forces on the displacements from forces and moments about the gears' centres, common axes.
+    fn generalised(&self, force: Displacement) -> Displacement {
+        self.work.as_ref().map_or(force, |g| g * force)
+    }
+
+    /// How they follow the displacements.
+    fn generalised_slope(&self, slope: SMatrix<f64, 12, 12>) -> SMatrix<f64, 12, 12> {
+        self.work.as_ref().map_or(slope, |g| g * slope * g.transpose())
     }
 }

@@ -7,7 +7,7 @@ mod words;
 mod write;
 
 use markdown::{maps_markdown, modes_markdown};
-pub use write::{envelope_answer, find_envelope_tables, replace_envelope_tables, write_envelope};
+pub use write::{documented, envelope_answer, find_envelope_tables, replace_envelope_tables, write_envelope};
 
 use crate::{DrawnMap, EnvelopeMap, Examined, FailureMode};
 

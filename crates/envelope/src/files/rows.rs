@@ -28,18 +28,22 @@ pub(super) fn modes(of: &EnvelopeResult) -> Table {
     let what = rows.iter().map(|row| row.2.as_ref().map_or_else(Clone::clone, |figure| figure.what.clone()));
     let passes = rows.iter().map(|row| row.2.as_ref().is_ok_and(|figure| figure.holds()).to_string());
     Table::new("envelope")
-        .texts("case", "failure mode", text(FailureMode::label))
-        .texts("name", "its name", text(|mode| mode.name.to_owned()))
-        .texts("scene", "scene that shows it", text(|mode| format!("{}.toml", mode.file)))
-        .texts("what_fails", "what fails elsewhere", text(|mode| mode.fails.to_owned()))
-        .texts("what_the_program_does", "what this program does", text(|mode| mode.does.to_owned()))
-        .texts("figure", "what is measured", what)
-        .texts("naive", "figure of the naive method", figure(naive).map(|of| of.0))
-        .texts("naive_has_to_be", "what that has to be", figure(naive).map(|of| of.1))
+        .texts("case", "label of the failure mode, as `F7`", text(FailureMode::label))
+        .texts("name", "failure mode in a few words", text(|mode| mode.name.to_owned()))
+        .texts("scene", "file of the scene", text(|mode| format!("{}.toml", mode.file)))
+        .texts("what_fails", "sentence: what fails with a naive method", text(|mode| mode.fails.to_owned()))
+        .texts("what_the_program_does", "sentence: what this program does instead", text(|mode| mode.does.to_owned()))
+        .texts("figure", "measured figure, with its unit", what)
+        .texts("naive", "figure of the naive method; empty where there is none", figure(naive).map(|of| of.0))
+        .texts("naive_has_to_be", "condition of the naive figure, which must fail", figure(naive).map(|of| of.1))
         .texts("robust", "figure of this program", figure(robust).map(|of| of.0))
-        .texts("robust_has_to_be", "what that has to be", figure(robust).map(|of| of.1))
-        .texts("passes", "`true` where both are as they have to be", passes)
-        .numbers("seconds", "wall time of the failure mode, s", rows.iter().map(|row| row.1))
+        .texts(
+            "robust_has_to_be",
+            "condition of the figure of this program, which must hold",
+            figure(robust).map(|of| of.1),
+        )
+        .texts("passes", "`true` where both figures are as they have to be", passes)
+        .numbers("seconds", "wall time of the failure mode in s", rows.iter().map(|row| row.1))
 }
 
 /// A row a cell of a map.
@@ -57,17 +61,17 @@ pub(super) fn maps(of: &EnvelopeResult) -> Table {
     let place = |k: usize| rows.iter().map(move |row| row.0[k]);
     let number = |of: fn(&Cell) -> Option<f64>| rows.iter().map(move |row| of(row.1).unwrap_or(f64::NAN));
     Table::new("maps")
-        .texts("map", "map", place(0))
+        .texts("map", "letter of the map", place(0))
         .texts("layer", "layer of the map", place(1))
-        .texts("row", "value of the rows", place(2))
-        .texts("column", "value of the columns", place(3))
+        .texts("row", "place of the cell: its row", place(2))
+        .texts("column", "place of the cell: its column", place(3))
         .texts(
             "outcome",
-            "`solved`, `warned`, `refused`, `failed`, `none` or `wrong`",
+            "outcome of the cell: `solved`, `warned`, `refused`, `failed`, `none` (no such pair), `wrong` (without a remark: a defect)",
             rows.iter().map(|r| outcome(r.1)),
         )
         .numbers("off_percent", "difference from the finer answer", number(|cell| cell.off_percent))
-        .numbers("bound_percent", "what was allowed", number(|cell| cell.bound_percent))
-        .texts("said", "what the program said", rows.iter().map(|row| row.1.said.clone().unwrap_or_default()))
-        .texts("settings", "keys of the cell", rows.iter().map(|row| row.1.settings.join(" ")))
+        .numbers("bound_percent", "bound of the difference, by which the cell is judged", number(|cell| cell.bound_percent))
+        .texts("said", "first remark, or reason of a refusal", rows.iter().map(|row| row.1.said.clone().unwrap_or_default()))
+        .texts("settings", "settings that make the scene of the cell", rows.iter().map(|row| row.1.settings.join(" ")))
 }

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use answer::{Answer, Check, Checks, Cost};
+use answer::{Answer, Check, Checks, Cost, Table};
+use described::Key;
+use serde::Serialize;
 use serde_json::json;
 
 use super::{EnvelopeResult, maps_markdown, modes_markdown, page, rows};
@@ -12,6 +14,27 @@ use store::folder::ResultDirectory;
 /// Names of the places of both tables in a document.
 const MODES: &str = "failure modes";
 const MAPS: &str = "maps";
+
+described::described! {
+    /// Headline of an envelope.
+    #[derive(Serialize)]
+    struct EnvelopeHeadline {
+        /// failure modes that were examined
+        failure_modes: usize,
+        /// failure modes that do not come out as they have to
+        failure_modes_missed: usize,
+        /// maps that were drawn
+        maps: usize,
+        /// cells that are wrong without a remark
+        cells_wrong: usize,
+    }
+}
+
+/// Tables without rows, and objects of the summary with their keys, for `docs/outputs.md`.
+pub fn documented() -> (Vec<Table>, Vec<(&'static str, Vec<Key>)>) {
+    let none = EnvelopeResult { modes: Vec::new(), maps: Vec::new() };
+    (vec![rows::modes(&none), rows::maps(&none)], vec![("headline, an envelope", EnvelopeHeadline::KEYS.to_vec())])
+}
 
 /// The answer: `envelope` and, where maps were drawn, `maps`.
 pub fn envelope_answer(of: &EnvelopeResult, cost: Cost) -> Answer {
@@ -33,11 +56,11 @@ pub fn envelope_answer(of: &EnvelopeResult, cost: Cost) -> Answer {
             "maps": of.maps.iter().map(|(map, ..)| map.key).collect::<Vec<_>>(),
         }),
         tables,
-        headline: json!({
-            "failure_modes": of.modes.len(),
-            "failure_modes_missed": missed,
-            "maps": of.maps.len(),
-            "cells_wrong": wrong,
+        headline: json!(EnvelopeHeadline {
+            failure_modes: of.modes.len(),
+            failure_modes_missed: missed,
+            maps: of.maps.len(),
+            cells_wrong: wrong,
         }),
         checks: Checks::new([
             Check::new("failure_modes_missed", missed as f64, 0.0, hint),

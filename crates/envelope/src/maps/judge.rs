@@ -70,7 +70,7 @@ const ALWAYS: &str = "material data, load";
 /// A mean transmission error with its bounds, and what was said.
 struct Bounded {
     bound: Bound,
-    warnings: Vec<String>,
+    remarks: Vec<String>,
 }
 
 /// References of cells that share one: by file and settings.
@@ -94,8 +94,8 @@ fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, Analy
     let without = || AnalysisError::without_bound(&scene, Quantity::MeanSte);
     let accuracy = solved.facts.accuracy.as_ref().ok_or_else(without)?.clone();
     let bound = accuracy.bounds.iter().find(|b| b.quantity == Quantity::MeanSte).cloned().ok_or_else(without)?;
-    let mut warnings: Vec<String> = solved.history.warnings.iter().map(ToString::to_string).collect();
-    warnings.extend(
+    let mut remarks: Vec<String> = solved.history.remarks.iter().map(ToString::to_string).collect();
+    remarks.extend(
         accuracy
             .not_covered
             .iter()
@@ -103,8 +103,8 @@ fn bounded(file: &str, text: &str, settings: &[String]) -> Result<Bounded, Analy
             .map(|n| format!("bounds are not calibrated for this: {n}")),
     );
     let missed: Vec<String> = accuracy.missed().map(Bound::words).collect();
-    warnings.extend(missed.iter().map(|words| format!("less exact than asked: {words}")));
-    Ok(Bounded { bound, warnings })
+    remarks.extend(missed.iter().map(|words| format!("less exact than asked: {words}")));
+    Ok(Bounded { bound, remarks })
 }
 
 /// A pair at rest against the same with `finer` settings beside its own: right where both bounds meet.
@@ -121,7 +121,7 @@ pub(super) fn against(file: &str, text: &str, settings: &[String], better: &[Str
         Ok(found) => found,
         Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
     };
-    let said = found.warnings.first().cloned();
+    let said = found.remarks.first().cloned();
     let finer = || bounded(file, text, better).ok().map(|b| [b.bound.corrected, b.bound.corrected_within]);
     let Some([exact, within]) = reference(file, better, finer) else {
         return Cell { outcome: Outcome::Warned, ..cell }.saying("there is no finer answer to hold it against");
@@ -164,7 +164,7 @@ pub(super) fn in_motion(file: &str, text: &str, settings: &[String], finer: &[&s
         Ok(found) => found,
         Err(error) => return Cell { outcome: refusal(&error), ..cell }.saying(error),
     };
-    let said = found.warnings.first().map(ToString::to_string);
+    let said = found.remarks.first().map(ToString::to_string);
     let mut better: Vec<String> = settings.to_vec();
     better.extend(finer.iter().map(|s| (*s).to_owned()));
     let exact = reference(file, &last_of_each(&better), || {

@@ -25,7 +25,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     Ok(vec![
         Figure::new(
             "what is said of a window of three teeth",
-            Shown::warned(&result.history.warnings, "the window was widened"),
+            Shown::warned(&result.history.remarks, "the window was widened"),
         )
         .beside(Shown::refused(&fixed, "window")),
         Figure::new(

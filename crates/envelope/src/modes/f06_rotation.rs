@@ -6,7 +6,7 @@ use analysis::worse;
 use dynamics::rotation_share;
 use fem::{DofMap, ElementOptions, Material, assemble_mass};
 use geometry::{Gear, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions, generate};
 use nalgebra::DMatrix;
 use reduction::{GearReducer, ModeChoice, ReductionOptions};
 
@@ -55,7 +55,7 @@ impl Turning {
         let dofs = DofMap::new(mesh.nodes.len(), &[]);
         let mass = assemble_mass(&mesh, &material, &dofs).map_err(EnvelopeError::of(piece))?;
         let parts =
-            GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
+            MeshedGear::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
         let options =
             ReductionOptions { sides: vec![Side::Left], window: 3, first: 0, elements: ElementOptions::default() };
         let fail = EnvelopeError::of::<reduction::ReductionError>(piece);
@@ -117,6 +117,6 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             .beside(Shown::at_least(at_a_tenth, 1.0)),
         Figure::new("gyroscopic matrix plus its transpose (Coriolis forces do no work)", Shown::at_most(skew, 1e-9)),
         Figure::new("pair at 6000/min: rotation over stiffness", Shown::at_most(slow.headline.elasticity.rotation_over_stiffness, 0.05)),
-        Figure::new("what is said at 60 000/min", Shown::warned(&fast.warnings, "Coriolis")),
+        Figure::new("what is said at 60 000/min", Shown::warned(&fast.remarks, "Coriolis")),
     ])
 }

@@ -27,7 +27,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_most(off(&with), 5.0),
         )
         .beside(Shown::at_least(off(&without), 5.0)),
-        Figure::new("what is said without modes", Shown::warned(&without.warnings, "elasticity is quasi-static there")),
+        Figure::new("what is said without modes", Shown::warned(&without.remarks, "elasticity is quasi-static there")),
         Figure::new(
             "change that is foreseen without modes, over the one found",
             Shown::at_least(100.0 * without.headline.elasticity.change_over_peak_to_peak / off(&without), 0.5),

@@ -2,7 +2,7 @@
 
 use analysis::worse;
 use fem::{ElementOptions, locks_from};
-use mesh::{ElementKind, Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use mesh::{ElementKind, Extent, GroupNames, MeshedGear, StructuredOptions, generate};
 
 use super::FailureMode;
 use crate::{
@@ -42,7 +42,7 @@ fn wedges(bench: &Bench) -> Result<Vec<String>, EnvelopeError> {
         block.tags = (1..=2 * block.tags.len() as u64).collect();
         (block.kind, block.connectivity) = (ElementKind::Wedge6, cut);
     }
-    let parts = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth());
+    let parts = MeshedGear::from_groups(mesh, &GroupNames::default(), gear.teeth());
     let material = fem::Material::new(2000.0, 0.49, 1.2e-9).map_err(EnvelopeError::of(piece))?;
     let full = reduction::FullGear::new(parts.map_err(EnvelopeError::of(piece))?, material, &ElementOptions::default());
     let gear = reduction::ElasticGear::Full(full.map_err(EnvelopeError::of(piece))?);

@@ -6,7 +6,7 @@ use contact::{
     nodal::{LinePoints, Scene as Search, closest_points, contact_row},
 };
 use geometry::{GearPair, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions, generate};
 use nalgebra::{Translation3, UnitQuaternion};
 use rayon::prelude::*;
 
@@ -68,7 +68,7 @@ fn missed(pair: &GearPair) -> Result<[usize; 3], EnvelopeError> {
     for gear in [&pair.pinion, &pair.wheel] {
         let mesh = generate(gear, &options).map_err(EnvelopeError::of(piece))?;
         let parts =
-            GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
+            MeshedGear::from_groups(mesh, &GroupNames::default(), gear.teeth()).map_err(EnvelopeError::of(piece))?;
         let surface = Box::new(gear.flank_of(Side::Left, 0));
         let faces = parts.flank(0, Side::Left).ok_or_else(|| EnvelopeError::piece(piece, "tooth 0 has none"))?;
         let patch = contact::flank::FlankPatch::new(0, surface, &parts.mesh().nodes, faces, Some, 1e-9);

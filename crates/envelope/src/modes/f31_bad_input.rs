@@ -104,6 +104,6 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_least(of_meshes[1], 0.25 * (MESHES * MshFormat::ALL.len() as u64) as f64),
         ),
         Figure::new("longest reading, s", Shown::at_most(of_scenes[2].max(of_meshes[2]), 1.0)),
-        Figure::new("a module that is no number", Shown::refused(&nan, "normal_module_mm")),
+        Figure::new("a module that is not a number", Shown::refused(&nan, "normal_module_mm")),
     ])
 }

@@ -14,7 +14,7 @@ pub(super) const MODE: FailureMode = FailureMode {
     name: "checks that cannot fail",
     file: "F41-idle-checks",
     scene: scene_text!("F41-idle-checks"),
-    fails: "A number is compared with itself, a maximum begins at 0 and loses what is no number, a bound is beyond all numbers: the check passes whatever the program does.",
+    fails: "A number is compared with itself, a maximum begins at 0 and loses what is not a number, a bound is beyond all numbers: the check passes whatever the program does.",
     does: "Each check is seen failing: a result is spoilt, one measure at a time, and its certificate must say so.",
     naive: &[],
     look,

@@ -2,6 +2,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 mod maps;
+mod patch_test;
 
 use envelope::{FailureMode, MODES};
 

@@ -32,9 +32,9 @@ impl ViewRecorder {
         self,
         scene: &Scene,
         model: &StaticModel,
-        warnings: &mut Vec<answer::Remark>,
+        remarks: &mut Vec<answer::Remark>,
     ) -> Option<View> {
-        self.view(scene, model).map_err(|e| warnings.push(analysis::remark::no_view(e.to_string()))).ok()
+        self.view(scene, model).map_err(|e| remarks.push(analysis::remark::no_view(e.to_string()))).ok()
     }
 
     /// What was remembered, with fields where they cost little beside what was solved.

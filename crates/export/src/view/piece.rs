@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;
 
 use geometry::Gear;
-use mesh::{ElementBlock, Face, FaceTable, GearMesh, Mesh, RootFillets};
+use mesh::{ElementBlock, Face, FaceTable, Mesh, MeshedGear, RootFillets};
 
 /// Points of a surface at most; a finer one is made coarser.
 const POINTS: usize = 12_000;
@@ -29,7 +29,7 @@ pub(super) struct Piece {
 
 impl Piece {
     /// The elements whose middle is nearest to one of `teeth` (0 .. z-1). `None` where the mesh has none.
-    pub(super) fn new(gear: &GearMesh, exact: &Gear, teeth: &BTreeSet<u32>) -> Option<Self> {
+    pub(super) fn new(gear: &MeshedGear, exact: &Gear, teeth: &BTreeSet<u32>) -> Option<Self> {
         let whole = gear.mesh();
         let mut nodes = BTreeSet::new();
         let mut chosen: Vec<Vec<bool>> = Vec::new();
@@ -66,9 +66,10 @@ impl Piece {
             (2..c.len()).for_each(|k| corners.push([c[0], c[k - 1], c[k]]));
         }
         let (points, triangles) = coarse_enough(&mesh.nodes, corners);
-        let upper = RootFillets::upper_radius(exact) * (1.0 + 1e-9);
+        let (upper, sign) = (RootFillets::upper_radius(exact), exact.sign());
+        let upper = upper * (1.0 + sign * 1e-9);
         let radius = |&n: &u32| mesh.nodes[n as usize][0].hypot(mesh.nodes[n as usize][1]);
-        let at_root = points.iter().map(|n| radius(n) <= upper).collect();
+        let at_root = points.iter().map(|n| sign * radius(n) <= upper).collect();
         (!triangles.is_empty()).then_some(Self { mesh, nodes, points, triangles, at_root })
     }
 }
@@ -78,7 +79,7 @@ fn tooth_of(mesh: &Mesh, element: &[u32], exact: &Gear) -> u32 {
     let mut sum = [0.0; 3];
     element.iter().for_each(|&n| sum.iter_mut().zip(mesh.nodes[n as usize]).for_each(|(s, x)| *s += x));
     let z = sum[2] / element.len().max(1) as f64;
-    let pitches = (sum[1].atan2(sum[0]) - exact.twist() * z) / TAU * f64::from(exact.teeth());
+    let pitches = (sum[1].atan2(sum[0]) - exact.twist() * z) / TAU * exact.signed_teeth();
     (pitches.round() as i64).rem_euclid(i64::from(exact.teeth())) as u32
 }
 

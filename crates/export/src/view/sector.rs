@@ -27,7 +27,9 @@ impl Surface {
         let height = |j: usize| half * (2.0 * j as f64 / steps as f64 - 1.0);
         let ring = |z: f64, radius: Option<f64>| {
             outline.iter().map(move |&(r, angle)| {
-                let (sin, cos) = (angle + gear.twist() * z).sin_cos();
+                // The section of a ring's tooth is on the side of -x.
+                let section = if gear.is_internal() { PI } else { 0.0 };
+                let (sin, cos) = (section + angle + gear.twist() * z).sin_cos();
                 let r = radius.unwrap_or(r);
                 [r * cos, r * sin, z]
             })
@@ -52,7 +54,7 @@ impl Surface {
     }
 }
 
-/// Radius (mm) and angle (rad) along the transverse section of tooth 0, counter-clockwise.
+/// Radius (mm) and angle (rad) along the transverse section of tooth 0, counter-clockwise; of a ring as [`geometry::TransverseProfile`] has them, negative.
 fn outline(gear: &Gear) -> Vec<(f64, f64)> {
     let profile = gear.profile();
     let involute = (0..=INVOLUTE).map(|i| {
@@ -61,7 +63,7 @@ fn outline(gear: &Gear) -> Vec<(f64, f64)> {
     });
     let fillet = (0..FILLET).rev().map(|i| profile.fillet(i as f64 / FILLET as f64));
     let mut half: Vec<(f64, f64)> = involute.chain(fillet).collect();
-    half.push((gear.root_radius(), PI / f64::from(gear.teeth())));
+    half.push((gear.root_radius(), PI / gear.signed_teeth()));
     let mirrored = half.iter().rev().map(|&(r, angle)| (r, -angle));
     let middle = [(gear.tip_radius(), 0.0)];
     mirrored.chain(middle).chain(half.iter().copied()).collect()

@@ -46,33 +46,33 @@ impl GearboxMechanism {
         let turn = self.free.turn;
         let rates = self.displacements(mesh, v);
         let cycles = self.cycles(mesh, angle);
-        let (d, live) = self.ask(mesh, angle, q)?;
+        let d = self.displacements(mesh, q);
+        let live = &mut self.live[mesh];
+        let reply = live.reply(&self.meshes[mesh], cycles, &d, out.tangents)?.clone();
         let per_turn = live.cycles_per_turn;
         let passing = per_turn * speed;
-        let damper = live.element().damping(&rates, passing);
+        let losses = live.element().losses(&rates, passing);
         let energy_rate = live.element().energy_rate();
-        let live = &mut self.live[mesh];
-        let reply = live.reply(&self.meshes[mesh], cycles, &d)?.clone();
         let to_gears = &live.to_gears;
-        out.conservative += to_gears.tr_mul(&reply.force);
-        out.other += to_gears.tr_mul(&damper.force);
-        out.dissipated += damper.dissipated;
+        out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
+        out.other += to_gears.tr_mul(&(losses.friction + losses.force));
+        out.dissipated += losses.dissipated;
         match turn {
             Some(i) => {
                 out.conservative[i] -= per_turn * energy_rate;
-                out.other[i] += per_turn * damper.along_cycles;
+                out.other[i] += per_turn * losses.along_cycles;
             }
             None => {
-                // What the input pushes uneven teeth through with.
-                out.supplied -= damper.along_cycles * passing;
+                // What the input pushes uneven teeth through with, and against friction.
+                out.supplied -= losses.along_cycles * passing;
                 if out.rates {
                     out.parametric += energy_rate * passing;
                 }
             }
         }
         if out.tangents {
-            out.stiffness += to_gears.tr_mul(&((damper.slope - reply.tangent) * to_gears));
-            out.damping += to_gears.tr_mul(&(damper.rate_slope * to_gears));
+            out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears));
+            out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
         }
         Ok(())
     }
@@ -96,6 +96,16 @@ impl Mechanism for GearboxMechanism {
         let mut sum = 0.5 * q.dot(&(&self.stiffness * q));
         for i in 0..self.live.len() {
             sum += self.ask(i, angle, q)?.1.element().energy();
+        }
+        Ok(sum)
+    }
+
+    fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
+        let [angle, _] = self.input(t, q, q);
+        let mut sum = 0.5 * q.dot(&(&self.stiffness * q));
+        for i in 0..self.live.len() {
+            let (cycles, d) = (self.cycles(i, angle), self.displacements(i, q));
+            sum += self.live[i].energy_at(&self.meshes[i], cycles, &d)?;
         }
         Ok(sum)
     }
@@ -125,9 +135,8 @@ impl Mechanism for GearboxMechanism {
         for i in 0..self.live.len() {
             let (_, live) = self.ask(i, angle, q)?;
             let reach = live.element().reach();
-            let checked = live.element().check();
             self.reach[i] = self.reach[i].max(reach);
-            checked.map_err(|source| crate::static_gearbox::at_mesh(&self.meshes[i], source))?;
+            self.live[i].accept(&self.meshes[i])?;
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use contact::FlankProjection;
 use lumped::Fourier;
 
 use super::{SpringMesh, TiltingSpring, tilting_spring::TiltingCoefficients};
-use crate::{ExactMesh, GearboxError, Mesh, MeshElement, Meshing, Vector12};
+use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, Meshing, Vector12};
 
 /// Orders of a series over `n` samples that are kept: beyond them teeth that come and go would ring.
 const SAMPLES_PER_ORDER: usize = 4;
@@ -16,6 +16,8 @@ pub struct ContactSpring {
     coefficients: TiltingCoefficients,
     /// Mean normal force, N.
     pub force: f64,
+    /// Mean length of the contact lines that carry it, mm.
+    pub length: f64,
 }
 
 impl ContactSpring {
@@ -31,12 +33,13 @@ impl ContactSpring {
         let projection = FlankProjection::new(mesh.pair(), mesh.options().side());
         let samples = samples.max(1);
         let mut all: [Vec<f64>; 5] = Default::default();
-        let mut sum = 0.0;
+        let (mut sum, mut length) = (0.0, 0.0);
         for i in 0..samples {
             mesh.go_to(i as f64 / samples as f64)?;
             let (force, own) = sample(mesh, &projection, about)?;
             all.iter_mut().zip(own).for_each(|(list, x)| list.push(x));
             sum += force;
+            length += mesh.pressed().map(|(_, _, length)| length).sum::<f64>();
         }
         let series = |quantity, values: &[f64]| {
             let found = Fourier::of_samples(quantity, values, samples / SAMPLES_PER_ORDER);
@@ -50,7 +53,8 @@ impl ContactSpring {
             by_tilt: [series("stiffness by tilt, N/(mm rad)", m)?, series("stiffness by tilt, N/(mm rad^2)", n)?],
             tilt: projection.tilt.dot(about),
         };
-        Ok(Self { projection, coefficients, force: sum / samples as f64 })
+        let [force, length] = [sum, length].map(|x| x / samples as f64);
+        Ok(Self { projection, coefficients, force, length })
     }
 
     /// Stiffness along the normal, N/mm, over the phase, 2 pi a mesh cycle.
@@ -62,7 +66,7 @@ impl ContactSpring {
     ///
     /// # Errors
     /// As [`SpringMesh::new`].
-    pub fn mesh(&self, mesh: &Mesh, meshing: &Meshing) -> Result<TiltingSpring, GearboxError> {
+    pub fn mesh(&self, mesh: &GearMesh, meshing: &Meshing) -> Result<TiltingSpring, GearboxError> {
         let c = &self.coefficients;
         let both = SpringMesh::new(mesh, meshing, c.stiffness.clone())?.with_excess(c.excess.clone());
         let coast = both.with_coast_flanks(mesh, meshing)?.without_drive_flanks();

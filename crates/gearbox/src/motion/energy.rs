@@ -24,9 +24,9 @@ pub struct GearboxEnergy {
     pub supports: f64,
     /// Elastic energy of the meshes.
     pub meshes: f64,
-    /// What has been stored since the start, of all four.
+    /// Energy stored since the start, of all four kinds.
     pub gained: f64,
-    /// What bearings, modes and meshes have taken.
+    /// Energy dissipated in bearings, modes and meshes.
     pub dissipated: f64,
     /// What does not close, over the sum of all work and of the kinetic energy at the start.
     pub relative_residual: f64,

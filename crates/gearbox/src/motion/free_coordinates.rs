@@ -18,7 +18,7 @@ pub(super) struct FreeCoordinates {
     pub basis: DMatrix<f64>,
     /// r.
     pub rigid: DVector<f64>,
-    /// What the input torque acts on.
+    /// Generalised force of a unit input torque.
     pub input: DVector<f64>,
     /// r in the coordinates z without psi: turns of the train with the input held back to its place.
     pub turning: DVector<f64>,

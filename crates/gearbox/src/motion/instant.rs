@@ -1,4 +1,4 @@
-//! What is read off a state of the motion.
+//! Quantities of an instant of the motion.
 
 use integrate::State;
 use nalgebra::{DMatrix, DVector};
@@ -17,7 +17,7 @@ pub struct MeshInstant {
     pub transmission_error: f64,
     /// Sum of the normal forces, N, elastic part.
     pub normal_force: f64,
-    /// Forces (N) and moments (N mm) on gear 1 and gear 2, damping included, common axes.
+    /// Forces (N) and moments (N mm) on gear 1 and gear 2, friction and damping included, common axes.
     pub wrench: [f64; 12],
 }
 
@@ -39,7 +39,7 @@ pub struct GearboxInstant {
 }
 
 impl GearboxMechanism {
-    /// What results hold of a state.
+    /// Quantities of the instant at a state.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.
@@ -86,11 +86,11 @@ impl GearboxMechanism {
         let rates = self.displacements(mesh, v);
         let (d, live) = self.ask(mesh, angle, q)?;
         let passing = live.cycles_per_turn * speed;
-        let damper = live.element().damping(&rates, passing);
+        let losses = live.element().losses(&rates, passing);
         let live = &mut self.live[mesh];
         let turn = live.turn;
-        let reply = live.reply(&self.meshes[mesh], cycles, &d)?;
-        let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + damper.force));
+        let reply = live.reply(&self.meshes[mesh], cycles, &d, false)?;
+        let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + losses.force));
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
         let transmission_error = meshing.side().sign() * (r1 * d[5] + r2 * d[11]);

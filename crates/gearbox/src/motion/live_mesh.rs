@@ -1,9 +1,10 @@
 //! A mesh at its place between two bodies.
 
+use dynamics::FlankStates;
 use nalgebra::{DMatrix, Dyn, OMatrix, SMatrix, U12};
 
 use super::MovingMesh;
-use crate::{GearboxError, Mesh, MeshReply, Vector12, static_gearbox::at_mesh};
+use crate::{GearMesh, GearboxError, MeshForces, Vector12, static_gearbox::at_mesh};
 
 /// An element, what the coordinates of the motion do to its gears, and its last answer.
 pub(super) struct LiveMesh {
@@ -16,7 +17,15 @@ pub(super) struct LiveMesh {
     pub turn: SMatrix<f64, 12, 12>,
     /// Mesh cycles a radian of the input.
     pub cycles_per_turn: f64,
-    last: Option<(f64, Vector12, MeshReply)>,
+    last: Option<Last>,
+}
+
+/// An answer, and what it is to.
+struct Last {
+    cycles: f64,
+    displacements: Vector12,
+    reply: MeshForces,
+    tangents: bool,
 }
 
 impl LiveMesh {
@@ -31,19 +40,50 @@ impl LiveMesh {
         Self { element, to_gears: turn.transpose() * at_gears, gears, turn, cycles_per_turn, last: None }
     }
 
-    /// Forces at a place; the same place once more costs nothing.
-    pub fn reply(&mut self, mesh: &Mesh, cycles: f64, d: &Vector12) -> Result<&MeshReply, GearboxError> {
-        let known = self.last.as_ref().is_some_and(|(c, at, _)| *c == cycles && at == d);
-        if !known {
+    /// Forces at a place, with any tangent unless `tangents` asks for it; the same place once more costs nothing.
+    pub fn reply(
+        &mut self,
+        mesh: &GearMesh,
+        cycles: f64,
+        d: &Vector12,
+        tangents: bool,
+    ) -> Result<&MeshForces, GearboxError> {
+        let serves = |last: &Last| last.cycles == cycles && last.displacements == *d && (last.tangents || !tangents);
+        let last = match self.last.take().filter(serves) {
+            Some(known) => known,
+            None => {
+                let named = |source| at_mesh(mesh, source);
+                self.element.go_to(cycles).map_err(named)?;
+                let answer = if tangents { self.element.evaluate(d) } else { self.element.evaluate_forces(d) };
+                Last { cycles, displacements: *d, reply: answer.map_err(named)?, tangents }
+            }
+        };
+        Ok(&self.last.insert(last).reply)
+    }
+
+    /// Energy at a place off the path of the motion; its last answer is lost.
+    pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, d: &Vector12) -> Result<f64, GearboxError> {
+        self.last = None;
+        self.element.energy_at(cycles, d).map_err(|source| at_mesh(mesh, source))
+    }
+
+    /// The end of a step where it was asked last: tooth changes are taken, and its forces are all there are.
+    pub fn accept(&mut self, mesh: &GearMesh) -> Result<(), GearboxError> {
+        if self.element.accept().map_err(|source| at_mesh(mesh, source))? {
             self.last = None;
-            let named = |source| at_mesh(mesh, source);
-            self.element.go_to(cycles).map_err(named)?;
-            let reply = self.element.evaluate(d).map_err(named)?;
-            self.last = Some((cycles, *d, reply));
         }
-        // It is there in either case.
-        let lost = GearboxError::OutOfRange { part: mesh.name.clone(), quantity: "mesh cycles", value: cycles };
-        self.last.as_ref().map(|(_, _, reply)| reply).ok_or(lost)
+        Ok(())
+    }
+
+    /// Where the windows of its teeth stand, if it has some.
+    pub fn windows(&self) -> Option<FlankStates> {
+        self.element.windows()
+    }
+
+    /// Restores the windows of its teeth.
+    pub fn restore(&mut self, windows: &FlankStates) -> Result<(), GearboxError> {
+        self.last = None;
+        self.element.restore_windows(windows)
     }
 
     /// Forgets what it remembers of earlier places.

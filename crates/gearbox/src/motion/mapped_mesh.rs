@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use contact::FlankProjection;
-use contact_map::{ContactMap, ContactSample, KeptPlaces, LoadedSlice, MapContact, MapPlan, PhaseContact, Wanted};
+use contact_map::{ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, PhaseContact, SplineCache, Wanted};
 use geometry::GearPair;
 use ltca::StaticOptions;
 use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
-use super::{MeshDamper, MovingMesh};
-use crate::{ExactMesh, GearboxError, MeshElement, MeshReply, Vector12, mesh_element::finite_cycles};
+use super::{MeshLosses, MovingMesh};
+use crate::{ExactMesh, GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
 
 /// What a map of a mesh must hold, and how well.
 #[derive(Debug, Clone, PartialEq)]
@@ -23,7 +23,8 @@ pub struct MapRequest {
     pub overload: f64,
     /// Root mean square of the approach's error over the mean approach that is aimed at.
     pub tolerance: f64,
-    /// The same with which a map is taken that would cost too much to be finer.
+    /// Largest root mean square of the approach's error over the mean approach of a map that is taken: of one that
+    /// would cost too much to refine.
     pub worst: f64,
 }
 
@@ -33,7 +34,7 @@ pub struct MapRequest {
 pub struct MappedMesh {
     map: Arc<ContactMap>,
     projection: FlankProjection,
-    kept: KeptPlaces,
+    kept: SplineCache,
     /// N s/mm a mm of contact line.
     damping_per_length: f64,
     /// Backlash along the normal, mm.
@@ -76,7 +77,7 @@ impl MappedMesh {
         Ok(Self {
             map: Arc::new(map),
             projection,
-            kept: KeptPlaces::default(),
+            kept: SplineCache::default(),
             damping_per_length: 0.0,
             backlash: pair.backlash() * pair.base_helix_angle().cos(),
             cycles: 0.0,
@@ -86,7 +87,7 @@ impl MappedMesh {
         })
     }
 
-    /// With dampers on the contact lines, N s/mm a mm, each held at the force there.
+    /// Mesh with dampers on the contact lines, N s/mm a mm, each limited to the force there.
     #[must_use]
     pub fn with_damping(self, per_length: f64) -> Self {
         Self { damping_per_length: per_length, ..self }
@@ -110,12 +111,12 @@ impl MappedMesh {
     }
 }
 
-/// What no map holds.
+/// Refuses meshes that no map holds.
 fn refuse(pair: &GearPair, options: &StaticOptions, request: &MapRequest) -> Result<(), GearboxError> {
     let what = if options.contact.friction > 0.0 {
         "friction"
-    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.modifications().has_pitch_errors()) {
-        "pitch errors: the contact comes back after whole turns, not after a mesh cycle"
+    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_teeth()) {
+        "pitch errors or flanks by tooth: the contact comes back after whole turns, not after a mesh cycle"
     } else if request.stands.is_empty() || !(request.mean_force > 0.0 && request.mean_force.is_finite()) {
         "a mesh without load: nothing says what forces occur"
     } else {
@@ -139,7 +140,7 @@ impl MeshElement for MappedMesh {
         Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let Self { map, projection, kept, .. } = self;
         let along = [&projection.approach, &projection.tilt];
         [self.approach, self.tilt] = along.map(|a| a.dot(displacements));
@@ -153,7 +154,7 @@ impl MeshElement for MappedMesh {
             }
         }
         let force = contact.moment * projection.tilt - contact.force * projection.approach;
-        Ok(MeshReply { force, tangent, normal_force: contact.force })
+        Ok(MeshForces { force, tangent, normal_force: contact.force })
     }
 
     /// Refuses a place at which the flanks that the map does not have would touch.
@@ -175,11 +176,11 @@ impl MovingMesh for MappedMesh {
         self.contact.phase_rate
     }
 
-    fn damping(&mut self, rates: &Vector12, _cycles: f64) -> MeshDamper {
+    fn losses(&mut self, rates: &Vector12, _cycles: f64) -> MeshLosses {
         let along = [&self.projection.approach, &self.projection.tilt];
         let own = along.map(|a| a.dot(rates));
         let found = self.map.damping(self.kept.last(), &self.contact, own, self.damping_per_length);
-        let mut all = MeshDamper::default();
+        let mut all = MeshLosses::default();
         for (i, a) in along.into_iter().enumerate() {
             all.force -= found.force[i] * a;
             all.dissipated += found.force[i] * own[i];

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
 use crate::{
-    Assembly, GearboxError, Mesh, Meshing, Operation, Structure, Train, Vector12,
+    Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
     even_mesh::turn,
     static_gearbox::{at_mesh, check},
 };
@@ -17,7 +17,7 @@ use crate::{
 /// ```
 pub struct GearboxMechanism {
     pub(super) assembly: Assembly,
-    pub(super) meshes: Vec<Mesh>,
+    pub(super) meshes: Vec<GearMesh>,
     pub(super) train: Train,
     pub(super) operation: Operation,
     pub(super) bodies: ReducedBodies,
@@ -26,17 +26,17 @@ pub struct GearboxMechanism {
     pub(super) drive: Drive,
     pub(super) mass: DMatrix<f64>,
     pub(super) stiffness: DMatrix<f64>,
-    /// Of bearings and modes.
+    /// Damping of bearings and modes.
     pub(super) damping: DMatrix<f64>,
-    /// At the unit speed of the input.
+    /// Gyroscopic matrix at the unit speed of the input.
     pub(super) gyroscopic: DMatrix<f64>,
     /// Torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
     /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
     pub(super) momentum: DVector<f64>,
-    /// Of preloaded bearings on the bodies.
+    /// Forces of preloaded bearings on the bodies.
     pub(super) preload: DVector<f64>,
-    /// Of the outputs with the preloads of bearings, and of the input where a torque drives.
+    /// Loads of the outputs with the preloads of bearings, and load of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
     /// Most that each mesh has been used of what it holds, at the ends of steps.
     pub(super) reach: Vec<f64>,
@@ -45,17 +45,17 @@ pub struct GearboxMechanism {
 }
 
 impl GearboxMechanism {
-    /// With one element a mesh, in their order; `elements` makes them from how the mesh runs. Modal damping comes with
-    /// the start of the motion ([`GearboxMechanism::start`]).
+    /// Mechanism with one element a mesh, in their order; `elements` makes them from how the mesh runs. Modal damping
+    /// comes with the start of the motion ([`GearboxMechanism::start`]).
     ///
     /// # Errors
     /// [`GearboxError`]: where parts do not fit, a torque drives, or a bearing holds the turn about the axis.
     pub fn new(
         structure: Structure,
-        meshes: Vec<Mesh>,
+        meshes: Vec<GearMesh>,
         operation: Operation,
         options: &MotionOptions,
-        mut elements: impl FnMut(usize, &Mesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
+        mut elements: impl FnMut(usize, &GearMesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
     ) -> Result<Self, GearboxError> {
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
         check(&structure, &train, &operation)?;
@@ -86,7 +86,8 @@ impl GearboxMechanism {
         let (start_cycles, further) = (train.cycles(0.0), train.cycles(1.0));
         let mut live = Vec::new();
         for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
-            let element = elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?;
+            let mut element = elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?;
+            element.begin_at(start_cycles[i]).map_err(|source| at_mesh(mesh, source))?;
             let gears = mesh.discs.map(|d| bodies.of_node(assembly.disc(d).unwrap_or(0)));
             let rate = further[i] - start_cycles[i];
             live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), rate));
@@ -173,7 +174,7 @@ impl GearboxMechanism {
         self.start_cycles[mesh] + self.live[mesh].cycles_per_turn * angle
     }
 
-    /// Has a mesh answer at a state.
+    /// Has a mesh answer at a state, with any tangent.
     pub(super) fn ask(
         &mut self,
         mesh: usize,
@@ -183,7 +184,7 @@ impl GearboxMechanism {
         let cycles = self.cycles(mesh, angle);
         let d = self.displacements(mesh, q);
         let live = &mut self.live[mesh];
-        live.reply(&self.meshes[mesh], cycles, &d)?;
+        live.reply(&self.meshes[mesh], cycles, &d, false)?;
         Ok((d, live))
     }
 
@@ -194,7 +195,7 @@ impl GearboxMechanism {
     }
 }
 
-/// That speed, damping and bearings have a meaning in motion.
+/// Checks that speed, damping and bearings have a meaning in motion.
 fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), GearboxError> {
     let (torque, [speed, last, duration]) = match options.drive {
         Drive::Speed(Speed::Constant(speed)) => (0.0, [speed; 3]),

@@ -6,7 +6,8 @@
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
-//! | `start`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
+//! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
+//! | `periodic_state` | where it settles to, without waiting |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
@@ -22,7 +23,9 @@ mod moving_exact;
 mod moving_mesh;
 mod normal_damper;
 mod options;
+mod periodic_state;
 mod pitch_errors;
+mod plan;
 mod reduced_bodies;
 mod run;
 mod spring_mesh;
@@ -35,11 +38,13 @@ pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use mapped_mesh::{MapRequest, MappedMesh};
 pub use mechanism::GearboxMechanism;
+pub use memory::MeshMemory;
 pub use moving_exact::MovingExactMesh;
-pub use moving_mesh::{MeshDamper, MovingMesh};
+pub use moving_mesh::{MeshLosses, MovingMesh};
 pub use options::{Drive, MotionOptions};
 pub use pitch_errors::PitchErrors;
+pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
-pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes, MotionPlan};
+pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
 pub use spring_mesh::SpringMesh;
 pub use tilting_spring::TiltingSpring;

@@ -1,103 +1,173 @@
-//! The exact contact itself as a mesh in motion: every step solves it anew. Theory (81), (93).
+//! The exact contact itself as a mesh in motion: every step solves it anew. Theory (46), (47), (93).
 
-use contact::{FlankProjection, SliceResult};
+use std::sync::Arc;
 
-use super::{MeshDamper, MovingMesh, normal_damper::NormalDamper};
-use crate::{ExactMesh, GearboxError, MeshElement, MeshReply, Vector12};
+use contact::SliceResult;
+use dynamics::{FlankForces, FlankStates, MeshFlanks};
+use geometry::GearPair;
+use ltca::StaticOptions;
+use reduction::ElasticGear;
 
-/// The driving flanks of an [`ExactMesh`], with a damper along their normal.
+use super::{MeshLosses, MovingMesh};
+use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
+
+/// The flanks of a pair as it moves alone ([`MeshFlanks`]): friction, a damper on each loaded slice, and the coast flanks
+/// where these may touch.
 ///
 /// Pitch errors and all else that the pair has are in it. Turns of the nominal motion are turns of the gears: the energy
 /// follows the mesh cycles by the moments about their axes.
 #[derive(Debug)]
 pub struct MovingExactMesh {
-    mesh: ExactMesh,
-    projection: FlankProjection,
-    damping: f64,
+    pair: GearPair,
+    flanks: MeshFlanks,
+    /// N s/mm a mm of contact line.
+    damping_per_length: f64,
     /// Angles of gear 1 and gear 2 a mesh cycle, rad about +z.
     per_cycle: [f64; 2],
+    /// Backlash along the normal, mm.
     backlash: f64,
-    at: Option<(Vector12, MeshReply)>,
+    cycles: f64,
+    at: Option<Answer>,
+}
+
+/// What was asked for last.
+#[derive(Debug)]
+struct Answer {
+    displacements: Vector12,
+    forces: FlankForces,
+    tangents: bool,
 }
 
 impl MovingExactMesh {
-    /// With a damper along the normal, N s/mm, held at the force of the flanks.
-    pub fn new(mesh: ExactMesh, damping: f64) -> Self {
-        let (pair, options) = (mesh.pair(), mesh.options());
+    /// Gears reduced for the driving flanks of `options`, and for their coast flanks where these may touch. Driver and sense
+    /// of the options are those of [`crate::Train::meshing`]; the torque is not used. `damping_per_length`: N s/mm a mm of
+    /// contact line, on each slice held at its own force.
+    ///
+    /// # Errors
+    /// [`GearboxError::Contact`]: points, or gears that are not reduced for these flanks.
+    pub fn new(
+        pair: GearPair,
+        driving: Arc<[ElasticGear; 2]>,
+        coast: Option<Arc<[ElasticGear; 2]>>,
+        options: &StaticOptions,
+        damping_per_length: f64,
+    ) -> Result<Self, GearboxError> {
+        // Each side is a contact of its own.
+        let options = options.clone().with_contact(|c| c.both_flanks = false);
+        let flanks = MeshFlanks::new(&pair, driving, coast, &options, 0.0)?;
         let sense = options.contact.sense.sign() as f64;
         let per_cycle = [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()];
         let backlash = pair.backlash() * pair.base_helix_angle().cos();
-        let projection = FlankProjection::new(pair, options.side());
-        Self { mesh, projection, damping, per_cycle, backlash, at: None }
+        Ok(Self { pair, flanks, damping_per_length, per_cycle, backlash, cycles: 0.0, at: None })
+    }
+
+    fn answer(&mut self, displacements: &Vector12, tangents: bool) -> Result<MeshForces, GearboxError> {
+        self.at = None;
+        let forces = self.flanks.forces(&self.pair, self.cycles, displacements, tangents)?;
+        let reply = MeshForces {
+            force: forces.normal + forces.friction,
+            tangent: -forces.stiffness,
+            normal_force: forces.sums[0] + forces.sums[1],
+        };
+        self.at = Some(Answer { displacements: *displacements, forces, tangents });
+        Ok(reply)
+    }
+
+    /// Power of forces on both gears as these turn by a mesh cycle, N mm.
+    fn by_cycles(&self, force: &Vector12) -> f64 {
+        force[5] * self.per_cycle[0] + force[11] * self.per_cycle[1]
     }
 }
 
 impl MeshElement for MovingExactMesh {
     fn go_to(&mut self, cycles: f64) -> Result<(), GearboxError> {
         self.at = None;
-        self.mesh.go_to(cycles)
+        self.cycles = finite_cycles(cycles)?;
+        Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
-        self.at = None;
-        let reply = self.mesh.evaluate(displacements)?;
-        self.at = Some((*displacements, reply.clone()));
-        Ok(reply)
-    }
-
-    /// Refuses a window that is too narrow, and a place at which the other flanks would touch.
-    fn check(&mut self) -> Result<(), GearboxError> {
-        let [overlap, _] = self.overlaps()?;
-        if -overlap > self.backlash {
-            return Err(GearboxError::BeyondBacklash { gap_mm: -overlap, backlash_mm: self.backlash });
-        }
-        if overlap > 0.0 { self.mesh.check() } else { Ok(()) }
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
+        self.answer(displacements, true)
     }
 
     fn slices(&self) -> Vec<SliceResult> {
-        self.mesh.slices()
+        self.flanks.driving_slices()
     }
 }
 
 impl MovingMesh for MovingExactMesh {
+    fn begin_at(&mut self, cycles: f64) -> Result<(), GearboxError> {
+        self.at = None;
+        Ok(self.flanks.begin_at(&self.pair, finite_cycles(cycles)?)?)
+    }
+
+    fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
+        self.answer(displacements, false)
+    }
+
     fn energy(&self) -> f64 {
-        self.mesh.strain_energy()
+        self.flanks.strain_energy()
+    }
+
+    fn energy_at(&mut self, cycles: f64, displacements: &Vector12) -> Result<f64, GearboxError> {
+        self.go_to(cycles)?;
+        Ok(self.flanks.energy(&self.pair, self.cycles, displacements)?)
     }
 
     fn energy_rate(&self) -> f64 {
-        let moments = self.at.as_ref().map_or([0.0; 2], |(_, reply)| [reply.force[5], reply.force[11]]);
-        -(moments[0] * self.per_cycle[0] + moments[1] * self.per_cycle[1])
+        self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.forces.normal))
     }
 
-    fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper {
-        let mut all = MeshDamper::default();
-        if let Some((_, reply)) = self.at.as_ref().filter(|(_, reply)| reply.normal_force > 0.0) {
-            let lever = &self.projection.approach;
-            let stiffness = -reply.tangent[(11, 11)] / (lever[11] * lever[11]);
-            let (damping, force) = (self.damping, reply.normal_force);
-            NormalDamper { lever, damping, force, stiffness, by_cycles: 0.0 }.add(rates, cycles, &mut all);
+    fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
+        let Some(Answer { displacements, forces, tangents }) = &self.at else { return MeshLosses::default() };
+        let (friction, moving) = (forces.friction, (displacements, rates));
+        let dampers = self.flanks.damping(&self.pair, self.cycles, moving, self.damping_per_length, *tangents);
+        let along_cycles = self.by_cycles(&friction);
+        MeshLosses {
+            friction,
+            force: dampers.force,
+            along_cycles,
+            rate_slope: dampers.rate_slope,
+            slope: dampers.slope,
+            // Of the whole sliding, that of the nominal turn and that of the deviations.
+            dissipated: dampers.dissipated - (friction.dot(rates) + along_cycles * cycles),
         }
-        all
+    }
+
+    fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
+        let found = self.at.as_ref().map(|at| self.flanks.overlaps(&self.pair, self.cycles, &at.displacements));
+        Ok(found.unwrap_or([f64::NEG_INFINITY; 2]))
+    }
+
+    /// Moves the windows; refuses one that is too narrow, teeth that have gone through each other, and a place at which
+    /// coast flanks would touch that are not there.
+    fn accept(&mut self) -> Result<bool, GearboxError> {
+        let Some(Answer { displacements, .. }) = &self.at else { return Ok(false) };
+        let d = *displacements;
+        if !self.flanks.has_coast_flanks() {
+            let gap_mm = -self.flanks.overlaps(&self.pair, self.cycles, &d)[0];
+            if gap_mm > self.backlash {
+                return Err(GearboxError::BeyondBacklash { gap_mm, backlash_mm: self.backlash });
+            }
+        }
+        let moved = self.flanks.accept(&self.pair, self.cycles, &d)?;
+        if moved {
+            self.at = None;
+        }
+        Ok(moved)
+    }
+
+    fn windows(&self) -> Option<FlankStates> {
+        Some(self.flanks.state())
+    }
+
+    fn restore_windows(&mut self, windows: &FlankStates) -> Result<(), GearboxError> {
+        self.at = None;
+        Ok(self.flanks.restore(&self.pair, windows)?)
     }
 
     fn forget(&mut self) {
         self.at = None;
-        self.mesh.forget_history();
-    }
-
-    fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
-        let deepest = self.mesh.deepest_overlap();
-        let drive = match &self.at {
-            // Flanks that press overlap; apart, their gap has to be looked for, and what was evaluated is lost.
-            Some((_, reply)) if reply.normal_force > 0.0 => deepest,
-            Some((d, _)) => {
-                let d = *d;
-                let gap = self.mesh.overlap(&d);
-                self.mesh.evaluate(&d)?;
-                gap
-            }
-            None => deepest,
-        };
-        Ok([drive, f64::NEG_INFINITY])
+        self.flanks.forget();
     }
 }

@@ -1,21 +1,48 @@
-//! What a motion asks of a mesh beside its forces at rest: energy, dampers, free flight. Theory (93).
+//! What a motion asks of a mesh beside its forces at rest: energy, losses, free flight, tooth changes. Theory (93).
 
+use dynamics::FlankStates;
 use nalgebra::SMatrix;
 
-use crate::{GearboxError, MeshElement, Vector12};
+use crate::{GearboxError, MeshElement, MeshForces, Vector12};
 
 /// A mesh whose gears move. All questions are about the place of the last [`MeshElement::go_to`] and the displacements
-/// of the last [`MeshElement::evaluate`]; forces are the exact derivative of the energy.
+/// of the last [`MeshElement::evaluate`]; forces without friction are the exact derivative of the energy.
 pub trait MovingMesh: MeshElement {
+    /// Told once, before all else, where in the mesh cycles the motion begins: for a mesh whose teeth change on the way.
+    ///
+    /// # Errors
+    /// [`GearboxError`] for a place that cannot be.
+    fn begin_at(&mut self, _cycles: f64) -> Result<(), GearboxError> {
+        Ok(())
+    }
+
+    /// [`MeshElement::evaluate`] with any tangent: forces alone are wanted.
+    ///
+    /// # Errors
+    /// As of [`MeshElement::evaluate`].
+    fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
+        self.evaluate(displacements)
+    }
+
     /// Elastic energy V, N mm; 0 in free flight.
     fn energy(&self) -> f64;
+
+    /// The same at another place, to twelve digits; where the mesh stands afterwards is open.
+    ///
+    /// # Errors
+    /// As of [`MeshElement::evaluate`].
+    fn energy_at(&mut self, cycles: f64, displacements: &Vector12) -> Result<f64, GearboxError> {
+        self.go_to(cycles)?;
+        self.evaluate_forces(displacements)?;
+        Ok(self.energy())
+    }
 
     /// dV/dc: how it follows the mesh cycles with displacements held, N mm a cycle.
     fn energy_rate(&self) -> f64;
 
-    /// Dampers of the flanks that touch, with the gears moving at `rates` beside their nominal motion (mm/s, rad/s) and
-    /// the mesh going on by `cycles` a second.
-    fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper;
+    /// Friction and dampers of the flanks that touch, with the gears moving at `rates` beside their nominal motion (mm/s,
+    /// rad/s) and the mesh going on by `cycles` a second.
+    fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses;
 
     /// How far the undeformed flanks overlap on the side that drives and on the other one, mm along the normal;
     /// negative where they are apart, and minus infinity for a side that this mesh does not have.
@@ -23,6 +50,29 @@ pub trait MovingMesh: MeshElement {
     /// # Errors
     /// [`GearboxError`] when it is not known.
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError>;
+
+    /// Asked at the end of a step, after [`MeshElement::evaluate`]: takes the tooth changes that are due, which leave the
+    /// forces as they are, and tells whether there was one; the mesh then stands nowhere.
+    ///
+    /// # Errors
+    /// [`GearboxError`] when the forces are not all there are.
+    fn accept(&mut self) -> Result<bool, GearboxError> {
+        self.check()?;
+        Ok(false)
+    }
+
+    /// Where the windows of teeth stand that it has; none for a mesh that is a function of its place.
+    fn windows(&self) -> Option<FlankStates> {
+        None
+    }
+
+    /// Restores the windows.
+    ///
+    /// # Errors
+    /// [`GearboxError`] for windows that cannot be.
+    fn restore_windows(&mut self, _windows: &FlankStates) -> Result<(), GearboxError> {
+        Ok(())
+    }
 
     /// Forgets what it remembers of earlier places, so that answers depend on the place alone to the last bit. Nothing to
     /// do for a mesh that is a pure function of it.
@@ -35,24 +85,29 @@ pub trait MovingMesh: MeshElement {
     }
 }
 
-/// What dampers of a mesh do.
+/// What friction and dampers of a mesh do.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MeshDamper {
-    /// Forces (N) and moments (N mm) on gear 1 and gear 2, in the mesh's own axes.
+pub struct MeshLosses {
+    /// Friction: forces (N) and moments (N mm) on gear 1 and gear 2, in the mesh's own axes. It is among the forces of the
+    /// mesh ([`MeshForces::force`]) as what has no potential.
+    pub friction: Vector12,
+    /// Dampers, likewise.
     pub force: Vector12,
-    /// The same on the mesh cycles, N mm a cycle: what teeth of uneven thickness are held back by.
+    /// Both on the mesh cycles, N mm a cycle: what the sliding of the turn and teeth of uneven thickness are held back by.
     pub along_cycles: f64,
     /// -d force/d rates: N s/mm, N s, N mm s.
     pub rate_slope: SMatrix<f64, 12, 12>,
     /// -d force/d displacements, where dampers are held at the force of the flanks.
     pub slope: SMatrix<f64, 12, 12>,
-    /// Power that they take, mW (N mm/s).
+    /// Power that both take, mW (N mm/s): f . (rates + nominal turn). Friction is against the sliding of the nominal turn:
+    /// where deviations slide the other way for a moment, its part is below 0.
     pub dissipated: f64,
 }
 
-impl Default for MeshDamper {
+impl Default for MeshLosses {
     fn default() -> Self {
         let [rate_slope, slope] = [SMatrix::zeros(); 2];
-        Self { force: Vector12::zeros(), along_cycles: 0.0, rate_slope, slope, dissipated: 0.0 }
+        let [friction, force] = [Vector12::zeros(); 2];
+        Self { friction, force, along_cycles: 0.0, rate_slope, slope, dissipated: 0.0 }
     }
 }

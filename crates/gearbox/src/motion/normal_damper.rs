@@ -1,6 +1,6 @@
 //! A damper along the normal of flanks that press.
 
-use super::MeshDamper;
+use super::MeshLosses;
 use crate::Vector12;
 
 /// A damper (N s/mm) between flanks that press with `force` (N).
@@ -24,7 +24,7 @@ pub(super) struct NormalDamper<'a> {
 
 impl NormalDamper<'_> {
     /// Adds what it does at `rates` of the displacements and so many mesh cycles a second.
-    pub fn add(&self, rates: &Vector12, cycles: f64, all: &mut MeshDamper) {
+    pub fn add(&self, rates: &Vector12, cycles: f64, all: &mut MeshLosses) {
         let rate = self.lever.dot(rates) + self.by_cycles * cycles;
         let asked = self.damping * rate;
         let damped = asked.clamp(-self.force, self.force);

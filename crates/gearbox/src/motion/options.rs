@@ -1,13 +1,14 @@
-//! What is asked of a motion of a gearbox.
+//! Options of a motion of a gearbox.
 
 use dynamics::Speed;
 
-/// What turns the input, in the sense of [`crate::Operation`].
+/// Drive of the input, in the sense of [`crate::Operation`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Drive {
-    /// At a given speed, rad/s, constant or from one to another: the input coupling counts as infinitely heavy.
+    /// Prescribed speed of the input, rad/s, constant or from one to another: the inertia of the input coupling counts
+    /// as infinite.
     Speed(Speed),
-    /// By a torque, from a speed on.
+    /// A torque on the input, which starts at a speed.
     Torque {
         /// Speed at the start, rad/s.
         start: f64,
@@ -19,7 +20,7 @@ pub enum Drive {
 /// Drive, damping of the shafts, and how finely they are reduced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MotionOptions {
-    /// What turns the input.
+    /// Drive of the input.
     pub drive: Drive,
     /// Damping ratio of every elastic mode about the equilibrium at the start, meshes at their tangent there; beside
     /// what bearings and meshes have.

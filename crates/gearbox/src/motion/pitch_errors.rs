@@ -16,7 +16,7 @@ pub struct PitchErrors {
 }
 
 impl PitchErrors {
-    /// Of the teeth of both gears, an entry a tooth; none where a gear has none.
+    /// Pitch errors of the teeth of both gears, an entry a tooth; an empty list for a gear without errors.
     ///
     /// # Errors
     /// [`GearboxError::OutOfRange`] where an entry is no number.

@@ -11,7 +11,7 @@ const BEYOND: f64 = 2.0;
 /// Relative error of natural frequencies up to there beyond which more modes are kept.
 const GOOD: f64 = 5e-3;
 
-/// Where the search for more ends in any case.
+/// Limit at which the search for more modes ends.
 const MOST: f64 = 1e9;
 
 /// Matrices of shafts, discs and bearings in reduced coordinates y.
@@ -70,7 +70,7 @@ impl ReducedBodies {
         }
     }
 
-    /// With the modes up to a frequency, and whether these are all.
+    /// Bodies with the modes up to a frequency, and whether these are all modes.
     fn with_modes(
         assembly: &Assembly,
         held: &[bool],

@@ -2,41 +2,19 @@
 
 use dynamics::Speed;
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Method, OnlyRows, Periodicity, Row, RowPlace, Scheme,
-    Settle, State, StepControl, Stop, Timetable,
+    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Method, Periodicity, Row, RowPlace, Settle, State,
+    StepControl, Stop, Timetable,
 };
 use nalgebra::DVector;
 
-use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism};
+use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, MeshMemory, MotionPlan, periodic_state::Settling};
 use crate::GearboxError;
 
-/// A state of a gearbox's motion to go on from: it knows of each mesh how much of what it holds has been used at most.
-pub type GearboxCheckpoint = Checkpoint<Vec<f64>>;
+/// A state of a gearbox's motion to go on from.
+pub type GearboxCheckpoint = Checkpoint<Vec<MeshMemory>>;
 
 /// A gearbox's motion under way.
 pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, GearboxTimes>;
-
-/// How a motion is integrated.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MotionPlan {
-    /// Method.
-    pub scheme: Scheme,
-    /// Length of a step, s, the longest where a given speed changes: steps are then turns of the input that are alike.
-    pub step: f64,
-    /// Cycles of the fastest mesh with rows.
-    pub cycles: u64,
-    /// Steps a cycle of the fastest mesh.
-    pub steps_per_cycle: u64,
-    /// Steps a row.
-    pub steps_per_row: u64,
-    /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
-    pub tolerance: Option<f64>,
-    /// Ends a step wherever contact is lost or gained.
-    pub stop_at_events: bool,
-    /// Settles first: to this difference over a common period of all meshes, in so many cycles at the most. Steps a row
-    /// must divide those of a cycle.
-    pub settle: Option<Settle>,
-}
 
 /// Times of a motion from its start on.
 #[derive(Debug, Clone)]
@@ -49,6 +27,11 @@ pub struct GearboxTimes {
 }
 
 impl GearboxTimes {
+    /// Sizes of the coordinates.
+    pub fn scale(&self) -> &DVector<f64> {
+        &self.scale
+    }
+
     fn is_ramp(&self) -> bool {
         matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
     }
@@ -89,7 +72,7 @@ impl Timetable<&mut GearboxMechanism> for GearboxTimes {
     }
 }
 
-/// How a motion ended.
+/// Result of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRun {
     /// State at the start and at the end.
@@ -114,7 +97,8 @@ pub struct GearboxRun {
 }
 
 impl GearboxMechanism {
-    /// Runs from `start`; `seen` is told of rows, the start, or the state to which the motion has settled, among them.
+    /// Runs from `start`; `seen` is told of rows, the start, or the state to which the motion has settled, among them. A
+    /// plan that shoots takes it to its periodic state by Newton's method once it nearly repeats itself.
     ///
     /// # Errors
     /// [`GearboxError::Motion`] of the integrator, those of the meshes; as of [`GearboxMechanism::goal`].
@@ -126,13 +110,12 @@ impl GearboxMechanism {
     ) -> Result<GearboxRun, GearboxError> {
         let goal = self.goal(start, plan)?;
         let mut course = self.course(start, plan, None)?;
-        course.run(
-            &goal,
-            &mut OnlyRows(|row: Row<'_, &mut Self>| {
-                seen(&row.system.instant(row.state)?);
-                Ok::<_, GearboxError>(())
-            }),
-        )?;
+        let scale = course.timetable().scale().clone();
+        let rows = |row: Row<'_, &mut Self>| {
+            seen(&row.system.instant(row.state)?);
+            Ok::<_, GearboxError>(())
+        };
+        course.run(&goal, &mut Settling { rows, plan: *plan, scale })?;
         GearboxRun::of(course, start)
     }
 
@@ -181,7 +164,7 @@ impl GearboxMechanism {
 
     /// Cycles of the fastest mesh after which every mesh has gone through whole cycles; `None` where that takes more than
     /// [`LONGEST`].
-    fn common_period(&self) -> Option<u64> {
+    pub(super) fn common_period(&self) -> Option<u64> {
         let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
         // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
         let is_whole = |x: f64| (x - x.round()).abs() < 1e-3 / LONGEST as f64;
@@ -193,7 +176,7 @@ impl GearboxMechanism {
 const LONGEST: u64 = 100_000;
 
 impl GearboxRun {
-    /// What a motion from `start` has come to.
+    /// Result of the course of a motion from `start`.
     ///
     /// # Errors
     /// Those of the meshes.

@@ -8,8 +8,8 @@ use lumped::{
 };
 use nalgebra::{SMatrix, Vector6};
 
-use super::{MeshDamper, MovingMesh, PitchErrors, normal_damper::NormalDamper};
-use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, mesh_element::finite_cycles};
+use super::{MeshLosses, MovingMesh, PitchErrors, normal_damper::NormalDamper};
+use crate::{GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, mesh_element::finite_cycles};
 
 /// Flanks that press along one line of action.
 ///
@@ -27,7 +27,7 @@ struct Flanks {
     at: Pressed,
 }
 
-/// Where flanks are.
+/// Approach of pressed flanks.
 #[derive(Debug, Clone, Copy, Default)]
 struct Pressed {
     /// delta, mm.
@@ -62,7 +62,7 @@ impl SpringMesh {
     /// # Errors
     /// [`GearboxError::Mesh`] where the gears have no line of action, [`GearboxError::OutOfRange`] for a stiffness that
     /// is not above 0 everywhere.
-    pub fn new(mesh: &Mesh, meshing: &Meshing, stiffness: Fourier) -> Result<Self, GearboxError> {
+    pub fn new(mesh: &GearMesh, meshing: &Meshing, stiffness: Fourier) -> Result<Self, GearboxError> {
         let least = stiffness.least();
         if !(least > 0.0 && least.is_finite()) {
             let (part, quantity) = (mesh.name.clone(), "mesh stiffness, N/mm");
@@ -74,24 +74,24 @@ impl SpringMesh {
         Ok(Self { sides: [Some(drive), None], stiffness, excess, errors, damping: 0.0, cycles: 0.0 })
     }
 
-    /// With flanks that are thicker than nominal ones, mm along the normal over the phase, 2 pi a mesh cycle: the static
-    /// transmission error is in it.
+    /// Mesh with flanks that are thicker than nominal ones, mm along the normal over the phase, 2 pi a mesh cycle: the
+    /// static transmission error is in it.
     #[must_use]
     pub(crate) fn with_excess(self, excess: Fourier) -> Self {
         Self { excess, ..self }
     }
 
-    /// With pitch errors of both gears.
+    /// Mesh with pitch errors of both gears.
     #[must_use]
     pub fn with_errors(self, errors: PitchErrors) -> Self {
         Self { errors, ..self }
     }
 
-    /// With the other flanks at the pair's backlash, along their own line of action.
+    /// Mesh with the coast flanks at the pair's backlash, along their own line of action.
     ///
     /// # Errors
     /// As [`SpringMesh::new`].
-    pub fn with_coast_flanks(mut self, mesh: &Mesh, meshing: &Meshing) -> Result<Self, GearboxError> {
+    pub fn with_coast_flanks(mut self, mesh: &GearMesh, meshing: &Meshing) -> Result<Self, GearboxError> {
         let line = line(mesh, meshing.side().opposite())?;
         // Backlash is counted on the transverse line of action.
         let clearance = mesh.pair.backlash() * line.cos_base_helix;
@@ -99,13 +99,13 @@ impl SpringMesh {
         Ok(self)
     }
 
-    /// With the coast flanks alone.
+    /// Mesh with the coast flanks alone.
     pub(super) fn without_drive_flanks(mut self) -> Self {
         self.sides[0] = None;
         self
     }
 
-    /// With a damper along the normal, N s/mm, that is held at the force of the flanks: none pulls, and none pushes
+    /// Mesh with a damper along the normal, N s/mm, limited to the force of the flanks: it neither pulls, nor pushes
     /// where contact only begins.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
@@ -123,12 +123,12 @@ impl MeshElement for SpringMesh {
         Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let phase = TAU * (self.cycles - self.cycles.floor());
         let ([k, slope], [excess, along]) = (self.stiffness.with_slope(phase), self.excess.with_slope(phase));
         let [own, own_rate] = self.errors.at(self.cycles);
         let [error, error_rate] = [excess + own, TAU * along + own_rate];
-        let mut reply = MeshReply { force: Vector12::zeros(), tangent: SMatrix::zeros(), normal_force: 0.0 };
+        let mut reply = MeshForces { force: Vector12::zeros(), tangent: SMatrix::zeros(), normal_force: 0.0 };
         for side in self.sides.iter_mut().flatten() {
             let compression = side.lever.dot(displacements) + side.errors * error - side.clearance;
             side.at = Pressed { compression, stiffness: [k, TAU * slope], error_rate: side.errors * error_rate };
@@ -155,8 +155,8 @@ impl MovingMesh for SpringMesh {
         self.flanks().map(of).sum()
     }
 
-    fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper {
-        let mut all = MeshDamper::default();
+    fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
+        let mut all = MeshLosses::default();
         for side in self.flanks().filter(|s| s.at.compression > 0.0) {
             let (force, by_cycles) = (side.at.force(), side.at.error_rate);
             let (lever, damping, stiffness) = (&side.lever, self.damping, side.at.stiffness[0]);
@@ -170,7 +170,7 @@ impl MovingMesh for SpringMesh {
     }
 }
 
-fn line(mesh: &Mesh, side: geometry::Side) -> Result<MeshLine, GearboxError> {
+fn line(mesh: &GearMesh, side: geometry::Side) -> Result<MeshLine, GearboxError> {
     let line = MeshGeometry::of_pair(&mesh.pair, side).line();
     line.map_err(|source| GearboxError::Mesh { mesh: mesh.name.clone(), source })
 }

@@ -94,7 +94,7 @@ impl GearboxMechanism {
                 let cycles = self.cycles(i, angle);
                 let d = self.displacements(i, &whole);
                 let live = &mut self.live[i];
-                let reply = live.reply(&self.meshes[i], cycles, &d)?.clone();
+                let reply = live.reply(&self.meshes[i], cycles, &d, true)?.clone();
                 let own = live.to_gears.columns(0, n);
                 left.residual -= own.tr_mul(&reply.force);
                 left.tangent -= own.tr_mul(&(reply.tangent * own));

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use contact::FlankProjection;
 use lumped::Fourier;
 
-use super::{MeshDamper, MovingMesh, SpringMesh, normal_damper::NormalDamper};
-use crate::{GearboxError, MeshElement, MeshReply, Vector12, mesh_element::finite_cycles};
+use super::{MeshLosses, MovingMesh, SpringMesh, normal_damper::NormalDamper};
+use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
 
 /// Change of the stiffness by the tilt, over the stiffness, up to which the spring stands for the contact.
 const MOST: f64 = 0.5;
@@ -82,7 +82,7 @@ impl TiltingSpring {
         Self { projection, coefficients, coast, damping: 0.0, cycles: 0.0, at: Place::default() }
     }
 
-    /// With a damper along the normal, N s/mm, that is held at the force of the flanks.
+    /// Mesh with a damper along the normal, N s/mm, limited to the force of the flanks.
     #[must_use]
     pub fn with_damping(self, damping: f64) -> Self {
         Self { damping, coast: self.coast.with_damping(damping), ..self }
@@ -100,7 +100,7 @@ impl MeshElement for TiltingSpring {
         self.coast.go_to(cycles)
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let phase = TAU * (self.cycles - self.cycles.floor());
         let of = |series: &Fourier| {
             let [value, slope] = series.with_slope(phase);
@@ -140,8 +140,8 @@ impl MovingMesh for TiltingSpring {
         own + self.coast.energy_rate()
     }
 
-    fn damping(&mut self, rates: &Vector12, cycles: f64) -> MeshDamper {
-        let mut all = self.coast.damping(rates, cycles);
+    fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
+        let mut all = self.coast.losses(rates, cycles);
         let (at, lever) = (self.at, self.lever());
         let force = at.force();
         if force > 0.0 {

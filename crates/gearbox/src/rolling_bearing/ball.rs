@@ -13,7 +13,7 @@ pub(super) struct BallRow {
     geometry: BallGeometry,
     row: Row,
     contacts: [PointContact; 2],
-    /// Of both contacts in series, N/mm^1.5.
+    /// Stiffness of both contacts in series, N/mm^1.5.
     stiffness: f64,
     /// Radial clearance taken off the distance of the grooves' centres, and what is missing along the axis, mm.
     gap: [f64; 2],

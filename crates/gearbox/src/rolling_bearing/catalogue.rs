@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::{BallGeometry, RollerGeometry, RollerProfile, RollingBearingError, geometry::MOST_ELEMENTS};
 
-/// What a catalogue says of a bearing.
+/// Catalogue data of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Catalogue {
     /// Bore, mm.
@@ -17,7 +17,7 @@ pub struct Catalogue {
     pub rows: usize,
 }
 
-/// How rolling elements come between the rings.
+/// Filling: how rolling elements come between the rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Filling {
     /// Rings moved against each other until they touch, as deep groove bearings are filled: balls on 190 degrees.
@@ -34,7 +34,7 @@ const CAGED_CYLINDERS: f64 = 1.25;
 /// Diameter of rollers over the height from bore to outer diameter.
 const CYLINDERS: f64 = 0.55;
 const CONES: f64 = 0.47;
-/// The same of balls: at least, and at the most.
+/// Diameter of balls over the height from bore to outer diameter: least and largest.
 const BALLS: [f64; 2] = [0.15, 0.95];
 /// Pressure at which a ball bearing has its static load rating, MPa.
 const STATIC_PRESSURE: f64 = 4200.0;
@@ -142,7 +142,7 @@ impl Catalogue {
     }
 }
 
-/// Where something stops to be true between two ends.
+/// Place between two ends at which a condition stops to hold.
 fn halve([mut low, mut high]: [f64; 2], is_below: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..HALVINGS {
         let middle = 0.5 * (low + high);

@@ -1,4 +1,4 @@
-//! What is refused of a rolling bearing.
+//! Errors of rolling bearings.
 
 /// Why no bearing can be made of what is stated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,9 +9,9 @@ pub enum RollingBearingError {
     OutOfRange {
         /// The quantity, with its unit.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
-        /// What it may be.
+        /// The permitted range.
         wanted: &'static str,
     },
     /// More rolling elements than there is room for.
@@ -29,7 +29,7 @@ pub enum RollingBearingError {
         "a radial clearance of {clearance_um} um is more than the grooves are deep for: {most_um:.0} um at the most"
     )]
     Clearance {
-        /// As stated, um.
+        /// Stated clearance, um.
         clearance_um: f64,
         /// Twice the distance of the centres of curvature of both grooves, um.
         most_um: f64,
@@ -37,17 +37,17 @@ pub enum RollingBearingError {
     /// A load rating that no such bearing has.
     #[error("a static load rating of {rating_n:.0} N fits no bearing of this size: {least_n:.0} N to {most_n:.0} N do")]
     Rating {
-        /// As stated, N.
+        /// Stated static load rating, N.
         rating_n: f64,
-        /// Of the smallest elements, N.
+        /// Static load rating with the smallest elements, N.
         least_n: f64,
-        /// Of the largest ones, N.
+        /// Static load rating with the largest elements, N.
         most_n: f64,
     },
 }
 
 impl RollingBearingError {
-    /// What the user can do next.
+    /// Hint: an action that cures the error.
     pub fn hint(&self) -> &'static str {
         match self {
             Self::OutOfRange { .. } => "take the values of the catalogue or of the drawing",

@@ -1,4 +1,4 @@
-//! What is in a rolling bearing, as drawings have it.
+//! Internal geometry of a rolling bearing, as drawings have it.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -32,7 +32,7 @@ pub struct RollerGeometry {
     pub pitch_diameter: f64,
     /// Contact angle, rad; 0 for cylindrical rollers.
     pub contact_angle: f64,
-    /// How rollers are relieved to their ends.
+    /// Relief of the rollers to their ends.
     pub profile: RollerProfile,
 }
 
@@ -45,7 +45,7 @@ pub enum RollerProfile {
     Straight,
 }
 
-/// What rolls.
+/// Rolling elements of a bearing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum RollingElements {
     /// Balls.
@@ -57,7 +57,7 @@ pub enum RollingElements {
 /// A row of rolling elements.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Row {
-    /// Its middle beside that of the bearing, mm along +z.
+    /// Middle of the row beside that of the bearing, mm along +z.
     pub position: f64,
     /// Whether it takes a thrust of the shaft towards +z (+1) or -z (-1); without meaning at a contact angle of 0.
     pub thrust: f64,

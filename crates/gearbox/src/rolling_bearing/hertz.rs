@@ -19,7 +19,8 @@ pub struct PointContact {
 const HALVINGS: usize = 120;
 
 impl PointContact {
-    /// Of principal curvatures (1/mm, hollow ones below 0) of both bodies, in one plane and in the plane across it.
+    /// Contact of two bodies with principal curvatures (1/mm, hollow ones below 0) in one plane and in the plane across
+    /// it.
     ///
     /// ```text
     /// F = |rho_a - rho_b|/(rho_a + rho_b) = [(k^2 + 1) E - 2 K]/[(k^2 - 1) E],   m = 1 - 1/k^2

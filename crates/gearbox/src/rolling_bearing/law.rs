@@ -45,8 +45,8 @@ const HALVINGS: usize = 100;
 const DOUBLINGS: usize = 60;
 
 impl RollingBearing {
-    /// Of its rolling elements, its rows, the radial clearance (the whole play, mm; below 0: pressed) and how the rings
-    /// stand along the axis.
+    /// Bearing of rolling elements, rows, radial clearance (the whole play, mm; below 0: pressed), and the axial seat
+    /// of the rings.
     ///
     /// # Errors
     /// [`RollingBearingError`] for values that no bearing has.
@@ -81,13 +81,13 @@ impl RollingBearing {
         Ok(Self { elements, rows, seat: AxialSeat::Held })
     }
 
-    /// The same in another seat along the axis.
+    /// Bearing in another axial seat.
     #[must_use]
     pub fn in_seat(self, seat: AxialSeat) -> Self {
         Self { seat, ..self }
     }
 
-    /// What rolls in it.
+    /// Rolling elements of the bearing.
     pub fn elements(&self) -> &RollingElements {
         &self.elements
     }

@@ -18,7 +18,7 @@ pub(super) struct RollerRow {
     row: Row,
     /// What rings have to approach by at every lamina until it presses, mm.
     gaps: Vec<f64>,
-    /// Of one lamina, N/mm^(10/9).
+    /// Stiffness of one lamina, N/mm^(10/9).
     stiffness: f64,
 }
 

@@ -12,7 +12,7 @@ use super::RollingReply;
 /// Thrust of the shaft that the seat of the outer ring takes.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum AxialSeat {
-    /// Both ways: the ring is held along the axis.
+    /// The ring is held along the axis, in both directions.
     #[default]
     Held,
     /// None: the ring floats.

@@ -24,7 +24,7 @@ pub struct RollingState {
 }
 
 impl RollingState {
-    /// Of a reply at a displacement, followed over a last small step of the displacements by its tangent.
+    /// State of a reply at a displacement, followed over a last small step of the displacements by the reply's tangent.
     pub(crate) fn new(reply: &RollingReply, displacement: Vector6<f64>, step: &Vector6<f64>) -> Self {
         let stiffness = reply.stiffness6();
         Self {

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
-use crate::{GearboxError, Mesh, MeshElement, MeshReply, Meshing, Vector12, even_mesh::guessed_lever};
+use crate::{GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, even_mesh::guessed_lever};
 
 /// A mesh at one place of its cycle, in its own axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,7 +14,7 @@ pub struct MeshSample {
     /// Displacements of both gears, mm and rad.
     pub displacements: Vector12,
     /// Forces there, and their tangent.
-    pub reply: MeshReply,
+    pub reply: MeshForces,
 }
 
 /// A mesh that is linear about its mean: f = f_0 + T (q - q_0), at any phase.
@@ -51,7 +51,7 @@ impl MeanMesh {
 ///
 /// # Errors
 /// [`GearboxError::Mesh`] when the gears have no line of action.
-pub fn turn_levers(mesh: &Mesh, meshing: &Meshing) -> Result<[f64; 2], GearboxError> {
+pub fn turn_levers(mesh: &GearMesh, meshing: &Meshing) -> Result<[f64; 2], GearboxError> {
     let lever = guessed_lever(mesh, meshing)?;
     Ok([lever[5], lever[11]])
 }
@@ -74,9 +74,9 @@ impl MeshElement for MeanMesh {
         Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let force = self.force + self.tangent * (displacements - self.displacements);
-        Ok(MeshReply { force, tangent: self.tangent, normal_force: self.normal_force })
+        Ok(MeshForces { force, tangent: self.tangent, normal_force: self.normal_force })
     }
 }
 
@@ -100,9 +100,9 @@ pub struct MeshExcitation {
 }
 
 impl MeshExcitation {
-    /// Of samples evenly spaced over one cycle, with the transmission error (mm) of each; orders 1 .. `orders`, as far
-    /// as the samples have them: below half of their number. `turns`: [`turn_levers`]; the mean does not resist a turn with
-    /// the teeth. `None` without samples.
+    /// Excitation of samples evenly spaced over one cycle, with the transmission error (mm) of each; orders 1 ..
+    /// `orders`, as far as the samples have them: below half of their number. `turns`: [`turn_levers`]; the mean does
+    /// not resist a turn with the teeth. `None` without samples.
     pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize, turns: [f64; 2]) -> Option<Self> {
         let mut mean = MeanMesh::of(samples)?;
         mean.tangent = turning_with_the_teeth(&mean.tangent, turns);

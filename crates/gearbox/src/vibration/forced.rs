@@ -7,7 +7,7 @@ use nalgebra::{Complex, DMatrix, DVector, SMatrix};
 
 use super::{MeshExcitation, response::Spinning};
 use crate::{
-    Assembly, ElasticMesh, GearboxError, Held, Mesh, Rotors, Structure, Train, Vector12,
+    Assembly, ElasticMesh, GearMesh, GearboxError, Held, Rotors, Structure, Train, Vector12,
     even_mesh::{guessed_lever, turn},
 };
 
@@ -20,14 +20,14 @@ pub struct Vibration {
     meshes: Vec<SwingingMesh>,
 }
 
-/// What is known of a mesh.
+/// Data of a mesh that vibrates.
 #[derive(Debug, Clone)]
 struct SwingingMesh {
     discs: [usize; 2],
     excitation: MeshExcitation,
     /// Turn of its axes to the common ones.
     turn: SMatrix<f64, 12, 12>,
-    /// What displacements compress an evenly loaded mesh by.
+    /// Compression of an evenly loaded mesh for unit displacements.
     lever: Vector12,
     /// Cycles with the input at its start, and cycles a rad of the input.
     start: f64,
@@ -53,14 +53,14 @@ pub struct Harmonic {
 }
 
 impl Vibration {
-    /// Of a structure with mass, its `meshes` with their train, and what each of them does (in their order). The mesh
-    /// springs of the structure are to be empty.
+    /// Vibration of a structure with mass, its `meshes` with their train, and the excitation of each mesh, in their
+    /// order. The mesh springs of the structure are to be empty.
     ///
     /// # Errors
     /// [`GearboxError`]: another number of excitations, or as [`Rotors::holding`].
     pub fn new(
         structure: Structure,
-        (meshes, train, sense): (&[Mesh], &Train, Sense),
+        (meshes, train, sense): (&[GearMesh], &Train, Sense),
         excitations: Vec<MeshExcitation>,
         held: &Held,
     ) -> Result<Self, GearboxError> {
@@ -84,7 +84,7 @@ impl Vibration {
         Ok(Self { rotors, ratios, meshes: swinging })
     }
 
-    /// The same with modes up to `highest` (rad/s) and what forces at gears and bearings need beyond, gyroscopic
+    /// Vibration in modes up to `highest` (rad/s) and in what forces at gears and bearings need beyond, gyroscopic
     /// moments of discs among them ([`Rotors::reduced`]).
     ///
     /// # Errors

@@ -8,7 +8,7 @@ use crate::{GearboxError, Rotors};
 const APART: f64 = 1e-10;
 
 impl Rotors {
-    /// The same in modes up to `highest` (rad/s at rest), and beyond in those directions alone that `loads` (a column
+    /// Rotors in modes up to `highest` (rad/s at rest), and beyond in those directions alone that `loads` (a column
     /// each, all coordinates) bend at rest. Damping of the modes is that of all of them, projected.
     ///
     /// ```text

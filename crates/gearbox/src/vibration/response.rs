@@ -12,7 +12,7 @@ pub(crate) struct Spinning<'a> {
 }
 
 impl<'a> Spinning<'a> {
-    /// Of shafts that spin at `speeds`, rad/s about +z.
+    /// Shafts that spin at `speeds`, rad/s about +z.
     pub(crate) fn new(rotors: &'a Rotors, speeds: &[f64], damping_ratio: f64) -> Result<Self, GearboxError> {
         if !(damping_ratio.is_finite() && damping_ratio >= 0.0) {
             let part = "the modes".into();

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use ale::Station;
 use gearbox::{
-    Bearing, ExactMesh, GearboxPosition, Mesh, MeshElement, StaticGearbox, Structure, Torque, face_load_factor,
+    Bearing, ExactMesh, GearMesh, GearboxPosition, MeshElement, StaticGearbox, Structure, Torque, face_load_factor,
     line_load,
 };
 use geometry::{GearPair, Sense};
@@ -19,9 +19,15 @@ const TORQUE: f64 = 2e5;
 /// Gears of one mesh, reduced once.
 type Reduced = std::cell::RefCell<Vec<Option<Arc<[ElasticGear; 2]>>>>;
 
-fn exact(structure: Structure, meshes: Vec<Mesh>, run: gearbox::Operation, gears: &Reduced) -> StaticGearbox {
+fn exact(
+    structure: Structure,
+    meshes: Vec<GearMesh>,
+    run: gearbox::Operation,
+    gears: &Reduced,
+    friction: f64,
+) -> StaticGearbox {
     let made = StaticGearbox::new(structure, meshes, run, |i, mesh, meshing| {
-        let own = options(&mesh.pair, meshing, TORQUE);
+        let own = options(&mesh.pair, meshing, TORQUE).with_contact(|c| c.friction = friction);
         let mut known = gearbox_gears(gears, i);
         let gears = known.get_or_insert_with(|| reduced(&mesh.pair, &own)).clone();
         Ok(Box::new(ExactMesh::new(mesh.pair.clone(), gears, own)?) as Box<dyn MeshElement>)
@@ -36,8 +42,8 @@ fn gearbox_gears(gears: &Reduced, i: usize) -> std::cell::RefMut<'_, Option<Arc<
     })
 }
 
-fn one(pair: &GearPair) -> Vec<Mesh> {
-    vec![Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }]
+fn one(pair: &GearPair) -> Vec<GearMesh> {
+    vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }]
 }
 
 /// Input angle at which mesh 0 has gone through some cycles.
@@ -47,12 +53,13 @@ fn angle_at(gearbox: &StaticGearbox, cycles: f64) -> f64 {
 }
 
 /// Shafts held, the gearbox is the pair alone: transmission error, forces, moments and pressure to 1e-9, whichever gear
-/// drives, in either sense, and wherever the wheel stands.
+/// drives, in either sense, wherever the wheel stands, and with friction.
 #[test]
 fn held_shafts_leave_the_pair_alone() {
     let pair = pair([21, 32], 20.0);
     for run in [(2, Sense::Ccw, 0.0), (2, Sense::Cw, 0.0), (3, Sense::Ccw, 0.0), (2, Sense::Ccw, 1.9)] {
-        is_the_pair_alone(&pair, run);
+        is_the_pair_alone(&pair, run, 0.0);
+        is_the_pair_alone(&pair, run, 0.07);
     }
 }
 
@@ -62,7 +69,7 @@ fn gears_at_two_heights_are_the_pair_with_that_offset() {
     for offset in [4.0, -7.5] {
         let pair = of_widths([21, 32], 20.0, [26.0, 20.0]).with_mid_face_offset(offset).unwrap();
         for run in [(2, Sense::Ccw, 0.0), (3, Sense::Cw, -0.7)] {
-            is_the_pair_alone(&pair, run);
+            is_the_pair_alone(&pair, run, 0.0);
         }
     }
 }
@@ -81,7 +88,7 @@ fn other_heights_are_refused() {
 }
 
 /// One run: input disc, sense, direction of the wheel.
-fn is_the_pair_alone(pair: &GearPair, (input, sense, direction): (usize, Sense, f64)) {
+fn is_the_pair_alone(pair: &GearPair, (input, sense, direction): (usize, Sense, f64), friction: f64) {
     let mut structure = single(pair, direction);
     structure.discs[1].position += pair.mid_face_offset();
     let driven = if input == 2 { 1 } else { 0 };
@@ -90,15 +97,15 @@ fn is_the_pair_alone(pair: &GearPair, (input, sense, direction): (usize, Sense, 
     let mut run = operation(&structure, input, sense, vec![Torque { disc: driven, torque }]);
     run.held = vec![0, 1];
     let gears = Reduced::default();
-    let mut gearbox = exact(structure, one(pair), run, &gears);
-    let own = options(pair, &gearbox.train().meshing()[0], TORQUE);
+    let mut gearbox = exact(structure, one(pair), run, &gears, friction);
+    let own = options(pair, &gearbox.train().meshing()[0], TORQUE).with_contact(|c| c.friction = friction);
     let gears = gearbox_gears(&gears, 0).clone().unwrap();
     let mut alone = StaticModel::new(pair.clone(), gears, own).unwrap();
     for cycles in [0.05, 0.3, 0.5, 0.8, 1.15] {
         let found = gearbox.solve(angle_at(&gearbox, cycles)).unwrap_or_else(|e| panic!("{e}"));
         let wanted = alone.advance(Station::at_cycles(found.meshes[0].cycles), |_| ()).unwrap();
         let mesh = &found.meshes[0];
-        let at = format!("input {input}, {sense:?}, direction {direction}, {cycles} cycles");
+        let at = format!("input {input}, {sense:?}, direction {direction}, friction {friction}, {cycles} cycles");
         let off = mesh.transmission_error / wanted.transmission_error - 1.0;
         println!("{at}: transmission error off by {off:.1e}, {:?}", found.certificate);
         assert!(off.abs() < 1e-9, "{at}: transmission error {off:.1e}");
@@ -125,7 +132,7 @@ fn is_the_pair_alone(pair: &GearPair, (input, sense, direction): (usize, Sense, 
 
 fn flexible(pair: &GearPair, structure: Structure, gears: &Reduced, cycles: &[f64]) -> Vec<GearboxPosition> {
     let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
-    let mut gearbox = exact(structure, one(pair), run, gears);
+    let mut gearbox = exact(structure, one(pair), run, gears, 0.0);
     cycles.iter().map(|c| gearbox.solve(angle_at(&gearbox, *c)).unwrap_or_else(|e| panic!("{e}"))).collect()
 }
 
@@ -148,7 +155,7 @@ fn stiff_shafts_come_near_the_pair_alone_as_their_compliance_falls() {
     };
     let mut run = operation(&single(&pair, 0.0), 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
     run.held = vec![0, 1];
-    let mut held = exact(single(&pair, 0.0), one(&pair), run, &gears);
+    let mut held = exact(single(&pair, 0.0), one(&pair), run, &gears, 0.0);
     let alone = held.solve(angle_at(&held, 0.3)).unwrap().meshes[0].transmission_error;
     let [soft, stiff] = [1e3, 1e6].map(|factor| stiffer(factor) - alone);
     assert!(soft > 0.0 && soft < 0.05 * alone, "{soft} of {alone}");
@@ -192,7 +199,7 @@ fn two_stages_of_exact_contacts_are_in_balance() {
     let (structure, meshes) = two_stages();
     let run = operation(&structure, 4, Sense::Ccw, vec![Torque { disc: 5, torque: -TORQUE }]);
     let gears = Reduced::default();
-    let mut gearbox = exact(structure, meshes, run, &gears);
+    let mut gearbox = exact(structure, meshes, run, &gears, 0.0);
     for angle in [0.0, 0.05] {
         let found = gearbox.solve(angle).unwrap_or_else(|e| panic!("{e}"));
         println!("two stages: {:?}, input torque {:.1}", found.certificate, found.input_torque);
@@ -213,7 +220,7 @@ fn a_box_costs_little_more_than_its_meshes() {
     let (structure, meshes) = two_stages();
     let run = operation(&structure, 4, Sense::Ccw, vec![Torque { disc: 5, torque: -TORQUE }]);
     let gears = Reduced::default();
-    let mut gearbox = exact(structure, meshes.clone(), run, &gears);
+    let mut gearbox = exact(structure, meshes.clone(), run, &gears, 0.0);
     let torques = [TORQUE * 19.0 / 47.0, TORQUE];
     let mut alone: Vec<StaticModel> = (0..2)
         .map(|i| {

@@ -3,7 +3,7 @@
 
 use std::f64::consts::TAU;
 
-use gearbox::{Held, MeanMesh, Mesh, MeshElement, MeshExcitation, StaticGearbox, Train, Vibration, rms};
+use gearbox::{GearMesh, Held, MeanMesh, MeshElement, MeshExcitation, StaticGearbox, Train, Vibration, rms};
 use geometry::Sense;
 use nalgebra::Complex;
 
@@ -25,7 +25,7 @@ fn slow_orders_are_the_loaded_box_at_rest() {
         let samples = cycles(&structure, &meshes, &run);
         let means: Vec<MeanMesh> = samples.iter().map(|(s, _)| MeanMesh::of(s).unwrap()).collect();
         for own in 0..2 {
-            let elements = |i: usize, mesh: &Mesh, meshing: &gearbox::Meshing| {
+            let elements = |i: usize, mesh: &GearMesh, meshing: &gearbox::Meshing| {
                 let wavy = Box::new(Wavy::new(mesh, meshing)) as Box<dyn MeshElement>;
                 Ok(if i == own { wavy } else { Box::new(means[i].clone()) })
             };

@@ -5,6 +5,7 @@ mod forced;
 mod motion;
 mod motion_contact;
 mod motion_course;
+mod motion_flanks;
 mod motion_pair;
 mod overhung;
 mod pairs;

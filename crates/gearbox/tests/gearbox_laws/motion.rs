@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use gearbox::{
-    Disc, Mesh, Operation, Structure, Torque,
+    Disc, GearMesh, Operation, Structure, Torque,
     motion::{Drive, GearboxInstant, GearboxMechanism, MotionOptions, MotionPlan, PitchErrors, Speed, SpringMesh},
 };
 use geometry::Sense;
@@ -13,7 +13,7 @@ use lumped::Fourier;
 use crate::pairs::{operation, pair, two_stages};
 
 /// Two stages whose gears and couplings have mass.
-fn heavy() -> (Structure, Vec<Mesh>) {
+fn heavy() -> (Structure, Vec<GearMesh>) {
     let (mut structure, meshes) = two_stages();
     let gear = |disc: &mut Disc, outer: f64| {
         *disc = Disc::ring(disc.name.clone(), disc.shaft, disc.position, [outer, 30.0], 20.0, 7.85e-9);
@@ -73,6 +73,7 @@ fn run(
         tolerance: None,
         stop_at_events: false,
         settle: None,
+        shoots: false,
     };
     let mut rows = Vec::new();
     let run = mechanism.run(&start, &plan, |instant| {

@@ -1,14 +1,23 @@
 //! Laws of the course of a gearbox's motion: settling over a common period of all meshes, steps by an error, events,
 //! checkpoints before and among the rows.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+use std::f64::consts::TAU;
 
 use gearbox::{
-    GearboxError,
-    motion::{Drive, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun, MotionPlan, Speed},
+    Disc, GearMesh, GearboxError, Torque,
+    motion::{
+        Drive, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun, MeshMemory, MotionOptions, MotionPlan,
+        MovingExactMesh, Speed, SpringMesh,
+    },
 };
 use geometry::Sense;
 use integrate::{Follower, MotionError, Row, Scheme, Settle};
 
-use crate::motion::train;
+use crate::{
+    motion::{stiffness, train},
+    pairs::{operation, options, pair, reduced, single},
+};
 
 const SPEED: Drive = Drive::Speed(Speed::Constant(100.0));
 /// Of two stages with 17 on 53 and 19 on 47 teeth, in cycles of the first mesh.
@@ -25,6 +34,7 @@ fn plan(mechanism: &GearboxMechanism, cycles: u64) -> MotionPlan {
         tolerance: None,
         stop_at_events: false,
         settle: None,
+        shoots: false,
     }
 }
 
@@ -76,6 +86,63 @@ fn a_settled_gearbox_comes_back_after_a_common_period() {
     let of = errors(&at_once);
     let from_rest = apart(&of[..common], &of[common..2 * common]) / size;
     assert!(from_rest > 1e3 * back, "settled from the start: {from_rest:e} beside {back:e}");
+}
+
+/// Newton's method on the period leads to the motion that waiting leads to, long before it where little damps: on a spring,
+/// and on the flanks themselves, whose windows go back to where the period began.
+#[test]
+fn a_gearbox_shoots_to_where_it_would_settle() {
+    for is_exact in [false, true] {
+        let of = |shoots: bool| {
+            let mut mechanism = one_stage(is_exact);
+            let start = mechanism.start(0.004).unwrap();
+            let (tolerance, most) = if is_exact { (1e-5, 60) } else { (1e-8, 2000) };
+            let settle = Some(Settle { tolerance, most });
+            let plan = plan(&mechanism, 2);
+            // The tangent flow is that of the midpoint rule.
+            let fine = MotionPlan { scheme: Scheme::Energy, step: plan.step / 2.0, steps_per_cycle: 48, ..plan };
+            let plan = MotionPlan { settle, shoots, ..fine };
+            let mut rows = Vec::new();
+            let done = mechanism.run(&start, &plan, |instant| rows.push(instant.meshes[0].transmission_error)).unwrap();
+            (rows, done)
+        };
+        let (near, by_newton) = of(true);
+        let residual = by_newton.periodicity.unwrap().residual;
+        println!("settled after {} cycles to {residual:.1e}", by_newton.warm_up);
+        assert!(residual <= if is_exact { 1e-5 } else { 1e-8 }, "{residual:e}");
+        assert!(by_newton.warm_up < 40, "{} cycles", by_newton.warm_up);
+        if is_exact {
+            continue;
+        }
+        let (far, by_waiting) = of(false);
+        println!("by waiting after {} cycles", by_waiting.warm_up);
+        assert!(4 * by_newton.warm_up < by_waiting.warm_up, "{} of {}", by_newton.warm_up, by_waiting.warm_up);
+        let ends = far.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+        let off = near.iter().zip(&far).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / (ends[1] - ends[0]);
+        assert!(off < 1e-5, "another motion, by {off:e} of the peak to peak");
+    }
+}
+
+/// A pair on shafts that bend, with little damping.
+fn one_stage(is_exact: bool) -> GearboxMechanism {
+    let gears = pair([23, 31], 12.0);
+    let mut structure = single(&gears, 0.3);
+    for (i, outer) in [66.0, 90.0].into_iter().enumerate() {
+        let d = &structure.discs[i];
+        structure.discs[i] = Disc::ring(d.name.clone(), d.shaft, d.position, [outer, 30.0], 20.0, 7.85e-9);
+    }
+    let operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: 1.5e5 }]);
+    let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: gears }];
+    let asked = MotionOptions { drive: SPEED, modal_damping: 0.0, limit: TAU * 2000.0 };
+    GearboxMechanism::new(structure, meshes, operation, &asked, |_, mesh, meshing| {
+        if !is_exact {
+            return Ok(Box::new(SpringMesh::new(mesh, meshing, stiffness())?.with_damping(0.2)));
+        }
+        let options = options(&mesh.pair, meshing, 1.5e5);
+        let gears = reduced(&mesh.pair, &options);
+        Ok(Box::new(MovingExactMesh::new(mesh.pair.clone(), gears, None, &options, 0.01)?))
+    })
+    .unwrap()
 }
 
 /// A motion that may not wait for a common period is refused with its length.
@@ -187,6 +254,29 @@ fn a_gearbox_taken_up_again_goes_the_same_way() {
     }
 }
 
+/// Windows of teeth are in a checkpoint: on the flanks themselves the motion goes on to the same bits.
+#[test]
+fn flanks_taken_up_again_go_the_same_way() {
+    let follow = |from: Option<GearboxCheckpoint>| {
+        let mut mechanism = one_stage(true);
+        let start = mechanism.start(0.02).unwrap();
+        let plan = plan(&mechanism, 5);
+        let mut goal = mechanism.goal(&start, &plan).unwrap();
+        goal.checkpoint_every = 2;
+        let mut kept = Kept::default();
+        let mut course = mechanism.course(&start, &plan, from).unwrap();
+        course.run(&goal, &mut kept).unwrap();
+        kept
+    };
+    let whole = follow(None);
+    let windows: Vec<_> = whole.states.iter().map(|(_, state)| state.memory[0].windows.unwrap()).collect();
+    assert!(windows.len() == 2 && windows[0].driving.first != windows[1].driving.first, "{windows:?}");
+    for (rows, state) in &whole.states {
+        let back = serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap();
+        assert!(follow(Some(back)).rows == whole.rows[*rows..], "cycle {}: rows differ", state.cycle);
+    }
+}
+
 /// A checkpoint of a gearbox with other coordinates, or other meshes, is refused.
 #[test]
 fn a_checkpoint_of_another_gearbox_is_refused() {
@@ -197,7 +287,7 @@ fn a_checkpoint_of_another_gearbox_is_refused() {
     course.run_cycle::<GearboxError>(None).unwrap();
     let state = course.checkpoint().unwrap();
     let mut meshes = state.clone();
-    meshes.memory.push(0.0);
+    meshes.memory.push(MeshMemory { reach: 0.0, windows: None });
     let mut coordinates = state;
     coordinates.state = start.clone();
     coordinates.state.q = coordinates.state.q.push(0.0);

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use gearbox::{
-    Mesh, Torque,
+    GearMesh, Torque,
     motion::{Drive, GearboxMechanism, MotionOptions, MotionPlan, SpringMesh},
 };
 use geometry::Sense;
@@ -47,7 +47,7 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let (speed, torque) = (300.0, 2e5);
     let mut operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
     operation.held = vec![0, 1];
-    let meshes = vec![Mesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
+    let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
     let options =
         MotionOptions { drive: Drive::Torque { start: speed, torque: None }, modal_damping: 0.0, limit: TAU * 1000.0 };
     let mut mechanism = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
@@ -114,6 +114,7 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
         tolerance: None,
         stop_at_events: false,
         settle: None,
+        shoots: false,
     };
     let mut found = Vec::new();
     let done = mechanism

@@ -3,17 +3,18 @@
 use std::sync::Arc;
 
 use fem::{
-    ElementOptions, Material,
+    Material,
     beam::{BeamPiece, BeamSection},
 };
 use gearbox::{
-    Bearing, Disc, GearboxError, LinearMesh, Mesh, MeshElement, Meshing, Operation, Shaft, Structure, Torque,
+    Bearing, Disc, GearMesh, GearboxError, LinearMesh, MeshElement, Meshing, Operation, Shaft, Structure, Torque,
 };
 use geometry::{Gear, GearData, GearPair, Sense};
-use ltca::{StaticModel, StaticOptions};
+use ltca::StaticOptions;
 use lumped::shaft18::MeshGeometry;
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
-use reduction::{ElasticGear, GearReducer, ReductionOptions};
+use mesh::{Extent, StructuredOptions};
+use reduction::ElasticGear;
+use testing::Case;
 
 /// Module 3 mm, 20 degrees, face width 20 mm; gear 1 with a right-hand helix where it is above 0.
 pub fn pair(teeth: [u32; 2], helix_deg: f64) -> GearPair {
@@ -34,28 +35,16 @@ pub fn of_widths(teeth: [u32; 2], helix_deg: f64, widths: [f64; 2]) -> GearPair 
 
 /// Both gears reduced from one-tooth sectors of few linear elements: what is compared is the same on both sides.
 pub fn reduced(pair: &GearPair, options: &StaticOptions) -> Arc<[ElasticGear; 2]> {
-    let first = StaticModel::first_teeth(pair, options).unwrap();
-    let reduce = |i: usize| {
-        let gear = [&pair.pinion, &pair.wheel][i];
-        let sector = StructuredOptions {
-            order: 1,
-            elements_profile: 2,
-            elements_fillet: 2,
-            elements_thickness: 2,
-            elements_face: 3,
-            elements_rim: 2,
-            extent: Extent::Periodic,
-        };
-        let mesh = GearMesh::from_groups(generate(gear, &sector).unwrap(), &GroupNames::default(), gear.teeth());
-        let kept = ReductionOptions {
-            sides: options.contact.sides(),
-            window: options.window_teeth(pair),
-            first: first[i],
-            elements: ElementOptions::default(),
-        };
-        ElasticGear::Reduced(GearReducer::new(mesh.unwrap(), Material::STEEL, kept).unwrap())
+    let sector = StructuredOptions {
+        order: 1,
+        elements_profile: 2,
+        elements_fillet: 2,
+        elements_thickness: 2,
+        elements_face: 3,
+        elements_rim: 2,
+        extent: Extent::Periodic,
     };
-    Arc::new([reduce(0), reduce(1)])
+    Arc::new(Case::meshed(pair.clone(), &sector, options.torque).reduced_gears(options))
 }
 
 /// Options of a mesh as it runs; the torque is that of the pair alone.
@@ -109,7 +98,7 @@ pub fn single(pair: &GearPair, direction: f64) -> Structure {
 
 /// Two stages, 17/53 and 19/47, the intermediate shaft carries gear 2 and gear 3; gear 4's axis is off the plane of the
 /// first two. Discs: 0 to 3 the gears, 4 input, 5 output.
-pub fn two_stages() -> (Structure, Vec<Mesh>) {
+pub fn two_stages() -> (Structure, Vec<GearMesh>) {
     let (first, second) = (pair([17, 53], 15.0), pair([19, 47], -12.0));
     let (a1, a2) = (first.centre_distance(), second.centre_distance());
     let second_at = [a1 + a2 * 1.1f64.cos(), a2 * 1.1f64.sin(), 0.0];
@@ -132,16 +121,16 @@ pub fn two_stages() -> (Structure, Vec<Mesh>) {
             .collect(),
         ..Structure::default()
     };
-    let mesh = |name: &str, discs, pair| Mesh { name: name.into(), discs, pair };
+    let mesh = |name: &str, discs, pair| GearMesh { name: name.into(), discs, pair };
     (structure, vec![mesh("first", [0, 1], first), mesh("second", [2, 3], second)])
 }
 
 /// A mesh as a spring of 4e5 N/mm along its line of action.
-pub fn spring(mesh: &Mesh, meshing: &Meshing) -> LinearMesh {
+pub fn spring(mesh: &GearMesh, meshing: &Meshing) -> LinearMesh {
     let line = MeshGeometry::of_pair(&mesh.pair, meshing.side()).line().unwrap();
     LinearMesh { levers: line.levers, stiffness: 4e5, excess: 0.0 }
 }
 
-pub fn springs(_: usize, mesh: &Mesh, meshing: &Meshing) -> Result<Box<dyn MeshElement>, GearboxError> {
+pub fn springs(_: usize, mesh: &GearMesh, meshing: &Meshing) -> Result<Box<dyn MeshElement>, GearboxError> {
     Ok(Box::new(spring(mesh, meshing)))
 }

@@ -10,7 +10,7 @@ use crate::pairs::{operation, pair, single, spring, springs, two_stages};
 /// Torque of the output, N mm.
 const TORQUE: f64 = 4e5;
 
-fn boxed(structure: Structure, meshes: Vec<gearbox::Mesh>, operation: Operation) -> StaticGearbox {
+fn boxed(structure: Structure, meshes: Vec<gearbox::GearMesh>, operation: Operation) -> StaticGearbox {
     StaticGearbox::new(structure, meshes, operation, springs).unwrap_or_else(|e| panic!("{e}"))
 }
 
@@ -96,7 +96,7 @@ fn held_shafts_leave_the_spring_of_the_mesh() {
             let torque = sense.sign() as f64 * TORQUE;
             let mut run = operation(&structure, 2, sense, vec![Torque { disc: 3, torque }]);
             run.held = vec![0, 1];
-            let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+            let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
             let found = boxed(structure, meshes, run).solve(0.2).unwrap();
             let cos = pair.base_helix_angle().cos();
             let normal = TORQUE / (pair.wheel.base_radius() * cos);
@@ -126,7 +126,7 @@ fn a_turned_gearbox_has_turned_answers() {
             (b.stiffness[(0, 0)], b.stiffness[(3, 3)]) = (b.stiffness[(1, 1)], b.stiffness[(4, 4)]);
         }
         let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
-        let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+        let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
         boxed(structure, meshes, run).solve(0.0).unwrap()
     };
     let (a, b) = (solve(0.0), solve(2.0));
@@ -151,7 +151,7 @@ fn the_gap_opens_where_the_shaft_gives_way() {
         structure.discs[1].position = 75.0;
         structure.bearings[soft].stiffness *= 0.2;
         let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
-        let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+        let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
         boxed(structure, meshes, run).solve(0.0).unwrap().meshes[0].misalignment_in_plane
     };
     // Bearings B and D lie at larger z.
@@ -164,7 +164,7 @@ fn the_gap_opens_where_the_shaft_gives_way() {
 fn what_cannot_stand_is_refused() {
     let pair = pair([21, 40], 18.0);
     let structure = single(&pair, 0.0);
-    let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair }];
+    let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair }];
     let with = |structure: &Structure, torque: f64| {
         let run = operation(structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
         StaticGearbox::new(structure.clone(), meshes.clone(), run, springs)
@@ -215,8 +215,8 @@ fn opposite_helices_hold_a_shaft_along_its_axis() {
         own.enumerate().for_each(|(i, b)| b.stiffness[(2, 2)] = if i == 0 { spring } else { 0.0 });
         let [left, right] = pairs;
         let meshes = vec![
-            gearbox::Mesh { name: "left".into(), discs: [0, 1], pair: left },
-            gearbox::Mesh { name: "right".into(), discs, pair: right },
+            gearbox::GearMesh { name: "left".into(), discs: [0, 1], pair: left },
+            gearbox::GearMesh { name: "right".into(), discs, pair: right },
         ];
         let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: 2e5 }]);
         StaticGearbox::new(structure, meshes, run, springs).and_then(|mut g| g.solve(0.1))
@@ -238,7 +238,7 @@ fn opposite_helices_hold_a_shaft_along_its_axis() {
 fn a_light_load_closes_a_wide_gap() {
     let pair = pair([21, 40], 18.0);
     let structure = single(&pair, 0.0);
-    let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair }];
+    let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair }];
     let force = |torque: f64, excess: f64| {
         let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque }]);
         let mut gearbox = StaticGearbox::new(structure.clone(), meshes.clone(), run, |_, mesh, meshing| {
@@ -261,7 +261,7 @@ fn a_power_split_shares_the_load() {
     let mut structure = single(&pair, 0.0);
     structure.discs.push(gearbox::Disc::seat("pinion 2", 0, 90.0));
     structure.discs.push(gearbox::Disc::seat("wheel 2", 1, 90.0));
-    let mesh = |name: &str, discs| gearbox::Mesh { name: name.into(), discs, pair: pair.clone() };
+    let mesh = |name: &str, discs| gearbox::GearMesh { name: name.into(), discs, pair: pair.clone() };
     let meshes = vec![mesh("left", [0, 1]), mesh("right", [4, 5])];
     let solve = |excess: f64| {
         let run = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
@@ -288,7 +288,7 @@ fn a_power_split_shares_the_load() {
 #[test]
 fn no_number_is_without_an_answer() {
     let pair = pair([21, 40], 18.0);
-    let meshes = vec![gearbox::Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+    let meshes = vec![gearbox::GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
     type Change = fn(&mut Structure, f64);
     let changes: [(&str, Change); 9] = [
         ("length", |s, x| s.shafts[0].pieces[0].length = x),

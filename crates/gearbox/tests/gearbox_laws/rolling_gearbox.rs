@@ -40,7 +40,7 @@ fn cones(row: Row, axial: AxialSetting) -> RollingBearing {
 }
 
 /// The two stages on deep groove balls and cylindrical rollers, on an angular contact pair and on a tapered one.
-fn on_rolling_bearings(play: f64, axial: AxialSetting) -> (Structure, Vec<gearbox::Mesh>) {
+fn on_rolling_bearings(play: f64, axial: AxialSetting) -> (Structure, Vec<gearbox::GearMesh>) {
     let (mut structure, meshes) = two_stages();
     let laws = [
         deep_groove(play),
@@ -60,7 +60,7 @@ fn run(structure: &Structure, sense: Sense, torque: f64) -> Operation {
     operation(structure, 4, sense, vec![Torque { disc: 5, torque: -(sense.sign() as f64) * torque }])
 }
 
-fn solved(structure: &Structure, meshes: &[gearbox::Mesh], torque: f64) -> GearboxPosition {
+fn solved(structure: &Structure, meshes: &[gearbox::GearMesh], torque: f64) -> GearboxPosition {
     let run = run(structure, Sense::Ccw, torque);
     let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), run, springs);
     made.and_then(|mut g| g.solve(0.3)).unwrap_or_else(|e| panic!("{torque} N mm: {e}"))
@@ -274,6 +274,7 @@ fn a_motion_begins_where_rolling_bearings_stand() {
         tolerance,
         stop_at_events: false,
         settle: None,
+        shoots: false,
     };
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| {

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use gearbox::{
-    GearboxError, Held, LinearMesh, Machine, MeanMesh, Mesh, MeshElement, MeshExcitation, MeshReply, MeshSample,
+    GearMesh, GearboxError, Held, LinearMesh, Machine, MeanMesh, MeshElement, MeshExcitation, MeshForces, MeshSample,
     Meshing, Operation, StaticGearbox, Structure, Torque, Vector12, Vibration, own_cycle, turn_levers,
 };
 use geometry::Sense;
@@ -17,7 +17,7 @@ pub struct Wavy {
 }
 
 impl Wavy {
-    pub fn new(mesh: &Mesh, meshing: &Meshing) -> Self {
+    pub fn new(mesh: &GearMesh, meshing: &Meshing) -> Self {
         Self { mean: spring(mesh, meshing), at: 0.0 }
     }
 }
@@ -28,7 +28,7 @@ impl MeshElement for Wavy {
         Ok(())
     }
 
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshReply, GearboxError> {
+    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         let phase = TAU * self.at;
         let stiffness = self.mean.stiffness * (1.0 + 0.2 * phase.cos());
         let excess = 1e-3 * phase.cos() + 4e-4 * (2.0 * phase).sin();
@@ -40,7 +40,7 @@ impl MeshElement for Wavy {
 pub const POSITIONS: usize = 15;
 
 /// Two stages whose gears have the mass of steel rings, and machines at both ends.
-pub fn heavy_stages() -> (Structure, Vec<Mesh>) {
+pub fn heavy_stages() -> (Structure, Vec<GearMesh>) {
     let (mut structure, meshes) = two_stages();
     for (i, (outer, inner)) in [(52.0, 25.0), (164.0, 35.0), (58.0, 35.0), (144.0, 50.0)].into_iter().enumerate() {
         let seat = &structure.discs[i];
@@ -58,7 +58,7 @@ pub fn load(structure: &Structure, sense: Sense) -> Operation {
 }
 
 /// Each mesh through its own cycle under load, the others at their means.
-pub fn cycles(structure: &Structure, meshes: &[Mesh], run: &Operation) -> Vec<(Vec<MeshSample>, Vec<f64>)> {
+pub fn cycles(structure: &Structure, meshes: &[GearMesh], run: &Operation) -> Vec<(Vec<MeshSample>, Vec<f64>)> {
     let solve = |own: usize, means: &[MeanMesh]| {
         let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), run.clone(), |i, mesh, meshing| {
             let mean = means.get(i).filter(|_| i != own).cloned();
@@ -71,7 +71,7 @@ pub fn cycles(structure: &Structure, meshes: &[Mesh], run: &Operation) -> Vec<(V
 }
 
 /// A box that is turned by its input.
-pub fn vibration(structure: &Structure, meshes: &[Mesh], run: &Operation, held: &Held) -> Vibration {
+pub fn vibration(structure: &Structure, meshes: &[GearMesh], run: &Operation, held: &Held) -> Vibration {
     let own = cycles(structure, meshes, run);
     let train = gearbox::Train::new(structure, meshes, &run.keys, run.input, run.sense).unwrap();
     let excitations = own.iter().enumerate().map(|(i, (s, te))| {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use gearbox::{Disc, GearboxError, Mesh, Structure, Torque, Train, mesh_torques};
+use gearbox::{Disc, GearMesh, GearboxError, Structure, Torque, Train, mesh_torques};
 use geometry::{Driver, Sense};
 
 use crate::pairs::{operation, pair, shaft, two_stages};
@@ -64,7 +64,8 @@ fn an_idler_sets_its_meshes_apart_by_the_teeth_between_them() {
             discs: (0..3).map(|s| Disc::seat(format!("gear {s}"), s, 50.0)).collect(),
             ..Structure::default()
         };
-        let mesh = |name: &str, discs, pair: &geometry::GearPair| Mesh { name: name.into(), discs, pair: pair.clone() };
+        let mesh =
+            |name: &str, discs, pair: &geometry::GearPair| GearMesh { name: name.into(), discs, pair: pair.clone() };
         let meshes = [mesh("in", [0, 1], &pairs[0]), mesh("out", [1, 2], &pairs[1])];
         let train = Train::new(&structure, &meshes, &[0.0; 3], 0, Sense::Ccw).unwrap();
         // The input angle at which pair 0 of the first mesh meets at its pitch point, and where the second mesh is then.
@@ -108,7 +109,8 @@ fn rings_are_timed_and_must_agree() {
                 .into(),
             ..Structure::default()
         };
-        let mesh = |name: &str, discs, pair: &geometry::GearPair| Mesh { name: name.into(), discs, pair: pair.clone() };
+        let mesh =
+            |name: &str, discs, pair: &geometry::GearPair| GearMesh { name: name.into(), discs, pair: pair.clone() };
         let meshes = [mesh("left", [0, 1], &pairs[0]), mesh("right", [2, 3], &pairs[1])];
         Train::new(&structure, &meshes, &[0.0, 0.0, 0.05, 0.0], 0, Sense::Ccw)
     };
@@ -123,7 +125,8 @@ fn rings_are_timed_and_must_agree() {
 #[test]
 fn axes_and_gears_in_wrong_places_are_refused() {
     let (structure, meshes) = two_stages();
-    let of = |structure: &Structure, meshes: &[Mesh], keys: &[f64]| Train::new(structure, meshes, keys, 4, Sense::Ccw);
+    let of =
+        |structure: &Structure, meshes: &[GearMesh], keys: &[f64]| Train::new(structure, meshes, keys, 4, Sense::Ccw);
     let mut far = structure.clone();
     far.shafts[2].origin[0] += 1.0;
     assert!(matches!(of(&far, &meshes, &[0.0; 6]), Err(GearboxError::Distance { mesh, .. }) if mesh == "second"));
@@ -147,7 +150,7 @@ fn torques_of_meshes_go_by_the_teeth() {
     let (structure, meshes) = two_stages();
     let load = Torque { disc: 5, torque: -4e5 };
     let found = mesh_torques(&structure, &meshes, &operation(&structure, 4, Sense::Ccw, vec![load])).unwrap();
-    let teeth = |mesh: &gearbox::Mesh| [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
+    let teeth = |mesh: &gearbox::GearMesh| [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
     let [first, second] = [teeth(&meshes[0]), teeth(&meshes[1])];
     let wanted_second = [4e5 * second[0] / second[1], 4e5];
     // The middle shaft passes on what it gets: its two gears press against each other.

@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use fem::Material;
 use gearbox::{
-    Assembly, Disc, ElasticMesh, GearboxError, Held, LinearMesh, Mesh, MeshElement, MeshExcitation, MeshSample, Rotors,
-    Structure, Train, Vector12, Vibration,
+    Assembly, Disc, ElasticMesh, GearMesh, GearboxError, Held, LinearMesh, MeshElement, MeshExcitation, MeshSample,
+    Rotors, Structure, Train, Vector12, Vibration,
 };
 use geometry::{GearPair, Sense};
 use nalgebra::{Complex, DMatrix, DVector, SVector};
@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// The mean mesh of one pair as a spring of a stiffness, at rest at `displacements`.
-fn elastic(mesh: &Mesh, train: &Train, i: usize, stiffness: f64) -> MeshExcitation {
+fn elastic(mesh: &GearMesh, train: &Train, i: usize, stiffness: f64) -> MeshExcitation {
     let own = LinearMesh { stiffness, ..spring(mesh, &train.meshing()[i]) };
     let h = Vector12::from_fn(|k, _| own.levers[k / 6][k % 6]);
     let displacements = 1e-3 * h / h.norm_squared();
@@ -29,7 +29,7 @@ fn elastic(mesh: &Mesh, train: &Train, i: usize, stiffness: f64) -> MeshExcitati
 fn two_discs(pair: &GearPair, held: &Held, order: SVector<Complex<f64>, 12>) -> Vibration {
     let mut structure = single(pair, 0.4);
     (structure.discs[0].polar_inertia, structure.discs[1].polar_inertia) = (40.0, 700.0);
-    let meshes = [Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+    let meshes = [GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
     let train = Train::new(&structure, &meshes, &[0.0; 4], 2, Sense::Ccw).unwrap();
     let mut excitation = elastic(&meshes[0], &train, 0, 4e5);
     excitation.orders = vec![order];
@@ -121,7 +121,7 @@ fn stiff_teeth_make_geared_rotors_an_equivalent_shaft() {
         (3..5).for_each(|k| b.stiffness[(k, k)] = 1e12);
     }
     (structure.discs[2].polar_inertia, structure.discs[3].polar_inertia) = (1e3, 9e3);
-    let meshes = [Mesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
+    let meshes = [GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
     let train = Train::new(&structure, &meshes, &[0.0; 4], 2, Sense::Ccw).unwrap();
     let excitation = elastic(&meshes[0], &train, 0, 1e9);
     let box_ = Vibration::new(structure, (&meshes, &train, Sense::Ccw), vec![excitation], &Held::default()).unwrap();

@@ -1,8 +1,12 @@
 //! Depth of a modified flank with its derivatives. Theory (25).
 
+use std::sync::Arc;
+
+use super::flank_size::FlankSize;
 use super::interpolation::Bicubic;
 use super::relief::Ramp;
-use super::{FlankModification, ProfileAxis, ProfilePlace, Topography};
+use super::split::{Split, Splits};
+use super::{FlankModification, ProfileAxis, ProfilePlace, TopographyGrid};
 use crate::GeometryError;
 
 /// Depth at a place of a flank, normal to it, positive where material is removed.
@@ -32,61 +36,22 @@ pub struct DepthField {
     along_profile: [Option<Ramp>; 2],
     along_lead: [Option<Ramp>; 2],
     grid: Option<Bicubic>,
+    splits: Splits,
+    size: FlankSize,
     least: f64,
-    band: f64,
 }
-
-/// Half of a usual band of contact over the normal module.
-const BANDS_A_MODULE: f64 = 30.0;
 
 /// Places along the profile and along the face at which the least depth is looked for.
 const LEAST: [usize; 2] = [33, 17];
 
-/// Size of the flank that a modification is put on.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct FlankSize {
-    /// Roll angles at the root form circle and at the tip circle.
-    pub roll: [f64; 2],
-    /// b/2, mm.
-    pub half_width: f64,
-    /// r_b, mm.
-    pub base_radius: f64,
-    /// m_n, mm.
-    pub normal_module: f64,
-}
-
-impl FlankSize {
-    /// Roll angle of a place between root form circle and tip circle.
-    fn roll_of(&self, name: &'static str, place: ProfilePlace) -> Result<f64, GeometryError> {
-        let roll = place.roll(self.base_radius);
-        // Below the base circle the roll angle is no number, and no number is below the tip.
-        if roll < self.roll[1] && roll >= self.roll[0] * (1.0 - 1e-9) {
-            return Ok(roll);
-        }
-        Err(self.off_flank(name, place))
-    }
-
-    fn off_flank(&self, name: &'static str, place: ProfilePlace) -> GeometryError {
-        match place {
-            ProfilePlace::Roll(value) => GeometryError::OffFlank {
-                name,
-                value: value.to_degrees(),
-                unit: "deg of roll",
-                low: self.roll[0].to_degrees(),
-                high: self.roll[1].to_degrees(),
-            },
-            ProfilePlace::Diameter(value) => {
-                let [low, high] = self.roll.map(|u| 2.0 * self.base_radius * u.hypot(1.0));
-                GeometryError::OffFlank { name, value, unit: "mm of diameter", low, high }
-            }
-        }
-    }
-}
-
 impl DepthField {
     /// # Errors
     /// [`GeometryError::OutOfRange`], [`GeometryError::OffFlank`], [`GeometryError::GridOffFlank`].
-    pub(crate) fn new(m: &FlankModification, size: FlankSize) -> Result<Self, GeometryError> {
+    pub(crate) fn new(
+        m: &FlankModification,
+        topography: Option<&TopographyGrid>,
+        size: FlankSize,
+    ) -> Result<Self, GeometryError> {
         // A millimetre of relief is no micro-geometry any more: the first-order foot point would not hold.
         let amounts = [
             ("profile crowning [mm]", m.profile_crowning),
@@ -118,10 +83,10 @@ impl DepthField {
             None => None,
             Some(r) => {
                 let start = size.roll_of("start of root relief", r.start)?;
-                if start <= form {
+                if (start - form) * (tip - form) <= 0.0 {
                     return Err(GeometryError::OutOfRange {
                         name: "length of root relief",
-                        value: start - form,
+                        value: (start - form) * (tip - form).signum(),
                         expected: "above 0: it starts above the root form circle",
                     });
                 }
@@ -153,18 +118,35 @@ impl DepthField {
             bias: m.bias,
             along_profile: [root_relief, tip_relief],
             along_lead,
-            grid: m.topography.as_ref().map(|t| grid(t, size)).transpose()?,
+            grid: topography.map(|t| grid(t, size)).transpose()?,
+            splits: Splits::default(),
+            size,
             least: 0.0,
-            band: size.normal_module / BANDS_A_MODULE,
         };
+        field.least = field.least_of(|u, z| field.at(u, z));
+        Ok(field)
+    }
+
+    /// The least value over the flank.
+    fn least_of(&self, depth: impl Fn(f64, f64) -> Depth) -> f64 {
         let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
         let [along, across] = LEAST;
+        let [form, tip] = self.size.roll;
         let places = (0..along * across).map(|i| {
             let (p, q) = (place(i % along, along), place(i / along, across));
-            field.at(form + p * (tip - form), size.half_width * (2.0 * q - 1.0)).value
+            depth(form + p * (tip - form), self.size.half_width * (2.0 * q - 1.0)).value
         });
-        field.least = places.fold(f64::INFINITY, f64::min);
-        Ok(field)
+        places.fold(f64::INFINITY, f64::min)
+    }
+
+    /// Its smooth part and the deviation from that, as slices of an axial length (mm; 0: points) see it; `None` where
+    /// nothing was measured and all of it is smooth.
+    pub fn split(field: &Arc<Self>, slice: f64) -> Option<SplitDepth> {
+        let grid = field.grid.as_ref()?;
+        let split = field.splits.of(grid, &field.size, slice);
+        let mut own = SplitDepth { field: Arc::clone(field), split, least: 0.0 };
+        own.least = field.least_of(|u, z| own.smooth(u, z));
+        Some(own)
     }
 
     /// Least depth over the flank from root form circle to tip, mm, to what lies between 33 places along the profile and
@@ -177,7 +159,7 @@ impl DepthField {
     /// a kink there is none to be had at a point. A thirtieth of the normal module: a gear of twice the size, under the
     /// same stress, has twice the band.
     pub fn band(&self) -> f64 {
-        self.band
+        self.size.band()
     }
 
     /// Depth at roll angle `u` and height `z` (mm), with first derivatives.
@@ -186,6 +168,11 @@ impl DepthField {
     /// C_alpha p^2 + C_Halpha p / 2 + C_beta q^2 + C_Hbeta q / 2 + S_alpha p q / 4 + reliefs + grid
     /// ```
     pub fn at(&self, u: f64, z: f64) -> Depth {
+        self.with(self.grid.as_ref().map(|grid| grid.at(u, z)), u, z)
+    }
+
+    /// The stated modifications and what of the grid is given.
+    fn with(&self, grid: Option<[f64; 3]>, u: f64, z: f64) -> Depth {
         let [dp, dq] = [self.per_roll, self.per_height];
         let [p, q] = [dp * (u - self.middle), dq * z];
         let mut depth = Depth {
@@ -207,13 +194,50 @@ impl DepthField {
             depth.value += value;
             depth.by_z += slope;
         }
-        if let Some(grid) = &self.grid {
-            let [value, by_roll, by_z] = grid.at(u, z);
+        if let Some([value, by_roll, by_z]) = grid {
             depth.value += value;
             depth.by_roll += by_roll;
             depth.by_z += by_z;
         }
         depth
+    }
+}
+
+/// A [`DepthField`] in its smooth part, which includes all stated modifications, and the deviation of the measured flank
+/// from that.
+#[derive(Debug, Clone)]
+pub struct SplitDepth {
+    field: Arc<DepthField>,
+    split: Arc<Split>,
+    least: f64,
+}
+
+/// One is made from its field alone.
+impl PartialEq for SplitDepth {
+    fn eq(&self, other: &Self) -> bool {
+        self.field == other.field
+    }
+}
+
+impl SplitDepth {
+    /// The smooth part at roll angle `u` and height `z` (mm).
+    pub fn smooth(&self, u: f64, z: f64) -> Depth {
+        self.field.with(Some(self.split.smooth(u, z)), u, z)
+    }
+
+    /// What the flank lies below the smooth part, mm.
+    pub fn deviation(&self, u: f64, z: f64) -> f64 {
+        self.field.grid.as_ref().map_or(0.0, |grid| self.split.deviation(grid, u, z))
+    }
+
+    /// Largest deviation either way, mm.
+    pub fn largest_deviation(&self) -> f64 {
+        self.split.largest()
+    }
+
+    /// Least depth of the smooth part over the flank, mm.
+    pub fn least(&self) -> f64 {
+        self.least
     }
 }
 
@@ -226,7 +250,7 @@ fn check_amount(name: &'static str, value: f64) -> Result<(), GeometryError> {
 
 /// The grid over roll angle and height. It must cover at least half of the flank either way: less is a wrong unit
 /// (radius for diameter, degrees for mm) rather than a measurement.
-fn grid(t: &Topography, size: FlankSize) -> Result<Bicubic, GeometryError> {
+fn grid(t: &TopographyGrid, size: FlankSize) -> Result<Bicubic, GeometryError> {
     let rolls = match t.profile() {
         ProfileAxis::Roll(rolls) => rolls.clone(),
         ProfileAxis::Diameter(d) => d.iter().map(|&d| ProfilePlace::Diameter(d).roll(size.base_radius)).collect(),
@@ -241,7 +265,7 @@ fn grid(t: &Topography, size: FlankSize) -> Result<Bicubic, GeometryError> {
     };
     let z = t.heights();
     let fine = [
-        ("along the profile", covers(&rolls, size.roll[0], size.roll[1])),
+        ("along the profile", covers(&rolls, size.roll[0].min(size.roll[1]), size.roll[0].max(size.roll[1]))),
         ("across the face", covers(z, -size.half_width, size.half_width)),
     ];
     if let Some((direction, _)) = fine.iter().find(|(_, covered)| !covered) {

@@ -34,6 +34,11 @@ impl Bicubic {
         Self { x, y, nodes }
     }
 
+    /// Number of grid lines in either direction.
+    pub fn lines(&self) -> [usize; 2] {
+        [self.x.len(), self.y.len()]
+    }
+
     /// Value and derivatives by x and y.
     pub fn at(&self, x: f64, y: f64) -> [f64; 3] {
         let (i, wx) = weights(&self.x, x);

@@ -28,21 +28,23 @@
 
 mod data_file;
 mod depth;
+mod flank_size;
 mod interpolation;
 mod modified_flank;
 mod pitch;
 mod relief;
+mod split;
 mod topography;
 
 use serde::Serialize;
 
 pub use data_file::DataFileError;
-pub(crate) use depth::FlankSize;
-pub use depth::{Depth, DepthField};
+pub use depth::{Depth, DepthField, SplitDepth};
+pub(crate) use flank_size::FlankSize;
 pub use modified_flank::ModifiedFlank;
 pub use pitch::parse_pitch_errors;
 pub use relief::{EndRelief, ProfilePlace, Relief, ReliefShape};
-pub use topography::{ProfileAxis, Topography};
+pub use topography::{ProfileAxis, Topography, TopographyGrid};
 
 use crate::Side;
 
@@ -80,8 +82,8 @@ pub struct GearModifications {
     /// Of the right flanks.
     pub right: FlankModification,
     /// Cumulative pitch deviation (index deviation) of each tooth, mm of arc on the reference circle in the transverse
-    /// plane; positive: the tooth as a whole stands too far counter-clockwise, in the direction in which teeth are
-    /// numbered. Empty, or one value a tooth.
+    /// plane; positive: the tooth as a whole stands too far in the direction in which teeth are
+    /// numbered: counter-clockwise, of an internal gear clockwise. Empty, or one value a tooth.
     pub pitch_errors: Vec<f64>,
 }
 

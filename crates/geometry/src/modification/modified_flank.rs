@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Depth, DepthField};
+use super::{Depth, DepthField, SplitDepth};
 use crate::{Flank, FlankPoint, Vec3, flank::Directions};
 
 /// One flank with its micro-geometry, in its gear's own frame; surface coordinates are those of the nominal helicoid.
@@ -15,19 +15,40 @@ use crate::{Flank, FlankPoint, Vec3, flank::Directions};
 pub struct ModifiedFlank {
     flank: Flank,
     field: Option<Arc<DepthField>>,
+    /// Smooth part and deviation of a measured flank, where contact takes them apart; depths are then the smooth part's.
+    split: Option<SplitDepth>,
     /// Depth by which this tooth stands back because of its pitch error, mm.
     pitch: f64,
 }
 
 impl From<Flank> for ModifiedFlank {
     fn from(flank: Flank) -> Self {
-        Self { flank, field: None, pitch: 0.0 }
+        Self { flank, field: None, split: None, pitch: 0.0 }
     }
 }
 
 impl ModifiedFlank {
     pub(crate) fn new(flank: Flank, field: Option<Arc<DepthField>>, pitch: f64) -> Self {
-        Self { flank, field, pitch }
+        Self { flank, field, split: None, pitch }
+    }
+
+    /// The same flank with what was measured taken apart: its depth is the smooth part, and [`ModifiedFlank::deviation`]
+    /// the rest as slices of an axial length (mm; 0: points) see it. A flank that was not measured stays as it is.
+    #[must_use]
+    pub fn split(mut self, slice: f64) -> Self {
+        self.split = self.field.as_ref().and_then(|field| DepthField::split(field, slice));
+        self
+    }
+
+    /// What the flank lies below the surface of its [`ModifiedFlank::depth`], mm, normal to it: 0 unless it was taken
+    /// apart.
+    pub fn deviation(&self, u: f64, z: f64) -> f64 {
+        self.split.as_ref().map_or(0.0, |split| split.deviation(u, z))
+    }
+
+    /// Largest [`ModifiedFlank::deviation`] either way, mm.
+    pub fn largest_deviation(&self) -> f64 {
+        self.split.as_ref().map_or(0.0, SplitDepth::largest_deviation)
     }
 
     /// The nominal helicoid.
@@ -37,14 +58,19 @@ impl ModifiedFlank {
 
     /// Depth at roll angle `u` and height `z` (mm), pitch error included, with first derivatives.
     pub fn depth(&self, u: f64, z: f64) -> Depth {
-        let mut depth = self.field.as_ref().map_or_else(Depth::default, |f| f.at(u, z));
+        let mut depth = match (&self.split, &self.field) {
+            (Some(split), _) => split.smooth(u, z),
+            (None, Some(field)) => field.at(u, z),
+            (None, None) => Depth::default(),
+        };
         depth.value += self.pitch;
         depth
     }
 
     /// Least depth over the flank, pitch error included, mm: see [`DepthField::least`].
     pub fn least_depth(&self) -> f64 {
-        self.pitch + self.field.as_ref().map_or(0.0, |f| f.least())
+        let of_field = || self.field.as_ref().map_or(0.0, |f| f.least());
+        self.pitch + self.split.as_ref().map_or_else(of_field, SplitDepth::least)
     }
 
     /// Half of a usual band of contact, mm: see [`DepthField::band`]; 0 of a flank that nothing is ground off.
@@ -91,7 +117,8 @@ impl ModifiedFlank {
         let s = self.flank.side.sign();
         let [_, cos_b] = self.flank.base_helix();
         // Kept off zero, where the involute ends in a point.
-        let radius = (self.flank.base_radius * u - depth.value * cos_b).max(1e-9 * self.flank.base_radius);
+        let (base, sign) = (self.flank.base_radius, self.flank.base_radius.signum());
+        let radius = sign * (sign * (base * u - depth.value * cos_b)).max(1e-9 * base.abs());
         let along = depth.by_roll / radius;
         let across = cos_b * (depth.by_z + s * self.flank.twist * depth.by_roll);
         (frame.normal + along * frame.profile + across * frame.generator).normalize()

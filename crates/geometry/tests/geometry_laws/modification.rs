@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape, Topography, parse_pitch_errors};
+use geometry::modification::{
+    EndRelief, ProfileAxis, ProfilePlace, Relief, ReliefShape, Topography, TopographyGrid, parse_pitch_errors,
+};
 use geometry::{FlankModification, Gear, GearData, GearModifications, GeometryError, ModifiedFlank, Side};
 use nalgebra::Rotation3;
 
@@ -289,6 +291,74 @@ fn topography_keeps_its_values() {
         let off = gear.depth(Side::Left, 0, u, z).value - same.depth(Side::Left, 0, u, z).value;
         assert!(off.abs() < 1e-12, "{off:e}");
     }
+}
+
+/// Teeth of a file with a column `tooth` have their own depths, the others those of the nearest.
+#[test]
+fn a_topography_by_tooth_is_that_of_its_teeth() {
+    let text = "tooth roll_deg -9 9\n3 10 1 1\n29 10 5 5\n3 40 2 2\n29 40 5 5\n20 10 7 7\n20 40 7 7\n";
+    let topography = Topography::parse(text, Path::new("g.csv")).unwrap();
+    assert_eq!(topography.teeth(), [3, 20, 29]);
+    let flank = FlankModification { topography: Some(topography.clone()), ..FlankModification::default() };
+    let gear = modified(0.0, &flank);
+    assert!(gear.has_own_teeth());
+    let um = |tooth: i64| (1e3 * gear.depth(Side::Left, tooth, 40f64.to_radians(), 0.0).value).round();
+    // Tooth 1 is two from 3 and two from 29: that of the lower number.
+    assert_eq!([3, 33, 5, 20, 25, 29, 1, 0, -1].map(um), [2.0, 2.0, 2.0, 7.0, 5.0, 5.0, 2.0, 5.0, 5.0]);
+    assert_eq!(
+        gear.modified_flank_at(Side::Left, 0, 20).depth(0.5, 0.0).value,
+        gear.depth(Side::Left, 20, 0.5, 0.0).value
+    );
+    let error = topography.of_teeth(29).unwrap_err();
+    assert_eq!(error, GeometryError::NoSuchTooth { tooth: 29, teeth: 29 });
+    let says = |text: &str| Topography::parse(text, Path::new("g.csv")).unwrap_err().to_string();
+    assert_eq!(says("tooth roll_deg 1 2\n-1 5 1 2\n"), "g.csv:2: expected a tooth, counted from 0, found `-1`");
+    assert_eq!(
+        says("tooth roll_deg 1 2\n1 5 1 2\n2 4 1 2\n1 5 1 2\n"),
+        "g.csv:4: roll_deg must rise from value to value: 5 is followed by 5"
+    );
+    assert_eq!(
+        says("tooth roll_deg 1 2\n1 5 1 2\n1 6 1 2\n2 4 1 2\n"),
+        "g.csv: 1 rows of depths, at least 2 are needed"
+    );
+    assert!(says("tooth z 1 2\n").starts_with("g.csv:1: expected `diameter_mm` or `roll_deg`"));
+}
+
+/// A flank that is taken apart is the same flank: smooth part and deviation add up to the depth. A plane deviates by
+/// nothing, and of short waves nothing is in the smooth part.
+#[test]
+fn smooth_part_and_deviation_are_the_flank() {
+    let at = |of: &dyn Fn(f64, f64) -> f64| {
+        let gear = nominal(20.0);
+        let even = |from: f64, to: f64, n: usize| -> Vec<f64> {
+            (0..n).map(|i| from + (to - from) * i as f64 / (n - 1) as f64).collect()
+        };
+        let rolls = even(gear.profile().roll_form(), gear.profile().roll_tip(), 161);
+        let z = even(-10.0, 10.0, 41);
+        let depths = rolls.iter().flat_map(|&u| z.iter().map(move |&z| (u, z))).map(|(u, z)| 1e-3 * of(u, z)).collect();
+        let grid = TopographyGrid::new(ProfileAxis::Roll(rolls), z, depths).unwrap();
+        let flank =
+            FlankModification { topography: Some(grid.into()), profile_crowning: 2e-3, ..FlankModification::default() };
+        modified(20.0, &flank)
+    };
+    let wavy = at(&|u, z| (150.0 * u).cos() + 0.02 * z * z);
+    let [whole, split] = [wavy.modified_flank(Side::Left, 3), wavy.modified_flank(Side::Left, 3).split(0.0)];
+    let mut largest = 0.0f64;
+    for [u, z] in places(&wavy) {
+        let sum = split.depth(u, z).value + split.deviation(u, z);
+        assert!((sum - whole.depth(u, z).value).abs() < 1e-12, "at {u}, {z}");
+        largest = largest.max(split.deviation(u, z).abs());
+    }
+    assert!(
+        largest > 0.5e-3 && largest <= split.largest_deviation() * 1.01,
+        "{largest} of {}",
+        split.largest_deviation()
+    );
+    let plane = at(&|_, z| 3.0 + 0.5 * z).modified_flank(Side::Right, 0).split(0.8);
+    assert!(plane.largest_deviation() < 1e-12, "{}", plane.largest_deviation());
+    // A measured flank that is not taken apart, and one that was not measured.
+    assert_eq!(whole.deviation(0.4, 1.0), 0.0);
+    assert_eq!(nominal(20.0).modified_flank(Side::Left, 0).split(0.0), nominal(20.0).modified_flank(Side::Left, 0));
 }
 
 /// Every damage to a file is told with its line.

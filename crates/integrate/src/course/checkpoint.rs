@@ -7,13 +7,13 @@ use crate::{Forces, Ledger, Mechanism, MotionError, State};
 
 /// A mechanism whose motion can be stored.
 pub trait Resumable: Mechanism {
-    /// What it is beside coordinates and velocities, as numbers: teeth in a window, extremes so far.
+    /// State beside coordinates and velocities, as numbers: teeth in a window, extremes so far.
     type Memory: Clone + std::fmt::Debug + PartialEq + Serialize + DeserializeOwned;
 
-    /// What it is now.
+    /// Present state beside coordinates and velocities.
     fn memory(&self) -> Self::Memory;
 
-    /// Becomes what it was, with nothing remembered of other places.
+    /// Restores a stored state; nothing of other places is remembered.
     ///
     /// # Errors
     /// The mechanism's own, also for a memory of another one.
@@ -41,11 +41,11 @@ pub struct Checkpoint<K> {
     pub state: State,
     /// Energy.
     pub ledger: Ledger,
-    /// What the mechanism is beside.
+    /// State of the mechanism beside coordinates and velocities.
     pub memory: K,
-    /// What was counted.
+    /// Counts so far.
     pub counts: Counts,
-    /// How far the motion has come.
+    /// Stage of the motion: how far it has come.
     pub stage: Stage,
 }
 
@@ -70,7 +70,7 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
         })
     }
 
-    /// Goes on from a checkpoint.
+    /// Course that goes on from a checkpoint.
     ///
     /// # Errors
     /// [`MotionError::OtherCoordinates`] for a checkpoint of another mechanism, [`MotionError::Mechanism`] where its

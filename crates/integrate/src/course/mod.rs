@@ -62,7 +62,7 @@ pub struct Course<M, T> {
 }
 
 impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
-    /// At the start of cycle 0 in this state.
+    /// Course at the start of cycle 0 in a state.
     pub fn new(system: M, timetable: T, state: State) -> Self {
         let (counts, stage) = (Counts::default(), Stage::default());
         Self { system, timetable, state, ledger: None, cycle: 0, counts, stage, integrator: None }
@@ -98,12 +98,12 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         self.cycle
     }
 
-    /// What was counted.
+    /// Counts so far.
     pub fn counts(&self) -> &Counts {
         &self.counts
     }
 
-    /// How far the motion has come.
+    /// Stage of the motion: how far it has come.
     pub fn stage(&self) -> &Stage {
         &self.stage
     }

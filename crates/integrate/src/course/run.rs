@@ -6,10 +6,10 @@ use crate::{Mechanism, MotionError, Periodicity, Recurrence, SignalRecurrence, S
 /// Cycles before a nearer state is sought; the next tries come after half as many again.
 const FIRST_SHOT: u64 = 8;
 
-/// What is asked of a motion.
+/// Goal of a motion.
 #[derive(Debug)]
 pub struct Goal<M: Mechanism> {
-    /// What tells whether it repeats itself; `None`: nobody asks.
+    /// Comparison that decides whether the motion repeats itself; `None`: it is not compared.
     pub compared: Option<Compared<M>>,
     /// Settles first.
     pub settle: Option<Settle>,
@@ -108,7 +108,12 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
             let found = self.settling_cycle(goal, *tolerance)?;
             self.stage.recording = found.is_some_and(|p| p.residual <= *tolerance);
             follower.cycle(&self.stage)?;
-            if let (false, Some(found)) = (self.stage.recording, found) {
+            // States are compared at the ends of periods, from the beginning of the last one on.
+            let is_period = match &goal.compared {
+                Some(Compared::States { period, .. }) => self.cycle.is_multiple_of((*period).max(1)),
+                _ => true,
+            };
+            if let (false, true, Some(found)) = (self.stage.recording, is_period, found) {
                 self.shoot(found, follower)?;
             }
             if self.after_cycle(goal, follower)? {

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{Envelope, Mechanism, Periodicity, Recurrence, SignalRecurrence, State};
 
-/// How far a motion has come: before its rows, or among them.
+/// Stage of a motion: before its rows, or among them.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stage {
     /// Whether rows are written: the motion has settled, or need not.
@@ -20,7 +20,7 @@ pub struct Stage {
     pub(super) states: Option<Recurrence>,
     /// Rows of the last cycles, where a signal is compared.
     pub(super) signal: SignalRecurrence,
-    /// How far coordinates went in the period under way.
+    /// Least and largest coordinates of the present period.
     pub(super) envelope: Option<Envelope>,
     /// Cycles after which a nearer state is sought next.
     pub(super) next_shot: u64,
@@ -33,7 +33,7 @@ impl Stage {
     }
 }
 
-/// What tells whether a motion repeats itself.
+/// Comparison that decides whether a motion repeats itself.
 pub enum Compared<M: Mechanism> {
     /// States at the ends of periods.
     States {

@@ -1,10 +1,10 @@
-//! How the time of a motion is divided: into cycles, rows within them, and steps.
+//! Timetable of a motion: cycles, rows within them, and steps.
 
 use nalgebra::DVector;
 
 use crate::{Integrator, Mechanism, Scheme, StepControl};
 
-/// How a motion is integrated, but for the length of its steps.
+/// Method of integration, but for the length of steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Method {
     /// Method of integration.
@@ -35,18 +35,18 @@ pub struct Stop {
 }
 
 impl Stop {
-    /// With a row.
+    /// Stop with a row.
     pub fn row(time: f64) -> Self {
         Self { time, is_row: true }
     }
 }
 
-/// Where rows stand.
+/// Place of rows in a cycle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RowPlace {
-    /// Where each stop with a row begins.
+    /// Rows at the beginning of each stop with a row.
     Beginnings,
-    /// At each stop with a row.
+    /// Rows at each stop with a row.
     Ends,
     /// Behind every so many-th step, >= 1: steps of equal length meet the rows by themselves.
     Steps(u64),
@@ -57,7 +57,7 @@ pub enum RowPlace {
 pub struct CycleTimes {
     /// Times at which steps end, ascending; the last one ends the cycle. None: the cycle takes no time.
     pub stops: Vec<Stop>,
-    /// Where rows stand.
+    /// Place of rows in the cycle.
     pub rows: RowPlace,
     /// Length of the steps between the stops.
     pub control: StepControl,
@@ -65,7 +65,7 @@ pub struct CycleTimes {
 
 /// Divides the time of a motion.
 pub trait Timetable<M: Mechanism> {
-    /// How the motion is integrated.
+    /// Method of integration for a mechanism.
     fn method(&self, system: &M) -> Method;
 
     /// Times of cycle `cycle`, counted from 0, which begins at the time `begin` (s). `None` where the motion ends before
@@ -83,7 +83,7 @@ pub trait Timetable<M: Mechanism> {
 /// interval.
 #[derive(Debug, Clone, PartialEq)]
 pub struct EvenRows {
-    /// How the motion is integrated.
+    /// Method of integration.
     pub method: Method,
     /// Length of the steps; one ends at every row.
     pub control: StepControl,

@@ -36,7 +36,7 @@ pub struct Integrator {
     control: StepControl,
     scale: DVector<f64>,
     stop_at_events: bool,
-    /// Where an explicit method is kept within its stability limit.
+    /// Guard that keeps an explicit method within its stability limit.
     guard: Option<StabilityGuard>,
     /// Time (s) of the tangents in `forces`; none where they are of another place.
     tangents_at: Option<f64>,
@@ -97,7 +97,7 @@ impl Integrator {
         Self { stop_at_events, ..self }
     }
 
-    /// With steps of other lengths from now on.
+    /// Integrator with steps of other lengths from now on.
     pub(crate) fn with_control(self, control: StepControl) -> Self {
         Self { control, ..self }
     }
@@ -125,7 +125,7 @@ impl Integrator {
         self.ledger.as_ref()
     }
 
-    /// Goes on with a ledger of before (restart).
+    /// Integrator that goes on with the ledger of an earlier one (restart).
     #[must_use]
     pub fn resumed(self, ledger: Ledger) -> Self {
         Self { ledger: Some(ledger), ..self }
@@ -136,7 +136,8 @@ impl Integrator {
         [self.steps, self.refused]
     }
 
-    /// From `state` to the time `until`, calling `seen` after every step. A start finds its accelerations itself.
+    /// Integrates from `state` to the time `until`, calling `seen` after every step. A start finds its accelerations
+    /// itself.
     ///
     /// # Errors
     /// [`MotionError`].

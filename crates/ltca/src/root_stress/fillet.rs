@@ -1,4 +1,4 @@
-//! The nodes of one fillet, which of them are neighbours, and the hill of a stress on them.
+//! The nodes of one fillet, which of them are neighbours, and the peak of a stress on them.
 
 use std::collections::BTreeMap;
 
@@ -10,29 +10,29 @@ use super::turn::largest_turn;
 /// One fillet of a window.
 #[derive(Debug)]
 pub(super) struct Fillet {
-    /// In the matrices' frame.
+    /// Tooth number in the matrices' frame.
     pub tooth: u32,
     pub side: Side,
     /// Places of its nodes among those of the window.
     places: Vec<usize>,
     /// Places with which each of them shares a face.
     neighbours: Vec<Vec<usize>>,
-    /// Whether it is in the uppermost row: no neighbour is farther from the axis.
+    /// Whether a node is in the uppermost row: no neighbour is farther from the axis.
     uppermost: Vec<bool>,
-    /// Whether it is in the lowest row: no neighbour is nearer to the axis.
+    /// Whether a node is in the lowest row: no neighbour is nearer to the axis.
     lowest: Vec<bool>,
-    /// Whether it is below the [`FALLBACK_TANGENT`].
+    /// Whether a node is below the [`FALLBACK_TANGENT`].
     below: Vec<bool>,
     /// Angle by which the surface of the gear's fillets turns within one face, rad.
     pub turn: f64,
 }
 
-/// Where stress is looked at in a fillet on which it has no hill: below this tangent, rad (25 deg).
+/// Where stress is looked at in a fillet on which it has no peak: below this tangent, rad (25 deg).
 const FALLBACK_TANGENT: f64 = 25.0 * std::f64::consts::PI / 180.0;
 /// Nodes of the neck of a generated mesh lie on that circle, modules.
 const ON_CIRCLE_MODULES: f64 = 0.01;
 
-/// Radius of the [`FALLBACK_TANGENT`] of a gear, mm.
+/// Radius of the [`FALLBACK_TANGENT`] of a gear, mm; negative of a ring.
 pub(super) fn fallback_radius(gear: &Gear) -> f64 {
     let profile = gear.profile();
     let (radius, _) = profile.fillet(profile.fillet_at_tangent(FALLBACK_TANGENT));
@@ -61,9 +61,10 @@ impl<'a> Surroundings<'a> {
 
     /// The fillet of these nodes (ascending), which come to stand from `first` on.
     pub fn fillet(&self, tooth: u32, side: Side, nodes: &[u32], first: usize) -> Fillet {
+        // Negative of a ring, as the radius to compare with is: larger towards the tip.
         let radius = |node: u32| {
             let [x, y, _] = self.mesh.nodes[node as usize];
-            x.hypot(y)
+            x.hypot(y).copysign(self.fallback)
         };
         let beside = |node: &u32| -> Vec<usize> {
             let faces = self.about.get(node).into_iter().flatten().flat_map(|&i| self.faces[i].nodes());
@@ -74,8 +75,8 @@ impl<'a> Surroundings<'a> {
             beside
         };
         let neighbours: Vec<Vec<usize>> = nodes.iter().map(beside).collect();
-        let farther = |node: u32, other: usize| radius(nodes[other]) > radius(node) * (1.0 + 1e-9);
-        let nearer = |node: u32, other: usize| radius(nodes[other]) < radius(node) * (1.0 - 1e-9);
+        let farther = |node: u32, other: usize| radius(nodes[other]) > radius(node) + 1e-9 * self.fallback.abs();
+        let nearer = |node: u32, other: usize| radius(nodes[other]) < radius(node) - 1e-9 * self.fallback.abs();
         Fillet {
             tooth,
             side,
@@ -95,11 +96,11 @@ impl Fillet {
         self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
     }
 
-    /// Place and value of the largest hill of `sign` times a measure; of the largest value below the
-    /// [`FALLBACK_TANGENT`] where there is no hill but in the lowest row, of the largest at all where no row but the
+    /// Place and value of the largest peak of `sign` times a measure; of the largest value below the
+    /// [`FALLBACK_TANGENT`] where there is no peak but in the lowest row, of the largest at all where no row but the
     /// lowest is below it.
     ///
-    /// A hill is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there
+    /// A peak is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there
     /// is the stress of contact beside it, which has no limit as the mesh is refined.
     pub fn peak(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<(usize, f64)> {
         let largest = |counts: &dyn Fn(usize) -> bool| {
@@ -107,14 +108,14 @@ impl Fillet {
             // The first of equals, so that nothing depends on how the nodes are gone through.
             values.reduce(|best, v| if sign * v.1 > sign * best.1 { v } else { best })
         };
-        let hill = |i: usize| {
+        let peak = |i: usize| {
             let own = sign * value(self.places[i]);
             !self.uppermost[i] && self.neighbours[i].iter().all(|&other| sign * value(other) <= own)
         };
-        // A hill of the lowest row alone may be one along the face only, its top in rows that the mesh does not have.
+        // A peak of the lowest row alone may be one along the face only, its top in rows that the mesh does not have.
         let inside = |&(at, _): &(usize, f64)| self.places.binary_search(&at).is_ok_and(|i| !self.lowest[i]);
         let rows = (0..self.places.len()).any(|i| self.below[i] && !self.lowest[i]);
         let below = || rows.then(|| largest(&|i| self.below[i])).flatten();
-        largest(&hill).filter(inside).or_else(below).or_else(|| largest(&|_| true))
+        largest(&peak).filter(inside).or_else(below).or_else(|| largest(&|_| true))
     }
 }

@@ -30,7 +30,7 @@ use serde::Serialize;
 use crate::{StaticError, WindowedPair};
 
 /// What is called root stress; said wherever one is handed on.
-pub const ROOT_STRESS_DEFINITION: &str = "largest hill of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
+pub const ROOT_STRESS_DEFINITION: &str = "largest peak of the stress on the free surface of the root fillets, from the 20 deg tangent to the \
     middle of the tooth space, over the whole face width; stress that rises up to the flank is of contact and left out";
 
 /// How it comes from the displacement of the mesh; said beside it.
@@ -75,7 +75,7 @@ pub struct StressPeak {
 pub struct FilletStress {
     /// Tooth, 0 .. z-1.
     pub tooth: u32,
-    /// Which of its two fillets.
+    /// Side of the tooth that the fillet is on.
     pub side: Side,
     /// Largest principal stress.
     pub max_principal: StressPeak,
@@ -103,9 +103,9 @@ const NAMES: [&str; 2] = ["pinion", "wheel"];
 #[derive(Debug)]
 pub struct RootStress {
     fillets: [RootFillets; 2],
-    /// Radius below which stress is looked for on fillets without a hill, mm.
+    /// Radius below which stress is looked for on fillets without a peak, mm.
     fallback: [f64; 2],
-    /// By gear, first tooth and number of teeth in the matrices' frame.
+    /// Roots of the windows solved so far, by gear, first tooth and number of teeth in the matrices' frame.
     windows: Mutex<BTreeMap<(usize, u32, usize), Arc<WindowRoots>>>,
 }
 
@@ -115,15 +115,15 @@ struct WindowRoots {
     fillets: Vec<Fillet>,
     /// Numbers of the mesh, fillet by fillet.
     nodes: Vec<u32>,
-    /// From the free surface, and from the elements.
+    /// Stress recovery from the free surface, and from the elements.
     maps: [StressMap; 2],
 }
 
 #[derive(Debug)]
 enum StressMap {
-    /// From boundary coordinates of these matrices.
+    /// Recovery from boundary coordinates of these matrices.
     Modes(Arc<ReducedGear>, StressModes),
-    /// From all free degrees of freedom.
+    /// Recovery from all free degrees of freedom.
     Operator(StressOperator),
 }
 
@@ -261,7 +261,7 @@ impl WindowRoots {
         }
     }
 
-    /// By both recoveries.
+    /// Stress by both recoveries, MPa.
     fn stress(&self, u: &[f64]) -> Result<[Vec<[f64; 6]>; 2], ReductionError> {
         let [surface, volume] = &self.maps;
         Ok([surface.stress(u)?, volume.stress(u)?])

@@ -32,13 +32,13 @@ pub(super) struct Conditions {
 /// Rates of the conditions at held forces, below and above.
 #[derive(Debug)]
 pub(super) struct Rates {
-    /// Of the distances R, mm, a row each.
+    /// Rates of the distances R, mm, an entry a row.
     pub distances: Vec<[f64; 2]>,
-    /// Of the moment of the forces less that of the load, N mm.
+    /// Rates of the moment of the forces less that of the load, N mm.
     pub moment: [f64; 2],
-    /// Of the largest pressures, MPa.
+    /// Rates of the largest pressures, MPa.
     pub pressure: [[f64; 2]; 2],
-    /// Of the load on the base circle, N.
+    /// Rate of the load on the base circle, N.
     pub load: f64,
 }
 
@@ -98,7 +98,7 @@ impl Conditions {
         }
     }
 
-    /// By the rotation of the driven gear, per radian.
+    /// Derivatives of the conditions with respect to the rotation of the driven gear, per radian.
     pub fn by_rotation(
         &self,
         windowed: &WindowedPair,
@@ -117,7 +117,7 @@ impl Conditions {
         Some(self.rates(pair, [&at(-step)?, &at(0.0)?, &at(step)?], [step; 2], [0.0; 2]))
     }
 
-    /// By a parameter, per unit.
+    /// Derivatives of the conditions with respect to a parameter, per unit.
     pub fn by_variation(
         &self,
         windowed: &WindowedPair,
@@ -139,8 +139,8 @@ impl Conditions {
         let samples = [of_side(0)?, of_side(1)?];
         let torque = |i: usize| variation.sides[i].options.torque;
         let torque = (torque(1) - torque(0)) / variation.steps.iter().sum::<f64>();
-        let load = torque / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
-        let moment = -options.side().sign() * torque;
+        let load = torque / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()].abs();
+        let moment = -options.side().sign() * [&pair.pinion, &pair.wheel][options.driven()].sign() * torque;
         Some(self.rates(pair, [&samples[0], &here, &samples[1]], variation.steps, [moment, load]))
     }
 }

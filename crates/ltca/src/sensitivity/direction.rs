@@ -6,7 +6,7 @@ use faer::{Mat, prelude::Solve};
 use super::{Conditions, PositionRates, Rates, Sensitivity};
 use crate::{Equilibrium, WindowedPair};
 
-/// What both gears answer with: compliance of the rows, what the rotation does, levers.
+/// Response of both gears: compliance of the rows, effect of the rotation, levers.
 pub(super) struct Directions<'a> {
     at: &'a Conditions,
     turned: &'a Rates,
@@ -116,7 +116,7 @@ impl<'a> Directions<'a> {
         let Answer { forces, rotation } = self.in_direction(rates, side)?;
         let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
         let error = options.side().sign() * base_radius * rotation;
-        let stiffness = options.torque / base_radius / e.elastic_error();
+        let stiffness = options.base_force(pair) / e.elastic_error();
         let [max_pressure, max_edge_pressure] = [0, 1].map(|k| {
             let by_force = match self.at.hardest[k] {
                 // The pressure of Hertz grows with the root of the force.

@@ -22,24 +22,26 @@ pub use variation::Variation;
 /// Derivatives of a position by one parameter, per unit of it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PositionRates {
-    /// Of the transmission error, mm.
+    /// Derivative of the transmission error, mm.
     pub transmission_error: f64,
-    /// Of the transmission error without load, mm; NaN where it was not asked for.
+    /// Derivative of the transmission error without load, mm; NaN where it was not requested.
     pub kinematic_transmission_error: f64,
-    /// Of F_bt / (te - kinematic te), N/mm; likewise.
+    /// Derivative of the secant stiffness F_bt / (te - kinematic te), N/mm; NaN where the unloaded pair was not
+    /// requested.
     pub secant_stiffness: f64,
-    /// Of the largest contact pressure, MPa.
+    /// Derivative of the largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Of the largest at an end face or a tip edge, MPa; 0 where none presses.
+    /// Derivative of the largest pressure at an end face or a tip edge, MPa; 0 where none presses.
     pub max_edge_pressure: f64,
-    /// Of the normal force of each pair of the window, N, in the order of [`crate::StaticPosition::pairs`].
+    /// Derivative of the normal force of each tooth pair of the window, N, in the order of
+    /// [`crate::StaticPosition::pairs`].
     pub pair_forces: Vec<f64>,
 }
 
 /// Derivatives in either direction of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
-    /// As the parameter falls, and as it grows; per unit of it, the sign that of its growth.
+    /// Derivatives as the parameter falls, and as it grows; both per unit of growth.
     pub sides: [PositionRates; 2],
     /// Whether both are the same: no slice is about to touch or to leave, none presses on a kink.
     pub is_smooth: bool,
@@ -79,12 +81,12 @@ struct VariedSets {
 }
 
 impl Sensitivities {
-    /// By some parameters of a model.
+    /// Derivatives with respect to some parameters of a model.
     pub fn new(variations: Vec<Variation>) -> Self {
         Self { variations, unloaded: true, sets: None }
     }
 
-    /// The same for who asks nothing of the unloaded pair, which costs as much as all the others together.
+    /// Derivatives of the loaded pair alone: those of the unloaded one cost as much as all others together.
     #[must_use]
     pub fn of_loaded_pair(self) -> Self {
         Self { unloaded: false, ..self }

@@ -17,7 +17,7 @@ pub(crate) struct Neighbour {
 #[derive(Debug, Clone)]
 pub struct Variation {
     pub(super) sides: [Neighbour; 2],
-    /// By how much the parameter is less and more, in its own unit.
+    /// Steps of the parameter down and up, in its own unit.
     pub(super) steps: [f64; 2],
 }
 
@@ -29,8 +29,8 @@ impl Variation {
         Self { sides: [side(down), side(up)], steps }
     }
 
-    /// From three values of a quantity, with less, as it is and with more of the parameter: its rates either way, per
-    /// unit. Both are the central difference where they differ by no more than a smooth function's would.
+    /// Derivatives of a quantity either way, per unit, from its three values with less, as it is and with more of the
+    /// parameter. Both are the central difference where they differ by no more than a smooth function's would.
     pub(super) fn rates(&self, values: [f64; 3], smallest: f64) -> [f64; 2] {
         rates(values, self.steps, smallest)
     }
@@ -40,7 +40,8 @@ impl Variation {
         self.rates_at_touch(windowed, e).or_else(|| self.rates_of_neighbours(e))
     }
 
-    /// From the gap at the place of touch, which is one of least gap: that it moves changes nothing to first order.
+    /// Derivatives from the gap at the place of touch, which is one of least gap: its motion changes nothing to first
+    /// order.
     fn rates_at_touch(&self, windowed: &WindowedPair, e: &Equilibrium) -> Option<[f64; 2]> {
         let (station, rotation) = (e.station, e.unloaded_rotation);
         let here = Unloaded::turned(windowed.pair, &windowed.options.contact, station, rotation);
@@ -53,8 +54,8 @@ impl Variation {
         Some([here.error_by_gap(&touch, rates[0])?, here.error_by_gap(&touch, rates[1])?])
     }
 
-    /// From where the neighbours touch: nominal flanks do so along lines, of which a neighbour's nearest place decides,
-    /// and the end of what two flanks face of each other moves.
+    /// Derivatives from where the neighbours touch: nominal flanks do so along lines, of which a neighbour's nearest
+    /// place decides, and the end of what two flanks face of each other moves.
     fn rates_of_neighbours(&self, e: &Equilibrium) -> Option<[f64; 2]> {
         let error = |i: usize| {
             let Neighbour { pair, options } = &self.sides[i];

@@ -1,4 +1,4 @@
-//! Which teeth may touch, and where, slice by slice.
+//! Teeth that may touch, and where, slice by slice.
 
 use contact::{
     Pose,
@@ -17,11 +17,11 @@ pub(super) struct FlankSide {
     patches: [Vec<FlankPatch>; 2],
     /// Heights of the slices on the pinion, mm.
     stations: Vec<f64>,
-    /// Where each slice of each pinion tooth was found before.
+    /// Start of the search for each slice of each pinion tooth: where it was found before.
     hints: Vec<SliceHint>,
 }
 
-/// Where the flanks of one slice are nearest.
+/// Nearest points of the flanks of one slice.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slice {
     /// Running number of the pinion tooth.
@@ -53,7 +53,8 @@ impl FlankSide {
         let patches = [&pair.pinion, &pair.wheel].map(|gear| {
             let flank = gear.flank(side);
             let half = flank.half_width;
-            let range = [[flank.roll_form, -half], [flank.roll_tip, half]];
+            let [low, high] = flank.roll_range();
+            let range = [[low, -half], [high, half]];
             (0..i64::from(gear.teeth()))
                 .map(|tooth| FlankPatch::rigid(tooth, Box::new(gear.modified_flank(side, tooth)), range))
                 .collect()

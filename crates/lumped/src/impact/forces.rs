@@ -1,4 +1,4 @@
-//! What flanks that overlap do to both gears.
+//! Forces of overlapping flanks on both gears.
 
 use contact::Pose;
 use dynamics::{COORDINATES, Displacement};
@@ -8,14 +8,14 @@ use super::{ImpactOptions, StickSlip, flanks::Slice};
 
 pub(super) type Square = SMatrix<f64, 12, 12>;
 
-/// What the flanks of one side do.
+/// Forces of the flanks of one side on both gears.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankForce {
     /// Normal forces on the twelve coordinates of both gears, elastic part: N, N mm.
     pub elastic: Displacement,
-    /// The same of damping.
+    /// Normal forces on the twelve coordinates of both gears, damping part: N, N mm.
     pub damping: Displacement,
-    /// Friction.
+    /// Friction on the twelve coordinates of both gears: N, N mm.
     pub friction: Displacement,
     /// Sum of normal forces, N.
     pub normal_force: f64,

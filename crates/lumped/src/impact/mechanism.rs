@@ -73,7 +73,7 @@ impl ImpactMechanism {
         Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
     }
 
-    /// The same pair that begins at other mesh cycles, whole and part.
+    /// The pair with another start, in mesh cycles, whole and part.
     ///
     /// # Errors
     /// As of [`Self::new`].
@@ -81,7 +81,7 @@ impl ImpactMechanism {
         Self::new(self.pair.clone(), ImpactOptions { start_cycles: cycles, ..self.options.clone() })
     }
 
-    /// The same pair where it begins, its nominal motion stopped, under the mean of its load.
+    /// The pair at its start, nominal motion stopped, under the mean of its load.
     ///
     /// # Errors
     /// As of [`Self::new`].

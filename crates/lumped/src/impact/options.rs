@@ -1,4 +1,4 @@
-//! What is asked of an impact model.
+//! Options of an impact model.
 
 use dynamics::{Bearing, COORDINATES, Drive, RigidBody, Speed, Torque};
 use geometry::{Driver, Sense};
@@ -13,13 +13,13 @@ use crate::{
 /// Bodies, bearings, drive and contact of a pair of rigid gears.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ImpactOptions {
-    /// Which gear drives.
+    /// Driving gear.
     pub driver: Driver,
     /// Sense in which the pinion turns.
     pub sense: Sense,
     /// Pinion and wheel.
     pub bodies: [RigidBody; 2],
-    /// Their bearings.
+    /// Bearings of both gears.
     pub bearings: [Bearing; 2],
     /// Which rigid coordinates of each gear are free; the driver's turn is when a torque drives, the driven gear's
     /// always.

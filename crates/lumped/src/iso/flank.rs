@@ -59,11 +59,11 @@ impl IsoFlank {
     /// Nominal contact stress at the pitch point, MPa, without any of the load factors K.
     ///
     /// ```text
-    /// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t / (d_1 b) (u + 1)/u)
+    /// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t / (d_1 b) (u + 1)/u)        u = z_2/z_1, negative of an internal pair
     /// ```
     /// `tangential_force` F_t = T / r on the reference circle, N.
     pub fn nominal_stress(&self, pair: &GearPair, tangential_force: f64) -> f64 {
-        let u = f64::from(pair.wheel.teeth()) / f64::from(pair.pinion.teeth());
+        let u = pair.wheel.signed_teeth() / pair.pinion.signed_teeth();
         let load = tangential_force / (2.0 * pair.pinion.reference_radius() * pair.face_width()) * (u + 1.0) / u;
         self.zone * self.elasticity * self.contact_ratio * self.helix * load.sqrt()
     }

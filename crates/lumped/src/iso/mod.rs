@@ -32,8 +32,10 @@ const LIGHT_LOAD: f64 = 100.0;
 /// teeth, whichever the pair names first.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IsoPair {
-    /// Numbers of teeth.
+    /// Numbers of teeth, without sign.
     pub teeth: [u32; 2],
+    /// Whether the second gear is an internal one, with profile shifts after ISO 21771.
+    pub internal: bool,
     /// Profile shift coefficients.
     pub profile_shift: [f64; 2],
     /// Helix angle at the reference cylinder, rad; its sign does not matter.
@@ -73,6 +75,8 @@ pub struct IsoStiffness {
 /// c_ga  = c' (0.75 eps_alpha + 0.25),   c_gb = 0.85 c_ga
 /// ```
 ///
+/// Of an internal gear z_n2 is infinite there.
+///
 /// Index 1 is the gear with fewer teeth (ISO 6336-1, "pinion"). For equal numbers of teeth and different profile shifts
 /// the standard names neither: q' is then the mean of both orders, so that names change nothing.
 ///
@@ -89,7 +93,7 @@ pub struct IsoStiffness {
 /// ```
 /// # use lumped::iso::{IsoPair, stiffness};
 /// let pair = IsoPair {
-///     teeth: [17, 103], profile_shift: [0.145, 0.0], helix_angle: 15.8_f64.to_radians(),
+///     teeth: [17, 103], internal: false, profile_shift: [0.145, 0.0], helix_angle: 15.8_f64.to_radians(),
 ///     normal_pressure_angle: 20_f64.to_radians(), dedendum_coefficient: [1.4, 1.4], young: [2.06e5; 2],
 ///     eps_alpha: 1.54909, line_load: 1273.5,
 /// };
@@ -101,7 +105,8 @@ pub fn stiffness(pair: &IsoPair) -> Result<IsoStiffness, LumpedError> {
     let beta = pair.helix_angle.abs();
     let sin_beta_b = beta.sin() * pair.normal_pressure_angle.cos();
     let virtual_teeth = |z: u32| f64::from(z) / ((1.0 - sin_beta_b * sin_beta_b) * beta.cos());
-    let gears = [0, 1].map(|i| (virtual_teeth(pair.teeth[i]), pair.profile_shift[i]));
+    let of = |i: usize| if pair.internal && i == 1 { f64::INFINITY } else { virtual_teeth(pair.teeth[i]) };
+    let gears = [0, 1].map(|i| (of(i), pair.profile_shift[i]));
     let flexibility = match pair.teeth[0].cmp(&pair.teeth[1]) {
         Ordering::Less => flexibility(gears),
         Ordering::Greater => flexibility([gears[1], gears[0]]),

@@ -78,6 +78,8 @@ impl IsoRoot {
     /// half the tooth height or less, a rack whose rounding leaves no 30 degree tangent.
     pub fn new(gear: &Gear, pair: IsoRootPair) -> Result<Self, LumpedError> {
         let data = gear.data();
+        // Roots of internal gears are made by a shaper and follow other formulas (clause 6.2.3).
+        inside("number of teeth of an external gear", data.signed_teeth(), 5.0, f64::MAX, "external gears alone")?;
         let cos_a = data.normal_pressure_angle.cos();
         let cos2_base = gear.base_helix_angle().cos().powi(2);
         let virtual_teeth = f64::from(data.teeth) / (cos2_base * data.helix_angle.cos());

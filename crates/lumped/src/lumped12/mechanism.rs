@@ -69,7 +69,7 @@ impl Motion12 {
         Ok(Self { parameters, mass: DMatrix::from_diagonal(&mass), stiffness })
     }
 
-    /// What it was made from.
+    /// Parameters of the model.
     pub fn parameters(&self) -> &Lumped12 {
         &self.parameters
     }
@@ -126,7 +126,7 @@ impl Motion12 {
         undamped_modes(&self.mass, &self.stiffness_at(cycles))
     }
 
-    /// The same pair standing at `cycles` mesh cycles.
+    /// A copy of the model whose pair stands at `cycles` mesh cycles.
     fn standing(&self, cycles: f64) -> Self {
         let mut standing = self.clone();
         let clock = &mut standing.parameters.pair.clock;

@@ -22,7 +22,7 @@ pub(crate) struct MeshVectors {
 }
 
 impl MeshVectors {
-    /// Of a pair at `cycles` mesh cycles.
+    /// Influence vectors of a pair at `cycles` mesh cycles.
     pub fn of(pair: &LumpedPair, cycles: f64) -> Self {
         let lines = pair.plane.at(cycles);
         let frame = &pair.frame;

@@ -1,4 +1,4 @@
-//! What the model is made from.
+//! Parameters of the model with twelve coordinates.
 
 use integrate::State;
 use nalgebra::DVector;
@@ -28,7 +28,7 @@ pub struct Lumped12 {
 }
 
 impl Lumped12 {
-    /// With Rayleigh coefficients that give the damping ratio zeta at two frequencies (rad/s).
+    /// Parameters with Rayleigh coefficients that give the damping ratio zeta at two frequencies (rad/s).
     ///
     /// ```text
     /// b = 2 zeta / (omega_1 + omega_2),   a = b omega_1 omega_2

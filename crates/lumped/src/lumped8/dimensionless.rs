@@ -33,7 +33,7 @@ pub struct Dimensionless {
     mass: DMatrix<f64>,
 }
 
-/// What varies in (18).
+/// Varying coefficients of (18).
 struct Coefficients {
     /// K(t) / K_m.
     stiffness: f64,
@@ -47,7 +47,7 @@ struct Coefficients {
 
 /// p_11 or p_12 at a state.
 struct Relative {
-    /// Its derivatives by p_1 .. p_8.
+    /// Derivatives of the relative displacement with respect to p_1 .. p_8.
     gradient: [f64; 8],
     /// f(p).
     beyond: Beyond,
@@ -108,7 +108,7 @@ impl Dimensionless {
         [state.q.component_mul(&units), state.v.component_mul(&units) * self.omega]
     }
 
-    /// What 1 is in each coordinate: b_n, and b_n / r_b for turns.
+    /// Unit of each coordinate: b_n, and b_n / r_b for rotations.
     fn units(&self) -> DVector<f64> {
         let length = self.model.half_backlash;
         let radii = self.model.pair.base_radii;

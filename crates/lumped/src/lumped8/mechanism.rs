@@ -72,7 +72,7 @@ impl Motion8 {
         Ok(Self { parameters, mass, stiffness, damping })
     }
 
-    /// What it was made from.
+    /// Parameters of the model.
     pub fn parameters(&self) -> &Lumped8 {
         &self.parameters
     }

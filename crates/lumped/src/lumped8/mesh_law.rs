@@ -48,7 +48,7 @@ impl MeshLaw {
 pub(super) struct Spring {
     /// delta = jacobian . q.
     pub jacobian: [f64; 8],
-    /// Where the force acts: f = -(K f(delta - e) + C (delta' - e')) action.
+    /// Coordinates that the force acts on: f = -(K f(delta - e) + C (delta' - e')) action.
     pub action: [f64; 8],
     /// K at this time, N/mm.
     pub stiffness: f64,

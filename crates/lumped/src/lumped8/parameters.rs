@@ -1,4 +1,4 @@
-//! What the model is made from.
+//! Parameters of the model with eight coordinates.
 
 use integrate::State;
 use nalgebra::DVector;
@@ -18,7 +18,7 @@ pub struct Support8 {
     /// free to turn.
     #[serde(default)]
     pub turning_stiffness: f64,
-    /// The same for damping, N mm s/rad.
+    /// Torsional damping between the gear and what turns uniformly with it, N mm s/rad, >= 0.
     #[serde(default)]
     pub turning_damping: f64,
 }
@@ -41,7 +41,7 @@ pub struct Lumped8 {
 }
 
 impl Lumped8 {
-    /// With mesh damping of ratio zeta, the same for both gears' supports.
+    /// Parameters with mesh damping of ratio zeta.
     ///
     /// ```text
     /// C = 2 zeta sqrt(k_m m_e)

@@ -1,4 +1,4 @@
-//! The same system with beam elements instead of stations: how good is the lumped model?
+//! Shafts of the model as beam elements instead of stations: how good is the lumped model?
 
 use fem::{
     Modes,
@@ -20,8 +20,8 @@ pub struct Continuum {
 }
 
 impl Continuum {
-    /// At least as many elements on each shaft as `elements` says, all no longer than its length over that; what sits at the stations is rigid and of no width, meshes have
-    /// their mean stiffness.
+    /// Beam model with at least as many elements on each shaft as `elements` says, all no longer than its length over
+    /// that; what sits at the stations is rigid and of no width, meshes have their mean stiffness.
     ///
     /// # Errors
     /// [`LumpedError`] when data have no meaning.

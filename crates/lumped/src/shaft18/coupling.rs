@@ -56,7 +56,7 @@ pub struct MeshLine {
 }
 
 impl MeshGeometry {
-    /// Of a pair with its line of centres along +x, flanks on `side` of the pinion loaded.
+    /// Geometry of a pair with its line of centres along +x, flanks on `side` of the pinion loaded.
     pub fn of_pair(pair: &GearPair, side: Side) -> Self {
         let data = pair.pinion.data();
         Self {

@@ -4,7 +4,7 @@
 use fem::beam::{BeamPiece, BeamTheory};
 use nalgebra::DMatrix;
 
-/// What a coefficient is about.
+/// Kind of a flexibility coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Influence {
     /// Displacement across the shaft, or a force along it, at this position (mm).

@@ -20,7 +20,7 @@ pub struct ShaftRow {
     pub transmission_error_um: f64,
     /// Compression of the mesh along the normal, mm: everything that moves the flanks against each other.
     pub compression: f64,
-    /// Its rate, mm/s.
+    /// Rate of the compression, mm/s.
     pub compression_rate: f64,
     /// Mesh stiffness along the normal, N/mm.
     pub stiffness: f64,

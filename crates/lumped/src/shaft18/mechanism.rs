@@ -44,7 +44,7 @@ pub(super) struct LiveMesh {
     pub line: MeshLine,
     /// h in all coordinates.
     pub lever: DVector<f64>,
-    /// Its part by turns about the gears' own axes.
+    /// Part of h by turns about the gears' own axes.
     pub turns: DVector<f64>,
     pub stiffness: Fourier,
     pub damping: f64,
@@ -146,7 +146,7 @@ fn loads(system: &ShaftSystem, shafts: &[LumpedShaft], first: &[usize], speeds: 
 }
 
 impl ShaftMechanism {
-    /// From what the user says; shafts bend with shear.
+    /// Mechanism of stated parameters; shafts bend with shear.
     ///
     /// # Errors
     /// [`LumpedError`] when data have no meaning, do not fit together, or leave nothing to move.

@@ -37,9 +37,9 @@ pub struct Station {
     pub position: f64,
     /// Mass of what sits there, t; the shaft's own is added by the model.
     pub mass: f64,
-    /// Its inertia about the shaft's axis, t mm^2.
+    /// Moment of inertia of the mass about the shaft's axis, t mm^2.
     pub polar_inertia: f64,
-    /// Its inertia about an axis across, t mm^2.
+    /// Moment of inertia of the mass about an axis across, t mm^2.
     pub transverse_inertia: f64,
     /// Which of displacements x, y, z and turns about x, y, z remain coordinates of the model; the others follow
     /// statically.
@@ -60,11 +60,11 @@ pub struct Support {
 /// A shaft parallel to z.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct Shaft {
-    /// Its segments, one after the other.
+    /// Segments of the shaft, one after the other.
     pub segments: Vec<Segment>,
-    /// Where masses are put.
+    /// Stations, at which masses are put.
     pub stations: Vec<Station>,
-    /// What holds it.
+    /// Supports of the shaft.
     pub supports: Vec<Support>,
 }
 
@@ -108,9 +108,9 @@ pub struct Mesh {
 /// A torque on a station.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct ShaftTorque {
-    /// Where.
+    /// Station that the torque acts on.
     pub place: ShaftStation,
-    /// About +z, N mm.
+    /// Torque about +z, N mm.
     pub torque: f64,
 }
 
@@ -149,7 +149,7 @@ impl Segment {
 }
 
 impl Station {
-    /// With mass and inertia of a gear as another model has them.
+    /// Station with mass and inertia of a gear as another model has them.
     #[must_use]
     pub fn bearing(self, body: &RigidBody) -> Self {
         Self { mass: body.mass, polar_inertia: body.polar_inertia, transverse_inertia: body.transverse_inertia, ..self }
@@ -181,7 +181,7 @@ impl Shaft {
     }
 
     /// How the shaft can move as a whole, apart from its turn, against all that holds it; `None` where nothing is left.
-    /// Its supports are springs along and about the axes, so that the answer follows from where they are:
+    /// Supports are springs along and about the axes, so that the answer follows from where they are:
     ///
     /// ```text
     /// x: some k_x;   tilt about y: some k_ry, or k_x at two places;   y and the tilt about x alike;   z: some k_z

@@ -16,6 +16,7 @@ fn example_1() -> IsoPair {
     let path = half_path(159.66, rb1) + half_path(872.35, rb2) - 500.0 * working.sin();
     let base_pitch = std::f64::consts::PI * 8.0 * alpha_t.cos() / beta.cos();
     IsoPair {
+        internal: false,
         teeth: [17, 103],
         profile_shift: [0.145, 0.0],
         helix_angle: beta,

@@ -2,13 +2,12 @@
 #![allow(clippy::print_stdout, reason = "the table is what the test is for")]
 
 use faer::Mat;
-use fem::{ElementOptions, Material};
 use geometry::{Gear, GearData, GearPair};
-use ltca::{StaticModel, StaticOptions};
+use ltca::StaticOptions;
 use lumped::iso::{IsoPair, body_compliance, stiffness};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
+use mesh::{Extent, StructuredOptions};
 use nalgebra::{DMatrix, DVector};
-use reduction::{ElasticGear, GearReducer, ReductionOptions};
+use testing::Case;
 
 /// Numbers from 0 to 1 (splitmix64).
 struct Random(u64);
@@ -84,7 +83,6 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
     // Room for what touches early under load.
     let window = Some(plain.window_teeth(pair) + 2);
     let options = StaticOptions { window, ..plain };
-    let first = StaticModel::first_teeth(pair, &options).unwrap();
     let [elements_profile, elements_fillet, elements_thickness, elements_face, elements_rim] = counts;
     let mesher = StructuredOptions {
         order: 2,
@@ -95,20 +93,7 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
         elements_rim,
         extent: Extent::Periodic,
     };
-    let gears = [0, 1].map(|i| {
-        let gear = [&pair.pinion, &pair.wheel][i];
-        let mesh = mesh::generate(gear, &mesher).unwrap_or_else(|e| panic!("{e}"));
-        let mesh = GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap();
-        let reduction = ReductionOptions {
-            sides: options.contact.sides(),
-            window: options.window_teeth(pair),
-            first: first[i],
-            elements: ElementOptions::default(),
-        };
-        let steel = Material::new(2.06e5, 0.3, 7.85e-9).unwrap();
-        ElasticGear::Reduced(GearReducer::new(mesh, steel, reduction).unwrap_or_else(|e| panic!("{e}")))
-    });
-    let mut model = StaticModel::new(pair.clone(), gears, options).unwrap_or_else(|e| panic!("{e}"));
+    let mut model = Case::meshed(pair.clone(), &mesher, torque).reduced(options);
     let base_force = torque / pair.wheel.base_radius();
     let mut found = Measured { te: 0.0, axial: [0.0; 2], coupled: [0.0; 2] };
     const POSITIONS: usize = 6;
@@ -142,6 +127,7 @@ fn by_iso(drawn: &Drawn) -> (f64, [f64; 2]) {
     let pair = &drawn.pair;
     let gears = [&pair.pinion, &pair.wheel];
     let iso = stiffness(&IsoPair {
+        internal: false,
         teeth: gears.map(Gear::teeth),
         profile_shift: gears.map(|g| g.data().profile_shift),
         helix_angle: gears[0].data().helix_angle,

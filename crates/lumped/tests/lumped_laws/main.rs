@@ -1,6 +1,7 @@
 //! Laws of the lumped models, and the cases that they are held against.
 
 mod common;
+mod fed_ladder;
 mod gearbox;
 mod impact;
 mod impact_random;

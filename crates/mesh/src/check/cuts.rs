@@ -1,7 +1,7 @@
 //! Whether the two cut faces of a sector are the same face turned.
 
 use std::collections::BTreeSet;
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use geometry::Side;
 
@@ -33,7 +33,9 @@ pub(super) fn check(mesh: &Mesh, names: &GroupNames, teeth: Option<u32>, finding
         report(1, &[], format!("`{}` and `{}` have faces of different kinds or numbers", first.name, second.name));
     }
     let (Some(teeth), Some(count)) = (teeth.filter(|&z| z > 0), count) else { return };
-    let angle = TAU * count / f64::from(teeth);
+    // One tooth of a ring goes on clockwise.
+    let clockwise = count == 1.0 && info::between_cuts(mesh, names).is_some_and(|angle| angle > PI);
+    let angle = if clockwise { -1.0 } else { 1.0 } * (TAU * count / f64::from(teeth));
     let turn = Turn::new(angle);
     let targets = Places::new(mesh, &to);
     let mut stray = Vec::new();

@@ -1,7 +1,6 @@
 //! Which node of one cut falls on which node of the other.
 
 use std::collections::HashSet;
-use std::f64::consts::TAU;
 
 use crate::check::tag;
 use crate::periodic::{Places, Turn};
@@ -10,15 +9,14 @@ use crate::{Face, FaceTable, Mesh, MeshError, SurfaceGroup};
 /// `cut_1` has no such node: the cut's node is its own.
 pub(super) const NO_PARTNER: u32 = u32::MAX;
 
-/// For every node of the mesh the node of `second` that it falls on when turned by 2 pi / z;
+/// For every node of the mesh the node of `second` that it falls on when turned by `angle` (rad);
 /// [`NO_PARTNER`] for nodes off `first`.
 pub(super) fn partners(
     mesh: &Mesh,
     first: &SurfaceGroup,
     second: &SurfaceGroup,
-    teeth: u32,
+    angle: f64,
 ) -> Result<Vec<u32>, MeshError> {
-    let angle = TAU / f64::from(teeth);
     let turn = Turn::new(angle);
     let (from, to) = (first.nodes(), second.nodes());
     let targets = Places::new(mesh, &to);

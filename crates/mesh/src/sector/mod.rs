@@ -16,7 +16,7 @@ use std::collections::{BTreeMap, HashSet};
 use geometry::Side;
 
 use crate::check::tag;
-use crate::{Face, GearMesh, Mesh, MeshError, SurfaceGroup};
+use crate::{Face, Mesh, MeshError, MeshedGear, SurfaceGroup};
 use cuts::{NO_PARTNER, partners};
 use numbers::Numbers;
 
@@ -24,7 +24,7 @@ use numbers::Numbers;
 #[derive(Debug, Clone)]
 pub struct Copies {
     /// The copies as one mesh.
-    pub gear: GearMesh,
+    pub gear: MeshedGear,
     /// Where each of its nodes comes from.
     pub origins: Vec<Origin>,
     /// Which node of the sector's first cut falls on which one of the second when it is turned by one pitch, ascending.
@@ -43,14 +43,14 @@ pub struct Origin {
     pub node: u32,
 }
 
-impl GearMesh {
-    /// The whole gear where this is a periodic sector of one tooth, by [`GearMesh::replicate`]; else itself.
+impl MeshedGear {
+    /// The whole gear where this is a periodic sector of one tooth, by [`MeshedGear::replicate`]; else itself.
     ///
     /// A sector of one tooth has both cuts and at most one flank of either side. Sectors of several teeth
     /// are used with free cuts.
     ///
     /// # Errors
-    /// Those of [`GearMesh::replicate`].
+    /// Those of [`MeshedGear::replicate`].
     pub fn whole(self) -> Result<Self, MeshError> {
         if self.is_periodic_sector() { self.replicate() } else { Ok(self) }
     }
@@ -61,7 +61,7 @@ impl GearMesh {
         self.cuts.is_some() && one(Side::Left) && one(Side::Right)
     }
 
-    /// z copies of a periodic sector, copy k turned by k 2 pi / z about z, nodes of adjoining cuts merged.
+    /// z copies of a periodic sector, copy k turned by k 2 pi / z about z, the other way where teeth are numbered clockwise, nodes of adjoining cuts merged.
     ///
     /// Nodes and elements: those of copy 0 (the sector less the nodes of its first cut) in their order, then those of
     /// copy 1, ...; tags 1, 2, ... Tooth t of the sector is tooth t + k of copy k. Surface groups: the bore, the flanks
@@ -75,7 +75,7 @@ impl GearMesh {
         Ok(self.copies(0, self.teeth)?.gear)
     }
 
-    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`GearMesh::replicate`] makes all of
+    /// `count` copies of a periodic sector from copy `first` (modulo z) on, as [`MeshedGear::replicate`] makes all of
     /// them.
     ///
     /// Fewer than z copies have the first cut of their first copy and the second of their last one; nodes of the first
@@ -83,13 +83,13 @@ impl GearMesh {
     /// by the tag it has in the sector's file.
     ///
     /// # Errors
-    /// Those of [`GearMesh::replicate`].
+    /// Those of [`MeshedGear::replicate`].
     pub fn copies(&self, first: u32, count: u32) -> Result<Copies, MeshError> {
         let Some([from, to]) = &self.cuts else { return Err(MeshError::NoCuts) };
         let teeth = self.teeth.max(1);
-        let partner = partners(&self.mesh, from, to, teeth)?;
+        let partner = partners(&self.mesh, from, to, self.pitches_on(1))?;
         let numbers = Numbers::new(&partner, teeth, first % teeth, count.clamp(1, teeth))?;
-        let nodes = numbers.positions(&self.mesh);
+        let nodes = numbers.positions(&self.mesh, |turns| self.pitches_on(turns));
         let mut mesh = Mesh {
             node_tags: (1..=nodes.len() as u64).collect(),
             nodes,
@@ -128,7 +128,9 @@ impl GearMesh {
         surfaces.dedup_by(|a, b| a.name == b.name);
         let origins = numbers.origins().iter().map(|o| Origin { copy: o.copy, node: o.node }).collect();
         let on_axis = !numbers.shared.is_empty();
-        let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts).coupled(self.coupling);
+        let gear = Self::from_parts(Mesh { surfaces, ..mesh }, teeth, bore, flanks, cuts)
+            .coupled(self.coupling)
+            .numbered(self.clockwise);
         let pairs = (0_u32..).zip(&partner).filter(|(_, there)| **there != NO_PARTNER);
         let cuts = pairs.map(|(here, &there)| [here, there]).collect();
         Ok(Copies { gear, origins, cuts, on_axis })

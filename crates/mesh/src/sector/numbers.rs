@@ -1,7 +1,6 @@
 //! Numbers that the nodes of a sector have in its copies.
 
 use std::collections::BTreeMap;
-use std::f64::consts::TAU;
 
 use super::cuts::NO_PARTNER;
 use crate::periodic::Turn;
@@ -116,10 +115,9 @@ impl Numbers {
         placed
     }
 
-    /// Positions in the order of the numbers, mm.
-    pub(super) fn positions(&self, sector: &Mesh) -> Vec<[f64; 3]> {
+    /// Positions in the order of the numbers, mm; `angle`: by which so many pitches turn, rad.
+    pub(super) fn positions(&self, sector: &Mesh, angle: impl Fn(u32) -> f64) -> Vec<[f64; 3]> {
         // From the sector each time, not from copy to copy: errors do not add up.
-        let angle = |turns: u32| TAU * f64::from(turns) / f64::from(self.teeth);
         let turns: Vec<Turn> = (0..self.teeth).map(|k| Turn::new(angle(k))).collect();
         self.origins().iter().map(|p| turns[p.turns as usize].of(sector.nodes[p.own as usize])).collect()
     }

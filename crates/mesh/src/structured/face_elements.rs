@@ -21,8 +21,8 @@ pub enum FaceResolution {
 /// linear elements (`order` 1) half as long.
 ///
 /// Measured with slices on pairs of 5, 15 and 40 modules of face width, crowned and misaligned
-/// (`tests/tests/micro_geometry/width_and_crowning.rs`); root stress against CalculiX
-/// (`tests/tests/stress/root_stress_calculix.rs`): elements of 1.2 modules 3.2 % low, of 0.9 0.2 %.
+/// (`crates/ltca/tests/ltca_laws/width_and_crowning.rs`); root stress against CalculiX
+/// (`crates/ltca/tests/ltca_laws/root_stress_calculix.rs`): elements of 1.2 modules 3.2 % low, of 0.9 0.2 %.
 pub fn face_elements(face_width: f64, normal_module: f64, order: u32, resolution: FaceResolution) -> u32 {
     let modules = match resolution {
         FaceResolution::Contact => LENGTH_MODULES,

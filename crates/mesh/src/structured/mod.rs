@@ -11,9 +11,10 @@
 //!  +-----bore-----+
 //! ```
 //!
+//! A ring is the same with its rim outside and its teeth inside: radii and angles of its section are negative ([`geometry::TransverseProfile`]), and `bore`, which holds the gear, is its outside.
 //! Flank nodes, mid-side nodes included, lie on the exact helicoid; all teeth are exact copies of one.
 //! Groups: `bore`, `side_front` (z = +b/2), `side_back`, `flank_left_<k>`, `flank_right_<k>` (tip circle to root form
-//! circle), `cut_0` (clockwise) and `cut_1` where the gear is not whole.
+//! circle), `cut_0` (towards the tooth before) and `cut_1` where the gear is not whole.
 
 mod error;
 mod face_elements;

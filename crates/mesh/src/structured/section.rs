@@ -7,10 +7,10 @@ use super::{
     outline::{Outline, Polar},
 };
 
-/// A point of the section, mm; x along the tooth's centre line.
+/// A point of the section, mm; x along the tooth's centre line, towards its tip: the section of a ring, whose radii are negative, is on the side of -x.
 pub(super) type Point = [f64; 2];
 
-/// Points in columns (counter-clockwise) and rows (inwards): a right-handed pair of directions.
+/// Points in columns (from right to left) and rows (towards what holds the gear): a right-handed pair of directions.
 pub(super) struct Lattice {
     /// Steps across.
     pub columns: usize,

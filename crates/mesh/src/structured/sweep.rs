@@ -1,6 +1,7 @@
 //! From the section to the mesh: numbers, positions, elements, groups.
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use geometry::Gear;
 
@@ -208,9 +209,11 @@ impl<'a> Numbering<'a> {
     /// Positions in the order of the numbers, mm.
     fn positions(&self, gear: &Gear, options: &StructuredOptions) -> Vec<[f64; 3]> {
         let height = |layer: usize| (layer as f64 / self.layers as f64 - 0.5) * gear.face_width();
+        // The section of a ring's tooth is on the side of -x.
+        let section = if gear.is_internal() { PI } else { 0.0 };
         let turned = |[x, y]: [f64; 2], tooth: i64, layer: usize| {
             let z = height(layer);
-            let (sin, cos) = (tooth as f64 * gear.pitch_angle() + gear.twist() * z).sin_cos();
+            let (sin, cos) = (section + tooth as f64 * gear.pitch_angle() + gear.twist() * z).sin_cos();
             [x * cos - y * sin, x * sin + y * cos, z]
         };
         let own = own_points(&self.section.tooth, &self.section.rim);

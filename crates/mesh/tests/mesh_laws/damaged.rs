@@ -223,7 +223,7 @@ proptest! {
         if let Ok(mesh) = Mesh::parse(&bytes, "mangled") {
             let _ = mesh::MeshInfo::new(&mesh);
             let _ = mesh::MeshReport::new(&mesh);
-            let _ = mesh::GearMesh::from_groups(mesh, &mesh::GroupNames::default(), 30);
+            let _ = mesh::MeshedGear::from_groups(mesh, &mesh::GroupNames::default(), 30);
         }
     }
 

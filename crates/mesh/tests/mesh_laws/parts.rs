@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use geometry::{Gear, GearData, Side};
 use mesh::{
-    FindingKind, FlankFit, GearMesh, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity, SurfaceGroup,
+    FindingKind, FlankFit, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, MeshedGear, Severity, SurfaceGroup,
 };
 
 /// Meshes that the repository's own script makes with Gmsh.
@@ -31,7 +31,7 @@ fn tolerance(gear: &Gear) -> f64 {
 #[test]
 fn a_sector_by_its_groups() {
     for name in ["sector3_hex20.msh", "sector3_hex27.msh", "sector3_tet10.msh", "sector3_wedge15.msh"] {
-        let found = GearMesh::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
+        let found = MeshedGear::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
         assert_eq!(found.teeth(), [0, 1, 29], "{name}");
         assert!(!found.is_whole_gear(), "{name}");
         assert!(found.cuts().is_some(), "{name}");
@@ -47,7 +47,7 @@ fn a_sector_by_its_groups() {
 fn named_flanks_lie_on_the_exact_flanks() {
     let gear = pinion();
     for name in ["sector3_hex8_v22_binary.msh", "sector3_hex20.msh", "sector3_tet4.msh", "periodic_hex20.msh"] {
-        let found = GearMesh::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
+        let found = MeshedGear::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
         for tooth in found.teeth() {
             for side in [Side::Left, Side::Right] {
                 let exact = gear.flank_of(side, i64::from(tooth));
@@ -69,10 +69,10 @@ fn named_flanks_lie_on_the_exact_flanks() {
 fn names_first_then_the_fit() {
     let gear = pinion();
     let mesh = repository_mesh("sector3_hex20.msh");
-    assert!(GearMesh::find(mesh.clone(), &gear, &GroupNames::default()).unwrap().1.is_none());
+    assert!(MeshedGear::find(mesh.clone(), &gear, &GroupNames::default()).unwrap().1.is_none());
     let mut bare = mesh;
     bare.surfaces.retain(|s| !s.name.starts_with("flank"));
-    let (found, fit) = GearMesh::find(bare, &gear, &GroupNames::default()).unwrap();
+    let (found, fit) = MeshedGear::find(bare, &gear, &GroupNames::default()).unwrap();
     assert_eq!(found.teeth(), [0, 1, 29]);
     assert_eq!(fit.unwrap().flanks.len(), 6);
     assert!(found.cuts().is_some());
@@ -83,7 +83,7 @@ fn names_first_then_the_fit() {
 fn the_fit_finds_what_the_names_say() {
     let gear = pinion();
     for name in ["sector3_hex8_v41_ascii.msh", "sector3_hex20.msh", "sector3_tet10.msh", "sector3_wedge6.msh"] {
-        let named = GearMesh::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
+        let named = MeshedGear::from_groups(repository_mesh(name), &GroupNames::default(), 30).unwrap();
         let mut bare = repository_mesh(name);
         bare.surfaces.clear();
         let fit = FlankFit::new(bare, &gear, &GroupNames::default(), tolerance(&gear)).unwrap();
@@ -183,10 +183,10 @@ fn foreign_names_are_mapped() {
         flank_right: "Flanke rechts ({k})".into(),
         ..GroupNames::default()
     };
-    let found = GearMesh::from_groups(mesh.clone(), &names, 30).unwrap();
+    let found = MeshedGear::from_groups(mesh.clone(), &names, 30).unwrap();
     assert_eq!(found.teeth(), [0, 1, 29]);
 
-    let error = GearMesh::from_groups(mesh.clone(), &GroupNames::default(), 30).unwrap_err();
+    let error = MeshedGear::from_groups(mesh.clone(), &GroupNames::default(), 30).unwrap_err();
     assert!(
         error.to_string().starts_with(
             "no physical group `bore`; the mesh has `Hub`, `cut_{k}` with k from 0 to 1, `Zahn {k}` with k from -1 to 1"
@@ -194,9 +194,9 @@ fn foreign_names_are_mapped() {
         "{error}"
     );
     let without = GroupNames { flank_left: "left".into(), ..names.clone() };
-    assert!(matches!(GearMesh::from_groups(mesh.clone(), &without, 30), Err(MeshError::NoToothNumber { .. })));
+    assert!(matches!(MeshedGear::from_groups(mesh.clone(), &without, 30), Err(MeshError::NoToothNumber { .. })));
     // With two teeth -1 and 1 are the same tooth.
-    let error = GearMesh::from_groups(mesh, &names, 2).unwrap_err();
+    let error = MeshedGear::from_groups(mesh, &names, 2).unwrap_err();
     assert!(matches!(error, MeshError::SameTooth { tooth: 1, teeth: 2, .. }), "{error}");
 }
 
@@ -213,7 +213,7 @@ fn faces_inside_the_body_are_refused() {
     let inside = inside.into_iter().find(|f| table.owners(f.corner_key()).len() == 2).unwrap();
     let bore = mesh.surfaces.iter_mut().find(|s| s.name == "bore").unwrap();
     bore.faces.push(inside);
-    let error = GearMesh::from_groups(mesh.clone(), &GroupNames::default(), 30).unwrap_err();
+    let error = MeshedGear::from_groups(mesh.clone(), &GroupNames::default(), 30).unwrap_err();
     assert!(
         error.to_string().contains("group `bore`") && error.to_string().contains("lies inside the body"),
         "{error}"
@@ -230,7 +230,7 @@ fn turned_faces_are_turned_back() {
     for group in &mut other.surfaces {
         group.faces.iter_mut().for_each(|f| *f = f.reversed());
     }
-    let [a, b] = [mesh, other].map(|m| GearMesh::from_groups(m, &GroupNames::default(), 30).unwrap());
+    let [a, b] = [mesh, other].map(|m| MeshedGear::from_groups(m, &GroupNames::default(), 30).unwrap());
     assert_eq!(a.bore(), b.bore());
     assert_eq!(a.flank(29, Side::Right), b.flank(29, Side::Right));
 }
@@ -332,7 +332,7 @@ fn a_gear_in_one_with_its_shaft() {
     moved.nodes.iter_mut().for_each(|x| x[2] += 15.0);
     let findings = MeshReport::of_gear(&moved, &GroupNames::default(), Some(21)).findings;
     assert!(matches!(&findings[..], [f] if f.kind == FindingKind::MidFace && f.text.contains("15.0")), "{findings:?}");
-    let found = GearMesh::from_groups(mesh, &GroupNames::default(), 21).unwrap().whole().unwrap();
+    let found = MeshedGear::from_groups(mesh, &GroupNames::default(), 21).unwrap().whole().unwrap();
     let weights = found.bore_weights();
     let area: f64 = weights.iter().map(|w| w.1).sum();
     let exact = std::f64::consts::PI * (22.5f64.powi(2) - 8.0f64.powi(2));
@@ -345,8 +345,8 @@ fn a_gear_in_one_with_its_shaft() {
 /// A part of the bore: the faces between two heights, of copies of a sector as well.
 #[test]
 fn a_bore_held_on_a_part_of_its_width() {
-    let sector = || GearMesh::from_groups(repository_mesh("periodic_hex20.msh"), &GroupNames::default(), 30).unwrap();
-    let area = |gear: &GearMesh| gear.bore_weights().iter().map(|w| w.1).sum::<f64>();
+    let sector = || MeshedGear::from_groups(repository_mesh("periodic_hex20.msh"), &GroupNames::default(), 30).unwrap();
+    let area = |gear: &MeshedGear| gear.bore_weights().iter().map(|w| w.1).sum::<f64>();
     let all = area(&sector().whole().unwrap());
     let part = sector().held_between([-10.0, 0.0]).unwrap();
     let (share, nodes) = (area(&part.clone().whole().unwrap()) / all, part.bore_nodes());

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use geometry::{Gear, GearData, Side};
 use mesh::{
-    Extent, FaceTable, GearMesh, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, Severity, StructuredOptions,
+    Extent, FaceTable, GroupNames, Mesh, MeshError, MeshInfo, MeshReport, MeshedGear, Severity, StructuredOptions,
     generate,
 };
 
@@ -26,12 +26,12 @@ fn options(order: u32, extent: Extent) -> StructuredOptions {
     }
 }
 
-fn generated(order: u32, extent: Extent) -> GearMesh {
+fn generated(order: u32, extent: Extent) -> MeshedGear {
     parts(generate(&gear(), &options(order, extent)).expect("meshes"))
 }
 
-fn parts(mesh: Mesh) -> GearMesh {
-    GearMesh::from_groups(mesh, &GroupNames::default(), 30).expect("groups are found")
+fn parts(mesh: Mesh) -> MeshedGear {
+    MeshedGear::from_groups(mesh, &GroupNames::default(), 30).expect("groups are found")
 }
 
 fn file(name: &str) -> Mesh {
@@ -61,7 +61,7 @@ fn sorted<'a>(items: impl Iterator<Item = &'a [u32]>, numbers: &[u32]) -> Vec<Ve
 }
 
 /// `made` and `expected` have the same nodes, elements and groups up to order.
-fn assert_same(made: &GearMesh, expected: &GearMesh) {
+fn assert_same(made: &MeshedGear, expected: &MeshedGear) {
     let (m, e) = (made.mesh(), expected.mesh());
     assert_eq!(m.nodes.len(), e.nodes.len());
     let numbers = by_position(m, e);
@@ -202,8 +202,8 @@ fn groups_of_a_repeated_sector() {
     for group in &mut mesh.surfaces {
         group.name = group.name.replace("flank_left_", "L").replace("flank_right_", "R");
     }
-    let whole = GearMesh::from_groups(mesh, &names, 30).expect("groups").whole().expect("cuts match");
-    let again = GearMesh::from_groups(whole.mesh().clone(), &GroupNames::default(), 30).expect("our names");
+    let whole = MeshedGear::from_groups(mesh, &names, 30).expect("groups").whole().expect("cuts match");
+    let again = MeshedGear::from_groups(whole.mesh().clone(), &GroupNames::default(), 30).expect("our names");
     assert_eq!(again, whole);
     assert_eq!(whole.mesh().surfaces.len(), 60 + 4);
     let faces = |name: &str| whole.mesh().surface(name).expect("group").faces.len();
@@ -215,7 +215,7 @@ fn groups_of_a_repeated_sector() {
 fn cuts_that_differ_are_refused() {
     let sector = generate(&gear(), &options(2, Extent::Periodic)).expect("meshes");
     let replicate =
-        |mesh: Mesh, teeth| GearMesh::from_groups(mesh, &GroupNames::default(), teeth).expect("groups").whole();
+        |mesh: Mesh, teeth| MeshedGear::from_groups(mesh, &GroupNames::default(), teeth).expect("groups").whole();
     let cut = |name: &str| sector.surface(name).expect("cut").nodes();
 
     let mut moved = sector.clone();
@@ -266,7 +266,7 @@ fn cuts_that_differ_are_refused() {
 fn senseless_numbers_of_teeth() {
     let sector = generate(&gear(), &options(1, Extent::Periodic)).expect("meshes");
     for teeth in [0, 1, 2, u32::MAX] {
-        let found = GearMesh::from_groups(sector.clone(), &GroupNames::default(), teeth).expect("groups");
+        let found = MeshedGear::from_groups(sector.clone(), &GroupNames::default(), teeth).expect("groups");
         assert!(found.whole().is_err(), "{teeth}");
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{HashMap, HashSet};
 use crate::measure::{tooth_area, volume_and_least_jacobian};
 use geometry::{Gear, GearData, Side, Vec3};
 use mesh::{
-    Extent, GearMesh, GroupNames, Mesh, MeshReport, MshFormat, Severity, StructuredError, StructuredOptions, generate,
+    Extent, GroupNames, Mesh, MeshReport, MeshedGear, MshFormat, Severity, StructuredError, StructuredOptions, generate,
 };
 
 fn default_gear() -> Gear {
@@ -238,7 +238,7 @@ fn generated_mesh_passes_the_mesh_checks() {
         let mesh = generate(&default_gear(), &small(2, extent)).expect("meshes");
         let report = MeshReport::of_gear(&mesh, &GroupNames::default(), Some(30));
         assert!(report.worst().is_none_or(|worst| worst < Severity::Warning), "{report:?}");
-        let gear = GearMesh::from_groups(mesh, &GroupNames::default(), 30).expect("groups are found");
+        let gear = MeshedGear::from_groups(mesh, &GroupNames::default(), 30).expect("groups are found");
         assert_eq!(gear.is_whole_gear(), extent == Extent::Whole);
         assert_eq!(gear.cuts().is_some(), extent != Extent::Whole);
     }

@@ -149,7 +149,7 @@ impl CyclicGear {
     }
 
     fn angle(&self, copy: u32) -> f64 {
-        std::f64::consts::TAU * f64::from(copy % self.part.teeth) / f64::from(self.part.teeth)
+        self.part.way * (std::f64::consts::TAU * f64::from(copy % self.part.teeth) / f64::from(self.part.teeth))
     }
 
     /// Rows of the ring's matrix at which the left cut of the window's j-th sector starts (j = w: its last cut).

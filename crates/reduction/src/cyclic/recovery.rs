@@ -43,9 +43,9 @@ impl CyclicGear {
         let k = forces.ncols();
         let ends = self.ends_of(copies, self.ring_cuts(Some(forces)).as_ref());
         let loads: Vec<Mat<f64>> = copies.iter().map(|&copy| self.forces_in(copy, forces)).collect();
-        let side_by_side =
+        let parallel_map =
             |rows: usize, of: &[Mat<f64>]| Mat::from_fn(rows, copies.len() * k, |i, j| of[j / k][(i, j % k)]);
-        let (f, ends) = (side_by_side(self.sector.loads(), &loads), side_by_side(2 * self.sector.cut, &ends));
+        let (f, ends) = (parallel_map(self.sector.loads(), &loads), parallel_map(2 * self.sector.cut, &ends));
         self.sector.field(self.sector.basis(f.as_ref(), ends.as_ref()).as_ref())
     }
 

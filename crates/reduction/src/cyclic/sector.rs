@@ -71,7 +71,7 @@ impl Sector {
             BoundaryLastFactor::new_while(&stiffness, &boundary, wanted)?
         };
         let spread = if keep { Vec::new() } else { loads.to_vec() };
-        let (sin, cos) = (std::f64::consts::TAU / f64::from(part.teeth)).sin_cos();
+        let (sin, cos) = (part.way * (std::f64::consts::TAU / f64::from(part.teeth))).sin_cos();
         let mut sector = Self {
             mesh: part.mesh.clone(),
             dofs,

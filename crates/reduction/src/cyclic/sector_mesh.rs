@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use geometry::Side;
-use mesh::{Copies, ElementBlock, GearMesh, Mesh, Origin};
+use mesh::{Copies, ElementBlock, Mesh, MeshedGear, Origin};
 use nalgebra::{DMatrix, DVector};
 
 use super::turn::{PitchTurn, face_nodes};
@@ -11,11 +11,13 @@ use super::turn::{PitchTurn, face_nodes};
 /// A sector and the mesh whose nodes lie in its copies.
 ///
 /// ```text
-/// copy k = the sector turned by k 2 pi / z;   left cut (clockwise) of copy k + 1 = right cut of copy k
+/// copy k = the sector turned by k 2 pi / z;   left cut (clockwise) of copy k + 1 = right cut of copy k     (a ring: the other way round)
 /// ```
 #[derive(Debug)]
 pub(crate) struct SectorMesh {
     pub teeth: u32,
+    /// -1 where copies follow each other clockwise, else +1.
+    pub way: f64,
     pub mesh: Mesh,
     /// Nodes that do not move, numbers of the sector.
     pub held: Vec<u32>,
@@ -35,7 +37,7 @@ const TIE: f64 = 1e-6;
 
 impl SectorMesh {
     /// Of a periodic one-tooth sector; `None` when its copies share the axis.
-    pub(crate) fn of_sector(sector: &GearMesh, copies: &Copies) -> Option<Self> {
+    pub(crate) fn of_sector(sector: &MeshedGear, copies: &Copies) -> Option<Self> {
         let teeth = sector.tooth_count();
         if copies.on_axis || teeth < FEWEST_TEETH {
             return None;
@@ -47,14 +49,15 @@ impl SectorMesh {
         held.extend(cuts.iter().filter(|pair| pair.iter().any(is_held)).flatten());
         held.sort_unstable();
         held.dedup();
-        Some(Self::new(teeth, sector.mesh().clone(), held, cuts, copies.origins.clone()))
+        let places = copies.origins.clone();
+        Some(Self::new(teeth, sector.numbering_sign(), sector.mesh().clone(), held, cuts, places))
     }
 
     /// Of a whole gear that is cyclic: the elements about tooth 0.
     ///
     /// From every orbit of elements one is taken, the one nearest to the twisted centre line of tooth 0; which one
     /// changes the cuts, not the gear. `None` when a node belongs to more than two neighbouring sectors.
-    pub(crate) fn of_whole(gear: &GearMesh, turn: &PitchTurn) -> Option<Self> {
+    pub(crate) fn of_whole(gear: &MeshedGear, turn: &PitchTurn) -> Option<Self> {
         let teeth = gear.tooth_count();
         if teeth < FEWEST_TEETH {
             return None;
@@ -104,16 +107,17 @@ impl SectorMesh {
         }
         let nodes = own.iter().map(|&n| mesh.nodes[n as usize]).collect();
         let node_tags = own.iter().map(|&n| mesh.node_tags[n as usize]).collect();
-        Some(Self::new(teeth, Mesh { nodes, node_tags, blocks, ..Mesh::default() }, held, cuts, places))
+        let own = Mesh { nodes, node_tags, blocks, ..Mesh::default() };
+        Some(Self::new(teeth, gear.numbering_sign(), own, held, cuts, places))
     }
 
-    fn new(teeth: u32, mesh: Mesh, held: Vec<u32>, cuts: Vec<[u32; 2]>, places: Vec<Origin>) -> Self {
+    fn new(teeth: u32, way: f64, mesh: Mesh, held: Vec<u32>, cuts: Vec<[u32; 2]>, places: Vec<Origin>) -> Self {
         let count = mesh.nodes.len();
         let mut numbers = vec![NOWHERE; count * teeth as usize];
         for (place, number) in places.iter().zip(0..) {
             numbers[place.copy as usize * count + place.node as usize] = number;
         }
-        Self { teeth, mesh, held, cuts, places, numbers }
+        Self { teeth, way, mesh, held, cuts, places, numbers }
     }
 
     /// The larger mesh's node at a place.
@@ -165,8 +169,8 @@ struct CentreLine {
 
 impl CentreLine {
     /// Fitted to the flank nodes of tooth 0: it only chooses elements, so a parabola along the profile is near enough.
-    fn of_tooth_0(gear: &GearMesh) -> Option<Self> {
-        let pitch = TAU / f64::from(gear.tooth_count());
+    fn of_tooth_0(gear: &MeshedGear) -> Option<Self> {
+        let pitch = gear.pitches_on(1);
         let nodes = &gear.mesh().nodes;
         let flanks = [Side::Left, Side::Right].map(|side| gear.flank(0, side).map(face_nodes));
         let [Some(left), Some(right)] = flanks else { return None };

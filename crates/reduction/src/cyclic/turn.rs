@@ -1,9 +1,9 @@
 //! Is a gear the same after a turn by one pitch?
 
-use std::{collections::HashMap, f64::consts::TAU};
+use std::collections::HashMap;
 
 use geometry::Side;
-use mesh::{Face, GearMesh, Mesh};
+use mesh::{Face, Mesh, MeshedGear};
 
 /// How far a node may be from the place of its image for a gear to count as cyclic, relative to its size.
 const CYCLIC_TOLERANCE: f64 = 1e-9;
@@ -19,13 +19,13 @@ pub(crate) struct PitchTurn {
 
 impl PitchTurn {
     /// Of a whole gear; `None` unless every node, element, flank and held node has its image.
-    pub(crate) fn of_gear(gear: &GearMesh) -> Option<Self> {
+    pub(crate) fn of_gear(gear: &MeshedGear) -> Option<Self> {
         let mesh = gear.mesh();
         if !gear.is_whole_gear() {
             return None;
         }
         let size = mesh.nodes.iter().flatten().fold(0.0f64, |m, x| m.max(x.abs()));
-        let turn = Self::new(mesh, TAU / f64::from(gear.tooth_count()), CYCLIC_TOLERANCE * size)?;
+        let turn = Self::new(mesh, gear.pitches_on(1), CYCLIC_TOLERANCE * size)?;
         let image = |nodes: &[u32]| sorted(&nodes.iter().map(|&n| turn.nodes[n as usize]).collect::<Vec<_>>());
         let same_bore = image(gear.bore_nodes()) == gear.bore_nodes();
         let mut flanks = gear.teeth().into_iter().flat_map(|t| [(t, Side::Left), (t, Side::Right)]);

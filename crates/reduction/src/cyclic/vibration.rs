@@ -23,6 +23,8 @@ pub(crate) struct VibratingSector {
     mass: SymmetricMatrix,
     /// Sectors of the ring, z.
     pub(crate) teeth: u32,
+    /// -1 where sectors follow each other clockwise, else +1.
+    pub(crate) way: f64,
 }
 
 impl VibratingSector {
@@ -33,7 +35,7 @@ impl VibratingSector {
     ) -> Result<Self, ReductionError> {
         let sector = Sector::new(part, material, elements, &[], false, &|| true)?;
         let mass = fem::assemble_mass(&part.mesh, material, &sector.dofs)?;
-        Ok(Self { sector, mass, teeth: part.teeth })
+        Ok(Self { sector, mass, teeth: part.teeth, way: part.way })
     }
 
     /// Free freedoms of a sector, those of both cuts counted.

@@ -135,7 +135,7 @@ pub(super) fn of_harmonics(
     let of_motion = rigid_inertia(sector.mesh(), material, sector.dofs())?;
     let [re, im] = parts.each_ref().map(|p| products(&of_motion, p.as_ref()));
     let phases: Vec<f64> = waves.iter().map(|&n| sector.phase(n)).collect();
-    let coupling = (0..order.len()).map(|j| around(z, phases[j], re[j], im[j])).collect();
+    let coupling = (0..order.len()).map(|j| around(z, sector.way, (phases[j], re[j], im[j]))).collect();
     let shapes = Shapes::Sector { dofs: sector.dofs().clone(), phases, parts };
     Ok(GearModes { squares: order.iter().map(|o| o.0).collect(), waves: Some(waves), coupling, shapes })
 }
@@ -162,12 +162,12 @@ fn products(of_motion: &Mat<f64>, shapes: MatRef<'_, f64>) -> Vec<[f64; 6]> {
 }
 
 /// Sum over the ring of what sectors give in their own frames, in the gear's frame.
-fn around(teeth: u32, phase: f64, re: [f64; 6], im: [f64; 6]) -> [f64; 6] {
+fn around(teeth: u32, way: f64, (phase, re, im): (f64, [f64; 6], [f64; 6])) -> [f64; 6] {
     let mut sum = [0.0; 6];
     for k in 0..teeth {
         let (sin, cos) = (phase * f64::from(k)).sin_cos();
         let own: [f64; 6] = std::array::from_fn(|i| cos * re[i] - sin * im[i]);
-        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), TAU * f64::from(k) / f64::from(teeth));
+        let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), way * (TAU * f64::from(k) / f64::from(teeth)));
         for at in [0, 3] {
             let turned = turn * Vector3::new(own[at], own[at + 1], own[at + 2]);
             (0..3).for_each(|i| sum[at + i] += turned[i]);
@@ -247,7 +247,7 @@ impl GearModes {
         match (&self.shapes, reducer.method()?) {
             (Shapes::Sector { dofs, phases, parts }, Method::Cyclic(cyclic)) => {
                 let place = cyclic.place(node).ok_or(ReductionError::OtherGear)?;
-                let turn = std::f64::consts::TAU * f64::from(place.copy) / f64::from(reducer.gear().tooth_count());
+                let turn = reducer.gear().pitches_on(place.copy);
                 let turn = Rotation3::from_axis_angle(&Vector3::z_axis(), turn);
                 let Some(position) = dofs.position(place.node) else { return Ok(vec![Vector3::zeros(); self.count()]) };
                 let own = |(j, phase): (usize, &f64)| {

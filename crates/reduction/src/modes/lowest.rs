@@ -49,7 +49,7 @@ impl GearReducer {
                 };
                 // Vectors are in the frames of their sectors, the window's compliance is in its own.
                 let copies: Vec<u32> = loads.iter().map(|l| first_copy(l, cyclic)).collect();
-                held(&ring, on_rows(&loads, row), &turned(compliance, &copies, sector.teeth))?
+                held(&ring, on_rows(&loads, row), &turned(compliance, &copies, |k| self.gear().pitches_on(k)))?
             }
             Method::General(gear, _) => {
                 let mass = fem::assemble_mass(self.gear().mesh(), self.material(), self.dofs())?;
@@ -71,9 +71,8 @@ fn first_copy(load: &Load, cyclic: &CyclicGear) -> u32 {
 }
 
 /// C with every node's directions turned from the window's frame into that of its sector.
-fn turned(compliance: &Mat<f64>, copies: &[u32], teeth: u32) -> Mat<f64> {
-    let turns: Vec<[f64; 2]> =
-        copies.iter().map(|&k| (TAU * f64::from(k) / f64::from(teeth)).sin_cos().into()).collect();
+fn turned(compliance: &Mat<f64>, copies: &[u32], angle: impl Fn(u32) -> f64) -> Mat<f64> {
+    let turns: Vec<[f64; 2]> = copies.iter().map(|&k| angle(k).sin_cos().into()).collect();
     // Rows, then columns by symmetry: u_sector = turn' u_window.
     let once = |c: &Mat<f64>| {
         Mat::from_fn(c.ncols(), c.nrows(), |j, i| {

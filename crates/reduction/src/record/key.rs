@@ -5,7 +5,7 @@ use std::fmt;
 use blake3::Hasher;
 use fem::Material;
 use geometry::{Gear, Side};
-use mesh::{BoreCoupling, GearMesh};
+use mesh::{BoreCoupling, MeshedGear};
 
 use super::{MAGIC, RECORD_VERSION};
 use crate::ReductionOptions;
@@ -35,7 +35,7 @@ impl fmt::Display for RecordKey {
 ///
 /// Micro-geometry and torque are not in it: they change nothing of the reduced gear.
 pub fn record_key(
-    gear: &GearMesh,
+    gear: &MeshedGear,
     geometry: &Gear,
     material: &Material,
     options: &ReductionOptions,
@@ -55,11 +55,15 @@ pub fn record_key(
     RecordKey(*hasher.finalize().as_bytes())
 }
 
-fn mesh(hasher: &mut Hasher, gear: &GearMesh) {
+fn mesh(hasher: &mut Hasher, gear: &MeshedGear) {
     let mesh = gear.mesh();
     number(hasher, u64::from(gear.tooth_count()));
     number(hasher, u64::from(gear.is_whole_gear()));
     number(hasher, u64::from(gear.is_periodic_sector()));
+    // Gears whose teeth are numbered counter-clockwise are what records knew before there were rings.
+    if gear.numbering_sign() < 0.0 {
+        hasher.update(b"clockwise");
+    }
     number(hasher, mesh.nodes.len() as u64);
     let nodes: Vec<u8> = mesh.nodes.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
     hasher.update(&nodes);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use faer::Mat;
 use fem::{Material, unless_unwanted};
-use mesh::{BoreCoupling, GearMesh};
+use mesh::{BoreCoupling, MeshedGear};
 
 use super::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 use crate::{
@@ -47,7 +47,7 @@ pub(crate) struct Summary {
 /// A condensed gear less its method.
 pub(super) struct Condensed {
     /// The mesh as the reducer shows it.
-    pub(super) gear: GearMesh,
+    pub(super) gear: MeshedGear,
     pub(super) coordinates: Coordinates,
     pub(super) summary: Summary,
     /// The first window.
@@ -56,7 +56,7 @@ pub(super) struct Condensed {
 
 impl Condensed {
     fn new(
-        gear: GearMesh,
+        gear: MeshedGear,
         coordinates: Coordinates,
         options: &ReductionOptions,
         first: Opened,
@@ -70,11 +70,11 @@ impl Condensed {
 /// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is; `watch` hears
 /// what is begun and may lose interest.
 pub(super) fn condense<E: From<ReductionError>>(
-    gear: GearMesh,
+    gear: MeshedGear,
     material: &Material,
     options: &ReductionOptions,
     (general, watch): (bool, ReductionWatch<'_>),
-    coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+    coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
     let mut turn = PitchTurn::of_gear(&gear);
     // The means of a bore join all sectors.
@@ -124,7 +124,7 @@ pub(super) struct Opened {
 
 impl Opened {
     pub(super) fn new(
-        gear: &GearMesh,
+        gear: &MeshedGear,
         coordinates: &Coordinates,
         options: &ReductionOptions,
     ) -> Result<Self, ReductionError> {
@@ -144,10 +144,10 @@ impl Opened {
 
 /// One sector of a cyclic gear, and the mesh of those about the window if `gear` itself is a sector.
 pub(super) fn sectors(
-    gear: &GearMesh,
+    gear: &MeshedGear,
     turn: Option<&PitchTurn>,
     options: &ReductionOptions,
-) -> Result<Option<(SectorMesh, Option<GearMesh>)>, ReductionError> {
+) -> Result<Option<(SectorMesh, Option<MeshedGear>)>, ReductionError> {
     if let Some(turn) = turn {
         return Ok(SectorMesh::of_whole(gear, turn).map(|part| (part, None)));
     }

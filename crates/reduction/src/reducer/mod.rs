@@ -10,7 +10,7 @@ use std::sync::{Arc, OnceLock};
 
 use fem::{DofMap, ElementOptions, Material};
 use geometry::Side;
-use mesh::{Face, GearMesh};
+use mesh::{Face, MeshedGear};
 
 use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load::Coordinates};
 use asked::Asked;
@@ -35,9 +35,9 @@ pub(crate) use condense::{Method, Summary};
 /// record has: another window of a gear that is not cyclic, a displacement field, stress modes, mass.
 #[derive(Debug)]
 pub struct GearReducer {
-    gear: GearMesh,
+    gear: MeshedGear,
     /// The mesh that was given, where `gear` was made of it.
-    given: Option<GearMesh>,
+    given: Option<MeshedGear>,
     material: Material,
     options: ReductionOptions,
     pub(crate) dofs: DofMap,
@@ -55,7 +55,7 @@ impl GearReducer {
     ///
     /// # Errors
     /// [`ReductionError`] when a flank is missing or the matrices are not what they must be.
-    pub fn new(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
+    pub fn new(gear: MeshedGear, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
         Self::watched(gear, material, options, false, ReductionWatch::IDLE)
     }
 
@@ -63,7 +63,7 @@ impl GearReducer {
     ///
     /// # Errors
     /// As [`GearReducer::new`].
-    pub fn general(gear: GearMesh, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
+    pub fn general(gear: MeshedGear, material: Material, options: ReductionOptions) -> Result<Self, ReductionError> {
         Self::watched(gear, material, options, true, ReductionWatch::IDLE)
     }
 
@@ -72,7 +72,7 @@ impl GearReducer {
     /// # Errors
     /// As [`GearReducer::new`], and [`ReductionError::is_unwanted`].
     pub fn watched(
-        gear: GearMesh,
+        gear: MeshedGear,
         material: Material,
         options: ReductionOptions,
         general: bool,
@@ -87,11 +87,11 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError`] as for [`GearReducer::new`]; those of `grids`.
     pub fn on_grids<E: From<ReductionError>>(
-        gear: GearMesh,
+        gear: MeshedGear,
         material: Material,
         options: ReductionOptions,
         general: bool,
-        grids: impl Fn(&GearMesh) -> Result<FlankGrids, E>,
+        grids: impl Fn(&MeshedGear) -> Result<FlankGrids, E>,
     ) -> Result<Self, E> {
         Self::build(gear, material, options, (general, ReductionWatch::IDLE), |gear| {
             Ok(Coordinates::Grids(grids(gear)?))
@@ -99,11 +99,11 @@ impl GearReducer {
     }
 
     fn build<E: From<ReductionError>>(
-        gear: GearMesh,
+        gear: MeshedGear,
         material: Material,
         options: ReductionOptions,
         way: (bool, ReductionWatch<'_>),
-        coordinates: impl Fn(&GearMesh) -> Result<Coordinates, E>,
+        coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
     ) -> Result<Self, E> {
         let (condensed, method) = condense(gear, &material, &options, way, coordinates)?;
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
@@ -140,14 +140,14 @@ impl GearReducer {
         let again = || {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
-            let nodes = |_: &GearMesh| Ok::<_, ReductionError>(Coordinates::FlankNodes);
+            let nodes = |_: &MeshedGear| Ok::<_, ReductionError>(Coordinates::FlankNodes);
             Ok(condense(gear, &self.material, &self.options, (general, ReductionWatch::IDLE), nodes)?.1)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }
 
     /// The mesh: the whole gear as it was given, or the sectors about the first window.
-    pub fn gear(&self) -> &GearMesh {
+    pub fn gear(&self) -> &MeshedGear {
         &self.gear
     }
 

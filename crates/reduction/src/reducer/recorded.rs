@@ -3,7 +3,7 @@
 use std::{collections::BTreeMap, sync::OnceLock};
 
 use fem::Material;
-use mesh::GearMesh;
+use mesh::MeshedGear;
 
 use super::{
     GearReducer, ReductionOptions, ReductionWatch, ReductionWay,
@@ -19,7 +19,7 @@ impl GearReducer {
     /// # Errors
     /// As [`GearReducer::new`].
     pub fn from_record(
-        gear: GearMesh,
+        gear: MeshedGear,
         material: Material,
         options: ReductionOptions,
         record: ReductionRecord,

@@ -1,6 +1,6 @@
 //! Windows of a condensed gear, and what stands about them.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::sync::Arc;
 
 use geometry::{Gear, Side};
 use mesh::BoreCoupling;
@@ -86,7 +86,7 @@ impl GearReducer {
 
     /// Angle of a window's frame in the gear's own frame, rad.
     pub fn frame_angle(&self, window: &Window) -> f64 {
-        TAU * f64::from(window.shift) / f64::from(self.gear.tooth_count())
+        self.gear.pitches_on(window.shift)
     }
 
     /// The mesh's own nodes under a window's boundary nodes: turned on by its shift.

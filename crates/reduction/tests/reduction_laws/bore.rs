@@ -7,19 +7,19 @@ use crate::common::{gear, meshed, options};
 use faer::Mat;
 use fem::{DofMap, ElementOptions, Material, natural_modes};
 use geometry::{Gear, Side};
-use mesh::{BoreCoupling, Extent, Face, GearMesh, MeshError};
+use mesh::{BoreCoupling, Extent, Face, MeshError, MeshedGear};
 use nalgebra::{DMatrix, DVector, Vector3};
 use reduction::{FullGear, GearReducer, ModeChoice, ReductionError, ReductionRecord, ReductionWay, record_key};
 
 /// A gear whose stiffness fits into a dense matrix.
-fn small(order: u32, extent: Extent) -> (Gear, GearMesh) {
+fn small(order: u32, extent: Extent) -> (Gear, MeshedGear) {
     let gear = gear(11, 12.0);
     let mesh = meshed(&gear, order, 1, extent);
     (gear, mesh)
 }
 
 /// Integrals of the shape functions over some faces, mm^2, by a quadrature of its own: forces of a traction of 1.
-fn integrals(mesh: &GearMesh, faces: &[Face]) -> BTreeMap<u32, f64> {
+fn integrals(mesh: &MeshedGear, faces: &[Face]) -> BTreeMap<u32, f64> {
     let (gauss, mut all) = (mesh::gauss_legendre(6), BTreeMap::new());
     for face in faces {
         for (&(a, wa), &(b, wb)) in gauss.iter().flat_map(|a| gauss.iter().map(move |b| (a, b))) {
@@ -50,7 +50,7 @@ struct Whole {
 }
 
 impl Whole {
-    fn new(mesh: &GearMesh) -> Self {
+    fn new(mesh: &MeshedGear) -> Self {
         let dofs = DofMap::new(mesh.mesh().nodes.len(), &[]);
         let dense = |m: fem::SymmetricMatrix| {
             let m = m.to_dense();
@@ -86,7 +86,7 @@ impl Whole {
     }
 }
 
-fn by_means(mesh: GearMesh) -> GearMesh {
+fn by_means(mesh: MeshedGear) -> MeshedGear {
     mesh.coupled(BoreCoupling::Distributing)
 }
 
@@ -168,7 +168,7 @@ fn a_mean_seat_is_that_of_the_whole_gear() {
 #[test]
 fn holding_less_is_softer() {
     let gear = gear(12, 0.0);
-    let reduced = |mesh: GearMesh, general: bool| {
+    let reduced = |mesh: MeshedGear, general: bool| {
         let make = if general { GearReducer::general } else { GearReducer::new };
         make(mesh, Material::STEEL, options(&[Side::Left], 2, 0)).unwrap().window(0).unwrap().reduced
     };
@@ -262,7 +262,7 @@ fn a_mean_seat_settles_with_the_mesh() {
     let given = |fine: u32| {
         let mesh = meshed(&gear, 2, fine, Extent::Whole);
         let pressed = integrals(&mesh, mesh.flank(0, Side::Left).unwrap());
-        let work = |mesh: GearMesh| {
+        let work = |mesh: MeshedGear| {
             let reducer = GearReducer::new(mesh, Material::STEEL, options(&[Side::Left], 1, 0)).unwrap();
             let reduced = reducer.window(0).unwrap().reduced;
             let f = |i: usize| if i % 3 == 1 { pressed[&reduced.nodes[i / 3]] } else { 0.0 };
@@ -282,7 +282,7 @@ fn a_mean_seat_settles_with_the_mesh() {
 fn records_know_the_bore() {
     let (geometry, mesh) = small(1, Extent::Whole);
     let options = options(&[Side::Left], 2, 0);
-    let key = |mesh: &GearMesh| record_key(mesh, &geometry, &Material::STEEL, &options, "auto");
+    let key = |mesh: &MeshedGear| record_key(mesh, &geometry, &Material::STEEL, &options, "auto");
     let means = by_means(mesh.clone());
     let fine = meshed(&geometry, 1, 2, Extent::Whole);
     let part = fine.clone().held_between([0.0, 4.0]).unwrap();

@@ -8,11 +8,11 @@ use crate::common::{gear, options};
 use faer::Mat;
 use fem::Material;
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, Mesh, RootFillets};
+use mesh::{Extent, GroupNames, Mesh, MeshedGear, RootFillets};
 use reduction::{FlankGrid, FlankGrids, GearReducer, ReductionError, ReductionOptions, ReductionWay};
 
 /// Two elements along every edge of the tooth.
-fn meshed(gear: &Gear, order: u32, extent: Extent) -> GearMesh {
+fn meshed(gear: &Gear, order: u32, extent: Extent) -> MeshedGear {
     crate::common::meshed(gear, order, 2, extent)
 }
 
@@ -50,7 +50,7 @@ fn fillet_nodes(reducer: &GearReducer, exact: &Gear, first: u32, count: u32) -> 
 }
 
 /// All that a whole mesh shows, both ways: C, K^, M^, fields in several windows, stress modes, carried coordinates.
-fn compare(name: &str, mesh: GearMesh, exact: &Gear, options: &ReductionOptions) {
+fn compare(name: &str, mesh: MeshedGear, exact: &Gear, options: &ReductionOptions) {
     let z = exact.teeth();
     let cyclic = GearReducer::new(mesh.clone(), Material::STEEL, options.clone()).unwrap();
     let general = GearReducer::general(mesh, Material::STEEL, options.clone()).unwrap();
@@ -130,7 +130,7 @@ fn a_sector_gives_what_the_whole_gear_gives() {
 fn whole_gears_by_gmsh_go_the_cyclic_way() {
     let exact = Gear::new(GearData::default()).unwrap();
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes/coarse_hex8_pinion.msh");
-    let mesh = GearMesh::from_groups(Mesh::read(&path).unwrap(), &GroupNames::default(), 30).unwrap();
+    let mesh = MeshedGear::from_groups(Mesh::read(&path).unwrap(), &GroupNames::default(), 30).unwrap();
     compare("coarse_hex8_pinion", mesh, &exact, &options(&[Side::Left], 3, 29));
 }
 
@@ -150,7 +150,7 @@ fn a_periodic_sector_is_not_unrolled() {
             // copies.
             let mut mesh = sector.mesh().clone();
             mesh.surfaces.iter_mut().for_each(|g| g.name = g.name.replace("right_0", "right_1"));
-            sector = GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap();
+            sector = MeshedGear::from_groups(mesh, &GroupNames::default(), teeth).unwrap();
         }
         let options = options(&[Side::Right, Side::Left], window, first);
         let cyclic = GearReducer::new(sector.clone(), Material::STEEL, options.clone()).unwrap();
@@ -198,7 +198,7 @@ fn a_periodic_sector_is_not_unrolled() {
 }
 
 /// Grids over the flanks whose loads are shared between the nodes of a face.
-fn grids(mesh: &GearMesh, sides: &[Side]) -> Result<FlankGrids, ReductionError> {
+fn grids(mesh: &MeshedGear, sides: &[Side]) -> Result<FlankGrids, ReductionError> {
     let mut grids = BTreeMap::new();
     for tooth in mesh.teeth() {
         for &side in sides {
@@ -253,7 +253,7 @@ fn what_is_not_cyclic_goes_the_general_way() {
     let bore = held.surfaces.iter_mut().find(|s| s.name == "bore").unwrap();
     bore.faces.truncate(bore.faces.len() - 2);
     for (what, mesh) in [("a node moved", moved), ("a bore in part", held)] {
-        let gear = GearMesh::from_groups(mesh, &GroupNames::default(), 13).unwrap();
+        let gear = MeshedGear::from_groups(mesh, &GroupNames::default(), 13).unwrap();
         let reducer = GearReducer::new(gear, Material::STEEL, options(&[Side::Left], 2, 0)).unwrap();
         assert_eq!(reducer.way(), ReductionWay::General, "{what}");
         assert!(!reducer.is_cyclic(), "{what}");

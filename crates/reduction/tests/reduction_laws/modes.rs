@@ -7,12 +7,12 @@ use crate::common::{gear, options};
 use faer::{Mat, MatRef};
 use fem::{DofMap, ElementOptions, Material};
 use geometry::{Gear, Side};
-use mesh::{ElementBlock, ElementKind, Extent, Face, FaceKind, GearMesh, GroupNames, Mesh, SurfaceGroup};
+use mesh::{ElementBlock, ElementKind, Extent, Face, FaceKind, GroupNames, Mesh, MeshedGear, SurfaceGroup};
 use nalgebra::{DMatrix, SymmetricEigen};
 use reduction::{GearModes, GearReducer, ModeChoice, ReductionWay, Window};
 
 /// As few elements as a gear can have, times `fine` in the tooth.
-fn meshed(gear: &Gear, fine: u32, extent: Extent) -> GearMesh {
+fn meshed(gear: &Gear, fine: u32, extent: Extent) -> MeshedGear {
     crate::common::meshed(gear, 1, fine, extent)
 }
 
@@ -186,7 +186,7 @@ fn modes_and_a_rigid_body_are_the_free_gear() {
 }
 
 /// A ring of rectangular section, bore held, with patches on its outside for flanks.
-fn ring(inner: f64, outer: f64, width: f64, [around, across, along]: [usize; 3], teeth: u32) -> GearMesh {
+fn ring(inner: f64, outer: f64, width: f64, [around, across, along]: [usize; 3], teeth: u32) -> MeshedGear {
     let node = |i: usize, j: usize, k: usize| ((k * (across + 1) + j) * around + i % around) as u32;
     let mut nodes = Vec::new();
     for k in 0..=along {
@@ -226,7 +226,7 @@ fn ring(inner: f64, outer: f64, width: f64, [around, across, along]: [usize; 3],
     }
     let node_tags = (1..=nodes.len() as u64).collect();
     let mesh = Mesh { nodes, node_tags, blocks: vec![block], surfaces, ..Mesh::default() };
-    GearMesh::from_groups(mesh, &GroupNames::default(), teeth).unwrap()
+    MeshedGear::from_groups(mesh, &GroupNames::default(), teeth).unwrap()
 }
 
 /// J_n(x) and Y_n(x) by their integrals (DLMF 10.9.2, 10.9.7).

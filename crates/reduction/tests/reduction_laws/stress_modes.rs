@@ -7,7 +7,7 @@ use std::path::Path;
 use faer::Mat;
 use fem::{DofMap, ElementOptions, Material, StressOperator};
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, Mesh, RootFillets, StructuredOptions};
+use mesh::{Extent, GroupNames, Mesh, MeshedGear, RootFillets, StructuredOptions};
 use reduction::{GearReducer, ReductionError, ReductionOptions, Window};
 
 fn pinion() -> Gear {
@@ -15,7 +15,7 @@ fn pinion() -> Gear {
 }
 
 /// The default pinion by the built-in mesher, whole: cyclic.
-fn whole(order: u32) -> GearMesh {
+fn whole(order: u32) -> MeshedGear {
     let options = StructuredOptions {
         order,
         elements_profile: 2,
@@ -25,16 +25,16 @@ fn whole(order: u32) -> GearMesh {
         elements_rim: 1,
         extent: Extent::Whole,
     };
-    GearMesh::from_groups(mesh::generate(&pinion(), &options).unwrap(), &GroupNames::default(), 30).unwrap()
+    MeshedGear::from_groups(mesh::generate(&pinion(), &options).unwrap(), &GroupNames::default(), 30).unwrap()
 }
 
 /// A mesh that Gmsh made.
-fn by_gmsh(name: &str) -> GearMesh {
+fn by_gmsh(name: &str) -> MeshedGear {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../meshes").join(name);
-    GearMesh::from_groups(Mesh::read(&path).unwrap(), &GroupNames::default(), 30).unwrap()
+    MeshedGear::from_groups(Mesh::read(&path).unwrap(), &GroupNames::default(), 30).unwrap()
 }
 
-fn reducer(gear: GearMesh, first: u32, window: usize) -> GearReducer {
+fn reducer(gear: MeshedGear, first: u32, window: usize) -> GearReducer {
     let options = ReductionOptions { sides: vec![Side::Left], window, first, elements: ElementOptions::default() };
     GearReducer::new(gear, Material::STEEL, options).unwrap()
 }

@@ -7,7 +7,7 @@ use answer::Table;
 use plotters::prelude::*;
 use serde_json::json;
 
-use super::Chart;
+use super::{Chart, ChartHeadline};
 use crate::charts::{Captions, Failure, Labelled, legend, log_panel};
 
 const SIZE: (u32, u32) = (1040, 470);
@@ -58,18 +58,18 @@ fn draw(svg: &mut String, title: &str, of: &MotionPrecision) -> Result<(), Failu
 }
 
 /// Every point; a method that does not come through has its reason in `note`.
-fn rows(of: &MotionPrecision) -> Table {
+pub(super) fn rows(of: &MotionPrecision) -> Table {
     let points = &of.points;
     Table::new("motion_precision")
         .texts("method", "method of integration", points.iter().map(|p| p.method))
-        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", points.iter().map(|p| f64::from(p.steps)))
+        .numbers("steps_per_mesh_cycle", "steps per mesh cycle", points.iter().map(|p| f64::from(p.steps)))
         .numbers(
             "error_dte_um",
-            "largest difference of the DTE to the reference",
+            "largest difference of the DTE from the reference",
             points.iter().map(|p| p.error_um.unwrap_or(f64::NAN)),
         )
         .numbers("cycle_s", "wall time of a mesh cycle", points.iter().map(|p| p.cycle_s))
-        .texts("note", "why the method does not come through", points.iter().map(|p| p.note.clone()))
+        .texts("note", "reason why the method has no result", points.iter().map(|p| p.note.clone()))
 }
 
 /// Errors and wall times as Markdown, a line a method.
@@ -107,10 +107,11 @@ pub fn methods_chart(name: &str, found: &MotionPrecision, command: &str) -> Char
     Chart {
         subtitle: "methods of integration, accuracy against cost".to_owned(),
         tables: vec![rows(found)],
-        headline: json!({
-            "points": known,
-            "points_not_run": found.points.len() - known,
-            "mesh_over_resonance": found.mesh_over_resonance,
+        headline: json!(ChartHeadline {
+            points: known,
+            points_not_run: found.points.len() - known,
+            mesh_over_resonance: Some(found.mesh_over_resonance),
+            ..ChartHeadline::default()
         }),
         pictures: vec![("motion_precision", motion_precision_svg(name, found))],
         markdown: motion_precision_table(found, command),

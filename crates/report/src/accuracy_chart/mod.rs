@@ -10,17 +10,51 @@ pub use methods::methods_chart;
 pub use resonance::resonance_chart;
 pub use work_precision::work_precision_chart;
 
+use analysis::{
+    accuracy_chart::{ResonancePrecision, WorkPrecision},
+    motion::MotionPrecision,
+};
 use answer::{Answer, Cost, Table};
 use scene::Scene;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::{
     ReportError, Written,
+    answer_files::Object,
     charts::write_picture,
     page::{Content, Page, Part, again, cost_part},
     write_result,
 };
 use store::folder::ResultDirectory;
+
+described::described! {
+    /// Headline of a chart.
+    #[derive(Debug, Default, Serialize)]
+    struct ChartHeadline {
+        /// points that were run
+        points: usize,
+        /// points that could not be run
+        points_not_run: usize,
+        /// mean static transmission error of the reference; of models at rest
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reference_mean_ste_um: Option<f64>,
+        /// mesh frequency over mesh resonance; with `--methods`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        mesh_over_resonance: Option<f64>,
+        /// largest peak to peak of the dynamic transmission error of the reference; with `--resonance`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        reference_largest_peak_to_peak_dte_um: Option<f64>,
+    }
+}
+
+/// The headline with its keys.
+pub(crate) const OBJECT: Object = ("headline, a chart", ChartHeadline::KEYS);
+
+/// Tables of charts, for `docs/outputs.md`.
+pub(crate) fn documented(models: &WorkPrecision, methods: &MotionPrecision, speeds: &ResonancePrecision) -> Vec<Table> {
+    [rows::rows(models), methods::rows(methods)].into_iter().chain(resonance::documented(speeds)).collect()
+}
 
 /// A chart that is drawn.
 #[derive(Debug)]

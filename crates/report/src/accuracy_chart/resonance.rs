@@ -7,7 +7,7 @@ use answer::Table;
 use plotters::prelude::*;
 use serde_json::json;
 
-use super::{Chart, tables::seconds};
+use super::{Chart, ChartHeadline, tables::seconds};
 use crate::charts::{Captions, Curve, Failure, Labelled, legend, line_picture, log_panel};
 
 const SIZE: (u32, u32) = (1040, 490);
@@ -86,8 +86,8 @@ fn precision_rows(of: &ResonancePrecision) -> Table {
     };
     let notes = points.iter().map(|p| p.outcome.as_ref().err().cloned().unwrap_or_default());
     Table::new("resonance_precision")
-        .texts("model", "model", points.iter().map(|p| p.model))
-        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", points.iter().map(|p| f64::from(p.steps)))
+        .texts("model", "model of the pair; the last rows are the reference", points.iter().map(|p| p.model))
+        .numbers("steps_per_mesh_cycle", "steps per mesh cycle", points.iter().map(|p| f64::from(p.steps)))
         .numbers("offline_s", "wall time of everything before the first motion", number(|c| Some(c.offline_s)))
         .numbers("sweep_s", "wall time of all motions", number(|c| Some(c.sweep_s)))
         .numbers(
@@ -98,7 +98,7 @@ fn precision_rows(of: &ResonancePrecision) -> Table {
         .numbers("largest_peak_to_peak_dte_um", "largest peak-to-peak DTE", number(|c| Some(c.largest()?.1)))
         .numbers("largest_at_rpm", "speed of the driver at which it is largest", number(|c| Some(c.largest()?.0.speed_rpm)))
         .numbers("speeds_without_motion", "speeds without a motion", number(|c| Some(c.missing() as f64)))
-        .texts("note", "why a model comes to no curve", notes)
+        .texts("note", "reason why a model has no curve", notes)
 }
 
 /// Motion by motion; NaN without a value.
@@ -108,15 +108,20 @@ fn curve_rows(of: &ResonancePrecision) -> Table {
     let rows: Vec<_> =
         all.flat_map(|(model, steps, curve)| curve.speeds.iter().map(move |p| (model, steps, p))).collect();
     Table::new("resonance_curves")
-        .texts("model", "model", rows.iter().map(|r| r.0))
-        .numbers("steps_per_mesh_cycle", "steps of a mesh cycle", rows.iter().map(|r| f64::from(r.1)))
-        .texts("way", "`up` or `down`", rows.iter().map(|r| r.2.way.word()))
+        .texts("model", "model of the pair; the last rows are the reference", rows.iter().map(|r| r.0))
+        .numbers("steps_per_mesh_cycle", "steps per mesh cycle", rows.iter().map(|r| f64::from(r.1)))
+        .texts("way", "direction: `up` or `down`", rows.iter().map(|r| r.2.way.word()))
         .numbers("speed_rpm", "speed of the driver", rows.iter().map(|r| r.2.speed_rpm))
         .numbers(
             "peak_to_peak_dte_um",
             "peak to peak of the DTE",
             rows.iter().map(|r| r.2.peak_to_peak_um.unwrap_or(f64::NAN)),
         )
+}
+
+/// Tables of a chart over speed.
+pub(super) fn documented(of: &ResonancePrecision) -> [Table; 2] {
+    [precision_rows(of), curve_rows(of)]
 }
 
 /// Errors and wall times as Markdown.
@@ -160,10 +165,11 @@ pub fn resonance_chart(name: &str, found: &ResonancePrecision, command: &str) ->
     Chart {
         subtitle: format!("accuracy against cost over {} speeds", found.sweep.speeds),
         tables: vec![precision_rows(found), curve_rows(found)],
-        headline: json!({
-            "points": known,
-            "points_not_run": found.points.len() - known,
-            "reference_largest_peak_to_peak_dte_um": found.reference.largest().map(|(_, um)| um),
+        headline: json!(ChartHeadline {
+            points: known,
+            points_not_run: found.points.len() - known,
+            reference_largest_peak_to_peak_dte_um: found.reference.largest().map(|(_, um)| um),
+            ..ChartHeadline::default()
         }),
         pictures: vec![("resonance_curves", curves), ("resonance_precision", resonance_precision_svg(name, found))],
         markdown: resonance_precision_table(found, command),

@@ -5,7 +5,7 @@ use plotters::prelude::*;
 use serde_json::json;
 use study::{AnswerError, Work};
 
-use super::{Chart, rows::rows, tables::chart_tables};
+use super::{Chart, ChartHeadline, rows::rows, tables::chart_tables};
 use crate::{
     charts::{Captions, Failure, Labelled, legend, log_panel},
     page::counted,
@@ -107,10 +107,11 @@ pub fn work_precision_chart(name: &str, points: &WorkPrecision, command: &str, t
     Chart {
         subtitle: format!("accuracy against cost, {}", counted(measured, "point")),
         tables: vec![rows(points)],
-        headline: json!({
-            "points": measured,
-            "points_not_run": points.rows.len() - measured,
-            "reference_mean_ste_um": study::mean(&points.reference.ste_um),
+        headline: json!(ChartHeadline {
+            points: measured,
+            points_not_run: points.rows.len() - measured,
+            reference_mean_ste_um: Some(study::mean(&points.reference.ste_um)),
+            ..ChartHeadline::default()
         }),
         pictures: vec![("work_precision", work_precision_svg(name, points))],
         markdown: chart_tables(points, command, threads),

@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Stretches of a long record in the picture: of each the least and the largest value are drawn.
-const STRETCHES: usize = 800;
+const LYAPUNOV_INTERVALS: usize = 800;
 
 /// Height of a legend's line over the height of the chart.
 const LEGEND_ROOM: f64 = 0.09;
@@ -168,11 +168,11 @@ fn picture(title: &str, axes: [&str; 2], curves: &[Curve], from_zero: bool, mark
 
 /// Least and largest value of each stretch, so that a long record keeps its envelope.
 fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
-    if points.len() <= 2 * STRETCHES {
+    if points.len() <= 2 * LYAPUNOV_INTERVALS {
         return points.to_vec();
     }
-    let mut kept = Vec::with_capacity(2 * STRETCHES);
-    for stretch in points.chunks(points.len().div_ceil(STRETCHES)) {
+    let mut kept = Vec::with_capacity(2 * LYAPUNOV_INTERVALS);
+    for stretch in points.chunks(points.len().div_ceil(LYAPUNOV_INTERVALS)) {
         let low = stretch.iter().enumerate().min_by(|a, b| a.1.1.total_cmp(&b.1.1));
         let high = stretch.iter().enumerate().max_by(|a, b| a.1.1.total_cmp(&b.1.1));
         if let (Some(low), Some(high)) = (low, high) {

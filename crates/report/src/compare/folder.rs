@@ -119,7 +119,7 @@ fn damaged(file: &Path, what: &str) -> ReportError {
 pub fn summary(folder: &Path) -> Result<Value, ReportError> {
     let refuse = |what: String, hint: &'static str| Err(ReportError::NoResult { file: folder.to_owned(), what, hint });
     if !folder.is_dir() {
-        return refuse(if folder.exists() { "is no folder" } else { "there is no such folder" }.into(), MAKE_ONE);
+        return refuse(if folder.exists() { "is not a folder" } else { "there is no such folder" }.into(), MAKE_ONE);
     }
     let text = match read_regular_text(&folder.join("summary.json"), most::SUMMARY) {
         Ok(text) => text,

@@ -13,7 +13,9 @@ mod numbers;
 mod report;
 mod rows;
 
+pub(crate) use report::OBJECT;
 pub use report::{CompareChart, compare_answer, compare_charts, compare_page};
+pub(crate) use rows::documented;
 
 pub use curves::{Axis, Overlay, Trace, overlays};
 pub use folder::{ResultFolder, summary};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use analysis::remark;
 use answer::Answer;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 use super::{
@@ -11,6 +12,7 @@ use super::{
     rows::{self, letter},
 };
 use crate::{
+    answer_files::Object,
     charts::{Curve, line_chart, line_picture},
     page::{Cell, Grid, Page, Part},
 };
@@ -101,18 +103,38 @@ fn without_mean(trace: &Trace) -> Trace {
     Trace { label: trace.label.clone(), points }
 }
 
+described::described! {
+    /// Headline of a comparison.
+    #[derive(Serialize)]
+    struct ComparisonHeadline {
+        /// number of runs
+        runs: usize,
+        /// headline numbers that are compared
+        numbers: usize,
+        /// inputs that differ
+        inputs_that_differ: usize,
+    }
+}
+
+/// The headline with its keys.
+pub(crate) const OBJECT: Object = ("headline, a comparison", ComparisonHeadline::KEYS);
+
 /// Runs side by side as an answer: the tables `compare` and `compare_curves`.
 pub fn compare_answer(runs: &[ResultFolder], numbers: &[NumberRow], inputs: &[WordRow], curves: &[Overlay]) -> Answer {
     let labels: Vec<String> = runs.iter().map(ResultFolder::label).collect();
     let missed = runs.iter().enumerate().flat_map(|(i, run)| {
-        run.missed().into_iter().map(move |words| remark::result_does_not_hold(letter(i), words)).collect::<Vec<_>>()
+        run.missed().into_iter().map(move |words| remark::result_failed(letter(i), words)).collect::<Vec<_>>()
     });
     Answer {
         kind: "comparison",
         name: format!("{} runs side by side", runs.len()),
         inputs: json!({ "runs": labels }),
         tables: vec![rows::numbers(runs.len(), numbers), rows::curves(curves)],
-        headline: json!({ "runs": runs.len(), "numbers": numbers.len(), "inputs_that_differ": inputs.len() }),
+        headline: json!(ComparisonHeadline {
+            runs: runs.len(),
+            numbers: numbers.len(),
+            inputs_that_differ: inputs.len()
+        }),
         remarks: missed.collect(),
         ..Answer::default()
     }

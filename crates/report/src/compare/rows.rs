@@ -9,18 +9,25 @@ pub(super) fn numbers(runs: usize, rows: &[NumberRow]) -> Table {
     let known = |of: &dyn Fn(&NumberRow) -> Option<f64>| -> Vec<f64> {
         rows.iter().map(|row| of(row).unwrap_or(f64::NAN)).collect()
     };
-    let mut table =
-        Table::new("compare").texts("key", "key of the headline, with unit", rows.iter().map(|r| r.key.clone()));
+    let mut table = Table::new("compare").texts(
+        "key",
+        "key of the headline, `a.b` and `a[1]` where it lies deeper",
+        rows.iter().map(|r| r.key.clone()),
+    );
     for i in 0..runs {
-        table.push_numbers(letter(i), "value of this run", known(&|row| row.values[i]));
+        table.push_numbers(letter(i), "value of the run", known(&|row| row.values[i]));
     }
     for i in 1..runs {
         let difference = |row: &NumberRow| row.differences[i - 1];
         let name = format!("{}_minus_A", letter(i));
         let absolute = known(&|row| difference(row).map(|d| d.absolute));
         let per_cent = known(&|row| difference(row).and_then(|d| d.per_cent));
-        table.push_numbers(name.clone(), "this run's less that of run A", absolute);
-        table.push_numbers(format!("{name}_per_cent"), "the same over that of run A, per cent", per_cent);
+        table.push_numbers(name.clone(), "value of the run minus that of run A", absolute);
+        table.push_numbers(
+            format!("{name}_per_cent"),
+            "difference over the value of run A, sign included: a number twice as large reads +100",
+            per_cent,
+        );
     }
     table
 }
@@ -30,12 +37,33 @@ pub(super) fn curves(overlays: &[Overlay]) -> Table {
     let all = || overlays.iter().flat_map(|o| o.traces.iter().map(move |t| (o, t)));
     let points = || all().flat_map(|(o, t)| t.points.iter().map(move |p| (o, t, p)));
     Table::new("compare_curves")
-        .texts("table", "table of the runs", points().map(|(o, ..)| o.table.clone()))
-        .texts("quantity", "column of the table", points().map(|(o, ..)| o.name.clone()))
-        .texts("over", "column that it is drawn over", points().map(|(o, ..)| o.over.clone()))
-        .texts("run", "folder, and what tells its rows apart", points().map(|(_, t, _)| t.label.clone()))
-        .numbers("x", "abscissa", points().map(|(.., p)| p.0))
-        .numbers("value", "value", points().map(|(.., p)| p.1))
+        .texts(
+            "table",
+            "table of the runs; `rows` where the first tables have different names",
+            points().map(|(o, ..)| o.table.clone()),
+        )
+        .texts(
+            "quantity",
+            "column of the table; `te_um` where a static transmission error is compared with a dynamic one",
+            points().map(|(o, ..)| o.name.clone()),
+        )
+        .texts(
+            "over",
+            "abscissa: `mesh_phase`, `time_s`, `speed_rpm`, else the first column of numbers",
+            points().map(|(o, ..)| o.over.clone()),
+        )
+        .texts(
+            "run",
+            "folder of the run, and the words that distinguish its rows",
+            points().map(|(_, t, _)| t.label.clone()),
+        )
+        .numbers("x", "value of the abscissa", points().map(|(.., p)| p.0))
+        .numbers("value", "value of the quantity", points().map(|(.., p)| p.1))
+}
+
+/// Tables of a comparison without rows, for `docs/outputs.md`.
+pub(crate) fn documented() -> [Table; 2] {
+    [numbers(2, &[]), curves(&[])]
 }
 
 /// A, B, C, ... and numbers for those who compare more runs than letters.

@@ -5,5 +5,6 @@ mod pattern_csv;
 mod write;
 
 pub use lines::contact_lines;
+pub(crate) use pattern_csv::of_places;
 pub use pattern_csv::pattern_table;
 pub use write::{pattern_figure, write_patterns};

@@ -7,11 +7,20 @@ use answer::Table;
 pub fn pattern_table(name: &'static str, pattern: &GearPattern) -> Table {
     let grid = &pattern.grid;
     let places = || grid.stations().iter().flat_map(|&z| grid.rolls().iter().map(move |&roll| (roll, z)));
-    let of = places().count().min(grid.max_pressure().len()).min(grid.max_line_load().len());
+    let values = grid.max_pressure().iter().zip(grid.max_line_load());
+    let rows = places()
+        .zip(values)
+        .map(|((roll, z), (pressure, load))| [roll.to_degrees(), pattern.diameter(roll), z, *pressure, *load]);
+    of_places(name, &rows.collect::<Vec<_>>())
+}
+
+/// Places with their roll angle (degrees), diameter and height (mm), largest pressure (MPa) and line load (N/mm).
+pub(crate) fn of_places(name: &'static str, rows: &[[f64; 5]]) -> Table {
+    let column = |k: usize| rows.iter().map(move |row| row[k]);
     Table::new(name)
-        .numbers("roll_angle_deg", "roll angle", places().map(|(roll, _)| roll.to_degrees()).take(of))
-        .numbers("diameter_mm", "diameter", places().map(|(roll, _)| pattern.diameter(roll)).take(of))
-        .numbers("z_mm", "height on the gear", places().map(|(_, z)| z).take(of))
-        .numbers("max_pressure_mpa", "largest pressure that came there", grid.max_pressure().iter().copied().take(of))
-        .numbers("max_line_load_n_per_mm", "largest line load", grid.max_line_load().iter().copied().take(of))
+        .numbers("roll_angle_deg", "roll angle of the place: 41 places from the root form circle to the tip circle, equally spaced, each the middle of a strip", column(0))
+        .numbers("diameter_mm", "diameter of the place", column(1))
+        .numbers("z_mm", "middle of the slice, from the gear's own mid-face", column(2))
+        .numbers("max_pressure_mpa", "largest pressure p0 of the contact lines within half a strip; 0 where there is none", column(3))
+        .numbers("max_line_load_n_per_mm", "largest line load of the contact lines within half a strip; 0 where there is none", column(4))
 }

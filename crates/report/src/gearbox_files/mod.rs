@@ -8,21 +8,25 @@ mod swing_words;
 mod vibration;
 mod vibration_rows;
 
-use analysis::gearbox_at_rest::GearboxResult;
-use answer::{Answer, Cost};
+use analysis::gearbox::{ExcitationLine, GearboxResult, VibrationResult};
+use answer::{Answer, Cost, Table};
 use columns::gearbox as rows;
 use scene::gearbox::Gearbox;
 use serde_json::json;
+use study::Campbell;
 
-use crate::{ReportError, Written, write_result};
+use crate::{ReportError, Written, answer_files::Object, write_result};
 use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
 /// `motion_orders`.
 pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Answer {
-    let mut tables =
-        vec![rows::positions(file, &result.positions), rows::shafts(file, result), rows::line_loads(result)];
+    let mut tables = vec![
+        rows::positions(file, &result.positions),
+        rows::shafts(file, &result.positions),
+        rows::line_loads(&result.meshes, &result.positions),
+    ];
     if let Some(swings) = &result.vibration {
         tables.extend([
             vibration_rows::modes(file, swings),
@@ -46,10 +50,43 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         tables,
         headline: result.headline(),
         checks: result.checks(),
-        remarks: result.warnings.clone(),
+        remarks: result.remarks.clone(),
         info: summary::info(file, result),
         cost,
     }
+}
+
+/// Tables of a gearbox without rows, and objects of its summary with their keys, for `docs/outputs.md`.
+pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<Object>) {
+    let line = |name: &str| ExcitationLine { name: name.to_owned(), order: 1.0 };
+    let (frequencies, orders) = (vec![Vec::new()], vec![1.0, 1.0]);
+    let none = VibrationResult {
+        gears: Vec::new(),
+        mesh_stiffness: Vec::new(),
+        transmission_error: Vec::new(),
+        modes_kept: 0,
+        modes_up_to_hz: 0.0,
+        modes: Vec::new(),
+        campbell: Campbell { speeds: Vec::new(), frequencies, orders, resonances: Vec::new() },
+        lines: vec![line("mesh_1_order_1"), line("shaft_1")],
+        speeds: Vec::new(),
+        orders: Vec::new(),
+        rms: Vec::new(),
+    };
+    let tables = vec![
+        rows::positions(file, &[]),
+        rows::shafts(file, &[]),
+        rows::line_loads(&[], &[]),
+        vibration_rows::modes(file, &none),
+        vibration_rows::campbell(&none),
+        vibration_rows::crossings(&none),
+        vibration_rows::response(file, &none),
+        vibration_rows::rms(file, &none),
+        vibration_rows::bearing_forces(file, &none),
+        rows::motion(file, &[]),
+        vibration_rows::motion_orders(file, &[]),
+    ];
+    (tables, summary::OBJECTS.iter().chain(&motion::OBJECTS).copied().collect())
 }
 
 /// Writes all files of a gearbox, `summary.json` last: where it is, everything is. What comes back is the closing table.

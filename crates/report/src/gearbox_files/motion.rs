@@ -3,12 +3,13 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox_at_rest::{GearboxMotionResult, GearboxResult, MotionOrder},
+    gearbox::{GearboxMotionResult, GearboxResult, MotionOrder},
     motion::RPM,
 };
+use described::Key;
 use gearbox::motion::GearboxInstant;
 use scene::gearbox::Gearbox;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 use crate::{
     charts::{Curve, line_chart},
@@ -20,60 +21,176 @@ const DRAWN: usize = 3;
 /// Change of the speed over its largest from which on a motion is a run-up.
 const RUN_UP: f64 = 0.02;
 
-/// What `summary.json` has of it.
-pub(super) fn summary(file: &Gearbox, result: &GearboxResult) -> Value {
-    let Some(motion) = &result.motion else { return Value::Null };
-    let meshes = (0..file.meshes.len()).map(|i| {
+described::described! {
+    /// A gearbox in motion, as `summary.json` has it.
+    #[derive(Serialize)]
+    pub(super) struct MotionSummary<'a> {
+        /// rows of `motion.csv`
+        rows: usize,
+        /// length of a step; of the longest one with an `error_tolerance`
+        step_s: f64,
+        /// steps that were taken
+        steps: u64,
+        /// steps that were divided: no solution as a whole, or too large an error
+        divided_steps: u64,
+        /// cycles of the fastest mesh before the rows
+        warm_up_cycles: u64,
+        /// cycles of the fastest mesh after which a steady motion comes back; else `null`
+        period_cycles: Option<usize>,
+        /// largest difference of a coordinate or velocity after that period, over its peak to peak
+        periodicity: Option<f64>,
+        /// meshes, in the order of the file
+        meshes: Vec<MeshMotion<'a>>,
+        /// bearings, in the order of the file
+        bearings: Vec<BearingMotion<'a>>,
+        /// energy since the start, in common axes
+        energy: EnergySummary,
+        /// shafts in motion
+        reduction: ShaftReductionSummary,
+    }
+
+    /// A mesh in motion.
+    #[derive(Serialize)]
+    struct MeshMotion<'a> {
+        /// name of the mesh
+        name: &'a str,
+        /// mesh frequency
+        mesh_hz: f64,
+        /// mean stiffness along the normal
+        mean_mesh_stiffness_n_per_um: f64,
+        /// damping along the normal
+        mesh_damping_n_s_per_mm: f64,
+        /// peak to peak of the dynamic transmission error, second half of the rows
+        peak_to_peak_dte_um: f64,
+        /// smallest normal force, second half of the rows
+        min_normal_force_n: f64,
+        /// largest normal force, second half of the rows
+        max_normal_force_n: f64,
+        /// losses of contact of the driving flanks
+        separations: u64,
+        /// losses of contact of the coast flanks
+        coast_separations: u64,
+        /// largest share of the map's forces and tilts, or of the half by which a tilt may change a spring; beyond 1 the rows are not valid
+        map_use: f64,
+    }
+
+    /// A bearing in motion.
+    #[derive(Serialize)]
+    struct BearingMotion<'a> {
+        /// name of the bearing
+        name: &'a str,
+        /// smallest radial force, second half of the rows
+        min_radial_force_n: f64,
+        /// largest radial force, second half of the rows
+        max_radial_force_n: f64,
+    }
+
+    /// Energy since the start.
+    #[derive(Serialize)]
+    struct EnergySummary {
+        /// work of the input
+        input_work_mj: f64,
+        /// work of the outputs, below 0 of loads
+        output_work_mj: f64,
+        /// kinetic energy at the end
+        kinetic_mj: f64,
+        /// elastic energy of the shafts at the end
+        shafts_mj: f64,
+        /// elastic energy of bearings and housing at the end
+        supports_mj: f64,
+        /// elastic energy of the meshes at the end
+        meshes_mj: f64,
+        /// gain of kinetic and elastic energy
+        gained_mj: f64,
+        /// energy dissipated
+        dissipated_mj: f64,
+        /// energy that does not close over the sum of all
+        relative_residual: f64,
+        /// energy that the steps add or take by themselves over the kinetic and elastic energy that comes and goes in them; the bound is 1e-3
+        open_over_vibration: f64,
+    }
+
+    /// Reduction of the shafts.
+    #[derive(Serialize)]
+    struct ShaftReductionSummary {
+        /// degrees of freedom of all nodes
+        dof: usize,
+        /// degrees of freedom that are kept
+        dof_kept: usize,
+        /// modes that are kept
+        kept_modes: usize,
+        /// highest frequency that was asked for
+        highest_frequency_hz: f64,
+        /// natural frequencies up to there that were compared with those of all nodes
+        frequencies_compared: usize,
+        /// largest relative error of these frequencies
+        frequency_error: f64,
+    }
+}
+
+/// Objects of the summary with their keys.
+pub(super) const OBJECTS: [(&str, &[Key]); 5] = [
+    ("motion", MotionSummary::KEYS),
+    ("meshes, motion", MeshMotion::KEYS),
+    ("bearings, motion", BearingMotion::KEYS),
+    ("energy, motion", EnergySummary::KEYS),
+    ("reduction, motion", ShaftReductionSummary::KEYS),
+];
+
+/// Summary of a motion; `None` at rest alone.
+pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Option<MotionSummary<'a>> {
+    let motion = result.motion.as_ref()?;
+    let mesh = |i: usize| {
         let dte = motion.settled(|p| 1e3 * p.meshes[i].transmission_error);
         let force = motion.settled(|p| p.meshes[i].normal_force);
-        json!({
-            "name": result.meshes[i].name,
-            "mesh_hz": motion.mesh_frequencies[i],
-            "mean_mesh_stiffness_n_per_um": 1e-3 * motion.stiffness[i],
-            "mesh_damping_n_s_per_mm": motion.damping[i],
-            "peak_to_peak_dte_um": dte.span(),
-            "min_normal_force_n": force.least,
-            "max_normal_force_n": force.largest,
-            "separations": motion.separations[i][0],
-            "coast_separations": motion.separations[i][1],
-            "map_use": motion.reach[i],
-        })
-    });
+        MeshMotion {
+            name: &result.meshes[i].name,
+            mesh_hz: motion.mesh_frequencies[i],
+            mean_mesh_stiffness_n_per_um: 1e-3 * motion.stiffness[i],
+            mesh_damping_n_s_per_mm: motion.damping[i],
+            peak_to_peak_dte_um: dte.span(),
+            min_normal_force_n: force.least,
+            max_normal_force_n: force.largest,
+            separations: motion.separations[i][0],
+            coast_separations: motion.separations[i][1],
+            map_use: motion.reach[i],
+        }
+    };
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
         let force = motion.radial_force(i);
-        json!({ "name": b.name, "min_radial_force_n": force.least, "max_radial_force_n": force.largest })
+        BearingMotion { name: &b.name, min_radial_force_n: force.least, max_radial_force_n: force.largest }
     });
     let energy = &motion.energy;
     let reduction = &motion.reduction;
-    json!({
-        "rows": motion.rows.len(),
-        "step_s": motion.step,
-        "steps": motion.steps[0],
-        "divided_steps": motion.steps[1],
-        "warm_up_cycles": motion.warm_up_cycles,
-        "period_cycles": motion.periodicity.map(|p| p.period),
-        "periodicity": motion.periodicity.map(|p| p.residual),
-        "meshes": meshes.collect::<Vec<_>>(),
-        "bearings": bearings.collect::<Vec<_>>(),
-        "energy": {
-            "input_work_mj": energy.input_work,
-            "output_work_mj": energy.output_work,
-            "kinetic_mj": energy.kinetic,
-            "shafts_mj": energy.shafts,
-            "supports_mj": energy.supports,
-            "meshes_mj": energy.meshes,
-            "gained_mj": energy.gained,
-            "dissipated_mj": energy.dissipated,
-            "relative_residual": energy.relative_residual,
-            "open_over_vibration": energy.open_over_vibration,
+    Some(MotionSummary {
+        rows: motion.rows.len(),
+        step_s: motion.step,
+        steps: motion.steps[0],
+        divided_steps: motion.steps[1],
+        warm_up_cycles: motion.warm_up_cycles,
+        period_cycles: motion.periodicity.map(|p| p.period),
+        periodicity: motion.periodicity.map(|p| p.residual),
+        meshes: (0..file.meshes.len()).map(mesh).collect(),
+        bearings: bearings.collect(),
+        energy: EnergySummary {
+            input_work_mj: energy.input_work,
+            output_work_mj: energy.output_work,
+            kinetic_mj: energy.kinetic,
+            shafts_mj: energy.shafts,
+            supports_mj: energy.supports,
+            meshes_mj: energy.meshes,
+            gained_mj: energy.gained,
+            dissipated_mj: energy.dissipated,
+            relative_residual: energy.relative_residual,
+            open_over_vibration: energy.open_over_vibration,
         },
-        "reduction": {
-            "dof": reduction.coordinates[0],
-            "dof_kept": reduction.coordinates[1],
-            "kept_modes": reduction.modes,
-            "highest_frequency_hz": reduction.limit / TAU,
-            "frequencies_compared": reduction.compared,
-            "frequency_error": reduction.error,
+        reduction: ShaftReductionSummary {
+            dof: reduction.coordinates[0],
+            dof_kept: reduction.coordinates[1],
+            kept_modes: reduction.modes,
+            highest_frequency_hz: reduction.limit / TAU,
+            frequencies_compared: reduction.compared,
+            frequency_error: reduction.error,
         },
     })
 }

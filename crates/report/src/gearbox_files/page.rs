@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use analysis::gearbox_at_rest::GearboxResult;
+use analysis::gearbox::GearboxResult;
 use answer::Answer;
 use gearbox::{GearboxPosition, ShaftLine, line_load};
 use minijinja::context;
@@ -12,6 +12,7 @@ use super::{motion, norm, space::BoxInSpace, vibration};
 use crate::{
     ReportError,
     charts::{Curve, embedded, line_chart},
+    how_exact::how_exact,
     page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
 };
 
@@ -41,6 +42,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(shafts(file, result));
     page.push(bearings(file, result));
     page.push(outputs(result));
+    result.accuracy.iter().flat_map(how_exact).for_each(|part| page.push(part));
     page.push(Part::new("Over the positions").figures(charts(file, result)));
     if let Some((asked, swings)) = file.vibration.as_ref().zip(result.vibration.as_ref()) {
         vibration::parts(file, asked, swings).into_iter().for_each(|part| page.push(part));

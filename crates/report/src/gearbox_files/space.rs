@@ -1,6 +1,6 @@
 //! A gearbox in space, as the script of its page draws it.
 
-use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings};
+use analysis::gearbox::{GearboxResult, VibrationResult};
 use gearbox::WhirlMode;
 use nalgebra::Complex;
 use scene::gearbox::Gearbox;
@@ -112,7 +112,7 @@ fn shaft(file: &Gearbox, result: &GearboxResult, i: usize) -> ShaftInSpace {
 }
 
 /// Natural motions at the lowest speed, cut into shafts; their nodes are those that stand at rest.
-fn modes(file: &Gearbox, result: &GearboxResult, swings: &GearboxSwings) -> Vec<ModeInSpace> {
+fn modes(file: &Gearbox, result: &GearboxResult, swings: &VibrationResult) -> Vec<ModeInSpace> {
     let counts: Vec<usize> = match result.positions.first() {
         Some(p) => p.shafts.iter().map(|line| 6 * line.positions.len()).collect(),
         None => return Vec::new(),

@@ -1,132 +1,329 @@
-//! Headline and facts of a gearbox, as `summary.json` has them.
+//! Facts of a gearbox, as `summary.json` has them.
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox_at_rest::{GearboxResult, GearboxSwings, MeshResult, RollingLoad};
+use analysis::accuracy::Accuracy;
+use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, VibrationResult};
+use answer::keyed;
+use described::Key;
 use gearbox::rolling_bearing::RollingElements;
 use geometry::GearPair;
 use scene::gearbox::{Gearbox, GearboxVibration};
-use serde_json::{Map, Value, json};
+use serde::Serialize;
+use serde_json::{Map, Value};
 
-use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
+use super::{
+    motion::{MotionSummary, summary},
+    swing_words::{bearing_peaks, first_modes, holders, mesh_peaks},
+};
 
-/// What is known of a gearbox but its rows and its headline. Names of keys bear the units.
-pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value> {
-    let meshes = result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair));
-    let bearings = result.bearings.iter().map(|b| {
-        let mut own = json!({
-            "name": b.name,
-            "mean_force_n": b.force,
-            "mean_moment_nmm": b.moment,
-            "max_tilt_urad": 1e6 * b.tilt,
-        });
-        if let Some(load) = &b.rolling {
-            own["rolling"] = rolling(load);
-        }
-        own
-    });
-    let outputs = result
-        .outputs
-        .iter()
-        .map(|o| json!({ "mean_lag_urad": 1e6 * o.mean, "peak_to_peak_lag_urad": 1e6 * o.peak_to_peak }));
-    let shafts = file.shafts.iter().zip(&result.ratios).map(|(s, ratio)| json!({ "name": s.name, "ratio": ratio }));
-    let vibration = file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own));
-    let keys = [
-        ("shafts", shafts.collect::<Value>()),
-        ("meshes", meshes.collect()),
-        ("bearings", bearings.collect()),
-        ("outputs", outputs.collect()),
-        ("positions", json!(result.positions.len())),
-        ("motion", super::motion::summary(file, result)),
-    ];
-    // Keys of what is not asked for are not there.
-    let vibration = vibration.map(|own| ("vibration", own));
-    keys.into_iter().chain(vibration).map(|(key, value)| (key.to_owned(), value)).collect()
+described::described! {
+    /// Everything known of a gearbox but its rows and its headline; names of keys bear the units.
+    #[derive(Serialize)]
+    struct GearboxSummary<'a> {
+        /// shafts, in the order of the file
+        shafts: Vec<ShaftSummary<'a>>,
+        /// meshes, in the order of the file
+        meshes: Vec<MeshSummary<'a>>,
+        /// bearings, in the order of the file
+        bearings: Vec<BearingSummary<'a>>,
+        /// outputs, in the order of the torques
+        outputs: Vec<OutputSummary>,
+        /// number of positions
+        positions: usize,
+        /// bounds of the numbers; missing without `[accuracy]`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        accuracy: Option<&'a Accuracy>,
+        /// motion; `null` at rest alone
+        motion: Option<MotionSummary<'a>>,
+        /// vibration; missing where none is asked for
+        #[serde(skip_serializing_if = "Option::is_none")]
+        vibration: Option<VibrationSummary<'a>>,
+    }
+
+    /// A shaft.
+    #[derive(Serialize)]
+    struct ShaftSummary<'a> {
+        /// name of the shaft
+        name: &'a str,
+        /// revolutions of the shaft for one revolution of the input, negative against it
+        ratio: f64,
+    }
+
+    /// A mesh over all positions.
+    #[derive(Serialize)]
+    struct MeshSummary<'a> {
+        /// name of the mesh
+        name: &'a str,
+        /// total contact ratio of the pair as it runs
+        eps_gamma: f64,
+        /// centre distance
+        centre_distance_mm: f64,
+        /// width over which both gears have flanks
+        common_face_width_mm: f64,
+        /// height of the wheel's mid-face over the pinion's
+        mid_face_offset_mm: f64,
+        /// slices over the face width
+        slices: usize,
+        /// mean sum of the normal forces
+        mean_normal_force_n: f64,
+        /// mean static transmission error
+        mean_ste_um: f64,
+        /// peak to peak of the static transmission error
+        peak_to_peak_ste_um: f64,
+        /// mean misalignment in the plane of action, over the common face width
+        misalignment_in_plane_um: f64,
+        /// mean misalignment across the plane of action, over the common face width
+        misalignment_across_um: f64,
+        /// K_Hbeta of the solved distribution of the load
+        face_load_factor: Option<f64>,
+        /// largest contact pressure
+        max_pressure_mpa: f64,
+        /// angle by which the wheel has to be set against its key where the train closes a ring, so that all flanks touch; 0 otherwise
+        timing_deg: f64,
+    }
+
+    /// A bearing over all positions.
+    #[derive(Serialize)]
+    struct BearingSummary<'a> {
+        /// name of the bearing
+        name: &'a str,
+        /// mean force on the shaft: x, y, z in common axes
+        mean_force_n: [f64; 3],
+        /// mean moment on the shaft: x, y, z in common axes
+        mean_moment_nmm: [f64; 3],
+        /// largest tilt of the shaft against the seat
+        max_tilt_urad: f64,
+        /// rolling elements; missing for a bearing that is given by its stiffness
+        #[serde(skip_serializing_if = "Option::is_none")]
+        rolling: Option<RollingSummary>,
+    }
+
+    /// Rolling elements of a bearing over all positions.
+    #[derive(Serialize)]
+    struct RollingSummary {
+        /// rolling elements of a row, as stated, or estimated from the catalogue's values
+        elements_per_row: usize,
+        /// diameter of a rolling element
+        element_diameter_mm: f64,
+        /// length of a roller; `null` of balls
+        element_length_mm: Option<f64>,
+        /// pitch diameter
+        pitch_diameter_mm: f64,
+        /// whether the internal geometry is estimated from bore, outer diameter and static rating
+        is_estimated: bool,
+        /// rolling elements of all rows
+        elements: usize,
+        /// smallest number of loaded rolling elements
+        min_loaded_elements: usize,
+        /// largest number of loaded rolling elements
+        max_loaded_elements: usize,
+        /// force on the most loaded rolling element
+        max_element_force_n: f64,
+        /// contact pressure of the most loaded rolling element; a remark tells of more than the static rating of ISO 76, 4200 MPa of balls and 4000 MPa of rollers
+        max_hertz_pressure_mpa: f64,
+        /// mean tangent stiffness, which vibration and motion have: five rows for x, y, z and the rotations about x and y, in N/mm, N/rad and N, N mm/rad
+        stiffness_n_mm_rad: [[f64; 5]; 5],
+    }
+
+    /// An output over all positions.
+    #[derive(Serialize)]
+    struct OutputSummary {
+        /// mean lag behind the nominal rotation
+        mean_lag_urad: f64,
+        /// peak to peak of the lag: the transmission error from input to output
+        peak_to_peak_lag_urad: f64,
+    }
+
+    /// Vibration.
+    #[derive(Serialize)]
+    struct VibrationSummary<'a> {
+        /// smallest and largest speed of the input that were asked for
+        input_rpm: [f64; 2],
+        /// damping ratio that was asked for
+        damping_ratio: f64,
+        /// modes at the lowest speed
+        modes: Vec<ModeSummary>,
+        /// number of modes that the answers are made of
+        modes_kept: usize,
+        /// frequency at rest up to which no mode is left out
+        modes_up_to_hz: f64,
+        /// number of rows of `crossings.csv`
+        crossings: usize,
+        /// meshes, in the order of the file
+        meshes: Vec<MeshVibration>,
+        /// bearings, in the order of the file
+        bearings: Vec<BearingVibration>,
+        /// gears, in the order of the file
+        gears: Vec<GearMass<'a>>,
+    }
+
+    /// A mode.
+    #[derive(Serialize)]
+    struct ModeSummary {
+        /// natural frequency, undamped
+        frequency_hz: f64,
+        /// parts with a tenth or more of the strain energy
+        strain: String,
+        /// parts with a tenth or more of the kinetic energy
+        kinetic: String,
+    }
+
+    /// A mesh that vibrates.
+    #[derive(Serialize)]
+    struct MeshVibration {
+        /// name of the mesh
+        name: String,
+        /// mean stiffness along the normal, by the rotation of the pinion
+        mean_mesh_stiffness_n_per_um: f64,
+        /// single-sided amplitudes of the mesh orders of the loaded transmission error
+        ste_amplitude_um: Vec<f64>,
+        /// largest root mean square of the dynamic normal force over all speeds
+        largest_dynamic_force_rms_n: f64,
+        /// speed of the input there
+        at_input_rpm: f64,
+    }
+
+    /// A bearing that vibrates.
+    #[derive(Serialize)]
+    struct BearingVibration {
+        /// name of the bearing
+        name: String,
+        /// largest root mean square of the force on the housing over all speeds
+        largest_housing_force_rms_n: f64,
+        /// speed of the input there
+        at_input_rpm: f64,
+    }
+
+    /// Mass of a gear.
+    #[derive(Serialize)]
+    struct GearMass<'a> {
+        /// name of the gear
+        name: &'a str,
+        /// mass, stated or of the mesh
+        mass_kg: f64,
+        /// moment of inertia about a transverse axis, stated or of the mesh
+        transverse_inertia_kg_m2: f64,
+        /// moment of inertia about the axis, stated or of the mesh
+        polar_inertia_kg_m2: f64,
+    }
 }
 
-/// What is known of a rolling bearing.
-fn rolling(load: &RollingLoad) -> Value {
-    let (elements, diameter, length, pitch_diameter) = match &load.elements {
+/// Objects of the summary with their keys.
+pub(super) const OBJECTS: [(&str, &[Key]); 11] = [
+    ("the summary of a gearbox", GearboxSummary::KEYS),
+    ("shafts", ShaftSummary::KEYS),
+    ("meshes, a gearbox", MeshSummary::KEYS),
+    ("bearings, a gearbox", BearingSummary::KEYS),
+    ("rolling", RollingSummary::KEYS),
+    ("outputs, a gearbox", OutputSummary::KEYS),
+    ("vibration", VibrationSummary::KEYS),
+    ("modes, vibration", ModeSummary::KEYS),
+    ("meshes, vibration", MeshVibration::KEYS),
+    ("bearings, vibration", BearingVibration::KEYS),
+    ("gears, vibration", GearMass::KEYS),
+];
+
+/// Everything known of a gearbox but its rows and its headline.
+pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value> {
+    let ratios = file.shafts.iter().zip(&result.ratios);
+    let outputs = result.outputs.iter();
+    keyed(&GearboxSummary {
+        accuracy: result.accuracy.as_ref(),
+        shafts: ratios.map(|(shaft, ratio)| ShaftSummary { name: &shaft.name, ratio: *ratio }).collect(),
+        meshes: result.meshes.iter().zip(&result.pairs).map(|(m, pair)| mesh(m, pair)).collect(),
+        bearings: result.bearings.iter().map(bearing).collect(),
+        outputs: outputs
+            .map(|o| OutputSummary { mean_lag_urad: 1e6 * o.mean, peak_to_peak_lag_urad: 1e6 * o.peak_to_peak })
+            .collect(),
+        positions: result.positions.len(),
+        motion: summary(file, result),
+        vibration: file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own)),
+    })
+}
+
+fn bearing(load: &BearingLoad) -> BearingSummary<'_> {
+    BearingSummary {
+        name: &load.name,
+        mean_force_n: load.force,
+        mean_moment_nmm: load.moment,
+        max_tilt_urad: 1e6 * load.tilt,
+        rolling: load.rolling.as_ref().map(rolling),
+    }
+}
+
+fn rolling(load: &RollingLoad) -> RollingSummary {
+    let (elements_per_row, element_diameter_mm, element_length_mm, pitch_diameter_mm) = match &load.elements {
         RollingElements::Balls(b) => (b.elements, b.diameter, None, b.pitch_diameter),
         RollingElements::Rollers(r) => (r.elements, r.diameter, Some(r.length), r.pitch_diameter),
     };
-    json!({
-        "elements_per_row": elements,
-        "element_diameter_mm": diameter,
-        "element_length_mm": length,
-        "pitch_diameter_mm": pitch_diameter,
-        "is_estimated": load.is_estimated,
-        "elements": load.count,
-        "min_loaded_elements": load.loaded[0],
-        "max_loaded_elements": load.loaded[1],
-        "max_element_force_n": load.element_force,
-        "max_hertz_pressure_mpa": load.pressure,
-        "stiffness_n_mm_rad": load.stiffness,
-    })
+    RollingSummary {
+        elements_per_row,
+        element_diameter_mm,
+        element_length_mm,
+        pitch_diameter_mm,
+        is_estimated: load.is_estimated,
+        elements: load.count,
+        min_loaded_elements: load.loaded[0],
+        max_loaded_elements: load.loaded[1],
+        max_element_force_n: load.element_force,
+        max_hertz_pressure_mpa: load.pressure,
+        stiffness_n_mm_rad: load.stiffness,
+    }
 }
 
-/// Headline of a vibration.
-fn vibration(file: &Gearbox, (asked, swings): (&GearboxVibration, &GearboxSwings)) -> Value {
-    let modes = first_modes(swings).iter().map(|mode| {
-        json!({
-            "frequency_hz": mode.frequency / TAU,
-            "strain": holders(file, &mode.energy.strain),
-            "kinetic": holders(file, &mode.energy.kinetic),
-        })
+fn vibration<'a>(file: &'a Gearbox, (asked, swings): (&GearboxVibration, &VibrationResult)) -> VibrationSummary<'a> {
+    let modes = first_modes(swings).iter().map(|mode| ModeSummary {
+        frequency_hz: mode.frequency / TAU,
+        strain: holders(file, &mode.energy.strain),
+        kinetic: holders(file, &mode.energy.kinetic),
     });
-    let meshes = mesh_peaks(file, swings).into_iter().enumerate().map(|(i, peak)| {
-        json!({
-            "name": peak.name,
-            "mean_mesh_stiffness_n_per_um": 1e-3 * swings.mesh_stiffness[i],
-            "ste_amplitude_um": swings.transmission_error[i].iter().map(|x| 1e3 * x).collect::<Vec<_>>(),
-            "largest_dynamic_force_rms_n": peak.force_n,
-            "at_input_rpm": peak.input_rpm,
-        })
+    let meshes = mesh_peaks(file, swings).into_iter().enumerate().map(|(i, peak)| MeshVibration {
+        name: peak.name,
+        mean_mesh_stiffness_n_per_um: 1e-3 * swings.mesh_stiffness[i],
+        ste_amplitude_um: swings.transmission_error[i].iter().map(|x| 1e3 * x).collect(),
+        largest_dynamic_force_rms_n: peak.force_n,
+        at_input_rpm: peak.input_rpm,
     });
-    let bearings = bearing_peaks(file, swings).into_iter().map(|peak| {
-        json!({
-            "name": peak.name,
-            "largest_housing_force_rms_n": peak.force_n,
-            "at_input_rpm": peak.input_rpm,
-        })
+    let bearings = bearing_peaks(file, swings).into_iter().map(|peak| BearingVibration {
+        name: peak.name,
+        largest_housing_force_rms_n: peak.force_n,
+        at_input_rpm: peak.input_rpm,
     });
-    let gears = file.gears.iter().zip(&swings.gears).map(|(gear, body)| {
-        json!({
-            "name": gear.name,
-            "mass_kg": 1e3 * body.mass,
-            "transverse_inertia_kg_m2": 1e-3 * body.transverse_inertia,
-            "polar_inertia_kg_m2": 1e-3 * body.polar_inertia,
-        })
+    let gears = file.gears.iter().zip(&swings.gears).map(|(gear, body)| GearMass {
+        name: &gear.name,
+        mass_kg: 1e3 * body.mass,
+        transverse_inertia_kg_m2: 1e-3 * body.transverse_inertia,
+        polar_inertia_kg_m2: 1e-3 * body.polar_inertia,
     });
-    json!({
-        "input_rpm": asked.speeds_rpm,
-        "damping_ratio": asked.damping_ratio,
-        "modes": modes.collect::<Vec<_>>(),
-        "modes_kept": swings.modes_kept,
-        "modes_up_to_hz": swings.modes_up_to_hz,
-        "crossings": swings.campbell.resonances.len(),
-        "meshes": meshes.collect::<Vec<_>>(),
-        "bearings": bearings.collect::<Vec<_>>(),
-        "gears": gears.collect::<Vec<_>>(),
-    })
+    VibrationSummary {
+        input_rpm: asked.speeds_rpm,
+        damping_ratio: asked.damping_ratio,
+        modes: modes.collect(),
+        modes_kept: swings.modes_kept,
+        modes_up_to_hz: swings.modes_up_to_hz,
+        crossings: swings.campbell.resonances.len(),
+        meshes: meshes.collect(),
+        bearings: bearings.collect(),
+        gears: gears.collect(),
+    }
 }
 
-/// What is known of a mesh.
-fn mesh(m: &MeshResult, pair: &GearPair) -> Value {
-    json!({
-        "name": m.name,
-        "eps_gamma": pair.total_contact_ratio(),
-        "centre_distance_mm": pair.centre_distance(),
-        "common_face_width_mm": pair.face_width(),
-        "mid_face_offset_mm": pair.mid_face_offset(),
-        "slices": m.slices,
-        "mean_normal_force_n": m.normal_force,
-        "mean_ste_um": 1e3 * m.transmission_error[0],
-        "peak_to_peak_ste_um": 1e3 * m.transmission_error[1],
-        "misalignment_in_plane_um": 1e3 * m.misalignment[0],
-        "misalignment_across_um": 1e3 * m.misalignment[1],
-        "face_load_factor": m.face_load_factor,
-        "max_pressure_mpa": m.max_pressure,
-        "timing_deg": m.timing.to_degrees(),
-    })
+fn mesh<'a>(m: &'a MeshResult, pair: &GearPair) -> MeshSummary<'a> {
+    MeshSummary {
+        name: &m.name,
+        eps_gamma: pair.total_contact_ratio(),
+        centre_distance_mm: pair.centre_distance(),
+        common_face_width_mm: pair.face_width(),
+        mid_face_offset_mm: pair.mid_face_offset(),
+        slices: m.slices,
+        mean_normal_force_n: m.normal_force,
+        mean_ste_um: 1e3 * m.transmission_error[0],
+        peak_to_peak_ste_um: 1e3 * m.transmission_error[1],
+        misalignment_in_plane_um: 1e3 * m.misalignment[0],
+        misalignment_across_um: 1e3 * m.misalignment[1],
+        face_load_factor: m.face_load_factor,
+        max_pressure_mpa: m.max_pressure,
+        timing_deg: m.timing.to_degrees(),
+    }
 }

@@ -1,6 +1,6 @@
 //! Headline of a vibration in words and numbers: summary, table and page tell the same.
 
-use analysis::{gearbox_at_rest::GearboxSwings, motion::RPM};
+use analysis::{gearbox::VibrationResult, motion::RPM};
 use gearbox::{Component, EnergyShare, WhirlMode};
 use scene::gearbox::Gearbox;
 
@@ -12,18 +12,18 @@ pub(super) struct Peak {
 }
 
 /// Largest dynamic force of every mesh.
-pub(super) fn mesh_peaks(file: &Gearbox, swings: &GearboxSwings) -> Vec<Peak> {
+pub(super) fn mesh_peaks(file: &Gearbox, swings: &VibrationResult) -> Vec<Peak> {
     let of = |(i, name): (usize, &String)| peak(swings, name, move |rms| rms.mesh_forces[i]);
     file.meshes.iter().map(|m| &m.name).enumerate().map(of).collect()
 }
 
 /// Largest force of every bearing on the housing.
-pub(super) fn bearing_peaks(file: &Gearbox, swings: &GearboxSwings) -> Vec<Peak> {
+pub(super) fn bearing_peaks(file: &Gearbox, swings: &VibrationResult) -> Vec<Peak> {
     let of = |(i, name): (usize, &String)| peak(swings, name, move |rms| rms.bearing_forces[i]);
     file.bearings.iter().map(|b| &b.name).enumerate().map(of).collect()
 }
 
-fn peak(swings: &GearboxSwings, name: &str, of: impl Fn(&analysis::gearbox_at_rest::SpeedRms) -> f64) -> Peak {
+fn peak(swings: &VibrationResult, name: &str, of: impl Fn(&analysis::gearbox::SpeedRms) -> f64) -> Peak {
     let (speed, force_n) = swings.peak(of).unwrap_or_default();
     Peak { name: name.to_owned(), force_n, input_rpm: speed / RPM }
 }
@@ -51,6 +51,6 @@ fn part(file: &Gearbox, component: Component) -> String {
 }
 
 /// Natural motions at the lowest speed.
-pub(super) fn first_modes(swings: &GearboxSwings) -> &[WhirlMode] {
+pub(super) fn first_modes(swings: &VibrationResult) -> &[WhirlMode] {
     swings.modes.first().map_or(&[], |m| &m.modes)
 }

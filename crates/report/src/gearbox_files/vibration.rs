@@ -1,6 +1,6 @@
 //! How a gearbox swings, as parts of its page.
 
-use analysis::{gearbox_at_rest::GearboxSwings, motion::RPM};
+use analysis::{gearbox::VibrationResult, motion::RPM};
 use scene::gearbox::{Gearbox, GearboxVibration};
 
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
@@ -15,7 +15,7 @@ const DRAWN: usize = 8;
 const LISTED: usize = 8;
 
 /// Modes, charts, largest forces.
-pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &GearboxSwings) -> Vec<Part> {
+pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &VibrationResult) -> Vec<Part> {
     let charts = [campbell(swings), meshes(file, swings), bearings(file, swings)];
     let rows: Vec<Vec<Cell>> = first_modes(swings)
         .iter()
@@ -61,7 +61,7 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &GearboxSw
 }
 
 /// Natural frequencies over speed with the lowest orders of every mesh.
-fn campbell(swings: &GearboxSwings) -> Option<String> {
+fn campbell(swings: &VibrationResult) -> Option<String> {
     let mut diagram = swings.campbell.clone();
     let first = swings.lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
     let rest =
@@ -74,14 +74,14 @@ fn campbell(swings: &GearboxSwings) -> Option<String> {
 }
 
 /// A root mean square over the speed of the input.
-fn over_speed(swings: &GearboxSwings, label: &str, of: impl Fn(usize) -> f64) -> Curve {
+fn over_speed(swings: &VibrationResult, label: &str, of: impl Fn(usize) -> f64) -> Curve {
     let points = swings.speeds.iter().enumerate().map(|(s, speed)| (speed / RPM, of(s)));
     Curve { label: label.to_owned(), points: points.collect() }
 }
 
 const SPEED: &str = "speed of the input [1/min]";
 
-fn meshes(file: &Gearbox, swings: &GearboxSwings) -> Option<String> {
+fn meshes(file: &Gearbox, swings: &VibrationResult) -> Option<String> {
     let of = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
         over_speed(swings, &mesh.name, |s| swings.rms[s].mesh_forces[i])
     };
@@ -89,7 +89,7 @@ fn meshes(file: &Gearbox, swings: &GearboxSwings) -> Option<String> {
     line_chart("Dynamic normal force of the meshes", SPEED, "root mean square [N]", &curves, true)
 }
 
-fn bearings(file: &Gearbox, swings: &GearboxSwings) -> Option<String> {
+fn bearings(file: &Gearbox, swings: &VibrationResult) -> Option<String> {
     let of = |(i, bearing): (usize, &scene::gearbox::GearboxBearing)| {
         over_speed(swings, &bearing.name, |s| swings.rms[s].bearing_forces[i])
     };

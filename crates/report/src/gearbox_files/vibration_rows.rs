@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox_at_rest::{GearboxSwings, MotionOrder, OrderForces},
+    gearbox::{MotionOrder, OrderForces, VibrationResult},
     motion::RPM,
 };
 use answer::Table;
@@ -13,24 +13,28 @@ use scene::gearbox::Gearbox;
 use export::universal::{Function, Response, universal_file};
 
 /// `modes`: natural motions at the first and the last speed, a row each.
-pub(super) fn modes(file: &Gearbox, swings: &GearboxSwings) -> Table {
+pub(super) fn modes(file: &Gearbox, swings: &VibrationResult) -> Table {
     let speeds = &swings.campbell.speeds;
     let ends = [0, swings.modes.len().saturating_sub(1)];
     let ends = if ends[0] == ends[1] { &ends[..1] } else { &ends[..] };
     let rows: Vec<(f64, usize, &WhirlMode)> = (ends.iter())
-        .filter_map(|&at| Some((60.0 * speeds[at], swings.modes.get(at)?)))
+        .filter_map(|&at| Some((60.0 * speeds.get(at)?, swings.modes.get(at)?)))
         .flat_map(|(speed, found)| found.modes.iter().enumerate().map(move |(i, mode)| (speed, i + 1, mode)))
         .collect();
     let mut table = Table::new("modes")
         .numbers("input_rpm", "speed of the input", rows.iter().map(|r| r.0))
-        .numbers("mode", "number, ascending", rows.iter().map(|r| r.1 as f64))
+        .numbers("mode", "number of the mode, ascending in frequency", rows.iter().map(|r| r.1 as f64))
         .numbers("frequency_hz", "natural frequency, undamped", rows.iter().map(|r| r.2.frequency / TAU));
     for i in 0..file.shafts.len() {
-        let meaning = "+1 forward on circles, -1 backward, 0 in a plane";
+        let meaning = "direction of whirl: +1 forward on circles, -1 backward, 0 in a plane";
         table.push_numbers(format!("shaft_{}_whirl", i + 1), meaning, rows.iter().map(|r| r.2.whirl[i]));
     }
     for (name, component, strain) in parts(file) {
-        let meaning = if strain { "share of the strain energy" } else { "share of the kinetic energy" };
+        let meaning = if strain {
+            "share of the strain energy of the mode; all add up to 1"
+        } else {
+            "share of the kinetic energy of the mode; all add up to 1"
+        };
         table.push_numbers(name, meaning, rows.iter().map(|r| share(r.2, component, strain)));
     }
     table
@@ -60,7 +64,7 @@ fn share(mode: &WhirlMode, component: Component, strain: bool) -> f64 {
 }
 
 /// `campbell`: natural frequencies and lines of excitation, one row a speed.
-pub(super) fn campbell(swings: &GearboxSwings) -> Table {
+pub(super) fn campbell(swings: &VibrationResult) -> Table {
     let diagram = &swings.campbell;
     let mut table =
         Table::new("campbell").numbers("input_rpm", "speed of the input", diagram.speeds.iter().map(|s| 60.0 * s));
@@ -75,13 +79,13 @@ pub(super) fn campbell(swings: &GearboxSwings) -> Table {
 }
 
 /// `crossings`: where a line of excitation meets a natural frequency, ascending in speed.
-pub(super) fn crossings(swings: &GearboxSwings) -> Table {
+pub(super) fn crossings(swings: &VibrationResult) -> Table {
     let all = &swings.campbell.resonances;
     let line = |order: f64| swings.lines.iter().find(|l| l.order == order).map_or("", |l| l.name.as_str());
     Table::new("crossings")
         .numbers("input_rpm", "speed of the input", all.iter().map(|m| 60.0 * m.speed))
-        .numbers("frequency_hz", "frequency of both", all.iter().map(|m| m.frequency))
-        .numbers("mode", "number of the natural motion", all.iter().map(|m| (m.mode + 1) as f64))
+        .numbers("frequency_hz", "frequency of both lines", all.iter().map(|m| m.frequency))
+        .numbers("mode", "number of the mode", all.iter().map(|m| (m.mode + 1) as f64))
         .texts("line", "line of excitation", all.iter().map(|m| line(m.order)))
 }
 
@@ -105,50 +109,66 @@ fn which(table: Table, rows: impl Iterator<Item = (f64, usize, usize, f64)> + Cl
 }
 
 /// Every order of every mesh, speed after speed.
-fn each_order(swings: &GearboxSwings) -> impl Iterator<Item = (f64, &OrderForces)> + Clone {
+fn each_order(swings: &VibrationResult) -> impl Iterator<Item = (f64, &OrderForces)> + Clone {
     swings.speeds.iter().zip(&swings.orders).flat_map(|(speed, orders)| orders.iter().map(move |own| (*speed, own)))
 }
 
-fn with_orders(name: &'static str, swings: &GearboxSwings) -> Table {
+fn with_orders(name: &'static str, swings: &VibrationResult) -> Table {
     which(Table::new(name), each_order(swings).map(|(speed, own)| (speed, own.mesh, own.order, own.frequency_hz)))
 }
 
 /// `response`: the dynamic normal force of every mesh under every order of every mesh.
-pub(super) fn response(file: &Gearbox, swings: &GearboxSwings) -> Table {
+pub(super) fn response(file: &Gearbox, swings: &VibrationResult) -> Table {
     let mut table = with_orders("response", swings);
     for i in 0..file.meshes.len() {
         let name = format!("mesh_{}_dynamic_force", i + 1);
         let forces = || each_order(swings).map(|(_, own)| own.mesh_forces[i]);
-        table.push_numbers(format!("{name}_n"), "peak of the dynamic normal force", forces().map(|f| f.norm()));
-        table.push_numbers(format!("{name}_phase_deg"), "its phase", forces().map(|f| f.arg().to_degrees()));
+        table.push_numbers(
+            format!("{name}_n"),
+            "amplitude of the dynamic normal force, peak of Re(x exp(i w t))",
+            forces().map(|f| f.norm()),
+        );
+        table.push_numbers(
+            format!("{name}_phase_deg"),
+            "phase of the dynamic normal force, with the input at its start at t = 0",
+            forces().map(|f| f.arg().to_degrees()),
+        );
     }
     table
 }
 
 /// `bearing_forces`: forces of the bearings on the housing under every order of every mesh.
-pub(super) fn bearing_forces(file: &Gearbox, swings: &GearboxSwings) -> Table {
+pub(super) fn bearing_forces(file: &Gearbox, swings: &VibrationResult) -> Table {
     let mut table = with_orders("bearing_forces", swings);
     for i in 0..file.bearings.len() {
         for (k, (what, unit)) in COMPONENTS.into_iter().enumerate() {
             let name = format!("bearing_{}_housing_{what}", i + 1);
             let forces = || each_order(swings).map(|(_, own)| own.bearing_forces[i][k]);
-            table.push_numbers(format!("{name}_{unit}"), "peak of the load on the housing", forces().map(|f| f.norm()));
-            table.push_numbers(format!("{name}_phase_deg"), "its phase", forces().map(|f| f.arg().to_degrees()));
+            table.push_numbers(
+                format!("{name}_{unit}"),
+                "amplitude of the load on the housing, peak of Re(x exp(i w t))",
+                forces().map(|f| f.norm()),
+            );
+            table.push_numbers(
+                format!("{name}_phase_deg"),
+                "phase of the load on the housing, with the input at its start at t = 0",
+                forces().map(|f| f.arg().to_degrees()),
+            );
         }
     }
     table
 }
 
 /// `rms`: all orders together, one row a speed.
-pub(super) fn rms(file: &Gearbox, swings: &GearboxSwings) -> Table {
+pub(super) fn rms(file: &Gearbox, swings: &VibrationResult) -> Table {
     let mut table = Table::new("rms").numbers("input_rpm", "speed of the input", swings.speeds.iter().map(|s| s / RPM));
     for i in 0..file.meshes.len() {
-        let meaning = "root mean square of the dynamic normal force";
+        let meaning = "root mean square of the dynamic normal force, all orders of all meshes";
         let forces = swings.rms.iter().map(|own| own.mesh_forces[i]);
         table.push_numbers(format!("mesh_{}_dynamic_force_rms_n", i + 1), meaning, forces);
     }
     for i in 0..file.bearings.len() {
-        let meaning = "root mean square of the force on the housing, x, y, z together";
+        let meaning = "root mean square of the force on the housing, x, y, z and all orders of all meshes together";
         let forces = swings.rms.iter().map(|own| own.bearing_forces[i]);
         table.push_numbers(format!("bearing_{}_housing_force_rms_n", i + 1), meaning, forces);
     }
@@ -157,24 +177,36 @@ pub(super) fn rms(file: &Gearbox, swings: &GearboxSwings) -> Table {
 
 /// `motion_orders`: what every order of every mesh does along a motion, one row an order over a stretch.
 pub(super) fn motion_orders(file: &Gearbox, orders: &[MotionOrder]) -> Table {
-    let table = Table::new("motion_orders").numbers("time_s", "middle of the stretch", orders.iter().map(|o| o.time));
+    let table = Table::new("motion_orders").numbers("time_s", "middle of the interval", orders.iter().map(|o| o.time));
     let rows = orders.iter().map(|o| (o.speed.abs(), o.mesh, o.order, o.frequency));
     let mut table = which(table, rows);
     for i in 0..file.meshes.len() {
         let errors = orders.iter().map(|o| 1e3 * o.transmission_errors[i]);
-        table.push_numbers(format!("mesh_{}_dte_um", i + 1), "peak of the transmission error", errors);
+        table.push_numbers(
+            format!("mesh_{}_dte_um", i + 1),
+            "amplitude (peak) of the order in the dynamic transmission error",
+            errors,
+        );
         let forces = orders.iter().map(|o| o.mesh_forces[i]);
-        table.push_numbers(format!("mesh_{}_normal_force_n", i + 1), "peak of the normal force", forces);
+        table.push_numbers(
+            format!("mesh_{}_normal_force_n", i + 1),
+            "amplitude (peak) of the order in the normal force",
+            forces,
+        );
     }
     for i in 0..file.bearings.len() {
         let forces = orders.iter().map(|o| o.bearing_forces[i]);
-        table.push_numbers(format!("bearing_{}_force_n", i + 1), "peak of the force, x, y, z together", forces);
+        table.push_numbers(
+            format!("bearing_{}_force_n", i + 1),
+            "amplitude (peak) of the order in the bearing force, x, y, z together",
+            forces,
+        );
     }
     table
 }
 
 /// `bearing_forces.uff`: the same forces, a function for each component of each bearing and each order of each mesh.
-pub(super) fn universal(file: &Gearbox, swings: &GearboxSwings) -> String {
+pub(super) fn universal(file: &Gearbox, swings: &VibrationResult) -> String {
     let Some(orders) = swings.orders.first() else { return universal_file(&[]) };
     let mut functions = Vec::new();
     for (place, order) in orders.iter().enumerate() {

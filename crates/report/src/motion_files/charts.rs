@@ -1,6 +1,6 @@
 //! Charts of a motion and of a sweep.
 
-use analysis::motion::{CampbellDiagram, MotionSpectrum, Passage, PassageCycle, RPM, SweepRow, WaterfallLine};
+use analysis::motion::{CampbellDiagram, MotionSpectrum, RPM, RunUp, RunUpCycle, SweepRow, WaterfallLine};
 use dynamics::Speed;
 use scene::SweepWay;
 use study::{Columns, StudyError, extent};
@@ -33,7 +33,7 @@ pub struct MotionPictures<'a> {
     /// Waterfall of a run-up; else empty.
     pub waterfall: &'a [WaterfallLine],
     /// A run-up or run-down: speed of the driver over time, its teeth, and what was found over speed.
-    pub ramp: Option<(Speed, u32, &'a Passage)>,
+    pub ramp: Option<(Speed, u32, &'a RunUp)>,
     /// Mesh orders beside the frequencies that they may meet.
     pub campbell: Option<&'a CampbellDiagram>,
     /// Rows in a mesh cycle.
@@ -88,7 +88,7 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
         label: "residual".into(),
         points: energy_time.iter().zip(of.energy.series("residual_mj")?).map(|(t, x)| (energy_place(*t), *x)).collect(),
     };
-    let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, passage)| passage_charts(passage, &speed_axis(teeth)));
+    let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, run_up)| run_up_charts(run_up, &speed_axis(teeth)));
     all.extend([
         line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
         line_chart(
@@ -127,8 +127,8 @@ fn speed_axis(teeth: u32) -> String {
 }
 
 /// What a ramp is made for: peak to peak, order cuts and forces over speed.
-fn passage_charts(of: &Passage, axis: &str) -> Vec<Option<String>> {
-    let cycles = |label: &str, value: &dyn Fn(&PassageCycle) -> f64| Curve {
+fn run_up_charts(of: &RunUp, axis: &str) -> Vec<Option<String>> {
+    let cycles = |label: &str, value: &dyn Fn(&RunUpCycle) -> f64| Curve {
         label: label.into(),
         points: of.cycles.iter().map(|c| (c.driver_speed_rpm, value(c))).collect(),
     };

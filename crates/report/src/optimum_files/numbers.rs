@@ -1,10 +1,14 @@
 //! The answer about an optimisation of numbers: its search, and what the optimum is worth.
 
+use std::collections::BTreeMap;
+
 use analysis::remark::{self, Remark};
 use answer::{Answer, Cost, Table};
+use design::Stop;
 use plan::{NumberOptimum, goal_of, goal_unit};
-use scene::{Setting, optimum::NumberOptimisation};
-use serde_json::{Map, json};
+use scene::{Setting, optimum::NumberOptimisation, plan::PlanOutput};
+use serde::Serialize;
+use serde_json::json;
 
 use super::{HELD, page::parameter_part, tables};
 use crate::{
@@ -14,6 +18,40 @@ use crate::{
     write_result,
 };
 use store::folder::ResultDirectory;
+
+described::described! {
+    /// Headline of an optimisation of numbers.
+    #[derive(Serialize)]
+    pub(super) struct NumberHeadline<'a> {
+        /// mean absolute value of the goals at the start
+        goal_start: f64,
+        /// mean absolute value of the goals at the optimum
+        goal_optimum: f64,
+        /// evaluations of the search
+        evaluations: usize,
+        /// end of the search: `converged` or `evaluations`
+        stop: Stop,
+        /// share by which a limit is passed at the optimum
+        over_limits: f64,
+        /// parameters by their keys
+        parameters: BTreeMap<&'a str, NumberParameter>,
+        /// settings of the optimum for `ale-gear run`
+        set: Vec<String>,
+    }
+
+    /// A parameter of an optimisation of numbers.
+    #[derive(Serialize)]
+    pub(super) struct NumberParameter {
+        /// value at the start
+        start: f64,
+        /// value of the optimum
+        value: f64,
+        /// lower bound
+        lowest: f64,
+        /// upper bound
+        highest: f64,
+    }
+}
 
 /// What files of an optimisation of numbers are made of.
 #[derive(Debug, Clone, Copy)]
@@ -54,24 +92,21 @@ pub fn number_optimum_answer(of: &NumberOptimumResult<'_>, cost: Cost) -> Answer
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let [start, best] = of.goals();
     let parameters = plan.parameters.iter().zip(&optimum.values).map(|(p, value)| {
-        (
-            p.name().to_owned(),
-            json!({ "start": p.start, "value": value, "lowest": p.bounds[0], "highest": p.bounds[1] }),
-        )
+        (p.name(), NumberParameter { start: p.start, value: *value, lowest: p.bounds[0], highest: p.bounds[1] })
     });
     Answer {
         kind: "optimum",
         name: plan.name.clone(),
         inputs: json!({ "scene": plan.scene_file(), "goals": names(of) }),
         tables: vec![tables::steps(&plan.parameters, &optimum.found.steps, "goal"), numbers(of)],
-        headline: json!({
-            "goal_start": start,
-            "goal_optimum": best,
-            "evaluations": optimum.found.steps.len(),
-            "stop": optimum.found.stop,
-            "over_limits": optimum.evaluation.over_limits(),
-            "parameters": parameters.collect::<Map<_, _>>(),
-            "set": of.settings(),
+        headline: json!(NumberHeadline {
+            goal_start: start,
+            goal_optimum: best,
+            evaluations: optimum.found.steps.len(),
+            stop: optimum.found.stop,
+            over_limits: optimum.evaluation.over_limits(),
+            parameters: parameters.collect(),
+            set: of.settings(),
         }),
         remarks: of.passed_limits().into_iter().collect(),
         cost,
@@ -80,21 +115,30 @@ pub fn number_optimum_answer(of: &NumberOptimumResult<'_>, cost: Cost) -> Answer
 }
 
 fn names(of: &NumberOptimumResult<'_>) -> Vec<String> {
-    of.plan.goals.iter().map(scene::plan::PlanOutput::name).collect()
+    of.plan.goals.iter().map(PlanOutput::name).collect()
 }
 
 /// `numbers`: a row a goal and a limited number.
 fn numbers(of: &NumberOptimumResult<'_>) -> Table {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let outputs = plan.outputs();
-    let goals = plan.goals.len();
-    let limits = std::iter::repeat_n(f64::NAN, goals).chain(plan.limits.iter().map(|limit| limit.most));
+    let limits: Vec<f64> = plan.limits.iter().map(|limit| limit.most).collect();
+    table(&outputs, &[&optimum.before, &optimum.after], plan.goals.len(), &limits)
+}
+
+/// Numbers, `goals` goals first, with values before and after, and the limits of the others.
+pub(super) fn table(outputs: &[PlanOutput], values: &[&[f64]; 2], goals: usize, limits: &[f64]) -> Table {
+    let limits = std::iter::repeat_n(f64::NAN, goals).chain(limits.iter().copied());
     Table::new("numbers")
-        .texts("number", "key of the headline", outputs.iter().map(scene::plan::PlanOutput::name))
-        .texts("role", "`goal` or `limit`", (0..outputs.len()).map(|k| if k < goals { "goal" } else { "limit" }))
-        .numbers("before", "at the start, in the unit of its key", optimum.before.iter().copied())
-        .numbers("after", "of the optimum, in the unit of its key", optimum.after.iter().copied())
-        .numbers("limit", "what it may be at the most; NaN of a goal", limits)
+        .texts("number", "key of the headline", outputs.iter().map(PlanOutput::name))
+        .texts(
+            "role",
+            "role of the number: `goal` or `limit`",
+            (0..outputs.len()).map(|k| if k < goals { "goal" } else { "limit" }),
+        )
+        .numbers("before", "value at the start, in the unit of the key", values[0].iter().copied())
+        .numbers("after", "value of the optimum, in the unit of the key", values[1].iter().copied())
+        .numbers("limit", "largest allowed value; `NaN` of a goal", limits)
 }
 
 /// Writes the answer; what comes back is the closing table.

@@ -11,14 +11,14 @@ use crate::{
 };
 
 pub(super) fn page(of: &OptimumResult<'_>, answer: &Answer) -> Page {
-    let OptimumResult { optimum, told, .. } = *of;
+    let OptimumResult { optimum, summary, .. } = *of;
     let plan = &optimum.plan;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
     page.push(goal(of));
     page.push(parameters(of));
-    page.push(torques(told));
+    page.push(torques(summary));
     page.push(Part::more().figures(charts(of)));
-    page.push(influences(told));
+    page.push(influences(summary));
     page.push(cost_part(&answer.cost));
     page.push(again(of.again));
     page
@@ -41,7 +41,7 @@ fn goal(of: &OptimumResult<'_>) -> Part {
 }
 
 fn parameters(of: &OptimumResult<'_>) -> Part {
-    let all = of.optimum.plan.parameters.iter().zip(&of.told.influences);
+    let all = of.optimum.plan.parameters.iter().zip(&of.summary.influences);
     parameter_part(all.map(|(parameter, i)| (parameter, i.found, i.value)))
 }
 
@@ -73,8 +73,8 @@ fn at_bound(parameter: &DesignParameter, value: f64) -> &'static str {
     }
 }
 
-fn torques(told: &Optimised) -> Part {
-    let rows = told.torques.iter().map(|t| {
+fn torques(summary: &Optimised) -> Part {
+    let rows = summary.torques.iter().map(|t| {
         vec![
             Cell::number(t.torque_nm, 1),
             Cell::number(t.peak_to_peak_before_um, 4),
@@ -91,8 +91,8 @@ fn torques(told: &Optimised) -> Part {
 }
 
 fn charts(of: &OptimumResult<'_>) -> Vec<String> {
-    let OptimumResult { optimum, told, .. } = *of;
-    let over_phase = told.torques.iter().filter_map(|line| {
+    let OptimumResult { optimum, summary, .. } = *of;
+    let over_phase = summary.torques.iter().filter_map(|line| {
         let curve = |label: &str, values: &Vec<f64>| {
             let mean = values.iter().sum::<f64>() / values.len() as f64;
             let at = |(i, v): (usize, &f64)| (i as f64 / values.len() as f64, v - mean);
@@ -104,7 +104,7 @@ fn charts(of: &OptimumResult<'_>) -> Vec<String> {
     });
     let harris = |label: &str, value: fn(&HarrisPoint) -> Option<f64>| Curve {
         label: label.to_owned(),
-        points: told.harris.iter().filter_map(|p| Some((p.torque_nm, value(p)?))).collect(),
+        points: summary.harris.iter().filter_map(|p| Some((p.torque_nm, value(p)?))).collect(),
     };
     let over_torque = [harris("start", |p| p.peak_to_peak_before_um), harris("optimum", |p| p.peak_to_peak_after_um)];
     let front = optimum.front.iter().map(|p| (p.max_pressure_mpa, p.goal_um)).collect();
@@ -116,8 +116,8 @@ fn charts(of: &OptimumResult<'_>) -> Vec<String> {
     over_phase.chain(last.into_iter().flatten()).collect()
 }
 
-fn influences(told: &Optimised) -> Part {
-    let rows = told.influences.iter().map(|i| {
+fn influences(summary: &Optimised) -> Part {
+    let rows = summary.influences.iter().map(|i| {
         vec![
             Cell::text(&i.key),
             Cell::number(i.step, 3),
@@ -128,5 +128,5 @@ fn influences(told: &Optimised) -> Part {
     let head = ["parameter", "step", "goal with a step less um", "a step more um"];
     Part::new("What a step of the machine changes")
         .grid(Grid::new(head).rows(rows))
-        .note("Changes of the goal by a step are told to first order, from the derivatives at the optimum.")
+        .note("Changes of the goal by a step are of first order, from the derivatives at the optimum.")
 }

@@ -1,6 +1,6 @@
 //! Rows of an optimisation.
 
-use analysis::optimum::{HarrisPoint, Influence, Optimum, TorqueLine};
+use analysis::optimum::{FrontPoint, HarrisPoint, Influence, TorqueLine};
 use answer::Table;
 use design::TakenStep;
 use scene::optimum::DesignParameter;
@@ -23,9 +23,13 @@ fn with_parameters<'a>(
 pub(super) fn steps(parameters: &[DesignParameter], steps: &[TakenStep], goal: &'static str) -> Table {
     let table = Table::new("steps")
         .numbers("evaluation", "number of the evaluation, from 1", (1..=steps.len()).map(|i| i as f64))
-        .numbers(goal, "the goal; NaN without a result", steps.iter().map(|s| s.goal.unwrap_or(f64::NAN)))
-        .numbers("over_limits", "share by which the worst limit is passed", steps.iter().map(|s| s.over_limits))
-        .texts("taken", "`true` where the search went on from it", steps.iter().map(|s| s.taken.to_string()));
+        .numbers(goal, "value of the goal; `NaN` without a result", steps.iter().map(|s| s.goal.unwrap_or(f64::NAN)))
+        .numbers("over_limits", "largest share by which a limit is passed", steps.iter().map(|s| s.over_limits))
+        .texts(
+            "taken",
+            "`true` where the search went on from this evaluation",
+            steps.iter().map(|s| s.taken.to_string()),
+        );
     with_parameters(table, parameters, steps.iter().map(|s| &s.values))
 }
 
@@ -51,12 +55,12 @@ pub(super) fn harris(points: &[HarrisPoint]) -> Table {
         .numbers("torque_nm", "torque of the driven gear", points.iter().map(|p| p.torque_nm))
         .numbers(
             "peak_to_peak_before_um",
-            "peak to peak of the STE at the start; NaN without a result",
+            "peak to peak of the STE at the start; `NaN` without a result",
             known(|p| p.peak_to_peak_before_um),
         )
         .numbers(
             "peak_to_peak_after_um",
-            "peak to peak of the STE of the optimum; NaN without a result",
+            "peak to peak of the STE of the optimum; `NaN` without a result",
             known(|p| p.peak_to_peak_after_um),
         )
 }
@@ -69,23 +73,34 @@ pub(super) fn influences(all: &[Influence]) -> Table {
         .numbers("lowest", "lower bound", column(|i| i.lowest))
         .numbers("highest", "upper bound", column(|i| i.highest))
         .numbers("start", "value at the start", column(|i| i.start))
-        .numbers("found", "value of the search", column(|i| i.found))
+        .numbers("found", "value that the search found", column(|i| i.found))
         .numbers("value", "value that a machine can be set to", column(|i| i.value))
-        .numbers("step", "the step that changes of the goal are told for", column(|i| i.step))
-        .numbers("goal_change_less_um", "change of the goal with a step less", column(|i| i.goal_change_less_um))
-        .numbers("goal_change_more_um", "change of the goal with a step more", column(|i| i.goal_change_more_um))
+        .numbers(
+            "step",
+            "step of the two changes of the goal: that of the machine, else a hundredth of the bounds",
+            column(|i| i.step),
+        )
+        .numbers(
+            "goal_change_less_um",
+            "change of the goal with one step less, to first order",
+            column(|i| i.goal_change_less_um),
+        )
+        .numbers(
+            "goal_change_more_um",
+            "change of the goal with one step more, to first order",
+            column(|i| i.goal_change_more_um),
+        )
 }
 
 /// A row a limit of the pressure.
-pub(super) fn front(optimum: &Optimum) -> Table {
-    let front = &optimum.front;
+pub(super) fn front(parameters: &[DesignParameter], front: &[FrontPoint]) -> Table {
     let table = Table::new("front")
         .numbers(
             "limit_mpa",
-            "limit of the pressure; NaN without",
+            "limit of the pressure; `NaN` without one",
             front.iter().map(|p| p.limit_mpa.unwrap_or(f64::NAN)),
         )
         .numbers("max_pressure_mpa", "largest contact pressure", front.iter().map(|p| p.max_pressure_mpa))
-        .numbers("goal_um", "the goal", front.iter().map(|p| p.goal_um));
-    with_parameters(table, &optimum.plan.parameters, front.iter().map(|p| &p.values))
+        .numbers("goal_um", "value of the goal", front.iter().map(|p| p.goal_um));
+    with_parameters(table, parameters, front.iter().map(|p| &p.values))
 }

@@ -11,11 +11,11 @@ const OTHER: usize = 9;
 /// Width of a column at the most: longer labels stand out, and none of 65536 characters can be a width at all.
 const WIDEST: usize = 200;
 
-/// The closing table of a page: title, checks that do not hold, its closing parts, phases, warnings.
+/// The closing table of a page: title, checks that do not hold, its closing parts, phases, remarks.
 pub fn closing_text(page: &Page, cost: &Cost) -> String {
     let mut t = format!("{} ({})\n\n", page.name, page.subtitle);
     for words in &page.failed {
-        push_line(&mut t, "THE RESULT DOES NOT HOLD", "", words);
+        push_line(&mut t, "CHECK FAILED", "", words);
     }
     for (i, part) in page.parts.iter().filter(|part| part.is_closing && !part.contents.is_empty()).enumerate() {
         if i > 0 && !part.title.is_empty() {
@@ -35,7 +35,7 @@ pub fn closing_text(page: &Page, cost: &Cost) -> String {
         t.push('\n');
         t += &phases(cost);
     }
-    for warning in &page.warnings {
+    for warning in &page.remarks {
         // Writing to a String cannot fail.
         let _ = writeln!(t, "\nwarning: {warning}");
     }

@@ -17,7 +17,7 @@ pub struct Page {
     /// Checks that do not hold, in words.
     pub failed: Vec<String>,
     /// What the user should hear.
-    pub warnings: Vec<String>,
+    pub remarks: Vec<String>,
     /// The few numbers that people look for first: label and value with unit.
     pub glance: Vec<[String; 2]>,
     /// Parts.
@@ -257,7 +257,7 @@ impl Page {
             subtitle,
             version: env!("CARGO_PKG_VERSION").to_owned(),
             failed: answer.checks.missed().map(answer::Check::words).collect(),
-            warnings: answer.remarks.iter().map(ToString::to_string).collect(),
+            remarks: answer.remarks.iter().map(ToString::to_string).collect(),
             ..Self::default()
         }
     }
@@ -268,7 +268,7 @@ impl Page {
             ("failed", _) => "Not at all: see the top of this page.",
             (_, 0) => "No check of this run asks for a second look.",
             (_, 1) => "Mind the warning at the top of this page.",
-            _ => "Mind the warnings at the top of this page.",
+            _ => "Mind the remarks at the top of this page.",
         };
         let rows = answer.checks.iter().map(|check| {
             vec![Cell::text(check.name.replace('_', " ")), Cell::science(check.value), Cell::science(check.bound)]

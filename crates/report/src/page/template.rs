@@ -44,7 +44,7 @@ fn environment() -> Result<Environment<'static>, minijinja::Error> {
         ("head.html", include_str!("head.html")),
         ("style.html", include_str!("style.html")),
         ("style.css", scripts::STYLE),
-        ("warnings.html", include_str!("warnings.html")),
+        ("remarks.html", include_str!("remarks.html")),
         ("parts.html", include_str!("parts.html")),
         ("view.html", include_str!("view.html")),
     ];

@@ -3,13 +3,14 @@
 use analysis::{
     Derivatives,
     accuracy::Quantity,
-    facts::Facts,
+    facts::RunInfo,
     results::{Place, StaticHeadline, static_headline},
 };
 use ltca::StaticHistory;
 use scene::Scene;
 
 use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
+use super::rating;
 use crate::{
     Cost, ReportError, Written,
     charts::{Curve, LineChart, banded_chart},
@@ -35,7 +36,7 @@ use store::folder::ResultDirectory;
 pub fn write_static_result(
     scene: &Scene,
     (history, derivatives): (&StaticHistory, Option<&Derivatives>),
-    (facts, cost): (&Facts, &Cost),
+    (facts, cost): (&RunInfo, &Cost),
     view: Option<&View>,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
@@ -48,20 +49,25 @@ pub fn write_static_result(
             tables.push(contact_lines(scene, &pair, history));
         }
         let patterns = analysis::results::patterns(scene, &pair, history)?;
-        tables.extend(write_patterns(scene, &patterns, results)?);
+        tables.extend(rating::with_safeties(write_patterns(scene, &patterns, results)?, headline.rating.as_ref()));
         pattern = pattern_figure(&patterns);
     }
-    let answer = pair_answer(scene, (facts, cost), &headline, &history.warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), &headline, &history.remarks, tables);
+    let mut after = after(&headline, facts, pattern);
+    after.extend(headline.rating.iter().flat_map(rating::parts));
     let shown = Shown {
         subtitle: format!(", {} positions a mesh cycle, {} cycle(s)", headline.samples_per_cycle, headline.cycles),
-        key: vec![
+        key: [
             key("peak-to-peak STE", headline.peak_to_peak_ste_um, 3, "um"),
             key("mean mesh stiffness", headline.mean_mesh_stiffness_n_per_um, 1, "N/um"),
             key("maximum pressure", headline.max_pressure_mpa, 0, "MPa"),
-        ],
+        ]
+        .into_iter()
+        .chain(headline.rating.iter().flat_map(rating::safeties))
+        .collect(),
         over: "Over the mesh cycle".into(),
         charts: charts(scene, history, facts),
-        after: after(&headline, facts, pattern),
+        after,
         headline: lines(&headline, facts),
         solved: solved(&headline),
         view,
@@ -78,16 +84,16 @@ pub fn write_static_result(
 pub fn write_static_rows(
     scene: &Scene,
     (history, derivatives): (&StaticHistory, Option<&Derivatives>),
-    (facts, cost): (&Facts, &Cost),
+    (facts, cost): (&RunInfo, &Cost),
     results: &ResultDirectory,
 ) -> Result<(), ReportError> {
     let tables = vec![history_table(scene, history, derivatives)];
     let headline = static_headline(scene, history)?;
-    write_rows(&pair_answer(scene, (facts, cost), &headline, &history.warnings, tables), results)
+    write_rows(&pair_answer(scene, (facts, cost), &headline, &history.remarks, tables), results)
 }
 
 /// Definitions, and the contact pattern.
-fn after(h: &StaticHeadline, facts: &Facts, pattern: Option<String>) -> Vec<Part> {
+fn after(h: &StaticHeadline, facts: &RunInfo, pattern: Option<String>) -> Vec<Part> {
     let mut notes = Vec::new();
     if let Some(root) = &h.root_stress {
         notes.push(format!("Root stress: {}; {}.", root.definition, root.averaging));
@@ -107,7 +113,7 @@ fn after(h: &StaticHeadline, facts: &Facts, pattern: Option<String>) -> Vec<Part
     std::iter::once(Part::more().note(notes.join(" "))).chain(has_pattern.then(|| pattern.note(words))).collect()
 }
 
-fn lines(h: &StaticHeadline, facts: &Facts) -> Vec<Line> {
+fn lines(h: &StaticHeadline, facts: &RunInfo) -> Vec<Line> {
     let mut all = vec![
         Line::number("mean STE", h.mean_ste_um, 4, "um"),
         Line::number(format!("peak-to-peak STE ({} positions)", h.samples_per_cycle), h.peak_to_peak_ste_um, 4, "um"),
@@ -215,7 +221,7 @@ pub fn static_charts(scene: &Scene, history: &StaticHistory) -> Vec<LineChart> {
     .collect()
 }
 
-fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> {
+fn charts(scene: &Scene, history: &StaticHistory, facts: &RunInfo) -> Vec<String> {
     let all = static_charts(scene, history);
     all.iter()
         .enumerate()
@@ -224,7 +230,7 @@ fn charts(scene: &Scene, history: &StaticHistory, facts: &Facts) -> Vec<String> 
 }
 
 /// The transmission error; where its bounds are known, in the band of those of its mean.
-fn in_its_bounds(chart: &LineChart, facts: &Facts) -> Option<String> {
+fn in_its_bounds(chart: &LineChart, facts: &RunInfo) -> Option<String> {
     let bounds = facts.accuracy.as_ref().map(|accuracy| &accuracy.bounds[..]).unwrap_or_default();
     match bounds.iter().find(|b| b.quantity == Quantity::MeanSte) {
         Some(mean) => {

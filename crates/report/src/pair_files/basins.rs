@@ -29,13 +29,13 @@ pub(super) fn write_basin_result(
     cost: &Cost,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let BasinResult { facts, attractors, headline: h, warnings, .. } = found;
+    let BasinResult { facts, attractors, headline: h, remarks, .. } = found;
     let tables = vec![key_rows::basins(&found.starts), key_rows::attractors(attractors)];
     let curves = curves(found);
     if let Some(picture) = dot_picture(TITLE, X, Y, &curves) {
         results.write("basins.svg", picture.as_bytes())?;
     }
-    let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let shown = Shown {
         subtitle: ", basins of attraction".into(),
         key: vec![

@@ -32,7 +32,7 @@ pub(super) fn write_continuation_result(
     cost: &Cost,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let ContinuationResult { facts, in_time, headline: h, warnings, .. } = found;
+    let ContinuationResult { facts, in_time, headline: h, remarks, .. } = found;
     let swept = found.headline.key;
     let tables = vec![
         key_rows::branch(swept, &found.points),
@@ -43,7 +43,7 @@ pub(super) fn write_continuation_result(
     if let Some(picture) = dot_picture(TITLE, h.key, DTE, &curves(found, |p| p.peak_to_peak_dte_um, &dots)) {
         results.write("branch.svg", picture.as_bytes())?;
     }
-    let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let shown = Shown {
         subtitle: format!(", periodic motions over {}", h.key),
         key: vec![

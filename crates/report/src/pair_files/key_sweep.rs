@@ -42,16 +42,14 @@ pub fn write_key_sweep_result(
     cost: &Cost,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let BifurcationAnalysis { scene, facts, points, headline: h, warnings } = found;
+    let BifurcationAnalysis { scene, facts, points, headline: h, remarks } = found;
     let tables = vec![key_rows::sweep(options, points), key_rows::bifurcation(options, points)];
     let diagram = by_way(points, |p| p.points.clone());
     if let Some(picture) = dot_picture(BIFURCATION, &options.key, &options.quantity.name, &diagram) {
         results.write("bifurcation.svg", picture.as_bytes())?;
     }
-    let mut answer = pair_answer(scene, (facts, cost), h, warnings, tables);
-    if let (Some(again), Some(headline)) = (again, answer.headline.as_object_mut()) {
-        headline.insert("again".into(), again.into());
-    }
+    let h = &SweepHeadline { again: again.map(str::to_owned), ..h.clone() };
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let shown = Shown {
         subtitle: format!(", motion over {}", h.key),
         key: vec![

@@ -42,7 +42,7 @@ pub(super) fn write_lumped_result(
     cost: &Cost,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let LumpedResult { facts, spectrum, passage, campbell, headline: h, warnings, .. } = result;
+    let LumpedResult { facts, spectrum, run_up, campbell, headline: h, remarks, .. } = result;
     let layout = LumpedLayout::of(scene);
     let (history, energy) = (layout.sheet(), ENERGY.sheet(&(), &[]));
     let mut tables = vec![
@@ -52,7 +52,7 @@ pub(super) fn write_lumped_result(
         rows::spectrum(spectrum),
     ];
     tables.extend(campbell.as_ref().map(rows::lumped_campbell));
-    tables.extend(passage.as_ref().map(rows::cycles));
+    tables.extend(run_up.as_ref().map(rows::cycles));
     let (all, section) = (history.columns(&layout, &result.rows), history.columns(&layout, result.section()));
     let static_errors: Option<Vec<f64>> = result.static_cycle.as_ref().map(|all| all.iter().map(|p| p.error).collect());
     let pictures = MotionPictures {
@@ -60,7 +60,7 @@ pub(super) fn write_lumped_result(
         energy: &energy.columns(&(), &result.energy),
         spectrum: Some(spectrum),
         waterfall: &[],
-        ramp: passage.as_ref().map(|p| (speed(scene), scene.driver_teeth(), p)),
+        ramp: run_up.as_ref().map(|p| (speed(scene), scene.driver_teeth(), p)),
         campbell: None,
         per_cycle: h.rows_per_cycle as usize,
         quasi_static: static_errors.as_deref(),
@@ -72,7 +72,7 @@ pub(super) fn write_lumped_result(
     }
     charts.extend(campbell.as_ref().and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
     let frequencies = Line::number("", h.mesh_resonance_hz, 0, "").value;
-    let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let shown = Shown {
         subtitle: format!(
             " in motion ({}), {} coordinates, {} rows a mesh cycle, {} cycle(s)",

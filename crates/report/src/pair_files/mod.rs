@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `parts` | what all pages of a pair have |
 //! | `rows`, `key_rows` | rows beside the histories as tables |
-//! | [`tables_without_rows`] | their columns, for `docs/outputs.md` |
 //! | `at_rest` | positions at rest |
+//! | `rating` | whether the pair will hold |
 //! | `motion` | a motion of reduced gears, and steady states over speed |
 //! | `in_time` | any of those that follow |
 //! | `lumped` | a motion of a reduced-order model |
@@ -14,16 +14,15 @@
 mod at_rest;
 mod basins;
 mod branch;
-mod documented;
 mod in_time;
-mod key_rows;
+pub(crate) mod key_rows;
 mod key_sweep;
 mod lumped;
 mod motion;
 mod parts;
-mod rows;
+mod rating;
+pub(crate) mod rows;
 
 pub use at_rest::{static_charts, write_static_result, write_static_rows};
-pub use documented::tables_without_rows;
 pub use in_time::write_in_time;
 pub use key_sweep::write_key_sweep_result;

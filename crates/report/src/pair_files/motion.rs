@@ -1,8 +1,8 @@
 //! A motion of reduced gears, and steady states over speed: rows beside the history, page, closing table.
 
 use analysis::{
-    facts::Facts,
-    motion::{MotionHeadline, MotionResult, PassageHeadline, SweepHeadline, SweepResult, speed},
+    facts::RunInfo,
+    motion::{MotionHeadline, MotionResult, RunUpHeadline, SweepHeadline, SweepResult, speed},
 };
 use scene::{Scene, SweepWay};
 
@@ -36,7 +36,7 @@ pub(super) fn write_motion_result(
     view: Option<&View>,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let MotionResult { rows: all, layout, headline: h, spectrum, ramp, patterns, facts, warnings, .. } = result;
+    let MotionResult { rows: all, layout, headline: h, spectrum, ramp, patterns, facts, remarks, .. } = result;
     let per_cycle = h.rows_per_cycle as usize;
     let pairs: Vec<i64> = layout.pairs().collect();
     let (history, energy) = (MOTION_HISTORY.sheet(layout, &pairs), ENERGY.sheet(&(), &[]));
@@ -48,8 +48,8 @@ pub(super) fn write_motion_result(
     if let Some(ramp) = ramp {
         tables.extend([
             rows::waterfall(&ramp.waterfall, per_cycle),
-            rows::cycles(&ramp.passage),
-            rows::order_cuts(&ramp.passage),
+            rows::cycles(&ramp.run_up),
+            rows::order_cuts(&ramp.run_up),
             rows::campbell(&ramp.campbell),
         ]);
     }
@@ -59,12 +59,12 @@ pub(super) fn write_motion_result(
         energy: &energy.columns(&(), all.iter().map(|r| &r.energy)),
         spectrum: spectrum.as_ref(),
         waterfall: ramp.as_ref().map_or(&[], |r| &r.waterfall),
-        ramp: ramp.as_ref().map(|r| (speed(scene), scene.driver_teeth(), &r.passage)),
+        ramp: ramp.as_ref().map(|r| (speed(scene), scene.driver_teeth(), &r.run_up)),
         campbell: ramp.as_ref().map(|r| &r.campbell),
         per_cycle,
         quasi_static: Some(&result.quasi_static.transmission_error),
     };
-    let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let pattern = Part::new("Contact pattern").figures(pattern_figure(patterns));
     let shown = Shown {
         subtitle: format!(
@@ -101,7 +101,7 @@ fn keys(h: &MotionHeadline) -> Vec<[String; 2]> {
     all
 }
 
-fn lines(h: &MotionHeadline, facts: &Facts) -> Vec<Line> {
+fn lines(h: &MotionHeadline, facts: &RunInfo) -> Vec<Line> {
     let mut all = vec![
         Line::number("mean speed of the driver", h.speed_rpm, 2, "1/min"),
         Line::number("mesh frequency", h.mesh_frequency_hz, 1, "Hz"),
@@ -151,7 +151,7 @@ fn lines(h: &MotionHeadline, facts: &Facts) -> Vec<Line> {
 }
 
 /// What a ramp is made for.
-fn over_speed(ramp: &PassageHeadline) -> Vec<Line> {
+fn over_speed(ramp: &RunUpHeadline) -> Vec<Line> {
     let mut all = vec![
         Line::text("  largest peak-to-peak DTE", ramp.peak_to_peak_dte_um.place(), ""),
         Line::number("  mean of all mesh cycles", ramp.mean_peak_to_peak_dte_um, 4, "um"),
@@ -196,9 +196,9 @@ pub(super) fn write_sweep_result(
     view: Option<&View>,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let SweepResult { rows: all, headline: h, campbell, facts, warnings, .. } = result;
+    let SweepResult { rows: all, headline: h, campbell, facts, remarks, .. } = result;
     let tables = vec![rows::resonance(all), rows::campbell(campbell)];
-    let answer = pair_answer(scene, (facts, cost), h, warnings, tables);
+    let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let resonance = format!("{} Hz, {} 1/min", fixed(h.mesh_resonance_hz, 0), fixed(h.mesh_resonance_rpm, 0));
     let shown = Shown {
         subtitle: ", steady states over speed".into(),

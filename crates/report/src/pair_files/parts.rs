@@ -3,21 +3,20 @@
 use std::f64::consts::PI;
 
 use analysis::{
-    accuracy::{Accuracy, Bound},
-    facts::Facts,
+    facts::RunInfo,
     motion::{ElasticHeadline, InertiaHeadline},
     results::PressurePlace,
 };
-use answer::{Answer, Cost, Remark, Table};
+use answer::{Answer, Cost, Remark, Table, keyed};
 use minijinja::context;
 use scene::{Driver, Scene};
 use serde::Serialize;
-use serde_json::{Map, Value};
 
 use crate::{
     ReportError,
     charts::embedded,
-    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
+    how_exact::how_exact,
+    page::{Content, Line, Page, Part, again, cost_part, render},
     tables::{fixed, geometry_table, model_name, torque},
 };
 use export::view::View;
@@ -25,27 +24,22 @@ use export::view::View;
 /// The answer of a run of a pair, without its rows.
 pub(super) fn pair_answer<H: Serialize>(
     scene: &Scene,
-    (facts, cost): (&Facts, &Cost),
+    (facts, cost): (&RunInfo, &Cost),
     headline: &H,
-    warnings: &[Remark],
+    remarks: &[Remark],
     tables: Vec<Table>,
 ) -> Answer {
-    // Strings and numbers only, all keys are strings: there is nothing that JSON could refuse.
-    let json = |of: Result<Value, serde_json::Error>| of.unwrap_or_default();
-    let mut info = match json(serde_json::to_value(facts)) {
-        Value::Object(info) => info,
-        _ => Map::new(),
-    };
-    // They stand by themselves.
+    let mut info = keyed(facts);
+    // An answer has its checks apart.
     info.retain(|key, _| !key.starts_with("certificate"));
     Answer {
         kind: "pair",
         name: scene.name.clone(),
-        inputs: json(serde_json::to_value(scene)),
+        inputs: keyed(scene).into(),
         tables,
-        headline: json(serde_json::to_value(headline)),
+        headline: keyed(headline).into(),
         checks: facts.certificate.clone(),
-        remarks: warnings.to_vec(),
+        remarks: remarks.to_vec(),
         info,
         cost: cost.clone(),
     }
@@ -78,7 +72,12 @@ pub(super) struct Shown<'a> {
 ///
 /// # Errors
 /// [`ReportError`] if a part cannot be filled; that would be a fault of this program.
-pub(super) fn pair_page(scene: &Scene, facts: &Facts, answer: &Answer, shown: Shown<'_>) -> Result<Page, ReportError> {
+pub(super) fn pair_page(
+    scene: &Scene,
+    facts: &RunInfo,
+    answer: &Answer,
+    shown: Shown<'_>,
+) -> Result<Page, ReportError> {
     let mut page = Page::of(answer, format!("model {}{}", model_name(scene), shown.subtitle));
     page.glance = glance(scene, facts).into_iter().chain(shown.key).collect();
     let view = match shown.view {
@@ -125,7 +124,7 @@ fn command(scene: &Scene) -> String {
 }
 
 /// Pair and load in a few words each.
-fn glance(scene: &Scene, facts: &Facts) -> Vec<[String; 2]> {
+fn glance(scene: &Scene, facts: &RunInfo) -> Vec<[String; 2]> {
     let (pinion, wheel, pair) = (&scene.pinion, &scene.wheel, &scene.pair);
     let ratio = f64::from(wheel.teeth) / f64::from(pinion.teeth);
     let (driven, driver) = match scene.operation.driver {
@@ -168,7 +167,7 @@ fn speeds(scene: &Scene) -> String {
 }
 
 /// Slices and elements along the face, and whether the program chose them.
-fn resolution(scene: &Scene, facts: &Facts) -> Vec<Line> {
+fn resolution(scene: &Scene, facts: &RunInfo) -> Vec<Line> {
     let Some(r) = &facts.resolution else { return Vec::new() };
     let slices = r.slices.map(|slices| {
         Line::text("slices over the face", slices, if r.slices_chosen { "(chosen)" } else { "(of the scene)" })
@@ -185,65 +184,7 @@ fn resolution(scene: &Scene, facts: &Facts) -> Vec<Line> {
     slices.into_iter().chain(elements).collect()
 }
 
-/// Headline numbers with their bounds, what was asked of them, what was tried.
-fn how_exact(exact: &Accuracy) -> Vec<Part> {
-    let words = format!(
-        "Held against {}; laws of the errors from {} random pairs, of which {:.0} % lie within each of their bounds.",
-        exact.held_against,
-        exact.calibrated_on_pairs,
-        100.0 * exact.coverage
-    );
-    let bounds = exact.bounds.iter().map(|bound| {
-        let asked = match (bound.asked, bound.met) {
-            (Some(asked), Some(true)) => format!("(within {asked:.3}, as asked)"),
-            (Some(asked), _) => format!("({asked:.3} WAS ASKED)"),
-            _ => String::new(),
-        };
-        Line::text(bound.quantity.key().replace('_', " "), bound.words(), asked)
-    });
-    let mesh = |elements: Option<u32>| elements.map_or("meshes of the scene".into(), |n| format!("{n} elements"));
-    let slices = |slices: Option<u32>| slices.map_or(String::new(), |n| format!(", {n} slices"));
-    let left = |why: &Option<String>| why.as_ref().map_or("taken".into(), |why| format!("left: {why}"));
-    let rungs = exact.rungs.iter().map(|rung| {
-        let of =
-            format!("{}{}, {} positions", mesh(rung.elements_profile), slices(rung.slices), rung.positions_per_cycle);
-        Line::text("tried", of, left(&rung.left_because))
-    });
-    let models = exact.models.iter().map(|tried| {
-        let mesh = mesh(tried.elements_profile);
-        let of = format!("{}, {mesh}{}, {} steps", tried.model.name(), slices(tried.slices), tried.steps_per_resonance);
-        Line::text("tried", of, left(&tried.left_because))
-    });
-    let not_covered = exact.not_covered.iter().map(|what| Line::text("not covered", "", what));
-    let causes = exact.bounds.first().map_or(&[][..], |bound| &bound.terms);
-    let head = ["number", "unit", "as computed", "above", "below", "corrected", "within"].map(str::to_owned);
-    let cause = |term: &analysis::accuracy::Term| format!("by {}", words_of(&term.cause));
-    let grid = Grid::new(head.into_iter().chain(causes.iter().map(cause)));
-    vec![
-        Part::new("How exact").closing().words(words).lines(bounds.chain(rungs).chain(models).chain(not_covered)),
-        Part::more().grid(grid.rows(exact.bounds.iter().map(bound_row))),
-    ]
-}
-
-/// A cause of an error in words.
-fn words_of(cause: &impl Serialize) -> String {
-    serde_json::to_value(cause).ok().and_then(|v| Some(v.as_str()?.replace('_', " "))).unwrap_or_default()
-}
-
-fn bound_row(bound: &Bound) -> Vec<Cell> {
-    let numbers = [
-        Cell::text(bound.quantity.key().replace('_', " ")),
-        Cell::text(bound.unit),
-        Cell::number(bound.value, 4),
-        Cell::science(bound.above),
-        Cell::science(bound.below),
-        Cell::number(bound.corrected, 4),
-        Cell::science(bound.corrected_within),
-    ];
-    numbers.into_iter().chain(bound.terms.iter().map(|term| Cell::science(term.amount))).collect()
-}
-
-fn geometry(facts: &Facts) -> Vec<Line> {
+fn geometry(facts: &RunInfo) -> Vec<Line> {
     let g = &facts.geometry;
     let ratios = [g.eps_alpha, g.eps_beta, g.eps_gamma].map(|ratio| fixed(ratio, 4));
     let [alpha, beta, gamma] = ratios;
@@ -259,7 +200,7 @@ fn geometry(facts: &Facts) -> Vec<Line> {
 }
 
 /// Meshes and degrees of freedom.
-fn size(facts: &Facts) -> Vec<Line> {
+fn size(facts: &RunInfo) -> Vec<Line> {
     if facts.dof_before == [0; 2] && facts.meshes.is_empty() {
         return Vec::new();
     }
@@ -301,7 +242,7 @@ pub(super) fn harmonics(of: &str, amplitudes_um: &[f64]) -> Vec<Line> {
 }
 
 /// Nominal root stresses of the standard, where there are some.
-pub(super) fn iso_root_stress(facts: &Facts) -> Option<Line> {
+pub(super) fn iso_root_stress(facts: &RunInfo) -> Option<Line> {
     let iso = facts.iso_root_stress.as_ref()?;
     let [pinion, wheel] = [&iso.pinion, &iso.wheel].map(|g| fixed(g.nominal_root_stress_mpa, 1));
     Some(Line::text("nominal root stress by ISO 6336-3", format!("{pinion}, {wheel}"), "MPa (pinion, wheel)"))
@@ -330,7 +271,7 @@ pub(super) fn elasticity(e: &ElasticHeadline) -> [Line; 3] {
     let [pinion, wheel] = e.lowest_elastic_frequency_hz.map(|hz| fixed(hz, 0));
     let of = format!("(harmonic {} of {} Hz)", e.mesh_harmonic, fixed(e.highest_mesh_frequency_hz, 1));
     let change = format!(
-        "um, {} % of the peak to peak (told from {} % on)",
+        "um, {} % of the peak to peak (reported from {} % on)",
         fixed(100.0 * e.change_over_peak_to_peak, 1),
         fixed(100.0 * e.limit_of_change, 1)
     );

@@ -2,7 +2,7 @@
 
 use analysis::{
     lumped::LumpedCampbell,
-    motion::{CampbellDiagram, MotionSpectrum, Passage, SWEEP_ORDERS, SweepRow, WaterfallLine},
+    motion::{CampbellDiagram, MotionSpectrum, RunUp, SWEEP_ORDERS, SweepRow, WaterfallLine},
 };
 use answer::Table;
 use study::Campbell;
@@ -11,15 +11,15 @@ use crate::motion_files::{SPECTRA, spectra};
 
 /// Meaning of the column `periodicity` of all sweeps.
 pub(super) const PERIODICITY: &str =
-    "how nearly it repeats itself: largest difference over peak to peak, coordinates and velocities";
+    "largest difference of a coordinate or velocity after the best period, over its peak to peak";
 /// Meaning of the column `status` of all sweeps.
-pub(super) const STATUS: &str = "`solved`; `not-periodic`: `periodicity` is above `periodic_tolerance`; `failed`: no motion, or one whose certificate does not hold";
+pub(super) const STATUS: &str = "`solved`; `not-periodic`: `periodicity` is above `periodic_tolerance`; `failed`: no motion, or one that fails its certificate";
 
 /// `spectrum`: lines of a motion at constant speed.
-pub(super) fn spectrum(of: &MotionSpectrum) -> Table {
+pub(crate) fn spectrum(of: &MotionSpectrum) -> Table {
     let mut table = Table::new("spectrum")
         .numbers("mesh_order", "order of the mesh frequency", of.orders.iter().copied())
-        .numbers("frequency_hz", "its frequency", of.frequencies.iter().copied());
+        .numbers("frequency_hz", "frequency of the order", of.frequencies.iter().copied());
     for (name, amplitudes) in SPECTRA.into_iter().zip(spectra(of)) {
         table.push_numbers(
             name,
@@ -31,7 +31,7 @@ pub(super) fn spectrum(of: &MotionSpectrum) -> Table {
 }
 
 /// `waterfall`: spectra of a ramp, stretch by stretch.
-pub(super) fn waterfall(lines: &[WaterfallLine], per_cycle: usize) -> Table {
+pub(crate) fn waterfall(lines: &[WaterfallLine], per_cycle: usize) -> Table {
     let all: Vec<(&WaterfallLine, f64, f64)> = lines
         .iter()
         .flat_map(|line| {
@@ -42,15 +42,19 @@ pub(super) fn waterfall(lines: &[WaterfallLine], per_cycle: usize) -> Table {
         })
         .collect();
     Table::new("waterfall")
-        .numbers("time_s", "middle of the stretch", all.iter().map(|r| r.0.time))
-        .numbers("pinion_speed_rpm", "mean speed of the pinion over the stretch", all.iter().map(|r| r.0.speed_rpm))
+        .numbers("time_s", "middle of the interval", all.iter().map(|r| r.0.time))
+        .numbers("pinion_speed_rpm", "mean speed of the pinion over the interval", all.iter().map(|r| r.0.speed_rpm))
         .numbers("mesh_order", "order of the mesh frequency", all.iter().map(|r| r.1))
-        .numbers("frequency_hz", "its frequency at the mean speed", all.iter().map(|r| r.1 * r.0.mesh_frequency_hz))
+        .numbers(
+            "frequency_hz",
+            "frequency of the order at the mean speed",
+            all.iter().map(|r| r.1 * r.0.mesh_frequency_hz),
+        )
         .numbers("dte_um", "single-sided amplitude of the dynamic transmission error", all.iter().map(|r| r.2))
 }
 
 /// `cycles`: one row a mesh cycle of a ramp.
-pub(super) fn cycles(of: &Passage) -> Table {
+pub(crate) fn cycles(of: &RunUp) -> Table {
     let all = &of.cycles;
     let mut table = Table::new("cycles")
         .numbers("time_s", "middle of the mesh cycle", all.iter().map(|c| c.time_s))
@@ -64,7 +68,7 @@ pub(super) fn cycles(of: &Passage) -> Table {
         )
         .numbers(
             "min_normal_force_n",
-            "least sum of normal forces on the driving flanks",
+            "smallest sum of normal forces on the driving flanks",
             all.iter().map(|c| c.min_normal_force_n),
         )
         .numbers(
@@ -89,10 +93,10 @@ pub(super) fn cycles(of: &Passage) -> Table {
 }
 
 /// `order_cuts`: amplitudes of mesh orders over speed, one row a stretch of the waterfall.
-pub(super) fn order_cuts(of: &Passage) -> Table {
+pub(crate) fn order_cuts(of: &RunUp) -> Table {
     let orders = of.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
     let mut table = Table::new("order_cuts")
-        .numbers("time_s", "middle of the stretch", of.cuts.iter().map(|c| c.time_s))
+        .numbers("time_s", "middle of the interval", of.cuts.iter().map(|c| c.time_s))
         .numbers("driver_speed_rpm", "speed of the driver", of.cuts.iter().map(|c| c.driver_speed_rpm))
         .numbers("mesh_frequency_hz", "mesh frequency", of.cuts.iter().map(|c| c.mesh_frequency_hz));
     for n in 0..orders {
@@ -107,35 +111,47 @@ pub(super) fn order_cuts(of: &Passage) -> Table {
 }
 
 /// `campbell` of a reduced pair: one row a speed.
-pub(super) fn campbell(of: &CampbellDiagram) -> Table {
+pub(crate) fn campbell(of: &CampbellDiagram) -> Table {
     let column = |name: &String| name.replace(' ', "_") + "_hz";
     frequencies(&of.diagram, of.names.iter().map(column), of.orders.iter().map(column))
 }
 
 /// `campbell` of a linear model: one row a speed of the driver.
-pub(super) fn lumped_campbell(of: &LumpedCampbell) -> Table {
+pub(crate) fn lumped_campbell(of: &LumpedCampbell) -> Table {
     let modes = (1..=of.diagram.frequencies.len()).map(|m| format!("elastic_mode_{m}_hz"));
     frequencies(&of.diagram, modes, of.names.iter().map(|n| n.replace([' ', '\''], "_") + "_hz"))
 }
 
 fn frequencies(diagram: &Campbell, modes: impl Iterator<Item = String>, lines: impl Iterator<Item = String>) -> Table {
     let speeds = &diagram.speeds;
-    let mut table = Table::new("campbell").numbers("speed_rpm", "speed", speeds.iter().map(|s| 60.0 * s));
+    let mut table = Table::new("campbell").numbers(
+        "speed_rpm",
+        "speed of the driver, from standstill",
+        speeds.iter().map(|s| 60.0 * s),
+    );
     for (name, mode) in modes.zip(&diagram.frequencies) {
-        table.push_numbers(name, "natural frequency", mode[..speeds.len()].iter().copied());
+        let meaning = match name.contains("_elastic_") {
+            true => "lowest natural frequency of the gear, bore held and flanks free",
+            false => "natural frequency of a mode; gyroscopic moments split the whirls as the speed rises",
+        };
+        table.push_numbers(name, meaning, mode[..speeds.len()].iter().copied());
     }
     for (name, order) in lines.zip(&diagram.orders) {
-        table.push_numbers(name, "line of excitation", speeds.iter().map(|speed| order * speed));
+        table.push_numbers(
+            name,
+            "frequency of an order of excitation: mesh order, or rotation of a gear",
+            speeds.iter().map(|speed| order * speed),
+        );
     }
     table
 }
 
 /// `resonance`: a row a way and speed.
-pub(super) fn resonance(rows: &[SweepRow]) -> Table {
+pub(crate) fn resonance(rows: &[SweepRow]) -> Table {
     let mut table = Table::new("resonance")
         .texts(
             "way",
-            "`up`, `down` (from the motion of the speed before) or `apart` (from rest under the load)",
+            "direction: `up`, `down` (from the motion of the speed before) or `apart` (from rest under the load)",
             rows.iter().map(|r| r.way.word()),
         )
         .numbers("speed_rpm", "speed of the driver", rows.iter().map(|r| r.speed_rpm))
@@ -157,7 +173,7 @@ pub(super) fn resonance(rows: &[SweepRow]) -> Table {
     table
         .numbers(
             "min_normal_force_n",
-            "least sum of normal forces on the driving flanks",
+            "smallest sum of normal forces on the driving flanks",
             rows.iter().map(|r| r.min_normal_force_n),
         )
         .numbers(
@@ -185,9 +201,13 @@ pub(super) fn resonance(rows: &[SweepRow]) -> Table {
         .numbers("warm_up_cycles", "mesh cycles before the first row", rows.iter().map(|r| r.warm_up_cycles as f64))
         .texts(
             "start",
-            "`neighbour`: where the speed beside it ended; `quasi-static`: its own equilibrium",
+            "start of the motion: `neighbour`, the end of the speed beside it, or `quasi-static`, its own equilibrium",
             rows.iter().map(|r| if r.own_start { "quasi-static" } else { "neighbour" }),
         )
         .texts("status", STATUS, rows.iter().map(|r| r.status.word()))
-        .texts("reason", "why there is no motion; empty where there is one", rows.iter().map(|r| r.reason.as_str()))
+        .texts(
+            "reason",
+            "reason why there is no motion; empty where there is one",
+            rows.iter().map(|r| r.reason.as_str()),
+        )
 }

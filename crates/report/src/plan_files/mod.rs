@@ -15,3 +15,4 @@ mod write;
 
 pub use page::{PageWords, report_folder};
 pub use write::write_cases;
+pub(crate) use write::{OBJECTS, documented};

@@ -1,12 +1,43 @@
 //! How a number is spread over cases.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 use study::{extent, mean, root_mean_square};
 
 /// Quantiles that are told of every number.
 pub(super) const QUANTILES: [f64; 3] = [0.1, 0.5, 0.9];
 /// Standard deviations either way of a mean that hold 95 % of a normal distribution.
 const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+described::described! {
+    /// Spread of a number over the cases that have it; intervals are `null` where there are too few cases.
+    #[derive(Serialize)]
+    pub(super) struct SpreadSummary {
+        /// mean
+        mean: Option<f64>,
+        /// half width of the interval about the mean that holds the true one in 95 % of random samples
+        mean_within_95: Option<f64>,
+        /// standard deviation
+        standard_deviation: Option<f64>,
+        /// smallest value
+        least: Option<f64>,
+        /// case with the smallest value
+        least_case: Option<usize>,
+        /// largest value
+        largest: Option<f64>,
+        /// 10 % quantile
+        quantile_10: Option<f64>,
+        /// median
+        median: Option<f64>,
+        /// 90 % quantile
+        quantile_90: Option<f64>,
+        /// interval that holds the 10 % quantile in 95 % of random samples, by order statistics
+        quantile_10_95: Option<[f64; 2]>,
+        /// interval that holds the median in 95 % of random samples, by order statistics
+        median_95: Option<[f64; 2]>,
+        /// interval that holds the 90 % quantile in 95 % of random samples, by order statistics
+        quantile_90_95: Option<[f64; 2]>,
+    }
+}
 
 /// How a number is spread over the cases that have it.
 pub(super) struct Spread {
@@ -39,23 +70,23 @@ impl Spread {
         (low >= 1.0 && high <= n).then(|| [self.values[low as usize - 1], self.values[high as usize - 1]])
     }
 
-    /// All that is told of it; `least_case`: the case that has the least value.
-    pub fn json(&self, least_case: Option<usize>) -> Value {
+    /// Mean, deviation and quantiles; `least_case`: the case that has the smallest value.
+    pub fn summary(&self, least_case: Option<usize>) -> SpreadSummary {
         let known = |x: f64| Some(x).filter(|x| x.is_finite());
         let [least, largest] = extent(&self.values).map(known);
-        json!({
-            "mean": known(mean(&self.values)),
-            "mean_within_95": known(NORMAL_95 * root_mean_square(&self.values) / (self.values.len() as f64).sqrt()),
-            "standard_deviation": known(root_mean_square(&self.values)),
-            "least": least,
-            "least_case": least_case,
-            "largest": largest,
-            "quantile_10": self.quantile(QUANTILES[0]),
-            "median": self.quantile(QUANTILES[1]),
-            "quantile_90": self.quantile(QUANTILES[2]),
-            "quantile_10_95": self.interval(QUANTILES[0]),
-            "median_95": self.interval(QUANTILES[1]),
-            "quantile_90_95": self.interval(QUANTILES[2]),
-        })
+        SpreadSummary {
+            mean: known(mean(&self.values)),
+            mean_within_95: known(NORMAL_95 * root_mean_square(&self.values) / (self.values.len() as f64).sqrt()),
+            standard_deviation: known(root_mean_square(&self.values)),
+            least,
+            least_case,
+            largest,
+            quantile_10: self.quantile(QUANTILES[0]),
+            median: self.quantile(QUANTILES[1]),
+            quantile_90: self.quantile(QUANTILES[2]),
+            quantile_10_95: self.interval(QUANTILES[0]),
+            median_95: self.interval(QUANTILES[1]),
+            quantile_90_95: self.interval(QUANTILES[2]),
+        }
     }
 }

@@ -15,6 +15,6 @@ pub fn study_warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -
         Some(remark::case_unsolved(reason).about(&study.cases[i].label))
     });
     let of_runs = with_result(study, runs, findings)
-        .flat_map(|(case, run, _)| run.warnings.iter().map(|said| said.clone().about(&case.label)));
-    failed.chain(of_runs).chain(findings.warnings.iter().cloned()).collect()
+        .flat_map(|(case, run, _)| run.remarks.iter().map(|said| said.clone().about(&case.label)));
+    failed.chain(of_runs).chain(findings.remarks.iter().cloned()).collect()
 }

@@ -8,4 +8,6 @@ mod tables;
 
 pub use cases::study_warnings;
 pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
+pub(crate) use report::OBJECTS;
 pub use report::{study_answer, study_page};
+pub(crate) use tables::study as documented;

@@ -21,7 +21,7 @@ pub struct CaseRun {
     /// Steps in time; `None` at rest.
     pub steps: Option<u64>,
     /// What its summary warns of.
-    pub warnings: Vec<answer::Remark>,
+    pub remarks: Vec<answer::Remark>,
     /// Whether its folder has a report.
     pub has_report: bool,
 }
@@ -59,7 +59,7 @@ pub struct StudyResult<'a> {
     /// The whole model, where it was run.
     pub speed_up: Option<&'a SpeedUp>,
     /// What a user should hear.
-    pub warnings: &'a [answer::Remark],
+    pub remarks: &'a [answer::Remark],
     /// Whether every case was to have a report.
     pub reports: bool,
 }

@@ -1,7 +1,12 @@
 //! The answer about a study, and its page.
 
-use answer::{Answer, Check, Checks, Cost};
-use serde_json::{Map, Value, json};
+use std::collections::BTreeMap;
+
+use analysis::{accuracy_chart::SpeedUp, facts::GeometryFacts};
+use answer::{Answer, Check, Checks, Cost, keyed};
+use described::Key;
+use serde::Serialize;
+use serde_json::json;
 
 use super::{
     CaseResult, StudyResult,
@@ -15,38 +20,114 @@ use crate::{
     page::{Cell, Content, Grid, Page, Part, again, cost_part, counted},
 };
 
+described::described! {
+    /// Headline of a study.
+    #[derive(Serialize)]
+    struct StudyHeadline<'a> {
+        /// cases, in the order of the file
+        cases: Vec<CaseSummary<'a>>,
+        /// correlations of two columns that the study asks for
+        correlations: Vec<Correlation<'a>>,
+        /// one case against every degree of freedom; `null` where the study does not ask for it
+        full: Option<FullSummary<'a>>,
+    }
+
+    /// A case of a study.
+    #[derive(Serialize)]
+    struct CaseSummary<'a> {
+        /// name of the case
+        label: &'a str,
+        /// value of the parameter
+        value: f64,
+        /// file of the scene
+        scene: String,
+        /// reason why there is no result; `null` where there is one
+        reason: Option<&'a str>,
+        /// folder of the case; `null` where it left no files
+        folder: Option<String>,
+        /// geometry of the pair; `null` without a result
+        geometry: Option<GeometryFacts>,
+        /// quantities of the study by name; `null` without a result
+        quantities: Option<BTreeMap<String, f64>>,
+        /// steps in time; `null` at rest and without a result
+        steps: Option<u64>,
+    }
+
+    /// Pearson's correlation coefficient of two columns over all rows of a case.
+    #[derive(Serialize)]
+    struct Correlation<'a> {
+        /// one column
+        column: &'a str,
+        /// the other column
+        beside: &'a str,
+        /// Pearson's coefficient by case: 1 or -1 where one column is a linear function of the other; `null` where a column does not vary, and without a result
+        by_case: &'a [Option<f64>],
+    }
+
+    /// A case against every degree of freedom.
+    #[derive(Serialize)]
+    struct FullSummary<'a> {
+        /// name of the case
+        case: &'a str,
+        /// times of both models at rest
+        at_rest: &'a SpeedUp,
+        /// wall time of one step in time of the reduced pair, settling and writing included
+        motion_step_s: Option<f64>,
+        /// wall time of one position with every degree of freedom over that of a step: the least that the reduction saves in time
+        full_position_over_motion_step: Option<f64>,
+    }
+
+    /// Facts of a study.
+    #[derive(Serialize)]
+    struct StudyInfo {
+        /// wall time of each case
+        wall_s: Vec<Option<f64>>,
+    }
+}
+
+/// Objects of the summary with their keys.
+pub(crate) const OBJECTS: [(&str, &[Key]); 5] = [
+    ("headline, a study", StudyHeadline::KEYS),
+    ("cases, a study", CaseSummary::KEYS),
+    ("correlations, a study", Correlation::KEYS),
+    ("full, a study", FullSummary::KEYS),
+    ("the summary of a study", StudyInfo::KEYS),
+];
+
 /// The answer: the table `study`, a row a case.
 pub fn study_answer(of: StudyResult<'_>, cost: Cost) -> Answer {
-    let StudyResult { study, runs, findings, speed_up, warnings, .. } = of;
+    let StudyResult { study, runs, findings, speed_up, remarks, .. } = of;
     let full = study.full.zip(speed_up).map(|(full, s)| {
         let step_s = step_s(runs, full.case);
-        json!({
-            "case": study.cases[full.case].label,
-            "at_rest": s,
-            "motion_step_s": step_s,
-            "full_position_over_motion_step": step_s.map(|step| s.full_position_s / step),
-        })
+        FullSummary {
+            case: &study.cases[full.case].label,
+            at_rest: s,
+            motion_step_s: step_s,
+            full_position_over_motion_step: step_s.map(|step| s.full_position_s / step),
+        }
     });
     Answer {
         kind: "study",
         name: study.name.clone(),
         inputs: json!({ "study": study.file.display().to_string(), "parameter": study.parameter }),
         tables: vec![study_rows(study, findings)],
-        headline: json!({
-            "cases": (0..study.cases.len()).map(|i| case(of, i)).collect::<Vec<_>>(),
-            "correlations": findings.followers.iter().map(|f| json!({
-                "column": f.column, "beside": f.beside, "by_case": f.correlation,
-            })).collect::<Vec<_>>(),
-            "full": full,
+        headline: json!(StudyHeadline {
+            cases: (0..study.cases.len()).map(|i| case(of, i)).collect(),
+            correlations: findings
+                .followers
+                .iter()
+                .map(|f| Correlation { column: &f.column, beside: &f.beside, by_case: &f.correlation })
+                .collect(),
+            full,
         }),
         checks: Checks::new([Check::cases_without_result(
             runs.iter().filter(|run| run.is_err()).count(),
             runs.len(),
             "`reason` of each case says why",
         )]),
-        remarks: warnings.to_vec(),
+        remarks: remarks.to_vec(),
         // What differs from run to run is no result.
-        info: Map::from_iter([("wall_s".to_owned(), json!(runs.iter().map(wall_s).collect::<Vec<_>>()))]),
+        info: keyed(&StudyInfo { wall_s: runs.iter().map(wall_s).collect() }),
         cost,
     }
 }
@@ -104,20 +185,21 @@ fn has_folder(run: &CaseResult) -> bool {
     run.as_ref().map_or_else(|miss| miss.has_folder, |_| true)
 }
 
-fn case(of: StudyResult<'_>, i: usize) -> Value {
+fn case(of: StudyResult<'_>, i: usize) -> CaseSummary<'_> {
     let (case, reason) = (&of.study.cases[i], of.findings.reason(i));
     let run = of.runs[i].as_ref().ok().filter(|_| reason.is_none());
-    let quantities = of.findings.cases[i].as_ref().ok().map(|found| {
-        of.study.quantities.iter().zip(&found.quantities).map(|(q, v)| (q.name(), json!(v))).collect::<Map<_, _>>()
-    });
-    json!({
-        "label": case.label,
-        "value": case.value,
-        "scene": case.scene.file.display().to_string(),
-        "reason": reason,
-        "folder": has_folder(&of.runs[i]).then(|| format!("{CASES}/{}", of.study.folder(i))),
-        "geometry": run.map(|r| r.record.geometry),
-        "quantities": quantities,
-        "steps": run.map(|r| r.steps),
-    })
+    let quantities = of.findings.cases[i]
+        .as_ref()
+        .ok()
+        .map(|found| of.study.quantities.iter().zip(&found.quantities).map(|(q, v)| (q.name(), *v)).collect());
+    CaseSummary {
+        label: &case.label,
+        value: case.value,
+        scene: case.scene.file.display().to_string(),
+        reason,
+        folder: has_folder(&of.runs[i]).then(|| format!("{CASES}/{}", of.study.folder(i))),
+        geometry: run.map(|r| r.record.geometry),
+        quantities,
+        steps: run.and_then(|r| r.steps),
+    }
 }

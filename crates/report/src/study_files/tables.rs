@@ -32,13 +32,13 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
         .collect();
     all.extend(study.quantities.iter().enumerate().map(|(k, quantity)| Line {
         name: quantity.name(),
-        meaning: "the quantity that was asked for",
+        meaning: "quantity of the study, by its `take` and column",
         values: cases().map(|c| Some(c?.quantities[k]).filter(|v| v.is_finite())).collect(),
         decimals: 3,
     }));
     all.extend(findings.followers.iter().map(|f| Line {
         name: f.name(),
-        meaning: "Pearson's coefficient of the two columns over all rows of the case",
+        meaning: "Pearson's correlation coefficient of two columns over all rows of the case; `NaN` where one does not vary",
         values: f.correlation.clone(),
         decimals: 4,
     }));
@@ -46,15 +46,15 @@ fn lines(study: &Study, findings: &Findings) -> Vec<Line> {
 }
 
 /// One row a case; the last column says why a case has no result, and is empty where it has one.
-pub(super) fn study(study: &Study, findings: &Findings) -> Table {
+pub(crate) fn study(study: &Study, findings: &Findings) -> Table {
     let mut table = Table::new("study")
         .texts("label", "name of the case", study.cases.iter().map(|case| case.label.clone()))
-        .numbers("value", "the parameter", study.cases.iter().map(|case| case.value));
+        .numbers("value", "value of the parameter", study.cases.iter().map(|case| case.value));
     for line in lines(study, findings) {
         table.push_numbers(line.name, line.meaning, line.values.iter().map(|v| v.unwrap_or(f64::NAN)));
     }
     let reasons = (0..study.cases.len()).map(|i| findings.reason(i).unwrap_or_default());
-    table.texts("reason", "why the case has no result", reasons)
+    table.texts("reason", "reason why the case has no result; empty where it has one", reasons)
 }
 
 /// A column a case.

@@ -3,15 +3,15 @@
 use std::fmt::Write;
 
 use analysis::{
-    facts::{Facts, IsoGearRoot, IsoRootStress},
+    facts::{IsoGearRoot, IsoRootStress, RunInfo},
     nominal_pressure::NominalPressure,
 };
-use geometry::{GearSheet, GeometrySheet};
+use geometry::{GearSheet, GeometrySheet, RingSheet};
 use serde::Serialize;
 
 /// The table that `ale-gear geometry` prints: the sheet, then what a nominal load does; `speed_rpm` of the pinion,
 /// where speeds are to be told. `None` without a sheet.
-pub fn geometry_table(name: &str, facts: &Facts, torque: &str, speed_rpm: f64) -> Option<String> {
+pub fn geometry_table(name: &str, facts: &RunInfo, torque: &str, speed_rpm: f64) -> Option<String> {
     let mut t = sheet_table(name, facts.geometry_sheet.as_ref()?, speed_rpm);
     if let Some(nominal) = &facts.nominal_pressure {
         pressures(&mut t, nominal, torque);
@@ -23,7 +23,7 @@ pub fn geometry_table(name: &str, facts: &Facts, torque: &str, speed_rpm: f64) -
 }
 
 /// The same as JSON, with the names of `summary.json`: the sheet, and beside it what the nominal load does.
-pub fn geometry_json(facts: &Facts) -> String {
+pub fn geometry_json(facts: &RunInfo) -> String {
     #[derive(Serialize)]
     struct Sheet<'a> {
         #[serde(flatten)]
@@ -31,7 +31,7 @@ pub fn geometry_json(facts: &Facts) -> String {
         nominal_pressure: &'a Option<NominalPressure>,
         iso_root_stress: &'a Option<IsoRootStress>,
     }
-    let Facts { geometry_sheet, nominal_pressure, iso_root_stress, .. } = facts;
+    let RunInfo { geometry_sheet, nominal_pressure, iso_root_stress, .. } = facts;
     // Numbers and strings: there is nothing that JSON could refuse.
     serde_json::to_string_pretty(&Sheet { geometry_sheet, nominal_pressure, iso_root_stress }).unwrap_or_default()
 }
@@ -73,6 +73,32 @@ fn roots(t: &mut String, gears: [&IsoGearRoot; 2]) {
     row("  rim thickness factor Y_B", |g| g.rim_thickness_factor, 4, "");
 }
 
+/// An internal pair: magnitudes as on a drawing, room about the tips, tool.
+fn ring_rows(t: &mut String, ring: &RingSheet) {
+    let _ = writeln!(t, "\n  internal gear, magnitudes");
+    let mut row = |what: &str, value: Option<f64>, unit: &str| {
+        let number = value.map_or_else(|| format!("{:>14}", "-"), |v| format!("{v:>14.4}"));
+        let _ = writeln!(t, "  {what:<44}{number:<28}  {unit}");
+    };
+    row("centre distance", Some(ring.centre_distance_magnitude_mm), "mm");
+    row("reference diameter", Some(ring.reference_diameter_magnitude_mm), "mm");
+    row("base diameter", Some(ring.base_diameter_magnitude_mm), "mm");
+    row("tip diameter", Some(ring.tip_diameter_magnitude_mm), "mm");
+    row("root diameter", Some(ring.root_diameter_magnitude_mm), "mm");
+    row("root form diameter", Some(ring.root_form_diameter_magnitude_mm), "mm");
+    row("start of active profile", Some(ring.start_of_active_profile_diameter_magnitude_mm), "mm");
+    row("room before involute interference", Some(ring.involute_margin_mm), "mm");
+    row("room before trochoid interference", ring.trochoid_margin_deg, "deg");
+    row("room for radial assembly", Some(ring.trimming_margin_deg), "deg");
+    row("shaper, teeth", Some(f64::from(ring.shaper_teeth)), "");
+    row("  profile shift coefficient", Some(ring.shaper_profile_shift), "");
+    row("  tip diameter", Some(ring.shaper_tip_diameter_mm), "mm");
+    row("  rounding of its tip edges", Some(ring.shaper_tip_rounding_mm), "mm");
+    row("  centre distance at full depth", Some(ring.shaper_centre_distance_mm), "mm");
+    row("  working pressure angle at full depth", Some(ring.shaper_working_pressure_angle_deg), "deg");
+    row("  room for radial feed", Some(ring.shaper_trimming_margin_deg), "deg");
+}
+
 fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     let mut t = format!("{name}\n\n");
     let mut row = |what: &str, values: &[f64], digits: usize, unit: &str| {
@@ -109,7 +135,7 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
         let cell = |gear: &GearSheet| of(gear).map_or_else(|| format!("{:>14}", "-"), |v| format!("{v:>14.digits$}"));
         let _ = writeln!(t, "  {what:<44}{}{}  {unit}", cell(both[0]), cell(both[1]));
     };
-    pair("teeth", &|g| Some(f64::from(g.teeth)), 0, "");
+    pair("teeth", &|g| Some(g.teeth as f64), 0, "");
     pair("face width b", &|g| Some(g.face_width_mm), 4, "mm");
     pair("profile shift coefficient", &|g| Some(g.profile_shift), 4, "");
     pair("reference diameter d", &|g| Some(g.reference_diameter_mm), 4, "mm");
@@ -136,6 +162,9 @@ fn sheet_table(name: &str, sheet: &GeometrySheet, speed_rpm: f64) -> String {
     pair("ball diameter D_M", &|g| g.balls.map(|b| b.ball_diameter_mm), 2, "mm");
     pair("dimension over balls M_dK", &|g| g.balls.map(|b| b.dimension_mm), 4, "mm");
     pair("  without allowance", &|g| g.balls.map(|b| b.nominal_dimension_mm), 4, "mm");
+    if let Some(ring) = &sheet.ring {
+        ring_rows(&mut t, ring);
+    }
     let _ = writeln!(
         t,
         "\n  {:<6}{:>10}{:>12}{:>12}{:>14}{:>14}{:>14}{:>14}",

@@ -1,22 +1,28 @@
 //! The gears, and what they share.
 
-use geometry::GearData;
+use geometry::{GearData, Shaper};
 use mesh::{GroupNames, Mesh};
 use toml::Spanned;
 
 use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, DataFile, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene, inputs,
-    schema::{MATERIAL, MESHER, RawBore, RawGear, RawGroups, RawMaterial, RawMesher, RawPair},
+    BoreScene, DataFile, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene,
+    ShaperScene, inputs,
+    schema::{GEAR, MATERIAL, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMaterial, RawMesher, RawPair, RawShaper},
     source::Source,
-    spanned::Word,
+    spanned::{Number, Word},
 };
 
 /// Default bore over reference diameter, and over the root diameter of a gear of few teeth, to which the first leaves no
 /// rim.
 const BORE_RATIO: f64 = 0.55;
 const BORE_OF_ROOT: f64 = 0.5;
+
+/// Default rim of an internal gear, root to outside, over the module: from 3.5 on ISO 6336-3 has no rim factor.
+const RING_RIM: f64 = 4.0;
+/// Rounding over the module with which the teeth of a shaper are chosen that says none: it hardly matters to them.
+const LEAST_ROUNDING: f64 = 0.02;
 
 /// What a gear is of where nothing is said.
 pub(super) fn steel() -> Material {
@@ -53,7 +59,7 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair, [pinion, wheel]: [&RawGear; 2]
         normal_pressure_angle_deg: value!(s, PAIR, raw.normal_pressure_angle_deg)?,
         face_width_mm,
         mid_face_offset_mm: optional!(s, PAIR, raw.mid_face_offset_mm)?,
-        centre_distance_mm: optional!(s, PAIR, raw.centre_distance_mm)?,
+        centre_distance_mm: centre_distance(s, &raw.centre_distance_mm, is_ring(wheel))?,
         addendum_coefficient: value!(s, PAIR, raw.addendum_coefficient)?,
         dedendum_coefficient: value!(s, PAIR, raw.dedendum_coefficient)?,
         root_radius_coefficient: value!(s, PAIR, raw.root_radius_coefficient)?,
@@ -66,6 +72,48 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair, [pinion, wheel]: [&RawGear; 2]
         pair.root_radius_coefficient = fitting_root_radius(&pair);
     }
     Ok(pair)
+}
+
+/// Whether a gear is an internal one.
+fn is_ring(raw: &RawGear) -> bool {
+    raw.teeth.as_ref().is_some_and(|teeth| *teeth.get_ref() < 0)
+}
+
+/// A length without the sign that it may have of an internal gear.
+fn unsigned(value: &Number, ring: bool) -> Number {
+    value.as_ref().map(|v| Spanned::new(v.span(), if ring { v.get_ref().abs() } else { *v.get_ref() }))
+}
+
+fn centre_distance(s: &Source<'_>, value: &Number, ring: bool) -> Checked<Option<f64>> {
+    let value = unsigned(value, ring);
+    let (low, high, _) = PAIR.number("centre_distance_mm");
+    value.is_some().then(|| s.number("centre_distance_mm", &value, 0.0, low, high)).transpose()
+}
+
+/// The tool of an internal gear: what is said of it, and what is usual for the rest.
+fn shaper(s: &Source<'_>, raw: &RawGear, gear: GearData) -> Checked<Option<ShaperScene>> {
+    if !is_ring(raw) {
+        return match &raw.shaper {
+            None => Ok(None),
+            Some(table) => Err(s.conflict(
+                &table.span(),
+                "`shaper` makes internal gears, and this gear is an external one",
+                "give an internal gear negative teeth, as in teeth = -93, or leave this table out",
+            )),
+        };
+    }
+    let none = RawShaper::default();
+    let stated = raw.shaper.as_ref().map_or(&none, |table| table.get_ref());
+    let profile_shift = value!(s, SHAPER, stated.profile_shift)?;
+    let stated_teeth = optional!(s, SHAPER, stated.teeth)?;
+    let rounding = optional!(s, SHAPER, stated.tip_rounding_coefficient)?;
+    let usual = GearData { root_radius_coefficient: rounding.unwrap_or(LEAST_ROUNDING), ..gear.clone() };
+    let teeth = stated_teeth.or(usual.with_usual_shaper(profile_shift).shaper.map(|s| s.teeth)).unwrap_or_default();
+    let made = GearData { shaper: Some(Shaper { teeth, profile_shift }), ..gear };
+    // A cutter that has room for none says so where the geometry is made.
+    let largest = (1e4 * made.largest_root_radius_coefficient()).floor() / 1e4;
+    let fitting = if largest > 0.0 { made.root_radius_coefficient.min(largest) } else { made.root_radius_coefficient };
+    Ok(Some(ShaperScene { teeth, profile_shift, tip_rounding_coefficient: rounding.unwrap_or(fitting) }))
 }
 
 /// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is
@@ -107,58 +155,80 @@ pub(super) fn gear(
     shared: Material,
     face_elements: impl Fn(f64, u32) -> u32,
 ) -> Checked<GearScene> {
-    let teeth = value!(s, GEAR, raw.teeth)?;
+    let ring = is_ring(raw);
+    let (fewest, most, _) = GEAR.whole("teeth");
+    // Out of range it is told as it is written, with its sign.
+    let counted =
+        |z: &i64| z.checked_neg().filter(|n| ring && (i64::from(fewest)..=i64::from(most)).contains(n)).unwrap_or(*z);
+    let count = raw.teeth.as_ref().map(|z| Spanned::new(z.span(), counted(z.get_ref())));
+    let teeth = s.whole("teeth", &count, fewest, fewest, most)?;
     let face_width_mm = optional!(s, GEAR, raw.face_width_mm)?;
     let width = face_width_mm.unwrap_or(pair.face_width_mm);
     let helix_angle_deg = match hand {
         Hand::Own => value!(s, GEAR, raw.helix_angle_deg)?,
-        Hand::Against(other) => against(s, raw, other)?,
+        Hand::Against(other) => against(s, raw, other, ring)?,
     };
     let reference = f64::from(teeth) * pair.normal_module_mm / helix_angle_deg.to_radians().cos();
     let widest_arc = 0.25 * pair.normal_module_mm;
-    let bore_limit = reference.max(1e-3);
+    let bore_limit = if ring { f64::INFINITY } else { reference.max(1e-3) };
+    let sign = if ring { -1.0 } else { 1.0 };
     let (mesh, mesher) = mesh_source(s, raw, teeth, |order| face_elements(width, order))?;
     let groups = groups(s, &raw.groups)?;
-    let root = reference - 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
+    let root = reference - sign * 2.0 * pair.normal_module_mm * pair.dedendum_coefficient;
     let bore_of_mesh = match &mesh {
         // A mesh in another unit, or of another gear, is told where it is read.
         Some(mesh) if raw.bore_diameter_mm.is_none() => {
-            bore_diameter(mesh.values(), &groups).filter(|bore| *bore < root)
+            bore_diameter(mesh.values(), &groups).filter(|bore| sign * *bore < sign * root)
         }
         _ => None,
     };
     let (pitch_errors_um, pitch_errors_file) = pitch_errors(s, raw, teeth)?;
     let profile_shift = value!(s, GEAR, raw.profile_shift)?;
-    let shifted_root = root + 2.0 * pair.normal_module_mm * profile_shift;
+    let shifted_root = root + sign * 2.0 * pair.normal_module_mm * profile_shift;
     let usual_bore = BORE_RATIO * reference;
-    let default_bore =
-        if usual_bore < shifted_root || shifted_root <= 0.0 { usual_bore } else { BORE_OF_ROOT * shifted_root };
+    let default_bore = if ring {
+        shifted_root + 2.0 * RING_RIM * pair.normal_module_mm
+    } else if usual_bore < shifted_root || shifted_root <= 0.0 {
+        usual_bore
+    } else {
+        BORE_OF_ROOT * shifted_root
+    };
+    let tip_diameter = unsigned(&raw.tip_diameter_mm, ring);
+    let tip_diameter_mm = match tip_diameter {
+        None => None,
+        Some(_) => Some(s.number("tip_diameter_mm", &tip_diameter, 0.0, reference * 0.5, reference * 2.0)?),
+    };
+    let thickness_allowance_mm =
+        s.number("thickness_allowance_mm", &raw.thickness_allowance_mm, 0.0, 0.0, 0.5 * pair.normal_module_mm)?;
+    let cut = GearData {
+        teeth,
+        normal_module: pair.normal_module_mm,
+        normal_pressure_angle: pair.normal_pressure_angle(),
+        helix_angle: helix_angle_deg.to_radians(),
+        profile_shift,
+        thickness_allowance: thickness_allowance_mm,
+        addendum_coefficient: pair.addendum_coefficient,
+        dedendum_coefficient: pair.dedendum_coefficient,
+        root_radius_coefficient: pair.root_radius_coefficient,
+        tip_diameter: tip_diameter_mm.map(|d| sign * d),
+        ..GearData::default()
+    };
     Ok(GearScene {
         teeth,
+        shaper: shaper(s, raw, cut)?,
         helix_angle_deg,
         face_width_mm,
         bore_diameter_mm: s.number(
             "bore_diameter_mm",
-            &raw.bore_diameter_mm,
+            &unsigned(&raw.bore_diameter_mm, ring),
             bore_of_mesh.unwrap_or(default_bore),
             1e-3,
             bore_limit,
         )?,
         profile_shift,
         tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
-        tip_diameter_mm: match raw.tip_diameter_mm {
-            None => None,
-            Some(_) => {
-                Some(s.number("tip_diameter_mm", &raw.tip_diameter_mm, 0.0, reference * 0.5, reference * 2.0)?)
-            }
-        },
-        thickness_allowance_mm: s.number(
-            "thickness_allowance_mm",
-            &raw.thickness_allowance_mm,
-            0.0,
-            0.0,
-            0.5 * pair.normal_module_mm,
-        )?,
+        tip_diameter_mm,
+        thickness_allowance_mm,
         pitch_errors_um,
         pitch_errors_file,
         mesh,
@@ -179,10 +249,10 @@ pub(super) fn gear(
     })
 }
 
-/// The wheel of an external pair has the other hand; stated, it must agree.
-fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64) -> Checked<f64> {
+/// The wheel of an external pair has the other hand, an internal gear the same; stated, it must agree.
+fn against(s: &Source<'_>, raw: &RawGear, pinion_deg: f64, ring: bool) -> Checked<f64> {
     // `0.0 - x` and not `-x`: a spur wheel has helix angle 0, not -0.
-    let follows = 0.0 - pinion_deg;
+    let follows = if ring { pinion_deg } else { 0.0 - pinion_deg };
     match &raw.helix_angle_deg {
         Some(own) if (own.get_ref() - follows).abs() > 1e-9 => Err(s.conflict(
             &own.span(),

@@ -6,6 +6,7 @@ mod derivatives;
 mod gear;
 mod motion;
 mod pitch_errors;
+mod rating;
 mod tables;
 mod together;
 
@@ -64,12 +65,14 @@ pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
         lumped12,
         impact,
         shaft18,
+        rating: rating::rating(source, &raw)?,
         output: output(source, &raw.output)?,
         pinion,
         wheel,
         pair,
     };
     together(source, &raw, &scene)?;
+    rating::together(source, &raw, &scene)?;
     derivatives::check(source, &raw, &scene)?;
     Ok(scene)
 }

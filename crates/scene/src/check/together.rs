@@ -12,6 +12,9 @@ pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked
     if scene.analysis.model == Model::Iso {
         nominal_flanks(s, raw)?;
     }
+    if scene.wheel.is_internal() {
+        internal(s, raw, scene)?;
+    }
     if scene.analysis.kind == Kind::Dynamic {
         in_time(s, raw, scene)?;
     }
@@ -67,6 +70,27 @@ fn accuracy(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
                 format!("leave `{key}` out, or say `model = \"reduced\"`: its error is estimated all the same"),
             ));
         }
+    }
+    Ok(())
+}
+
+/// What internal pairs have: everything at rest that a mesh answers, without bounds and without friction.
+fn internal(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let teeth = raw.wheel.teeth.as_ref().map_or(0..0, Spanned::span);
+    let span = |word: Option<std::ops::Range<usize>>| word.unwrap_or(teeth.clone());
+    let refused = |span: std::ops::Range<usize>, what: String, advice: &str| Err(s.conflict(&span, what, advice));
+    if scene.analysis.kind == Kind::Dynamic {
+        let what = "a pair with an internal gear has no motion yet: its equilibrium alone is computed".to_owned();
+        return refused(span(raw.analysis.kind.as_ref().map(Spanned::span)), what, "use `kind = \"static\"`");
+    }
+    let model = scene.analysis.model;
+    if scene.is_auto() || (model != Model::Reduced && model != Model::Full) {
+        let what = format!("the model \"{}\" does not know internal gears", model.word());
+        return refused(span(raw.analysis.model.as_ref().map(Spanned::span)), what, "use `model = \"reduced\"`");
+    }
+    if !scene.accuracy.is_none() {
+        let what = "the bounds of [accuracy] are those of external pairs".to_owned();
+        return refused(span(raw.accuracy.as_ref().map(Spanned::span)), what, "leave [accuracy] out");
     }
     Ok(())
 }

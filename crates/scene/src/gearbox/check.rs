@@ -2,16 +2,17 @@
 
 use toml::Spanned;
 
+use super::accuracy::accuracy;
 use super::bearing::bearing;
 use super::file::{
     Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, called, mid_face_offset,
 };
 use super::housing::housing;
 use super::loads::{apart, loaded};
-use super::motion::motion;
+use super::motion::{GearboxMotion, motion};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
-use super::raw::{RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
+use super::raw::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
@@ -61,6 +62,9 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
+    let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
+    let motion = raw.motion.as_ref().map(|table| motion(s, table)).transpose()?;
+    without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), motion.as_ref())?;
     let name = s.title(&raw.name);
     let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
@@ -76,8 +80,10 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         housing,
         positions_per_cycle: row!(s, ANALYSIS, analysis.positions_per_cycle)?,
         cycles: row!(s, ANALYSIS, analysis.cycles)?,
-        vibration: raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?,
-        motion: raw.motion.as_ref().map(|table| motion(s, table)).transpose()?,
+        shaft_elements: row!(s, ANALYSIS, analysis.shaft_elements)?,
+        accuracy: accuracy(s, &raw)?,
+        vibration,
+        motion,
         parquet: row!(s, OUTPUT, output.parquet)?,
     })
 }
@@ -99,6 +105,25 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
         given!(s, GEAR, raw.polar_inertia_kg_m2)?.map(|x| 1e3 * x),
     ];
     Ok(GearboxGear { name, shaft, position, seat, key, inertia })
+}
+
+/// That no mesh has friction where what is asked for has none: the contact itself has, at rest and in motion.
+fn without_friction(
+    s: &Source<'_>,
+    (tables, meshes): (&[Spanned<RawMesh>], &[GearboxMesh]),
+    vibrates: bool,
+    motion: Option<&GearboxMotion>,
+) -> Checked<()> {
+    let what = match motion {
+        _ if vibrates => "[vibration] has none",
+        Some(motion) if motion.mesh != MeshModel::Exact => "a motion has it with `mesh = \"exact\"` alone",
+        _ => return Ok(()),
+    };
+    let rough = |(_, mesh): &(&Spanned<RawMesh>, &GearboxMesh)| mesh.scene.contact.friction != 0.0;
+    let Some((table, mesh)) = tables.iter().zip(meshes).find(rough) else { return Ok(()) };
+    let said = format!("the pair of mesh \"{}\" has friction, and {what}", mesh.name);
+    let span = table.get_ref().scene.as_ref().map_or(table.span(), Spanned::span);
+    Err(s.conflict(&span, said, "leave `friction` out, or `set` it to 0"))
 }
 
 /// What a mesh is called.
@@ -137,6 +162,12 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     let unfit = |what: &str, advice: &str| {
         Err(s.conflict(&word.span(), format!("{} {what}", document.file().display()), advice))
     };
+    if !scene.accuracy.is_none() {
+        return unfit(
+            "asks for an accuracy",
+            "that of a gearbox stands in [accuracy] of its own document: leave it out here",
+        );
+    }
     if scene.analysis.kind != Kind::Static || scene.analysis.model != Model::Reduced {
         return unfit(
             "is not at rest with the model \"reduced\"",
@@ -146,11 +177,11 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     if scene.contact.method != Method::Slice {
         return unfit("has contact by points", "a gearbox takes `method = \"slice\"` in [contact]");
     }
-    if scene.contact.friction != 0.0 {
-        return unfit("has friction", "a gearbox at rest has none: leave `friction` out, or `set` it to 0");
+    if scene.rating.is_some() {
+        return unfit("asks for a rating", "a gearbox is not rated: rate the pair alone, under the torque of its mesh");
     }
-    if !scene.accuracy.is_none() {
-        return unfit("asks for an accuracy", "a gearbox has no bounds: leave [accuracy] out");
+    if scene.wheel.is_internal() {
+        return unfit("has an internal gear", "a gearbox has external gears alone: run the pair by itself");
     }
     let name = mesh_name(raw);
     Ok(GearboxMesh { name, gears: pair, scene })

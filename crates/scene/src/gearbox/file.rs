@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{GearboxMotion, raw::RollingKind};
-use crate::{Scene, Sense};
+use crate::{AccuracyScene, Scene, Sense};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +32,10 @@ pub struct Gearbox {
     pub positions_per_cycle: u32,
     /// Cycles of the first mesh.
     pub cycles: u32,
+    /// Elements along every shaft, at least.
+    pub shaft_elements: u32,
+    /// How exact its headline numbers at rest are to be.
+    pub accuracy: AccuracyScene,
     /// Vibration about where it stands, where it is asked for.
     pub vibration: Option<GearboxVibration>,
     /// How it runs in time; none: at rest alone.

@@ -5,16 +5,20 @@
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
 //! | `vibration`, `motion` | how it swings, and how it runs in time |
+//! | `accuracy` | how exact its numbers are to be |
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
+//! | `of_pair` | the gearbox that a pair is the short form of |
 //! | `raw`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
+mod accuracy;
 mod bearing;
 mod check;
 mod file;
 mod housing;
 mod loads;
 mod motion;
+mod of_pair;
 mod pair_setting;
 mod parts;
 mod raw;
@@ -29,5 +33,6 @@ pub use file::{
     GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
 pub use motion::GearboxMotion;
+pub use of_pair::gearbox_of_pair;
 pub(crate) use raw::GEARBOX;
 pub use raw::{GearboxDrive, MeshModel, RollingKind};

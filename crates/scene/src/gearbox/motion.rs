@@ -40,6 +40,8 @@ pub struct GearboxMotion {
     /// Before the rows: difference after a common period of all meshes over the peak to peak that counts as none, and
     /// cycles of the fastest mesh to wait for that at the most. None: rows begin in the equilibrium.
     pub settle: Option<(f64, u32)>,
+    /// Whether the motion that settles is taken to its periodic state by Newton's method.
+    pub shoots: bool,
     /// Damping ratio of the gears turning against each other at a mesh.
     pub mesh_damping_ratio: f64,
     /// Damping ratio of every elastic mode.
@@ -97,6 +99,7 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
         error_tolerance: given!(s, MOTION, raw.error_tolerance)?,
         stop_at_events: row!(s, MOTION, raw.stop_at_events)?,
         settle,
+        shoots: s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Shooting,
         mesh_damping_ratio: row!(s, MOTION, raw.mesh_damping_ratio)?,
         modal_damping_ratio: row!(s, MOTION, raw.modal_damping_ratio)?,
         highest_frequency_hz: given!(s, MOTION, raw.highest_frequency_hz)?,

@@ -1,7 +1,11 @@
 //! Every key of a gearbox file once: type, range, default, meaning; and the words of a file, nothing checked yet. Checks take
 //! ranges and defaults from here, and so does the JSON Schema.
 
-use crate::{Integration, Sense, table::INF};
+use crate::{
+    Integration, Sense,
+    schema::{GEARBOX_ACCURACY, RawGearboxAccuracy},
+    table::INF,
+};
 
 table! {
     /// The whole file.
@@ -14,6 +18,7 @@ table! {
         input: table(INPUT: RawInput);
         torque: list(TORQUE: RawTorque);
         housing: table(HOUSING: RawHousing);
+        accuracy: table(GEARBOX_ACCURACY: RawGearboxAccuracy);
         analysis: always(ANALYSIS: RawAnalysis);
         vibration: table(VIBRATION: RawVibration);
         motion: table(MOTION: RawMotion);
@@ -188,6 +193,7 @@ table! {
     ANALYSIS, RawAnalysis: "positions at rest"; {
         positions_per_cycle: whole(1, 10_000, 32), "positions of the input in a cycle of the first mesh";
         cycles: whole(1, 10_000, 1), "cycles of the first mesh, from where the keys put it. The other meshes go on by the teeth, and their cycles end elsewhere";
+        shaft_elements: whole(1, 1000, 16), "elements along every shaft, at least. At rest they are exact, and draw its line; natural frequencies go with them";
     }
 }
 
@@ -243,18 +249,20 @@ choices! {
         Span = "span",
         /// The same from where the motion repeats itself.
         Steady = "steady",
+        /// The same, found by Newton's method on the common period of the meshes.
+        Shooting = "shooting",
     }
 }
 
 table! {
     /// `[motion]`
     MOTION, RawMotion: "motion in time from the equilibrium on, after the positions at rest; left out: none", needed ["speed_rpm"]; {
-        run: word(GearboxRun), "what is run: from the equilibrium on, or from where the motion repeats itself";
+        run: word(GearboxRun), "what is run. span: from the equilibrium on; steady: from where the motion repeats itself; shooting: as steady, and taken there by Newton's method as soon as it nearly repeats itself, which is faster than to wait where little damps or the common period is short";
         speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
         to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed); default: speed_rpm. Steps are then turns of the input that are alike";
         drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it from that speed on";
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
-        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, the one that takes pitch errors. mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
+        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes pitch errors and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
@@ -262,8 +270,8 @@ table! {
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
         error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
-        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady)";
-        warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady)";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady, shooting)";
+        warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady, shooting)";
         mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
         modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode about the equilibrium, beside that of bearings and meshes";
         highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh. Modes with seats held are kept up to twice that, and more until natural frequencies up to it are off by half a per cent at the most";

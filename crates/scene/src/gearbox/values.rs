@@ -21,7 +21,7 @@ pub(super) fn square<R>(s: &Source<'_>, table: &Spanned<R>, rows: &Rows, size: u
     for row in rows.get_ref() {
         let own = row.get_ref();
         if own.len() != size || own.iter().any(|x| !x.is_finite()) {
-            let said = format!("a row of {} entries, or one that is no number", own.len());
+            let said = format!("a row of {} entries, or one that is not a number", own.len());
             return Err(s.conflict(&row.span(), said, format!("give {size} numbers a row")));
         }
     }

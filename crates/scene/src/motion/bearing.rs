@@ -12,7 +12,7 @@ type Span = std::ops::Range<usize>;
 pub(crate) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
     for word in raw.free.iter().flatten() {
         if word.get_ref() == "turn" {
-            let what = "`free` lists \"turn\", which is no choice";
+            let what = "`free` lists \"turn\", which is not a choice";
             let advice = "leave it out: the driven gear's turn is always free, the driver's when a torque drives it";
             return Err(s.conflict(&word.span(), what, advice));
         }
@@ -153,7 +153,7 @@ fn matrix(s: &Source<'_>, key: &str, raw: &Rows) -> Checked<Option<[[f64; 5]; 5]
     for (to, row) in all.iter_mut().zip(rows.get_ref()) {
         match <[f64; 5]>::try_from(row.get_ref().as_slice()) {
             Ok(values) if values.iter().all(|v| v.is_finite()) => *to = values,
-            Ok(_) => return bad(&row.span(), "holds what is no number"),
+            Ok(_) => return bad(&row.span(), "contains a value that is not a number"),
             Err(_) => return bad(&row.span(), &format!("has a row of {} numbers", row.get_ref().len())),
         }
     }

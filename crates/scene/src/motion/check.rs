@@ -154,7 +154,7 @@ fn continuation(s: &Source<'_>, raw: &RawContinuation, run: Option<Span>) -> Che
     needed(s, "continuation", &[("from", &raw.from), ("to", &raw.to)], run)?;
     let read = ContinuationScene::read(s, raw, f64::INFINITY)?;
     if let (Some(to), true) = (&raw.to, read.from == read.to) {
-        return Err(s.conflict(&to.span(), "`from` and `to` are the same", "give the branch a way to go"));
+        return Err(s.conflict(&to.span(), "`from` and `to` are the same", "`from` and `to` must differ"));
     }
     if let (Some(most), true) = (&raw.most_harmonics, read.most_harmonics < read.harmonics) {
         let what =

@@ -203,19 +203,6 @@ impl BasinScene {
     }
 }
 
-impl Integration {
-    /// The method, generalised-alpha with a spectral radius at infinite frequency (default 0.9).
-    pub fn scheme(self, spectral_radius: Option<f64>) -> Scheme {
-        match self {
-            Self::Energy => Scheme::Energy,
-            Self::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: spectral_radius.unwrap_or(0.9) },
-            Self::Newmark => Scheme::Newmark,
-            Self::DormandPrince => Scheme::DormandPrince,
-            Self::RungeKutta4 => Scheme::RungeKutta4,
-        }
-    }
-}
-
 impl MotionScene {
     /// The method with its parameters.
     pub fn scheme(&self) -> Scheme {

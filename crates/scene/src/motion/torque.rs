@@ -40,7 +40,7 @@ fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], tab
     let all = [("torque_nm", mean), ("amplitude_nm", amplitude), ("frequency_hz", frequency), ("phase_deg", phase)];
     let said = |(key, value): &(&'static str, &Number)| value.as_ref().map(|v| (*key, v.span()));
     if let (Some(_), Some((key, span))) = (table, all.iter().find_map(said)) {
-        let what = format!("`{key}` stands beside a table, which says everything");
+        let what = format!("`{key}` is beside a table that already gives it");
         return Err(s.conflict(&span, what, "keep one of them"));
     }
     if amplitude.is_some() != frequency.is_some() || (phase.is_some() && amplitude.is_none()) {

@@ -169,7 +169,7 @@ fn number_of(s: &Source<'_>, word: &Spanned<String>, all: &[DesignParameter]) ->
     let place = all.iter().position(|p| p.keys.iter().any(|own| own == key));
     let place = place.ok_or_else(|| wrong(format!("`{key}` may not change")))?;
     let value = value.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    Ok((place, value.ok_or_else(|| wrong("no number stands behind `=`".into()))?))
+    Ok((place, value.ok_or_else(|| wrong("no number behind `=`".into()))?))
 }
 
 /// Numbers of a list without their places.
@@ -181,7 +181,7 @@ fn torques(s: &Source<'_>, raw: &RawOptimise, own: f64) -> Checked<Vec<TorqueWei
     let list = raw.torques_nm.as_ref().map_or_else(|| vec![own], plain);
     let span = raw.torques_nm.as_ref().map_or(0..0, Spanned::span);
     if list.is_empty() || list.iter().any(|t| !(t.is_finite() && *t > 0.0)) {
-        return Err(s.conflict(&span, "`torques_nm` holds what is no torque above 0", "give torques in N m"));
+        return Err(s.conflict(&span, "`torques_nm` holds what is not a torque above 0", "give torques in N m"));
     }
     let weights = raw.weights.as_ref().map_or_else(|| vec![1.0; list.len()], plain);
     if weights.len() != list.len() || weights.iter().any(|w| !(w.is_finite() && *w > 0.0)) {

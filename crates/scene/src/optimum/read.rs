@@ -79,12 +79,12 @@ impl Optimisation {
         }
         let list = if words.torques_nm.is_empty() { vec![own.operation.torque_nm] } else { words.torques_nm.to_vec() };
         if let Some(none) = list.iter().find(|t| !(t.is_finite() && **t > 0.0)) {
-            return Err(wrong(format!("--torques {none}"), "is no torque above 0".into()));
+            return Err(wrong(format!("--torques {none}"), "is not a torque above 0".into()));
         }
         let limits = [("max-pressure", words.max_pressure_mpa), ("max-edge-pressure", words.max_edge_pressure_mpa)];
         for (word, limit) in limits {
             if let Some(limit) = limit.filter(|limit| !(PRESSURES[0]..=PRESSURES[1]).contains(limit)) {
-                return Err(wrong(format!("--{word} {limit}"), "is no limit, 1 to 1000000 MPa".into()));
+                return Err(wrong(format!("--{word} {limit}"), "is not a limit, 1 to 1000000 MPa".into()));
             }
         }
         for (word, number, most) in [("evaluations", words.evaluations, EVALUATIONS[1]), ("front", words.front, FRONT)]

@@ -53,20 +53,20 @@ fn axis(word: &str) -> Result<(Vec<String>, AxisValues), String> {
     let at = word.find(['=', '~']).ok_or("it has neither `=` (each value) nor `~` (drawn)")?;
     let (key, rest) = word.split_at(at);
     let (drawn, values) = (rest.starts_with('~'), &rest[1..]);
-    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is no number", part.trim()));
+    let number = |part: &str| part.trim().parse::<f64>().map_err(|_| format!("`{}` is not a number", part.trim()));
     let numbers = |parts: &[&str]| parts.iter().map(|part| number(part)).collect::<Result<Vec<f64>, String>>();
     let parts: Vec<&str> = values.split(':').collect();
     let axis = match (drawn, &parts[..]) {
         (false, [list]) => {
             let values = numbers(&list.split(',').collect::<Vec<_>>())?;
             if let Some(bad) = values.iter().find(|x| !x.is_finite()) {
-                return Err(format!("`{bad}` is no value"));
+                return Err(format!("`{bad}` is not a value"));
             }
             Axis::Each(values)
         }
         (false, [from, to, count, scale @ ..]) => {
             let logarithmic = is_logarithmic(scale)?;
-            let wrong = || format!("`{}` is no number of values, 1 or more", count.trim());
+            let wrong = || format!("`{}` is not a number of values, 1 or more", count.trim());
             let count = count.trim().parse::<u32>().ok().filter(|n| *n > 0).ok_or_else(wrong)?;
             grid([number(from)?, number(to)?], count, logarithmic)?
         }

@@ -44,8 +44,8 @@ pub(super) fn keys<'a>(
     }
 }
 
-fn unfit<T>(part: &Part<'_, '_>, what: String, way_out: &str) -> Result<T, RexsError> {
-    Err(RexsError::Unfit { part: part.named(), what, way_out: way_out.into() })
+fn unfit<T>(part: &Part<'_, '_>, what: String, hint: &str) -> Result<T, RexsError> {
+    Err(RexsError::Unfit { part: part.named(), what, hint: hint.into() })
 }
 
 /// Whether a bearing takes the shaft's thrust along and against z; `None` where the file does not say.
@@ -91,8 +91,8 @@ fn rolling<'a>(model: &Model<'a>, part: &Part<'_, 'a>, sign: f64) -> Result<(Str
     let word = part.text("bearing_type").ok_or_else(|| missing("bearing_type"))?;
     let Some((_, kind)) = TYPES.iter().find(|(own, _)| *own == word) else {
         let known = TYPES.iter().map(|t| t.0).collect::<Vec<_>>().join(", ");
-        let way_out = format!("make it a `concept_bearing` with its stiffness; there are laws of {known}");
-        return unfit(part, format!("is a `{word}`, of which there is no law"), &way_out);
+        let hint = format!("make it a `concept_bearing` with its stiffness; there are laws of {known}");
+        return unfit(part, format!("is a `{word}`, of which there is no law"), &hint);
     };
     if part.text("radial_force_absorption") == Some("false") {
         return unfit(

@@ -70,7 +70,7 @@ pub enum RexsError {
         /// What cannot be taken.
         what: String,
         /// What to do about it.
-        way_out: String,
+        hint: String,
     },
     /// A number that every part of its kind has.
     #[error("{part} has no `{attribute}`")]
@@ -157,7 +157,7 @@ impl RexsError {
             Self::Case { found: 0, .. } => "leave `--load-case` out: the file has no load spectrum".into(),
             Self::Case { found, .. } => format!("give `--load-case` 1 to {found}"),
             Self::Internal { .. } => "give `--stage` of a stage of two external gears".into(),
-            Self::Unfit { way_out, .. } => way_out.clone(),
+            Self::Unfit { hint, .. } => hint.clone(),
             Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
             Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),
             Self::Teeth { .. } => "correct the file: half a tooth is no tooth".into(),

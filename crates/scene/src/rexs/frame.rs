@@ -66,8 +66,8 @@ pub(super) fn placed<'m, 'a>(
     let one = |(part, length): (&Part<'m, 'a>, &f64)| {
         let axis = axis_of(part)?;
         let unfit = |what: &str| {
-            let way_out = "a gearbox file has parallel shafts in one frame: take a pair alone with `--stage N`".into();
-            Err(RexsError::Unfit { part: part.named(), what: what.into(), way_out })
+            let hint = "a gearbox file has parallel shafts in one frame: take a pair alone with `--stage N`".into();
+            Err(RexsError::Unfit { part: part.named(), what: what.into(), hint })
         };
         let off = cross(axis, z);
         if dot(off, off).sqrt() > PARALLEL {
@@ -111,7 +111,7 @@ impl PlacedShaft<'_, '_> {
             return Err(RexsError::Unfit {
                 part: part.named(),
                 what: format!("stands at {b} mm of its shaft (`{coordinate}`) and at {a} mm (`support_vector`)"),
-                way_out: "correct one of both in the file".into(),
+                hint: "correct one of both in the file".into(),
             });
         }
         let own = by_place.or(stated);

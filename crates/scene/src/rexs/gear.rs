@@ -69,8 +69,8 @@ pub(super) fn external_teeth(part: &Part<'_, '_>) -> Result<u32, RexsError> {
         "cylindrical_gear" => {}
         other => {
             let what = format!("is a `{other}`");
-            let way_out = "only pairs of external cylindrical gears can be run".into();
-            return Err(RexsError::Unfit { part: part.named(), what, way_out });
+            let hint = "only pairs of external cylindrical gears can be run".into();
+            return Err(RexsError::Unfit { part: part.named(), what, hint });
         }
     }
     if value < 0.0 {
@@ -103,7 +103,7 @@ fn alike(
         (Some(left), Some(right)) if (left - right).abs() > 1e-9 * left.abs().max(1.0) => Err(RexsError::Unfit {
             part: gear.named(),
             what: format!("has a `{attribute}` of {left} on its left flanks and of {right} on its right ones"),
-            way_out: "only teeth of two like flanks can be run".into(),
+            hint: "only teeth of two like flanks can be run".into(),
         }),
         _ => Ok(first),
     }

@@ -63,18 +63,18 @@ pub fn read_gearbox(text: &str, stem: &str, case: usize) -> Result<Option<RexsGe
 
 /// That the file has nothing which a gearbox file cannot say and without which it would be another gearbox.
 fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
-    let way_out = || "take a pair alone with `--stage N`".to_owned();
+    let hint = || "take a pair alone with `--stage N`".to_owned();
     let bearings = model.relations("side").count();
     let most = [train.shafts.len(), train.stages.len(), train.loads.len(), bearings].into_iter().max().unwrap_or(0);
     if most > PARTS {
         let what =
             format!("has {most} shafts, bearings, stages or loads: a gearbox file has {PARTS} of a kind at the most");
-        return Err(RexsError::Unfit { part: "the file".into(), what, way_out: way_out() });
+        return Err(RexsError::Unfit { part: "the file".into(), what, hint: hint() });
     }
     for kind in ["bevel_stage", "worm_stage", "planetary_stage"] {
         if let Some(part) = model.parts(kind, "stage").next() {
             let what = format!("is a `{kind}`: a gearbox file has stages of cylindrical gears");
-            return Err(RexsError::Unfit { part: part.named(), what, way_out: way_out() });
+            return Err(RexsError::Unfit { part: part.named(), what, hint: hint() });
         }
     }
     for relation in model.relations("side") {
@@ -83,7 +83,7 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
         let own = reference(relation, "assembly").and_then(|id| model.part("coupling", id));
         if let Some(part) = own.filter(|_| is_coupling && !sides.is_empty()) {
             let what = "is a coupling on a shaft with gears: a gearbox file has none".into();
-            return Err(RexsError::Unfit { part: part.named(), what, way_out: way_out() });
+            return Err(RexsError::Unfit { part: part.named(), what, hint: hint() });
         }
     }
     for (i, relation) in stages(model).into_iter().enumerate() {
@@ -91,7 +91,7 @@ fn whole(model: &Model<'_>, train: &Train<'_, '_>) -> Result<(), RexsError> {
             let id = reference(relation, role).ok_or(RexsError::Gear { stage: i + 1, role })?;
             let part = model.part("gear", id).ok_or(RexsError::Gear { stage: i + 1, role })?;
             if !train.gears.contains_key(id) {
-                return Err(RexsError::Unfit { part: part.named(), what: "is on no shaft".into(), way_out: way_out() });
+                return Err(RexsError::Unfit { part: part.named(), what: "is on no shaft".into(), hint: hint() });
             }
         }
     }
@@ -120,8 +120,8 @@ impl RexsGearbox {
         }
         let lines: Vec<&str> = self.text.lines().take(line.number).collect();
         let part = lines.iter().rev().find_map(|l| l.strip_prefix(FROM))?;
-        let way_out = error.hint().map_or_else(String::new, |hint| format!(": {hint}"));
-        let way_out = format!("correct it in the file, or take it out{way_out}");
-        Some(RexsError::Unfit { part: format!("{part}:"), what: error.without_place(), way_out })
+        let hint = error.hint().map_or_else(String::new, |hint| format!(": {hint}"));
+        let hint = format!("correct it in the file, or take it out{hint}");
+        Some(RexsError::Unfit { part: format!("{part}:"), what: error.without_place(), hint })
     }
 }

@@ -179,7 +179,7 @@ fn centre_distance(own: Option<&Part<'_, '_>>, placed: Option<f64>) -> Result<Op
             what: format!(
                 "has a `center_distance` of {a} mm, and its gears stand {placed} mm apart (`support_vector`)"
             ),
-            way_out: "correct one of both in the file".into(),
+            hint: "correct one of both in the file".into(),
         });
     }
     Ok(stated.or_else(|| placed.map(|a| (a, "the places of the gears: `support_vector`".into()))))
@@ -279,9 +279,9 @@ impl RexsPair {
         let table = lines.iter().rev().find_map(|l| l.strip_prefix('[')?.strip_suffix(']'))?;
         let whole = format!("{table}.{key}");
         let (_, place) = self.places.iter().find(|(own, _)| *own == whole)?;
-        let way_out = error.hint().map_or_else(String::new, |hint| format!(": {hint}"));
-        let way_out = format!("correct it in the file, or take it out{way_out}");
-        Some(RexsError::Unfit { part: format!("{place}:"), what: error.without_place(), way_out })
+        let hint = error.hint().map_or_else(String::new, |hint| format!(": {hint}"));
+        let hint = format!("correct it in the file, or take it out{hint}");
+        Some(RexsError::Unfit { part: format!("{place}:"), what: error.without_place(), hint })
     }
 }
 

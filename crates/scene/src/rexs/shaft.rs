@@ -82,7 +82,7 @@ fn sections(model: &Model<'_>, shaft: &str) -> Result<Vec<Section>, RexsError> {
     let one = |relation: roxmltree::Node<'_, '_>| {
         let id = reference(relation, "part").unwrap_or_default().to_owned();
         let Some(part) = model.part("shaft section", &id) else {
-            let what = format!("has a section {id} that is no component");
+            let what = format!("has a section {id} that is not a component");
             return Err(RexsError::Sections { shaft: shaft.to_owned(), what });
         };
         let both = |begin, end, default: Option<f64>| -> Result<[f64; 2], RexsError> {
@@ -242,7 +242,7 @@ mod tests {
         assert!(with(">10<", ">35<").contains("wider outside than inside"));
         assert!(with("unit=\"mm\">60<", "unit=\"mm\">-60<").contains("without length"));
         assert!(with("N / mm^2", "GPa").contains("`elastic_modulus` is 210000 GPa"));
-        assert!(with("id=\"11\" type", "id=\"19\" type").contains("section 11 that is no component"));
+        assert!(with("id=\"11\" type", "id=\"19\" type").contains("section 11 that is not a component"));
         let none = MODEL.replace("hint=\"shaft_section\"", "hint=\"gear\"");
         assert_eq!(said(&none, Some("7")), "shaft 7 has no sections");
         for at in (0..MODEL.len() - 8).step_by(7) {

@@ -78,7 +78,7 @@ impl<'m, 'a> Train<'m, 'a> {
         let most = [shafts.len(), stages.len(), loads.len()].into_iter().max().unwrap_or(0);
         if most > MOST {
             let (part, what) = ("the file".into(), format!("has {most} shafts, stages or loads"));
-            return Err(RexsError::Unfit { part, what, way_out: format!("export {MOST} of a kind at the most") });
+            return Err(RexsError::Unfit { part, what, hint: format!("export {MOST} of a kind at the most") });
         }
         let mut train = Self { speeds: vec![None; shafts.len()], shafts, gears, stages, loads, signs };
         train.find_speeds()?;

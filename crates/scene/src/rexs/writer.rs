@@ -116,7 +116,7 @@ impl<'a> Writer<'_, 'a> {
                         part: part.named(),
                         what: "is between two shafts: bearings of a gearbox file are between a shaft and the housing"
                             .into(),
-                        way_out: "take a pair alone with `--stage N`".into(),
+                        hint: "take a pair alone with `--stage N`".into(),
                     });
                 }
             };
@@ -165,7 +165,7 @@ impl<'a> Writer<'_, 'a> {
                 return Err(RexsError::Unfit {
                     part: named,
                     what: format!("has a `center_distance` of {stated} mm, and its shafts are {distance} mm apart"),
-                    way_out: "correct one of both in the file".into(),
+                    hint: "correct one of both in the file".into(),
                 });
             }
             pair.starter.centre_distance_mm = Some(distance);
@@ -211,9 +211,8 @@ impl<'a> Writer<'_, 'a> {
 
     /// The input and the torques.
     pub(super) fn loads(&mut self) -> Result<Vec<String>, RexsError> {
-        let wrong = |part: String, what: &str, way_out: &str| {
-            Err(RexsError::Unfit { part, what: what.into(), way_out: way_out.into() })
-        };
+        let wrong =
+            |part: String, what: &str, hint: &str| Err(RexsError::Unfit { part, what: what.into(), hint: hint.into() });
         let file = || "the file".to_owned();
         if self.train.speeds.iter().any(Option::is_none) {
             return wrong(

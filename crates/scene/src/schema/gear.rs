@@ -8,16 +8,17 @@ use crate::table::{INF, Table};
 table! {
     /// `[pinion]`
     GEAR, RawGear: "gear 1; the wheel has the same keys", needed ["teeth", "helix_angle_deg"]; {
-        teeth: bare_whole(5, 2000), "number of teeth";
-        helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; default: of the wheel the pinion's, other hand. Stated for the wheel it must agree";
+        teeth: signed_whole(5, 2000), "number of teeth, negative of an internal gear (ISO 21771: z = -93). The wheel alone may be one; its diameters and the centre distance may then be given with the standard's sign or without, its profile shift has that of the standard, minus that of handbooks with z > 0";
+        helix_angle_deg: bare(-60.0, 60.0), "helix angle at the reference cylinder, degrees, right hand positive; default: of the wheel the pinion's, other hand, of an internal gear the same hand. Stated for the wheel it must agree";
         face_width_mm: bare(0.01, 1e4), "the gear's own face width about its own mid-face, mm; default: `face_width_mm` of `[pair]`. Where both gears state theirs, `[pair]` needs none";
-        bore_diameter_mm: bare(1e-3, INF), "diameter of the bore, mm, below the reference diameter; default: that of the `mesh`; without one 55 % of the reference diameter, or half the root diameter where that leaves no rim. Stated, it must be the mesh's within a thousandth";
+        bore_diameter_mm: bare(1e-3, INF), "diameter of the bore, mm, below the reference diameter; default: that of the `mesh`; without one 55 % of the reference diameter, or half the root diameter where that leaves no rim. Stated, it must be the mesh's within a thousandth. Of an internal gear its outside, which holds it, above the root diameter; default there: the root diameter and eight modules";
         profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient x";
         tip_diameter_mm: bare(0.0, INF), "tip diameter, mm, 0.5 to 2 reference diameters; default: from addendum and profile shift";
         tip_edge_radius_mm: number(0.0, INF, 0.0), "radius of the arc that rounds the tip edges, mm, at most a quarter of the module; 0: sharp. Slices see it, the mesh does not";
         thickness_allowance_mm: number(0.0, INF, 0.0), "thinning of the tooth in the normal section, mm, at most half the module; this gear's own";
-        pitch_errors_um: numbers(), "cumulative pitch (index) deviation of each tooth, um, -1000 .. 1000, tooth 0 first. Arc on the reference circle, positive where the tooth as a whole is too far counter-clockwise seen from +z, the direction in which teeth are numbered";
+        pitch_errors_um: numbers(), "cumulative pitch (index) deviation of each tooth, um, -1000 .. 1000, tooth 0 first. Arc on the reference circle, positive where the tooth as a whole is too far counter-clockwise seen from +z, the direction in which teeth are numbered (of an internal gear clockwise)";
         pitch_errors_file: text(), "file of them. Numbers in um, separated by commas, semicolons or blanks; # begins a comment";
+        shaper: table(SHAPER: RawShaper);
         mesh: text(), "Gmsh mesh file of the gear, in place of the built-in mesher";
         mesher: table(MESHER: RawMesher);
         groups: always(GROUPS: RawGroups);
@@ -32,6 +33,15 @@ table! {
 
 /// `[wheel]`
 pub(super) static WHEEL: Table = Table { about: "gear 2", keys: GEAR.keys, needed: &["teeth"] };
+
+table! {
+    /// `[wheel.shaper]`
+    SHAPER, RawShaper: "the shaper cutter that makes an internal gear: its root fillets, and what it takes of its tips"; {
+        teeth: bare_whole(5, 2000), "number of teeth z_0; default: a third of the ring's, or as many more as it takes to make the ring's tips without interference";
+        profile_shift: number(-1.5, 2.0, 0.0), "profile shift coefficient x_0";
+        tip_rounding_coefficient: bare(1e-3, 2.0), "radius of its rounded tip edges over the module, a circle in the transverse section; default: `root_radius_coefficient` of `[pair]`, or the largest that the cutter has room for";
+    }
+}
 
 table! {
     /// `[pinion.mesher]`
@@ -50,10 +60,10 @@ table! {
     /// `[pinion.groups]`
     GROUPS, RawGroups: "the mesh's own names of the parts of the gear; {k} stands for the tooth number"; {
         bore: text(), "the bore; default: bore";
-        flank_left: text(), "counter-clockwise side of each tooth, seen from +z; default: flank_left_{k}";
-        flank_right: text(), "clockwise side; default: flank_right_{k}";
-        cut_0: text(), "clockwise cut face of a sector; default: cut_0";
-        cut_1: text(), "counter-clockwise cut face; default: cut_1";
+        flank_left: text(), "counter-clockwise side of each tooth, seen from +z, of an internal gear the clockwise side; default: flank_left_{k}";
+        flank_right: text(), "the other side; default: flank_right_{k}";
+        cut_0: text(), "cut face of a sector towards the tooth before: the clockwise one, of an internal gear the other one; default: cut_0";
+        cut_1: text(), "cut face towards the next tooth; default: cut_1";
     }
 }
 

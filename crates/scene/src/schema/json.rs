@@ -88,6 +88,11 @@ fn property(key: &Key) -> Value {
             let high = (*high < u32::MAX).then(|| Value::from(*high));
             ranged("integer", Some(Value::from(*low)), high, default.map(Value::from))
         }
+        ValueKind::SignedWhole { low, high } => {
+            let [low, high] = [*low, *high].map(i64::from);
+            let ends = [[low, high], [-high, -low]].map(|[a, b]| json!({ "minimum": a, "maximum": b }));
+            json!({ "type": "integer", "anyOf": ends })
+        }
         ValueKind::Word { choices, first_is_default } => {
             let mut word = json!({ "type": "string", "enum": choices });
             if *first_is_default {

@@ -9,6 +9,7 @@
 //! | `accuracy` | headline numbers that an accuracy may be asked of |
 //! | `motion` | bodies, bearings, torques, integration, analyses in time |
 //! | `ladder` | cheaper models |
+//! | `rating` | whether the pair will hold |
 //! | `json` | all of them as JSON Schema |
 //!
 //! An enum whose values are words stands below the first row that takes them. Nothing here knows the checked scene.
@@ -19,12 +20,13 @@ mod gear;
 mod json;
 mod ladder;
 mod motion;
+mod rating;
 mod scene;
 
 use crate::table::{Key, ValueKind};
 
 pub use accuracy::Quantity;
-pub(crate) use accuracy::RawAccuracy;
+pub(crate) use accuracy::{Asked, GEARBOX_ACCURACY, RawGearboxAccuracy};
 pub use flank::FlankScene;
 pub(crate) use flank::{RawFlank, RawModification};
 pub use gear::Coupling;
@@ -38,6 +40,8 @@ pub use motion::{
     Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, DriveBy, Integration, RampScene, Run, SteadyBy,
     SweepWay,
 };
+pub use rating::RatingEdition;
+pub(crate) use rating::*;
 pub(crate) use scene::*;
 pub use scene::{FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, Reduction};
 
@@ -131,7 +135,7 @@ mod tests {
             for key in table.keys {
                 let (wrong, expected) = match key.kind {
                     ValueKind::Number { .. } => ("\"x\"", "must be a number"),
-                    ValueKind::Whole { .. } => ("0.5", "must be a whole number"),
+                    ValueKind::Whole { .. } | ValueKind::SignedWhole { .. } => ("0.5", "must be a whole number"),
                     ValueKind::Word { .. } | ValueKind::Text => ("1", "must be a text in quotes"),
                     ValueKind::Switch { .. } => ("1", "must be true or false"),
                     ValueKind::Words { .. }

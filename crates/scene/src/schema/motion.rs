@@ -1,5 +1,7 @@
 //! Motion in time: bodies, bearings, torques, modes, integration, analyses.
 
+use integrate::Scheme;
+
 table! {
     /// `[pinion.body]`
     BODY, RawBody: "rigid body of the gear (analyses in time); of a mesh with a part of the teeth, mass and inertia are taken times teeth over meshed teeth"; {
@@ -167,6 +169,19 @@ choices! {
         DormandPrince = "dormand-prince",
         /// Runge-Kutta's classical method of fourth order, explicit.
         RungeKutta4 = "rk4",
+    }
+}
+
+impl Integration {
+    /// The method, generalised-alpha with a spectral radius at infinite frequency (default 0.9).
+    pub fn scheme(self, spectral_radius: Option<f64>) -> Scheme {
+        match self {
+            Self::Energy => Scheme::Energy,
+            Self::GeneralisedAlpha => Scheme::GeneralisedAlpha { rho: spectral_radius.unwrap_or(0.9) },
+            Self::Newmark => Scheme::Newmark,
+            Self::DormandPrince => Scheme::DormandPrince,
+            Self::RungeKutta4 => Scheme::RungeKutta4,
+        }
     }
 }
 

@@ -6,6 +6,7 @@ use super::ladder::{
     IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
 };
 use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};
+use super::rating::{RATING, RawRating};
 use crate::table::INF;
 use geometry::{Driver, Sense};
 
@@ -30,6 +31,7 @@ table! {
         lumped12: table(LUMPED12: RawLumped12);
         impact: table(IMPACT: RawImpact);
         shaft18: table(SHAFT18: RawShaft18);
+        rating: table(RATING: RawRating);
         output: always(OUTPUT: RawOutput);
     }
 }
@@ -41,7 +43,7 @@ table! {
         normal_pressure_angle_deg: number(5.0, 40.0, 20.0), "normal pressure angle, degrees";
         face_width_mm: bare(0.01, 1e4), "face width of gears that state none of their own, mm; left out where both do";
         mid_face_offset_mm: bare(-1e4, 1e4), "height of the wheel's mid-face over the pinion's along +z, mm; default: 0, in a gearbox where the shafts have the gears. The faces must overlap";
-        centre_distance_mm: bare(0.01, 1e5), "working centre distance, mm; default: the one that follows from the profile shifts";
+        centre_distance_mm: bare(0.01, 1e5), "working centre distance, mm, with an internal gear negative or without sign; default: the one that follows from the profile shifts";
         addendum_coefficient: number(0.1, 2.0, 1.0), "addendum of the basic rack over the normal module";
         dedendum_coefficient: number(0.1, 2.5, 1.25), "dedendum of the basic rack over the normal module";
         root_radius_coefficient: number(0.0, 1.0, 0.38), "tip radius of the basic rack over the normal module. Where it is not stated and the rack has no room for 0.38, the largest that fits is taken (0.3178 at 25 degrees)";

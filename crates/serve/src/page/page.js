@@ -159,7 +159,7 @@
     });
     $("glance").replaceChildren(...boxes);
   };
-  const warn = warnings => $("warnings").replaceChildren(...warnings.map(words => Object.assign(document.createElement("p"), { className: "warning", textContent: words })));
+  const warn = remarks => $("remarks").replaceChildren(...remarks.map(words => Object.assign(document.createElement("p"), { className: "warning", textContent: words })));
 
   const inSpace = view => { if (window.report.view) window.report.view.show(view); else if (!window.report.failed) window.report.open(view, $("stage")); };
 
@@ -191,7 +191,7 @@
     $("pattern").hidden = result.maps.length === 0;
     drawIn($("pattern"), () => result.maps.forEach((data, k) => chart($("pattern"), `map ${k}`, data, true)));
     numbers(result.glance);
-    warn(result.warnings);
+    warn(result.remarks);
     $("name").textContent = result.name;
   };
 

@@ -41,7 +41,7 @@ pub(crate) fn changed(
             typed => Some(typed.parse().unwrap_or_else(|_| Value::from(typed))),
         };
         if !put(document.as_table_mut(), &parts, value) {
-            let message = format!("`{key}` cannot be set: what stands before a dot is no table in this scene");
+            let message = format!("`{key}` cannot be set: what stands before a dot is not a table in this scene");
             return Err(Fault::new(message, "change it in the text of the scene").about(key));
         }
     }

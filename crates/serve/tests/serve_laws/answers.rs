@@ -12,7 +12,7 @@ use crate::served::{ISO, Served, with_contact};
 fn headline_of_a_run(text: &str) -> Value {
     let scene = Scene::parse(text, "a.toml".as_ref()).unwrap();
     let solved = StaticAnalysis::new(&scene).solve().unwrap();
-    let settled = solve_at_rest(&scene, &SharedModels::new(&NoCache), RestRequest::to_the_end(WarningsAtRest::Left))
+    let settled = solve_at_rest(&scene, &SharedModels::new(&NoCache), RestRequest::to_the_end(WarningsAtRest::Skipped))
         .unwrap()
         .scene;
     let headline = static_headline(&settled, &solved.history).unwrap();
@@ -51,10 +51,10 @@ fn warnings_are_those_of_a_run() {
     let text = with_contact();
     let served = Served::new(&text);
     let said: Vec<String> =
-        serde_json::from_value(served.answer(&text, json!({}))["result"]["warnings"].clone()).unwrap();
+        serde_json::from_value(served.answer(&text, json!({}))["result"]["remarks"].clone()).unwrap();
     let run = StaticAnalysis::new(&Scene::parse(&text, "a.toml".as_ref()).unwrap()).solve().unwrap();
-    assert!(run.history.warnings.iter().any(|w| w.code() == "few_face_elements"), "{:?}", run.history.warnings);
-    assert_eq!(said, run.history.warnings.iter().map(ToString::to_string).collect::<Vec<_>>());
+    assert!(run.history.remarks.iter().any(|w| w.code() == "few_face_elements"), "{:?}", run.history.remarks);
+    assert_eq!(said, run.history.remarks.iter().map(ToString::to_string).collect::<Vec<_>>());
 }
 
 #[test]

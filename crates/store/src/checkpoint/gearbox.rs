@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use analysis::{SinkResult, gearbox_at_rest::GearboxSink};
+use analysis::{SinkResult, gearbox::GearboxSink};
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 use serde::{Deserialize, Serialize};
 
 use super::{
     CheckpointError, Checkpoints,
     growing::{Growing, Kept, digested},
-    store::{GEARBOX_ROWS, Stored, StoredState},
+    store::{FARTHEST_TOOTH, GEARBOX_ROWS, Stored, StoredState},
 };
 use crate::StoreError;
 
@@ -31,11 +31,14 @@ impl StoredState for GearboxState {
 
     fn consistent(&self) -> Result<(), &'static str> {
         let crossings = self.motion.counts.crossings.len();
-        if self.motion.is_consistent() && crossings == 2 * self.motion.memory.len() {
-            Ok(())
-        } else {
-            Err("velocities of other coordinates, or counts of other meshes")
+        if !(self.motion.is_consistent() && crossings == 2 * self.motion.memory.len()) {
+            return Err("velocities of other coordinates, or counts of other meshes");
         }
+        let windows = self.motion.memory.iter().filter_map(|mesh| mesh.windows);
+        if windows.into_iter().any(|own| own.farthest_tooth() > FARTHEST_TOOTH) {
+            return Err("a window beyond all cycles");
+        }
+        Ok(())
     }
 }
 

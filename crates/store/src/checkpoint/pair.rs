@@ -11,13 +11,11 @@ use super::{
     CheckpointError,
     growing::Kept,
     rows::{ENERGY_FILE, HISTORY},
-    store::{Stored, StoredState, foreign},
+    store::{FARTHEST_TOOTH, Stored, StoredState, foreign},
 };
 
 /// Teeth of a window at the most; scenes ask for 25 or fewer.
 const WIDEST: usize = 1000;
-/// Farthest pair of a window: mesh cycles are counted exactly up to here.
-const FARTHEST: u64 = 1 << 53;
 
 /// State of a pair's motion.
 #[derive(Debug, Clone, Serialize, Deserialize)]
@@ -64,9 +62,7 @@ impl StoredState for PairState {
         if !self.motion.is_consistent() {
             return Err("velocities of other coordinates");
         }
-        let MechanismState { driving, coast, .. } = &self.motion.memory;
-        let sides = [Some(driving), coast.as_ref()];
-        if sides.into_iter().flatten().any(|side| side.first.unsigned_abs() > FARTHEST) {
+        if self.motion.memory.flanks.farthest_tooth() > FARTHEST_TOOTH {
             return Err("a window beyond all cycles");
         }
         Ok(())

@@ -25,7 +25,9 @@ const IN_USE: &str = "in_use";
 /// What is in that file.
 const HEADING: &str = "ale-gear keeps checkpoints here\n";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
+/// Farthest pair of a window: mesh cycles are counted exactly up to here.
+pub(super) const FARTHEST_TOOTH: u64 = 1 << 53;
 
 /// Where checkpoints go, and what they are of.
 #[derive(Debug, Clone, Copy)]
@@ -106,8 +108,8 @@ impl<S: StoredState> Stored<S> {
         if writer.kind != S::KIND {
             return Err(foreign(document, "another kind of run"));
         }
-        let stored: Self = serde_json::from_str(state).map_err(|e| refuse(format!("is no checkpoint: {e}")))?;
-        stored.state.consistent().map_err(|what| refuse(format!("is no checkpoint: {what}")))?;
+        let stored: Self = serde_json::from_str(state).map_err(|e| refuse(format!("is not a checkpoint: {e}")))?;
+        stored.state.consistent().map_err(|what| refuse(format!("is not a checkpoint: {what}")))?;
         Ok(stored)
     }
 

@@ -65,7 +65,7 @@ impl Cache {
         take_away_left_overs(folder, &Kind::FILE);
         // A link or a pipe of that name was put there by somebody else, for whatever purpose.
         if fs::symlink_metadata(file).is_ok_and(|found| !found.is_file()) {
-            return Err(std::io::Error::other("is no regular file"));
+            return Err(std::io::Error::other("is not a regular file"));
         }
         write_file(file, bytes)?;
         make_room(folder, file);
@@ -138,7 +138,7 @@ fn map_digest(key: &str, text: &str) -> String {
 
 /// The maps of a key that [`map_bytes`] wrote; else what is wrong.
 fn maps_from(bytes: &[u8], key: &MapKey) -> Result<Vec<ContactMap>, &'static str> {
-    const NO_MAPS: &str = "is no file of maps of this version";
+    const NO_MAPS: &str = "is not a file of maps of this version";
     let text = std::str::from_utf8(bytes).map_err(|_| NO_MAPS)?;
     let (heading, rest) = text.split_once('\n').ok_or(NO_MAPS)?;
     if heading != format!("{MAP_HEADING} {MAP_VERSION}") {

@@ -59,7 +59,7 @@ impl KeptCases {
                 let ours = fs::symlink_metadata(&path).is_ok_and(|found| found.is_dir())
                     && fs::symlink_metadata(&at).is_ok_and(|found| found.is_file());
                 if !ours && names(&path).ok().is_none_or(|all| !all.is_empty()) {
-                    return Err(foreign(format!("{} is no folder of cases", path.display())));
+                    return Err(foreign(format!("{} is not a folder of cases", path.display())));
                 }
             }
             made => made.map_err(failed)?,
@@ -69,12 +69,12 @@ impl KeptCases {
         if of != digest {
             // One that was cut short is a beginning of a digest.
             if of.len() > DIGEST || !of.bytes().all(|b| b.is_ascii_hexdigit()) {
-                return Err(foreign(format!("{} is no folder of cases", path.display())));
+                return Err(foreign(format!("{} is not a folder of cases", path.display())));
             }
             take_away_left_overs(&path, &RESULT);
             for case in names(&path).map_err(failed)?.iter().filter(|name| *name != MARK) {
                 remove_result(&path.join(case)).map_err(|e| {
-                    foreign(format!("{} holds `{case}`, which is no case of a study: {e}", path.display()))
+                    foreign(format!("{} holds `{case}`, which is not a case of a study: {e}", path.display()))
                 })?;
             }
             mark.file().set_len(0).and_then(|()| mark.file().write_all(digest.as_bytes())).map_err(failed)?;

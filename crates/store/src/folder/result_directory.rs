@@ -50,7 +50,7 @@ impl ResultDirectory {
                 first_stranger(&place).map_err(|e| complaint(e.to_string(), "give another folder"))?
             {
                 return Err(complaint(
-                    format!("holds `{stranger}`, which is no result file"),
+                    format!("holds `{stranger}`, which is not a result file"),
                     "a result has a summary.json that lists its files, and nothing else is replaced: give a new folder, or move that file away",
                 ));
             }
@@ -181,6 +181,6 @@ mod tests {
         let scratch = tempfile::tempdir().unwrap();
         fs::write(scratch.path().join("thesis.tex"), "years of work").unwrap();
         let error = ResultDirectory::create(scratch.path()).unwrap_err();
-        assert!(error.to_string().ends_with("holds `thesis.tex`, which is no result file"), "{error}");
+        assert!(error.to_string().ends_with("holds `thesis.tex`, which is not a result file"), "{error}");
     }
 }

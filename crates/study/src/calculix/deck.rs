@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use fem::Material;
 use geometry::Side;
-use mesh::{BoreCoupling, GearMesh};
+use mesh::{BoreCoupling, MeshedGear};
 
 use super::{
     CalculixError, element_type,
@@ -15,7 +15,7 @@ use super::{
 #[derive(Debug, Clone, Copy)]
 pub struct Body<'a> {
     /// The meshed gear, in its own frame.
-    pub gear: &'a GearMesh,
+    pub gear: &'a MeshedGear,
     /// Its material.
     pub material: &'a Material,
     /// Turn about its own axis, rad, +z.
@@ -55,9 +55,9 @@ impl Deck<'_> {
         [nodes + 1, nodes + 2]
     }
 
-    /// Sense of the load on the driven gear about +z, in which it also yields.
+    /// Sense of the load on the driven gear about +z, in which it also yields; the other one of a ring, which turns as its pinion does.
     pub(super) fn sense(&self) -> f64 {
-        self.side.sign()
+        self.bodies[self.driven].gear.numbering_sign() * self.side.sign()
     }
 
     /// The whole deck; node and element numbers count through both gears from 1.

@@ -1,9 +1,10 @@
 //! Sectors of five teeth of the default pair.
 
 use fem::Material;
-use geometry::{Gear, GearData, GearPair, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions, generate};
+use geometry::{GearPair, Side};
+use mesh::{Extent, MeshedGear, StructuredOptions};
 use study::calculix::{Body, Deck};
+use testing::{default_pair, structured};
 
 /// N mm.
 pub const TORQUE: f64 = 150e3;
@@ -13,13 +14,11 @@ pub const PAIRS: [[u32; 2]; 3] = [[29, 1], [0, 0], [1, 29]];
 /// Both gears with their meshes.
 pub struct Pair {
     pub pair: GearPair,
-    pub gears: [GearMesh; 2],
+    pub gears: [MeshedGear; 2],
 }
 
 pub fn pair(order: u32) -> Pair {
-    let data = GearData::default();
-    let wheel = GearData { helix_angle: -data.helix_angle, ..data.clone() };
-    let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
+    let pair = default_pair();
     let options = StructuredOptions {
         order,
         elements_profile: 3,
@@ -29,9 +28,7 @@ pub fn pair(order: u32) -> Pair {
         elements_rim: 1,
         extent: Extent::Sector(5),
     };
-    let gears = [&pair.pinion, &pair.wheel].map(|gear| {
-        GearMesh::from_groups(generate(gear, &options).unwrap(), &GroupNames::default(), gear.teeth()).unwrap()
-    });
+    let gears = structured(&pair, &options);
     Pair { pair, gears }
 }
 

@@ -2,7 +2,7 @@
 
 use crate::calculix_pair::{PAIRS, pair};
 use geometry::Side;
-use mesh::GearMesh;
+use mesh::MeshedGear;
 use study::calculix::{Calculix, CalculixError, Deck};
 
 /// Lines of every block of the deck that begins with `keyword`, up to the next keyword.
@@ -24,7 +24,7 @@ fn a_deck_has_every_node_element_and_face() {
     for order in [1, 2] {
         let model = pair(order);
         let text = model.deck().text().unwrap();
-        let sum = |count: fn(&GearMesh) -> usize| model.gears.iter().map(count).sum::<usize>();
+        let sum = |count: fn(&MeshedGear) -> usize| model.gears.iter().map(count).sum::<usize>();
         let nodes = sum(|g| g.mesh().nodes.len());
         // Two more for the rigid bore and its rotation.
         assert_eq!(block_lines(&text, "*NODE, NSET="), nodes + 2, "order {order}");

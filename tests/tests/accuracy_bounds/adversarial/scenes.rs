@@ -71,7 +71,7 @@ fn of_meshes(helix_deg: f64) -> SceneBuilder {
         .set("pinion.thickness_allowance_mm", 0.05)
         .set("wheel.thickness_allowance_mm", 0.05)
         .torque_nm(150.0)
-        .relative_to(&verification::meshes_folder())
+        .relative_to(&testing::meshes_folder())
 }
 
 /// Mean and peak to peak have to lie inside of their bounds.

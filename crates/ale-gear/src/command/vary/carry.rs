@@ -91,7 +91,7 @@ const CYCLES: u32 = 64;
 /// Settling cycles where nobody says.
 const SETTLE: u32 = 400;
 /// Stretches of the exponent likewise.
-const STRETCHES: u32 = 200;
+const LYAPUNOV_INTERVALS: u32 = 200;
 /// Most values, and most points of a section.
 const MOST: u32 = 100_000;
 
@@ -207,7 +207,7 @@ impl VaryArgs {
             every: words.once().every(),
             quantity,
             points: words.cycles.unwrap_or(CYCLES),
-            stretches: words.lyapunov.unwrap_or(if impact { 0 } else { STRETCHES }),
+            stretches: words.lyapunov.unwrap_or(if impact { 0 } else { LYAPUNOV_INTERVALS }),
         };
         for (_, scene) in &scenes {
             let every = options.every.cycles(scene);

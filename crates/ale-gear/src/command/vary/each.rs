@@ -24,7 +24,7 @@ use crate::{
     output::ResultDirectory,
     phases::Phases,
     scene::Setting,
-    talk::{self, Loudness},
+    talk::{self, Verbosity},
 };
 
 /// Torques of a Harris map over the scene's: the first, the last, how many.
@@ -88,7 +88,7 @@ impl VaryArgs {
         let machine = sliced(document.machine(settings)?);
         if let Some(all) = columns_of(&machine).filter(|all| !all.iter().any(|name| name == column)) {
             let names: Vec<&str> = all.iter().map(String::as_str).collect();
-            let what = format_args!("`--of {column}` is no column of {}", rows_file(&machine));
+            let what = format_args!("`--of {column}` is not a column of {}", rows_file(&machine));
             return Err(CommandError::input(what, column_advice(column, &names)));
         }
         Ok(TAKES.map(|take| PlanOutput::Column { column: column.clone(), take }).into())
@@ -188,6 +188,6 @@ impl Observer for Notes {
     fn end(&mut self) {}
 
     fn note(&mut self, message: String) {
-        talk::say(Loudness::Bars, || format!("ale-gear: {message}"));
+        talk::say(Verbosity::Bars, || format!("ale-gear: {message}"));
     }
 }

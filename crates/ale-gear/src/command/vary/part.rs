@@ -84,7 +84,7 @@ impl VaryArgs {
             Ok(part) => return refuse(format!("has the cases {}..{} of this plan", part.range.start, part.range.end)),
             Err(PartError::AnotherPlan { .. }) => return refuse("has cases of another plan or version".to_owned()),
             Err(_) if !Part::may_replace(out) => {
-                return refuse("is there, and is no file of `ale-gear vary --cases`".to_owned());
+                return refuse("exists and is not a file of `ale-gear vary --cases`".to_owned());
             }
             Err(_) => {}
         }

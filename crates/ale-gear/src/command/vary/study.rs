@@ -69,9 +69,9 @@ impl VaryArgs {
                 return Err(e.into());
             }
         };
-        let mut warnings = study_warnings(&study, &runs, &findings);
+        let mut remarks = study_warnings(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
-            warnings.push(said);
+            remarks.push(said);
             None
         });
         let of = StudyResult {
@@ -79,7 +79,7 @@ impl VaryArgs {
             runs: &runs,
             findings: &findings,
             speed_up: speed_up.as_ref(),
-            warnings: &warnings,
+            remarks: &remarks,
             reports,
         };
         let answer = study_answer(of, phases.cost());

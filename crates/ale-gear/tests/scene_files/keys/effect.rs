@@ -53,6 +53,10 @@ fn scene(base: Base) -> String {
         Base::Lumped12 => seed("003"),
         Base::Shaft18 => seed("002"),
         Base::Impact => seed("001"),
+        Base::Ring => format!(
+            "[pinion]\nteeth = 36\nhelix_angle_deg = 0.0\n{mesher}[wheel]\nteeth = -93\ntip_diameter_mm = -182.5\n{mesher}[pair]\nnormal_module_mm = 2.0\n\
+             face_width_mm = 15.0\n[operation]\ntorque_nm = 100.0\n[analysis]\npositions_per_cycle = 2\n{few_slices}"
+        ),
         Base::Flanks => {
             ISO_SCENE.replace("model = \"iso\"\n", "model = \"impact\"\ncycles = 1\npositions_per_cycle = 2\n")
                 + few_slices
@@ -117,6 +121,14 @@ fn summary(text: &str) -> String {
 fn prepared() -> Scratch {
     let grid = "diameter_mm -9 0 9\n92 -5 0 -4\n96 -3 0 -2\n101 -6 -4 -5\n";
     let mut scratch = Scratch::new().file("grid.csv", grid).file("pitch.csv", "4\n".repeat(15) + &"-3\n".repeat(15));
+    scratch = scratch.file("loads.csv", "torque_nm,speed_rpm,share\n150,1000,0.5\n50,1000,0.5\n");
+    let table = |name: &str, old: &str, new: &str| {
+        let file = repository().join("crates/rating/data").join(name);
+        std::fs::read_to_string(file).unwrap().replace(old, new)
+    };
+    scratch = scratch.file("oils.toml", table("lubricants.toml", "_40c_mm2_per_s = 220.0", "_40c_mm2_per_s = 260.0"));
+    scratch = scratch
+        .file("steels.toml", table("materials.toml", "contact_limit_mpa = 1500.0", "contact_limit_mpa = 1550.0"));
     for base in [
         Base::Iso,
         Base::Reduced,
@@ -127,6 +139,7 @@ fn prepared() -> Scratch {
         Base::Shaft18,
         Base::Impact,
         Base::Flanks,
+        Base::Ring,
     ] {
         scratch = scratch.file(&format!("{base:?}.toml"), scene(base));
     }

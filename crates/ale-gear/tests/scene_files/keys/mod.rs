@@ -93,7 +93,8 @@ fn wrong_scenes_do_not_fit_the_schema() {
         assert!(error.contains(said), "{new}: {error}");
     };
     wrong("face_width_mm", "face_widht_mm", "face_widht_mm");
-    wrong("teeth = 30", "teeth = 3", "minimum");
+    // Of the ranges of external and internal gears the last one is told.
+    wrong("teeth = 30", "teeth = 3", "maximum");
     wrong("teeth = 30", "teeth = 30.5", "integer");
     wrong("torque_nm = 150.0", "torque_nm = \"150\"", "number");
     wrong("model = \"iso\"", "model = \"isu\"", "enum");

@@ -20,13 +20,15 @@ pub enum Base {
     Impact,
     /// Rigid gears on ground flanks, pressed on one side and then on the other.
     Flanks,
+    /// A pinion in a ring, on tiny meshes.
+    Ring,
 }
 
 /// Key, case, further keys that the case wants (`;` between them), the other value. `~` is the table that the key
 /// stands in, with its dot.
 pub type Row = (&'static str, Base, &'static str, &'static str);
 
-use Base::{Files, Flanks, Impact, Iso, Lumped8, Lumped12, Modes, Motion, Reduced, Shaft18};
+use Base::{Files, Flanks, Impact, Iso, Lumped8, Lumped12, Modes, Motion, Reduced, Ring, Shaft18};
 
 /// Keys of a flank.
 const FLANK: &[Row] = &[
@@ -55,6 +57,10 @@ const FLANK: &[Row] = &[
 /// Keys of a material.
 const MATERIAL: &[Row] =
     &[("young_mpa", Iso, "", "1.0e5"), ("poisson", Reduced, "", "0.25"), ("density_kg_m3", Motion, "", "2700")];
+
+/// Keys of the cutter of an internal gear; an external one refuses them.
+const SHAPER: &[Row] =
+    &[("teeth", Ring, "", "25"), ("profile_shift", Ring, "", "0.1"), ("tip_rounding_coefficient", Ring, "", "0.1")];
 
 /// Keys of a torque beside its mean.
 const TORQUE: &[Row] = &[
@@ -298,14 +304,50 @@ const SCENE: &[Row] = &[
     ("output.derivatives", Reduced, "", "[\"pinion.modification.lead_crowning_um\"]"),
 ];
 
+/// A whole rating of the small pair.
+const RATED: &str = "rating.life_h=10000; rating.application_factor=1.25; rating.face_load_factor=1.2; rating.tolerance_class=6; rating.lubricant=mineral VG 220; rating.pinion.material=18CrNiMo7-6; rating.pinion.flank_roughness_rz_um=4; rating.pinion.root_roughness_rz_um=20; rating.wheel.material=18CrNiMo7-6; rating.wheel.flank_roughness_rz_um=4; rating.wheel.root_roughness_rz_um=20";
+
+/// Keys of a rating.
+const RATING: &[Row] = &[
+    ("edition", Iso, "", "iso-2006"),
+    ("life_h", Iso, "", "20000"),
+    ("application_factor", Iso, "", "1.5"),
+    ("face_load_factor", Iso, "", "1.3"),
+    ("dynamic_factor", Iso, "", "1.4"),
+    ("transverse_load_factor", Iso, "", "1.3"),
+    ("tolerance_class", Iso, "", "8"),
+    ("base_pitch_deviation_um", Iso, "", "60"),
+    ("profile_form_deviation_um", Iso, "", "80"),
+    ("tip_relief_um", Iso, "rating.tolerance_class=5", "20"),
+    ("gear_blank_factor", Iso, "", "0.8"),
+    ("limited_pitting", Iso, "", "true"),
+    ("long_life_factor", Iso, "", "1.0"),
+    ("spectrum", Iso, "", "loads.csv"),
+    ("lubricant", Iso, "", "mineral VG 460"),
+    ("lubricants", Iso, "", "oils.toml"),
+    ("materials", Iso, "", "steels.toml"),
+];
+
+/// Keys of a rated gear.
+const RATED_GEAR: &[Row] = &[
+    ("material", Iso, "", "42CrMo4 300 HV"),
+    ("flank_roughness_rz_um", Iso, "", "12"),
+    ("root_roughness_rz_um", Iso, "", "60"),
+    ("reversed_load_ratio", Iso, "", "1"),
+    ("meshes_per_turn", Iso, "", "2"),
+];
+
 /// Every table with its rows, and words that all of them want.
 pub fn tables() -> Vec<(String, &'static str, &'static [Row])> {
     let once =
         [("", "", SCENE), ("material.", "", MATERIAL), ("drive.", "drive.by=torque", TORQUE), ("load.", "", TORQUE)];
     let mut all: Vec<_> = once.map(|(table, words, rows)| (table.to_owned(), words, rows)).into();
+    all.push(("rating.".to_owned(), RATED, RATING));
     for gear in ["pinion.", "wheel."] {
         all.push((gear.to_owned(), "", GEAR));
         all.push((format!("{gear}material."), "", MATERIAL));
+        all.push((format!("{gear}shaper."), "", SHAPER));
+        all.push((format!("rating.{gear}"), RATED, RATED_GEAR));
         all.extend(["", "drive.", "coast."].map(|side| (format!("{gear}modification.{side}"), "", FLANK)));
     }
     all

@@ -7,7 +7,8 @@
 //!
 //! | file | question |
 //! |---|---|
-//! | `analysis` | which model is exact enough? |
+//! | `analysis` | which bounds does a motion get? |
+//! | `ladder` | which model is exact enough? |
 //! | `model`, `model_scene` | which models are there, and what do they want of a scene? |
 //! | `at_rest` | what does the pair at rest say of its motion? |
 //! | `run` | what does a model answer? |
@@ -19,6 +20,7 @@ mod analysis;
 mod at_rest;
 mod calibration;
 mod estimate;
+mod ladder;
 mod model;
 mod model_scene;
 mod response;

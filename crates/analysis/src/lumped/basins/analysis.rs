@@ -19,7 +19,7 @@ use super::{
     plane::StatePlane,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts, gears,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::RunInfo, gears,
     inputs::motion_of, resolution::with_slices, run_phase, unless_cancelled,
 };
 
@@ -40,7 +40,7 @@ impl std::fmt::Debug for BasinAnalysis<'_> {
 #[derive(Debug)]
 pub struct BasinResult {
     /// What it was made of, and what must hold of it.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// Rate by rate, in ascending order, errors ascending in each.
     pub starts: Vec<BasinStart>,
     /// Motions that they end in.
@@ -48,7 +48,7 @@ pub struct BasinResult {
     /// The few numbers that it is made for.
     pub headline: BasinHeadline,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 impl<'a> BasinAnalysis<'a> {
@@ -119,12 +119,12 @@ impl<'a> BasinAnalysis<'a> {
             })
             .collect();
         let headline = BasinHeadline::new(&words, (coordinates, resonance_hz), &starts, &attractors);
-        let mut warnings = system.warnings;
-        warnings.extend(gears::warnings(&inputs.pair));
-        warnings.extend(no_backlash(&inputs));
-        warnings.extend(headline.warnings(&starts));
-        warnings.extend(inputs.left_out_of_sweeps());
-        Ok(BasinResult { facts, starts, attractors, headline, warnings })
+        let mut remarks = system.remarks;
+        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(no_backlash(&inputs));
+        remarks.extend(headline.remarks(&starts));
+        remarks.extend(inputs.left_out_of_sweeps());
+        Ok(BasinResult { facts, starts, attractors, headline, remarks })
     }
 }
 

@@ -8,25 +8,31 @@ use super::super::run_loop::LumpedRun;
 /// Extents and means of one motion differ by less than this share of the peak to peak.
 const SAME: f64 = 0.01;
 
-/// A motion that runs end in; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct Attractor {
-    /// From 1, by peak to peak ascending.
-    pub attractor: usize,
-    /// Mesh cycles after which it comes back; `None`: not within eight. All that do not are one.
-    pub period_cycles: Option<usize>,
-    /// Starts that end there.
-    pub starts: usize,
-    /// Of all starts, per cent.
-    pub share_pct: f64,
-    pub mean_dte_um: f64,
-    pub min_dte_um: f64,
-    pub max_dte_um: f64,
-    pub min_normal_force_n: f64,
-    pub max_normal_force_n: f64,
-    /// Most mesh cycles that a start took to get there.
-    pub most_warm_up_cycles: u64,
+described::described! {
+    /// A motion that runs end in; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct Attractor {
+        /// number of the motion, from 1, by peak to peak ascending. Motions are one when period, mean and extremes differ by less than a hundredth of the peak to peak
+        pub attractor: usize,
+        /// mesh cycles after which the motion comes back; `null` for all that do not within eight, which count as one
+        pub period_cycles: Option<usize>,
+        /// starts that end in it
+        pub starts: usize,
+        /// share of all starts that end in it
+        pub share_pct: f64,
+        /// mean dynamic transmission error of the last mesh cycles, eight at the least
+        pub mean_dte_um: f64,
+        /// smallest dynamic transmission error
+        pub min_dte_um: f64,
+        /// largest dynamic transmission error
+        pub max_dte_um: f64,
+        /// smallest normal force on the driving flanks
+        pub min_normal_force_n: f64,
+        /// largest normal force on the driving flanks
+        pub max_normal_force_n: f64,
+        /// largest number of mesh cycles that a start took to get there
+        pub most_warm_up_cycles: u64,
+    }
 }
 
 impl Attractor {

@@ -5,21 +5,27 @@ use serde::Serialize;
 
 use super::{Attractor, BasinStart};
 
-/// What basins are looked for; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct BasinHeadline {
-    pub starts: usize,
-    /// Of the plane, lowest and highest.
-    pub initial_dte_um: [f64; 2],
-    pub initial_dte_rate_mm_s: [f64; 2],
-    pub coordinates: usize,
-    pub mesh_resonance_hz: f64,
-    pub attractors: Vec<Attractor>,
-    /// Starts from which the motion does not come back.
-    pub not_periodic: usize,
-    /// Starts that no motion came out of.
-    pub failed: usize,
+described::described! {
+    /// What basins are looked for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct BasinHeadline {
+        /// starts of the plane
+        pub starts: usize,
+        /// smallest and largest initial DTE, relative to rest under the load
+        pub initial_dte_um: [f64; 2],
+        /// smallest and largest initial rate of the DTE, relative to rest
+        pub initial_dte_rate_mm_s: [f64; 2],
+        /// coordinates of the model
+        pub coordinates: usize,
+        /// natural frequency of the mesh
+        pub mesh_resonance_hz: f64,
+        /// motions in which starts end
+        pub attractors: Vec<Attractor>,
+        /// starts from which the motion does not come back
+        pub not_periodic: usize,
+        /// starts without a motion
+        pub failed: usize,
+    }
 }
 
 impl BasinHeadline {
@@ -42,7 +48,7 @@ impl BasinHeadline {
     }
 
     /// What a user should hear.
-    pub(super) fn warnings(&self, starts: &[BasinStart]) -> Vec<answer::Remark> {
+    pub(super) fn remarks(&self, starts: &[BasinStart]) -> Vec<answer::Remark> {
         let failed = starts
             .iter()
             .find_map(|s| s.failed.as_ref())

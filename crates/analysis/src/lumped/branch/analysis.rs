@@ -18,7 +18,7 @@ use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress,
     certificate::{Check, Checks},
     error::in_scene,
-    facts::Facts,
+    facts::RunInfo,
     gears,
     refused::Refusal,
     resolution::with_slices,
@@ -52,7 +52,7 @@ impl std::fmt::Debug for ContinuationAnalysis<'_> {
 #[derive(Debug)]
 pub struct ContinuationResult {
     /// What it was made of, and what must hold of it.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// Motions in the order of the branch.
     pub points: Vec<BranchPoint>,
     /// Where it turns, or another branch leaves it.
@@ -62,7 +62,7 @@ pub struct ContinuationResult {
     /// The few numbers that it is made for.
     pub headline: ContinuationHeadline,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 impl<'a> ContinuationAnalysis<'a> {
@@ -99,7 +99,7 @@ impl<'a> ContinuationAnalysis<'a> {
         let mut family = ModelFamily::new(&inputs, words.key, words.period_cycles)?;
         let coordinates = system.coordinates();
         let mut facts = analysis::facts(&inputs, coordinates);
-        let mut warnings = system.warnings;
+        let mut remarks = system.remarks;
         let branch = run_phase(observer, "branch", PhaseWork::Unknown, |progress| {
             follow(&mut family, &inputs, &words, progress)
         })?;
@@ -135,11 +135,11 @@ impl<'a> ContinuationAnalysis<'a> {
             broken: branch.broken.as_ref().map(ToString::to_string).or_else(|| cut_short(&branch, &words)),
         };
         let headline = headline(of, &points, &turns, &in_time).ok_or_else(Refusal::no_values)?;
-        warnings.extend(gears::warnings(&inputs.pair));
-        warnings.extend(no_backlash(&inputs));
-        warnings.extend(headline.warnings());
-        warnings.extend(inputs.left_out_of_sweeps());
-        Ok(ContinuationResult { facts, points, turns, in_time, headline, warnings })
+        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(no_backlash(&inputs));
+        remarks.extend(headline.remarks());
+        remarks.extend(inputs.left_out_of_sweeps());
+        Ok(ContinuationResult { facts, points, turns, in_time, headline, remarks })
     }
 
     /// The scene where the branch begins; of a torque that grows, maps and scales are those of the largest.
@@ -218,7 +218,7 @@ fn covered(branch: &Branch<AnalysisError>, words: &ContinuationScene) -> Check {
         name: "range_left_out".into(),
         value: if unfinished { left_out } else { 0.0 },
         bound: LEFT_OUT,
-        hint: "give more `motions`, a larger `longest_step` or more damping in [motion.continuation] and [motion]; the warnings \
+        hint: "give more `motions`, a larger `longest_step` or more damping in [motion.continuation] and [motion]; the remarks \
                   say where the branch ended",
     }
 }

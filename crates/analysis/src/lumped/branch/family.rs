@@ -7,7 +7,7 @@ use scene::{ContinuationKey, Scene};
 
 use super::super::{
     LumpedInputs, LumpedRow,
-    free_turn::FreeTurn,
+    free_turn::free_turn,
     mechanism::{BoxedMechanism, ModelFailure, ParameterChange},
 };
 use crate::{AnalysisError, motion::RPM};
@@ -34,7 +34,7 @@ impl<'a> ModelFamily<'a> {
     /// [`AnalysisError`] of a model that cannot be made or does not stand.
     pub fn new(inputs: &'a LumpedInputs, key: ContinuationKey, cycles: u32) -> Result<Self, AnalysisError> {
         let mut model = inputs.build()?.model;
-        let free = FreeTurn::of(&mut model).map_err(|e| e.of(&inputs.scene))?.map(|turn| turn.direction);
+        let free = free_turn(&mut model).map_err(|e| e.of(&inputs.scene))?.map(|turn| turn.direction().clone());
         let (scale, scene) = (model.scale(), inputs.scene.clone());
         Ok(Self { inputs, key, scene, model, cycles, scale, free, last: 0.0 })
     }

@@ -10,43 +10,57 @@ use super::{BranchPoint, LossName, TimePoint};
 /// A motion in time that differs from that of the branch by more than this has left it, or has too long steps.
 const APART: f64 = 0.02;
 
-/// Where the branch turns, or where another one leaves it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct BranchTurn {
-    /// What happens.
-    pub loss: LossName,
-    /// The motion there.
-    #[serde(flatten)]
-    pub point: BranchPoint,
+described::described! {
+    /// Where the branch turns, or where another one leaves it.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct BranchTurn {
+        /// `fold`, `period-doubling` or `torus`
+        pub loss: LossName,
+        /// the motion there
+        #[serde(flatten)]
+        pub point: BranchPoint,
+    }
 }
 
-/// What a continuation is made for; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct ContinuationHeadline {
-    pub key: &'static str,
-    /// Least and largest value on the branch.
-    pub range: [f64; 2],
-    pub period_cycles: u32,
-    pub coordinates: usize,
-    pub mesh_resonance_hz: f64,
-    pub motions: usize,
-    pub unstable: usize,
-    /// Values of the key, in the order of the branch.
-    pub folds: Vec<f64>,
-    pub period_doublings: Vec<f64>,
-    pub torus_bifurcations: Vec<f64>,
-    /// The motion with the largest peak to peak.
-    pub largest: BranchPoint,
-    pub parting: usize,
-    pub most_harmonics: usize,
-    pub newton_steps: usize,
-    /// Largest difference of a motion in time from the branch, over the peak to peak.
-    pub difference_in_time: Option<f64>,
-    /// Whether the branch ends where it began.
-    pub returns: bool,
-    /// Why the branch ends within its range.
-    pub broken: Option<String>,
+described::described! {
+    /// What a continuation is made for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct ContinuationHeadline {
+        /// key that is varied
+        pub key: &'static str,
+        /// smallest and largest value on the branch
+        pub range: [f64; 2],
+        /// mesh cycles of a period
+        pub period_cycles: u32,
+        /// coordinates of the model
+        pub coordinates: usize,
+        /// natural frequency of the mesh
+        pub mesh_resonance_hz: f64,
+        /// motions of the branch
+        pub motions: usize,
+        /// unstable motions
+        pub unstable: usize,
+        /// values of the key at folds, in the order of the branch
+        pub folds: Vec<f64>,
+        /// values of the key at period doublings
+        pub period_doublings: Vec<f64>,
+        /// values of the key at torus bifurcations
+        pub torus_bifurcations: Vec<f64>,
+        /// motion with the largest peak to peak
+        pub largest: BranchPoint,
+        /// motions in which the driving flanks lose contact
+        pub parting: usize,
+        /// largest number of harmonics of a motion
+        pub most_harmonics: usize,
+        /// Newton steps of all motions
+        pub newton_steps: usize,
+        /// largest difference of a motion integrated in time, over the peak to peak
+        pub difference_in_time: Option<f64>,
+        /// whether the branch leaves the range where it began
+        pub returns: bool,
+        /// reason why the branch ends within its range; `null` where it does not
+        pub broken: Option<String>,
+    }
 }
 
 /// What the headline takes beside points.
@@ -92,7 +106,7 @@ pub(super) fn headline(
 
 impl ContinuationHeadline {
     /// What a user should hear.
-    pub(super) fn warnings(&self) -> Vec<answer::Remark> {
+    pub(super) fn remarks(&self) -> Vec<answer::Remark> {
         let ends = self.broken.as_ref().map(|why| remark::branch_ends(&**why));
         let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| remark::branch_apart(100.0 * d));
         let back = (self.broken.is_none() && self.returns).then(remark::branch_turns_back);

@@ -39,33 +39,41 @@ impl From<Loss> for LossName {
     }
 }
 
-/// A periodic motion; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct BranchPoint {
-    /// Value of the key.
-    pub value: f64,
-    pub is_stable: bool,
-    /// Largest size of a Floquet multiplier: disturbances grow by it in a period.
-    pub largest_multiplier: f64,
-    /// How it would be lost, or is.
-    pub loss: LossName,
-    pub mean_dte_um: f64,
-    pub peak_to_peak_dte_um: f64,
-    pub rms_dte_um: f64,
-    /// Amplitudes of the mesh harmonics.
-    pub dte_harmonics_um: [f64; ORDERS],
-    pub min_normal_force_n: f64,
-    pub max_normal_force_n: f64,
-    /// Part of the period in which the driving flanks do not press.
-    pub share_apart: f64,
-    /// Harmonics of the period that the motion is made of.
-    pub harmonics: usize,
-    pub newton_steps: usize,
-    /// What is left of the balance of forces, over the forces.
-    pub residual: f64,
-    /// Bound of the vibration that harmonics left out would add, over the vibration.
-    pub tail: f64,
+described::described! {
+    /// A periodic motion; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct BranchPoint {
+        /// value of the key
+        pub value: f64,
+        /// whether disturbances fade
+        pub is_stable: bool,
+        /// size of the largest Floquet multiplier, the growth of a disturbance in a period; the free rotation of the gears is left out
+        pub largest_multiplier: f64,
+        /// bifurcation at which the motion loses stability, or has lost it: `fold`, `period-doubling` or `torus`
+        pub loss: LossName,
+        /// mean dynamic transmission error of the period
+        pub mean_dte_um: f64,
+        /// peak to peak of the dynamic transmission error of the period
+        pub peak_to_peak_dte_um: f64,
+        /// root mean square of the dynamic transmission error about its mean
+        pub rms_dte_um: f64,
+        /// amplitudes of the mesh harmonics 1 .. 5 of the dynamic transmission error
+        pub dte_harmonics_um: [f64; ORDERS],
+        /// smallest normal force on the driving flanks
+        pub min_normal_force_n: f64,
+        /// largest normal force on the driving flanks
+        pub max_normal_force_n: f64,
+        /// share of the period in which the driving flanks do not press
+        pub share_apart: f64,
+        /// harmonics of the period that the motion is made of
+        pub harmonics: usize,
+        /// Newton steps of the motion
+        pub newton_steps: usize,
+        /// residual of the balance of forces, over the forces
+        pub residual: f64,
+        /// bound of the vibration that further harmonics would add, over the vibration
+        pub tail: f64,
+    }
 }
 
 /// Reads a point off a motion; the family stands at its value afterwards.

@@ -9,40 +9,44 @@ use super::{SweepOptions, SweepPoint};
 /// Answers of both ways are two when their extents differ by this share of the largest peak to peak.
 const APART: f64 = 0.02;
 
-/// What a sweep is made for.
-#[derive(Debug, Clone, Serialize)]
-pub struct SweepHeadline {
-    /// The key that changes.
-    pub key: String,
-    /// First and last value.
-    pub range: [f64; 2],
-    /// Values.
-    pub values: usize,
-    /// The column whose section is taken.
-    pub section_of: String,
-    /// How often.
-    pub once: SectionEvery,
-    /// The largest peak to peak of each way.
-    pub largest: Vec<SweepPoint>,
-    /// Points, and among them those with a section that comes back at once.
-    pub points: usize,
-    /// Section of one point.
-    pub period_one: usize,
-    /// Section of a few points: a subharmonic answer. Way, value and period.
-    pub subharmonic: Vec<(SweepWay, f64, usize)>,
-    /// No period found, way and value.
-    pub not_periodic: Vec<(SweepWay, f64)>,
-    /// Lyapunov exponent above zero beyond three standard errors and a section that does not come back, way and
-    /// value; `None` where no exponent was asked for.
-    pub chaotic: Option<Vec<(SweepWay, f64)>>,
-    /// Ranges of the key in which upwards and downwards give other answers.
-    pub hysteresis: Option<Vec<[f64; 2]>>,
-    /// Values at which flanks part at times, of all ways.
-    pub parting: usize,
-    /// Values without a motion, way, value and reason.
-    pub failed: Vec<(SweepWay, f64, String)>,
-    /// Tolerance of the periodic state.
-    pub periodic_tolerance: f64,
+described::described! {
+    /// What a sweep is made for.
+    #[derive(Debug, Clone, Serialize)]
+    pub struct SweepHeadline {
+        /// key that is varied
+        pub key: String,
+        /// smallest and largest value
+        pub range: [f64; 2],
+        /// number of values
+        pub values: usize,
+        /// column of the section
+        pub section_of: String,
+        /// when points of the section are taken: `mesh-cycle`, `pinion-turn` or `wheel-turn`
+        pub once: SectionEvery,
+        /// of each direction the value with the largest peak to peak
+        pub largest: Vec<SweepPoint>,
+        /// points of the diagram: values times directions
+        pub points: usize,
+        /// sections of one point
+        pub period_one: usize,
+        /// sections of a few points: direction, value, number of points
+        pub subharmonic: Vec<(SweepWay, f64, usize)>,
+        /// sections that do not come back within `periodic_tolerance`: direction, value
+        pub not_periodic: Vec<(SweepWay, f64)>,
+        /// direction and value where exponent and section show chaos; `null` where no exponent is asked for
+        pub chaotic: Option<Vec<(SweepWay, f64)>>,
+        /// ranges in which up and down differ by more than 2 % of the largest peak to peak
+        pub hysteresis: Option<Vec<[f64; 2]>>,
+        /// points at which the driving flanks lose contact
+        pub parting: usize,
+        /// values without a solution: direction, value, reason
+        pub failed: Vec<(SweepWay, f64, String)>,
+        /// tolerance of `periodicity`
+        pub periodic_tolerance: f64,
+        /// command that makes the result again; missing without one
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub again: Option<String>,
+    }
 }
 
 /// Reads it off the points.
@@ -72,6 +76,7 @@ pub(super) fn headline(scene: &Scene, options: &SweepOptions, points: &[SweepPoi
         hysteresis: hysteresis(options, points),
         parting: points.iter().filter(|p| p.rows_apart > 0).count(),
         periodic_tolerance: scene.motion.as_ref().and_then(|m| m.periodic_tolerance).unwrap_or(1e-6),
+        again: None,
     }
 }
 
@@ -99,7 +104,7 @@ fn hysteresis(options: &SweepOptions, points: &[SweepPoint]) -> Option<Vec<[f64;
 
 impl SweepHeadline {
     /// What a user should hear.
-    pub(super) fn warnings(&self) -> Vec<answer::Remark> {
+    pub(super) fn remarks(&self) -> Vec<answer::Remark> {
         let silent = self.chaotic.is_none();
         let failed = self
             .failed

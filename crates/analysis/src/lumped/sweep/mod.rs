@@ -23,7 +23,7 @@ pub use point::SweepPoint;
 
 use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::Facts,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::RunInfo,
     refused::Refusal, resolution::with_slices, run_phase,
 };
 use ways::{SweepValue, all_ways};
@@ -48,13 +48,13 @@ pub struct BifurcationAnalysis {
     /// The scene of the first value with a model: it stands for what they have in common.
     pub scene: Scene,
     /// What that was made of.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// Way by way, in ascending order of the value.
     pub points: Vec<SweepPoint>,
     /// What is read off them.
     pub headline: SweepHeadline,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 impl<'a> KeySweep<'a> {
@@ -86,7 +86,7 @@ impl<'a> KeySweep<'a> {
         let options = self.options;
         let values = self.gather(observer);
         let (first, system) = first_of(&values)?;
-        let (mut facts, mut warnings) = (analysis::facts(first, system.coordinates()), system.warnings);
+        let (mut facts, mut remarks) = (analysis::facts(first, system.coordinates()), system.remarks);
         let count = (values.len() * options.ways.len()) as u64;
         let points: Vec<SweepPoint> = run_phase(observer, "sweep", PhaseWork::Steps(count), |progress| {
             let at = |value: &SweepValue, from: Option<&_>| match &value.inputs {
@@ -102,12 +102,12 @@ impl<'a> KeySweep<'a> {
         }
         facts.certificate = Checks::worst(points.iter().map(|p| &p.checks));
         let headline = headline::headline(&first.scene, options, &points);
-        warnings.extend(headline.warnings());
-        warnings.extend(first.left_out_of_sweeps());
+        remarks.extend(headline.remarks());
+        remarks.extend(first.left_out_of_sweeps());
         // Who sweeps the backlash knows.
         let swept = options.key.contains("backlash") || options.key.contains("thickness");
-        warnings.extend(no_backlash(first).filter(|_| !swept));
-        Ok(BifurcationAnalysis { scene: first.scene.clone(), facts, points, headline, warnings })
+        remarks.extend(no_backlash(first).filter(|_| !swept));
+        Ok(BifurcationAnalysis { scene: first.scene.clone(), facts, points, headline, remarks })
     }
 
     /// All values with what their models are made of.

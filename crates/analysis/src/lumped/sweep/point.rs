@@ -9,7 +9,7 @@ use serde::Serialize;
 use study::{Lyapunov, extent, mean, section_period};
 
 use super::{
-    super::{LumpedInputs, analysis::checked_run, exponent::exponent, free_turn::FreeTurn},
+    super::{LumpedInputs, analysis::checked_run, exponent::exponent, free_turn::free_turn},
     SweepOptions,
 };
 use crate::{AnalysisError, certificate::Checks, inputs::motion_of, motion::SweepStatus};
@@ -17,41 +17,43 @@ use crate::{AnalysisError, certificate::Checks, inputs::motion_of, motion::Sweep
 /// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
 const SAME: f64 = 1e-3;
 
-/// What the motion settled to at one value; units are in the names, those of the section's column in its own.
-#[derive(Debug, Clone, Serialize)]
-pub struct SweepPoint {
-    /// Which way it was come from.
-    pub way: SweepWay,
-    /// Value of the key.
-    pub value: f64,
-    /// Points of the section, in their order in time.
-    #[serde(skip)]
-    pub points: Vec<f64>,
-    /// Of the column over the cycles that are written.
-    pub mean: f64,
-    /// Its smallest and largest.
-    pub extent: [f64; 2],
-    /// Points after which the section comes back; `None`: after none up to a third of them.
-    pub period: Option<usize>,
-    /// Difference after the best period of a few mesh cycles, over the peak to peak.
-    pub periodicity: Option<f64>,
-    /// Mesh cycles before the section.
-    pub warm_up_cycles: u64,
-    /// Largest Lyapunov exponent, 1/s.
-    pub lyapunov: Option<Lyapunov>,
-    /// Smallest and largest normal force, N.
-    pub normal_force_n: [f64; 2],
-    /// Rows in which the driving flanks do not press.
-    pub rows_apart: usize,
-    /// How it came out.
-    #[serde(skip)]
-    pub status: SweepStatus,
-    /// What must hold of the motion.
-    #[serde(skip)]
-    pub checks: Checks,
-    /// Why there is no motion at this value; `None` where there is one.
-    #[serde(skip)]
-    pub failed: Option<Arc<AnalysisError>>,
+described::described! {
+    /// What the motion settled to at one value; units are in the names, those of the section's column in its own.
+    #[derive(Debug, Clone, Serialize)]
+    pub struct SweepPoint {
+        /// `up`, `down` (from the motion of the value before) or `apart` (from rest under the load)
+        pub way: SweepWay,
+        /// value of the key
+        pub value: f64,
+        /// points of the section, in their order in time
+        #[serde(skip)]
+        pub points: Vec<f64>,
+        /// mean of the column of the section
+        pub mean: f64,
+        /// smallest and largest value of the column
+        pub extent: [f64; 2],
+        /// points after which the section comes back; `null`: after none up to a third of them
+        pub period: Option<usize>,
+        /// largest difference after the best period, over the peak to peak
+        pub periodicity: Option<f64>,
+        /// mesh cycles before the section
+        pub warm_up_cycles: u64,
+        /// largest Lyapunov exponent; `null` where none is asked for
+        pub lyapunov: Option<Lyapunov>,
+        /// smallest and largest normal force
+        pub normal_force_n: [f64; 2],
+        /// rows in which the driving flanks do not press
+        pub rows_apart: usize,
+        /// how the value came out
+        #[serde(skip)]
+        pub status: SweepStatus,
+        /// what must hold of the motion
+        #[serde(skip)]
+        pub checks: Checks,
+        /// reason why there is no motion
+        #[serde(skip)]
+        pub failed: Option<Arc<AnalysisError>>,
+    }
 }
 
 impl SweepPoint {
@@ -110,7 +112,7 @@ pub(super) fn run(
     let place = || Place::Setting { label: format!("{} = {value}", options.key).into() };
     let located = |e: AnalysisError| e.at(place());
     // Standing, the model stands where it begins: this comes before the run.
-    let free = FreeTurn::of(&mut model).map_err(|e| located(e.of(scene)))?;
+    let free = free_turn(&mut model).map_err(|e| located(e.of(scene)))?;
     let (run, checks) = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
     let every = options.every.cycles(scene) as usize;
     let points: Vec<f64> = run.section().map(|row| options.quantity.of(row)).step_by(every).collect();

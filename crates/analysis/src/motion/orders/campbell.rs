@@ -21,14 +21,19 @@ pub struct CampbellDiagram {
     pub names: Vec<String>,
 }
 
-/// A mesh order that meets a frequency within the speeds of the run.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct CriticalSpeed {
-    pub excitation: String,
-    pub meets: String,
-    pub driver_speed_rpm: f64,
-    pub frequency_hz: f64,
+described::described! {
+    /// A mesh order that meets a frequency within the speeds of the run.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct CriticalSpeed {
+        /// mesh order that excites
+        pub excitation: String,
+        /// natural frequency that it meets
+        pub meets: String,
+        /// speed of the driver
+        pub driver_speed_rpm: f64,
+        /// frequency of both
+        pub frequency_hz: f64,
+    }
 }
 
 impl CampbellDiagram {

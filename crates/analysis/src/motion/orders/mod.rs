@@ -1,11 +1,11 @@
 //! Orders of a motion: spectra at constant speed, what is largest over speed, and the frequencies that orders meet.
 
 mod campbell;
-mod passage;
+mod run_up;
 mod series;
 mod spectrum;
 
 pub use campbell::{CampbellDiagram, CriticalSpeed};
-pub use passage::{OrderCut, Passage, PassageCycle, PassageHeadline, PeakOverSpeed};
+pub use run_up::{OrderCut, PeakOverSpeed, RunUp, RunUpCycle, RunUpHeadline};
 pub use series::MotionSeries;
 pub use spectrum::{MotionSpectrum, WaterfallLine, waterfall};

@@ -1,4 +1,4 @@
-//! Series of a motion: what spectra and a passage over speed are read off.
+//! Series of a motion: what spectra and a run-up over speed are read off.
 
 use study::StudyError;
 

@@ -25,7 +25,7 @@ impl MotionSpectrum {
     /// Spectra of the whole record of `cycles` mesh cycles.
     ///
     /// # Errors
-    /// [`StudyError`] for a record that holds what is no number.
+    /// [`StudyError`] for a record that contains a value that is not a number.
     pub fn of(series: &MotionSeries, cycles: u64, mesh_frequency_hz: f64, window: Window) -> Result<Self, StudyError> {
         let of = |samples: &[f64]| amplitudes(samples, window);
         let dte_um = of(&series.dte_um)?;
@@ -71,7 +71,7 @@ pub struct WaterfallLine {
 /// the speed changes.
 ///
 /// # Errors
-/// [`StudyError`] for a record that holds what is no number, and for series of different lengths.
+/// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
 pub fn waterfall(
     series: &MotionSeries,
     per_cycle: usize,

@@ -16,28 +16,42 @@ use crate::{
     reduced, run_phase,
 };
 
-/// How far mesh harmonics are from the gears' elastic frequencies; units are in the names, pinion first.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct ElasticHeadline {
-    pub lowest_elastic_frequency_hz: [f64; 2],
-    pub highest_mesh_frequency_hz: f64,
-    pub mesh_harmonic: usize,
-    pub mesh_harmonic_over_elastic: f64,
-    pub limit_of_quasi_static: f64,
-    pub change_of_peak_to_peak_um: f64,
-    pub change_over_peak_to_peak: f64,
-    pub limit_of_change: f64,
-    pub rotation_over_stiffness: f64,
-    pub kept_modes: Option<KeptModes>,
+described::described! {
+    /// How far mesh harmonics are from the gears' elastic frequencies; units are in the names, pinion first.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct ElasticHeadline {
+        /// lowest natural frequency of pinion and wheel, bore held and flanks free
+        pub lowest_elastic_frequency_hz: [f64; 2],
+        /// highest mesh frequency of the run
+        pub highest_mesh_frequency_hz: f64,
+        /// mesh harmonic whose deflection the neglected elastic inertia may change most
+        pub mesh_harmonic: usize,
+        /// frequency of that harmonic over the lower of the two elastic frequencies
+        pub mesh_harmonic_over_elastic: f64,
+        /// ratio at which one harmonic alone would change by `limit_of_change`
+        pub limit_of_quasi_static: f64,
+        /// possible change of the peak to peak of the DTE by the neglected elastic inertia ([theory](theory.md), equation 63); with kept modes by the inertia above the highest of them
+        pub change_of_peak_to_peak_um: f64,
+        /// that change over the peak to peak of the DTE
+        pub change_over_peak_to_peak: f64,
+        /// share of the peak to peak from which on a remark gives remedy and price
+        pub limit_of_change: f64,
+        /// Coriolis and centrifugal forces on the elastic deformation, which are neglected, over the elastic forces, the largest ([theory](theory.md), equation 68)
+        pub rotation_over_stiffness: f64,
+        /// normal modes of the model `reduced+modes`; `null` of other models
+        pub kept_modes: Option<KeptModes>,
+    }
 }
 
-/// Normal modes that move beside the rigid bodies.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // as above
-pub struct KeptModes {
-    pub count: [usize; 2],
-    pub highest_frequency_hz: [Option<f64>; 2],
+described::described! {
+    /// Normal modes that move beside the rigid bodies.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct KeptModes {
+        /// number of modes of pinion and wheel
+        pub count: [usize; 2],
+        /// highest natural frequency of these modes, pinion and wheel
+        pub highest_frequency_hz: [Option<f64>; 2],
+    }
 }
 
 /// What is known of the gears' elastic vibration before the motion begins.

@@ -6,15 +6,21 @@ use serde::Serialize;
 /// t in kg.
 const TONNE_KG: f64 = 1e3;
 
-/// Inertia that carries the mesh resonance; units are in the names, pinion first.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct InertiaHeadline {
-    pub moving_gears: Vec<&'static str>,
-    pub base_circle_masses_kg: [f64; 2],
-    pub equivalent_mass_kg: f64,
-    pub mesh_resonance_both_free_hz: f64,
-    pub mesh_resonance_driver_held_hz: f64,
+described::described! {
+    /// Inertia that carries the mesh resonance; units are in the names, pinion first.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct InertiaHeadline {
+        /// gears whose inertia vibrates on the teeth: both, or the driven one where the driver's speed is prescribed
+        pub moving_gears: Vec<&'static str>,
+        /// J / r_b^2 of pinion and wheel
+        pub base_circle_masses_kg: [f64; 2],
+        /// m_e of the mesh resonance: m_1 m_2 / (m_1 + m_2), or the mass of the driven gear alone
+        pub equivalent_mass_kg: f64,
+        /// mesh resonance with both gears free
+        pub mesh_resonance_both_free_hz: f64,
+        /// mesh resonance with the driver held
+        pub mesh_resonance_driver_held_hz: f64,
+    }
 }
 
 impl InertiaHeadline {

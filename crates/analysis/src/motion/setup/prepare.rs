@@ -14,9 +14,9 @@ use super::{Elasticity, QuasiStatic, motion_options, scheme};
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork, body_warnings,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
-    facts::Facts,
+    estimated_time::announced_seconds,
+    facts::RunInfo,
     failure::Failure,
-    foreseen::announced_s,
     gear_dofs::{dof_after, free_dofs, reduced},
     gears,
     inputs::meshes_of,
@@ -25,7 +25,7 @@ use crate::{
     meshes::SceneMesh,
     motion::{MotionSink, step_estimate::fastest_hz},
     options::options,
-    plausible::{refuse, remarks},
+    plausible::{self, refuse},
     resolution::resolution,
     run_phase, static_certificate, unless_cancelled,
     window::wider_window,
@@ -50,7 +50,7 @@ impl<'a> MotionInputs<'a> {
     ) -> Result<Self, AnalysisError> {
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
-        remarks(scene, &pair).into_iter().for_each(|said| observer.note(said.to_string()));
+        plausible::remarks(scene, &pair).into_iter().for_each(|said| observer.note(said.to_string()));
         let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory))?;
         Ok(Self { scene, motion, pair, meshes, cache })
     }
@@ -68,8 +68,8 @@ pub(crate) struct PreparedMotion {
     pub settings: MotionSettings,
     pub quasi_static: QuasiStatic,
     pub elasticity: Elasticity,
-    pub facts: Facts,
-    pub warnings: Vec<Remark>,
+    pub facts: RunInfo,
+    pub remarks: Vec<Remark>,
     /// What the cache knows the gears by; none where nothing is cached.
     pub keys: Vec<RecordKey>,
 }
@@ -94,7 +94,7 @@ pub(crate) fn prepare(
     sink.begin();
     let contact = contact_options(scene, pair, window);
     let Flanked { driving, coast } = reduce(inputs, &contact, observer)?;
-    let ElasticGears { gears, keys, mut warnings } = driving;
+    let ElasticGears { gears, keys, mut remarks } = driving;
     let set_up = || StaticModel::new(pair.clone(), gears, contact.clone());
     let mut model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up())?;
     let positions = scene.analysis.positions_per_cycle;
@@ -113,21 +113,21 @@ pub(crate) fn prepare(
     })?;
     let quasi_static = QuasiStatic::of(&history);
     let (resolution, said) = resolution(scene, pair, &contact);
-    warnings.extend(said);
-    warnings.extend(gears::warnings(pair));
-    warnings.extend(remarks(scene, pair));
-    warnings.extend(meshes.iter().flat_map(|m| m.warnings.clone()));
-    warnings.extend(body_warnings(&model));
-    warnings.extend(sink.quasi_static(&model, observer));
+    remarks.extend(said);
+    remarks.extend(gears::warnings(pair));
+    remarks.extend(plausible::remarks(scene, pair));
+    remarks.extend(meshes.iter().flat_map(|m| m.remarks.clone()));
+    remarks.extend(body_warnings(&model));
+    remarks.extend(sink.quasi_static(&model, observer));
     let mut facts = facts_of(&model, inputs, &history);
     facts.resolution = Some(resolution);
     if scene.output.root_stress {
-        warnings.extend(iso_root::warning(&LoadedPair::of(scene, pair)));
+        remarks.extend(iso_root::warning(&LoadedPair::of(scene, pair)));
     }
     let gears = model.into_gears();
     let (coast, coast_keys) = match coast {
-        Some(ElasticGears { gears, keys, warnings: said }) => {
-            warnings.extend(said);
+        Some(ElasticGears { gears, keys, remarks: said }) => {
+            remarks.extend(said);
             (Some(Arc::new(gears)), Some(keys))
         }
         None => (None, None),
@@ -144,15 +144,15 @@ pub(crate) fn prepare(
     })?;
     if cache.is_on() {
         run_phase(observer, "store", PhaseWork::Unknown, |_| {
-            warnings.extend(keys.save(*cache, &gears));
+            remarks.extend(keys.save(*cache, &gears));
             if let (Some(keys), Some(gears)) = (&coast_keys, &coast) {
-                warnings.extend(keys.save(*cache, gears));
+                remarks.extend(keys.save(*cache, gears));
             }
         });
     }
     let settings = settings(motion, pair, &system, &quasi_static);
     let keys = [&keys].into_iter().chain(&coast_keys).flat_map(RecordKeys::keys).flatten().copied().collect();
-    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, warnings, keys })
+    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, remarks, keys })
 }
 
 fn reduce(
@@ -163,7 +163,7 @@ fn reduce(
     let MotionInputs { scene, pair, meshes, cache, .. } = inputs;
     let both = scene.contact.flanks == Flanks::Both;
     let sides = if both { 2.0 } else { 1.0 };
-    let work = PhaseWork::Seconds(announced_s(observer, (scene.analysis.is_general(), meshes), sides));
+    let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), meshes), sides));
     run_phase(observer, "reduce", work, |progress| {
         let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true))?;
         let backwards =
@@ -173,9 +173,9 @@ fn reduce(
 }
 
 /// What the summary says of the model that the motion starts from.
-fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHistory) -> Facts {
+fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHistory) -> RunInfo {
     let dof_before = [0, 1].map(|i| free_dofs(&model.gears()[i]));
-    Facts {
+    RunInfo {
         meshes: inputs.meshes.iter().map(|m| m.facts.clone()).collect(),
         dof_before,
         dof_after: dof_after(model, dof_before),
@@ -183,7 +183,7 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
         // The motion begins in it and is measured by it.
         certificate: static_certificate(inputs.scene, &history.positions),
         reduction: model.gears().iter().filter_map(|g| Some(reduced(g)?.way().name())).collect(),
-        ..Facts::of_pair(inputs.scene, &inputs.pair)
+        ..RunInfo::of_pair(inputs.scene, &inputs.pair)
     }
 }
 

@@ -11,9 +11,9 @@ use super::{SweepHeadline, SweepRow, headline, rows, run};
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
     error::unasked,
-    facts::Facts,
+    facts::RunInfo,
     failure::Failure,
-    inputs::settled_scene,
+    inputs::resolved_scene,
     motion::{
         CampbellDiagram, MotionSink, NoMotionSink,
         analysis::{campbell_diagram, ready},
@@ -49,9 +49,9 @@ pub struct SweepResult {
     /// The mesh cycle at rest that the motions start from.
     pub quasi_static: QuasiStatic,
     /// What it was made of, with its certificate.
-    pub facts: Facts,
+    pub facts: RunInfo,
     /// What a user should hear.
-    pub warnings: Vec<Remark>,
+    pub remarks: Vec<Remark>,
 }
 
 impl SweepResult {
@@ -101,7 +101,7 @@ impl<'a> SweepAnalysis<'a> {
         observer: &mut dyn Observer,
         sink: &mut dyn MotionSink,
     ) -> Result<SweepResult, AnalysisError> {
-        let scene = &settled_scene(self.scene, self.meshes.is_some());
+        let scene = &resolved_scene(self.scene, self.meshes.is_some());
         let other = || unasked(scene, "sweep of reduced gears over speed");
         let motion = scene.motion.as_ref().filter(|_| scene.analysis.model.is_reduced()).ok_or_else(other)?;
         let sweep = motion.sweep.as_ref().ok_or_else(other)?;
@@ -126,7 +126,7 @@ impl<'a> SweepAnalysis<'a> {
             },
         );
         let (mut prepared, outcomes, wall_s) = solved.map_err(|e: Failure| e.into_error(scene))?;
-        prepared.warnings.extend(widened);
+        prepared.remarks.extend(widened);
         result(scene, (motion, sweep), prepared, &outcomes, wall_s)
     }
 }
@@ -153,8 +153,8 @@ fn result(
         .max(f64::from(motion.steps_per_resonance) * headline.mesh_resonance_hz / (0.5 * (mesh_hz[0] + mesh_hz[1])));
     let demand = StepDemand::new(scene, motion, cycles, mesh_hz);
     let pace = Pace::of(wall_s, waited as f64 * own_steps);
-    let PreparedMotion { quasi_static, facts, elasticity, mut warnings, .. } = prepared;
-    warnings.extend(elasticity.warning(&vibration, &demand, pace));
-    warnings.extend(warnings::of_sweep(&headline, rows.len()));
-    Ok(SweepResult { rows, headline, campbell, quasi_static, facts, warnings })
+    let PreparedMotion { quasi_static, facts, elasticity, mut remarks, .. } = prepared;
+    remarks.extend(elasticity.warning(&vibration, &demand, pace));
+    remarks.extend(warnings::of_sweep(&headline, rows.len()));
+    Ok(SweepResult { rows, headline, campbell, quasi_static, facts, remarks })
 }

@@ -9,32 +9,50 @@ use crate::motion::{
     setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration},
 };
 
-/// A speed without a motion.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // as above
-pub struct FailedSpeed {
-    pub way: SweepWay,
-    pub speed_rpm: f64,
-    pub reason: String,
+described::described! {
+    /// A speed without a motion.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct FailedSpeed {
+        /// direction from which the speed was reached
+        pub way: SweepWay,
+        /// speed of the driver
+        pub speed_rpm: f64,
+        /// reason why there is no motion
+        pub reason: String,
+    }
 }
 
-/// The few numbers that a sweep is made for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // as above
-pub struct SweepHeadline {
-    pub run: Run,
-    pub mesh_resonance_hz: f64,
-    pub mesh_resonance_rpm: f64,
-    pub inertia: InertiaHeadline,
-    pub elasticity: ElasticHeadline,
-    pub mean_ste_um: f64,
-    pub peak_to_peak_ste_um: f64,
-    pub mean_mesh_stiffness_n_per_um: f64,
-    pub mean_static_normal_force_n: f64,
-    pub largest: Vec<SweepRow>,
-    pub not_periodic_rpm: Vec<f64>,
-    pub failed: Vec<FailedSpeed>,
-    pub critical_speeds: Vec<CriticalSpeed>,
+described::described! {
+    /// The few numbers that a sweep is made for.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct SweepHeadline {
+        /// `sweep`
+        pub run: Run,
+        /// mesh resonance, as of one motion
+        pub mesh_resonance_hz: f64,
+        /// speed of the driver at which the mesh frequency is the mesh resonance
+        pub mesh_resonance_rpm: f64,
+        /// inertia of the gears, and the mesh resonance with either choice of it
+        pub inertia: InertiaHeadline,
+        /// elastic frequencies of the gears beside the mesh harmonics
+        pub elasticity: ElasticHeadline,
+        /// mean static transmission error under the same load
+        pub mean_ste_um: f64,
+        /// peak to peak of the static transmission error under the same load
+        pub peak_to_peak_ste_um: f64,
+        /// mean tangent mesh stiffness of the quasi-static cycle
+        pub mean_mesh_stiffness_n_per_um: f64,
+        /// mean sum of the normal forces of the quasi-static cycle
+        pub mean_static_normal_force_n: f64,
+        /// of each direction the row with the largest peak to peak of the DTE
+        pub largest: Vec<SweepRow>,
+        /// speeds at which no periodic motion was found
+        pub not_periodic_rpm: Vec<f64>,
+        /// speeds without a solution
+        pub failed: Vec<FailedSpeed>,
+        /// speeds, up to the highest of the run, at which a mesh order meets a natural frequency
+        pub critical_speeds: Vec<CriticalSpeed>,
+    }
 }
 
 /// What a sweep is made for: the largest answer of each way, and where no periodic state was found.

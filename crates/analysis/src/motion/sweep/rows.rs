@@ -11,7 +11,7 @@ use crate::{
     AnalysisError,
     error::in_scene,
     motion::{
-        MOTION_WAY_OUT,
+        MOTION_HINT,
         certificate::checks_of_speed,
         setup::{QuasiStatic, RPM},
     },
@@ -49,29 +49,45 @@ impl SweepStatus {
     }
 }
 
-/// One speed of a sweep; units are in the names.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[allow(missing_docs)] // the names say what they are, `docs/outputs.md` how they are formed
-pub struct SweepRow {
-    pub way: SweepWay,
-    pub speed_rpm: f64,
-    pub mesh_frequency_hz: f64,
-    pub mean_dte_um: f64,
-    pub peak_to_peak_dte_um: f64,
-    pub dte_harmonics_um: Vec<f64>,
-    pub min_normal_force_n: f64,
-    pub max_normal_force_n: f64,
-    pub dynamic_factor: f64,
-    pub max_coast_normal_force_n: f64,
-    pub max_bearing_force_n: f64,
-    pub period_cycles: usize,
-    pub periodicity: f64,
-    pub warm_up_cycles: u64,
-    /// Whether it began in its own quasi-static equilibrium.
-    pub own_start: bool,
-    pub status: SweepStatus,
-    /// Why there is no motion; empty where there is one.
-    pub reason: String,
+described::described! {
+    /// One speed of a sweep; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct SweepRow {
+        /// `up`, `down` (from the motion of the speed before) or `apart` (from rest under the load)
+        pub way: SweepWay,
+        /// speed of the driver
+        pub speed_rpm: f64,
+        /// mesh frequency
+        pub mesh_frequency_hz: f64,
+        /// mean dynamic transmission error
+        pub mean_dte_um: f64,
+        /// peak to peak of the dynamic transmission error
+        pub peak_to_peak_dte_um: f64,
+        /// amplitudes of the mesh harmonics of the dynamic transmission error
+        pub dte_harmonics_um: Vec<f64>,
+        /// smallest sum of the normal forces on the driving flanks
+        pub min_normal_force_n: f64,
+        /// largest sum of the normal forces on the driving flanks
+        pub max_normal_force_n: f64,
+        /// largest sum of normal forces on driving or coast flanks over the mean quasi-static one
+        pub dynamic_factor: f64,
+        /// largest sum of the normal forces on the coast flanks
+        pub max_coast_normal_force_n: f64,
+        /// largest force of a bearing
+        pub max_bearing_force_n: f64,
+        /// mesh cycles after which the motion repeats itself best
+        pub period_cycles: usize,
+        /// largest difference of a coordinate or velocity after that period, over its peak to peak
+        pub periodicity: f64,
+        /// mesh cycles before the first row
+        pub warm_up_cycles: u64,
+        /// whether the motion began in its own quasi-static equilibrium
+        pub own_start: bool,
+        /// `solved`, `not-periodic` or `failed`
+        pub status: SweepStatus,
+        /// reason why there is no motion; empty where there is one
+        pub reason: String,
+    }
 }
 
 fn way_of(way: SweepDirection) -> SweepWay {
@@ -95,7 +111,7 @@ pub(super) fn rows(
     let one = |outcome: &SweepOutcome| match outcome {
         Ok(point) => match checks_of_speed((scene, pair), point).missed().next() {
             Some(check) => {
-                let reason = format!("the result does not hold: {}", check.words());
+                let reason = format!("check failed: {}", check.words());
                 missing((point.way, point.speed), teeth, reason)
             }
             None => solved(point, cycles, (teeth, tolerance), quasi_static)
@@ -148,7 +164,7 @@ pub(super) fn verdict(scene: &Scene, rows: &[SweepRow]) -> Result<(), AnalysisEr
     match rows.first() {
         Some(first) if rows.iter().all(failed) => {
             let what = format!("no speed has a result, at {:.0}/min: {}", first.speed_rpm, first.reason);
-            Err(in_scene(scene)(Refusal::no_result(what, Some(MOTION_WAY_OUT.to_owned()))))
+            Err(in_scene(scene)(Refusal::no_result(what, Some(MOTION_HINT.to_owned()))))
         }
         _ => Ok(()),
     }

@@ -132,7 +132,7 @@ fn supports(flank: &FlankPatch, at: [f64; 2]) -> Option<[Support; DIRECTIONS]> {
     Some(along.map(|d| Support { direction: d, load: d, ..support }))
 }
 
-/// The same at all grid points of all patches.
+/// Supports of unit forces along the three directions, at all grid points of all patches.
 fn grid_supports(lines: &[FlankGridLines], patches: &[FlankPatch]) -> Vec<Option<[Support; DIRECTIONS]>> {
     let of_patch = |(grid, flank): (&FlankGridLines, &FlankPatch)| {
         (0..grid.count()).map(|p| supports(flank, grid.point(p))).collect::<Vec<_>>()
@@ -244,8 +244,8 @@ impl BulkTable {
         DIRECTIONS * self.first.last().copied().unwrap_or(0)
     }
 
-    /// Where a row stands in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's
-    /// normal if `None`).
+    /// Place of a row in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal
+    /// if `None`).
     pub(crate) fn at(
         &self,
         flank: &FlankPatch,

@@ -1,4 +1,4 @@
-//! Which faces may cover a spot.
+//! Bins of faces: those that may cover a spot.
 
 use super::face::{PatchFace, PatchNode, range};
 

@@ -30,7 +30,8 @@ impl FlankPatch {
         })
     }
 
-    /// The same as [`FlankPatch::nearest_face_at`], tried first from a face point found before for coordinates nearby.
+    /// Nearest face point at surface coordinates ([`FlankPatch::nearest_face_at`]), tried first from a face point found
+    /// before for coordinates nearby.
     pub(crate) fn nearest_face_from(&self, at: [f64; 2], before: Option<FacePoint>) -> Option<FacePoint> {
         let near = before.and_then(|p| {
             let xi = self.invert_from(p.face, at, p.xi)?;

@@ -103,7 +103,7 @@ impl FlankPatch {
         Ok(Self { tooth, surface, faces, nodes, bins, range, profile_length })
     }
 
-    /// The same faces on a surface that differs in its micro-geometry alone.
+    /// Patch of these faces on a surface that differs in its micro-geometry alone.
     #[must_use]
     pub(crate) fn with_surface(&self, surface: Box<dyn Surface>) -> Self {
         let Self { tooth, range, .. } = *self;
@@ -233,6 +233,17 @@ impl FlankPatch {
     /// Range of surface coordinates of the whole patch.
     pub fn range(&self) -> [[f64; 2]; 2] {
         self.range
+    }
+
+    /// The end of the profile that is its tip edge: the higher one, of a ring's flank the lower one.
+    pub(crate) fn tip(&self) -> f64 {
+        let [[low, _], [high, _]] = self.range;
+        if self.is_hollow() { low } else { high }
+    }
+
+    /// Whether the surface is a ring's flank: hollow, with its tip edge at the lower end of the profile.
+    pub(crate) fn is_hollow(&self) -> bool {
+        self.surface.nominal_flank().is_some_and(|flank| flank.base_radius < 0.0)
     }
 
     /// Length of the profile at the lower end of the width, by two chords, mm.

@@ -45,7 +45,7 @@ const SMALL_MOTION: f64 = 0.03;
 pub struct MeshContact {
     set: ContactSet,
     friction: Option<Friction>,
-    /// Of the bins of poses.
+    /// Sizes of the bins of poses.
     sizes: BinSizes,
     pairs: Vec<(usize, usize)>,
     hints: Vec<SliceHint>,
@@ -126,10 +126,10 @@ impl MeshContact {
         pair: &GearPair,
         gears: &[ElasticGear; 2],
         window: &ToothWindow,
-        mut set: ContactSet,
+        set: ContactSet,
         options: &ContactOptions,
     ) -> Result<(), ContactError> {
-        if set.move_to(gears, window)? {
+        if let Some(set) = set.in_window(pair, gears, window, options)? {
             self.enter(set);
         } else {
             let modes = self.modes.take();
@@ -216,8 +216,9 @@ impl MeshContact {
         Ok(&self.force)
     }
 
-    /// As [`MeshContact::evaluate`] where the deepest overlap is about as it was: rows with gaps beyond `reach` (mm) are
-    /// not looked for, which saves most of the search. Where teeth overlap by more than that, it looks for all.
+    /// Evaluates the contact as [`MeshContact::evaluate`] does, where the deepest overlap is about as it was: rows with
+    /// gaps beyond `reach` (mm) are not looked for, which saves most of the search. Where teeth overlap by more than
+    /// that, it looks for all.
     ///
     /// # Errors
     /// [`ContactError`] when the contact problem cannot be solved.
@@ -345,8 +346,8 @@ impl MeshContact {
         self.solve_to(0.0, balance, body)
     }
 
-    /// The same to a violation of the conditions, relative to the largest approach, that a solution at a pose nearby
-    /// makes up for; no less than that of any solution.
+    /// Solves the contact of the rows to a violation of the conditions of `accuracy`, relative to the largest approach,
+    /// for which a solution at a pose nearby makes up. No accuracy below that of [`Self::solve`] is reached.
     ///
     /// # Errors
     /// [`ContactError`].
@@ -407,7 +408,7 @@ impl MeshContact {
                 let state = self.contact.laws[i].under(forces[i] / slices[i].length);
                 let approach = if forces[i] > 0.0 { state.approach } else { 0.0 };
                 let station = line_station(rows[i].gap, openings[i], approach, self.modal_opening(i));
-                (rows[i].point, station, slices[i])
+                (rows[i].point, station, slices[i].clone())
             });
             let displacements = || {
                 let supported = self.set.supported_rows(poses, rows, slices, forces);

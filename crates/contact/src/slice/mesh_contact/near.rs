@@ -8,7 +8,7 @@ use crate::{ContactError, MeshForce, Pose, complementarity::Balance};
 
 use super::{MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
 
-/// How much an evaluation computes.
+/// Level of an evaluation: how much it computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum EvaluationLevel {
     /// The strain energy ([`MeshContact::strain_energy`]) and nothing else.
@@ -24,8 +24,9 @@ pub enum EvaluationLevel {
 const ENERGY_ACCURACY: f64 = 1e-6;
 
 impl MeshContact {
-    /// As [`MeshContact::evaluate`], for poses that come in steps and small changes of these. Rows found at poses up to
-    /// a um away keep their contact points and their compliance; gaps follow the motion to first order.
+    /// Evaluates the contact as [`MeshContact::evaluate`] does, for poses that come in steps and small changes of
+    /// these. Rows found at poses up to a um away keep their contact points and their compliance; gaps follow the
+    /// motion to first order.
     ///
     /// Forces are the exact derivative of the strain energy, the tangent is that of the forces at the centre of the
     /// bin. The result depends only on the poses since the last `MeshContact::start_anew`.

@@ -25,7 +25,7 @@ pub(super) struct BinSizes {
 }
 
 impl BinSizes {
-    /// Of a pair: lengths are parts of its normal module.
+    /// Bin sizes of a pair: lengths are parts of its normal module.
     pub fn of(pair: &GearPair) -> Self {
         let module = pair.pinion.data().normal_module;
         let radius = pair.pinion.tip_radius().max(pair.wheel.tip_radius());

@@ -23,7 +23,7 @@ pub(super) struct PoseContact {
     /// Gap opening of each row per displacement and small turn of both gears.
     pub openings: Vec<[f64; 12]>,
     pub compliance: Vec<f64>,
-    /// How modes open the rows.
+    /// Openings of the rows by the modes.
     pub modal: ModalRows,
     /// Solution at the centre of the bin.
     pub saved: SavedSolution,

@@ -2,7 +2,7 @@
 
 use fem::ElementOptions;
 use geometry::{Gear, GearData, Side};
-use mesh::{Extent, GearMesh, GroupNames, StructuredOptions};
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
 use reduction::ReductionOptions;
 
 pub fn gear(teeth: u32, beta_deg: f64) -> Gear {
@@ -18,7 +18,7 @@ pub fn gear(teeth: u32, beta_deg: f64) -> Gear {
 }
 
 /// As few elements as a gear can have, times `fine` in the tooth.
-pub fn meshed(gear: &Gear, order: u32, fine: u32, extent: Extent) -> GearMesh {
+pub fn meshed(gear: &Gear, order: u32, fine: u32, extent: Extent) -> MeshedGear {
     let options = StructuredOptions {
         order,
         elements_profile: fine,
@@ -29,7 +29,7 @@ pub fn meshed(gear: &Gear, order: u32, fine: u32, extent: Extent) -> GearMesh {
         extent,
     };
     let mesh = mesh::generate(gear, &options).unwrap();
-    GearMesh::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
+    MeshedGear::from_groups(mesh, &GroupNames::default(), gear.teeth()).unwrap()
 }
 
 pub fn options(sides: &[Side], window: usize, first: u32) -> ReductionOptions {

@@ -20,7 +20,7 @@ pub(super) fn read(text: &str) -> Result<Entries, Wrong> {
         let wrong = |what: String| Wrong { line: i + 1, what };
         last = i + 1;
         let words = || line.trim_start_matches('*').split(',').map(str::trim).filter(|w| !w.is_empty());
-        let whole = |w: &str| w.parse::<i64>().map_err(|_| wrong(format!("\"{w}\" is no whole number")));
+        let whole = |w: &str| w.parse::<i64>().map_err(|_| wrong(format!("\"{w}\" is not a whole number")));
         if let Some(comment) = line.strip_prefix("**") {
             if comment.trim().eq_ignore_ascii_case("ELEMENT NODES") {
                 in_nodes = true;
@@ -33,7 +33,7 @@ pub(super) fn read(text: &str) -> Result<Entries, Wrong> {
             in_matrix = keyword.starts_with("MATRIX") && keyword.contains("TYPE=STIFFNESS");
             in_nodes = false;
         } else if in_matrix {
-            let number = |w| number(w).ok_or_else(|| wrong(format!("\"{w}\" is no number")));
+            let number = |w| number(w).ok_or_else(|| wrong(format!("\"{w}\" is not a number")));
             values.extend(words().map(number).collect::<Result<Vec<_>, _>>()?);
         } else if in_directions {
             in_nodes = false;
@@ -101,7 +101,7 @@ mod tests {
         assert!(said("").contains("without element nodes"));
         assert!(said(&FILE.replace("         3,         1\n", "")).contains("2 directions for 3"));
         assert!(said(&FILE.replace("-0.4038461538462E+07,\n", "")).contains("5 entries"));
-        assert!(said(&FILE.replace("0.2826923076923E+07", "x")).contains("no number"));
+        assert!(said(&FILE.replace("0.2826923076923E+07", "x")).contains("not a number"));
         for cut in 0..FILE.len() {
             let _ = read(&FILE[..cut]);
         }

@@ -61,7 +61,7 @@ pub(super) fn housing(s: &Source<'_>, table: &Spanned<RawHousing>, bearings: usi
         return square(s, table, &raw.matrix_n_mm_rad, 6 * bearings);
     };
     if let Some(rows) = &raw.matrix_n_mm_rad {
-        return Err(s.conflict(&rows.span(), "the housing is told twice", "give the matrix or the file, not both"));
+        return Err(s.conflict(&rows.span(), "the housing is given twice", "give the matrix or the file, not both"));
     }
     let path = s.file.parent().unwrap_or(Path::new("")).join(word.get_ref());
     let unread = |e: std::io::Error| format!("{} cannot be read: {e}", path.display());

@@ -34,7 +34,7 @@ pub(super) fn read(text: &str, wanted: Option<&str>) -> Result<Entries, Wrong> {
         let own = fields(line, wide);
         let field = |k: usize| own.get(k).copied().unwrap_or("");
         let whole = |k: usize| -> Result<i64, Wrong> {
-            field(k).parse().map_err(|_| wrong(format!("\"{}\" is no whole number", field(k))))
+            field(k).parse().map_err(|_| wrong(format!("\"{}\" is not a whole number", field(k))))
         };
         if head.trim_end_matches('*').eq_ignore_ascii_case("DMIG") {
             column = None;
@@ -90,8 +90,9 @@ fn row(
     if field(0).is_empty() {
         return Ok(());
     }
-    let whole = |k: usize| field(k).parse::<i64>().map_err(|_| wrong(format!("\"{}\" is no whole number", field(k))));
-    let value = number(field(2)).ok_or_else(|| wrong(format!("\"{}\" is no number", field(2))))?;
+    let whole =
+        |k: usize| field(k).parse::<i64>().map_err(|_| wrong(format!("\"{}\" is not a whole number", field(k))));
+    let value = number(field(2)).ok_or_else(|| wrong(format!("\"{}\" is not a number", field(2))))?;
     entries.put((whole(0)?, whole(1)?), column, value);
     Ok(())
 }

@@ -1,0 +1,64 @@
+//! Gears that are reduced already stay in memory: from rung to rung of the ladder, and for who asks again.
+
+use answer::Remark;
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use contact_map::ContactMap;
+use reduction::{RecordKey, ReductionRecord};
+
+use crate::{GearCache, Kept, MapKey};
+
+/// Reduced gears in memory before the caller's own store.
+pub struct GearMemo<'a> {
+    store: Arc<dyn GearCache + Send + 'a>,
+    kept: Mutex<BTreeMap<String, ReductionRecord>>,
+}
+
+impl<'a> GearMemo<'a> {
+    /// None yet, but those of `store`.
+    pub fn new(store: &'a dyn GearCache) -> Self {
+        Self::holding(Arc::new(store))
+    }
+
+    /// The same of a store that others may hold as well.
+    pub fn holding(store: Arc<dyn GearCache + Send + 'a>) -> Self {
+        Self { store, kept: Mutex::default() }
+    }
+}
+
+impl std::fmt::Debug for GearMemo<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("GearMemo").finish_non_exhaustive()
+    }
+}
+
+impl GearCache for GearMemo<'_> {
+    fn is_on(&self) -> bool {
+        true
+    }
+
+    fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner).get(&key.to_string()).cloned();
+        match kept {
+            Some(record) => (Some(Kept::new(*key, record)), None),
+            None if self.store.is_on() => self.store.load(key),
+            None => (None, None),
+        }
+    }
+
+    fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_string(), record.clone());
+        if self.store.is_on() { self.store.save(key, record) } else { None }
+    }
+
+    fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
+        self.store.load_maps(key)
+    }
+
+    fn save_maps(&self, key: &MapKey, maps: &[&ContactMap]) -> Option<Remark> {
+        self.store.save_maps(key, maps)
+    }
+}

@@ -1,0 +1,150 @@
+//! How finely a gearbox is solved.
+
+use scene::{Scene, gearbox::Gearbox};
+
+use crate::accuracy::{CalibratedMesh, Calibration, Rung, has_own_mesh};
+
+/// Positions of a cycle that the ladder begins with, at least, and ends with; slices and shaft elements that it ends with.
+const POSITIONS: [u32; 2] = [8, 256];
+const MOST_SLICES: u32 = 768;
+const MOST_ELEMENTS: u32 = 128;
+/// Half and a quarter of the positions are held against all.
+const QUARTERS: u32 = 4;
+/// Rung that the ladder begins on, and the coarsest that a mesh which is given is held against: one is coarser.
+const FIRST: Rung = Rung::ALL[1];
+
+/// Settings of a gearbox, mesh by mesh where they are the meshes'.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Settings {
+    /// Rung that both gears of a mesh are on; `None`: as its scene has them.
+    pub rungs: Vec<Option<Rung>>,
+    /// Slices.
+    pub slices: Vec<u32>,
+    /// Positions in a cycle of the first mesh.
+    pub positions: u32,
+    /// Elements along every shaft, at least.
+    pub shaft_elements: u32,
+}
+
+/// What is the program's to choose, mesh by mesh: what the scene of a pair says nothing of.
+#[derive(Debug, Clone)]
+pub(super) struct Free {
+    pub meshes: Vec<bool>,
+    pub slices: Vec<bool>,
+}
+
+impl Free {
+    /// Of a gearbox.
+    pub fn of(file: &Gearbox) -> Self {
+        let counts =
+            ["order", "elements_profile", "elements_fillet", "elements_thickness", "elements_face", "elements_rim"];
+        let keys: Vec<String> =
+            ["pinion", "wheel"].iter().flat_map(|gear| counts.map(|key| format!("{gear}.mesher.{key}"))).collect();
+        let keys: Vec<&str> = keys.iter().map(String::as_str).collect();
+        let scenes = || file.meshes.iter().map(|mesh| &mesh.scene);
+        Self {
+            meshes: scenes().map(|own| !has_own_mesh(own) && own.place_of(&keys).is_none()).collect(),
+            slices: scenes().map(|own| own.place_of(&["contact.slices"]).is_none()).collect(),
+        }
+    }
+}
+
+impl Settings {
+    /// Those that are tried first; `scenes` of the meshes with their slices.
+    pub fn first(file: &Gearbox, free: &Free, scenes: &[Scene]) -> Self {
+        Self {
+            rungs: free.meshes.iter().map(|free| free.then_some(FIRST)).collect(),
+            // Half of one would tell nothing.
+            slices: scenes.iter().map(|own| own.contact.slices.unwrap_or(2).max(2)).collect(),
+            positions: file.positions_per_cycle.max(POSITIONS[0]).next_multiple_of(QUARTERS),
+            shaft_elements: file.shaft_elements.max(2),
+        }
+    }
+
+    /// The gearbox with these settings, which asks for no accuracy.
+    pub fn gearbox(&self, file: &Gearbox) -> Gearbox {
+        let mut own = Gearbox { accuracy: Default::default(), ..file.clone() };
+        for ((mesh, rung), slices) in own.meshes.iter_mut().zip(&self.rungs).zip(&self.slices) {
+            if let Some(rung) = rung {
+                mesh.scene = rung.scene(&mesh.scene);
+            }
+            mesh.scene.contact.slices = Some(*slices);
+        }
+        (own.positions_per_cycle, own.shaft_elements) = (self.positions, self.shaft_elements);
+        own
+    }
+
+    /// The rung of the meshes that are the program's.
+    pub fn rung(&self) -> Option<Rung> {
+        self.rungs.iter().flatten().next().copied()
+    }
+
+    /// Meshes that are given stand on a rung each: their own where they are one of the ladder with a coarser one below it,
+    /// else [`FIRST`]. The same settings where no mesh is given.
+    pub fn on_rungs(&self, file: &Gearbox) -> Self {
+        let one = |(mesh, rung): (&scene::gearbox::GearboxMesh, &Option<Rung>)| {
+            let own = Rung::of(&mesh.scene).filter(|own| *own >= FIRST && !has_own_mesh(&mesh.scene));
+            rung.or(own).or(Some(FIRST))
+        };
+        Self { rungs: file.meshes.iter().zip(&self.rungs).map(one).collect(), ..self.clone() }
+    }
+
+    /// All meshes that stand on a rung one rung coarser, and the least of what divides their numbers of elements.
+    pub fn coarser(&self) -> (Self, f64) {
+        let coarser = |rung: &Option<Rung>| rung.map(|own| own.coarser().unwrap_or(own));
+        let own = Self { rungs: self.rungs.iter().map(coarser).collect(), ..self.clone() };
+        let both = self.rungs.iter().flatten().zip(own.rungs.iter().flatten());
+        let ratio =
+            |(fine, coarse): (&Rung, &Rung)| f64::from(fine.elements_profile) / f64::from(coarse.elements_profile);
+        let least = both.map(ratio).fold(f64::INFINITY, f64::min);
+        (own, least)
+    }
+
+    /// Half the slices.
+    pub fn fewer_slices(&self) -> Self {
+        Self { slices: self.slices.iter().map(|n| n / 2).collect(), ..self.clone() }
+    }
+
+    /// So many positions.
+    pub fn with_positions(&self, positions: u32) -> Self {
+        Self { positions, ..self.clone() }
+    }
+
+    /// Half the shaft elements.
+    pub fn fewer_elements(&self) -> Self {
+        Self { shaft_elements: self.shaft_elements / 2, ..self.clone() }
+    }
+
+    /// Finer rungs of the meshes that are the program's, up to the finest that laws of pairs are known of.
+    pub fn finer_rungs(&self) -> impl Iterator<Item = Rung> + use<> {
+        let own = self.rung();
+        let known = |rung: &Rung| Calibration::committed().knows(CalibratedMesh::Rung(rung.elements_profile));
+        Rung::ALL.into_iter().filter(known).filter(move |rung| own.is_some_and(|own| *rung > own))
+    }
+
+    /// With the meshes that are the program's on a rung.
+    pub fn on(&self, rung: Rung) -> Self {
+        Self { rungs: self.rungs.iter().map(|own| own.map(|_| rung)).collect(), ..self.clone() }
+    }
+
+    /// Twice the slices that are the program's; `None` where there are none, or there would be too many.
+    pub fn more_slices(&self, free: &Free) -> Option<Self> {
+        let slices: Vec<u32> =
+            self.slices.iter().zip(&free.slices).map(|(n, free)| if *free { 2 * n } else { *n }).collect();
+        let fits =
+            slices != self.slices && slices.iter().zip(&self.slices).all(|(n, old)| n == old || *n <= MOST_SLICES);
+        fits.then(|| Self { slices, ..self.clone() })
+    }
+
+    /// Twice the positions.
+    pub fn more_positions(&self) -> Option<Self> {
+        let positions = 2 * self.positions;
+        (positions <= POSITIONS[1]).then(|| self.with_positions(positions))
+    }
+
+    /// Twice the shaft elements.
+    pub fn more_elements(&self) -> Option<Self> {
+        let shaft_elements = 2 * self.shaft_elements;
+        (shaft_elements <= MOST_ELEMENTS).then(|| Self { shaft_elements, ..self.clone() })
+    }
+}

@@ -1,0 +1,116 @@
+//! Parts of a gearbox that have no room beside each other: it is solved all the same, and said.
+
+use crate::remark;
+use answer::Remark;
+use geometry::{Gear, GearPair};
+use scene::gearbox::{Gearbox, GearboxGear};
+
+/// What stands on a shaft: from and to along z of the common axes, and its radius, mm.
+struct Body<'a> {
+    name: &'a str,
+    from: f64,
+    to: f64,
+    radius: f64,
+    /// Of a gear.
+    gear: Option<usize>,
+}
+
+/// Warnings of where gears and shafts stand.
+pub(super) fn clearance_remarks(file: &Gearbox, pairs: &[GearPair]) -> Vec<Remark> {
+    let exact: Vec<Option<&Gear>> = (0..file.gears.len()).map(|i| of_pairs(file, pairs, i)).collect();
+    let mut said = Vec::new();
+    for (i, gear) in file.gears.iter().enumerate() {
+        let Some(own) = exact[i] else { continue };
+        said.extend(on_shaft(file, gear, own));
+        for (k, other) in file.gears.iter().enumerate().skip(i + 1).filter(|(_, g)| g.shaft == gear.shaft) {
+            let Some(wide) = exact[k] else { continue };
+            if (gear.position - other.position).abs() < 0.5 * (own.face_width() + wide.face_width()) {
+                let shaft = &file.shafts[gear.shaft].name;
+                said.push(remark::gears_at_one_place(&*gear.name, &*other.name, &**shaft));
+            }
+        }
+    }
+    let bodies: Vec<Vec<Body<'_>>> = (0..file.shafts.len()).map(|i| bodies(file, i, &exact)).collect();
+    for a in 0..bodies.len() {
+        for b in a + 1..bodies.len() {
+            said.extend(between(file, [a, b], [&bodies[a], &bodies[b]]));
+        }
+    }
+    said
+}
+
+/// A gear as the first pair that it is in knows it.
+fn of_pairs<'a>(file: &Gearbox, pairs: &'a [GearPair], gear: usize) -> Option<&'a Gear> {
+    let mut all = file.meshes.iter().zip(pairs);
+    all.find_map(|(mesh, pair)| {
+        let end = mesh.gears.iter().position(|&g| g == gear)?;
+        Some([&pair.pinion, &pair.wheel][end])
+    })
+}
+
+/// A gear against the ends and the diameter of its own shaft.
+fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<Remark> {
+    let shaft = &file.shafts[gear.shaft];
+    let length: f64 = shaft.sections.iter().map(|s| s.length).sum();
+    let (from, to) = (gear.position - 0.5 * exact.face_width(), gear.position + 0.5 * exact.face_width());
+    let mut said = Vec::new();
+    let beyond = (-from).max(to - length);
+    // One that is meshed in one with its part of the shaft is no part of it.
+    if beyond > 0.0 && gear.seat == gear.position {
+        said.push(remark::gear_beyond_shaft(&*gear.name, beyond, &*shaft.name));
+    }
+    let mut end = 0.0;
+    let inside = shaft.sections.iter().filter(|s| {
+        let begin = end;
+        end += s.length;
+        begin < to && from < end
+    });
+    let thick = inside.map(|s| 0.5 * s.outer).fold(0.0, f64::max);
+    if thick > exact.root_radius() {
+        said.push(remark::shaft_thicker_than_root(&*shaft.name, 2.0 * thick, &*gear.name, 2.0 * exact.root_radius()));
+    }
+    said
+}
+
+fn bodies<'a>(file: &'a Gearbox, shaft: usize, exact: &[Option<&Gear>]) -> Vec<Body<'a>> {
+    let own = &file.shafts[shaft];
+    let mut at = own.origin[2];
+    let sections = own.sections.iter().map(|s| {
+        let from = at;
+        at += s.length;
+        Body { name: &own.name, from, to: at, radius: 0.5 * s.outer, gear: None }
+    });
+    let mut all: Vec<Body<'a>> = sections.collect();
+    for (i, gear) in file.gears.iter().enumerate().filter(|(_, g)| g.shaft == shaft) {
+        if let Some(exact) = exact[i] {
+            let (middle, half) = (own.origin[2] + gear.position, 0.5 * exact.face_width());
+            let (from, to) = (middle - half, middle + half);
+            all.push(Body { name: &gear.name, from, to, radius: exact.tip_radius(), gear: Some(i) });
+        }
+    }
+    all
+}
+
+/// The first two bodies of two shafts that reach into each other and do not mesh.
+fn between(file: &Gearbox, [a, b]: [usize; 2], [of_a, of_b]: [&[Body<'_>]; 2]) -> Option<Remark> {
+    let [p, q] = [a, b].map(|i| file.shafts[i].origin);
+    let distance = (q[0] - p[0]).hypot(q[1] - p[1]);
+    let mesh = |x: usize, y: usize| file.meshes.iter().any(|m| m.gears == [x, y] || m.gears == [y, x]);
+    for one in of_a {
+        for other in of_b {
+            let meet = matches!((one.gear, other.gear), (Some(x), Some(y)) if mesh(x, y));
+            let beside = one.from < other.to && other.from < one.to;
+            if beside && !meet && one.radius + other.radius > distance {
+                let kind = |body: &Body<'_>| if body.gear.is_some() { "gear" } else { "shaft" };
+                return Some(remark::parts_collide(
+                    kind(one),
+                    one.name,
+                    kind(other),
+                    other.name,
+                    one.radius + other.radius - distance,
+                ));
+            }
+        }
+    }
+    None
+}

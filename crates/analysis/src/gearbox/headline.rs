@@ -1,0 +1,158 @@
+//! The numbers that a gearbox is judged, varied and compared by.
+
+use described::Key;
+use scene::gearbox::Gearbox;
+use serde_json::{Map, Value, json};
+
+use super::{BearingLoad, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult};
+
+/// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
+#[derive(Clone, Copy)]
+enum Of {
+    Whole(fn(&GearboxResult) -> f64),
+    Meshes(fn(&MeshResult) -> Option<f64>),
+    Outputs(fn(&OutputResult) -> f64),
+    Bearings(fn(&BearingLoad) -> f64),
+    MeshesVibrating(fn(&VibrationResult, usize) -> f64),
+    BearingsVibrating(fn(&VibrationResult, usize) -> f64),
+    MeshesMoving(fn(&GearboxMotionResult, usize) -> f64),
+    BearingsMoving(fn(&GearboxMotionResult, usize) -> f64),
+}
+
+/// A number of the headline.
+struct Number {
+    key: Key,
+    of: Of,
+}
+
+const fn one(name: &'static str, meaning: &'static str, of: fn(&GearboxResult) -> f64) -> Number {
+    Number { key: Key::new(name, "f64", meaning), of: Of::Whole(of) }
+}
+
+const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
+    Number { key: Key::new(name, "Vec<f64>", meaning), of }
+}
+
+/// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
+const NUMBERS: [Number; 14] = [
+    one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
+    list(
+        "mean_ste_um",
+        "mean static transmission error of each mesh",
+        Of::Meshes(|m| Some(1e3 * m.transmission_error[0])),
+    ),
+    list(
+        "peak_to_peak_ste_um",
+        "peak to peak of the static transmission error of each mesh",
+        Of::Meshes(|m| Some(1e3 * m.transmission_error[1])),
+    ),
+    list(
+        "misalignment_in_plane_um",
+        "mean misalignment of each mesh in the plane of action, over the common face width",
+        Of::Meshes(|m| Some(1e3 * m.misalignment[0])),
+    ),
+    list(
+        "face_load_factor",
+        "K_Hbeta of each mesh from the solved distribution of the load, over all positions",
+        Of::Meshes(|m| m.face_load_factor),
+    ),
+    list("max_pressure_mpa", "largest contact pressure of each mesh", Of::Meshes(|m| Some(m.max_pressure))),
+    list(
+        "peak_to_peak_lag_urad",
+        "peak to peak of the lag of each output: the transmission error from input to output",
+        Of::Outputs(|o| 1e6 * o.peak_to_peak),
+    ),
+    list(
+        "mean_bearing_force_n",
+        "size of the mean force of each bearing",
+        Of::Bearings(|b| b.force[0].hypot(b.force[1]).hypot(b.force[2])),
+    ),
+    list(
+        "largest_dynamic_force_rms_n",
+        "largest root mean square over all speeds of the dynamic normal force of each mesh; with `[vibration]`",
+        Of::MeshesVibrating(|s, i| s.peak(|rms| rms.mesh_forces[i]).unwrap_or_default().1),
+    ),
+    list(
+        "largest_housing_force_rms_n",
+        "largest root mean square over all speeds of the force of each bearing on the housing; with `[vibration]`",
+        Of::BearingsVibrating(|s, i| s.peak(|rms| rms.bearing_forces[i]).unwrap_or_default().1),
+    ),
+    list(
+        "peak_to_peak_dte_um",
+        "peak to peak of the dynamic transmission error of each mesh, second half of the rows; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.settled(|p| 1e3 * p.meshes[i].transmission_error).span()),
+    ),
+    list(
+        "min_normal_force_n",
+        "smallest normal force of each mesh, second half of the rows; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.settled(|p| p.meshes[i].normal_force).least),
+    ),
+    list(
+        "max_normal_force_n",
+        "largest normal force of each mesh, second half of the rows; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.settled(|p| p.meshes[i].normal_force).largest),
+    ),
+    list(
+        "max_radial_bearing_force_n",
+        "largest radial force of each bearing, second half of the rows; with `[motion]`",
+        Of::BearingsMoving(|m, i| m.radial_force(i).largest),
+    ),
+];
+
+impl GearboxResult {
+    /// The headline of `summary.json`; the names bear the units. Numbers of a vibration or a motion are there where the
+    /// file asks for one.
+    pub fn headline(&self) -> Value {
+        let meshes = 0..self.meshes.len();
+        let bearings = 0..self.bearings.len();
+        let value = |of: Of| -> Option<Value> {
+            Some(match of {
+                Of::Whole(own) => json!(own(self)),
+                Of::Meshes(own) => self.meshes.iter().map(own).collect(),
+                Of::Outputs(own) => self.outputs.iter().map(own).collect(),
+                Of::Bearings(own) => self.bearings.iter().map(own).collect(),
+                Of::MeshesVibrating(own) => {
+                    self.vibration.as_ref().map(|s| meshes.clone().map(|i| own(s, i)).collect())?
+                }
+                Of::BearingsVibrating(own) => {
+                    self.vibration.as_ref().map(|s| bearings.clone().map(|i| own(s, i)).collect())?
+                }
+                Of::MeshesMoving(own) => self.motion.as_ref().map(|m| meshes.clone().map(|i| own(m, i)).collect())?,
+                Of::BearingsMoving(own) => {
+                    self.motion.as_ref().map(|m| bearings.clone().map(|i| own(m, i)).collect())?
+                }
+            })
+        };
+        NUMBERS.iter().filter_map(|n| Some((n.key.name.to_owned(), value(n.of)?))).collect::<Map<_, _>>().into()
+    }
+
+    /// Keys of the headline before anything is solved, each with how many numbers it lists; `None`: it is one.
+    pub fn headline_keys(file: &Gearbox) -> Vec<(&'static str, Option<usize>)> {
+        let (vibrates, moves) = (file.vibration.is_some(), file.motion.is_some());
+        let count = |of: Of| match of {
+            Of::Whole(_) => Some(None),
+            Of::Meshes(_) => Some(Some(file.meshes.len())),
+            Of::Outputs(_) => Some(Some(file.torques.len())),
+            Of::Bearings(_) => Some(Some(file.bearings.len())),
+            Of::MeshesVibrating(_) => vibrates.then_some(Some(file.meshes.len())),
+            Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
+            Of::MeshesMoving(_) => moves.then_some(Some(file.meshes.len())),
+            Of::BearingsMoving(_) => moves.then_some(Some(file.bearings.len())),
+        };
+        NUMBERS.iter().filter_map(|n| Some((n.key.name, count(n.of)?))).collect()
+    }
+
+    /// Keys of all numbers that a headline may have.
+    pub fn number_keys() -> Vec<Key> {
+        NUMBERS.iter().map(|n| n.key).collect()
+    }
+
+    /// Whether a number of the headline, by its key, is one of the vibration, and whether it is one of the motion.
+    pub fn is_in_time(key: &str) -> [bool; 2] {
+        let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
+        [
+            matches!(of, Some(Of::MeshesVibrating(_) | Of::BearingsVibrating(_))),
+            matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_))),
+        ]
+    }
+}

@@ -1,0 +1,187 @@
+//! The meshes of a gearbox: pairs as they run, their reduced gears, and the contact of each.
+
+use crate::remark;
+use answer::Remark;
+use std::sync::Arc;
+
+use dynamics::RigidBody;
+use fem::Wanted;
+use gearbox::{
+    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train,
+    motion::{MapRequest, MappedMesh, MovingExactMesh},
+};
+use ltca::StaticOptions;
+use scene::{
+    Scene,
+    gearbox::{Gearbox, GearboxGear, GearboxMesh},
+};
+
+use crate::{
+    AnalysisError, GearCache, NoObserver, Progress, SharedModels, gears,
+    inputs::resolved_scene,
+    meshes::SceneMesh,
+    motion::body,
+    options::options,
+    reduced_pairs::ReducedPair,
+    warnings::{PressedMesh, jam_warning},
+};
+
+/// Pairs before it is known which way they turn.
+pub(super) fn pairs(file: &Gearbox) -> Result<Vec<GearMesh>, AnalysisError> {
+    file.meshes.iter().map(|own| mesh(own, &own.scene)).collect()
+}
+
+/// A mesh with the shape that its scene says.
+pub(super) fn mesh(own: &GearboxMesh, scene: &Scene) -> Result<GearMesh, AnalysisError> {
+    Ok(GearMesh { name: own.name.clone(), discs: own.gears, pair: scene.gear_pair()? })
+}
+
+/// The scenes of all meshes as they run: driver and rotation, and slices where these are to be settled.
+pub(super) fn running(file: &Gearbox, train: &Train, slices: bool) -> Vec<Scene> {
+    let one = |(own, meshing): (&GearboxMesh, &Meshing)| {
+        let mut scene = own.scene.clone();
+        (scene.operation.driver, scene.operation.rotation) = (meshing.driver, meshing.sense);
+        // Slices follow the flanks that press.
+        if slices { resolved_scene(&scene, false) } else { scene }
+    };
+    file.meshes.iter().zip(train.meshing()).map(one).collect()
+}
+
+/// Solves with the windows of the meshes as they are, and again with one more tooth where one of them starves.
+pub(super) fn widening<T>(
+    meshes: &[GearMesh],
+    reduced: &mut [ReducedMesh],
+    models: &SharedModels<'_>,
+    remarks: &mut Vec<Remark>,
+    mut solve: impl FnMut(&[ReducedMesh]) -> Result<T, AnalysisError>,
+) -> Result<T, AnalysisError> {
+    loop {
+        let error = match solve(reduced) {
+            Ok(solved) => return Ok(solved),
+            Err(error) => error,
+        };
+        let starved = match error.what() {
+            AnalysisError::Gearbox(source) => source.starved_mesh(),
+            _ => None,
+        };
+        let which = starved.and_then(|name| meshes.iter().position(|m| m.name == name));
+        let Some(i) = which else { return Err(error) };
+        if !reduced[i].widen(&meshes[i], models)? {
+            return Err(error);
+        }
+        remarks.push(remark::window_widened(error.to_string(), reduced[i].window()));
+    }
+}
+
+/// How far from its seat a bore may be held before it is told, over the face width.
+const OFF_SEAT: f64 = 0.05;
+
+/// The gears of a mesh, reduced.
+pub(super) struct ReducedMesh {
+    pub scene: Scene,
+    pub options: StaticOptions,
+    pair: Arc<ReducedPair>,
+    /// What the user should hear of them.
+    pub remarks: Vec<Remark>,
+}
+
+impl ReducedMesh {
+    pub fn new(
+        scene: Scene,
+        mesh: &GearMesh,
+        (models, progress): (&SharedModels<'_>, &dyn Progress),
+    ) -> Result<Self, AnalysisError> {
+        let options = options(&scene, &mesh.pair);
+        let pair = models.pairs.of(&scene, &mesh.pair, &options, (models.cache(), progress, &|| true))?;
+        let of_meshes = pair.meshes.iter().flat_map(|m| &m.remarks).chain(&pair.remarks).cloned();
+        let remarks = gears::warnings(&mesh.pair).into_iter().chain(of_meshes);
+        let remarks = remarks.map(|said| said.about(&mesh.name)).collect();
+        Ok(Self { scene, options, pair, remarks })
+    }
+
+    /// What is held of the bores, where that is about another cross-section than the gear's seat: a shaft would take
+    /// hold of it by a lever that is not there.
+    pub fn seats(&self, file: &Gearbox, i: usize) -> Vec<Remark> {
+        let width = self.scene.pair.face_width_mm;
+        let gears =
+            file.meshes[i].gears.into_iter().zip(&self.pair.meshes).map(|(gear, mesh)| (&file.gears[gear], mesh));
+        let one = |(gear, mesh): (&GearboxGear, &SceneMesh)| {
+            let weights = mesh.gear.bore_weights();
+            let z = |n: u32| mesh.gear.mesh().nodes[n as usize][2];
+            let area: f64 = weights.iter().map(|(_, w)| w).sum();
+            let held = weights.iter().map(|&(n, w)| w * z(n)).sum::<f64>() / area;
+            let seat = gear.seat - gear.position;
+            let apart = !file.shafts[gear.shaft].held && (held - seat).abs() > OFF_SEAT * width;
+            apart.then(|| remark::seat_elsewhere(&*gear.name, held, seat, gear.position + held))
+        };
+        gears.filter_map(one).collect()
+    }
+
+    /// What is said of a mesh whose flanks press on both sides at once.
+    pub fn jammed(&self, i: usize, mesh: &GearMesh, positions: &[GearboxPosition]) -> Option<Remark> {
+        let contact = &self.options.contact;
+        let lever = mesh.pair.wheel.base_radius() * mesh.pair.base_helix_angle().cos();
+        let of = |p: &GearboxPosition| {
+            let MeshState { normal_force, moment, .. } = &p.meshes[i];
+            PressedMesh { sum: *normal_force, needed: moment[1][2].abs() / lever }
+        };
+        let all: Vec<PressedMesh> = positions.iter().map(of).collect();
+        let said = contact.both_flanks.then(|| jam_warning(&all, contact.friction)).flatten()?;
+        Some(said.about(&mesh.name))
+    }
+
+    /// Its contact.
+    pub fn element(&self, mesh: &GearMesh) -> Result<Box<dyn MeshElement>, GearboxError> {
+        Ok(Box::new(self.exact(mesh)?))
+    }
+
+    /// The same, as itself.
+    pub fn exact(&self, mesh: &GearMesh) -> Result<ExactMesh, GearboxError> {
+        ExactMesh::new(mesh.pair.clone(), Arc::clone(&self.pair.gears), self.options.clone())
+    }
+
+    /// The contact as a mesh in motion, with a damper (N s/mm a mm) on its contact lines; the coast flanks among it where
+    /// the gears are reduced for both.
+    pub fn moving(&self, mesh: &GearMesh, damping_per_length: f64) -> Result<MovingExactMesh, GearboxError> {
+        let gears = &self.pair.gears;
+        let coast = self.options.contact.both_flanks.then(|| Arc::clone(gears));
+        MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
+    }
+
+    /// A map of the contact.
+    pub fn map(&self, mesh: &GearMesh, request: &MapRequest) -> Result<MappedMesh, GearboxError> {
+        MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, request)
+    }
+
+    /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.
+    pub fn body(&self, gear: usize) -> Result<RigidBody, AnalysisError> {
+        let stated = self.scene.gears()[gear].body.clone().unwrap_or_default();
+        body(&self.scene, &self.pair.meshes, &stated, gear)
+    }
+
+    /// Teeth of its window.
+    pub fn window(&self) -> usize {
+        self.options.window.unwrap_or_default()
+    }
+
+    /// Reduces anew with one more tooth in the window; whether there was one.
+    pub fn widen(&mut self, mesh: &GearMesh, models: &SharedModels<'_>) -> Result<bool, AnalysisError> {
+        let teeth = self.options.window_teeth(&mesh.pair) + 1;
+        let room = self.pair.meshes.iter().all(|m| {
+            let there = if m.gear.is_periodic_sector() { m.gear.tooth_count() as usize } else { m.gear.teeth().len() };
+            teeth < there
+        });
+        if self.scene.analysis.window_teeth.is_some() || !room {
+            return Ok(false);
+        }
+        self.options.window = Some(teeth);
+        let waiting = (models.cache() as &dyn GearCache, &NoObserver as &dyn Progress, &(|| true) as Wanted<'_>);
+        self.pair = models.pairs.of(&self.scene, &mesh.pair, &self.options, waiting)?;
+        Ok(true)
+    }
+
+    /// Keeps the gears for later runs; what could not be written.
+    pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
+        self.pair.save(cache)
+    }
+}

@@ -1,0 +1,76 @@
+//! A gearbox at rest: from its file to where shafts, bearings and gears stand.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | `solve` | all of it once, with the settings of the document |
+//! | `accuracy` | again with finer settings, until bounds keep what is asked |
+//! | `parts`, `bearings` | shafts, discs and bearings of the file |
+//! | `meshes` | pairs, their reduced gears, and the contact of each mesh |
+//! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
+//! | `checks` | what must hold |
+//! | `headline` | the numbers that it is judged by |
+//! | `motion`, `orders`, `sink` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints |
+//! | `result` | what is read off all positions, and what is said of large deflections |
+//! | `clearance` | what is said of parts that have no room |
+//! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
+
+mod accuracy;
+mod bearings;
+mod checks;
+mod clearance;
+mod headline;
+mod inertia;
+mod loads;
+mod mesh_numbers;
+mod meshes;
+mod motion;
+mod orders;
+mod parts;
+mod result;
+mod sink;
+mod solve;
+mod swings;
+mod vibration;
+
+use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
+use scene::gearbox::Gearbox;
+
+use crate::{
+    AnalysisError, SharedModels,
+    context::{Context, Ending, Question},
+};
+use accuracy::solve_accurately;
+pub use bearings::RollingLoad;
+use motion::Span;
+pub use motion::{GearboxMotionResult, Range};
+pub use orders::MotionOrder;
+pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
+pub use sink::GearboxSink;
+use sink::NoGearboxSink;
+use solve::{Asked, Slices, solve};
+pub use swings::{ExcitationLine, OrderForces, SpeedRms, VibrationResult};
+
+impl Question for Gearbox {
+    type Answer = GearboxResult;
+    type Sink<'s> = dyn GearboxSink + 's;
+    type State = (GearboxCheckpoint, Vec<GearboxInstant>);
+
+    /// What is at rest is solved again where its motion is gone on with; of a gearbox that asks for an accuracy, which has
+    /// no motion, with finer settings until that is kept.
+    fn answer(&self, context: Context<'_, Self>) -> Result<Ending<GearboxResult>, AnalysisError> {
+        let Context { observer, cache, models, sink, from, stop_after, .. } = context;
+        let own = SharedModels::new(cache);
+        let models = models.unwrap_or(&own);
+        let mut none = NoGearboxSink;
+        let sink: &mut dyn GearboxSink = match sink {
+            Some(sink) => sink,
+            None => &mut none,
+        };
+        if !self.accuracy.is_none() {
+            return solve_accurately(self, models.cache(), observer, sink).map(Ending::Finished);
+        }
+        let asked = Asked { file: self, models, slices: Slices::Settled };
+        let (result, stopped) = solve(asked, Span { from, stop_after }, observer, sink)?;
+        Ok(stopped.map_or(Ending::Finished(result), |cycles| Ending::Stopped { cycles }))
+    }
+}

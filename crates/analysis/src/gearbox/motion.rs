@@ -1,0 +1,398 @@
+//! A gearbox in motion: from its equilibrium on, row by row.
+
+use std::f64::consts::TAU;
+
+use answer::Remark;
+use dynamics::{RigidBody, Speed};
+use gearbox::{
+    GearMesh, GearboxError, GearboxPosition, Meshing, Operation, Structure, Train, Vector12,
+    motion::{
+        ContactSpring, Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRun,
+        MapRequest, MotionOptions, MotionPlan, MovingMesh, ReductionCertificate,
+    },
+};
+use integrate::{Follower, MotionError, Periodicity, Row, Settle, Stage, State};
+use nalgebra::DVector;
+use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
+
+use super::{
+    inertia,
+    meshes::ReducedMesh,
+    orders::{MotionOrder, orders},
+    sink::GearboxSink,
+};
+use crate::{AnalysisError, Observer, PhaseWork, Progress, remark, run_phase, unless_cancelled};
+
+/// Largest force of a map over the mean at rest.
+const OVERLOAD: f64 = 4.0;
+/// Error with which a map is taken, over that aimed at.
+const WORST: f64 = 10.0;
+/// Phases of a cycle at which the contact is looked at for its mean stiffness.
+const PHASES: usize = 32;
+/// Highest frequency of the shafts over that of the fastest mesh, where none is stated.
+const BEYOND: f64 = 4.0;
+
+/// Where a motion begins, and where it is to stop.
+#[derive(Debug, Default)]
+pub(super) struct Span {
+    /// State to go on from, with the rows before it.
+    pub from: Option<(GearboxCheckpoint, Vec<GearboxInstant>)>,
+    /// Stop when so many cycles of the fastest mesh are done.
+    pub stop_after: Option<u64>,
+}
+
+/// A gearbox in motion, run.
+#[derive(Debug, Clone)]
+pub struct GearboxMotionResult {
+    /// Rows, the start among them.
+    pub rows: Vec<GearboxInstant>,
+    /// Frequency of each mesh at the speed of the start, Hz.
+    pub mesh_frequencies: Vec<f64>,
+    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    pub stiffness: Vec<f64>,
+    /// Damping of each mesh along its normal, N s/mm.
+    pub damping: Vec<f64>,
+    /// Length of a step, s.
+    pub step: f64,
+    /// Steps taken, and those that were divided.
+    pub steps: [u64; 2],
+    /// Where the energy went.
+    pub energy: GearboxEnergy,
+    /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
+    pub separations: Vec<[u64; 2]>,
+    /// How much of its map each mesh has used at most; 0 for others.
+    pub reach: Vec<f64>,
+    /// Orders of every mesh, stretch by stretch.
+    pub orders: Vec<MotionOrder>,
+    /// How well the shafts were reduced.
+    pub reduction: ReductionCertificate,
+    /// Cycles of the fastest mesh before the rows.
+    pub warm_up_cycles: u64,
+    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where it need not.
+    pub periodicity: Option<Periodicity>,
+}
+
+/// Least and largest value.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// Least.
+    pub least: f64,
+    /// Largest.
+    pub largest: f64,
+}
+
+impl Range {
+    /// From the one to the other.
+    pub fn span(self) -> f64 {
+        self.largest - self.least
+    }
+}
+
+impl GearboxMotionResult {
+    /// Least and largest value of the second half of a motion: what settles is in the first.
+    pub fn settled(&self, of: impl Fn(&GearboxInstant) -> f64) -> Range {
+        let rows = &self.rows[self.rows.len() / 2..];
+        let begin = Range { least: f64::INFINITY, largest: f64::NEG_INFINITY };
+        rows.iter().map(of).fold(begin, |r, x| Range { least: r.least.min(x), largest: r.largest.max(x) })
+    }
+
+    /// Of the radial force of a bearing in that half, N.
+    pub fn radial_force(&self, bearing: usize) -> Range {
+        self.settled(|p| p.bearings[bearing].force[0].hypot(p.bearings[bearing].force[1]))
+    }
+
+    /// What a user should hear of a motion that was to settle.
+    pub(super) fn remark(&self, asked: &GearboxMotion) -> Option<Remark> {
+        let (tolerance, most) = asked.settle?;
+        let found = self.periodicity?;
+        let early = self.warm_up_cycles < u64::from(most);
+        if found.residual <= tolerance {
+            return None;
+        }
+        Some(if early {
+            remark::repeats_and_drifts(tolerance, self.warm_up_cycles, found.residual)
+        } else {
+            let why = "it may be chaotic, have pitch errors, or need more `warm_up_cycles`";
+            remark::not_periodic(self.warm_up_cycles, found.residual, tolerance, why)
+        })
+    }
+}
+
+/// What is known of the gearbox at rest when its motion begins.
+pub(super) struct AtRest<'a> {
+    pub file: &'a Gearbox,
+    pub structure: &'a Structure,
+    pub meshes: &'a [GearMesh],
+    pub operation: &'a Operation,
+    pub train: &'a Train,
+    pub reduced: &'a [ReducedMesh],
+    pub positions: &'a [GearboxPosition],
+}
+
+/// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
+pub(super) fn run(
+    rest: &AtRest<'_>,
+    asked: &GearboxMotion,
+    span: Span,
+    (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
+) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
+    let bodies = inertia::gears(rest.file, rest.reduced)?;
+    let structure = inertia::heavy(rest.file, rest.structure, rest.operation, &bodies);
+    let springs: Vec<ContactSpring> = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {
+        (0..rest.meshes.len()).map(|i| rest.spring(i)).collect::<Result<_, _>>()
+    })
+    .map_err(failed)?;
+    let damping: Vec<f64> = (0..rest.meshes.len())
+        .map(|i| rest.damping(i, &bodies, springs[i].stiffness().mean, asked.mesh_damping_ratio))
+        .collect();
+    let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
+        let one = |i: usize| {
+            let made = rest.element(i, asked, &springs[i], damping[i]);
+            progress.tick();
+            made.map_err(|source| GearboxError::AtMesh { mesh: rest.meshes[i].name.clone(), source: Box::new(source) })
+        };
+        (0..rest.meshes.len()).map(one).collect::<Result<Vec<_>, _>>()
+    })
+    .map_err(failed)?;
+    let speed = asked.speed_rpm * TAU / 60.0;
+    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
+    let options = MotionOptions {
+        drive: match asked.drive {
+            GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
+            GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
+        },
+        modal_damping: asked.modal_damping_ratio,
+        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest)),
+    };
+    let mut elements = elements.into_iter();
+    let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
+    let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
+        elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
+    });
+    let mut mechanism = made.map_err(failed)?;
+    let start = mechanism.start(options.modal_damping).map_err(failed)?;
+    let plan = rest.plan(asked);
+    let (from, rows) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
+    sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
+    let mut goal = mechanism.goal(&start, &plan).map_err(failed)?;
+    goal.checkpoint_every = u64::from(asked.checkpoint_every_cycles);
+    goal.stop_after = span.stop_after;
+    let frequencies = mechanism.mesh_frequencies();
+    let reduction = *mechanism.bodies().certificate();
+    let mut course = mechanism.course(&start, &plan, from).map_err(failed)?;
+    let scale = course.timetable().scale().clone();
+    let mut told = Outcome { rows, sink, plan, scale };
+    let mut stopped = false;
+    if let (Some(settle), false) = (plan.settle, course.stage().recording) {
+        stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
+            course.settle(&goal, &mut InPhase { told: &mut told, progress, settling: Some(settle.tolerance) })
+        })
+        .map_err(|e| e.of(failed))?;
+    }
+    if !stopped {
+        let left = PhaseWork::Steps(plan.cycles - course.stage().recorded.min(plan.cycles));
+        stopped = run_phase(observer, "run", left, |progress| {
+            course.record(&goal, &mut InPhase { told: &mut told, progress, settling: None })
+        })
+        .map_err(|e| e.of(failed))?;
+    }
+    let stopped = stopped.then(|| course.cycle());
+    let done = GearboxRun::of(course, &start).map_err(failed)?;
+    let rows = told.rows;
+    let result = GearboxMotionResult {
+        orders: orders(&rows)?,
+        rows,
+        mesh_frequencies: frequencies,
+        stiffness: springs.iter().map(|s| s.stiffness().mean).collect(),
+        damping,
+        step: plan.step,
+        steps: [done.steps, done.divided],
+        energy: done.energy,
+        separations: done.separations,
+        reach: done.reach,
+        reduction,
+        warm_up_cycles: done.warm_up,
+        periodicity: done.periodicity.filter(|_| plan.settle.is_some()),
+    };
+    Ok((result, stopped))
+}
+
+/// Who is told of a motion, and its rows so far.
+struct Outcome<'a> {
+    rows: Vec<GearboxInstant>,
+    sink: &'a mut dyn GearboxSink,
+    plan: MotionPlan,
+    /// Sizes of the coordinates.
+    scale: DVector<f64>,
+}
+
+/// The same in one phase of the analysis.
+struct InPhase<'a, 'b> {
+    told: &'a mut Outcome<'b>,
+    progress: &'a dyn Progress,
+    /// Tolerance to which the motion settles in this phase.
+    settling: Option<f64>,
+}
+
+/// Why a motion ended.
+enum Ended {
+    Motion(GearboxError),
+    Analysis(AnalysisError),
+}
+
+impl Ended {
+    fn of(self, failed: impl Fn(GearboxError) -> AnalysisError) -> AnalysisError {
+        match self {
+            Self::Motion(e) => failed(e),
+            Self::Analysis(e) => e,
+        }
+    }
+}
+
+impl From<MotionError<GearboxError>> for Ended {
+    fn from(e: MotionError<GearboxError>) -> Self {
+        Self::Motion(e.into())
+    }
+}
+
+impl From<AnalysisError> for Ended {
+    fn from(e: AnalysisError) -> Self {
+        Self::Analysis(e)
+    }
+}
+
+impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
+    type Error = Ended;
+
+    fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), Ended> {
+        let instant = row.system.instant(row.state).map_err(Ended::Motion)?;
+        self.told.sink.row(&instant).map_err(AnalysisError::Sink)?;
+        self.told.rows.push(instant);
+        Ok(())
+    }
+
+    fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {
+        self.progress.tick();
+        unless_cancelled(self.progress)?;
+        if let (Some(tolerance), Some(found)) = (self.settling, stage.periodicity) {
+            self.progress.say(format!("repeats itself to {:.1e}, asked {tolerance:.0e}", found.residual));
+        }
+        Ok(())
+    }
+
+    fn seeks(&self, _: &&mut GearboxMechanism, found: Periodicity) -> bool {
+        self.told.plan.seeks(found)
+    }
+
+    fn nearer(
+        &mut self,
+        system: &mut &mut GearboxMechanism,
+        state: &State,
+        _: Periodicity,
+    ) -> Result<Option<State>, Ended> {
+        system.nearer(state, &self.told.plan, &self.told.scale).map_err(Ended::Motion)
+    }
+
+    fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {
+        Ok(self.told.sink.checkpoint(state).map_err(AnalysisError::Sink)?)
+    }
+}
+
+impl AtRest<'_> {
+    /// How its motion is integrated.
+    fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
+        // A ramp has its longest steps where it is slowest.
+        let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
+        MotionPlan {
+            scheme: asked.scheme,
+            step: 1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle)),
+            cycles: u64::from(asked.cycles),
+            steps_per_cycle: u64::from(asked.steps_per_cycle),
+            steps_per_row: u64::from(asked.steps_per_row),
+            tolerance: asked.error_tolerance,
+            stop_at_events: asked.stop_at_events,
+            settle: asked.settle.map(|(tolerance, most)| Settle { tolerance, most: u64::from(most) }),
+            shoots: asked.shoots,
+        }
+    }
+
+    /// Given speed of the input: constant, or a ramp over all cycles.
+    fn nominal(&self, asked: &GearboxMotion) -> Speed {
+        let from = asked.speed_rpm * TAU / 60.0;
+        let Some(to_rpm) = asked.to_speed_rpm else { return Speed::Constant(from) };
+        let to = to_rpm * TAU / 60.0;
+        // The mean speed of the smooth step is that of both ends.
+        let turned = f64::from(asked.cycles) / self.fastest(1.0);
+        Speed::Ramp { from, to, start: 0.0, duration: turned / (0.5 * (from + to)) }
+    }
+
+    /// Displacements of a mesh at all positions.
+    fn stands(&self, mesh: usize) -> Vec<Vector12> {
+        self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
+    }
+
+    fn spring(&self, mesh: usize) -> Result<ContactSpring, GearboxError> {
+        let stands = self.stands(mesh);
+        let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
+        let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
+        let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
+        ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
+    }
+
+    /// Damping along the normal, N s/mm: the ratio of both gears turning against each other.
+    ///
+    /// ```text
+    /// c = 2 zeta sqrt(k m_e),   1/m_e = cos^2 b_b (r_b1^2/J_1 + r_b2^2/J_2)
+    /// ```
+    fn damping(&self, mesh: usize, bodies: &[RigidBody], stiffness: f64, ratio: f64) -> f64 {
+        let pair = &self.meshes[mesh].pair;
+        let own = self.file.meshes[mesh].gears.map(|g| bodies[g].polar_inertia);
+        let lever = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
+        let mobility: f64 = (0..2).map(|g| lever[g] * lever[g] / own[g]).sum();
+        if mobility.is_finite() { 2.0 * ratio * (stiffness / mobility).sqrt() } else { 0.0 }
+    }
+
+    fn element(
+        &self,
+        mesh: usize,
+        asked: &GearboxMotion,
+        spring: &ContactSpring,
+        damping: f64,
+    ) -> Result<Box<dyn MovingMesh>, GearboxError> {
+        let (own, meshing): (&GearMesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
+        // Shared over the mean length of the contact lines under the mean force.
+        let over = |damping: f64, length: f64| if length > 0.0 { damping / length } else { 0.0 };
+        let alike = || {
+            let wrong = [&own.pair.pinion, &own.pair.wheel].iter().any(|g| g.has_own_teeth());
+            let what =
+                "pitch errors or flanks by tooth: the contact comes back after whole turns, not after a mesh cycle";
+            if wrong { Err(GearboxError::Unmapped { what }) } else { Ok(()) }
+        };
+        Ok(match asked.mesh {
+            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, over(damping, spring.length))?),
+            MeshModel::Spring => {
+                alike()?;
+                Box::new(spring.mesh(own, meshing)?.with_damping(damping))
+            }
+            MeshModel::Mapped => {
+                let request = MapRequest {
+                    stands: self.stands(mesh),
+                    mean_force: spring.force,
+                    overload: OVERLOAD,
+                    tolerance: asked.map_tolerance,
+                    worst: (WORST * asked.map_tolerance).min(0.5),
+                };
+                let map = self.reduced[mesh].map(own, &request)?;
+                let length = map.mean_loaded_length(spring.force, PHASES);
+                Box::new(map.with_damping(over(damping, length)))
+            }
+        })
+    }
+
+    /// Highest mesh frequency, Hz.
+    fn fastest(&self, speed: f64) -> f64 {
+        let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
+        a.iter().zip(&b).map(|(a, b)| (b - a).abs() * speed).fold(0.0, f64::max)
+    }
+}

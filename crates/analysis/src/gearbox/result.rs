@@ -1,0 +1,186 @@
+//! What is read off all positions of a gearbox.
+
+use answer::Remark;
+use gearbox::{GearMesh, GearboxPosition, Structure, Train};
+use geometry::{GearPair, Side};
+use scene::gearbox::Gearbox;
+
+use super::{
+    GearboxMotionResult, RollingLoad, VibrationResult,
+    bearings::rolling_load,
+    clearance::clearance_remarks,
+    mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
+    meshes::ReducedMesh,
+};
+use crate::{accuracy::Accuracy, plausible::effective_modulus, warnings::large_error, waves::waves_on};
+
+/// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
+const LARGE: f64 = 0.2;
+
+/// A gearbox at rest, solved.
+#[derive(Debug, Clone)]
+pub struct GearboxResult {
+    /// Turns of each shaft a turn of the input, negative against it.
+    pub ratios: Vec<f64>,
+    /// Pairs as they run, in the order of the meshes.
+    pub pairs: Vec<GearPair>,
+    /// Meshes.
+    pub meshes: Vec<MeshResult>,
+    /// Bearings.
+    pub bearings: Vec<BearingLoad>,
+    /// Outputs, in the order of the torques.
+    pub outputs: Vec<OutputResult>,
+    /// Mean torque at the input, N mm about +z.
+    pub input_torque: f64,
+    /// Worst of all positions: residual, balance of bodies.
+    pub certificate: [f64; 2],
+    /// All positions.
+    pub positions: Vec<GearboxPosition>,
+    /// How it swings about them, where that is asked for.
+    pub vibration: Option<VibrationResult>,
+    /// What the user should hear.
+    pub remarks: Vec<Remark>,
+    /// In motion, where the file asks for it.
+    pub motion: Option<GearboxMotionResult>,
+    /// How exact its numbers at rest are, where the file asks for an accuracy.
+    pub accuracy: Option<Accuracy>,
+}
+
+/// A mesh over all positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MeshResult {
+    /// Name.
+    pub name: String,
+    /// Slices over the face width.
+    pub slices: usize,
+    /// Mean of the sum of normal forces, N.
+    pub normal_force: f64,
+    /// Mean and peak to peak of the transmission error, mm.
+    pub transmission_error: [f64; 2],
+    /// The largest one, mm, either way.
+    pub largest_transmission_error: f64,
+    /// Mean misalignment in and across the plane of action, mm over the face width.
+    pub misalignment: [f64; 2],
+    /// K_Hbeta of the solved load distribution.
+    pub face_load_factor: Option<f64>,
+    /// Largest pressure, MPa.
+    pub max_pressure: f64,
+    /// The largest transmission error over the module, and the largest pressure over E*.
+    pub over_limits: [f64; 2],
+    /// Turn by which gear 2 is set where the train closes a ring, rad.
+    pub timing: f64,
+    /// Angles of tooth 0 of gear 1 and gear 2 with the input at its start, rad from +x; they turn as their shafts do.
+    pub gear_angles: [f64; 2],
+}
+
+/// A bearing over all positions.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BearingLoad {
+    /// Name.
+    pub name: String,
+    /// Mean force on the shaft, N.
+    pub force: [f64; 3],
+    /// Mean moment on it, N mm.
+    pub moment: [f64; 3],
+    /// Largest tilt of the shaft against the seat, rad.
+    pub tilt: f64,
+    /// What is known of its rolling elements, where it has some.
+    pub rolling: Option<RollingLoad>,
+}
+
+/// An output over all positions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutputResult {
+    /// Mean of how far it lags, rad.
+    pub mean: f64,
+    /// Peak to peak of that: the transmission error from input to output, rad.
+    pub peak_to_peak: f64,
+}
+
+/// Transmission errors that are too large for linear elasticity.
+fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<Remark> {
+    let one = |(mesh, pair): (&MeshResult, &GearPair)| {
+        let said = large_error(mesh.largest_transmission_error, (LARGE, pair.pinion.data().normal_module));
+        said.map(|said| said.about(&mesh.name))
+    };
+    meshes.iter().zip(pairs).filter_map(one).collect()
+}
+
+pub(super) fn result(
+    (file, structure): (&Gearbox, &Structure),
+    meshes: Vec<GearMesh>,
+    train: &Train,
+    reduced: &[ReducedMesh],
+    (positions, vibration): (Vec<GearboxPosition>, Option<VibrationResult>),
+    remarks: Vec<Remark>,
+) -> GearboxResult {
+    let all = &positions;
+    let mesh = |i: usize| {
+        let own = || all.iter().map(move |p| &p.meshes[i]);
+        let slices = reduced[i].options.contact.slices;
+        let MeshNumbers { transmission_error, misalignment, face_load_factor, max_pressure } =
+            MeshNumbers::of(all, i, slices);
+        let largest = own().map(|m| m.transmission_error.abs()).fold(0.0, f64::max);
+        MeshResult {
+            name: meshes[i].name.clone(),
+            slices,
+            normal_force: mean(own().map(|m| m.normal_force)),
+            transmission_error,
+            largest_transmission_error: largest,
+            over_limits: [
+                largest / meshes[i].pair.pinion.data().normal_module,
+                max_pressure / effective_modulus(&reduced[i].scene),
+            ],
+            misalignment,
+            face_load_factor,
+            max_pressure,
+            timing: train.meshing()[i].timing,
+            gear_angles: train.meshing()[i].gear_angles(&meshes[i].pair),
+        }
+    };
+    let bearing = |i: usize| {
+        let own = || all.iter().map(move |p| &p.bearings[i]);
+        BearingLoad {
+            name: file.bearings[i].name.clone(),
+            force: mean_force(all, i),
+            moment: std::array::from_fn(|k| mean(own().map(|b| b.moment[k]))),
+            tilt: own().map(|b| b.displacement[3].hypot(b.displacement[4])).fold(0.0, f64::max),
+            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, i),
+        }
+    };
+    let output = |i: usize| {
+        let own = || all.iter().map(move |p| p.output_lags[i]);
+        OutputResult { mean: mean(own()), peak_to_peak: peak_to_peak(own()) }
+    };
+    let worst = |of: &dyn Fn(&GearboxPosition) -> f64| all.iter().map(of).fold(0.0, crate::worse);
+    let of_meshes: Vec<MeshResult> = (0..meshes.len()).map(mesh).collect();
+    let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
+    let mut remarks = remarks;
+    let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
+    for (own, load) in file.bearings.iter().zip(&bearings) {
+        let is_held = file.shafts[own.shaft].held;
+        remarks.extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, (load.tilt, r))));
+    }
+    remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
+    for (i, pair) in pairs.iter().enumerate() {
+        let slices = || all.iter().flat_map(move |p| &p.meshes[i].slices);
+        let widest = slices().map(|s| s.half_width).fold(0.0, f64::max);
+        let side = slices().next().map_or(Side::Left, |s| s.side);
+        let said = waves_on(pair, side, widest, effective_modulus(&reduced[i].scene));
+        remarks.extend(said.into_iter().map(|said| said.about(&of_meshes[i].name)));
+    }
+    GearboxResult {
+        ratios: train.ratios().to_vec(),
+        meshes: of_meshes,
+        bearings,
+        outputs: (0..file.torques.len()).map(output).collect(),
+        input_torque: mean(all.iter().map(|p| p.input_torque)),
+        certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
+        pairs,
+        positions,
+        vibration,
+        remarks,
+        motion: None,
+        accuracy: None,
+    }
+}

@@ -1,0 +1,165 @@
+//! A gearbox solved once, with the settings of its document: equilibrium, then vibration and motion where they are asked.
+
+use std::f64::consts::TAU;
+
+use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
+use scene::{Scene, gearbox::Gearbox};
+
+use super::{
+    GearboxResult, GearboxSink, loads,
+    meshes::{self, ReducedMesh, widening},
+    motion::{self, Span},
+    parts, result,
+    vibration::{self, Parts},
+};
+use crate::{
+    AnalysisError, Observer, PhaseWork, SharedModels, plausible::gearbox_remarks, run_phase, unless_cancelled,
+};
+
+/// A gearbox that is to be solved.
+#[derive(Clone, Copy)]
+pub(super) struct Asked<'a> {
+    pub file: &'a Gearbox,
+    pub models: &'a SharedModels<'a>,
+    /// Who chooses slices.
+    pub slices: Slices,
+}
+
+/// Who chooses the slices of the meshes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Slices {
+    /// The program, where the scene of a pair states none.
+    Settled,
+    /// The scenes of the pairs have all that are wanted.
+    AsTheyAre,
+}
+
+/// The result, and the cycles after which its motion was stopped, where it was.
+///
+/// # Errors
+/// [`AnalysisError`].
+pub(super) fn solve(
+    asked: Asked<'_>,
+    span: Span,
+    observer: &mut dyn Observer,
+    sink: &mut dyn GearboxSink,
+) -> Result<(GearboxResult, Option<u64>), AnalysisError> {
+    let Asked { file, models, .. } = asked;
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
+    let structure = parts::structure(file).map_err(failed)?;
+    let mut remarks = Vec::new();
+    let (train, scenes) = running(file, asked.slices)?;
+    let operation = parts::operation(file, &train);
+    let meshes = file.meshes.iter().zip(&scenes).map(|(own, scene)| meshes::mesh(own, scene));
+    let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
+    let loaded = loads::Loaded {
+        file,
+        scenes: &scenes,
+        structure: &structure,
+        meshes: &meshes,
+        train: &train,
+        operation: &operation,
+    };
+    for said in gearbox_remarks(file).into_iter().chain(loaded.judge()?) {
+        observer.note(said.to_string());
+        remarks.push(said);
+    }
+    let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
+        let one = |(mesh, scene): (&gearbox::GearMesh, Scene)| {
+            progress.say(mesh.name.clone());
+            let own = ReducedMesh::new(scene, mesh, (models, progress))?;
+            progress.tick();
+            unless_cancelled(progress)?;
+            Ok(own)
+        };
+        meshes.iter().zip(scenes).map(one).collect::<Result<Vec<_>, AnalysisError>>()
+    })?;
+    for (i, own) in reduced.iter().enumerate() {
+        remarks.extend(own.remarks.clone());
+        remarks.extend(own.seats(file, i));
+    }
+    let (positions, samples) = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
+        run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
+            let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
+                reduced[i].element(mesh)
+            });
+            let mut gearbox = made.map_err(failed)?;
+            let mut positions: Vec<GearboxPosition> = Vec::new();
+            let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
+            for angle in angles(file, gearbox.train()) {
+                let position = gearbox.solve(angle).map_err(failed)?;
+                for (i, own) in samples.iter_mut().enumerate() {
+                    own.extend(MeshSample::at(&gearbox, &position, i));
+                }
+                positions.push(position);
+                progress.tick();
+                unless_cancelled(progress)?;
+            }
+            Ok((positions, samples))
+        })
+    })?;
+    for (i, own) in reduced.iter().enumerate() {
+        remarks.extend(own.jammed(i, &meshes[i], &positions));
+    }
+    // What swings and moves has springs in place of rolling elements, about where these stand.
+    let linear = match (&file.vibration, &file.motion) {
+        (None, None) => structure.clone(),
+        _ => {
+            let held = |own: &gearbox::Structure| own.check_held(&operation.held, (&meshes, &train), operation.input);
+            structure.about(&positions).and_then(|own| held(&own).map(|()| own)).map_err(failed)?
+        }
+    };
+    let vibration = match &file.vibration {
+        None => None,
+        Some(asked) => {
+            let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
+            let found = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
+                vibration::vibration(&parts, asked, reduced, &samples, observer)
+            });
+            Some(found?)
+        }
+    };
+    remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
+    let rest = motion::AtRest {
+        file,
+        structure: &linear,
+        meshes: &meshes,
+        operation: &operation,
+        train: &train,
+        reduced: &reduced,
+        positions: &positions,
+    };
+    let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
+    let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
+    remarks.extend(moved.as_ref().zip(file.motion.as_ref()).and_then(|(moved, asked)| moved.remark(asked)));
+    let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), remarks);
+    Ok((GearboxResult { motion: moved, ..result }, stopped))
+}
+
+/// The train of a gearbox, and the scenes of its meshes as they run: driver, rotation and slices are known.
+///
+/// # Errors
+/// [`AnalysisError`] where they do not fit each other.
+pub(super) fn running(file: &Gearbox, slices: Slices) -> Result<(Train, Vec<Scene>), AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
+    // First with the pairs as they are: which flanks press is known once all turn.
+    let (structure, rough) = (parts::structure(file).map_err(failed)?, meshes::pairs(file)?);
+    let (input, sense, keys) = parts::input(file);
+    let train = Train::new(&structure, &rough, &keys, input, sense).map_err(failed)?;
+    let scenes = meshes::running(file, &train, slices == Slices::Settled);
+    Ok((train, scenes))
+}
+
+fn count(file: &Gearbox) -> u32 {
+    file.positions_per_cycle.saturating_mul(file.cycles)
+}
+
+/// Angles of the input (rad about +z) at which the first mesh has gone through its cycles, evenly spaced from where it
+/// starts.
+fn angles(file: &Gearbox, train: &Train) -> impl Iterator<Item = f64> + use<> {
+    let first = &train.meshing()[0];
+    let teeth = f64::from(file.meshes[0].scene.pinion.teeth);
+    let pitch = first.sense.sign() as f64 * TAU / teeth / first.ratio;
+    let per_cycle = f64::from(file.positions_per_cycle);
+    (0..count(file)).map(move |i| pitch * f64::from(i) / per_cycle)
+}

@@ -1,0 +1,110 @@
+//! What is found of a gearbox that swings about where it stands.
+
+use dynamics::RigidBody;
+use gearbox::{Harmonic, Vibration, WhirlModes, rms};
+use nalgebra::Complex;
+use study::Campbell;
+
+/// Vibration of a gearbox about where it stands, order by order of its meshes.
+#[derive(Debug, Clone)]
+pub struct VibrationResult {
+    /// Mass and inertia of the gears, in their order.
+    pub gears: Vec<RigidBody>,
+    /// Mean stiffness of every mesh along its normal, N/mm, by the turn of gear 1.
+    pub mesh_stiffness: Vec<f64>,
+    /// Single-sided amplitudes of the loaded transmission error of every mesh, mm, order by order.
+    pub transmission_error: Vec<Vec<f64>>,
+    /// Modes at rest that answers are made of, and the highest frequency (Hz) up to which none is left out.
+    pub modes_kept: usize,
+    /// See `modes_kept`.
+    pub modes_up_to_hz: f64,
+    /// Natural motions at the speeds of the Campbell diagram, as many as are asked for.
+    pub modes: Vec<WhirlModes>,
+    /// Natural frequencies over the speed of the input, and where lines of excitation meet them.
+    pub campbell: Campbell,
+    /// Lines of excitation, in the order of `campbell.orders`.
+    pub lines: Vec<ExcitationLine>,
+    /// Speeds of the input of the forced response, rad/s.
+    pub speeds: Vec<f64>,
+    /// Every order of every mesh at every speed.
+    pub orders: Vec<Vec<OrderForces>>,
+    /// All orders together, speed by speed.
+    pub rms: Vec<SpeedRms>,
+}
+
+/// What excites: a multiple of the input's speed.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExcitationLine {
+    /// Name, as columns have it.
+    pub name: String,
+    /// Order, turns of the input.
+    pub order: f64,
+}
+
+/// What one order of one mesh does at one speed; peaks of Re(x exp(i w t)), t = 0 where the input is at its start.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrderForces {
+    /// Mesh that excites.
+    pub mesh: usize,
+    /// Order of its frequency.
+    pub order: usize,
+    /// Frequency, Hz.
+    pub frequency_hz: f64,
+    /// Dynamic normal force of every mesh, N.
+    pub mesh_forces: Vec<Complex<f64>>,
+    /// Force and moment of every bearing on the housing: N, N mm.
+    pub bearing_forces: Vec<[Complex<f64>; 6]>,
+}
+
+/// Root mean squares of all orders of all meshes together.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SpeedRms {
+    /// Of the dynamic normal force of every mesh, N.
+    pub mesh_forces: Vec<f64>,
+    /// Of the force of every bearing, x, y, z together, N.
+    pub bearing_forces: Vec<f64>,
+}
+
+impl OrderForces {
+    pub(super) fn of(harmonic: &Harmonic) -> Self {
+        let six = |i: usize| std::array::from_fn(|k| harmonic.bearing_forces[6 * i + k]);
+        Self {
+            mesh: harmonic.mesh,
+            order: harmonic.order,
+            frequency_hz: harmonic.frequency / std::f64::consts::TAU,
+            mesh_forces: harmonic.mesh_forces.clone(),
+            bearing_forces: (0..harmonic.bearing_forces.len() / 6).map(six).collect(),
+        }
+    }
+}
+
+impl SpeedRms {
+    pub(super) fn of(orders: &[OrderForces]) -> Self {
+        let (meshes, bearings) = orders.first().map_or((0, 0), |o| (o.mesh_forces.len(), o.bearing_forces.len()));
+        let mesh = |i: usize| rms(orders.iter().map(|o| (o.frequency_hz, o.mesh_forces[i])));
+        let axis = |i: usize, k: usize| rms(orders.iter().map(|o| (o.frequency_hz, o.bearing_forces[i][k])));
+        Self {
+            mesh_forces: (0..meshes).map(mesh).collect(),
+            bearing_forces: (0..bearings).map(|i| axis(i, 0).hypot(axis(i, 1)).hypot(axis(i, 2))).collect(),
+        }
+    }
+}
+
+impl VibrationResult {
+    /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` without speeds.
+    pub fn peak(&self, of: impl Fn(&SpeedRms) -> f64) -> Option<(f64, f64)> {
+        let all = self.speeds.iter().zip(&self.rms).map(|(speed, rms)| (*speed, of(rms)));
+        all.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Mesh orders and turns of shafts as lines of excitation.
+pub(super) fn lines(vibration: &Vibration, ratios: &[f64], orders: u32) -> Vec<ExcitationLine> {
+    let meshes = vibration.mesh_orders().into_iter().enumerate().flat_map(move |(i, order)| {
+        (1..=orders)
+            .map(move |k| ExcitationLine { name: format!("mesh_{}_order_{k}", i + 1), order: f64::from(k) * order })
+    });
+    let shafts = ratios.iter().enumerate();
+    let shafts = shafts.map(|(i, ratio)| ExcitationLine { name: format!("shaft_{}", i + 1), order: ratio.abs() });
+    meshes.chain(shafts).collect()
+}

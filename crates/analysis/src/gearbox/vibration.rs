@@ -1,0 +1,165 @@
+//! The search for how a gearbox swings about where it stands.
+
+use std::f64::consts::TAU;
+
+use gearbox::{
+    GearMesh, GearboxError, Held, MeanMesh, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
+    Structure, Train, Vibration, WhirlModes, own_cycle, turn_levers,
+};
+use rayon::prelude::*;
+use scene::gearbox::{Gearbox, GearboxVibration};
+use study::campbell;
+
+use super::{
+    inertia,
+    meshes::ReducedMesh,
+    swings::{OrderForces, SpeedRms, VibrationResult, lines},
+};
+use crate::{AnalysisError, Observer, PhaseWork, motion::RPM, run_phase, unless_cancelled};
+
+/// A gearbox as its solvers take it.
+pub(super) struct Parts<'a> {
+    pub file: &'a Gearbox,
+    pub structure: &'a Structure,
+    pub meshes: &'a [GearMesh],
+    pub train: &'a Train,
+    pub operation: &'a Operation,
+}
+
+/// Speeds of the Campbell diagram at the most: between them modes are straight.
+const DRAWN: u32 = 21;
+/// Positions of a mesh cycle at the least, and of one period of its highest order.
+const POSITIONS: u32 = 16;
+const PER_PERIOD: u32 = 4;
+/// Modes at rest are kept up to so many times the highest frequency of excitation, and of the natural frequencies that
+/// are asked for.
+const BEYOND: f64 = 2.0;
+const BEYOND_MODES: f64 = 1.5;
+
+impl Parts<'_> {
+    fn failed(&self, source: GearboxError) -> AnalysisError {
+        AnalysisError::from(source).in_file(&self.file.file)
+    }
+
+    /// Every mesh through its own cycle while the others are linear about what they did in `samples`.
+    fn excitations(
+        &self,
+        asked: &GearboxVibration,
+        reduced: &[ReducedMesh],
+        samples: &[Vec<MeshSample>],
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<MeshExcitation>, AnalysisError> {
+        let positions = self.file.positions_per_cycle.max(POSITIONS).max(PER_PERIOD * asked.orders);
+        let means: Vec<MeanMesh> = samples.iter().filter_map(|own| MeanMesh::of(own)).collect();
+        let steps = u64::from(positions) * self.meshes.len() as u64;
+        run_phase(observer, "mesh cycles", PhaseWork::Steps(steps), |progress| {
+            let one = |own: usize| {
+                let (structure, meshes) = (self.structure.clone(), self.meshes.to_vec());
+                let made = StaticGearbox::new(structure, meshes, self.operation.clone(), |i, mesh, _| {
+                    match means.get(i).filter(|_| i != own) {
+                        Some(mean) => Ok(Box::new(mean.clone()) as Box<dyn MeshElement>),
+                        None => reduced[i].element(mesh),
+                    }
+                });
+                let mut gearbox = made.map_err(|e| self.failed(e))?;
+                let cycle = own_cycle(&mut gearbox, own, positions as usize, || progress.tick());
+                let (samples, errors) = cycle.map_err(|e| self.failed(e))?;
+                unless_cancelled(progress)?;
+                let nothing = || GearboxError::Count { what: "positions", found: 0, wanted: positions as usize };
+                let turns = turn_levers(&self.meshes[own], &self.train.meshing()[own]).map_err(|e| self.failed(e))?;
+                let found = MeshExcitation::new(&samples, &errors, asked.orders as usize, turns);
+                found.ok_or_else(|| self.failed(nothing()))
+            };
+            (0..self.meshes.len()).map(one).collect()
+        })
+    }
+}
+
+/// Natural frequencies over speed, and the answer to all mesh orders.
+pub(super) fn vibration(
+    parts: &Parts<'_>,
+    asked: &GearboxVibration,
+    reduced: &[ReducedMesh],
+    samples: &[Vec<MeshSample>],
+    observer: &mut dyn Observer,
+) -> Result<VibrationResult, AnalysisError> {
+    let failed = |source: GearboxError| parts.failed(source);
+    let excitations = parts.excitations(asked, reduced, samples, observer)?;
+    let gears = inertia::gears(parts.file, reduced)?;
+    let held = Held {
+        shafts: parts.operation.held.clone(),
+        turns: if asked.held_input { vec![parts.operation.input] } else { Vec::new() },
+    };
+    let structure = inertia::heavy(parts.file, parts.structure, parts.operation, &gears);
+    let train = (parts.meshes, parts.train, parts.operation.sense);
+    let [from, to] = asked.speeds_rpm.map(|rpm| RPM * rpm);
+    let speed = |i: u32, count: u32| from + (to - from) * f64::from(i) / f64::from(count - 1);
+    let drawn: Vec<f64> = (0..asked.speeds.min(DRAWN)).map(|i| speed(i, asked.speeds.min(DRAWN))).collect();
+    let speeds: Vec<f64> = (0..asked.speeds).map(|i| speed(i, asked.speeds)).collect();
+    run_phase(observer, "vibrate", PhaseWork::Steps((drawn.len() + speeds.len()) as u64), |progress| {
+        let whole = Vibration::new(structure, train, excitations, &held).map_err(failed)?;
+        let limit = limit(&whole, asked, to);
+        let vibration = whole.reduced(limit).map_err(failed)?;
+        drop(whole);
+        let at_speed = |speed: &f64| {
+            let found = unless_cancelled(progress)
+                .and_then(|()| vibration.rotors().whirl_modes(&vibration.speeds(*speed)).map_err(failed));
+            progress.tick();
+            found.map(|found| first(found, asked.modes as usize))
+        };
+        // All of them before the first complaint: it is the same for any number of threads.
+        let modes: Vec<Result<WhirlModes, AnalysisError>> = drawn.par_iter().map(at_speed).collect();
+        let modes = modes.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let answer = |speed: &f64| {
+            let found = unless_cancelled(progress)
+                .and_then(|()| vibration.harmonics(*speed, asked.damping_ratio).map_err(failed));
+            progress.tick();
+            found.map(|all| all.iter().map(OrderForces::of).collect::<Vec<_>>())
+        };
+        let orders: Vec<Result<Vec<OrderForces>, AnalysisError>> = speeds.par_iter().map(answer).collect();
+        let orders = orders.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let lines = lines(&vibration, parts.train.ratios(), asked.orders);
+        let campbell = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
+        Ok(VibrationResult {
+            gears,
+            mesh_stiffness: vibration.mesh_stiffness(),
+            transmission_error: vibration
+                .excitations()
+                .map(|e| e.transmission_error.iter().map(|x| x.norm()).collect())
+                .collect(),
+            modes_kept: vibration.rotors().modes_at_rest().frequencies.len(),
+            modes_up_to_hz: limit / TAU,
+            modes,
+            campbell,
+            lines,
+            speeds,
+            rms: orders.iter().map(|own| SpeedRms::of(own)).collect(),
+            orders,
+        })
+    })
+}
+
+/// Frequency at rest (rad/s) up to which no mode is left out.
+fn limit(whole: &Vibration, asked: &GearboxVibration, fastest: f64) -> f64 {
+    let highest = whole.mesh_orders().into_iter().fold(0.0, f64::max) * f64::from(asked.orders) * fastest;
+    let rest = &whole.rotors().modes_at_rest().frequencies;
+    let told = rest.iter().filter(|w| **w > 0.0).nth(asked.modes as usize);
+    (BEYOND * highest).max(BEYOND_MODES * told.copied().unwrap_or(f64::INFINITY))
+}
+
+/// The lowest of all natural motions.
+fn first(mut found: WhirlModes, count: usize) -> WhirlModes {
+    found.modes.truncate(count);
+    found
+}
+
+fn diagram(speeds: &[f64], modes: &[WhirlModes], orders: &[f64]) -> Result<study::Campbell, AnalysisError> {
+    // As many at each speed: motions that gyroscopic moments alone make are not there at every one.
+    let count = modes.iter().map(|m| m.modes.len()).min().unwrap_or(0);
+    let mut each = modes.iter();
+    let in_hz: Vec<f64> = speeds.iter().map(|s| s / TAU).collect();
+    let found = campbell(&in_hz, orders, |_| {
+        each.next().map_or_else(Vec::new, |m| m.modes.iter().take(count).map(|m| m.frequency / TAU).collect())
+    });
+    found.map_err(AnalysisError::from)
+}

@@ -1,0 +1,243 @@
+//! A run-up or run-down, mesh cycle by mesh cycle: what is largest, and at which speed.
+
+use dynamics::Speed;
+use serde::Serialize;
+use study::{StudyError, cycle_statistics};
+
+use super::{MotionSeries, WaterfallLine};
+use crate::motion::RPM;
+
+/// Mesh orders that are followed.
+const ORDERS: usize = 8;
+
+/// One mesh cycle of a ramp; units are in the names.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunUpCycle {
+    /// Middle of the mesh cycle, s.
+    pub time_s: f64,
+    /// Speed of the driver, 1/min.
+    pub driver_speed_rpm: f64,
+    /// Mesh frequency, Hz.
+    pub mesh_frequency_hz: f64,
+    /// Mean dynamic transmission error, um.
+    pub mean_dte_um: f64,
+    /// Peak to peak of the dynamic transmission error, um.
+    pub peak_to_peak_dte_um: f64,
+    /// Smallest sum of the normal forces on the driving flanks, N.
+    pub min_normal_force_n: f64,
+    /// Largest sum of the normal forces on the driving flanks, N.
+    pub max_normal_force_n: f64,
+    /// Largest normal force of one tooth pair, N.
+    pub max_pair_normal_force_n: Option<f64>,
+    /// Largest sum of normal forces over the mean quasi-static one.
+    pub dynamic_factor: f64,
+}
+
+/// Amplitudes of the mesh orders over a stretch of a ramp.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OrderCut {
+    /// Middle of the stretch, s.
+    pub time_s: f64,
+    /// Mean speed of the driver, 1/min.
+    pub driver_speed_rpm: f64,
+    /// Mean mesh frequency, Hz.
+    pub mesh_frequency_hz: f64,
+    /// Amplitudes of orders 1, 2, ..., um.
+    pub amplitudes_um: Vec<f64>,
+}
+
+/// A ramp over speed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RunUp {
+    /// Mesh cycle by mesh cycle.
+    pub cycles: Vec<RunUpCycle>,
+    /// Stretch by stretch of the waterfall.
+    pub cuts: Vec<OrderCut>,
+}
+
+described::described! {
+    /// The largest of a ramp, and where.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct PeakOverSpeed {
+        /// largest value, in the unit of the key
+        pub value: f64,
+        /// speed of the driver there
+        pub driver_speed_rpm: f64,
+        /// mesh frequency there
+        pub mesh_frequency_hz: f64,
+        /// time there
+        pub time_s: f64,
+    }
+}
+
+impl PeakOverSpeed {
+    /// Speed and mesh frequency in words.
+    pub fn place(&self) -> String {
+        format!("at {:.1}/min, {:.1} Hz", self.driver_speed_rpm, self.mesh_frequency_hz)
+    }
+}
+
+described::described! {
+    /// What a ramp is made for; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct RunUpHeadline {
+        /// largest peak to peak of the DTE of a mesh cycle
+        pub peak_to_peak_dte_um: PeakOverSpeed,
+        /// largest amplitude of each mesh harmonic of the DTE, of all stretches of the waterfall
+        pub dte_harmonics_um: Vec<PeakOverSpeed>,
+        /// largest sum of the normal forces on the driving flanks
+        pub normal_force_n: PeakOverSpeed,
+        /// largest normal force of one tooth pair; `null` where the model has no pairs
+        pub pair_normal_force_n: Option<PeakOverSpeed>,
+        /// largest dynamic factor of a mesh cycle
+        pub dynamic_factor: Option<PeakOverSpeed>,
+        /// mean over all mesh cycles of the peak to peak of the DTE
+        pub mean_peak_to_peak_dte_um: f64,
+    }
+}
+
+impl RunUp {
+    /// Of the series of a ramp, `per_cycle` values to each mesh cycle; `law`: speed of the driver over time, `teeth`:
+    /// its own, `static_force`: what the dynamic factor refers to, N.
+    ///
+    /// # Errors
+    /// [`StudyError`] for series that hold what is no number, and for series of different lengths.
+    pub fn of(
+        series: &MotionSeries,
+        per_cycle: usize,
+        (law, teeth): (Speed, u32),
+        static_force: f64,
+        waterfall: &[WaterfallLine],
+    ) -> Result<Self, StudyError> {
+        let MotionSeries { time_s: time, dte_um: dte, normal_force_n: driving, .. } = series;
+        series.check(&[time, driving], per_cycle)?;
+        let teeth = f64::from(teeth);
+        let one = |k: usize| {
+            let part = k * per_cycle..(k + 1) * per_cycle;
+            let highest = |of: &[f64]| of.get(part.clone()).unwrap_or_default().iter().fold(0.0, |m: f64, f| m.max(*f));
+            let time_s = 0.5 * (time[part.start] + time[part.end - 1]);
+            let driver_speed_rpm = law.at(time_s) / RPM;
+            let of_dte = cycle_statistics(&dte[part.clone()], 1)?;
+            let largest = highest(driving);
+            Ok(RunUpCycle {
+                time_s,
+                driver_speed_rpm,
+                mesh_frequency_hz: driver_speed_rpm * teeth / 60.0,
+                mean_dte_um: of_dte.mean,
+                peak_to_peak_dte_um: of_dte.peak_to_peak,
+                min_normal_force_n: driving[part.clone()].iter().copied().fold(f64::INFINITY, f64::min),
+                max_normal_force_n: largest,
+                max_pair_normal_force_n: series.pair_normal_force_n.as_deref().map(highest),
+                dynamic_factor: largest.max(highest(&series.coast_normal_force_n)) / static_force,
+            })
+        };
+        let cycles = (0..dte.len() / per_cycle).map(one).collect::<Result<_, StudyError>>()?;
+        let cuts = waterfall.iter().map(|line| {
+            // So many bins to half of the rows in a cycle.
+            let bins = 2 * line.amplitudes.len().saturating_sub(1) / per_cycle;
+            OrderCut {
+                time_s: line.time,
+                driver_speed_rpm: 60.0 * line.mesh_frequency_hz / teeth,
+                mesh_frequency_hz: line.mesh_frequency_hz,
+                amplitudes_um: (1..=ORDERS).filter_map(|n| line.amplitudes.get(n * bins).copied()).collect(),
+            }
+        });
+        Ok(Self { cycles, cuts: cuts.collect() })
+    }
+
+    /// The largest of everything; `None` without a whole cycle.
+    pub fn headline(&self) -> Option<RunUpHeadline> {
+        let largest = |value: &dyn Fn(&RunUpCycle) -> f64| {
+            self.cycles.iter().max_by(|a, b| value(a).total_cmp(&value(b))).map(|c| PeakOverSpeed {
+                value: value(c),
+                driver_speed_rpm: c.driver_speed_rpm,
+                mesh_frequency_hz: c.mesh_frequency_hz,
+                time_s: c.time_s,
+            })
+        };
+        let orders = self.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
+        let of_order = |n: usize| {
+            self.cuts.iter().max_by(|a, b| a.amplitudes_um[n].total_cmp(&b.amplitudes_um[n])).map(|c| PeakOverSpeed {
+                value: c.amplitudes_um[n],
+                driver_speed_rpm: c.driver_speed_rpm,
+                mesh_frequency_hz: c.mesh_frequency_hz,
+                time_s: c.time_s,
+            })
+        };
+        let pairs = self.cycles.iter().all(|c| c.max_pair_normal_force_n.is_some());
+        let sum: f64 = self.cycles.iter().map(|c| c.peak_to_peak_dte_um).sum();
+        Some(RunUpHeadline {
+            peak_to_peak_dte_um: largest(&|c| c.peak_to_peak_dte_um)?,
+            dte_harmonics_um: (0..orders).filter_map(of_order).collect(),
+            normal_force_n: largest(&|c| c.max_normal_force_n)?,
+            pair_normal_force_n: largest(&|c| c.max_pair_normal_force_n.unwrap_or(0.0)).filter(|_| pairs),
+            dynamic_factor: largest(&|c| c.dynamic_factor).filter(|l| l.value.is_finite()),
+            mean_peak_to_peak_dte_um: sum / self.cycles.len() as f64,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::motion::orders::waterfall;
+
+    /// Series of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude,
+    /// 3 um, at 2000/min, order 2 is 0.5 um everywhere.
+    fn series() -> (MotionSeries, Speed) {
+        let law = Speed::Ramp { from: 1000.0 * RPM, to: 3000.0 * RPM, start: 0.0, duration: 1.0 };
+        let mut series = MotionSeries { pair_normal_force_n: Some(Vec::new()), ..MotionSeries::default() };
+        let pitch = std::f64::consts::TAU / 30.0;
+        let cycles = (law.angle(1.0) / pitch).floor() as u32;
+        for row in 1..=cycles * 16 {
+            let phase = f64::from(row) / 16.0;
+            let time = law.time_at(phase * pitch).unwrap();
+            let speed = law.at(time) / RPM;
+            let size = 3.0 / (1.0 + ((speed - 2000.0) / 200.0).powi(2));
+            let turn = std::f64::consts::TAU * phase;
+            let dte = 5.0 + size * turn.cos() + 0.5 * (2.0 * turn).sin();
+            series.time_s.push(time);
+            series.pinion_speed_rpm.push(speed);
+            series.dte_um.push(dte);
+            series.normal_force_n.push(1000.0 * (1.0 + 0.2 * size));
+            series.coast_normal_force_n.push(0.0);
+            series.pair_normal_force_n.as_mut().unwrap().push(600.0 * (1.0 + 0.2 * size));
+        }
+        (series, law)
+    }
+
+    /// What is largest is found with its speed, however small the mean over the ramp is.
+    #[test]
+    fn the_largest_of_a_ramp_is_found_where_it_is() {
+        let (series, law) = series();
+        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let run_up = RunUp::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
+        let h = run_up.headline().unwrap();
+        let near = |l: &PeakOverSpeed, value: f64| {
+            assert!((l.driver_speed_rpm - 2000.0).abs() < 30.0, "{l:?}");
+            assert!((l.mesh_frequency_hz / l.driver_speed_rpm - 0.5).abs() < 1e-12, "{l:?}");
+            assert!((l.value / value - 1.0).abs() < 0.02, "{l:?}, not {value}");
+        };
+        // cos + sin of the double angle: 6 + what order 2 adds at both ends, 0.13.
+        near(&h.peak_to_peak_dte_um, 6.16);
+        near(&h.dte_harmonics_um[0], 3.0);
+        near(&h.normal_force_n, 1600.0);
+        near(&h.pair_normal_force_n.unwrap(), 960.0);
+        near(&h.dynamic_factor.unwrap(), 1.6);
+        assert!((h.dte_harmonics_um[1].value - 0.5).abs() < 0.05, "{:?}", h.dte_harmonics_um[1]);
+        assert!(h.mean_peak_to_peak_dte_um < 0.5 * h.peak_to_peak_dte_um.value, "{h:?}");
+    }
+
+    /// Each mesh cycle has its place, and the speeds there go with the frequencies.
+    #[test]
+    fn every_cycle_has_speed_and_frequency() {
+        let (series, law) = series();
+        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let run_up = RunUp::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
+        let cycles = run_up.cycles.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz));
+        let both = cycles.chain(run_up.cuts.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz)));
+        both.for_each(|(n, f)| assert!((n * 0.5 - f).abs() < 1e-9 * f, "{n}/min, {f} Hz"));
+        assert_eq!(run_up.cycles.len() * 16, series.len());
+        assert!(run_up.cuts.len() > 50, "{} cuts", run_up.cuts.len());
+    }
+}

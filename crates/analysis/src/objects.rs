@@ -1,0 +1,98 @@
+//! Objects of `summary.json` with their keys, for `docs/outputs.md`.
+
+use described::Key;
+use geometry::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
+use rating::{BendingFactors, GearDamage, GearRating, Outside, PittingFactors, SpectrumRating, StandardRating};
+use study::Lyapunov;
+
+use crate::{
+    accuracy::{Accuracy, Bound, Term, TriedRung, TriedSettings, motion::TriedModel},
+    accuracy_chart::SpeedUp,
+    facts::{MeshFacts, RunInfo},
+    gearbox::GearboxResult,
+    gears::GeometryFacts,
+    iso_model::IsoFacts,
+    iso_root::{IsoGearRoot, IsoRootStress},
+    lumped::{
+        Attractor, BasinHeadline, BranchPoint, ContinuationHeadline, FrequencyFacts, LumpedCertificate, LumpedHeadline,
+        Meeting, SweepHeadline, SweepPoint,
+    },
+    motion,
+    motion::{
+        CriticalSpeed, ElasticHeadline, InertiaHeadline, KeptModes, MotionCertificate, MotionHeadline, PeakOverSpeed,
+        RunUpHeadline,
+    },
+    nominal_pressure::{NominalPressure, PointPressure},
+    optimum::{Influence, TorqueLine},
+    pair_rating::{LocalRating, RatingHeadline},
+    resolution::Resolution,
+    results::{GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, ToothChangeHeadline},
+    statics::ReducedFacts,
+};
+
+/// Every object that an analysis hands on, with its keys. A name says what the object is of where several objects have one key: `headline, a pair at rest`.
+pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
+    let of = |name: &'static str, keys: &[Key]| (name, keys.to_vec());
+    vec![
+        of("the summary of a pair", RunInfo::KEYS),
+        of("meshes, a pair", MeshFacts::KEYS),
+        of("geometry", GeometryFacts::KEYS),
+        of("geometry_sheet", GeometrySheet::KEYS),
+        of("pinion, geometry_sheet", GearSheet::KEYS),
+        of("ring", RingSheet::KEYS),
+        of("span", Span::KEYS),
+        of("balls", Balls::KEYS),
+        of("points", PathPoint::KEYS),
+        of("nominal_pressure", NominalPressure::KEYS),
+        of("hertz", PointPressure::KEYS),
+        of("resolution", Resolution::KEYS),
+        of("iso_root_stress", IsoRootStress::KEYS),
+        of("pinion, iso_root_stress", IsoGearRoot::KEYS),
+        of("accuracy", Accuracy::KEYS),
+        of("bounds", Bound::KEYS),
+        of("terms", Term::KEYS),
+        of("rungs", TriedRung::KEYS),
+        of("models", TriedModel::KEYS),
+        of("settings", TriedSettings::KEYS),
+        of("model, meshes", ReducedFacts::KEYS),
+        of("model, iso", IsoFacts::KEYS),
+        of("model, a linear model", FrequencyFacts::KEYS),
+        of("critical_speeds, a linear model", Meeting::KEYS),
+        of("headline, a pair at rest", StaticHeadline::KEYS),
+        of("max_pressure_at", PressurePlace::KEYS),
+        of("root_stress", RootStressHeadline::KEYS),
+        of("pinion, root_stress", GearRootStress::KEYS),
+        of("max_principal", Place::KEYS),
+        ("rating", [RatingHeadline::KEYS, StandardRating::KEYS].concat()),
+        ("pinion, rating", [GearRating::KEYS, PittingFactors::KEYS, BendingFactors::KEYS].concat()),
+        of("outside", Outside::KEYS),
+        of("spectrum", SpectrumRating::KEYS),
+        of("pinion, spectrum", GearDamage::KEYS),
+        of("local", LocalRating::KEYS),
+        of("tooth_change", ToothChangeHeadline::KEYS),
+        of("headline, a motion of reduced gears", MotionHeadline::KEYS),
+        of("certificate, a motion of reduced gears", MotionCertificate::KEYS),
+        of("inertia", InertiaHeadline::KEYS),
+        of("elasticity", ElasticHeadline::KEYS),
+        of("kept_modes", KeptModes::KEYS),
+        of("critical_speeds", CriticalSpeed::KEYS),
+        of("ramp", RunUpHeadline::KEYS),
+        of("peak_to_peak_dte_um, a ramp", PeakOverSpeed::KEYS),
+        of("headline, a sweep over speed", motion::SweepHeadline::KEYS),
+        of("largest, a sweep over speed", motion::SweepRow::KEYS),
+        of("failed, a sweep over speed", motion::FailedSpeed::KEYS),
+        of("headline, a reduced-order model", LumpedHeadline::KEYS),
+        of("certificate, a reduced-order model", LumpedCertificate::KEYS),
+        of("lyapunov", Lyapunov::KEYS),
+        of("headline, motions that carry on", SweepHeadline::KEYS),
+        of("largest, motions that carry on", SweepPoint::KEYS),
+        of("headline, a continuation", ContinuationHeadline::KEYS),
+        of("largest, a continuation", BranchPoint::KEYS),
+        of("headline, basins", BasinHeadline::KEYS),
+        of("attractors", Attractor::KEYS),
+        ("headline, a gearbox", GearboxResult::number_keys()),
+        of("torques", TorqueLine::KEYS),
+        of("parameters", Influence::KEYS),
+        of("at_rest", SpeedUp::KEYS),
+    ]
+}

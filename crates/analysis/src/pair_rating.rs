@@ -1,0 +1,275 @@
+//! Whether a pair at rest will hold: the standard's rating of a scene that asks for it.
+
+use geometry::{FlankTolerances, Gear, GearPair};
+use ltca::StaticHistory;
+use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
+use rating::{
+    Deviations, Edition, FlankFactors, GearInput, GivenFactors, MeshStiffness, PairGeometry, RatingInput, RootFactors,
+    SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, spectrum_rating, standard_rating,
+};
+use scene::{RatingEdition, RatingScene, Scene};
+use serde::Serialize;
+
+use crate::{
+    AnalysisError,
+    error::place_in,
+    loaded_pair::LoadedPair,
+    results::{PressurePlace, face_load_factor, root_stress_headline},
+};
+
+/// The coarsest ISO 1328-1 class whose relief counts in K_V.
+const RELIEF_CLASS: u32 = 5;
+/// The coarsest class whose pairs share the load so evenly that Y_DT falls below 1.
+const DEEP_TOOTH_CLASS: u32 = 4;
+const NAMES: [&str; 2] = ["pinion", "wheel"];
+
+described::described! {
+    /// Safeties of a pair, the smallest first; units are in the names.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct RatingHeadline {
+        /// smaller S_H of both gears
+        pub least_pitting_safety: f64,
+        /// gear with that safety: `pinion` or `wheel`
+        pub least_pitting_safety_of: &'static str,
+        /// 1 over the smaller S_H, for goals and limits of `ale-gear optimise`, which makes numbers small
+        pub pitting_utilisation: f64,
+        /// smaller S_F of both gears
+        pub least_bending_safety: f64,
+        /// gear with that safety: `pinion` or `wheel`
+        pub least_bending_safety_of: &'static str,
+        /// 1 over the smaller S_F
+        pub bending_utilisation: f64,
+        /// ratings of the standard
+        #[serde(flatten)]
+        pub standard: StandardRating,
+        /// damage by the load spectrum; missing without `spectrum`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub spectrum: Option<SpectrumRating>,
+        /// safeties from the solved stresses; missing for models without slices
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub local: Option<LocalRating>,
+    }
+}
+
+described::described! {
+    /// Safeties from the stresses of the solved contact; units are in the names, pairs are pinion and wheel.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct LocalRating {
+        /// K_A K_V, by which solved stresses grow. The distribution of the load is in them, so neither K_Hbeta nor K_Halpha counts
+        pub load_factor: f64,
+        /// largest solved pressure times Z_beta and the root of the load factor
+        pub contact_stress_mpa: f64,
+        /// place of that pressure
+        pub contact_stress_at: PressurePlace,
+        /// sigma_HG over the contact stress, pinion and wheel
+        pub pitting_safety: [f64; 2],
+        /// largest first principal stress in the fillets times the load factor; missing without root stress
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub root_stress_mpa: Option<[f64; 2]>,
+        /// sigma_FG over the root stress; missing without root stress
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub bending_safety: Option<[f64; 2]>,
+    }
+}
+
+impl LocalRating {
+    /// Of a solved pair with slices; `None` of others.
+    fn of(scene: &Scene, standard: &StandardRating, history: &StaticHistory) -> Option<Self> {
+        let contact_stress_at = PressurePlace::of(scene, history)?;
+        let pressure = history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
+        let load_factor = standard.application_factor * standard.dynamic_factor;
+        let helix = standard.helix_angle_factor;
+        let gears = standard.gears();
+        let tension = root_stress_headline(history).map(|root| root.largest_tensions().map(|(stress, _)| stress));
+        Some(Self {
+            load_factor,
+            contact_stress_mpa: helix * pressure * load_factor.sqrt(),
+            contact_stress_at,
+            pitting_safety: gears
+                .map(|g| local_pitting_safety(g.contact_stress_limit_mpa, pressure, helix, load_factor)),
+            root_stress_mpa: tension.map(|both| both.map(|stress| stress * load_factor)),
+            bending_safety: tension
+                .map(|both| [0, 1].map(|i| local_bending_safety(gears[i].root_stress_limit_mpa, both[i], load_factor))),
+        })
+    }
+}
+
+impl RatingHeadline {
+    /// Of a solved pair; `None` where the scene asks for none, or where no load factor over the face was found.
+    pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
+        scene.rating.as_ref()?;
+        let pair = scene.gear_pair().ok()?;
+        // What the formulas refuse was refused before the work.
+        Self::of_pair(scene, &pair, history).ok()?
+    }
+
+    fn of_pair(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Option<Self>, AnalysisError> {
+        let Some(rating) = &scene.rating else { return Ok(None) };
+        let solved = || face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history);
+        let Some(face_load) = rating.face_load_factor.or_else(solved) else { return Ok(None) };
+        let (standard, spectrum) = rated(scene, rating, pair, face_load)?;
+        let gears = standard.gears();
+        let least = |of: fn(&rating::GearRating) -> f64| {
+            let [pinion, wheel] = gears.map(of);
+            if wheel < pinion { (wheel, NAMES[1]) } else { (pinion, NAMES[0]) }
+        };
+        let (pitting, bending) = (least(|g| g.pitting_safety), least(|g| g.bending_safety));
+        Ok(Some(Self {
+            least_pitting_safety: pitting.0,
+            least_pitting_safety_of: pitting.1,
+            pitting_utilisation: 1.0 / pitting.0,
+            least_bending_safety: bending.0,
+            least_bending_safety_of: bending.1,
+            bending_utilisation: 1.0 / bending.0,
+            local: LocalRating::of(scene, &standard, history),
+            spectrum,
+            standard,
+        }))
+    }
+}
+
+/// What a user should hear of the rating of a solved pair.
+pub(crate) fn remarks(scene: &Scene, history: &StaticHistory) -> Vec<answer::Remark> {
+    let Some(headline) = RatingHeadline::of(scene, history) else { return Vec::new() };
+    let outside = headline.standard.outside.iter();
+    let mut all: Vec<answer::Remark> =
+        outside.map(|o| crate::remark::rating_outside(o.quantity, o.value, o.clause, o.range)).collect();
+    for (name, gear) in NAMES.into_iter().zip(headline.standard.gears()) {
+        let safeties = [("pitting", gear.pitting_safety), ("tooth root breakage", gear.bending_safety)];
+        let low = safeties.into_iter().filter(|(_, safety)| *safety < 1.0);
+        all.extend(low.map(|(failure, safety)| crate::remark::rating_fails(name, failure, safety)));
+    }
+    for (name, damage) in NAMES.into_iter().zip(headline.spectrum.iter().flat_map(|s| [s.pinion, s.wheel])) {
+        let sums = [("pitting", damage.pitting_damage), ("tooth root breakage", damage.bending_damage)];
+        let high = sums.into_iter().filter(|(_, sum)| *sum > 1.0);
+        all.extend(high.map(|(failure, sum)| crate::remark::spectrum_fails(name, failure, sum)));
+    }
+    all
+}
+
+/// Refuses a scene whose rating has no value, before any work.
+///
+/// # Errors
+/// [`AnalysisError::Rating`], [`AnalysisError::Lumped`] where a standard has no value.
+pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
+    let Some(rating) = &scene.rating else { return Ok(()) };
+    let found = rated(scene, rating, pair, rating.face_load_factor.unwrap_or(1.0));
+    found.map(|_| ()).map_err(|e| e.of_part("[rating]").at(place_in(scene, &["rating.life_h"])))
+}
+
+/// The standard's rating with a face load factor K_Hbeta, and Miner's sums where the scene has a spectrum.
+fn rated(
+    scene: &Scene,
+    rating: &RatingScene,
+    pair: &GearPair,
+    face_load: f64,
+) -> Result<(StandardRating, Option<SpectrumRating>), AnalysisError> {
+    let loaded = LoadedPair::of(scene, pair);
+    let gears = [&pair.pinion, &pair.wheel];
+    let application = rating.application_factor;
+    let stiffness = LoadedPair { torque: application * loaded.torque, ..loaded }.iso_stiffness()?;
+    let ratios = IsoRootPair {
+        eps_alpha: pair.transverse_contact_ratio(),
+        eps_beta: pair.overlap_ratio(),
+        fine: rating.tolerance_class <= DEEP_TOOTH_CLASS,
+    };
+    let tolerances = gears.map(|gear| FlankTolerances::new(gear, rating.tolerance_class));
+    let cos = pair.pinion.transverse_pressure_angle().cos();
+    let larger = |of: fn(&FlankTolerances) -> f64| of(&tolerances[0]).max(of(&tolerances[1]));
+    let unknown = |what: &str| crate::refused::Refusal::input(format!("no {what}"), "name one of its table");
+    let lubricant = rating.oil().ok_or_else(|| unknown("lubricant"))?;
+    let input = |i: usize| -> Result<GearInput<'_>, AnalysisError> {
+        let own = rating.gears()[i];
+        Ok(GearInput {
+            material: rating.material_of(i).ok_or_else(|| unknown("material"))?,
+            density: scene.gears()[i].material.density_kg_m3,
+            root: root(gears[i], ratios)?,
+            flank_roughness_um: own.flank_roughness_rz_um,
+            root_roughness_um: own.root_roughness_rz_um,
+            reversed_load_ratio: own.reversed_load_ratio,
+            meshes_per_turn: f64::from(own.meshes_per_turn),
+        })
+    };
+    let input = RatingInput {
+        edition: match rating.edition {
+            RatingEdition::Iso2019 => Edition::Iso2019,
+            RatingEdition::Iso2006 => Edition::Iso2006,
+        },
+        geometry: numbers(pair),
+        flank: flank(&loaded),
+        stiffness: MeshStiffness {
+            single: rating.gear_blank_factor * stiffness.c_single,
+            mesh: rating.gear_blank_factor * stiffness.c_mesh,
+        },
+        gears: [input(0)?, input(1)?],
+        lubricant,
+        deviations: Deviations {
+            base_pitch_um: rating.base_pitch_deviation_um.unwrap_or_else(|| cos * larger(|t| t.single_pitch_um)),
+            profile_form_um: rating.profile_form_deviation_um.unwrap_or_else(|| larger(|t| t.profile_form_um)),
+            is_fine: rating.tolerance_class <= RELIEF_CLASS,
+        },
+        tip_relief_um: rating.tip_relief_um,
+        tangential_force: loaded.tangential_force(),
+        pinion_speed_rpm: scene.pinion_speed().abs() * 30.0 / std::f64::consts::PI,
+        factors: GivenFactors {
+            application,
+            face_load,
+            dynamic: rating.dynamic_factor,
+            transverse: rating.transverse_load_factor,
+        },
+        life_h: rating.life_h,
+        limited_pitting: rating.limited_pitting,
+        long_life: rating.long_life_factor,
+    };
+    let nominal = [scene.operation.torque_nm, scene.operation.speed_rpm];
+    let spectrum = rating.spectrum.as_ref().map(|file| spectrum_rating(&input, file.values(), nominal)).transpose()?;
+    Ok((standard_rating(&input)?, spectrum))
+}
+
+/// The numbers of a pair that ratings need.
+fn numbers(pair: &GearPair) -> PairGeometry {
+    let gears = [&pair.pinion, &pair.wheel];
+    let diameter = |of: fn(&Gear) -> f64| gears.map(|gear| 2.0 * of(gear));
+    let data = pair.pinion.data();
+    PairGeometry {
+        teeth: gears.map(Gear::teeth),
+        normal_module: data.normal_module,
+        helix_angle: data.helix_angle.abs(),
+        base_helix_angle: pair.base_helix_angle().abs(),
+        normal_pressure_angle: data.normal_pressure_angle,
+        transverse_pressure_angle: pair.pinion.transverse_pressure_angle(),
+        working_pressure_angle: pair.working_pressure_angle(),
+        centre_distance: pair.centre_distance(),
+        face_width: pair.face_width(),
+        reference_diameter: diameter(Gear::reference_radius),
+        base_diameter: diameter(Gear::base_radius),
+        tip_diameter: diameter(Gear::tip_radius),
+        root_diameter: diameter(Gear::root_radius),
+        bore_diameter: gears.map(|gear| gear.data().bore_diameter),
+        eps_alpha: pair.transverse_contact_ratio(),
+        eps_beta: pair.overlap_ratio(),
+    }
+}
+
+fn flank(loaded: &LoadedPair<'_>) -> FlankFactors {
+    let iso = IsoFlank::new(loaded.pair, loaded.young(), loaded.poisson());
+    FlankFactors {
+        zone: iso.zone,
+        elasticity: iso.elasticity,
+        contact_ratio: iso.contact_ratio,
+        helix: iso.helix,
+        single_contact: iso.single_contact.unwrap_or([1.0; 2]),
+    }
+}
+
+fn root(gear: &Gear, ratios: IsoRootPair) -> Result<RootFactors, AnalysisError> {
+    let root = IsoRoot::new(gear, ratios)?;
+    Ok(RootFactors {
+        form: root.y_form / root.f_eps,
+        load_share: root.f_eps,
+        stress_correction: root.y_stress,
+        notch: root.root_chord / (2.0 * root.fillet_radius),
+        rim: root.y_rim,
+        deep_tooth: root.y_deep_tooth,
+    })
+}

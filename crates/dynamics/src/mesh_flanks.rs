@@ -1,0 +1,377 @@
+//! Contact of both sides of the teeth in motion: what a mesh does to two gears, whatever carries them. Theory (46), (47).
+
+use std::sync::Arc;
+
+use ale::Station;
+use contact::SliceResult;
+use geometry::GearPair;
+use ltca::{StaticError, StaticOptions};
+use nalgebra::SMatrix;
+use reduction::{ElasticGear, GearModes};
+
+use crate::{
+    COORDINATES, Displacement, SideState, ToothChanges,
+    elastic_displacement::ElasticDisplacement,
+    mesh_side::{MeshSide, SideContacts, SideForce},
+};
+
+/// Contact of elastic teeth in motion: the flanks that drive and, where these may touch, the coast flanks.
+///
+/// Displacements are the twelve of both gears from their nominal motion, mm and rad; the place in that motion is told in
+/// mesh cycles. The last contact is kept, because several callers ask for it at the end of a step.
+#[derive(Debug)]
+pub struct MeshFlanks {
+    pub(crate) driving: MeshSide,
+    pub(crate) coast: Option<MeshSide>,
+    last: Option<SideContacts>,
+}
+
+/// Forces of both sides on rigid gears beside their teeth, at displacements.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankForces {
+    /// -dV/dd: normal forces, N and N mm.
+    pub normal: Displacement,
+    /// Friction, which has no potential.
+    pub friction: Displacement,
+    /// -d(normal + friction)/dd: N/mm, N, N mm; of any value where no tangent was asked for.
+    pub stiffness: SMatrix<f64, 12, 12>,
+    /// Sum of the normal forces on the driving and on the coast flanks, N.
+    pub sums: [f64; 2],
+}
+
+/// What the dampers of both sides do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FlankDamping {
+    /// Forces on the displacements, N and N mm.
+    pub force: Displacement,
+    /// Power taken, N mm/s.
+    pub dissipated: f64,
+    /// -d force/d rates: N s/mm, N s, N mm s.
+    pub rate_slope: SMatrix<f64, 12, 12>,
+    /// -d force/d displacements, of dampers that are held at the force of their slice.
+    pub slope: SMatrix<f64, 12, 12>,
+}
+
+/// Windows of both sides, and their tooth changes so far.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct FlankStates {
+    /// Driving flanks.
+    pub driving: SideState,
+    /// Coast flanks.
+    pub coast: Option<SideState>,
+}
+
+impl FlankStates {
+    /// Running number of the window that is farthest from the start of counting.
+    pub fn farthest_tooth(&self) -> u64 {
+        let of = |side: &SideState| side.first.unsigned_abs();
+        of(&self.driving).max(self.coast.as_ref().map_or(0, of))
+    }
+}
+
+impl MeshFlanks {
+    /// Flanks at the beginning of a motion, `cycles` mesh cycles after the start of counting. `driving`: gears reduced for
+    /// the flanks that drive under `options`; `coast`: for those of [`StaticOptions::driven_backwards`], where these may
+    /// touch.
+    ///
+    /// # Errors
+    /// [`StaticError`] for points, or gears that are not reduced for these flanks.
+    pub fn new(
+        pair: &GearPair,
+        driving: Arc<[ElasticGear; 2]>,
+        coast: Option<Arc<[ElasticGear; 2]>>,
+        options: &StaticOptions,
+        cycles: f64,
+    ) -> Result<Self, StaticError> {
+        let side = |gears, own: StaticOptions| MeshSide::new(pair, gears, own, options, cycles);
+        let driving = side(driving, options.clone())?;
+        let coast = coast.map(|gears| side(gears, options.driven_backwards())).transpose()?;
+        Ok(Self { driving, coast, last: None })
+    }
+
+    /// The same flanks at their beginning, with the same gears and tables.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn copy_at_start(&self, pair: &GearPair) -> Result<Self, StaticError> {
+        let driving = self.driving.copy_at_start(pair)?;
+        let coast = self.coast.as_ref().map(|side| side.copy_at_start(pair)).transpose()?;
+        Ok(Self { driving, coast, last: None })
+    }
+
+    /// Takes the windows that are due at a place, with no tooth change counted.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn begin_at(&mut self, pair: &GearPair, cycles: f64) -> Result<(), StaticError> {
+        self.last = None;
+        self.sides_mut().try_for_each(|side| side.begin_at(pair, cycles))
+    }
+
+    /// Takes normal modes of both gears for coordinates of their own.
+    pub(crate) fn keep_modes(&mut self, modes: &[Arc<GearModes>; 2]) -> Result<(), StaticError> {
+        self.last = None;
+        self.sides_mut().try_for_each(|side| side.keep_modes(modes.clone()))
+    }
+
+    /// Driving flanks, and coast flanks where these may touch.
+    pub(crate) fn sides(&self) -> impl Iterator<Item = &MeshSide> {
+        std::iter::once(&self.driving).chain(&self.coast)
+    }
+
+    fn sides_mut(&mut self) -> impl Iterator<Item = &mut MeshSide> {
+        std::iter::once(&mut self.driving).chain(self.coast.as_mut())
+    }
+
+    /// Whether the coast flanks may touch.
+    pub fn has_coast_flanks(&self) -> bool {
+        self.coast.is_some()
+    }
+
+    /// Contact of both sides.
+    pub(crate) fn contact(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &ElasticDisplacement,
+        tangents: bool,
+    ) -> Result<SideContacts, StaticError> {
+        let serves = |last: &&SideContacts| last.at.0 == cycles && last.at.1 == *at && (last.tangents || !tangents);
+        if let Some(last) = self.last.as_ref().filter(serves) {
+            return Ok(last.clone());
+        }
+        self.last = None;
+        let fail = at_station(cycles);
+        let driving = self.driving.evaluate(pair, cycles, at, tangents).map_err(fail)?;
+        let coast =
+            self.coast.as_mut().map(|side| side.evaluate(pair, cycles, at, tangents)).transpose().map_err(fail)?;
+        let found = SideContacts { at: (cycles, at.clone()), driving, coast, tangents };
+        self.last = Some(found.clone());
+        Ok(found)
+    }
+
+    /// The sides with the forces of their last contact.
+    pub(crate) fn with_forces<'a>(
+        &'a self,
+        contacts: &'a SideContacts,
+    ) -> impl Iterator<Item = (&'a MeshSide, &'a SideForce)> {
+        std::iter::once((&self.driving, &contacts.driving)).chain(self.coast.as_ref().zip(contacts.coast.as_ref()))
+    }
+
+    /// Forces on gears that are rigid beside their teeth.
+    ///
+    /// # Errors
+    /// [`StaticError::Contact`].
+    pub fn forces(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        d: &Displacement,
+        tangents: bool,
+    ) -> Result<FlankForces, StaticError> {
+        let SideContacts { driving, coast, .. } =
+            self.contact(pair, cycles, &ElasticDisplacement::rigid(*d), tangents)?;
+        let (mut normal, mut friction, mut stiffness) = (driving.normal, driving.friction, driving.stiffness);
+        if let Some(coast) = coast {
+            normal += coast.normal;
+            friction += coast.friction;
+            stiffness += coast.stiffness;
+        }
+        Ok(FlankForces { normal, friction, stiffness, sums: self.sums() })
+    }
+
+    /// Sum of the normal forces of the last contact on the driving and on the coast flanks, N.
+    fn sums(&self) -> [f64; 2] {
+        [self.driving.sum_of_forces(), self.coast.as_ref().map_or(0.0, MeshSide::sum_of_forces)]
+    }
+
+    /// What the dampers of the flanks that carry force do, with the gears moving at `rate`; `per_length`: N s/mm a mm of
+    /// contact line. After [`MeshFlanks::forces`] with tangents at the same place where slopes are asked for.
+    pub fn damping(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        (d, rate): (&Displacement, &Displacement),
+        per_length: f64,
+        slopes: bool,
+    ) -> FlankDamping {
+        let (mut rate_slope, mut slope) = (SMatrix::zeros(), SMatrix::zeros());
+        let (mut force, mut dissipated) = (Displacement::zeros(), 0.0);
+        for side in self.sides_mut() {
+            let placed = side.placed(pair, cycles, d);
+            let (own, power) = side.damping(&placed, rate, per_length, slopes.then_some(&mut rate_slope));
+            force += own;
+            dissipated += power;
+            if slopes && let Some(held) = side.held_damping(&placed, rate, per_length) {
+                slope += held;
+            }
+        }
+        FlankDamping { force, dissipated, rate_slope, slope }
+    }
+
+    /// Strain energy of the last contact, N mm.
+    pub fn strain_energy(&self) -> f64 {
+        let of = |side: &MeshSide| side.contact().strain_energy();
+        of(&self.driving) + self.coast.as_ref().map_or(0.0, of)
+    }
+
+    /// Strain energy of both sides and nothing else; the last contact is lost.
+    pub(crate) fn energy_of(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &ElasticDisplacement,
+    ) -> Result<f64, StaticError> {
+        self.last = None;
+        let fail = at_station(cycles);
+        self.sides_mut().try_fold(0.0, |sum, side| Ok(sum + side.energy(pair, cycles, at).map_err(fail)?))
+    }
+
+    /// Strain energy at a place with the gears displaced, N mm, to twelve digits; the last contact is lost.
+    ///
+    /// # Errors
+    /// [`StaticError::Contact`].
+    pub fn energy(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<f64, StaticError> {
+        self.energy_of(pair, cycles, &ElasticDisplacement::rigid(*d))
+    }
+
+    /// Deepest overlap of the undeformed flanks at the place of the last contact, mm, negative where they are apart: of
+    /// the driving flanks, and of the coast flanks (minus infinity without any). With modes the last contact is lost.
+    pub(crate) fn overlaps_of(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> [f64; 2] {
+        let driving = self.driving.overlap(pair, cycles, at);
+        let coast = self.coast.as_mut().map_or(f64::NEG_INFINITY, |side| side.overlap(pair, cycles, at));
+        if !at.q.is_empty() {
+            self.last = None;
+        }
+        [driving, coast]
+    }
+
+    /// The same of gears that are rigid beside their teeth, mm.
+    pub fn overlaps(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> [f64; 2] {
+        self.overlaps_of(pair, cycles, &ElasticDisplacement::rigid(*d))
+    }
+
+    /// Moves the windows as far as the gears have turned (`turned`, mesh cycles) and outgoing teeth carry nothing;
+    /// whether one has moved. Several teeth may be due after a long step.
+    pub(crate) fn follow_of(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &ElasticDisplacement,
+        turned: f64,
+    ) -> Result<bool, StaticError> {
+        self.sides().try_for_each(|side| side.check_pace(turned))?;
+        let mut any = false;
+        loop {
+            self.contact(pair, cycles, at, false)?;
+            let sums = self.sums();
+            let moved = [
+                self.driving.follow(pair, turned)?,
+                self.coast.as_mut().map_or(Ok(false), |side| side.follow(pair, turned))?,
+            ];
+            if moved == [false; 2] {
+                return Ok(any);
+            }
+            any = true;
+            self.last = None;
+            self.contact(pair, cycles, at, false)?;
+            for ((side, moved), sum) in self.sides_mut().zip(moved).zip(sums) {
+                if moved {
+                    side.record_jump(sum);
+                }
+            }
+        }
+    }
+
+    /// At the end of a step: moves the windows as far as is due and outgoing teeth carry nothing, and refuses a state in
+    /// which teeth are where none can be, or a pair beside a window ought to carry load. Whether a window has moved.
+    ///
+    /// # Errors
+    /// [`StaticError::PassedThrough`], [`ale::AleError::Leapt`], [`ale::AleError::Starved`].
+    pub fn accept(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<bool, StaticError> {
+        self.check_passage(pair, cycles, d)?;
+        let moved = self.follow_of(pair, cycles, &ElasticDisplacement::rigid(*d), cycles)?;
+        for side in self.sides_mut().filter(|side| side.sum_of_forces() > 0.0) {
+            let poses = side.poses(pair, cycles, d);
+            side.check_neighbours(pair, cycles, &poses)?;
+        }
+        Ok(moved)
+    }
+
+    /// Refuses a state in which teeth are nearer by half a base pitch than flanks that touch, or farther apart by the
+    /// backlash and as much again: on their line of action teeth are half a base pitch thick, so that they have gone
+    /// through each other. A step that leaps so far finds an equilibrium between other teeth, and nothing else would
+    /// tell.
+    ///
+    /// # Errors
+    /// [`StaticError::PassedThrough`].
+    pub(crate) fn check_passage(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<(), StaticError> {
+        let thickness_mm = 0.5 * pair.transverse_base_pitch();
+        let distance_mm = approach(pair, self.driving.flank_side().sign(), d);
+        let apart = thickness_mm + pair.backlash().max(0.0);
+        if distance_mm < thickness_mm && distance_mm > -apart {
+            return Ok(());
+        }
+        let Station { cycle, phase, .. } = Station::at_cycles(cycles);
+        Err(StaticError::PassedThrough { cycle, phase, distance_mm, thickness_mm })
+    }
+
+    /// Driving slices that carried load in the last contact.
+    pub fn driving_slices(&self) -> Vec<SliceResult> {
+        self.driving.loaded_slices().into_iter().map(|loaded| loaded.slice).collect()
+    }
+
+    /// Tooth changes of the driving flanks.
+    pub fn changes(&self) -> ToothChanges {
+        self.driving.state().changes
+    }
+
+    /// Windows of both sides, to be restored later.
+    pub fn state(&self) -> FlankStates {
+        FlankStates { driving: self.driving.state(), coast: self.coast.as_ref().map(MeshSide::state) }
+    }
+
+    /// Restores the windows.
+    ///
+    /// # Errors
+    /// [`StaticError`].
+    pub fn restore(&mut self, pair: &GearPair, state: &FlankStates) -> Result<(), StaticError> {
+        self.last = None;
+        self.driving.restore(pair, state.driving)?;
+        match (&mut self.coast, state.coast) {
+            (Some(side), Some(coast)) => side.restore(pair, coast),
+            _ => Ok(()),
+        }
+    }
+
+    /// Forgets the last contact, and what the search remembers: what comes then depends on the place and the windows
+    /// alone, bit by bit.
+    pub fn forget(&mut self) {
+        self.sides_mut().for_each(MeshSide::forget);
+        self.last = None;
+    }
+
+    /// Forgets the last contact alone.
+    pub(crate) fn forget_last(&mut self) {
+        self.last = None;
+    }
+}
+
+/// How far displacements bring the flanks nearer at the pitch point, along the transverse line of action, mm.
+///
+/// ```text
+/// x = n . (u_1 - u_2) + s (r_b1 theta_1 + r_b2 theta_2),   n = (sin a_wt, s cos a_wt, 0)
+/// ```
+/// s: the side that drives. Theory (45).
+fn approach(pair: &GearPair, side: f64, d: &Displacement) -> f64 {
+    let (sin, cos) = pair.working_pressure_angle().sin_cos();
+    let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
+    let turns: f64 = (0..2).map(|g| base[g] * d[COORDINATES * (g + 1) - 1]).sum();
+    sin * (d[0] - d[COORDINATES]) + side * (cos * (d[1] - d[COORDINATES + 1]) + turns)
+}
+
+/// Names the place of what went wrong in a contact.
+fn at_station(cycles: f64) -> impl Fn(contact::ContactError) -> StaticError + Copy {
+    let Station { cycle, phase, .. } = Station::at_cycles(cycles);
+    move |source| StaticError::Contact { cycle, phase, source }
+}

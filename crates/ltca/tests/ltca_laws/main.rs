@@ -1,0 +1,27 @@
+//! Laws of the loaded pair at rest: equilibrium, CalculiX, published values, any contact ratio; modified, crowned and misaligned
+//! flanks; root stress.
+
+mod both_flanks;
+mod calculix;
+mod contact_ratio;
+mod corner_contact;
+mod crowning;
+mod face_widths;
+mod given_poses;
+mod gmsh_meshes;
+mod harris_map;
+mod kinematic;
+mod laws_of_statics;
+mod modified;
+mod online;
+mod phase_independence;
+mod published_pairs;
+mod root_stress;
+mod root_stress_calculix;
+mod root_stress_pairs;
+mod sensitivity;
+mod slices;
+mod starts_alike;
+mod tooth_change;
+mod waves;
+mod width_and_crowning;

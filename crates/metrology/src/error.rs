@@ -1,0 +1,86 @@
+//! What may be wrong with a file of a measured gear.
+
+use std::path::PathBuf;
+
+/// A measured gear that cannot be read or used.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MetrologyError {
+    /// A word that is none of those that may stand there.
+    #[error("{}:{line}: expected {expected}, found `{found}`", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What may stand there.
+        expected: &'static str,
+        /// What does.
+        found: String,
+    },
+    /// A trace with another number of values than its heading says.
+    #[error("{}:{line}: the trace that begins here has {found} values, its heading says {wanted}", path.display())]
+    Count {
+        /// The file.
+        path: PathBuf,
+        /// Line of the heading, from 1.
+        line: usize,
+        /// Values found.
+        found: usize,
+        /// Values that the heading tells of.
+        wanted: usize,
+    },
+    /// A file that lacks something.
+    #[error("{}: {what} is missing", path.display())]
+    Missing {
+        /// The file.
+        path: PathBuf,
+        /// What.
+        what: &'static str,
+    },
+    /// XML that is none.
+    #[error("{}:{line}: {message}", path.display())]
+    Xml {
+        /// The file.
+        path: PathBuf,
+        /// Line, from 1.
+        line: usize,
+        /// What the parser says.
+        message: String,
+    },
+    /// A measured gear that is another one than the gear it is used for.
+    #[error("the measured gear has {name} {measured}, the gear {own}")]
+    OtherGear {
+        /// Which quantity, with its unit.
+        name: &'static str,
+        /// Of the file.
+        measured: f64,
+        /// Of the gear.
+        own: f64,
+    },
+    /// Traces that nothing can be made of.
+    #[error("{what}")]
+    Unusable {
+        /// Why.
+        what: &'static str,
+    },
+    /// A topography that the flank cannot have.
+    #[error(transparent)]
+    Geometry(#[from] geometry::GeometryError),
+}
+
+impl MetrologyError {
+    /// What the user can do next.
+    pub fn hint(&self) -> Option<String> {
+        match self {
+            Self::Syntax { .. } | Self::Count { .. } => {
+                Some("is the file complete and of the kind that it is read as?".into())
+            }
+            Self::Missing { .. } => Some("export header, ranges and curves into one file".into()),
+            Self::Xml { .. } => None,
+            Self::OtherGear { .. } => Some("is it the file of this gear?".into()),
+            Self::Unusable { .. } => Some("measure profiles or helices on at least one tooth".into()),
+            Self::Geometry(e) => e.hint(),
+        }
+    }
+}

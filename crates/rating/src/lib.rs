@@ -1,0 +1,50 @@
+//! Will it hold?
+//!
+//! Load capacity of a gear pair after the standards: pitting and tooth root bending (ISO 6336-1, -2, -3, -5), service life under load spectra (ISO 6336-6). Formulas depend on numbers only: geometry and stresses come from the crates before this one. Each formula names its clause; what lies outside of a standard's range is told by [`Outside`].
+//!
+//! | module | question |
+//! |---|---|
+//! | `geometry` | which numbers of a pair do the standards need? |
+//! | `material`, `lubricant` | what are gears and oil made of? |
+//! | `deviation` | what do deviations leave after running-in? |
+//! | `dynamic_factor`, `load_distribution` | by how much is the nominal load raised? |
+//! | `life` | which stress for how many cycles? |
+//! | `pitting`, `bending` | which stress may flank and root bear? |
+//! | `standard` | all of them for one pair |
+//! | `local` | how safe is a point of the solved contact? |
+//! | `spectrum` | what do many loads do over a life? |
+//!
+//! Lengths in mm, forces in N, stresses in MPa, speeds of rotation in 1/min, line speeds in m/s, deviations in um.
+
+mod bending;
+mod deviation;
+mod dynamic_factor;
+mod edition;
+mod error;
+mod geometry;
+mod life;
+mod load_distribution;
+mod local;
+mod lubricant;
+mod material;
+mod outside;
+mod pitting;
+mod spectrum;
+mod standard;
+mod table;
+
+pub use bending::{BendingFactors, RootFactors, bending_curve, mean_stress_factor};
+pub use deviation::{Deviations, RunningIn};
+pub use dynamic_factor::{DynamicFactor, DynamicLoad, dynamic_factor};
+pub use edition::Edition;
+pub use error::RatingError;
+pub use geometry::PairGeometry;
+pub use life::StressLife;
+pub use load_distribution::{TransverseLoad, face_load_factor_bending, transverse_load_factors};
+pub use local::{local_bending_safety, local_pitting_safety};
+pub use lubricant::{Lubricant, LubricantBase, Lubricants};
+pub use material::{Material, MaterialGroup, Materials};
+pub use outside::Outside;
+pub use pitting::{FlankFactors, FlankSurface, PittingFactors, pitting_curve, pitting_factors};
+pub use spectrum::{GearDamage, LoadBin, Spectrum, SpectrumRating, miner, spectrum_rating};
+pub use standard::{GearInput, GearRating, GivenFactors, MeshStiffness, RatingInput, StandardRating, standard_rating};

@@ -1,0 +1,159 @@
+//! Load spectra: damage of a life with many loads. ISO 6336-6.
+
+use serde::Serialize;
+
+use crate::{RatingError, RatingInput, StandardRating, StressLife, standard_rating};
+
+/// A load with its share of the life.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct LoadBin {
+    /// Torque on the driven gear, N m.
+    pub torque_nm: f64,
+    /// Speed of the driver, 1/min.
+    pub speed_rpm: f64,
+    /// Share of the life, 0 to 1.
+    pub share: f64,
+}
+
+/// Loads over a life.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Spectrum {
+    bins: Vec<LoadBin>,
+}
+
+/// Columns that say how long a load lasts: shares, or times in any unit.
+const DURATIONS: [&str; 3] = ["share", "duration_s", "duration_h"];
+
+impl Spectrum {
+    /// Of a table with commas and a heading: `torque_nm`, `speed_rpm`, and one of `share`, `duration_s`, `duration_h`; shares and times are divided by their sum.
+    ///
+    /// # Errors
+    /// [`RatingError::Table`] with the line at fault.
+    pub fn parse(text: &str) -> Result<Self, RatingError> {
+        let refused =
+            |line: usize, what: String| Err(RatingError::Table { line, what: format!("line {line}: {what}") });
+        let lines = text.lines().enumerate().map(|(k, line)| (k + 1, line.split('#').next().unwrap_or("").trim()));
+        let mut lines = lines.filter(|(_, line)| !line.is_empty());
+        let Some((first, heading)) = lines.next() else { return refused(1, "the file is empty".into()) };
+        let names: Vec<&str> = heading.split(',').map(str::trim).collect();
+        let column = |name: &str| names.iter().position(|own| *own == name);
+        let duration = DURATIONS.iter().find_map(|name| column(name));
+        let (Some(torque), Some(speed), Some(duration)) = (column("torque_nm"), column("speed_rpm"), duration) else {
+            let what = format!(
+                "the columns are {}, wanted are `torque_nm`, `speed_rpm`, and one of `share`, `duration_s`, `duration_h`",
+                names.join(", ")
+            );
+            return refused(first, what);
+        };
+        let mut bins = Vec::new();
+        for (line, row) in lines {
+            let fields: Vec<&str> = row.split(',').map(str::trim).collect();
+            if fields.len() != names.len() {
+                return refused(line, format!("{} values, the heading has {}", fields.len(), names.len()));
+            }
+            let number = |k: usize| fields[k].parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
+            let (Some(torque_nm), Some(speed_rpm), Some(share)) = (number(torque), number(speed), number(duration))
+            else {
+                return refused(line, format!("`{row}` holds what is no number of 0 or more"));
+            };
+            bins.push(LoadBin { torque_nm, speed_rpm, share });
+        }
+        let sum: f64 = bins.iter().map(|bin| bin.share).sum();
+        if !(sum > 0.0 && sum.is_finite()) {
+            return refused(first, "no load lasts any time".into());
+        }
+        bins.iter_mut().for_each(|bin| bin.share /= sum);
+        Ok(Self { bins })
+    }
+
+    /// Loads in the order of the table, their shares 1 in sum.
+    pub fn bins(&self) -> &[LoadBin] {
+        &self.bins
+    }
+}
+
+described::described! {
+    /// Miner's sums of one gear.
+    #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+    pub struct GearDamage {
+        /// Miner's sum for pitting over `life_h`
+        pub pitting_damage: f64,
+        /// Miner's sum for tooth root breakage over `life_h`
+        pub bending_damage: f64,
+        /// factor on all contact stresses that makes the sum 1
+        pub pitting_safety: f64,
+        /// factor on all root stresses that makes the sum 1
+        pub bending_safety: f64,
+    }
+}
+
+described::described! {
+    /// Damage of a pair over its life.
+    #[derive(Debug, Clone, PartialEq, Serialize)]
+    pub struct SpectrumRating {
+        /// number of loads of the spectrum
+        pub loads: usize,
+        /// damage of the pinion
+        pub pinion: GearDamage,
+        /// damage of the wheel
+        pub wheel: GearDamage,
+    }
+}
+
+/// Stress of a load with its number of cycles.
+type Cycles = (f64, f64);
+
+/// Miner's sum and the factor on all stresses that makes it 1.
+///
+/// ```text
+/// U = sum n_i/N_i(sigma_i),    U(S) = sum n_i/N_i(S sigma_i) = 1
+/// ```
+/// Source: ISO 6336-6 (Palmgren-Miner; safety by iteration).
+pub fn miner(curve: &StressLife, loads: &[Cycles]) -> (f64, f64) {
+    let at = |factor: f64| loads.iter().map(|(cycles, stress)| curve.damage(*cycles, factor * stress)).sum::<f64>();
+    let damage = at(1.0);
+    let (mut low, mut high) = (1e-3_f64, 1e3_f64);
+    if at(high) <= 1.0 {
+        return (damage, f64::INFINITY);
+    }
+    for _ in 0..100 {
+        let middle = (low * high).sqrt();
+        if at(middle) > 1.0 { high = middle } else { low = middle }
+    }
+    (damage, low)
+}
+
+/// Rates a pair under a spectrum: every load has its own dynamic and transverse load factors; the curves of bearable stress, Z_V with them, are those of the nominal load.
+///
+/// `nominal_torque_nm` and `nominal_speed_rpm`: torque on the driven gear and speed of the driver that `input` is for. Loads without torque or speed do no damage.
+///
+/// # Errors
+/// [`RatingError`] as [`standard_rating`].
+pub fn spectrum_rating(
+    input: &RatingInput<'_>,
+    spectrum: &Spectrum,
+    [nominal_torque_nm, nominal_speed_rpm]: [f64; 2],
+) -> Result<SpectrumRating, RatingError> {
+    let working = |bin: &&LoadBin| bin.torque_nm > 0.0 && bin.speed_rpm > 0.0 && bin.share > 0.0;
+    let rated: Vec<(f64, StandardRating)> = (spectrum.bins.iter().filter(working))
+        .map(|bin| {
+            let own = RatingInput {
+                tangential_force: input.tangential_force * bin.torque_nm / nominal_torque_nm,
+                pinion_speed_rpm: input.pinion_speed_rpm * bin.speed_rpm / nominal_speed_rpm,
+                ..*input
+            };
+            Ok((bin.share, standard_rating(&own)?))
+        })
+        .collect::<Result<_, RatingError>>()?;
+    let nominal = standard_rating(input)?;
+    let gear = |k: usize| {
+        let own = nominal.gears()[k];
+        let loads = |stress: fn(&crate::GearRating) -> f64| -> Vec<Cycles> {
+            rated.iter().map(|(share, r)| (share * r.gears()[k].load_cycles, stress(r.gears()[k]))).collect()
+        };
+        let (pitting_damage, pitting_safety) = miner(&own.pitting_curve, &loads(|g| g.contact_stress_mpa));
+        let (bending_damage, bending_safety) = miner(&own.bending_curve, &loads(|g| g.root_stress_mpa));
+        GearDamage { pitting_damage, bending_damage, pitting_safety, bending_safety }
+    };
+    Ok(SpectrumRating { loads: spectrum.bins.len(), pinion: gear(0), wheel: gear(1) })
+}

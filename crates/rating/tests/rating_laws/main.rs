@@ -1,0 +1,5 @@
+//! Laws of the ratings, and numbers that standards and other programs print.
+
+mod factors;
+mod life;
+mod pair;

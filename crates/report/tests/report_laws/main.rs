@@ -1,3 +1,0 @@
-//! Laws of the crate `report`.
-
-mod columns;

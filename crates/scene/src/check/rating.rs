@@ -1,0 +1,131 @@
+//! `[rating]`: everything that it needs is asked for by name.
+
+use toml::Spanned;
+
+use super::Checked;
+use crate::{
+    Kind, RatedGearScene, RatingScene, Scene, SceneError,
+    inputs::named,
+    keys::nearest,
+    schema::{RawRatedGear, RawRating, RawScene},
+    source::Source,
+};
+
+/// The table where it stands.
+pub(super) fn rating(s: &Source<'_>, raw: &RawScene) -> Checked<Option<RatingScene>> {
+    raw.rating.as_ref().map(|table| read(s, table.get_ref())).transpose()
+}
+
+/// A gear without keys, which is asked for all of them.
+fn of_gear(table: &Option<Spanned<RawRatedGear>>) -> RawRatedGear {
+    table.as_ref().map_or_else(RawRatedGear::default, |table| table.get_ref().clone())
+}
+
+fn read(s: &Source<'_>, raw: &RawRating) -> Checked<RatingScene> {
+    let edition = choice!(s, raw.edition)?;
+    let gears = [&raw.pinion, &raw.wheel].map(of_gear);
+    let missing = missing(raw, &gears);
+    if !missing.is_empty() {
+        return Err(SceneError::Missing { file: s.file.to_owned(), keys: missing });
+    }
+    let [pinion, wheel] = gears;
+    let rating = RatingScene {
+        edition,
+        life_h: value!(s, RATING, raw.life_h)?,
+        application_factor: value!(s, RATING, raw.application_factor)?,
+        face_load_factor: optional!(s, RATING, raw.face_load_factor)?,
+        dynamic_factor: optional!(s, RATING, raw.dynamic_factor)?,
+        transverse_load_factor: optional!(s, RATING, raw.transverse_load_factor)?,
+        tolerance_class: value!(s, RATING, raw.tolerance_class)?,
+        base_pitch_deviation_um: optional!(s, RATING, raw.base_pitch_deviation_um)?,
+        profile_form_deviation_um: optional!(s, RATING, raw.profile_form_deviation_um)?,
+        tip_relief_um: optional!(s, RATING, raw.tip_relief_um)?,
+        gear_blank_factor: value!(s, RATING, raw.gear_blank_factor)?,
+        limited_pitting: value!(s, RATING, raw.limited_pitting)?,
+        long_life_factor: value!(s, RATING, raw.long_life_factor)?,
+        spectrum: raw.spectrum.as_ref().map(|word| named(s, "spectrum", word)).transpose()?,
+        lubricant: text(&raw.lubricant),
+        lubricants: raw.lubricants.as_ref().map(|word| named(s, "lubricants", word)).transpose()?,
+        materials: raw.materials.as_ref().map(|word| named(s, "materials", word)).transpose()?,
+        pinion: gear(s, &pinion)?,
+        wheel: gear(s, &wheel)?,
+    };
+    if let (Some(word), None) = (&raw.lubricant, rating.oil()) {
+        return Err(unknown(s, "lubricant", word, rating.lubricant_table().names().collect()));
+    }
+    for (k, raw) in [&pinion, &wheel].into_iter().enumerate() {
+        if let (Some(word), None) = (&raw.material, rating.material_of(k)) {
+            return Err(unknown(s, "material", word, rating.material_table().names().collect()));
+        }
+    }
+    Ok(rating)
+}
+
+fn gear(s: &Source<'_>, raw: &RawRatedGear) -> Checked<RatedGearScene> {
+    Ok(RatedGearScene {
+        material: text(&raw.material),
+        flank_roughness_rz_um: value!(s, RATED_GEAR, raw.flank_roughness_rz_um)?,
+        root_roughness_rz_um: value!(s, RATED_GEAR, raw.root_roughness_rz_um)?,
+        reversed_load_ratio: value!(s, RATED_GEAR, raw.reversed_load_ratio)?,
+        meshes_per_turn: value!(s, RATED_GEAR, raw.meshes_per_turn)?,
+    })
+}
+
+fn text(word: &Option<Spanned<String>>) -> String {
+    word.as_ref().map(|word| word.get_ref().clone()).unwrap_or_default()
+}
+
+/// Keys without a default that are not there, all at once.
+fn missing(raw: &RawRating, gears: &[RawRatedGear; 2]) -> Vec<String> {
+    let of_pair = [
+        ("life_h", raw.life_h.is_none()),
+        ("application_factor", raw.application_factor.is_none()),
+        ("tolerance_class", raw.tolerance_class.is_none()),
+        ("lubricant", raw.lubricant.is_none()),
+    ];
+    let of_gears = ["pinion", "wheel"].into_iter().zip(gears).flat_map(|(name, gear)| {
+        [
+            ("material", gear.material.is_none()),
+            ("flank_roughness_rz_um", gear.flank_roughness_rz_um.is_none()),
+            ("root_roughness_rz_um", gear.root_roughness_rz_um.is_none()),
+        ]
+        .map(|(key, gone)| (format!("`[rating.{name}] {key}`"), gone))
+    });
+    let of_pair = of_pair.into_iter().map(|(key, gone)| (format!("`[rating] {key}`"), gone));
+    of_pair.chain(of_gears).filter(|(_, gone)| *gone).map(|(key, _)| key).collect()
+}
+
+/// A name that no row of a table has.
+fn unknown(s: &Source<'_>, key: &str, word: &Spanned<String>, names: Vec<&str>) -> SceneError {
+    let written = word.get_ref();
+    let advice = match nearest(written, &names) {
+        Some(name) => format!("did you mean \"{name}\"?"),
+        None => format!("the table has {}; `{key}s = \"FILE\"` in [rating] brings one of your own", list(&names)),
+    };
+    s.conflict(&word.span(), format!("`{key}` is \"{written}\", which the table of {key}s does not have"), advice)
+}
+
+fn list(names: &[&str]) -> String {
+    names.iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ")
+}
+
+/// What can only be judged with the whole scene in view: there is a load to rate, and K_Hbeta is known or will be.
+pub(super) fn together(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
+    let (Some(table), Some(rating)) = (&raw.rating, &scene.rating) else { return Ok(()) };
+    if scene.analysis.kind == Kind::Dynamic {
+        return Err(SceneError::NotYet {
+            place: s.place(&table.span()),
+            key: "rating".into(),
+            what: "the rating of a motion".into(),
+            instead: "rate the pair at rest, with `kind = \"static\"` and the largest torque".into(),
+        });
+    }
+    if rating.face_load_factor.is_none() && !scene.has_slices() {
+        return Err(SceneError::Missing { file: s.file.to_owned(), keys: vec!["`[rating] face_load_factor`".into()] });
+    }
+    if let (Some(torque), true) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0) {
+        let advice = "give the nominal torque, or leave [rating] out";
+        return Err(s.conflict(&torque.span(), "`torque_nm` is 0: nothing is loaded that could be rated", advice));
+    }
+    Ok(())
+}

@@ -1,0 +1,281 @@
+//! A scene with its changes, solved, as the page takes it.
+
+use std::{
+    collections::BTreeMap,
+    path::Path,
+    sync::{Arc, Mutex, PoisonError},
+    time::Instant,
+};
+
+use analysis::{
+    AnalysisError, GearCache, Interest, RestRequest, SharedGears, SharedModels, SolvedAtRest, WarningsAtRest,
+    lumped::is_lumped,
+    results::{StaticHeadline, patterns, static_headline},
+    solve_at_rest,
+};
+use export::view::View;
+use ltca::StaticHistory;
+use report::{
+    charts::{FieldMap, LineChart, Plot, contact_pattern_maps},
+    static_charts,
+};
+use scene::{Document, Model, Scene};
+use serde::{Deserialize, Serialize};
+use store::check_memory;
+
+use crate::{
+    fault::Fault,
+    form::is_text,
+    scene_text::{changed, flat},
+    sliders::{Slider, completed, sliders},
+};
+
+/// What a solve may take.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    /// Memory that is free, bytes.
+    pub free_bytes: fn() -> f64,
+}
+
+/// A move of the page: the text of its scene, and all that is set otherwise by hand.
+#[derive(Debug, Deserialize)]
+pub(crate) struct Change {
+    pub page: u64,
+    /// Moves of a page are numbered as they are made.
+    pub number: u64,
+    text: String,
+    /// Keys with dots, values as they are typed; nothing takes a key away.
+    #[serde(default)]
+    set: BTreeMap<String, String>,
+}
+
+/// What the page gets.
+#[derive(Debug, Serialize)]
+struct Answer<'a> {
+    number: u64,
+    /// The scene with what was set, to copy out.
+    text: &'a str,
+    /// Its keys as they are written.
+    written: BTreeMap<String, String>,
+    /// All keys, defaults filled in.
+    effective: BTreeMap<String, String>,
+    sliders: &'a [Slider],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fault: Option<Fault>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    result: Option<Outcome<'a>>,
+}
+
+/// What is shown of a solved scene.
+#[derive(Debug, Serialize)]
+struct Outcome<'a> {
+    name: &'a str,
+    solve_ms: f64,
+    headline: serde_json::Value,
+    /// Some of it in words.
+    glance: Vec<[String; 2]>,
+    charts: Vec<Plot<'a>>,
+    maps: Vec<FieldMap<'static>>,
+    view: View,
+    remarks: Vec<String>,
+}
+
+/// Where scenes are tried, all on the same reduced gears.
+pub(crate) struct Session<'a> {
+    start: &'a str,
+    /// The text that was read last, with the files that it names.
+    last: Mutex<Document>,
+    limits: Limits,
+    models: SharedModels<'a>,
+    schema: serde_json::Value,
+}
+
+/// What a move asks for.
+pub(crate) struct Taken {
+    /// The scene with what is set by hand.
+    text: String,
+    /// Of the scene before.
+    sliders: Vec<Slider>,
+    /// The scene checked, or what is wrong with it.
+    scene: Result<Scene, Fault>,
+}
+
+impl Taken {
+    /// What its gears have in common with others; `None` of a scene that is none.
+    pub fn gears(&self) -> Option<Arc<SharedGears>> {
+        self.scene.as_ref().ok().map(|scene| Arc::new(SharedGears::of(scene)))
+    }
+}
+
+/// A scene as it was solved, its positions, and the time that took, ms.
+type Solved = (Scene, StaticHistory, f64);
+
+impl<'a> Session<'a> {
+    /// With the text of a scene to begin with.
+    pub fn new(start: &'a str, file: &Path, limits: Limits, cache: &'a dyn GearCache) -> Self {
+        let (models, schema) = (SharedModels::new(cache), scene::json_schema()["$defs"]["pair"].take());
+        let last = Mutex::new(Document::new(start.to_owned(), file));
+        Self { start, last, limits, models, schema }
+    }
+
+    /// The scene to begin with, where this page can show it.
+    pub fn first_scene(&self) -> Option<Scene> {
+        self.scene(self.start).ok()
+    }
+
+    /// Reduces the gears of a scene for those that come.
+    pub fn warm(&self, scene: &Scene, interest: Interest<'_>) {
+        if self.fits(scene).is_ok() {
+            let _ = self.at_rest(scene, interest);
+        }
+    }
+
+    /// The scene that a move asks for.
+    pub fn take(&self, change: &Change) -> Taken {
+        let before = flat(&change.text);
+        let known = self.scene(&change.text).ok().and_then(|scene| Some((scene.gear_pair().ok()?, scene)));
+        let moved = known.as_ref().map_or_else(Vec::new, |(pair, scene)| sliders(scene, pair, &before));
+        let set = completed(&change.set, &moved, &before);
+        let (text, refused) = match changed(&change.text, &set, |key| is_text(&self.schema, key)) {
+            Ok(text) => (text, None),
+            Err(fault) => (change.text.clone(), Some(fault)),
+        };
+        let scene = match refused {
+            None => self.scene(&text),
+            Some(fault) => Err(fault),
+        };
+        Taken { text, sliders: moved, scene }
+    }
+
+    /// The answer to a move as JSON; `None` where nobody waits for it any more.
+    pub fn answer(&self, number: u64, taken: Taken, interest: Interest<'_>) -> Option<Vec<u8>> {
+        let Taken { text, sliders, scene } = taken;
+        let effective = scene.as_ref().map_or_else(|_| BTreeMap::new(), |scene| flat(&scene.to_toml()));
+        let solved = match scene.and_then(|scene| self.solved(&text, &scene, interest)) {
+            Ok(None) => return None,
+            Ok(Some(solved)) => Ok(solved),
+            Err(fault) => Err(fault),
+        };
+        let answer = Answer {
+            number,
+            text: &text,
+            written: flat(&text),
+            effective,
+            sliders: &sliders,
+            fault: None,
+            result: None,
+        };
+        Some(match &solved {
+            Ok(solved) => shown(answer, &text, solved),
+            Err(fault) => json(&Answer { fault: Some(fault.clone()), ..answer }),
+        })
+    }
+
+    /// The checked scene of a text, where this page can show it.
+    fn scene(&self, text: &str) -> Result<Scene, Fault> {
+        let document = {
+            let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+            *last = last.edited(text.to_owned());
+            last.clone()
+        };
+        let scene = document.scene(&[]).map_err(|e| Fault::of_scene(text, &e))?;
+        if scene.motion.is_some() || is_lumped(&scene) {
+            let fault = Fault::new("this page shows a pair at rest, and the scene asks for a motion", AT_REST);
+            return Err(fault.about(if is_lumped(&scene) { "analysis.model" } else { "analysis.kind" }));
+        }
+        if scene.analysis.model == Model::Full {
+            let fault = Fault::new("the model \"full\" takes minutes a position, and this page follows the hand", HELD);
+            return Err(fault.about("analysis.model"));
+        }
+        Ok(scene)
+    }
+
+    /// Whether memory holds what a scene needs, now.
+    fn fits(&self, scene: &Scene) -> Result<(), Fault> {
+        check_memory(scene, (self.limits.free_bytes)()).map(drop).map_err(|e| Fault::of_memory(&e))
+    }
+
+    fn solved(&self, text: &str, scene: &Scene, interest: Interest<'_>) -> Result<Option<Solved>, Fault> {
+        self.fits(scene)?;
+        let start = Instant::now();
+        match self.at_rest(scene, interest) {
+            Ok(SolvedAtRest { scene, history, .. }) => Ok(Some((scene, history, 1e3 * start.elapsed().as_secs_f64()))),
+            Err(AnalysisError::Cancelled) => Ok(None),
+            Err(e) => Err(Fault::of_analysis(text, &e)),
+        }
+    }
+
+    /// A scene at rest on the models that are kept; the page shows no derivatives.
+    fn at_rest(&self, scene: &Scene, interest: Interest<'_>) -> Result<SolvedAtRest, AnalysisError> {
+        let mut scene = scene.clone();
+        scene.output.derivatives.clear();
+        solve_at_rest(&scene, &self.models, RestRequest { remarks: WarningsAtRest::Collected, interest })
+    }
+}
+
+const AT_REST: &str = "take `kind = \"static\"` and `model = \"reduced\"` in [analysis]; `ale-gear run` solves motions";
+const HELD: &str = "take `model = \"reduced\"` in [analysis]; `ale-gear run` solves it";
+
+/// The answer with all that is drawn of a solved scene.
+fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) -> Vec<u8> {
+    let drawn = || -> Result<_, Fault> {
+        let statistics = |e: study::StudyError| Fault { hint: e.hint(), ..Fault::new(e.to_string(), "") };
+        let pair = scene.gear_pair().map_err(|e| Fault::of_scene(text, &e))?;
+        let headline = static_headline(scene, history).map_err(statistics)?;
+        let maps = if scene.has_slices() {
+            contact_pattern_maps(&patterns(scene, &pair, history).map_err(statistics)?).into()
+        } else {
+            Vec::new()
+        };
+        Ok((View::of_history(scene, &pair, history), headline, maps))
+    };
+    let (view, headline, maps) = match drawn() {
+        Ok(drawn) => drawn,
+        Err(fault) => return json(&Answer { fault: Some(fault), ..answer }),
+    };
+    let charts = static_charts(scene, history);
+    let result = Outcome {
+        name: &scene.name,
+        solve_ms: *solve_ms,
+        headline: held(&headline),
+        glance: glance(scene, &headline),
+        charts: charts.iter().map(LineChart::plot).collect(),
+        maps,
+        view,
+        remarks: history.remarks.iter().map(ToString::to_string).collect(),
+    };
+    json(&Answer { result: Some(result), ..answer })
+}
+
+/// The headline as a run has it but for tooth changes: a run looks for the one that closes its last cycle as well.
+fn held(headline: &StaticHeadline) -> serde_json::Value {
+    let mut all = serde_json::to_value(headline).unwrap_or_default();
+    if let Some(numbers) = all.as_object_mut() {
+        numbers.retain(|key, _| !key.starts_with("tooth_change"));
+    }
+    all
+}
+
+/// The numbers that a hand follows.
+fn glance(scene: &Scene, headline: &StaticHeadline) -> Vec<[String; 2]> {
+    let mesh_hz = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
+    let harmonic = headline.ste_harmonics_um.first().copied().unwrap_or(f64::NAN);
+    let mut rows = vec![
+        ("peak-to-peak STE", format!("{:.3} um", headline.peak_to_peak_ste_um)),
+        ("first mesh harmonic of STE", format!("{harmonic:.3} um")),
+        ("mean STE", format!("{:.2} um", headline.mean_ste_um)),
+        ("mean mesh stiffness", format!("{:.0} N/um", headline.mean_mesh_stiffness_n_per_um)),
+        ("largest pressure", format!("{:.0} MPa", headline.max_pressure_mpa)),
+        ("largest force of a pair", format!("{:.0} N", headline.max_pair_force_n)),
+    ];
+    if let Some(factor) = headline.face_load_factor {
+        rows.push(("face load factor", format!("{factor:.3}")));
+    }
+    rows.push(("mesh frequency", format!("{mesh_hz:.0} Hz")));
+    rows.into_iter().map(|(what, value)| [what.to_owned(), value]).collect()
+}
+
+/// Numbers, texts and lists: JSON refuses none of them.
+fn json(answer: &Answer<'_>) -> Vec<u8> {
+    serde_json::to_vec(answer).unwrap_or_default()
+}

@@ -1,0 +1,75 @@
+//! How do bounds, and the choice of the cheapest rung or model, do on pairs that the calibration has not seen?
+//!
+//! `cargo run --release -p verification --bin check_accuracy -- rest TOLERANCE_PERCENT COUNT FILE...`, the files of
+//! `measure_accuracy`: every pair is solved with `model = "auto"` and with the program's default settings.
+//! `motion TOLERANCE_PERCENT SEED FIRST COUNT [MESH_RUNG]`: every narrow random pair is moved at one speed with
+//! `model = "auto"`, and held against `reduced+modes` with fine steps on a mesh of the rung.
+#![allow(clippy::print_stdout, reason = "the figures are what it is for")]
+
+mod motion;
+mod rest;
+
+use std::{collections::BTreeMap, error::Error};
+
+use analysis::accuracy::Bound;
+
+type Failure = Box<dyn Error + Send + Sync>;
+
+/// Bounds and errors of a quantity over all pairs.
+#[derive(Debug, Default)]
+struct Tally {
+    pairs: usize,
+    within: usize,
+    /// Bound over error.
+    sharpness: Vec<f64>,
+    /// Said to be kept, kept, and said though it is not.
+    met: [usize; 3],
+}
+
+/// By the key of the quantity.
+type Tallies = BTreeMap<&'static str, Tally>;
+
+impl Tally {
+    /// One bound more beside the exact value; whether that is within.
+    fn add(&mut self, bound: &Bound, exact: f64) -> bool {
+        let error = exact - bound.value;
+        let within = -bound.below <= error && error <= bound.above;
+        self.pairs += 1;
+        self.within += usize::from(within);
+        self.sharpness.push(bound.largest() / error.abs().max(1e-9 * exact.abs()));
+        let (said, is_kept) = (bound.met == Some(true), bound.asked.is_some_and(|asked| error.abs() <= asked));
+        self.met[0] += usize::from(said);
+        self.met[1] += usize::from(is_kept);
+        self.met[2] += usize::from(said && !is_kept);
+        within
+    }
+}
+
+fn main() -> Result<(), Failure> {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let [kind, percent, more @ ..] = &words[..] else { return Err("rest|motion TOLERANCE_PERCENT are wanted".into()) };
+    let share = 1e-2 * percent.parse::<f64>()?;
+    let mut tallies = Tallies::new();
+    match kind.as_str() {
+        "rest" => rest::check(share, more, &mut tallies)?,
+        "motion" => motion::check(share, more, &mut tallies)?,
+        _ => return Err("`rest` or `motion` is wanted first".into()),
+    }
+    for (key, mut tally) in tallies {
+        let [said, kept, wrong] = tally.met;
+        println!(
+            "{percent} %: {key:24} within {:3} of {:3} ({:.1} %), median bound over error {:.1}; said to be kept {said}, \
+             kept {kept}, said though not so {wrong}",
+            tally.within,
+            tally.pairs,
+            100.0 * tally.within as f64 / tally.pairs as f64,
+            median(&mut tally.sharpness)
+        );
+    }
+    Ok(())
+}
+
+fn median(all: &mut [f64]) -> f64 {
+    all.sort_unstable_by(f64::total_cmp);
+    all.get(all.len() / 2).copied().unwrap_or(f64::NAN)
+}
