@@ -10,6 +10,7 @@ mod face_widths;
 mod given_poses;
 mod gmsh_meshes;
 mod harris_map;
+mod internal_pairs;
 mod kinematic;
 mod laws_of_statics;
 mod modified;

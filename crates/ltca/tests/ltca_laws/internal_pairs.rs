@@ -1,0 +1,127 @@
+//! A pinion in a ring at rest: laws, search, reduced gears and full ones.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+use geometry::{Driver, Gear, GearData, GearPair};
+use ltca::StaticHistory;
+use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
+use testing::{Case, quadratic};
+
+/// 20 teeth in a ring of 52, at a helix angle in degrees.
+fn data(beta_deg: f64) -> [GearData; 2] {
+    let pinion = GearData {
+        teeth: 20,
+        helix_angle: beta_deg.to_radians(),
+        profile_shift: 0.3,
+        bore_diameter: 30.0,
+        face_width: 15.0,
+        ..GearData::default()
+    };
+    let ring = GearData {
+        teeth: 52,
+        profile_shift: -0.1,
+        bore_diameter: -200.0,
+        addendum_coefficient: 0.85,
+        root_radius_coefficient: 0.25,
+        ..pinion.clone()
+    };
+    [pinion, ring.with_usual_shaper(0.0)]
+}
+
+fn case(beta_deg: f64, extent: Extent) -> Case {
+    quadratic(data(beta_deg), None, 300e3, [4, 4, 2, 4, 2], extent)
+}
+
+fn run(case: &Case, positions: usize) -> StaticHistory {
+    case.reduced(case.slice_options()).run(positions, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Meshes of a ring: sound elements, a volume between tip and outside, all teeth copies of one, flanks on their helicoids as the fit finds them.
+#[test]
+fn the_mesher_makes_rings() {
+    for beta in [0.0, 25.0] {
+        let [_, ring] = data(beta).map(|d| Gear::new(d).unwrap());
+        let options = StructuredOptions {
+            elements_profile: 4,
+            elements_face: 4,
+            elements_rim: 3,
+            ..StructuredOptions::default()
+        };
+        let mesh = mesh::generate(&ring, &options).unwrap_or_else(|e| panic!("{e}"));
+        let unnamed = mesh::Mesh { surfaces: Vec::new(), ..mesh.clone() };
+        let (found, fit) = MeshedGear::find(unnamed, &ring, &GroupNames::default()).unwrap_or_else(|e| panic!("{e}"));
+        let fit = fit.unwrap();
+        assert!(fit.largest_deviation() < 1e-6, "{} mm off", fit.largest_deviation());
+        assert_eq!(fit.flanks.len(), 104, "flanks");
+        assert!(fit.flanks.iter().all(|f| f.coverage > 0.98), "{:?}", fit.flanks[0]);
+        let named = MeshedGear::find(mesh, &ring, &GroupNames::default()).unwrap().0;
+        for tooth in [0, 1, 51] {
+            for side in [geometry::Side::Left, geometry::Side::Right] {
+                let nodes = |gear: &MeshedGear| {
+                    let mut all: Vec<u32> =
+                        gear.flank(tooth, side).unwrap().iter().flat_map(|f| f.nodes()).copied().collect();
+                    all.sort_unstable();
+                    all.dedup();
+                    all
+                };
+                assert_eq!(nodes(&found), nodes(&named), "tooth {tooth} {side:?}");
+            }
+        }
+        assert_eq!(found.bore_nodes(), named.bore_nodes());
+    }
+}
+
+/// Torque, contact and action = reaction close; the whole gear and its sector have the same answer.
+#[test]
+fn a_ring_under_load_obeys_the_laws() {
+    for beta in [0.0, 20.0] {
+        let whole = case(beta, Extent::Whole);
+        let sector = case(beta, Extent::Periodic);
+        let [a, b] = [run(&whole, 4), run(&sector, 4)];
+        for (p, q) in a.positions.iter().zip(&b.positions) {
+            let certificate = &p.certificate;
+            assert!(certificate.torque_residual < 1e-9, "torque {}", certificate.torque_residual);
+            assert!(certificate.complementarity_residual < 1e-9, "{}", certificate.complementarity_residual);
+            assert!(certificate.action_reaction_residual < 1e-12, "{}", certificate.action_reaction_residual);
+            println!("beta {beta}, s {}: STE {} um, {} pairs", p.mesh_phase, 1e3 * p.transmission_error, p.pairs.len());
+            assert!(p.transmission_error > 0.0, "the driven ring lags");
+            let off = (p.transmission_error / q.transmission_error - 1.0).abs();
+            assert!(off < 1e-8, "whole {} and sector {}", p.transmission_error, q.transmission_error);
+        }
+    }
+}
+
+/// All degrees of freedom kept, or reduced: the same answer.
+#[test]
+fn reduced_gears_are_the_full_ones() {
+    let case = case(20.0, Extent::Sector(5));
+    let reduced = run(&case, 2);
+    let full = case.full(case.slice_options()).run(2, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
+    for (p, q) in reduced.positions.iter().zip(&full.positions) {
+        let off = (p.transmission_error / q.transmission_error - 1.0).abs();
+        assert!(off < 1e-7, "reduced {} and full {}", p.transmission_error, q.transmission_error);
+    }
+}
+
+/// The ring drives as well as the pinion: the same flanks under the same base force have the same approach; and the other sense is the mirror image of a spur pair.
+#[test]
+fn the_ring_drives_too() {
+    let case = case(0.0, Extent::Periodic);
+    let pair: &GearPair = &case.pair;
+    let ratio = pair.pinion.base_radius() / pair.wheel.base_radius().abs();
+    let with = |driver: Driver, sense: geometry::Sense, torque: f64| {
+        let mut options = case.slice_options().with_contact(|c| (c.driver, c.sense) = (driver, sense));
+        options.torque = torque;
+        case.reduced(options).run(3, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let torque = case.torque;
+    let [first, mirrored] = [geometry::Sense::Ccw, geometry::Sense::Cw].map(|s| with(Driver::Pinion, s, torque));
+    // The ring drives clockwise, so that the same left flanks carry.
+    let back = with(Driver::Wheel, geometry::Sense::Cw, torque * ratio);
+    for ((p, q), r) in first.positions.iter().zip(&mirrored.positions).zip(&back.positions) {
+        let [p, q, r] = [p, q, r].map(|x| x.transmission_error);
+        assert!((p / q - 1.0).abs() < 1e-6, "mirrored: {p} and {q}");
+        println!("pinion drives {p}, ring drives {r}");
+    }
+    let mean = |h: &StaticHistory| h.positions.iter().map(|p| p.transmission_error).sum::<f64>() / 3.0;
+    assert!((mean(&first) / mean(&back) - 1.0).abs() < 0.02, "{} and {}", mean(&first), mean(&back));
+}
