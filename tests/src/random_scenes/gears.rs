@@ -97,7 +97,7 @@ fn one_gear(d: &mut Draft, gear: &str, module: f64, reference: f64) {
 }
 
 /// The pair of the keys so far, if it is one.
-fn exact(d: &Draft) -> Option<GearPair> {
+pub(super) fn exact(d: &Draft) -> Option<GearPair> {
     let text = format!("{}\n[operation]\ntorque_nm = 1.0\n", d.text().ok()?);
     Scene::parse(&text, "drawn.toml".as_ref()).ok()?.gear_pair().ok()
 }

@@ -6,8 +6,9 @@
 //! | module | what it draws or says |
 //! |---|---|
 //! | `draft` | chance, keys with values, files beside the scene |
-//! | `gears`, `meshes`, `flanks` | the pair: geometry, material, errors; its meshes; its micro-geometry |
+//! | `gears`, `rings`, `meshes`, `flanks` | the pair: geometry, material, errors; internal pairs; its meshes; its micro-geometry |
 //! | `model`, `question` | which model; load, contact, positions, files |
+//! | `rating` | whether it will hold |
 //! | `motion`, `cheaper` | motion in time; the models with few coordinates |
 //! | `whole_range` | any key of the schema over its whole range |
 //! | `mirror` | the same scene in a mirror, and what must stay the same |
@@ -31,7 +32,9 @@ mod mirror;
 mod model;
 mod motion;
 mod question;
+mod rating;
 mod refusals;
+mod rings;
 mod trial;
 mod verdict;
 mod whole_range;
@@ -98,6 +101,10 @@ pub fn draw(seed: u64, index: u64) -> RandomScene {
         for _ in 0..d.whole(1, 3) {
             whole_range::draw_any_key(&mut d, &keys);
         }
+    }
+    // Last, so that all other scenes of a seed stay what they are.
+    if !anything && !foreign && !rings::draw_ring(&mut d, &asked) {
+        rating::draw_rating(&mut d, &asked);
     }
     RandomScene { draft: d, model: asked.model, anything, foreign }
 }

@@ -46,7 +46,8 @@ fn no_key_is_left_out() {
     assert_eq!(all, of_schema, "keys of the table and of the schema");
     let folder = tempfile::tempdir().unwrap();
     std::os::unix::fs::symlink(testing::meshes_folder(), folder.path().join("meshes")).unwrap();
-    let mut left = all;
+    // The ring of a pair is its wheel: a pinion has no shaper.
+    let mut left: BTreeSet<String> = all.into_iter().filter(|key| !key.starts_with("pinion.shaper.")).collect();
     for index in 0..DRAWN {
         if left.is_empty() {
             return;
