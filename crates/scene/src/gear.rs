@@ -13,7 +13,11 @@ use crate::schema::{Coupling, MisalignmentScene};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearScene {
     /// Number of teeth, without the sign of an internal gear.
+    #[serde(skip)]
     pub teeth: u32,
+    /// The same as a scene file states it: negative of an internal gear.
+    #[serde(rename = "teeth")]
+    pub(crate) signed_teeth: i64,
     /// The tool of an internal gear; `None`: an external one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaper: Option<ShaperScene>,

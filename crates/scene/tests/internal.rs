@@ -63,3 +63,16 @@ fn what_rings_have_not_is_refused() {
     refused(read("-52", "", "helix_angle_deg = -15.0"), &["do not mesh"]);
     refused(read("-24", "", ""), &["tip diameter", "base diameter"]);
 }
+
+/// What is written of a ring is read as the same ring: with its sign, its tool and its lengths.
+#[test]
+fn a_ring_is_written_as_it_is_read() {
+    for stated in ["", "[wheel.shaper]\nteeth = 26\nprofile_shift = 0.1\ntip_rounding_coefficient = 0.2"] {
+        let scene = read("-52", "", stated).unwrap_or_else(|e| panic!("{e}"));
+        let text = scene.to_toml();
+        assert!(text.contains("teeth = -52"), "{text}");
+        let again = Scene::parse(&text, Path::new("ring.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert_eq!(again.gear_pair().unwrap(), scene.gear_pair().unwrap());
+        assert_eq!(again.number_at("wheel.teeth"), Some(-52.0));
+    }
+}

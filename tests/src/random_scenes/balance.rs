@@ -51,7 +51,10 @@ pub fn equilibrium(case: &Case<'_>) -> Vec<String> {
 /// At rest the flanks balance the torque on the driven gear.
 pub fn torque(case: &Case<'_>) -> Vec<String> {
     let torque = 1e3 * case.inputs["operation"]["torque_nm"].as_f64().unwrap_or(f64::NAN);
-    let (driven, turns) = if case.word("operation", "driver") == "wheel" { ("pinion", 1.0) } else { ("wheel", -1.0) };
+    // A ring turns as its pinion does.
+    let ring = case.inputs["wheel"]["teeth"].as_f64().is_some_and(|teeth| teeth < 0.0);
+    let wheel = if ring { 1.0 } else { -1.0 };
+    let (driven, turns) = if case.word("operation", "driver") == "wheel" { ("pinion", 1.0) } else { ("wheel", wheel) };
     let sense = if case.word("operation", "rotation") == "cw" { -1.0 } else { 1.0 };
     let Some(moment) = case.history.column(&format!("{driven}_moment_z_nmm")) else { return Vec::new() };
     let wanted = turns * sense * torque;
@@ -113,7 +116,7 @@ pub fn ledger(case: &Case<'_>, energy: &Csv) -> Vec<String> {
     }
     let scale = all.iter().map(|c| largest(c)).fold(0.0, f64::max);
     // Work is a force times places that are known to round-off only; what is dissipated is no better than the rest.
-    let teeth = |gear: &str| case.inputs[gear]["teeth"].as_f64().unwrap_or(0.0);
+    let teeth = |gear: &str| case.inputs[gear]["teeth"].as_f64().unwrap_or(0.0).abs();
     let turned = case.inputs["operation"]["torque_nm"].as_f64().unwrap_or(0.0) * 1e3;
     let floor = ROUND_OFF * turned.abs() * (teeth("pinion") + teeth("wheel"));
     let closed = |i: usize| kinetic[i] + elastic[i] - supplied[i] - parametric[i] + dissipated[i] - residual[i];

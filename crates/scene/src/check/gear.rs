@@ -215,6 +215,7 @@ pub(super) fn gear(
     };
     Ok(GearScene {
         teeth,
+        signed_teeth: if ring { -i64::from(teeth) } else { i64::from(teeth) },
         shaper: shaper(s, raw, cut)?,
         helix_angle_deg,
         face_width_mm,
