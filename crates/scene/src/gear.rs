@@ -17,7 +17,7 @@ pub struct GearScene {
     pub teeth: u32,
     /// The same as a scene file states it: negative of an internal gear.
     #[serde(rename = "teeth")]
-    pub(crate) signed_teeth: i64,
+    pub signed_teeth: i64,
     /// The tool of an internal gear; `None`: an external one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shaper: Option<ShaperScene>,
