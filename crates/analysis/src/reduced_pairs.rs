@@ -13,7 +13,7 @@ use reduction::ElasticGear;
 use scene::Scene;
 
 use crate::{
-    AnalysisError, GearCache, Progress,
+    AnalysisError, GearCache, MapKey, Progress,
     alike::{kind, of_gears},
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     inputs::meshes_of,
@@ -35,6 +35,13 @@ pub(crate) struct ReducedPair {
 }
 
 impl ReducedPair {
+    /// What a store knows maps of the contact of these gears by; `None` where it knows the gears by nothing. `contact`: all
+    /// else that the contact depends on, in words.
+    pub fn map_key(&self, contact: &str) -> Option<MapKey> {
+        let keys: Option<Vec<_>> = self.keys.keys().iter().copied().collect();
+        keys.map(|keys| MapKey::new(&keys, contact))
+    }
+
     /// Keeps the gears for later runs, once; what could not be written.
     pub fn save(&self, cache: &dyn GearCache) -> Vec<Remark> {
         if !cache.is_on() || self.saved.swap(true, Ordering::Relaxed) {

@@ -29,7 +29,7 @@ impl PhaseContact for Spring {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let plan =
         MapPlan { mean_force: 1000.0, largest_force: 4000.0, tilt: None, width: 10.0, tolerance: 1e-4, worst: 1e-4 };
-    let map = ContactMap::build(&plan, |phase| {
+    let map = ContactMap::build(&plan, &|_| {}, |phase| {
         Ok::<_, Infallible>(Spring { stiffness: 2e5 * (1.0 + 0.2 * (TAU * phase).cos()), gap: 1e-3 })
     })?;
     let certificate = map.certificate();

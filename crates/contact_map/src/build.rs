@@ -1,6 +1,9 @@
 //! Making a map: samples, finer and finer, until it agrees with the contact between them. Theory (73).
 
-use std::collections::BTreeMap;
+use std::{
+    collections::BTreeMap,
+    sync::atomic::{AtomicUsize, Ordering},
+};
 
 use rayon::prelude::*;
 
@@ -30,6 +33,18 @@ pub struct MapPlan {
     pub worst: f64,
 }
 
+/// How far a map is made: contacts solved so far, and about how many it takes until it is held against the contact next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct MapWork {
+    /// Contacts solved.
+    pub contacts: usize,
+    /// Contacts of the map in its present size, about; more when a check finds it too coarse.
+    pub of_contacts: usize,
+}
+
+/// Hears how far a map is made, from any thread.
+pub type MapWatch<'a> = &'a (dyn Fn(MapWork) + Sync);
+
 /// Phases of a mesh cycle, forces and tilts (in intervals) of the first map, and most of them.
 const PHASES: [usize; 2] = [32, 1024];
 const LOADS: [usize; 2] = [12, 96];
@@ -46,14 +61,18 @@ const CHECKS: usize = 64;
 type Columns = BTreeMap<usize, Vec<Vec<Node>>>;
 
 impl ContactMap {
-    /// A map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1).
+    /// A map of the contact that `at` gives at a phase of the mesh cycle (0 .. 1); `watch` hears how far it is.
     ///
     /// Phases, forces and tilts are doubled, whichever the error comes from, until the check at random places is within
     /// the tolerance, or a finer map would cost too much.
     ///
     /// # Errors
     /// [`MapError`].
-    pub fn build<C, E>(plan: &MapPlan, at: impl Fn(f64) -> Result<C, E> + Sync) -> Result<Self, MapError<E>>
+    pub fn build<C, E>(
+        plan: &MapPlan,
+        watch: MapWatch<'_>,
+        at: impl Fn(f64) -> Result<C, E> + Sync,
+    ) -> Result<Self, MapError<E>>
     where
         C: PhaseContact<Error = E>,
         E: Send,
@@ -63,7 +82,7 @@ impl ContactMap {
             MapSize { phases: PHASES[0], loads: LOADS[0], tilts: if plan.tilt.is_some() { TILTS[0] } else { 0 } };
         let (mut columns, mut contacts) = (Columns::new(), 0);
         loop {
-            contacts += sample(&mut columns, plan, &at, size)?;
+            contacts += sample(&mut columns, plan, (&at, size), (watch, contacts))?;
             let mut map = assemble(plan, &columns, size);
             let [all, along @ ..] = errors(&map, plan, &at, &mut contacts)?;
             let deflection = deflection(&map, plan);
@@ -147,12 +166,13 @@ fn tilts(plan: &MapPlan, count: usize) -> Vec<f64> {
     }
 }
 
-/// Samples the phases that are not there yet; gives how many contacts that took.
+/// Samples the phases that are not there yet; gives how many contacts that took. `watch` hears of each phase, with the
+/// contacts before.
 fn sample<C, E>(
     columns: &mut Columns,
     plan: &MapPlan,
-    at: &(impl Fn(f64) -> Result<C, E> + Sync),
-    size: MapSize,
+    (at, size): (&(impl Fn(f64) -> Result<C, E> + Sync), MapSize),
+    (watch, before): (MapWatch<'_>, usize),
 ) -> Result<usize, MapError<E>>
 where
     C: PhaseContact<Error = E>,
@@ -161,6 +181,13 @@ where
     let step = PHASES[1] / size.phases;
     let missing: Vec<usize> = (0..size.phases).map(|i| i * step).filter(|key| !columns.contains_key(key)).collect();
     let axis = LoadAxis::new(size.loads, plan.largest_force);
+    let (done, phases) = (AtomicUsize::new(0), AtomicUsize::new(0));
+    let heard = |count: usize| {
+        let contacts = done.fetch_add(count, Ordering::Relaxed) + count;
+        let sampled = phases.fetch_add(1, Ordering::Relaxed) + 1;
+        let all = contacts * missing.len() / sampled;
+        watch(MapWork { contacts: before + contacts, of_contacts: before + all });
+    };
     let sampled: Vec<_> = missing
         .par_iter()
         .map(|&key| {
@@ -173,6 +200,7 @@ where
                 all.push(nodes);
                 solved += count;
             }
+            heard(solved);
             Ok((key, all, solved))
         })
         .collect::<Result<_, MapError<E>>>()?;

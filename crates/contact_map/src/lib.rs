@@ -12,7 +12,7 @@ mod sampler;
 mod spline;
 mod spline_cache;
 
-pub use build::MapPlan;
+pub use build::{MapPlan, MapWatch, MapWork};
 pub use damping::MapDamping;
 pub use error::MapError;
 pub use map::{ContactMap, CutPlace, MapCertificate, MapContact, Wanted};

@@ -24,8 +24,11 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scale = system.coordinates().scales(pair.ste[0], pair.case.pair.wheel.base_radius());
     let mut state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale)?;
     let began = Instant::now();
-    let mut map =
-        MappedPair::new(system, &MapRequest { overload: 4.0, tolerance: 2e-4, worst: 2e-4, lag: pair.ste[0] })?;
+    let mut map = MappedPair::new(
+        system,
+        &MapRequest { overload: 4.0, tolerance: 2e-4, worst: 2e-4, lag: pair.ste[0] },
+        &|_| {},
+    )?;
     println!("map in {:.2} s: {:?}", began.elapsed().as_secs_f64(), map.maps().next().map(|m| *m.certificate()));
     let control = StepControl::Fixed(1.0 / hz / STEPS as f64);
     let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, control, scale);

@@ -4,6 +4,8 @@ use described::Key;
 use scene::gearbox::Gearbox;
 use serde_json::{Map, Value, json};
 
+use crate::run_up::RunUpTorque;
+
 use super::{BearingLoad, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult};
 
 /// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
@@ -15,6 +17,7 @@ enum Of {
     Bearings(fn(&BearingLoad) -> f64),
     MeshesVibrating(fn(&VibrationResult, usize) -> f64),
     BearingsVibrating(fn(&VibrationResult, usize) -> f64),
+    RunUp(fn(RunUpTorque) -> f64),
     MeshesMoving(fn(&GearboxMotionResult, usize) -> f64),
     BearingsMoving(fn(&GearboxMotionResult, usize) -> f64),
 }
@@ -34,7 +37,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 14] = [
+const NUMBERS: [Number; 17] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -97,6 +100,22 @@ const NUMBERS: [Number; 14] = [
         "largest radial force of each bearing, second half of the rows; with `[motion]`",
         Of::BearingsMoving(|m, i| m.radial_force(i).largest),
     ),
+    Number {
+        key: Key::new("run_up_s", "f64", "duration of the run-up; with `to_speed_rpm`"),
+        of: Of::RunUp(|r| r.duration),
+    },
+    Number {
+        key: Key::new(
+            "run_up_inertia_torque_nm",
+            "f64",
+            "largest torque at the input that accelerates all but its own shaft, beside that of the load; with `to_speed_rpm`",
+        ),
+        of: Of::RunUp(|r| 1e-3 * r.inertia),
+    },
+    Number {
+        key: Key::new("run_up_load_torque_nm", "f64", "torque of the loads at the input; with `to_speed_rpm`"),
+        of: Of::RunUp(|r| 1e-3 * r.load),
+    },
 ];
 
 impl GearboxResult {
@@ -117,6 +136,7 @@ impl GearboxResult {
                 Of::BearingsVibrating(own) => {
                     self.vibration.as_ref().map(|s| bearings.clone().map(|i| own(s, i)).collect())?
                 }
+                Of::RunUp(own) => json!(own(self.motion.as_ref()?.run_up?)),
                 Of::MeshesMoving(own) => self.motion.as_ref().map(|m| meshes.clone().map(|i| own(m, i)).collect())?,
                 Of::BearingsMoving(own) => {
                     self.motion.as_ref().map(|m| bearings.clone().map(|i| own(m, i)).collect())?
@@ -136,6 +156,7 @@ impl GearboxResult {
             Of::Bearings(_) => Some(Some(file.bearings.len())),
             Of::MeshesVibrating(_) => vibrates.then_some(Some(file.meshes.len())),
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
+            Of::RunUp(_) => file.motion.as_ref().and_then(|m| m.to_speed_rpm).map(|_| None),
             Of::MeshesMoving(_) => moves.then_some(Some(file.meshes.len())),
             Of::BearingsMoving(_) => moves.then_some(Some(file.bearings.len())),
         };
@@ -152,7 +173,7 @@ impl GearboxResult {
         let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
         [
             matches!(of, Some(Of::MeshesVibrating(_) | Of::BearingsVibrating(_))),
-            matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_))),
+            matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_) | Of::RunUp(_))),
         ]
     }
 }

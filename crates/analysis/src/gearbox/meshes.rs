@@ -17,7 +17,9 @@ use scene::{
 };
 
 use crate::{
-    AnalysisError, GearCache, NoObserver, Progress, SharedModels, gears,
+    AnalysisError, GearCache, NoObserver, Progress, SharedModels,
+    contact_maps::{map_teller, map_words},
+    gears,
     inputs::resolved_scene,
     meshes::SceneMesh,
     motion::body,
@@ -148,9 +150,28 @@ impl ReducedMesh {
         MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
     }
 
-    /// A map of the contact.
-    pub fn map(&self, mesh: &GearMesh, request: &MapRequest) -> Result<MappedMesh, GearboxError> {
-        MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, request)
+    /// The contact by its map: that of the cache, or a new one; remarks are about files of the cache.
+    pub fn map(
+        &self,
+        mesh: &GearMesh,
+        request: &MapRequest,
+        (cache, progress, remarks): (&dyn GearCache, &dyn Progress, &mut Vec<Remark>),
+    ) -> Result<MappedMesh, GearboxError> {
+        let key = cache.is_on().then(|| self.pair.map_key(&map_words(&self.scene, &mesh.pair, request))).flatten();
+        if let Some(key) = &key {
+            let (kept, said) = cache.load_maps(key);
+            remarks.extend(said);
+            if let Some(map) = kept.and_then(|kept| kept.of(key)).and_then(|mut maps| maps.pop())
+                && let Ok(made) = MappedMesh::on(&mesh.pair, &self.options, request, map)
+            {
+                return Ok(made);
+            }
+        }
+        let of = format!("{}: ", mesh.name);
+        let teller = map_teller(progress, &of);
+        let made = MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, (request, &teller))?;
+        remarks.extend(key.and_then(|key| cache.save_maps(&key, &[made.map()])));
+        Ok(made)
     }
 
     /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.

@@ -9,7 +9,7 @@
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `checks` | what must hold |
 //! | `headline` | the numbers that it is judged by |
-//! | `motion`, `orders`, `sink` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints |
+//! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints; what is said of it |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `clearance` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
@@ -24,6 +24,7 @@ mod loads;
 mod mesh_numbers;
 mod meshes;
 mod motion;
+mod motion_remarks;
 mod orders;
 mod parts;
 mod result;
@@ -35,6 +36,7 @@ mod vibration;
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 use scene::gearbox::Gearbox;
 
+pub use crate::run_up::RunUpTorque;
 use crate::{
     AnalysisError, SharedModels,
     context::{Context, Ending, Question},

@@ -21,7 +21,9 @@ use super::{
     orders::{MotionOrder, orders},
     sink::GearboxSink,
 };
-use crate::{AnalysisError, Observer, PhaseWork, Progress, remark, run_phase, unless_cancelled};
+use crate::{
+    AnalysisError, GearCache, Observer, PhaseWork, Progress, run_phase, run_up::RunUpTorque, unless_cancelled,
+};
 
 /// Largest force of a map over the mean at rest.
 const OVERLOAD: f64 = 4.0;
@@ -70,6 +72,10 @@ pub struct GearboxMotionResult {
     pub warm_up_cycles: u64,
     /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where it need not.
     pub periodicity: Option<Periodicity>,
+    /// What the acceleration of a run-up takes at the input: of all that the meshes drive, beside their loads.
+    pub run_up: Option<RunUpTorque>,
+    /// What was said of files of maps.
+    pub(super) map_remarks: Vec<Remark>,
 }
 
 /// Least and largest value.
@@ -100,22 +106,6 @@ impl GearboxMotionResult {
     pub fn radial_force(&self, bearing: usize) -> Range {
         self.settled(|p| p.bearings[bearing].force[0].hypot(p.bearings[bearing].force[1]))
     }
-
-    /// What a user should hear of a motion that was to settle.
-    pub(super) fn remark(&self, asked: &GearboxMotion) -> Option<Remark> {
-        let (tolerance, most) = asked.settle?;
-        let found = self.periodicity?;
-        let early = self.warm_up_cycles < u64::from(most);
-        if found.residual <= tolerance {
-            return None;
-        }
-        Some(if early {
-            remark::repeats_and_drifts(tolerance, self.warm_up_cycles, found.residual)
-        } else {
-            let why = "it may be chaotic, have pitch errors, or need more `warm_up_cycles`";
-            remark::not_periodic(self.warm_up_cycles, found.residual, tolerance, why)
-        })
-    }
 }
 
 /// What is known of the gearbox at rest when its motion begins.
@@ -127,6 +117,8 @@ pub(super) struct AtRest<'a> {
     pub train: &'a Train,
     pub reduced: &'a [ReducedMesh],
     pub positions: &'a [GearboxPosition],
+    /// Keeps maps of the contact between runs.
+    pub cache: &'a dyn GearCache,
 }
 
 /// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
@@ -146,9 +138,10 @@ pub(super) fn run(
     let damping: Vec<f64> = (0..rest.meshes.len())
         .map(|i| rest.damping(i, &bodies, springs[i].stiffness().mean, asked.mesh_damping_ratio))
         .collect();
+    let mut map_remarks = Vec::new();
     let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
         let one = |i: usize| {
-            let made = rest.element(i, asked, &springs[i], damping[i]);
+            let made = rest.element(i, asked, (&springs[i], damping[i]), (progress, &mut map_remarks));
             progress.tick();
             made.map_err(|source| GearboxError::AtMesh { mesh: rest.meshes[i].name.clone(), source: Box::new(source) })
         };
@@ -172,6 +165,10 @@ pub(super) fn run(
     });
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
+    let run_up = match options.drive {
+        Drive::Speed(speed) => RunUpTorque::new(speed, (mechanism.driven_inertia(), 1.0), rest.load_at_input()),
+        Drive::Torque { .. } => None,
+    };
     let plan = rest.plan(asked);
     let (from, rows) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
     sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
@@ -214,6 +211,8 @@ pub(super) fn run(
         reduction,
         warm_up_cycles: done.warm_up,
         periodicity: done.periodicity.filter(|_| plan.settle.is_some()),
+        run_up,
+        map_remarks,
     };
     Ok((result, stopped))
 }
@@ -327,6 +326,12 @@ impl AtRest<'_> {
         Speed::Ramp { from, to, start: 0.0, duration: turned / (0.5 * (from + to)) }
     }
 
+    /// Torque of all loads at the input by the numbers of teeth, N mm.
+    fn load_at_input(&self) -> f64 {
+        let shaft = |disc: usize| self.structure.discs[disc].shaft;
+        self.operation.torques.iter().map(|t| t.torque * self.train.ratios()[shaft(t.disc)]).sum()
+    }
+
     /// Displacements of a mesh at all positions.
     fn stands(&self, mesh: usize) -> Vec<Vector12> {
         self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
@@ -357,8 +362,8 @@ impl AtRest<'_> {
         &self,
         mesh: usize,
         asked: &GearboxMotion,
-        spring: &ContactSpring,
-        damping: f64,
+        (spring, damping): (&ContactSpring, f64),
+        (progress, remarks): (&dyn Progress, &mut Vec<Remark>),
     ) -> Result<Box<dyn MovingMesh>, GearboxError> {
         let (own, meshing): (&GearMesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
         // Shared over the mean length of the contact lines under the mean force.
@@ -383,7 +388,7 @@ impl AtRest<'_> {
                     tolerance: asked.map_tolerance,
                     worst: (WORST * asked.map_tolerance).min(0.5),
                 };
-                let map = self.reduced[mesh].map(own, &request)?;
+                let map = self.reduced[mesh].map(own, &request, (self.cache, progress, remarks))?;
                 let length = map.mean_loaded_length(spring.force, PHASES);
                 Box::new(map.with_damping(over(damping, length)))
             }

@@ -128,10 +128,13 @@ pub(super) fn solve(
         train: &train,
         reduced: &reduced,
         positions: &positions,
+        cache: models.cache(),
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
     let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
-    remarks.extend(moved.as_ref().zip(file.motion.as_ref()).and_then(|(moved, asked)| moved.remark(asked)));
+    remarks.extend(
+        moved.as_ref().zip(file.motion.as_ref()).map(|(moved, asked)| moved.remarks(file, asked)).into_iter().flatten(),
+    );
     let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), remarks);
     Ok((GearboxResult { motion: moved, ..result }, stopped))
 }

@@ -1,11 +1,12 @@
 //! Reduced gears in motion, their contact solved or mapped, as the runs of cheaper models ask for them.
 
 use answer::Remark;
-use std::{path::PathBuf, time::Instant};
+use std::time::Instant;
 
+use contact_map::MapWatch;
 use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
 use geometry::GearPair;
-use scene::{Model, MotionScene, Operation, Scene};
+use scene::{Model, MotionScene, Scene};
 
 use super::{
     LumpedHeadline,
@@ -17,6 +18,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, MapKey, Observer, PhaseWork,
+    contact_maps::{map_teller, map_words},
     error::in_scene,
     failure::Failure,
     inputs::motion_of,
@@ -52,12 +54,6 @@ enum PairContact {
     Mapped(Box<MappedPair>),
 }
 
-/// The scene as far as the gears depend on it: all but the speed. Mesh damping, which [motion] has, is the pair's.
-pub(super) fn without_speed(scene: &Scene) -> Scene {
-    let operation = Operation { speed_rpm: 1000.0, ..scene.operation };
-    Scene { operation, set: Vec::new(), ..scene.clone() }
-}
-
 impl ElasticPair {
     /// Reduces the gears and, for the model "mapped", maps their contact.
     ///
@@ -75,9 +71,9 @@ impl ElasticPair {
         let (contact, contacts) = match scene.analysis.model {
             Model::Mapped => {
                 let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, worst: WORST_MAP, lag };
-                let key = cache.is_on().then(|| MapKey::new(&keys, &contact_words(scene, &inputs.pair, &request)));
-                let made = run_phase(observer, "contact map", PhaseWork::Unknown, |_| {
-                    mapped(system, &request, (cache, key.as_ref()), &mut remarks)
+                let key = cache.is_on().then(|| MapKey::new(&keys, &map_words(scene, &inputs.pair, &request)));
+                let made = run_phase(observer, "contact map", PhaseWork::Unknown, |progress| {
+                    mapped(system, (&request, &map_teller(progress, "")), (cache, key.as_ref()), &mut remarks)
                 });
                 let made = made.map_err(in_scene(scene))?;
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
@@ -120,29 +116,20 @@ impl ElasticPair {
     }
 }
 
-/// All but the gears that a map depends on, in words: the scene without what it does in time, and the flanks with what
-/// stands in files of their own.
-fn contact_words(scene: &Scene, pair: &GearPair, request: &MapRequest) -> String {
-    let at_rest = Scene { name: String::new(), file: PathBuf::new(), motion: None, ..without_speed(scene) };
-    // What stands in the file: not how it was written.
-    let at_rest = serde_json::to_string(&at_rest).expect("a scene is written as JSON");
-    format!("{request:?} {pair:?} {at_rest}")
-}
-
 /// The pair on its maps: those of the cache, or new ones.
 fn mapped(
     system: PairMechanism,
-    request: &MapRequest,
+    (request, watch): (&MapRequest, MapWatch<'_>),
     (cache, key): (&dyn GearCache, Option<&MapKey>),
     remarks: &mut Vec<Remark>,
 ) -> Result<MappedPair, PairMotionError> {
-    let Some(key) = key else { return MappedPair::new(system, request) };
+    let Some(key) = key else { return MappedPair::new(system, request, watch) };
     let (kept, said) = cache.load_maps(key);
     remarks.extend(said);
     if let Some(maps) = kept.and_then(|kept| kept.of(key)).filter(|maps| MappedPair::can_stand_on(&system, maps)) {
         return MappedPair::on(system, maps);
     }
-    let made = MappedPair::new(system, request)?;
+    let made = MappedPair::new(system, request, watch)?;
     remarks.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
     Ok(made)
 }

@@ -14,10 +14,10 @@ use scene::{
     OutputScene, Reduction, Scene, StiffnessFrom,
 };
 
-use super::elastic_pair::{ElasticPair, without_speed};
+use super::elastic_pair::ElasticPair;
 use crate::{
-    AnalysisError, GearCache, NoSink, Observer, error::in_scene, iso_model, loaded_pair::LoadedPair,
-    static_certificate, statics::CycleAnalysis,
+    AnalysisError, GearCache, NoSink, Observer, contact_maps::without_speed, error::in_scene, iso_model,
+    loaded_pair::LoadedPair, static_certificate, statics::CycleAnalysis,
 };
 
 /// Stiffness and error over the mesh cycle in the phase of scenes, with remarks of their making.

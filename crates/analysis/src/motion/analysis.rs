@@ -2,6 +2,7 @@
 
 use ale::solve_widening;
 use answer::Remark;
+use dynamics::PairMechanism;
 use geometry::GearPair;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
@@ -25,6 +26,7 @@ use crate::{
     inputs::resolved_scene,
     refused::Refusal,
     results::{GearPattern, root_stress_warnings},
+    run_up::RunUpTorque,
 };
 
 /// A scene to be solved in time: `run` "steady", "shooting", "span" or "ramp" of reduced gears.
@@ -275,6 +277,10 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     };
     let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
     let mut remarks = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    if let Some(ramp) = &ramp {
+        remarks.extend(run_up_torque(scene, &prepared.system));
+        remarks.extend(ramp.run_up.coarse_cut());
+    }
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (step_s * headline.mesh_frequency_hz),
@@ -286,6 +292,16 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
+}
+
+/// Remark on the torque at the driven gear that the ramp of a scene takes.
+fn run_up_torque(scene: &Scene, system: &PairMechanism) -> Option<Remark> {
+    let driven = system.options().statics.driven();
+    let gears = [&system.pair().pinion, &system.pair().wheel];
+    let inertia = system.base_circle_masses()[driven] * gears[driven].base_radius().powi(2);
+    let ratio = f64::from(gears[1 - driven].data().teeth) / f64::from(gears[driven].data().teeth);
+    let torque = RunUpTorque::new(speed(scene), (inertia, ratio), scene.operation.torque());
+    torque?.remark("the driven gear", "a longer `duration_s` in [motion.ramp] makes it gentler")
 }
 
 /// What was heard before the motion, and what its numbers say.

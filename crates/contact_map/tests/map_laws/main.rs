@@ -19,7 +19,7 @@ fn plan(tolerance: f64) -> MapPlan {
 }
 
 fn map(plan: &MapPlan) -> ContactMap {
-    ContactMap::build(plan, |phase| Ok::<_, Infallible>(Row::at(phase))).unwrap_or_else(|e| panic!("{e}"))
+    ContactMap::build(plan, &|_| {}, |phase| Ok::<_, Infallible>(Row::at(phase))).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn tilted() -> ContactMap {
@@ -135,7 +135,8 @@ fn damping_is_the_sum_over_the_slices() {
 #[test]
 fn what_cannot_be_is_refused() {
     let refused = |plan: MapPlan| {
-        ContactMap::build(&plan, |phase| Ok::<_, Infallible>(Row::at(phase))).expect_err("no map is as good as that")
+        ContactMap::build(&plan, &|_| {}, |phase| Ok::<_, Infallible>(Row::at(phase)))
+            .expect_err("no map is as good as that")
     };
     match refused(plan(1e-12)) {
         MapError::Coarse { error, allowed, .. } => assert!(error > allowed && error < 1e-3, "{error:e}"),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_map::{ContactMap, MapError, MapPlan};
+use contact_map::{ContactMap, MapError, MapPlan, MapWatch};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::{MapExcess, MappedPair, MappedSide, Projection, SplineCache, sampler::SidePhase};
@@ -27,12 +27,12 @@ pub struct MapRequest {
 const STANDS: usize = 8;
 
 impl MappedPair {
-    /// Maps the contact of a pair about where it stands under its load.
+    /// Maps the contact of a pair about where it stands under its load; `watch` hears how far each map is.
     ///
     /// # Errors
     /// [`PairMotionError::Unmapped`] where a map cannot hold what the contact depends on: normal modes of the gears,
     /// friction, pitch errors, root stress; [`PairMotionError::Map`] where none is good enough; those of the start.
-    pub fn new(mut system: PairMechanism, request: &MapRequest) -> Result<Self, PairMotionError> {
+    pub fn new(mut system: PairMechanism, request: &MapRequest, watch: MapWatch<'_>) -> Result<Self, PairMotionError> {
         refuse(&system)?;
         let pair = system.pair().clone();
         // A load that swings would not let the pair stand: the map is made about its mean.
@@ -68,7 +68,7 @@ impl MappedPair {
                 let side = side.copy_at(&pair, phase)?;
                 Ok(SidePhase { pair: &pair, side, cycles: phase, projection: &projection, about: &about })
             };
-            let made = ContactMap::build(&plan, at)
+            let made = ContactMap::build(&plan, watch, at)
                 .map_err(|e: MapError<StaticError>| PairMotionError::Map { source: Box::new(e) })?;
             maps.push((projection, Arc::new(made)));
         }

@@ -34,7 +34,7 @@ fn on_bearings(o: &mut MotionOptions) {
 
 fn mapped(bench: &MovingPair, hz: f64, tolerance: f64, change: impl FnOnce(&mut MotionOptions)) -> MappedPair {
     let request = MapRequest { overload: 4.0, tolerance, worst: tolerance, lag: bench.ste[0] };
-    MappedPair::new(bench.system(hz, change), &request).unwrap_or_else(|e| panic!("{e}"))
+    MappedPair::new(bench.system(hz, change), &request, &|_| {}).unwrap_or_else(|e| panic!("{e}"))
 }
 
 fn forces<M: Mechanism>(system: &mut M, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Forces
@@ -168,9 +168,9 @@ fn what_no_map_holds_is_refused() {
     let bench = bench();
     let request = MapRequest { overload: 4.0, tolerance: 1e-3, worst: 1e-3, lag: bench.ste[0] };
     let rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
-    let error = MappedPair::new(rubbing, &request).expect_err("friction is in no map");
+    let error = MappedPair::new(rubbing, &request, &|_| {}).expect_err("friction is in no map");
     assert!(error.to_string().contains("friction"), "{error}");
     let idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
-    let error = MappedPair::new(idle, &request).expect_err("no load says what forces occur");
+    let error = MappedPair::new(idle, &request, &|_| {}).expect_err("no load says what forces occur");
     assert!(error.to_string().contains("load"), "{error}");
 }

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use contact::FlankProjection;
-use contact_map::{ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, PhaseContact, SplineCache, Wanted};
+use contact_map::{
+    ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, MapWatch, PhaseContact, SplineCache, Wanted,
+};
 use geometry::GearPair;
 use ltca::StaticOptions;
 use nalgebra::SMatrix;
@@ -46,7 +48,7 @@ pub struct MappedMesh {
 }
 
 impl MappedMesh {
-    /// Maps the contact of gears as [`ExactMesh`] has them, about where they stand.
+    /// Maps the contact of gears as [`ExactMesh`] has them, about where they stand; `watch` hears how far the map is.
     ///
     /// # Errors
     /// [`GearboxError::Unmapped`] for teeth that are not alike and for friction, [`GearboxError::Map`] where no map is
@@ -55,7 +57,7 @@ impl MappedMesh {
         pair: &GearPair,
         gears: &Arc<[ElasticGear; 2]>,
         options: &StaticOptions,
-        request: &MapRequest,
+        (request, watch): (&MapRequest, MapWatch<'_>),
     ) -> Result<Self, GearboxError> {
         refuse(pair, options, request)?;
         let projection = FlankProjection::new(pair, options.side());
@@ -73,10 +75,27 @@ impl MappedMesh {
             mesh.go_to(phase)?;
             Ok(MappedPhase { mesh, projection: &projection, about: &about })
         };
-        let map = ContactMap::build(&plan, at).map_err(|e| GearboxError::Map(Box::new(e)))?;
+        let map = ContactMap::build(&plan, watch, at).map_err(|e| GearboxError::Map(Box::new(e)))?;
+        Self::on(pair, options, request, map)
+    }
+
+    /// The mesh on a map that [`MappedMesh::new`] made of the same gears, options and request.
+    ///
+    /// # Errors
+    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for a map without tilts.
+    pub fn on(
+        pair: &GearPair,
+        options: &StaticOptions,
+        request: &MapRequest,
+        map: ContactMap,
+    ) -> Result<Self, GearboxError> {
+        refuse(pair, options, request)?;
+        if map.tilts().is_none() {
+            return Err(GearboxError::Unmapped { what: "a mesh that this map was not made for" });
+        }
         Ok(Self {
             map: Arc::new(map),
-            projection,
+            projection: FlankProjection::new(pair, options.side()),
             kept: SplineCache::default(),
             damping_per_length: 0.0,
             backlash: pair.backlash() * pair.base_helix_angle().cos(),

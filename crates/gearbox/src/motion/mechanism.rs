@@ -134,6 +134,18 @@ impl GearboxMechanism {
         &self.bodies
     }
 
+    /// Inertia of all that turns with the input but its own shaft, t mm^2 at the input: what the meshes accelerate.
+    ///
+    /// ```text
+    /// J = sum over shafts i but the input's of J_i ratio_i^2
+    /// ```
+    pub fn driven_inertia(&self) -> f64 {
+        let input = self.assembly.structure().discs[self.operation.input].shaft;
+        let own = |i: usize, turn: f64| if self.bodies.shaft(i) == input { 0.0 } else { turn };
+        let driven = DVector::from_fn(self.bodies.size(), |i, _| own(i, self.free.rigid[i]));
+        driven.dot(&(&self.bodies.mass * &driven))
+    }
+
     /// Number of coordinates.
     pub fn count(&self) -> usize {
         self.free.count()

@@ -72,7 +72,7 @@ impl Box1 {
             tolerance: 2e-3,
             worst: 2e-2,
         };
-        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, &request).unwrap()
+        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, (&request, &|_| {})).unwrap()
     }
 
     /// The contact in motion, its dampers 1 N s/mm along the normal of lines as long as under the mean force.

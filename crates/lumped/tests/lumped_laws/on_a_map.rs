@@ -58,7 +58,7 @@ impl OnMap {
             let stiffness = pair.excitation(time)[0] / (cos * cos);
             Ok::<_, Infallible>(Teeth { stiffness, gap: parameters.half_backlash })
         };
-        Self { model, map: ContactMap::build(&plan, at).unwrap() }
+        Self { model, map: ContactMap::build(&plan, &|_| {}, at).unwrap() }
     }
 }
 

@@ -1,11 +1,15 @@
 //! A run-up or run-down, mesh cycle by mesh cycle: what is largest, and at which speed.
 
+use answer::Remark;
 use dynamics::Speed;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics};
 
 use super::{MotionSeries, WaterfallLine};
-use crate::motion::RPM;
+use crate::{
+    motion::RPM,
+    run_up::{coarse_cut, cut_peak},
+};
 
 /// Mesh orders that are followed.
 const ORDERS: usize = 8;
@@ -143,6 +147,19 @@ impl RunUp {
             }
         });
         Ok(Self { cycles, cuts: cuts.collect() })
+    }
+
+    /// Remark on the order whose peak is largest, where few points of the waterfall lie across it.
+    pub(crate) fn coarse_cut(&self) -> Option<Remark> {
+        let orders = self.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
+        let peak = |n: usize| {
+            let cut: Vec<f64> = self.cuts.iter().map(|c| c.amplitudes_um[n]).collect();
+            let peak = cut_peak(&cut)?;
+            Some((n, peak, cut[peak.at]))
+        };
+        let (n, peak, _) = (0..orders).filter_map(peak).max_by(|a, b| a.2.total_cmp(&b.2))?;
+        let cure = "a longer `duration_s` or fewer `waterfall_cycles` in [motion.ramp] show it better";
+        coarse_cut(peak, ("", n + 1), self.cuts[peak.at].driver_speed_rpm, cure)
     }
 
     /// The largest of everything; `None` without a whole cycle.
