@@ -162,7 +162,7 @@ answer::remarks! {
         "the run-up lasts {duration_s:.3} s: its acceleration takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";
     coarse_order_cut(points, cut, order, speed_rpm, points_enough, cure)
-        "{points} points of the order cut lie across the peak of order {order}{cut} at {speed_rpm:.0}/min: its height and place are rough (reported below {points_enough})",
+        "the peak of order {order}{cut} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",
         "{cure}";
     impact_exponent(stiffness_n_per_mm_to_1_5, exponent)
         "the impact stiffness of {stiffness_n_per_mm_to_1_5:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {exponent}",

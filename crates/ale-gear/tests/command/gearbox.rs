@@ -111,6 +111,16 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
         (speed / at - 1.0).abs() < 0.01 && (middle / wanted - 1.0).abs() < 0.05,
         "{middle} N at {speed}/min beside {wanted} N"
     );
+    let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let number = |key: &str| told["headline"][key].as_f64().unwrap();
+    let duration = 220.0 / (17.0 * 25.0);
+    assert!((number("run_up_s") / duration - 1.0).abs() < 1e-9, "{} s, not {duration}", number("run_up_s"));
+    assert!((number("run_up_load_torque_nm") / (740.0 * 17.0 * 19.0 / 53.0 / 47.0) - 1.0).abs() < 1e-9);
+    // A fortieth of the cycles is as good as forty times the speeds between: a tenth of the load and more is told.
+    let steep = ["--set", "motion.cycles=12", "--set", "motion.to_speed_rpm=3000", "--out", "s"];
+    let run = scratch.ale_gear(["run", "run_up.toml"].into_iter().chain(steep));
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    assert!(run.stdout.contains("its acceleration takes up to"), "{}", run.stdout);
     let page = scratch.read("o/report.html");
     assert!(page.contains("Mesh orders in the transmission error"));
     let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
@@ -153,9 +163,17 @@ fn every_key_is_in_a_scene_that_runs() {
     for name in ["run_up.toml", "in_housing.toml", "overhung_pinion.toml"] {
         // Meshes are beside the folder of the scenes.
         let file = folder.join(name).display().to_string();
-        let run = scratch.ale_gear(["run", &file, "--out", name.trim_end_matches(".toml")]);
+        let run = scratch.ale_gear(["run", &file, "--cache", "cache", "--out", name.trim_end_matches(".toml")]);
         assert_eq!(run.code, Some(0), "{name}: {}", run.stderr);
     }
+    // Maps are kept beside the gears, and give the rows of before.
+    let maps = || std::fs::read_dir(scratch.path().join("cache")).unwrap().map(|e| e.unwrap().path());
+    let maps = || maps().filter(|p| p.extension().is_some_and(|e| e == "map")).collect::<Vec<_>>();
+    let (kept, file) = (maps(), folder.join("in_housing.toml").display().to_string());
+    assert_eq!(kept.len(), 2, "{kept:?}");
+    let run = scratch.ale_gear(["run", &file, "--cache", "cache", "--out", "again"]);
+    assert_eq!((run.code, maps()), (Some(0), kept), "{}", run.stderr);
+    assert!(scratch.read("again/motion.csv") == scratch.read("in_housing/motion.csv"), "kept maps have other rows");
     let speeds = column(&scratch.read("run_up/motion.csv"), "input_speed_rpm");
     assert!((speeds[speeds.len() - 1] + 1600.0).abs() < 1e-6);
     ["positions", "shafts", "motion"].into_iter().for_each(|name| same_columns(&scratch.path().join("run_up"), name));

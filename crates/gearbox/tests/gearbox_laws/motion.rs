@@ -2,6 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use fem::Material;
 use gearbox::{
     Disc, GearMesh, Operation, Structure, Torque,
     motion::{Drive, GearboxInstant, GearboxMechanism, MotionOptions, MotionPlan, PitchErrors, Speed, SpringMesh},
@@ -162,6 +163,19 @@ fn phases_in_motion_are_those_counted_by_hand() {
             assert!((ratio / wanted - 1.0).abs() < 0.02, "{ratio} beside {wanted}");
         }
     }
+}
+
+/// What the input's acceleration has the meshes accelerate: gears and shafts behind it, by the squares of their ratios.
+#[test]
+fn the_inertia_behind_the_input_is_that_of_discs_and_shafts() {
+    let mechanism = train(Drive::Speed(Speed::Constant(150.0)), Sense::Ccw, 0.0);
+    let (structure, _) = heavy();
+    let ratios = [0.0, 17.0 / 53.0, 17.0 / 53.0 * 19.0 / 47.0];
+    let shafts = [35.0_f64, 50.0].map(|d| Material::STEEL.density * 200.0 * PI * d.powi(4) / 32.0);
+    let discs = structure.discs.iter().map(|d| d.polar_inertia * ratios[d.shaft] * ratios[d.shaft]);
+    let wanted = discs.sum::<f64>() + shafts[0] * ratios[1] * ratios[1] + shafts[1] * ratios[2] * ratios[2];
+    let found = mechanism.driven_inertia();
+    assert!((found / wanted - 1.0).abs() < 1e-9, "{found} t mm^2, by hand {wanted}");
 }
 
 /// Amplitudes of a signal over one whole period, by orders.
