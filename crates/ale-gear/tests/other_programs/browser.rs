@@ -89,9 +89,9 @@ addEventListener("load", async () => {
 </script>"##;
 
 /// A page takes some fifteen seconds; this is for machines that are much slower, or busy.
-const PATIENCE: Duration = Duration::from_secs(240);
+const PATIENCE: Duration = Duration::from_secs(120);
 /// A browser whose virtual time stands still, as it does now and then on a busy machine, is opened again.
-const TRIES: usize = 3;
+const TRIES: usize = 6;
 
 /// The page as the browser leaves it, and what it says.
 fn opened(scratch: &Scratch, browser: &Path, args: &[String]) -> [String; 2] {
