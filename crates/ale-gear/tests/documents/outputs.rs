@@ -111,7 +111,7 @@ fn every_kind() -> Scratch {
     let stages = repository().join("scenes/gearbox/two_stages.toml").display().to_string();
     run(&["run", &stages, "--out", "out-gearbox"]);
     let rolling = repository().join("scenes/gearbox/rolling_bearings.toml").display().to_string();
-    run(&["run", &rolling, "--out", "out-rolling"]);
+    run(&["run", &rolling, "--set", "motion.to_speed_rpm=1600", "--out", "out-rolling"]);
     let accurate = repository().join("scenes/gearbox/accurate.toml").display().to_string();
     run(&["run", &accurate, "--out", "out-accurate"]);
     let ring = "[pinion]\nteeth = 36\nhelix_angle_deg = 0.0\n[wheel]\nteeth = -93\ntip_diameter_mm = -182.5\n[pair]\n\
