@@ -171,7 +171,7 @@ fn the_inertia_behind_the_input_is_that_of_discs_and_shafts() {
     let mechanism = train(Drive::Speed(Speed::Constant(150.0)), Sense::Ccw, 0.0);
     let (structure, _) = heavy();
     let ratios = [0.0, 17.0 / 53.0, 17.0 / 53.0 * 19.0 / 47.0];
-    let shafts = [35.0_f64, 50.0].map(|d| Material::STEEL.density * 200.0 * PI * d.powi(4) / 32.0);
+    let shafts = [35.0_f64, 50.0].map(|d| Material::STEEL.density_t_per_mm3() * 200.0 * PI * d.powi(4) / 32.0);
     let discs = structure.discs.iter().map(|d| d.polar_inertia * ratios[d.shaft] * ratios[d.shaft]);
     let wanted = discs.sum::<f64>() + shafts[0] * ratios[1] * ratios[1] + shafts[1] * ratios[2] * ratios[2];
     let found = mechanism.driven_inertia();
