@@ -21,7 +21,6 @@ mod accuracy;
 mod analysis;
 mod builder;
 mod check;
-mod contact;
 mod data_file;
 mod default_scene;
 mod design_key;
@@ -69,32 +68,28 @@ use geometry::Side;
 use serde::Serialize;
 
 pub use accuracy::{AccuracyScene, Tolerance, ToleranceError};
-pub use analysis::Analysis;
 pub use builder::{SceneBuilder, Value};
-pub use contact::ContactScene;
 pub use data_file::DataFile;
 pub use document::Document;
 pub use document_kind::DocumentKind;
 pub use error::SceneError;
 pub use files::{Line, Place};
-pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene, ShaperScene};
 pub use geometry::{Driver, Sense};
 pub use input_text::read_text;
 pub use key_tables::{KeyTable, key_tables};
 pub use keys::{Tables, nearest};
-pub use ladder::{DiscScene, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene};
 pub use machine::Machine;
 pub use modification::ModificationScene;
-pub use motion::{BearingScene, BodyScene, DriveScene, ModesScene, MotionScene, SweepScene, TorqueScene};
-pub use output::OutputScene;
+pub use motion::{DriveScene, TorqueScene};
 pub use places::Written;
-pub use rating::{RatedGearScene, RatingScene};
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, FieldName, FlankScene, Flanks,
-    Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation, Quantity,
-    RampScene, RatingEdition, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene,
-    SweepWay, all_keys, json_schema,
+    Analysis, Axis, BasinScene, BearingScene, BodyScene, BoreScene, Boundary, ContactScene, ContinuationKey,
+    ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene, ImpactScene,
+    Integration, Kind, Law, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method, MisalignmentScene,
+    Model, ModesScene, MotionScene, Operation, OutputScene, PairScene, Quantity, RampScene, RatedGearScene,
+    RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene, ShaperScene, Sharing,
+    SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;
