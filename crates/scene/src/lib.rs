@@ -207,7 +207,7 @@ impl Scene {
         Self::parse_with(text, file, &[])
     }
 
-    /// The same with some of its keys set otherwise.
+    /// Scene of a text with some of its keys set otherwise.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
@@ -221,7 +221,7 @@ impl Scene {
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// The same scene with the paths of its files as they are from anywhere.
+    /// This scene with the paths of its files as they are from anywhere.
     pub fn standing_alone(&self) -> Self {
         let mut all = self.clone();
         for gear in [&mut all.pinion, &mut all.wheel] {

@@ -227,7 +227,7 @@ macro_rules! value {
     };
 }
 
-/// The same where it is written, else nothing.
+/// The value of a key by its row where it is written, else nothing.
 macro_rules! optional {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
         $raw.$key.is_some().then(|| value!($s, $table, $raw.$key)).transpose()

@@ -26,7 +26,7 @@ pub(crate) enum Torques {
 /// What a model of the ladder takes from the scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rung {
-    /// Its name in [analysis].
+    /// Name of the model in [analysis].
     pub name: &'static str,
     /// Coordinates of each gear beside the turn, where the model has them fixed.
     pub moves: Option<&'static [Axis]>,
@@ -43,7 +43,7 @@ pub(crate) struct Rung {
 }
 
 impl Rung {
-    /// Of a model, if it is one.
+    /// Rung of a model, if it is one.
     pub fn of(model: Model) -> Option<Self> {
         match model {
             Model::Lumped8 => Some(Self {

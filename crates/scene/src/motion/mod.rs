@@ -47,7 +47,7 @@ impl BearingScene {
 /// What drives the driver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DriveScene {
-    /// Its speed or its torque.
+    /// What is given of the driver: its speed or its torque.
     pub by: DriveBy,
     /// Torque of the driver in the running sense; nothing where its speed is given.
     #[serde(flatten)]
@@ -63,7 +63,7 @@ pub struct TorqueScene {
     /// Amplitude of a harmonic part, N m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_nm: Option<f64>,
-    /// Its frequency, Hz.
+    /// Frequency of the harmonic part, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Phase of the cosine at t = 0, degrees.

@@ -75,9 +75,9 @@ table! {
 choices! {
     /// What is given of the driver.
     pub enum DriveBy {
-        /// Its torque; it starts at `speed_rpm`.
+        /// The driver's torque; it starts at `speed_rpm`.
         Torque = "torque",
-        /// Its speed.
+        /// The driver's speed.
         Speed = "speed",
     }
 }
@@ -141,7 +141,7 @@ choices! {
     pub enum Run {
         /// At constant speed until the motion repeats itself, then the cycles asked for.
         Steady = "steady",
-        /// The same, the periodic state found directly.
+        /// Steady motion whose periodic state is found directly.
         Shooting = "shooting",
         /// So many cycles or seconds from the quasi-static start.
         Span = "span",

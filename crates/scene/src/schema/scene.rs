@@ -144,7 +144,7 @@ choices! {
         Reduced = "reduced",
         /// The cheapest that is as exact as `[accuracy]` asks.
         Auto = "auto",
-        /// The same with normal modes of both gears, in time.
+        /// Flanks of the tooth window with normal modes of both gears, in time.
         ReducedModes = "reduced+modes",
         /// A map of the contact of the reduced gears, in time.
         Mapped = "mapped",
