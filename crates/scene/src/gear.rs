@@ -2,13 +2,7 @@
 
 use mesh::FaceResolution;
 
-use crate::schema::{BoreScene, Coupling, GearScene, MisalignmentScene, PairScene};
-
-impl Default for BoreScene {
-    fn default() -> Self {
-        Self { held_mm: None, coupling: Coupling::Kinematic }
-    }
-}
+use crate::schema::{BoreScene, GearScene, MisalignmentScene, PairScene};
 
 impl BoreScene {
     /// Whether all of the bore is rigid.

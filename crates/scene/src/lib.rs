@@ -15,6 +15,8 @@
 //! | scene | [`Scene`], `check`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
+mod checked_macros;
+#[macro_use]
 mod macros;
 
 mod accuracy;
@@ -79,7 +81,6 @@ pub use input_text::read_text;
 pub use key_tables::{KeyTable, key_tables};
 pub use keys::{Tables, nearest};
 pub use machine::Machine;
-pub use modification::ModificationScene;
 pub use motion::{DriveScene, TorqueScene};
 pub use places::Written;
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
@@ -87,9 +88,9 @@ pub use schema::{
     Analysis, Axis, BasinScene, BearingScene, BodyScene, BoreScene, Boundary, ContactScene, ContinuationKey,
     ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene, ImpactScene,
     Integration, Kind, Law, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method, MisalignmentScene,
-    Model, ModesScene, MotionScene, Operation, OutputScene, PairScene, Quantity, RampScene, RatedGearScene,
-    RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene, ShaperScene, Sharing,
-    SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
+    Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene, PairScene, Quantity, RampScene,
+    RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene, ShaperScene,
+    Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;

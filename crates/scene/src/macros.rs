@@ -5,7 +5,7 @@
 /// `=> Checked` they make the struct of what is meant as well, with `read`, which takes it from what is written.
 ///
 /// ```text
-/// table! { STATIC, RawStruct [=> Checked Derive ...]: "what it is about", needed ["key", ...]; { row; ... } }
+/// table! { STATIC, RawStruct [=> Checked Derive ... [; defaults]]: "what it is about", needed ["key", ...]; { row; ... } }
 /// row:   key: kind(range and default) [=> how] [as written], "meaning"
 /// how:   nothing   the value within its range, or its default; of `bare` and `bare_whole` an option
 ///        Some      the same as an option, which the check empties where the key has no meaning
@@ -17,12 +17,16 @@
 /// ```
 macro_rules! table {
     (
-        $(#[$meta:meta])* $table:ident, $raw:ident $(=> $checked:ident $($derive:ident)*)?: $about:literal
+        $(#[$meta:meta])* $table:ident, $raw:ident $(=> $checked:ident $($derive:ident)* $(; $defaults:ident)?)?:
+        $about:literal
         $(, needed [$($needed:literal),*])?; $rows:tt
     ) => {
         static_table! { $(#[$meta])* $table: $about [$($($needed),*)?] $rows }
         raw_table! { $raw $rows }
-        $(checked_table! { $checked [$($derive)*], $raw, $table: $about $rows })?
+        $(
+            checked_table! { $checked [$($derive)*], $raw, $table: $about $rows }
+            $($defaults! { $checked $rows })?
+        )?
     };
 }
 
@@ -50,41 +54,6 @@ macro_rules! raw_table {
         impl $crate::spanned::Over for $raw {
             fn over(&self, base: &Self) -> Self {
                 Self { $($name: $crate::spanned::Over::over(&self.$name, &base.$name),)* }
-            }
-        }
-    };
-}
-
-macro_rules! checked_table {
-    ($checked:ident [$($derive:ident)*], $raw:ident, $table:ident: $about:literal
-        { $($name:ident: $kind:ident($($args:tt)*) $(=> $how:tt)? $(as $written:ident)? $(, $meaning:literal)?;)* }) => {
-        #[doc = concat!("Checked table of the scene: ", $about, ".")]
-        #[derive(Debug, Clone, PartialEq, $($derive),*)]
-        pub struct $checked {
-            $(
-                #[doc = concat!("`", stringify!($name), "`" $(, ": ", $meaning)?, ".")]
-                pub $name: checked!($kind ($($args)*) $($how)?),
-            )*
-        }
-
-        impl $checked {
-            /// Each key within its range; an infinite end of a range is `end`.
-            #[allow(unused_variables, reason = "some tables have no infinite end")]
-            pub(crate) fn read(
-                s: &$crate::source::Source<'_>,
-                raw: &$raw,
-                end: f64,
-            ) -> Result<Self, $crate::SceneError> {
-                Ok(Self { $($name: read_as!($kind $($how)?, s, $table, raw.$name, end),)* })
-            }
-        }
-
-        /// As a scene file writes the table: keys that say nothing are left out.
-        impl serde::Serialize for $checked {
-            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-                let mut map = serializer.serialize_map(None)?;
-                $($crate::table::write_field(&mut map, stringify!($name), &written!(self.$name $($written)?))?;)*
-                serde::ser::SerializeMap::end(map)
             }
         }
     };
@@ -133,91 +102,6 @@ macro_rules! raw {
     (wholes $args:tt) => { $crate::spanned::Wholes };
     (rows $args:tt) => { $crate::spanned::Rows };
     ($number:ident $args:tt) => { $crate::spanned::Number };
-}
-
-/// What a row is when it is checked.
-macro_rules! checked {
-    ($kind:ident $args:tt Some) => { Option<checked!($kind $args)> };
-    (bare_whole $args:tt must) => { u32 };
-    (text $args:tt [$($of:tt)*]) => { Option<$crate::DataFile<$($of)*>> };
-    ($kind:ident $args:tt ($of:ident)) => { $of };
-    ($kind:ident $args:tt {$($of:tt)*}) => { $($of)* };
-    (word ($choice:ident)) => { $choice };
-    (bare_word ($choice:ident)) => { $choice };
-    (words ($choice:ident)) => { Vec<$choice> };
-    (whole $args:tt) => { u32 };
-    (bare_whole $args:tt) => { Option<u32> };
-    (number $args:tt) => { f64 };
-    (must $args:tt) => { f64 };
-    (bare $args:tt) => { Option<f64> };
-    (switch $args:tt) => { bool };
-    (text $args:tt) => { String };
-    (texts $args:tt) => { Vec<String> };
-}
-
-/// The checked value of a row.
-macro_rules! read_as {
-    ($kind:ident Some, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        Some(read_as!($kind, $s, $table, $raw.$name, $end))
-    };
-    ($kind:ident {$($of:tt)*}, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        Default::default()
-    };
-    (text [$($of:tt)*], $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $raw.$name.as_ref().map(|word| $crate::inputs::named($s, stringify!($name), word)).transpose()?
-    };
-    (table ($of:ident), $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        match &$raw.$name {
-            Some(table) => $of::read($s, table.get_ref(), $end)?,
-            None => $of::read($s, &Default::default(), $end)?,
-        }
-    };
-    (always ($of:ident), $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $of::read($s, &$raw.$name, $end)?
-    };
-    (whole, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.whole_of(&$table, stringify!($name), &$raw.$name)?
-    };
-    (bare_whole must, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        read_as!(whole, $s, $table, $raw.$name, $end)
-    };
-    (bare_whole, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $raw.$name.is_some().then(|| $s.whole_of(&$table, stringify!($name), &$raw.$name)).transpose()?
-    };
-    (bare, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.optional_up_to(&$table, stringify!($name), &$raw.$name, $end)?
-    };
-    (number, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.number_up_to(&$table, stringify!($name), &$raw.$name, $end)?
-    };
-    (must, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        read_as!(number, $s, $table, $raw.$name, $end)
-    };
-    (switch, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $crate::source_values::Entry::value(&$raw.$name, $s, &$table, stringify!($name))?
-    };
-    (text, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $raw.$name.as_ref().map(|word| word.get_ref().clone()).unwrap_or_default()
-    };
-    (texts, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $raw.$name.iter().flatten().map(|word| word.get_ref().clone()).collect()
-    };
-    (words, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.choices_of(stringify!($name), &$raw.$name)?
-    };
-    ($word:ident, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.choice_of(stringify!($name), &$raw.$name)?
-    };
-}
-
-/// What the written scene has of a row.
-macro_rules! written {
-    ($this:ident.$name:ident) => {
-        $this.$name
-    };
-    ($this:ident.$name:ident $written:ident) => {
-        $this.$written()
-    };
 }
 
 /// The value of a key with range and default of its row; the names of key and field are one.

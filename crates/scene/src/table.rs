@@ -1,12 +1,7 @@
 //! What a table of keys is: of each key type, range, default and meaning; and enums whose values are words of a file.
 
 use geometry::{Driver, Sense, modification::ReliefShape};
-use mesh::GroupNames;
 use serde::{Serialize, ser::SerializeMap};
-
-use crate::{
-    BearingScene, BoreScene, DiscScene, Material, MisalignmentScene, ModificationScene, RatedGearScene, SupportScene,
-};
 
 /// An end of a range that depends on the rest of the scene.
 pub(crate) const INF: f64 = f64::INFINITY;
@@ -42,23 +37,7 @@ pub(crate) trait Field {
     }
 }
 
-/// Types whose values are always written, and types with the method that says which of their values are not.
-macro_rules! fields {
-    ($($always:ty),*; $($of:ty: $absent:ident),*) => {
-        $(impl Field for $always {})*
-        $(impl Field for $of {
-            fn is_absent(&self) -> bool {
-                self.$absent()
-            }
-        })*
-    };
-}
-
-fields! {
-    f64, u32, i64, bool, String, Driver, Sense, [f64; 3], Vec<[f64; 3]>, GroupNames, Material, RatedGearScene;
-    Vec<f64>: is_empty, Vec<String>: is_empty, Vec<DiscScene>: is_empty, Vec<SupportScene>: is_empty,
-    BoreScene: is_default, MisalignmentScene: is_none, ModificationScene: is_none, BearingScene: is_none
-}
+fields! { f64, u32, i64, bool, String, Driver, Sense, [f64; 3], Vec<[f64; 3]>; Vec<f64>: is_empty, Vec<String>: is_empty }
 
 impl<T: Choice> Field for Vec<T> {}
 impl<T> Field for Option<T> {

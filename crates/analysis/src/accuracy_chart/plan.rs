@@ -29,7 +29,7 @@ impl Density {
             elements_thickness: 2 * p.div_ceil(3),
             elements_face: p.max(2),
             elements_rim: (p / 2).max(2),
-            sector_teeth: own.map_or(0, |m| m.sector_teeth),
+            ..own.unwrap_or_default()
         }
     }
 }

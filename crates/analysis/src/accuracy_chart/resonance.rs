@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use scene::{Boundary, Model, ModesScene, MotionScene, Run, Scene, SweepScene, SweepWay};
+use scene::{Model, ModesScene, MotionScene, Run, Scene, SweepScene, SweepWay};
 
 use super::{NoGauge, lumped_scene, phase_times::PhaseTimes, plan};
 use crate::{
@@ -200,13 +200,8 @@ fn with_modes(scene: &mut Scene) {
     let own = scene.modes;
     reduced(scene);
     scene.analysis.model = Model::ReducedModes;
-    let usual = ModesScene {
-        count: Some(MODES),
-        below_hz: None,
-        boundary: Boundary::Massless,
-        fixed_modes: None,
-        damping_ratio: MODAL_DAMPING,
-    };
+    let usual =
+        ModesScene { count: Some(MODES), fixed_modes: None, damping_ratio: MODAL_DAMPING, ..ModesScene::default() };
     scene.modes = own.or(Some(usual));
 }
 

@@ -2,12 +2,13 @@
 
 use mesh::{GroupNames, Mesh};
 
-use super::flank::{MODIFICATION, RawModification};
+use super::flank::{MODIFICATION, ModificationScene, RawModification};
 use super::ladder::{RawShaft, SHAFT, ShaftScene};
 use super::motion::{BEARING, BODY, BearingScene, BodyScene, RawBearing, RawBody};
 use crate::data_file::DataFile;
-use crate::modification::ModificationScene;
 use crate::table::{INF, Table};
+
+fields! { GroupNames, Material; BoreScene: is_default, ModificationScene: is_none }
 
 table! {
     /// `[pinion]`
@@ -49,7 +50,7 @@ table! {
 
 table! {
     /// `[pinion.mesher]`
-    MESHER, RawMesher => MesherScene Copy Eq: "the built-in structured mesher, used where there is no `mesh`"; {
+    MESHER, RawMesher => MesherScene Copy Eq; defaults: "the built-in structured mesher, used where there is no `mesh`"; {
         order: whole(1, 2, 2), "1: hex8, 2: hex20";
         elements_profile: whole(1, 500, 6), "elements along the active flank";
         elements_fillet: whole(2, 500, 6), "elements along fillet and root land";
@@ -73,7 +74,7 @@ table! {
 
 table! {
     /// `[pinion.bore]`
-    BORE, RawBore => BoreScene Copy: "how the shaft holds the bore; models with a mesh, without `[accuracy]`"; {
+    BORE, RawBore => BoreScene Copy; defaults: "how the shaft holds the bore; models with a mesh, without `[accuracy]`"; {
         held_mm: numbers() => {Option<[f64; 2]>}, "part of the bore that is held, from and to, mm from mid-face along +z; default: all of it. Held are faces of the mesh that lie between the two as a whole; the mesher has rows of faces every face width over `elements_face`";
         coupling: word(Coupling), "how the bore follows the shaft. kinematic: every node moves with the shaft's cross-section, a rigid bore; distributing: the bore deforms, its area-weighted mean displacement and turn are the shaft's, and the whole gear is condensed in one factor (not of the model full)";
     }

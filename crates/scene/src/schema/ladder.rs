@@ -2,6 +2,8 @@
 
 use crate::table::INF;
 
+fields! { ; Vec<DiscScene>: is_empty, Vec<SupportScene>: is_empty }
+
 table! {
     /// `[mesh]`
     MESH, RawMesh => MeshScene: "mesh of a model that has a stiffness instead of flanks (lumped8, lumped12, shaft18)"; {

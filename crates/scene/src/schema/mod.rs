@@ -27,7 +27,7 @@ use crate::table::{Key, ValueKind};
 
 pub use accuracy::Quantity;
 pub(crate) use accuracy::{Asked, GEARBOX_ACCURACY, RawGearboxAccuracy};
-pub use flank::FlankScene;
+pub use flank::{FlankScene, ModificationScene};
 pub(crate) use flank::{RawFlank, RawModification};
 pub(crate) use gear::*;
 pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, ShaperScene};

@@ -2,6 +2,8 @@
 
 use integrate::Scheme;
 
+fields! { ; BearingScene: is_none }
+
 table! {
     /// `[pinion.body]`
     BODY, RawBody => BodyScene Default: "rigid body of the gear (analyses in time); of a mesh with a part of the teeth, mass and inertia are taken times teeth over meshed teeth"; {
@@ -94,7 +96,7 @@ table! {
 
 table! {
     /// `[modes]`
-    MODES, RawModes => ModesScene Copy: "which normal modes of the gears move beside the rigid bodies (model reduced+modes); what is not kept stays quasi-static"; {
+    MODES, RawModes => ModesScene Copy; defaults: "which normal modes of the gears move beside the rigid bodies (model reduced+modes); what is not kept stays quasi-static"; {
         count: whole(1, 1000, 12) => Some, "the lowest so many modes of each gear. Modes of one frequency stay together, so there may be one more";
         below_hz: bare(1.0, 1e9), "in place of count: all modes of each gear up to this frequency, Hz";
         boundary: word(Boundary), "whether the flanks have inertia of their own. massless: modes of the whole mesh, the rest of the flanks' compliance without inertia; consistent: modes of the Craig-Bampton model, with the flanks' consistent mass";
@@ -115,7 +117,7 @@ choices! {
 
 table! {
     /// `[motion]`
-    MOTION, RawMotion => MotionScene: "integration and analysis in time"; {
+    MOTION, RawMotion => MotionScene; defaults: "integration and analysis in time"; {
         run: word(Run), "what is run. steady: until the motion repeats itself, then `cycles` mesh cycles are written; shooting: the same, the periodic state found directly; span: `cycles` or `duration_s` from the quasi-static start; ramp: run-up or run-down; sweep: steady states at many speeds; continuation: periodic motions along a key, stable and unstable; basins: to which motion the pair settles from each state of a plane";
         method: word(Integration), "method of integration. The last two are explicit, Dormand-Prince 5(4) and Runge-Kutta's of fourth order: steps of equal length beyond the stability limit are refused, `error_tolerance` chooses them";
         spectral_radius: number(0.0, 1.0, 0.9) => Some, "spectral radius at infinite frequency (generalised-alpha). 1 keeps high frequencies, 0 takes them away in one step";

@@ -2,6 +2,8 @@
 
 use rating::{Lubricants, Materials, Spectrum};
 
+fields! { RatedGearScene; }
+
 table! {
     /// `[rating]`
     RATING, RawRating => RatingScene: "load capacity of the pair at rest after ISO 6336: safeties against pitting and tooth root breakage at `torque_nm` and `speed_rpm`. Nothing is assumed: what is missing is asked for", needed ["life_h", "application_factor", "tolerance_class", "lubricant", "pinion", "wheel"]; {

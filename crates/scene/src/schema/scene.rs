@@ -10,6 +10,8 @@ use super::rating::{RATING, RawRating};
 use crate::table::INF;
 use geometry::{Driver, Sense};
 
+fields! { ; MisalignmentScene: is_none }
+
 table! {
     /// The whole file.
     SCENE, RawScene: "A scene of ale-gear: a pair of helical gears, its load, and what is computed. Every key has its unit in its name", needed ["pinion", "wheel", "pair", "operation"]; {
