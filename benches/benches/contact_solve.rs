@@ -112,7 +112,7 @@ fn contact_solve(bencher: Bencher) {
     solves(bencher, |o| o);
 }
 
-/// The same from the mesh's matrices, without tables.
+/// Contact solve from the mesh's matrices, without tables.
 #[divan::bench]
 fn contact_solve_exact(bencher: Bencher) {
     solves(bencher, |o| o.clone().with_contact(|c| c.bulk = Bulk::Exact));

@@ -13,7 +13,7 @@
 # # A pair that was measured
 #
 # G. W. Blankenship and A. Kahraman measured the torsional vibration of a spur pair with 50 and 50 teeth (J. Sound Vib. 185,
-# 1995). What they saw: the resonance softens, since flanks part, so that on the way up the pair jumps to large motions below
+# 1995). What they saw: the resonance softens, since flanks lose contact, so that on the way up the pair jumps to large motions below
 # its resonance, and where that happens moves up with the torque. Their rig turned heavier inertias than the discs of this
 # scene, and its damping is assumed; so it is the shape that is compared, not digits (docs/validation.md).
 

@@ -9,7 +9,7 @@ use analysis::{
     StaticSink,
     facts::RunInfo,
     remark::Remark,
-    results::{root_stress_headline, root_stress_warnings, static_headline},
+    results::{root_stress_headline, root_stress_remarks, static_headline},
     static_certificate,
 };
 use answer::Table;
@@ -107,7 +107,7 @@ impl AtRest {
             Some(model) => {
                 facts.first_result_s = first_result_s;
                 let root = root_stress_headline(&history).map(|root| root.largest_tensions());
-                history.remarks.extend(root.into_iter().flat_map(root_stress_warnings));
+                history.remarks.extend(root.into_iter().flat_map(root_stress_remarks));
                 InSpace::Remembered(Box::new((recorder, model)))
             }
             None => InSpace::Drawn(None, Vec::new()),
@@ -155,7 +155,7 @@ impl AtRest {
             let (recorder, model) = &mut **remembered;
             let recorder = std::mem::replace(recorder, ViewRecorder::new(&self.scene));
             let mut said = Vec::new();
-            let view = recorder.view_or_warning(&self.scene, model, &mut said).map(Box::new);
+            let view = recorder.view_or_remark(&self.scene, model, &mut said).map(Box::new);
             *gears = InSpace::Drawn(view, said);
         }
         let (view, said) = match &*gears {

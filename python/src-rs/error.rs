@@ -37,7 +37,7 @@ pub struct Complaint {
     pub hint: Option<String>,
     /// The file that is meant.
     file: Option<String>,
-    /// Its line, from 1.
+    /// Line of the file, from 1.
     line: Option<usize>,
     /// The key or the argument.
     key: Option<String>,
@@ -46,7 +46,7 @@ pub struct Complaint {
 }
 
 impl Complaint {
-    /// Of a kind, with a way out.
+    /// Complaint of a kind, with a hint.
     pub fn new(kind: Kind, message: impl ToString, hint: Option<String>) -> Self {
         Self { kind, message: message.to_string(), hint, file: None, line: None, key: None, excerpt: None }
     }

@@ -30,13 +30,13 @@ pub struct Gearbox {
 
 #[pymethods]
 impl Gearbox {
-    /// Of a file; paths in it are relative to it.
+    /// Gearbox of a file; paths in it are relative to it.
     #[staticmethod]
     fn read(file: &Bound<'_, PyAny>) -> PyResult<Self> {
         Ok(Self::of(Document::read(&path("file", file)?).map_err(Complaint::from)?)?)
     }
 
-    /// Of the text of a file; `file` is what messages name, and what paths in it are relative to.
+    /// Gearbox of the text of a file; `file` is what messages name, and what paths in it are relative to.
     #[staticmethod]
     #[pyo3(signature = (toml, file = None))]
     fn parse(toml: &Bound<'_, PyAny>, file: Given<'_, '_>) -> PyResult<Self> {

@@ -31,7 +31,7 @@ const VOLUMES: [(usize, i32); 7] = [(4, 4), (6, 6), (8, 5), (10, 11), (15, 18), 
 const FACES: [(usize, i32); 5] = [(3, 2), (4, 3), (6, 9), (8, 16), (9, 10)];
 
 impl Mesh {
-    /// Of a mesh of the program.
+    /// Mesh of the program.
     pub fn of(mesh: MeshedGear) -> Self {
         Self { mesh }
     }
@@ -185,7 +185,8 @@ fn helper<'py>(name: &str, any: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny
 
 #[pymethods]
 impl Mesh {
-    /// Of arrays: `nodes` (n x 3, mm), `cells` (rows of nodes, in Gmsh's order, from 0), `groups` of faces by name.
+    /// Mesh of arrays: `nodes` (n x 3, mm), `cells` (rows of nodes, in Gmsh's order, from 0), `groups` of faces by
+    /// name.
     #[new]
     fn new(nodes: &Bound<'_, PyAny>, cells: &Bound<'_, PyAny>, groups: &Bound<'_, PyAny>) -> Answer<Self> {
         let nodes = positions(nodes)?;

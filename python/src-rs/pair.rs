@@ -36,7 +36,7 @@ type Answer<T> = std::result::Result<T, Complaint>;
 pub struct Pair {
     scene: Scene,
     held: Arc<Kept>,
-    /// Of each question; `None`: the cores are shared with all others.
+    /// Threads of each question; `None`: the cores are shared with all others.
     threads: Option<u32>,
 }
 
@@ -135,9 +135,9 @@ pub fn that_holds(py: Python<'_>, result: Result) -> PyResult<Py<Result>> {
 
 #[pymethods]
 impl Pair {
-    /// Of a scene; `meshes` of pinion and wheel take the place of the scene's, `cache` is the folder of reduced gears
-    /// (`True`: the user's, as the command has it), `threads` those of each question: with one, questions asked by
-    /// threads of Python run side by side.
+    /// Pair of a scene; `meshes` of pinion and wheel take the place of the scene's, `cache` is the folder of reduced
+    /// gears (`True`: the user's, as the command has it), `threads` those of each question: with one, questions asked
+    /// by threads of Python run side by side.
     #[new]
     #[pyo3(signature = (scene, *, meshes = None, cache = None, threads = None))]
     fn new(

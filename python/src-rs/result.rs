@@ -32,7 +32,7 @@ use crate::{
 pub struct Result {
     kind: &'static str,
     name: String,
-    /// Its tables; the first one is that of its rows.
+    /// Tables of the result; the first one is that of its rows.
     tables: Vec<Table>,
     headline: Value,
     remarks: Vec<answer::Remark>,
@@ -60,7 +60,7 @@ fn values<'py>(py: Python<'py>, values: &Values) -> PyResult<Bound<'py, PyAny>> 
 }
 
 impl Result {
-    /// Of a scene at rest.
+    /// Result of a scene at rest.
     pub fn at_rest(name: &str, solved: AtRest) -> std::result::Result<Self, Complaint> {
         Ok(Self {
             kind: "static",
@@ -73,7 +73,8 @@ impl Result {
         })
     }
 
-    /// Of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not hold.
+    /// Result of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not
+    /// hold.
     pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
         let Answer { name, tables, headline, remarks, checks, .. } = answer;
         let failure = failure.or_else(|| {
@@ -84,7 +85,7 @@ impl Result {
         Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure }
     }
 
-    /// Its columns, in their order.
+    /// Columns of the rows, in their order.
     fn own_columns(&self) -> &[Column] {
         self.tables.first().map_or(&[], |table| &table.columns)
     }

@@ -39,7 +39,7 @@ impl Scene {
         Ok(Self { document, settings, scene })
     }
 
-    /// The same with more keys set.
+    /// This scene with more keys set.
     pub fn with(&self, more: impl IntoIterator<Item = Setting>) -> Result<Self, Complaint> {
         let all = self.settings.iter().cloned().chain(more).collect();
         Self::checked(self.document.clone(), all)
@@ -157,7 +157,7 @@ impl Scene {
         Self::checked(Document::default_scene(), set_of(set)?)
     }
 
-    /// The same with some keys set otherwise.
+    /// This scene with some keys set otherwise.
     #[pyo3(signature = (tables = None, /, **keywords))]
     fn set(&self, tables: Given<'_, '_>, keywords: Option<&Bound<'_, PyDict>>) -> Result<Self, Complaint> {
         let mut more = set_of(tables)?;
@@ -173,7 +173,7 @@ impl Scene {
         let scene = self.ready();
         let pair = scene.gear_pair()?;
         check_memory(&scene, available_bytes()).map_err(|e| Complaint::new(Kind::Input, &e, Some(e.hint())))?;
-        Ok(Remark::all(&gears::warnings(&pair)))
+        Ok(Remark::all(&gears::remarks(&pair)))
     }
 
     /// Geometry of the pair as the summary has it: diameters, contact ratios, backlash.

@@ -74,7 +74,7 @@ impl Watch {
         Self { shared, start: Instant::now(), open: Vec::new(), phases: Vec::new() }
     }
 
-    /// Of work that tells nobody.
+    /// Work that tells nobody.
     pub fn alone() -> Self {
         Self::new(Arc::default())
     }

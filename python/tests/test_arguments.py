@@ -1,4 +1,4 @@
-"""Whatever is given is taken, or refused with the key and a way out: nothing panics."""
+"""Whatever is given is taken, or refused with the key and a hint: nothing panics."""
 
 import enum
 import math

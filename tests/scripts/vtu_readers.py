@@ -48,7 +48,7 @@ def main(folder):
             fields |= set(mesh.point_data)
             worst["readers"] = max(worst["readers"], float(np.abs(mesh.points - grid.points).max()))
             for name, values in mesh.point_data.items():
-                assert np.isfinite(values).all(), f"{path}: {name} holds what is no number"
+                assert np.isfinite(values).all(), f"{path}: {name} has a value that is not a number"
                 worst["readers"] = max(worst["readers"], float(np.abs(np.ravel(values) - np.ravel(grid.point_data[name])).max()))
             assert sum(len(c.data) for c in mesh.cells) == grid.n_cells, f"{path}: readers see other cells"
             # Nodes are written where the turned gear has them; the displacement is beside them, for `Warp By Vector`.

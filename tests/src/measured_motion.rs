@@ -25,7 +25,7 @@ pub struct MeasuredMotion {
 }
 
 impl MeasuredMotion {
-    /// Of a line; `None` where the pair had no result.
+    /// Motion of a line; `None` where the pair had no result.
     pub fn new(line: Value) -> Option<Self> {
         let of = |key: &str| line[key].as_f64();
         let (speed, elastic_ratio, elastic_share) = (of("speed")?, of("elastic_ratio")?, of("elastic_share")?);

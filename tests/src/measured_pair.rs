@@ -27,7 +27,7 @@ pub struct MeasuredPair {
 }
 
 impl MeasuredPair {
-    /// Of a line; `None` where the pair had no result.
+    /// Pair of a line; `None` where the pair had no result.
     pub fn new(line: &Value) -> Option<Self> {
         let (seed, index) = (line["seed"].as_u64()?, line["index"].as_u64()?);
         let scene = random_scene(seed, index);

@@ -42,7 +42,7 @@ pub fn ale_gear(program: &Path, folder: &Path, words: &[&str]) -> Command {
     command
 }
 
-/// The same behind a line of shell, as `ulimit -v 1000000`.
+/// The program behind a line of shell, as `ulimit -v 1000000`.
 pub fn behind(line: &str, program: &Path, folder: &Path, words: &[&str]) -> Command {
     let mut command = Command::new("sh");
     command.args(["-c", &format!("{line}; exec \"$0\" \"$@\"")]).arg(program).arg(AS_ALE_GEAR).args(words);

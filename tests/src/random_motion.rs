@@ -1,9 +1,6 @@
 //! Random pairs in motion at constant speed, the same in every run.
 
-use scene::{
-    BodyScene, Boundary, DriveBy, DriveScene, Flanks, Integration, Kind, ModesScene, MotionScene, Run, Scene,
-    TorqueScene,
-};
+use scene::{BodyScene, DriveBy, DriveScene, Flanks, Kind, ModesScene, MotionScene, Scene, TorqueScene};
 use testing::Random;
 
 use crate::random_scene::random_scene;
@@ -46,23 +43,13 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
     scene.contact.flanks = Flanks::Driving;
     scene.contact.slices = Some(SLICES);
     scene.motion = Some(MotionScene {
-        run: Run::Steady,
-        method: Integration::Energy,
         spectral_radius: None,
         steps_per_mesh_cycle: 64,
         steps_per_resonance: 16,
-        error_tolerance: None,
-        stop_at_events: false,
         mesh_damping_ratio: Some(damping),
-        mesh_damping_ns_per_mm2: None,
         periodic_tolerance: Some(1e-3),
         warm_up_cycles: Some(300),
-        duration_s: None,
-        checkpoint_every_cycles: Some(0),
-        ramp: None,
-        sweep: None,
-        continuation: None,
-        basins: None,
+        ..MotionScene::default()
     });
     scene.drive = Some(DriveScene { by, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());
@@ -76,7 +63,7 @@ pub fn random_motion(seed: u64, index: u64) -> Option<RandomMotion> {
 
 /// The lowest modes of each gear: six steps in a period of the highest of them are fine ones for the mesh.
 pub fn fine_modes() -> ModesScene {
-    ModesScene { count: Some(4), below_hz: None, boundary: Boundary::Massless, fixed_modes: None, damping_ratio: 0.02 }
+    ModesScene { count: Some(4), fixed_modes: None, damping_ratio: 0.02, ..ModesScene::default() }
 }
 
 impl RandomMotion {

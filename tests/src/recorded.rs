@@ -27,9 +27,9 @@ const LAST_BITS: f64 = 1e-7;
 /// What is recorded of a document.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Recorded {
-    /// Of the rows of all tables and of the headline, rounded.
+    /// Digest of the rows of all tables and of the headline, rounded.
     pub digest: String,
-    /// Of every column, by table and name: sum of sizes, and the sum of values weighted by their row.
+    /// Sums of every column, by table and name: sum of sizes, and the sum of values weighted by their row.
     pub sums: BTreeMap<String, [f64; 2]>,
 }
 

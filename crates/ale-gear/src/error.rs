@@ -53,7 +53,7 @@ impl CommandError {
             + &excerpt.chain(hint).collect::<String>()
     }
 
-    /// The same with the place in a file that it is about, if that is known.
+    /// This error with the place in a file that it is about, if that is known.
     #[must_use]
     pub fn about(self, excerpt: Option<&str>) -> Self {
         Self { excerpt: excerpt.map(str::to_owned), ..self }

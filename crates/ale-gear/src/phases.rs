@@ -55,7 +55,7 @@ pub struct BarProgress {
     /// Where no bar is drawn: seconds of the phase after which the next line of text is due; `None` where none is
     /// wanted.
     due: Option<Arc<AtomicU64>>,
-    /// Of the steps so far; `None` where their number is only a limit.
+    /// Pace of the steps so far; `None` where their number is only a limit.
     pace: Option<SharedPace>,
     /// What was foreseen for all of it, s, where it has no steps.
     estimated_seconds: Option<f64>,

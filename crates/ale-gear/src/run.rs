@@ -49,7 +49,7 @@ pub fn solve(
     };
     facts.first_result_s = sink.first_result_s;
     let root = output::root_stress_headline(&history).map(|root| root.largest_tensions());
-    let mut remarks: Vec<_> = root.into_iter().flat_map(output::root_stress_warnings).collect();
+    let mut remarks: Vec<_> = root.into_iter().flat_map(output::root_stress_remarks).collect();
     let view = match in_space {
         InSpace::Fields => phases.run("view", || sink.into_view(&model, &mut remarks)),
         InSpace::Bands => Some(View::of_history(&scene, &pair, &history)),

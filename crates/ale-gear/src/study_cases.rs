@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use analysis::{
-    PhaseWork, RestRequest, SharedModels, Solved, WarningsAtRest, parallel_map,
+    PhaseWork, RemarksAtRest, RestRequest, SharedModels, Solved, parallel_map,
     parameter_study::{CaseFailure, CaseRecord},
     remark::{self, Remark},
     run_phase, solve_at_rest,
@@ -105,7 +105,7 @@ fn write_rows(
     results: &ResultDirectory,
 ) -> Result<(Solved, Cost), CommandError> {
     let mut phases = Phases::quiet();
-    let work = || solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Collected));
+    let work = || solve_at_rest(scene, models, RestRequest::to_the_end(RemarksAtRest::Collected));
     let solved = run_phase(&mut phases, "solve", PhaseWork::Unknown, |_| work())?;
     let (facts, cost) = (solved.facts()?, phases.cost());
     let rows = (&solved.history, solved.derivatives.as_ref());

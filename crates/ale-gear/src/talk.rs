@@ -20,17 +20,17 @@ pub enum Verbosity {
 }
 
 const ALL: [Verbosity; 4] = [Verbosity::Quiet, Verbosity::Bars, Verbosity::Steps, Verbosity::Details];
-/// Of this process, as its command line says.
-static LOUDNESS: AtomicU8 = AtomicU8::new(Verbosity::Bars as u8);
+/// Verbosity of this process, as its command line says.
+static VERBOSITY: AtomicU8 = AtomicU8::new(Verbosity::Bars as u8);
 
 /// Sets how much the whole process says.
 pub fn set_verbosity(verbosity: Verbosity) {
-    LOUDNESS.store(verbosity as u8, Ordering::Relaxed);
+    VERBOSITY.store(verbosity as u8, Ordering::Relaxed);
 }
 
 /// How much the process says.
 pub fn verbosity() -> Verbosity {
-    ALL[usize::from(LOUDNESS.load(Ordering::Relaxed)).min(ALL.len() - 1)]
+    ALL[usize::from(VERBOSITY.load(Ordering::Relaxed)).min(ALL.len() - 1)]
 }
 
 /// Variable of the environment: seconds into a phase at which a log gets its first line on how far it is, or `never`.

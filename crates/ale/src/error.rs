@@ -15,7 +15,7 @@ pub enum AleError {
         pinion_tooth: u32,
         /// Wheel tooth.
         wheel_tooth: u32,
-        /// Its normal force, N.
+        /// Normal force of the pair, N.
         force_n: f64,
     },
     /// More teeth than the gear has.

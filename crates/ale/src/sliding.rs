@@ -26,7 +26,7 @@ impl SlidingWindow {
         Ok(Self { window: ToothWindow::new(first, count, teeth)?, sense })
     }
 
-    /// The same at the start of cycle 0. Two windows are equally near there; this is the one that serves the cycle to
+    /// The window at the start of cycle 0. Two windows are equally near there; this is the one that serves the cycle to
     /// come.
     ///
     /// # Errors
@@ -43,7 +43,7 @@ impl SlidingWindow {
         &self.window
     }
 
-    /// The same slide at another place.
+    /// This slide at another place.
     #[must_use]
     pub fn with_window(self, window: ToothWindow) -> Self {
         Self { window, ..self }

@@ -1,4 +1,4 @@
-//! The same pair by three models: closed form, eight coordinates in time, reduced finite elements.
+//! One pair by three models: closed form, eight coordinates in time, reduced finite elements.
 //!
 //! `cargo run --release -p analysis --example cheaper_models`
 #![allow(clippy::print_stdout, reason = "an example prints")]

@@ -1,4 +1,4 @@
-//! The same with meshes that the caller holds in memory: here those of the built-in mesher, one sector each.
+//! A pair with meshes that the caller holds in memory: here those of the built-in mesher, one sector each.
 //!
 //! `cargo run --release -p analysis --example own_mesh`
 #![allow(clippy::print_stdout, reason = "an example prints")]

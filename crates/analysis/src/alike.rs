@@ -7,7 +7,7 @@ use scene::{ContactScene, Method, Model, ModificationScene, Scene};
 pub struct SharedGears(Scene);
 
 impl SharedGears {
-    /// Of a scene. One that shares no gears is alike to itself alone.
+    /// Shared gears of a scene. One that shares no gears is alike to itself alone.
     pub fn of(scene: &Scene) -> Self {
         Self(if shares(scene) { of_gears(&kind(scene)) } else { scene.clone() })
     }

@@ -59,7 +59,7 @@ pub const MAP_VERSION: u32 = 1;
 pub struct MapKey([u8; 32]);
 
 impl MapKey {
-    /// Of the reduced gears, of [`MAP_VERSION`], and of all else that their contact depends on, in words.
+    /// Key of the reduced gears, of [`MAP_VERSION`], and of all else that their contact depends on, in words.
     pub fn new(gears: &[RecordKey], contact: &str) -> Self {
         let mut hasher = blake3::Hasher::new();
         let gears = gears.iter().map(ToString::to_string);

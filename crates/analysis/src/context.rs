@@ -3,7 +3,7 @@
 use mesh::Mesh;
 use scene::{Scene, gearbox::Gearbox};
 
-use crate::{AnalysisError, GearCache, NoCache, Observer, SharedModels, WarningsAtRest};
+use crate::{AnalysisError, GearCache, NoCache, Observer, RemarksAtRest, SharedModels};
 
 /// A document that `solve` answers: a scene of one pair, or a gearbox.
 pub trait Question {
@@ -28,17 +28,17 @@ pub struct Context<'a, Q: Question + ?Sized> {
     pub(crate) cache: &'a dyn GearCache,
     pub(crate) models: Option<&'a SharedModels<'a>>,
     pub(crate) meshes: Option<[&'a Mesh; 2]>,
-    pub(crate) remarks: WarningsAtRest,
+    pub(crate) remarks: RemarksAtRest,
     pub(crate) sink: Option<&'a mut Q::Sink<'a>>,
     pub(crate) from: Option<Q::State>,
     pub(crate) stop_after: Option<u64>,
 }
 
 impl<'a, Q: Question + ?Sized> Context<'a, Q> {
-    /// Of who waits, without a cache, to the end, all rows in memory.
+    /// Context of who waits, without a cache, to the end, all rows in memory.
     pub fn new(observer: &'a mut dyn Observer) -> Self {
         let (models, meshes, sink, from, stop_after) = (None, None, None, None, None);
-        Self { observer, cache: &NoCache, models, meshes, remarks: WarningsAtRest::Collected, sink, from, stop_after }
+        Self { observer, cache: &NoCache, models, meshes, remarks: RemarksAtRest::Collected, sink, from, stop_after }
     }
 
     /// With reduced gears from a cache, and into it.
@@ -91,7 +91,7 @@ impl<'a> Context<'a, Scene> {
 
     /// Whether it is found out what a user should hear of a pair at rest.
     #[must_use]
-    pub fn with_warnings(self, remarks: WarningsAtRest) -> Self {
+    pub fn with_remarks(self, remarks: RemarksAtRest) -> Self {
         Self { remarks, ..self }
     }
 }

@@ -24,7 +24,7 @@ pub struct DerivativeRecorder {
 }
 
 impl DerivativeRecorder {
-    /// Of a scene as it is solved; `None` where it asks for nothing.
+    /// Recorder of a scene as it is solved; `None` where it asks for nothing.
     ///
     /// # Errors
     /// As of [`VariedScene::by_key`].

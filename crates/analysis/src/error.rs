@@ -115,19 +115,19 @@ impl From<CalculixError> for AnalysisError {
 }
 
 impl AnalysisError {
-    /// The same at a place.
+    /// This error at a place.
     #[must_use]
     pub fn at(self, place: Place) -> Self {
         Located { place, source: self }.into()
     }
 
-    /// The same in a file.
+    /// This error in a file.
     #[must_use]
     pub(crate) fn in_file(self, file: &Path) -> Self {
         self.at(Place::File(file.into()))
     }
 
-    /// The same of a part of what was asked about: a gear, a mesh, a table.
+    /// This error of a part of what was asked about: a gear, a mesh, a table.
     #[must_use]
     pub(crate) fn of_part(self, name: impl Into<Box<str>>) -> Self {
         self.at(Place::part(name))

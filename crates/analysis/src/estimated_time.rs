@@ -38,7 +38,7 @@ fn estimated_seconds(general: bool, meshes: &[SceneMesh; 2]) -> f64 {
     meshes.iter().map(|mesh| estimated_gear_seconds(general, mesh)).fold(0.0, f64::max)
 }
 
-/// The same of one gear.
+/// Estimated time of the reduction of one gear, s.
 pub(crate) fn estimated_gear_seconds(general: bool, mesh: &SceneMesh) -> f64 {
     match size(general, mesh) {
         Size::Sector { dof, whole } => 0.4 * (dof / 8e3).powf(1.8) + 1e-6 * whole,

@@ -34,7 +34,7 @@ described::described! {
 }
 
 /// What a user should know of a pair that runs.
-pub fn warnings(pair: &GearPair) -> Vec<answer::Remark> {
+pub fn remarks(pair: &GearPair) -> Vec<answer::Remark> {
     let gears = [("pinion", &pair.pinion), ("wheel", &pair.wheel)];
     let undercut = gears.into_iter().filter(|(_, gear)| gear.profile().is_undercut());
     let told = undercut.map(|(whose, gear)| {

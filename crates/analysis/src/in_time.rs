@@ -41,7 +41,7 @@ pub enum TimeAnswer {
     LumpedSpeeds {
         /// The sweep that was asked for.
         options: Box<SweepOptions>,
-        /// Its points.
+        /// Points of the sweep.
         found: Box<BifurcationAnalysis>,
     },
     /// Periodic motions along a key.

@@ -5,9 +5,9 @@ use fem::Wanted;
 /// Whether what a scene at rest needs is still wanted. Both are asked often, by several threads.
 #[derive(Clone, Copy)]
 pub struct Interest<'a> {
-    /// Its reduced gears, asked between the steps of a reduction.
+    /// Whether the reduced gears are wanted, asked between the steps of a reduction.
     pub gears: Wanted<'a>,
-    /// Its positions, asked after each of them.
+    /// Whether the positions are wanted, asked after each of them.
     pub positions: Wanted<'a>,
 }
 

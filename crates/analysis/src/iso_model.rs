@@ -74,7 +74,7 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Ru
     let mut remarks = vec![remark::iso_model(bending)];
     remarks.extend(doubts(pair, bending / mean_te));
     let facts = RunInfo { model, ..RunInfo::of_pair(scene, pair) };
-    remarks.extend(iso_root::warning(&loaded));
+    remarks.extend(iso_root::remark(&loaded));
     Ok((StaticHistory { positions, remarks, ..StaticHistory::default() }, facts))
 }
 
@@ -104,7 +104,7 @@ struct Mesh {
     base_force: f64,
     /// c_gamma_alpha, N/(mm um).
     c_mesh: f64,
-    /// Of both bodies along the line of action, mm/N.
+    /// Compliance of both bodies along the line of action, mm/N.
     bodies: f64,
 }
 

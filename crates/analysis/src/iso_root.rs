@@ -53,7 +53,7 @@ described::described! {
 }
 
 /// Says why there is no nominal root stress, to those who asked for root stress.
-pub(crate) fn warning(loaded: &LoadedPair<'_>) -> Option<answer::Remark> {
+pub(crate) fn remark(loaded: &LoadedPair<'_>) -> Option<answer::Remark> {
     root_stress(loaded).err().map(|e| crate::remark::no_iso_root_stress(e.to_string()))
 }
 

@@ -24,7 +24,7 @@ pub(crate) struct LoadedPair<'a> {
 }
 
 impl<'a> LoadedPair<'a> {
-    /// Of the pair of a scene.
+    /// Loaded pair of a scene.
     pub fn of(scene: &Scene, pair: &'a GearPair) -> Self {
         Self {
             pair,

@@ -54,7 +54,7 @@ described::described! {
     }
 }
 
-/// Of a pair under its torque.
+/// Nominal pressure of a pair under its torque.
 ///
 /// ```text
 /// p = sqrt(F_bn E* / (pi L rho_n)),   rho_n = xi (T - xi) / (T cos b_b),   F_bn = T_driven / (r_b cos b_b)

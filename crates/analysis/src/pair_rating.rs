@@ -73,7 +73,7 @@ described::described! {
 }
 
 impl LocalRating {
-    /// Of a solved pair with slices; `None` of others.
+    /// Local rating of a solved pair with slices; `None` of others.
     fn of(scene: &Scene, standard: &StandardRating, history: &StaticHistory) -> Option<Self> {
         let contact_stress_at = PressurePlace::of(scene, history)?;
         let pressure = history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
@@ -95,7 +95,8 @@ impl LocalRating {
 }
 
 impl RatingHeadline {
-    /// Of a solved pair; `None` where the scene asks for none, or where no load factor over the face was found.
+    /// Headline of a solved pair; `None` where the scene asks for none, or where no load factor over the face was
+    /// found.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
         scene.rating.as_ref()?;
         let pair = scene.gear_pair().ok()?;

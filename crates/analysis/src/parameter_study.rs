@@ -14,7 +14,7 @@ use crate::{
 /// What a case left behind.
 #[derive(Debug, Clone)]
 pub struct CaseRecord {
-    /// Its rows, by the names of their columns.
+    /// Rows of the case, by the names of their columns.
     pub rows: Columns,
     /// Geometry of the pair.
     pub geometry: GeometryFacts,

@@ -57,7 +57,7 @@ impl Refusal {
         )
     }
 
-    /// A sweep over no values.
+    /// An empty sweep.
     pub fn no_values() -> Self {
         Self::input("empty sweep", "give `--points 2` or more")
     }

@@ -91,7 +91,7 @@ pub fn resolution(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> (R
 
 /// What a user should hear of how fine the contact is: of [`resolution`] its words alone, without the cost of what it
 /// says of chosen slices.
-pub(crate) fn resolution_warnings(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
+pub(crate) fn resolution_remarks(scene: &Scene, pair: &GearPair, options: &StaticOptions) -> Vec<Remark> {
     if options.contact.method == Method::Slice && scene.place_of(&[SLICES]).is_some() {
         return resolution(scene, pair, options).1;
     }

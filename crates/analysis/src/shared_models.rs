@@ -18,7 +18,7 @@ use crate::{
     meshes::SceneMesh,
     options::options,
     reduced_pairs::ReducedPairs,
-    warnings::body_warnings,
+    solution_remarks::body_remarks,
 };
 
 /// Models that are kept at the most; which of them goes first is the one that was made first.
@@ -33,7 +33,7 @@ pub struct SharedModels<'a> {
     /// Those that the caller holds, in place of those of the scenes.
     meshes: Option<[Mesh; 2]>,
     known: Mutex<Vec<Known>>,
-    /// Of the meshes of gearboxes.
+    /// Reduced pairs of the meshes of gearboxes.
     pub(crate) pairs: ReducedPairs,
     read: Mutex<Vec<(Scene, Arc<[SceneMesh; 2]>)>>,
 }
@@ -54,8 +54,8 @@ pub(crate) struct Base {
 
 impl Base {
     /// What a user should hear of its bodies.
-    pub fn body_warnings(&self) -> &[Remark] {
-        self.of_bodies.get_or_init(|| body_warnings(&self.model))
+    pub fn body_remarks(&self) -> &[Remark] {
+        self.of_bodies.get_or_init(|| body_remarks(&self.model))
     }
 }
 
@@ -71,7 +71,7 @@ impl<'a> SharedModels<'a> {
         Self::holding(Arc::new(cache))
     }
 
-    /// The same with a cache that others may hold as well.
+    /// Shared models over a cache that others may hold as well.
     pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
         Self { cache, meshes: None, known: Mutex::default(), pairs: ReducedPairs::default(), read: Mutex::default() }
     }

@@ -25,18 +25,18 @@ use crate::{
     light_load,
     options::options,
     plausible::refuse,
-    resolution::resolution_warnings,
+    resolution::resolution_remarks,
     shared_models::{Base, SharedModels},
+    solution_remarks::{deflection_remarks, jammed_pair},
     static_certificate,
     varied_scene::VariedScene,
-    warnings::{deflection_warnings, jammed_pair},
     window::wider_window,
 };
 
 /// Whether it is found out what a user should hear of pair, meshes and bodies at rest, which takes a twentieth of the time
 /// of a quick case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum WarningsAtRest {
+pub enum RemarksAtRest {
     /// The history has all remarks that a run by itself has.
     Collected,
     /// The history has the remarks of its own positions alone.
@@ -54,7 +54,7 @@ pub(crate) struct Rates<'a> {
 #[derive(Clone, Copy, Debug)]
 pub struct RestRequest<'a> {
     /// Whether remarks about pair, meshes and bodies are found out.
-    pub remarks: WarningsAtRest,
+    pub remarks: RemarksAtRest,
     /// Whether the answer is still wanted; the solve ends with [`AnalysisError::Cancelled`] where it is not. A scene that
     /// shares nothing reduces its gears to the end.
     pub interest: Interest<'a>,
@@ -62,7 +62,7 @@ pub struct RestRequest<'a> {
 
 impl RestRequest<'static> {
     /// A result to its end with these remarks.
-    pub const fn to_the_end(remarks: WarningsAtRest) -> Self {
+    pub const fn to_the_end(remarks: RemarksAtRest) -> Self {
         Self { remarks, interest: Interest::LASTING }
     }
 }
@@ -72,9 +72,9 @@ impl RestRequest<'static> {
 pub(crate) struct SolvedWithRates {
     /// The scene as it was solved.
     pub scene: Scene,
-    /// Its positions.
+    /// Positions of the solution.
     pub history: StaticHistory,
-    /// Of each position, by each parameter.
+    /// Derivatives of each position, by each parameter.
     pub rates: Vec<Vec<Sensitivity>>,
 }
 
@@ -113,7 +113,7 @@ impl SharedModels<'_> {
             return Err(AnalysisError::Cancelled);
         }
         hold(&solved.scene, &solved.history)?;
-        if request.remarks == WarningsAtRest::Collected {
+        if request.remarks == RemarksAtRest::Collected {
             warn(&base, &solved.scene, &mut solved.history)?;
         }
         Ok(solved)
@@ -185,14 +185,14 @@ fn hold(scene: &Scene, history: &StaticHistory) -> Result<(), AnalysisError> {
 /// Adds what a user should hear of pair, meshes and bodies, as a run by itself says it.
 fn warn(base: &Base, scene: &Scene, history: &mut StaticHistory) -> Result<(), AnalysisError> {
     let pair = scene.gear_pair()?;
-    history.remarks.extend(gears::warnings(&pair));
+    history.remarks.extend(gears::remarks(&pair));
     history.remarks.extend(base.meshes.iter().flat_map(|m| m.remarks.clone()));
     let options = options(scene, &pair);
-    history.remarks.extend(resolution_warnings(scene, &pair, &options));
+    history.remarks.extend(resolution_remarks(scene, &pair, &options));
     history.remarks.extend(jammed_pair(&history.positions, &pair, &options));
-    history.remarks.extend(base.body_warnings().iter().cloned());
+    history.remarks.extend(base.body_remarks().iter().cloned());
     let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
-    history.remarks.extend(deflection_warnings(&history.positions, module, distance));
+    history.remarks.extend(deflection_remarks(&history.positions, module, distance));
     Ok(())
 }
 

@@ -43,7 +43,7 @@ pub struct SolvedAtRest {
 
 /// Solves a document: the one way from what is asked to its answer.
 ///
-/// Of a scene at rest [`Context::with_models`] says what is known of its gears, and a result that does not hold is an
+/// For a scene at rest [`Context::with_models`] says what is known of its gears, and a result that does not hold is an
 /// error; in time [`Solved::verdict`] tells, and of a gearbox its own.
 ///
 /// # Errors

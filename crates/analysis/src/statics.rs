@@ -25,8 +25,8 @@ use crate::{
     resolution::resolution,
     run_phase,
     shared_models::SharedModels,
+    solution_remarks::{body_remarks, deflection_remarks, jammed_pair},
     static_cycle::{CycleInputs, SolvedStaticCycle},
-    warnings::{body_warnings, deflection_warnings, jammed_pair},
 };
 
 /// The answer to a scene at rest.
@@ -61,7 +61,7 @@ impl std::fmt::Debug for CycleAnalysis<'_> {
 }
 
 impl<'a> CycleAnalysis<'a> {
-    /// Of a scene, its meshes read or made as it says.
+    /// Analysis of a scene, its meshes read or made as it says.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false }
     }
@@ -138,7 +138,7 @@ impl<'a> CycleAnalysis<'a> {
         if scene.analysis.model == Model::Iso {
             let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| iso_model::solve(scene, &pair));
             let (mut history, facts) = solved?;
-            history.remarks.extend(gears::warnings(&pair));
+            history.remarks.extend(gears::remarks(&pair));
             history.remarks.extend(unlikely);
             history.remarks.extend(pair_rating::remarks(scene, &history));
             return Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: None });
@@ -149,7 +149,7 @@ impl<'a> CycleAnalysis<'a> {
             Some(models) => models.scene_meshes(scene, &pair),
             None => meshes_of(scene, &pair, own).map(Arc::new),
         })?;
-        let mut remarks = gears::warnings(&pair);
+        let mut remarks = gears::remarks(&pair);
         remarks.extend(unlikely);
         remarks.extend(meshes.iter().flat_map(|m| m.remarks.clone()));
         let options = options(scene, &pair);
@@ -161,10 +161,10 @@ impl<'a> CycleAnalysis<'a> {
         let mut facts = facts_of(scene, &model, &meshes);
         facts.resolution = Some(resolution);
         if scene.output.root_stress {
-            remarks.extend(iso_root::warning(&LoadedPair::of(scene, &pair)));
+            remarks.extend(iso_root::remark(&LoadedPair::of(scene, &pair)));
         }
-        remarks.extend(body_warnings(&model));
-        remarks.extend(deflection_warnings(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
+        remarks.extend(body_remarks(&model));
+        remarks.extend(deflection_remarks(&history.positions, scene.pair.normal_module_mm, pair.centre_distance()));
         remarks.extend(jammed_pair(&history.positions, &pair, &options));
         remarks.extend(pair_rating::remarks(scene, &history));
         history.remarks.extend(remarks);

@@ -27,7 +27,7 @@ impl VariedScene {
         Ok(Self { sides: [at(-step)?, at(step)?], steps: [step; 2] })
     }
 
-    /// The same of some keys.
+    /// Scenes varied by some keys.
     ///
     /// # Errors
     /// As of [`VariedScene::by_key`].

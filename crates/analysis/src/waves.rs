@@ -86,7 +86,7 @@ struct Waves {
 }
 
 impl Waves {
-    /// Of the topography alone of the flanks on one side, along their profiles at some heights; of the teeth with flanks
+    /// Waves of the topography alone of the flanks on one side, along their profiles at some heights; of the teeth with flanks
     /// of their own the one with the largest curvature. `None` without one.
     fn of(gear: &Gear, side: Side, beyond: f64) -> Option<Self> {
         let topography = gear.modifications().on(side).topography.as_ref()?;
@@ -94,7 +94,7 @@ impl Waves {
         all.max_by(|a, b| a.curvature.total_cmp(&b.curvature))
     }
 
-    /// Of one grid.
+    /// Waves of one grid.
     ///
     /// ```text
     /// x = r_b u^2/2,   f(x) - parabola, Hann window,   F_j,   k_j = 2 pi j/l

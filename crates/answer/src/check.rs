@@ -30,12 +30,12 @@ described::described! {
 }
 
 impl Check {
-    /// Of a measure.
+    /// Check of a measure against its bound.
     pub fn new(name: impl Into<Cow<'static, str>>, value: f64, bound: f64, hint: &'static str) -> Self {
         Self { name: name.into(), value, bound, hint }
     }
 
-    /// Of many cases the share without a result, which is to leave one.
+    /// Check of the share of cases without a result, of many cases, which is to leave one.
     pub fn cases_without_result(failed: usize, cases: usize, hint: &'static str) -> Self {
         let cases = cases.max(1) as f64;
         Self::new("cases_without_result", failed as f64 / cases, 1.0 - 1.0 / cases, hint)
@@ -73,7 +73,7 @@ impl Checks {
         Key::new("certificate_missed", "Vec<String>", "missed checks in words"),
     ];
 
-    /// Of these checks.
+    /// Certificate of these checks.
     pub fn new(checks: impl IntoIterator<Item = Check>) -> Self {
         Self(checks.into_iter().collect())
     }
@@ -85,7 +85,7 @@ impl Checks {
         self
     }
 
-    /// Of several results the worst of each check, in the order in which they first come.
+    /// Certificate of several results: the worst of each check, in the order in which they first come.
     pub fn worst<'a>(all: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut worst: Vec<Check> = Vec::new();
         for check in all.into_iter().flat_map(Self::iter) {

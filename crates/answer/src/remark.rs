@@ -112,7 +112,7 @@ impl Remark {
         Key::new("values", "BTreeMap<String, RemarkValue>", "values by name with unit"),
     ];
 
-    /// Of a kind; [`remarks!`](crate::remarks) makes a function for each that takes its values.
+    /// A remark of a kind; [`remarks!`](crate::remarks) makes a function for each that takes its values.
     #[doc(hidden)]
     pub fn new(kind: &'static RemarkKind, values: Vec<RemarkValue>) -> Self {
         Self { kind, values, about: None }
@@ -126,7 +126,7 @@ impl Remark {
         Some(Self { kind, values, about: entry["about"].as_str().map(str::to_owned) })
     }
 
-    /// The same about one of several meshes or cases, whose name then stands before the sentence.
+    /// This remark about one of several meshes or cases, whose name then stands before the sentence.
     #[must_use]
     pub fn about(self, name: &str) -> Self {
         Self { about: Some(name.to_owned()), ..self }

@@ -22,7 +22,7 @@ pub struct Cases {
 }
 
 impl Cases {
-    /// Of axes; without an axis that is drawn there is one sample.
+    /// Cases of axes; without an axis that is drawn there is one sample.
     ///
     /// # Errors
     /// [`CasesError`].

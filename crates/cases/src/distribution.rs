@@ -14,7 +14,7 @@ pub enum Distribution {
         /// Upper end.
         to: f64,
     },
-    /// Its logarithm alike everywhere between two ends above 0.
+    /// Logarithm of the value alike everywhere between two ends above 0.
     LogUniform {
         /// Lower end.
         from: f64,

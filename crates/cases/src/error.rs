@@ -6,13 +6,13 @@ pub enum CasesError {
     /// An axis without values.
     #[error("axis {axis} has no values")]
     NoValues {
-        /// Its number, from 0.
+        /// Number of the axis, from 0.
         axis: usize,
     },
     /// A distribution whose numbers make none.
     #[error("axis {axis}: {what}")]
     NoDistribution {
-        /// Its number, from 0.
+        /// Number of the axis, from 0.
         axis: usize,
         /// What is wrong.
         what: &'static str,
@@ -20,7 +20,7 @@ pub enum CasesError {
     /// More cases, samples or axes than can be taken.
     #[error("{what}: {asked}, {most} are taken at the most")]
     TooMany {
-        /// Of what.
+        /// What there are too many of.
         what: &'static str,
         /// How many.
         asked: u64,

@@ -10,8 +10,8 @@ use crate::CasesError;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Design {
-    /// Of each axis every one of as many equal parts as there are samples once (M. McKay, R. Beckman, W. Conover,
-    /// Technometrics 21 (1979) 239).
+    /// Latin hypercube: of each axis every one of as many equal parts as there are samples once (M. McKay, R. Beckman,
+    /// W. Conover, Technometrics 21 (1979) 239).
     LatinHypercube,
     /// Sobol's sequence with Owen's scrambling: means fall nearly as the number of samples, not as its root.
     Sobol,
@@ -44,7 +44,7 @@ pub(crate) enum Points {
 }
 
 impl Points {
-    /// Of as many axes.
+    /// Points on as many axes.
     pub fn new(sampling: &Sampling, axes: usize) -> Result<Self, CasesError> {
         let Sampling { design, samples, seed } = *sampling;
         let mut random = ChaCha12Rng::seed_from_u64(seed);
@@ -75,7 +75,7 @@ impl Points {
         }
     }
 
-    /// Of a sample, on axis `axis` of `axes`; 0 .. 1.
+    /// Coordinate of a sample on axis `axis` of `axes`; 0 .. 1.
     pub fn at(&self, sample: usize, axis: usize, axes: usize) -> f64 {
         match self {
             Self::Known(points) => points[sample * axes + axis],

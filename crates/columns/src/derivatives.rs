@@ -70,7 +70,7 @@ pub(super) fn row(of: &Derivatives, index: usize, position: &StaticPosition, num
     of.rates.get(index).unwrap_or(&none).iter().flat_map(by_key).collect()
 }
 
-/// Of the normal force of the pair of that column, N; 0 when it is not in the window.
+/// Derivative of the normal force of the pair of that column, N; 0 when it is not in the window.
 fn pair_force(rates: &PositionRates, position: &StaticPosition, column: i64, pitch: f64) -> f64 {
     let own = position.pairs.iter().zip(&rates.pair_forces);
     let own = own.filter(|(pair, _)| pairs::in_cycle(position, pair.pair, pitch) == column);

@@ -30,7 +30,7 @@ pub struct LumpedLayout {
 }
 
 impl LumpedLayout {
-    /// Of a scene.
+    /// Layout of a scene's history.
     pub fn of(scene: &Scene) -> Self {
         Self { model: scene.analysis.model, coordinates: gear_coordinates(scene) }
     }

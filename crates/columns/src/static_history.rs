@@ -26,7 +26,7 @@ impl Rows for StaticRows {
 pub struct StaticLayout {
     /// Pinion angle of the first position, rad.
     start: f64,
-    /// Of the pinion, rad/s.
+    /// Speed of the pinion, rad/s.
     speed: f64,
     /// Pitch angle of the pinion, rad.
     pitch: f64,
@@ -37,7 +37,7 @@ pub struct StaticLayout {
 }
 
 impl StaticLayout {
-    /// Of a scene's rows, the first of them at this pinion angle, rad.
+    /// Layout of a scene's rows, the first of them at this pinion angle, rad.
     fn new(scene: &Scene, start: f64) -> Self {
         Self {
             start,
@@ -49,7 +49,7 @@ impl StaticLayout {
         }
     }
 
-    /// Of a solved history.
+    /// Layout of a solved history.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Self {
         Self::new(scene, history.positions.first().map_or(0.0, |p| p.pinion_angle))
     }
@@ -193,7 +193,7 @@ pub fn history_table(scene: &Scene, history: &StaticHistory, derivatives: Option
     table
 }
 
-/// The same as columns by name.
+/// Columns of a history by name.
 pub fn history_rows(scene: &Scene, history: &StaticHistory, derivatives: Option<&Derivatives>) -> Columns {
     let layout = StaticLayout::of(scene, history);
     let numbers = pairs::columns(history, layout.pitch);
@@ -225,7 +225,7 @@ pub struct StaticCurves<'a> {
 }
 
 impl<'a> StaticCurves<'a> {
-    /// Of a solved history.
+    /// Curves of a solved history.
     pub fn new(scene: &Scene, history: &'a StaticHistory) -> Self {
         Self { layout: StaticLayout::of(scene, history), history }
     }

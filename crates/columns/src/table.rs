@@ -45,7 +45,7 @@ pub struct Column<R: Rows> {
     pub meaning: &'static str,
     /// Whether files of this layout have it.
     pub present: fn(&R::Layout, At) -> bool,
-    /// Its number in a row.
+    /// Value of the column in a row.
     pub value: fn(&R::Layout, &R::Record, At) -> f64,
 }
 

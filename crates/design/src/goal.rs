@@ -22,7 +22,7 @@ pub struct Curve {
 pub struct Limited {
     /// The number.
     pub value: f64,
-    /// Its derivatives by each parameter.
+    /// Derivatives of the number by each parameter.
     pub rates: Vec<f64>,
     /// The limit, above 0.
     pub limit: f64,
@@ -62,7 +62,7 @@ pub enum Over {
 /// What shall be small.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Goal {
-    /// Of each sample.
+    /// Measure of each sample.
     pub measure: Measure,
     /// Over the samples.
     pub over: Over,
@@ -107,7 +107,7 @@ impl Goal {
         self.of_samples_after(curves, &change)
     }
 
-    /// The same after a change of the parameters, to first order.
+    /// Value of each sample after a change of the parameters, to first order.
     pub(crate) fn of_samples_after(&self, curves: &[Curve], change: &[f64]) -> Vec<f64> {
         let of_sample = |own: &[Curve]| {
             let weights: f64 = own.iter().map(|c| c.weight).sum();
@@ -129,7 +129,7 @@ impl Goal {
         self.over_samples(self.of_samples(curves))
     }
 
-    /// The same after a change of the parameters, to first order.
+    /// Value of the goal after a change of the parameters, to first order.
     pub fn value_after(&self, curves: &[Curve], change: &[f64]) -> f64 {
         self.over_samples(self.of_samples_after(curves, change))
     }

@@ -46,7 +46,7 @@ pub enum Stop {
 
 /// The best design found.
 #[derive(Debug, Clone)]
-pub struct Found {
+pub struct SearchResult {
     /// Values of the parameters.
     pub values: Vec<f64>,
     /// All that is known there.
@@ -83,7 +83,11 @@ impl Search {
     ///
     /// # Errors
     /// That of the evaluation of the start; later ones count as bad designs.
-    pub fn run<E>(&self, start: &[f64], mut evaluate: impl FnMut(&[f64]) -> Result<Evaluation, E>) -> Result<Found, E> {
+    pub fn run<E>(
+        &self,
+        start: &[f64],
+        mut evaluate: impl FnMut(&[f64]) -> Result<Evaluation, E>,
+    ) -> Result<SearchResult, E> {
         let clamped = |x: f64, [low, high]: Bounds| x.clamp(low, high);
         let mut values: Vec<f64> = start.iter().zip(&self.bounds).map(|(x, b)| clamped(*x, *b)).collect();
         let ranges: Vec<f64> = self.bounds.iter().map(|[low, high]| high - low).collect();
@@ -141,7 +145,7 @@ impl Search {
                 break;
             }
         }
-        Ok(Found { values, evaluation, steps, stop })
+        Ok(SearchResult { values, evaluation, steps, stop })
     }
 
     fn merit_after(&self, evaluation: &Evaluation, change: &[f64], scale: f64) -> f64 {

@@ -24,7 +24,7 @@ pub enum EnvelopeError {
 }
 
 impl EnvelopeError {
-    /// Of a piece that a mode builds beside its scene.
+    /// Error of a piece that a mode builds beside its scene.
     pub(crate) fn piece(piece: &'static str, reason: impl ToString) -> Self {
         Self::Piece { piece, reason: reason.to_string() }
     }

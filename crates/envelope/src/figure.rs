@@ -95,7 +95,7 @@ pub struct Figure {
 }
 
 impl Figure {
-    /// Of what the program does alone.
+    /// Figure of what the program does alone.
     pub fn new(what: impl Into<String>, robust: Shown) -> Self {
         Self { what: what.into(), naive: None, robust }
     }

@@ -36,7 +36,8 @@ pub struct MotionFileSink<'a> {
 }
 
 impl<'a> MotionFileSink<'a> {
-    /// Of a scene. Rows go into `folder`, with checkpoints where there are some; `from` is what the run goes on from.
+    /// Sink of a scene. Rows go into `folder`, with checkpoints where there are some; `from` is what the run goes on
+    /// from.
     pub fn new(
         scene: &'a Scene,
         folder: &'a Path,
@@ -88,7 +89,7 @@ impl MotionSink for MotionFileSink<'_> {
         let recorder = std::mem::replace(&mut self.recorder, ViewRecorder::new(self.scene));
         let mut remarks = Vec::new();
         let view = run_phase(observer, "view", PhaseWork::Unknown, |_| {
-            recorder.view_or_warning(self.scene, model, &mut remarks)
+            recorder.view_or_remark(self.scene, model, &mut remarks)
         });
         self.view = view.map(View::quasi_static);
         remarks

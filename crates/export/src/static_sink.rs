@@ -26,7 +26,7 @@ pub struct StaticFileSink<'a> {
 }
 
 impl<'a> StaticFileSink<'a> {
-    /// Of a scene; the time to the first position counts from `start`.
+    /// Sink of a scene; the time to the first position counts from `start`.
     pub fn new(scene: &'a Scene, results: &'a dyn ResultFiles, start: Instant) -> Self {
         let (fields, recorder) = (FieldWriter::new(scene, results), Some(ViewRecorder::new(scene)));
         Self { scene, results, fields, recorder, derivatives: Ok(None), start, first_result_s: None }
@@ -46,7 +46,7 @@ impl<'a> StaticFileSink<'a> {
 
     /// The gears in space, from what the positions left.
     pub fn into_view(self, model: &StaticModel, remarks: &mut Vec<answer::Remark>) -> Option<View> {
-        self.recorder?.view_or_warning(self.scene, model, remarks)
+        self.recorder?.view_or_remark(self.scene, model, remarks)
     }
 }
 

@@ -30,7 +30,7 @@ pub fn read_regular_file(path: &Path, most: u64) -> Result<Vec<u8>> {
     if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
 }
 
-/// The same as text.
+/// Reads a regular file as text.
 ///
 /// # Errors
 /// As [`read_regular_file`], and [`ErrorKind::InvalidData`] for what is not UTF-8.

@@ -34,7 +34,7 @@ pub fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
     through_work_folder(&target, bytes, permissions, |new| fs::rename(new, &target))
 }
 
-/// The same of a file that is not there yet.
+/// Writes a file that is not there yet.
 ///
 /// # Errors
 /// [`ErrorKind::AlreadyExists`] where something has that name, whoever made it and when; else as [`write_file`].

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 /// Shaper cutter that makes the teeth of an internal gear.
 ///
-/// Its teeth have the ring's module, pressure angle and helix, are thicker than the profile shift says by the ring's thickness allowance, and are as high as the ring's root diameter asks. The rounding of its tip edges, of radius `root_radius_coefficient` m_n of the ring, is a circle in the transverse section.
+/// The cutter's teeth have the ring's module, pressure angle and helix, are thicker than the profile shift says by the ring's thickness allowance, and are as high as the ring's root diameter asks. The rounding of its tip edges, of radius `root_radius_coefficient` m_n of the ring, is a circle in the transverse section.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Shaper {
     /// Number of teeth z_0.

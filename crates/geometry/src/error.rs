@@ -29,7 +29,7 @@ pub enum GeometryError {
     OutOfRange {
         /// Name of the quantity.
         name: &'static str,
-        /// Its value.
+        /// Value of the quantity.
         value: f64,
         /// The permitted range.
         expected: &'static str,
@@ -154,7 +154,7 @@ pub enum GeometryError {
         }
     )]
     ShaperInterference {
-        /// Of which kind.
+        /// Kind of the interference.
         kind: InternalInterference,
         /// mm along the line of action, or rad of the ring; negative.
         amount: f64,

@@ -52,7 +52,7 @@ impl Side {
 /// angle at the base circle. The surface is developable: straight along its generators, so one principal
 /// curvature is 0 and the other cos(b_b)/(r_b u), in the direction e_r.
 ///
-/// Of an internal gear r_b is negative, sigma is that of z < 0, and c has half a turn more: the same formulas then give a concave flank, and left and right are as ISO 21771 names them, with the tooth pointing up, towards the axis.
+/// For an internal gear r_b is negative, sigma is that of z < 0, and c has half a turn more: the same formulas then give a concave flank, and left and right are as ISO 21771 names them, with the tooth pointing up, towards the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Flank {
     /// Which side of the tooth.
@@ -93,7 +93,7 @@ pub(crate) struct Directions {
     pub normal: Vec3,
     /// e_r, of the profile.
     pub profile: Vec3,
-    /// Of the straight line: sin(b_b) e_t + cos(b_b) e_z.
+    /// Direction of the straight generator: sin(b_b) e_t + cos(b_b) e_z.
     pub generator: Vec3,
 }
 
@@ -127,7 +127,7 @@ impl Flank {
         self.directions_at([sin, cos])
     }
 
-    /// The same from sine and cosine of phi.
+    /// Directions from sine and cosine of phi.
     fn directions_at(&self, [sin, cos]: [f64; 2]) -> Directions {
         let [sin_b, cos_b] = self.base_helix();
         Directions {

@@ -29,7 +29,7 @@ struct FlankFields {
 }
 
 impl FlankFields {
-    /// Of a tooth, counted from 0 to z - 1.
+    /// Depth field of a tooth, counted from 0 to z - 1.
     fn of(&self, tooth: usize) -> Option<&Arc<DepthField>> {
         self.fields.get(self.of_tooth.get(tooth).copied().unwrap_or(0))
     }
@@ -77,7 +77,7 @@ impl Gear {
         Ok(gear)
     }
 
-    /// The same gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness)
+    /// This gear with other micro-geometry. Everything derived from the data (diameters, contact ratios, thickness)
     /// stays nominal.
     ///
     /// # Errors
@@ -328,7 +328,7 @@ impl Gear {
 }
 
 impl GearData {
-    /// The same ring, made by the shaper that is taken where nothing is said: with a third of the ring's teeth, or as many more as it takes to make the ring's tips without interference.
+    /// This ring, made by the shaper that is taken where nothing is said: with a third of the ring's teeth, or as many more as it takes to make the ring's tips without interference.
     #[must_use]
     pub fn with_usual_shaper(self, profile_shift: f64) -> Self {
         let of = |teeth: u32| GearData { shaper: Some(Shaper { teeth, profile_shift }), ..self.clone() };

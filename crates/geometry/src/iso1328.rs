@@ -29,7 +29,7 @@ pub struct FlankTolerances {
 }
 
 impl FlankTolerances {
-    /// Of a gear in a class of [`TOLERANCE_CLASSES`].
+    /// Tolerances of a gear in a class of [`TOLERANCE_CLASSES`].
     pub fn new(gear: &Gear, class: u32) -> Self {
         let (d, b, m) = (2.0 * gear.reference_radius().abs(), gear.face_width(), gear.data().normal_module);
         let step = 2f64.sqrt().powi(class as i32 - 5);

@@ -73,7 +73,7 @@ impl GearPair {
         Ok(pair)
     }
 
-    /// The same pair with the wheel's mid-face `offset` (mm) above the pinion's, along +z.
+    /// This pair with the wheel's mid-face `offset` (mm) above the pinion's, along +z.
     ///
     /// # Errors
     /// [`GeometryError::FacesApart`] where the faces do not overlap, [`GeometryError::ContactRatio`] where they do so by
@@ -237,7 +237,7 @@ impl GearPair {
         let before = gears.map(|gear| gear.data().profile_shift);
         let tried = |step: i32, is_nominal: bool| {
             let shift = (10.0 * before[own]).floor() / 10.0 + f64::from(step) / 10.0;
-            // At a given centre distance the mating gear gives way.
+            // At a given centre distance the mating gear has the rest of the shift.
             let mate = if is_nominal { before[1 - own] } else { before[1 - own] + before[own] - shift };
             let shifts = if own == 0 { [shift, mate] } else { [mate, shift] };
             let [pinion, wheel] = [0, 1].map(|i| {

@@ -253,7 +253,7 @@ impl TransverseProfile {
 impl GearData {
     /// Largest coefficient rho / m_n of tip rounding that the tool has room for: a full rounding of its tip.
     ///
-    /// Of a rack:
+    /// For a rack:
     /// ```text
     /// rho_fP/m_n = [pi/4 + A_s/(2 m_n) - (h_fP/m_n) tan a_n] cos a_n / (1 - sin a_n)
     /// ```

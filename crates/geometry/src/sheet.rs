@@ -410,7 +410,7 @@ fn span(gear: &Gear) -> Option<Span> {
 /// inv a_Kt = D_M / (2 r_b cos b_b) - eta_b,   eta_b = pi/z - psi_b half a base space
 /// M_dK = 2 r_b / cos a_Kt + D_M        (even z; odd: 2 r_b cos(pi / 2z) / cos a_Kt + D_M)
 /// ```
-/// Of a ring r_b and z are negative, and so is M_dK, the dimension between the balls.
+/// For a ring r_b and z are negative, and so is M_dK, the dimension between the balls.
 fn balls(gear: &Gear) -> Option<Balls> {
     let (data, base, beta_b) = (gear.data(), gear.base_radius(), gear.base_helix_angle());
     let z = gear.signed_teeth();

@@ -1,4 +1,4 @@
-//! A pair with backlash, eight coordinates, at some speeds: where do its flanks part?
+//! A pair with backlash, eight coordinates, at some speeds: where do its flanks lose contact?
 //!
 //! `cargo run -p lumped --example rattle`
 #![allow(clippy::print_stdout, reason = "an example prints")]
@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let ([least, largest], [low, high]) = (range(|r| r.normal_force), range(|r| 1e3 * r.transmission_error));
         // Damping acts between parted flanks too, so the least force may be a little below zero.
-        let remark = if least <= 0.0 { "flanks part" } else { "" };
+        let remark = if least <= 0.0 { "flanks lose contact" } else { "" };
         println!(
             "{speed_rpm:>10} {:>14.0} {least:>14.1} {largest:>14.1} {:>12.2}  {remark}",
             30.0 * speed_rpm / 60.0,

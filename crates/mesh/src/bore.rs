@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 use crate::{BoreCoupling, Face, MeshError, MeshedGear, SurfaceGroup};
 
 impl MeshedGear {
-    /// The same gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a
+    /// This gear, held by those faces of its bore alone that lie between two heights `from` <= z <= `to` (mm) as a
     /// whole. All of its bore: the same mesh.
     ///
     /// # Errors
@@ -32,7 +32,7 @@ impl MeshedGear {
             .numbered(self.clockwise))
     }
 
-    /// The same gear with another coupling of its bore.
+    /// This gear with another coupling of its bore.
     pub fn coupled(mut self, coupling: BoreCoupling) -> Self {
         self.coupling = coupling;
         self

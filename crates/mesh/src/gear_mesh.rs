@@ -81,7 +81,7 @@ impl MeshedGear {
         Self { mesh, teeth, bore, bore_nodes, coupling: BoreCoupling::Kinematic, flanks, cuts, clockwise: false }
     }
 
-    /// The same parts with teeth that are numbered clockwise, seen from +z, or counter-clockwise as they are where nothing is said: those of a ring are numbered clockwise.
+    /// These parts with teeth that are numbered clockwise, seen from +z, or counter-clockwise as they are where nothing is said: those of a ring are numbered clockwise.
     #[must_use]
     pub fn numbered(self, clockwise: bool) -> Self {
         Self { clockwise, ..self }

@@ -35,7 +35,7 @@ pub struct MeshInfo {
 /// One physical surface.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupInfo {
-    /// Its name.
+    /// Name of the group.
     pub name: String,
     /// Number of faces.
     pub faces: usize,

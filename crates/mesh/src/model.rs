@@ -33,7 +33,7 @@ pub struct ElementBlock {
 pub struct SurfaceGroup {
     /// Name of the physical group.
     pub name: String,
-    /// Its faces.
+    /// Faces of the group.
     pub faces: Vec<Face>,
 }
 
@@ -74,7 +74,7 @@ impl Face {
         corner_key(self.corners())
     }
 
-    /// The same face in other node numbers.
+    /// This face in other node numbers.
     pub(crate) fn renumbered(&self, number: impl Fn(u32) -> u32) -> Self {
         let mut face = *self;
         for node in &mut face.nodes[..self.kind.node_count()] {
@@ -83,7 +83,7 @@ impl Face {
         face
     }
 
-    /// The same face seen from the other side: the normal is turned.
+    /// This face seen from the other side: the normal is turned.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let (corners, count) = (self.kind.corner_count(), self.kind.node_count());

@@ -53,9 +53,9 @@ pub enum MetrologyError {
     OtherGear {
         /// Which quantity, with its unit.
         name: &'static str,
-        /// Of the file.
+        /// Value of the file.
         measured: f64,
-        /// Of the gear.
+        /// Value of the gear.
         own: f64,
     },
     /// Traces that nothing can be made of.

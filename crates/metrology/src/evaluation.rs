@@ -47,9 +47,9 @@ pub struct PitchEvaluation {
 /// All deviations of a gear, and the classes that it reaches.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GearEvaluation {
-    /// Of each trace that has a range.
+    /// Evaluation of each trace that has a range.
     pub traces: Vec<TraceEvaluation>,
-    /// Of each side with pitch deviations.
+    /// Evaluation of each side with pitch deviations.
     pub pitch: Vec<PitchEvaluation>,
     /// Variation of the tooth thickness R_s on the reference circle, um of arc; `None` without the pitch of both sides.
     pub thickness_variation_um: Option<f64>,

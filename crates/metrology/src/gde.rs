@@ -41,7 +41,7 @@ pub struct GdeNames {
     pub place: String,
     /// Start and end of a trace: diameters (mm) of a profile, heights (mm) of a helix, from a trace.
     pub from: String,
-    /// Its end.
+    /// End of the trace.
     pub to: String,
     /// Values, um, from a trace: one text with blanks, commas or semicolons between, or as many elements.
     pub values: String,

@@ -70,9 +70,9 @@ pub struct Pitch {
 /// A measured gear.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MeasuredGear {
-    /// Its data.
+    /// Data of the gear.
     pub header: GearHeader,
-    /// Its traces in the order of the file.
+    /// Traces in the order of the file.
     pub traces: Vec<Trace>,
     /// Pitch, of one side, both or none.
     pub pitch: Vec<Pitch>,
@@ -118,7 +118,7 @@ impl Trace {
         usable.then(|| (0..self.deviations_um.len()).map(|i| from + (to - from) * i as f64 / last).collect())
     }
 
-    /// Its values with their places (mm), those without a value left out.
+    /// Values of the trace with their places (mm), those without a value left out.
     pub fn points(&self, header: &GearHeader) -> Option<Vec<[f64; 2]>> {
         let places = self.places(header)?;
         Some(places.iter().zip(&self.deviations_um).filter_map(|(x, f)| Some([*x, (*f)?])).collect())

@@ -14,7 +14,7 @@ pub struct FreeDirection {
 }
 
 impl FreeDirection {
-    /// Of a direction r with r' M r = 1.
+    /// Free direction along r, for which r' M r = 1.
     pub fn new(direction: DVector<f64>, mass: &DMatrix<f64>) -> Self {
         let momentum = mass * &direction;
         Self { direction, momentum }

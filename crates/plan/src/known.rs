@@ -59,7 +59,7 @@ impl KnownCases {
 }
 
 impl Column {
-    /// Its values, each once, ascending.
+    /// Values of the column, each once, ascending.
     pub fn distinct(&self) -> Vec<f64> {
         let mut all: Vec<f64> = self.values.iter().copied().filter(|v| v.is_finite()).collect();
         all.sort_by(f64::total_cmp);

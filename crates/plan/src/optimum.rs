@@ -7,7 +7,7 @@ use std::{
 };
 
 use analysis::{SharedModels, parallel_map};
-use design::{Curve, Evaluation, Found, Goal, Limited, Measure, Over, Search, rounded};
+use design::{Curve, Evaluation, Goal, Limited, Measure, Over, Search, SearchResult, rounded};
 use scene::optimum::NumberOptimisation;
 
 use crate::{CaseObserver, CaseRow, DoneCases, solve::numbers};
@@ -16,14 +16,14 @@ use crate::{CaseObserver, CaseRow, DoneCases, solve::numbers};
 #[derive(Debug, Clone)]
 pub struct NumberOptimum {
     /// The search.
-    pub found: Found,
+    pub found: SearchResult,
     /// Values that a machine can be set to; those of the search where that is any.
     pub values: Vec<f64>,
     /// All that is known there.
     pub evaluation: Evaluation,
     /// Goals and limited numbers at the start, in the order of [`NumberOptimisation::outputs`].
     pub before: Vec<f64>,
-    /// The same with `values`.
+    /// Goals and limited numbers with `values`.
     pub after: Vec<f64>,
 }
 

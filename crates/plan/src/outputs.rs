@@ -111,7 +111,7 @@ fn of_headline(keys: &[(&'static str, Holds)], wanted: &str) -> Result<(), Missi
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Holds {
     Number,
-    /// Of so many numbers.
+    /// A list of so many numbers.
     List(usize),
     Table,
     Words,

@@ -19,7 +19,7 @@ use crate::{CaseLines, CaseRow};
 /// a line a case, as in cases.csv
 /// # end HASH                      of the lines above: a file that was cut short is none
 /// ```
-/// The same plan and range make the same bytes, wherever and how often they are made.
+/// One plan and range make the same bytes, wherever and how often they are made.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Part {
     /// Cases FROM..TO.

@@ -18,7 +18,7 @@ use store::folder::{beside_results, in_use};
 /// What came of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CaseRow {
-    /// Its number, from 0.
+    /// Number of the case, from 0.
     pub case: usize,
     /// Values of the axes.
     pub values: Vec<f64>,
@@ -47,12 +47,12 @@ impl CaseRow {
 }
 
 impl CaseLines {
-    /// Of so many values and numbers.
+    /// Lines of cases with so many values and numbers.
     pub fn new(axes: usize, outputs: usize) -> Self {
         Self { axes, outputs }
     }
 
-    /// Of a plan.
+    /// Lines of a plan's cases.
     pub fn of(plan: &Plan) -> Self {
         Self { axes: plan.axes.len(), outputs: plan.outputs.len() }
     }

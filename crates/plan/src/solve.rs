@@ -7,7 +7,7 @@ use std::{
 };
 
 use analysis::{
-    AnalysisError, Context, Ending, Observer, Progress, SharedModels, WarningsAtRest, gearbox::GearboxResult,
+    AnalysisError, Context, Ending, Observer, Progress, RemarksAtRest, SharedModels, gearbox::GearboxResult,
     parallel_map, solve,
 };
 use scene::{
@@ -72,7 +72,7 @@ pub(crate) fn numbers(
         Machine::Pair(mut scene) => {
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
-            let context = Context::<Scene>::new(observer).with_models(models).with_warnings(WarningsAtRest::Skipped);
+            let context = Context::<Scene>::new(observer).with_models(models).with_remarks(RemarksAtRest::Skipped);
             let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
             solved.verdict().map_err(said)?;
             case_values(outputs, &solved)

@@ -11,7 +11,7 @@ use study::{Columns, extent, mean, mesh_harmonics, peak_to_peak};
 
 use columns::solved_rows;
 
-/// Of a solved pair over whole mesh cycles.
+/// Outputs of a solved pair over whole mesh cycles.
 ///
 /// # Errors
 /// Why there is none: a name that stands for no number, a headline without value.
@@ -20,7 +20,7 @@ pub fn case_values(outputs: &[PlanOutput], solved: &Solved) -> Result<Vec<f64>, 
     of_case(outputs, headline, || solved_rows(solved), Some(solved.scene().analysis.cycles as usize))
 }
 
-/// Of a solved gearbox: of its motion where it has one, else over whole cycles of its first mesh.
+/// Outputs of a solved gearbox: of its motion where it has one, else over whole cycles of its first mesh.
 ///
 /// # Errors
 /// As [`case_values`].

@@ -69,7 +69,7 @@ const REFERENCE_NOTCH: f64 = 2.5;
 const CLAUSE: &str = "ISO 6336-3";
 
 impl BendingFactors {
-    /// Of a gear.
+    /// Factors of a gear's root.
     ///
     /// ```text
     /// Y_delta rel T = [1 + sqrt(rho' chi)]/[1 + sqrt(rho' chi_T)],   chi = 0.2 (1 + 2 q_s),   chi_T = 1.2,   rho' by material

@@ -23,7 +23,7 @@ pub struct RunningIn {
 }
 
 impl RunningIn {
-    /// Of a pair: the mean of both gears' allowances; `speed` v on the reference circle, m/s.
+    /// Running-in of a pair: the mean of both gears' allowances; `speed` v on the reference circle, m/s.
     ///
     /// ```text
     /// St, V, GGG:      y = 160 f / sigma_Hlim,   at most 12800/sigma_Hlim above 5 m/s, 6400/sigma_Hlim above 10 m/s

@@ -9,7 +9,7 @@ use serde::Serialize;
 pub struct DynamicLoad {
     /// Teeth of the gear that `speed_rpm` is of.
     pub teeth: u32,
-    /// Its speed, 1/min.
+    /// Speed of the gear with `teeth` teeth, 1/min.
     pub speed_rpm: f64,
     /// F_t K_A / b, N/mm.
     pub line_load: f64,

@@ -27,7 +27,7 @@ pub enum RatingError {
     /// A material without a number that a formula needs.
     #[error("the material \"{material}\" states no `{key}`, which {clause} needs")]
     MaterialLacks {
-        /// Its name.
+        /// Name of the material.
         material: String,
         /// The key of the table.
         key: &'static str,

@@ -42,7 +42,7 @@ pub struct PairGeometry {
 }
 
 impl PairGeometry {
-    /// The same where every number has a meaning.
+    /// This geometry where every number has a meaning.
     ///
     /// # Errors
     /// [`RatingError::OutOfRange`].

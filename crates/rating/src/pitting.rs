@@ -93,7 +93,7 @@ pub fn pitting_factors(surface: &FlankSurface, materials: [&Material; 2], gear: 
 ///     R_zH = R_z1 (10/rho_red)^0.33 (R_z1/R_z2)^0.66 / (v nu_40/1500)^0.33     (3 .. 16 um; 1: the hard gear)
 /// V against V:                       Z_W = 1 + (0.00898 HB_1/HB_2 - 0.00829) (u - 1),   1.2 <= HB_1/HB_2 <= 1.7, u <= 20
 /// ```
-/// Of the soft gear alone. Source: ISO 6336-2, clause 13. HB is taken as HV/1.05.
+/// Z_W is a factor of the soft gear alone. Source: ISO 6336-2, clause 13. HB is taken as HV/1.05.
 fn work_hardening(surface: &FlankSurface, materials: [&Material; 2], gear: usize) -> f64 {
     let soft = |m: &Material| matches!(m.group, MaterialGroup::Structural | MaterialGroup::ThroughHardened);
     let (own, other) = (materials[gear], materials[1 - gear]);

@@ -25,7 +25,7 @@ pub struct Spectrum {
 const DURATIONS: [&str; 3] = ["share", "duration_s", "duration_h"];
 
 impl Spectrum {
-    /// Of a table with commas and a heading: `torque_nm`, `speed_rpm`, and one of `share`, `duration_s`, `duration_h`; shares and times are divided by their sum.
+    /// Spectrum from a table with commas and a heading: `torque_nm`, `speed_rpm`, and one of `share`, `duration_s`, `duration_h`; shares and times are divided by their sum.
     ///
     /// # Errors
     /// [`RatingError::Table`] with the line at fault.
@@ -54,7 +54,7 @@ impl Spectrum {
             let number = |k: usize| fields[k].parse::<f64>().ok().filter(|x| x.is_finite() && *x >= 0.0);
             let (Some(torque_nm), Some(speed_rpm), Some(share)) = (number(torque), number(speed), number(duration))
             else {
-                return refused(line, format!("`{row}` holds what is no number of 0 or more"));
+                return refused(line, format!("`{row}` has a value that is not a number of 0 or more"));
             };
             bins.push(LoadBin { torque_nm, speed_rpm, share });
         }

@@ -36,7 +36,7 @@ pub struct GivenFactors {
 /// What is rated of one gear.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearInput<'a> {
-    /// Its material.
+    /// Material of the gear.
     pub material: &'a Material,
     /// Density, kg/m^3.
     pub density: f64,

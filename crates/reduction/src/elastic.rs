@@ -9,7 +9,7 @@ use mesh::{BoreCoupling, MeshedGear};
 pub struct FullGear {
     /// The meshed gear.
     pub gear: MeshedGear,
-    /// Its material.
+    /// Material of the gear.
     pub material: Material,
     /// Element variants.
     pub elements: ElementOptions,

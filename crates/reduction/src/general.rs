@@ -13,7 +13,7 @@ const COLUMNS: usize = 256;
 #[derive(Debug)]
 pub(crate) struct GeneralGear {
     dofs: DofMap,
-    /// Of the stiffness, or of K~ where the bore is held by its means.
+    /// Factor of the stiffness, or of K~ where the bore is held by its means.
     factor: BoundaryLastFactor,
     seat: Option<MeanSeat>,
 }
@@ -21,7 +21,7 @@ pub(crate) struct GeneralGear {
 /// A window as the factor sees it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Seen<'a> {
-    /// Its nodes are last in the factor.
+    /// Nodes of the window are last in the factor.
     Last,
     /// Under these loads.
     Loads(&'a [Load]),

@@ -106,7 +106,7 @@ impl LayerProfile {
         a + t * (da + t * (3.0 * (b - a) - 2.0 * da - db + t * (2.0 * (a - b) + da + db)))
     }
 
-    /// Its lists (arcs, constants, slopes) and its single values, for a file.
+    /// Lists of the profile (arcs, constants, slopes) and its single values, for a file.
     pub(crate) fn parts(&self) -> ([&[f64]; 3], [f64; 4]) {
         let values = [self.roll_tip, self.base_radius, self.tip_angle, self.tip_gradient];
         ([&self.arcs, &self.constants, &self.slopes], values)

@@ -31,7 +31,7 @@ pub type FlankGrids = BTreeMap<(u32, Side), FlankGrid>;
 /// What is kept of a flank.
 #[derive(Debug)]
 pub(crate) enum Coordinates {
-    /// Its nodes.
+    /// Nodes of the flanks.
     FlankNodes,
     /// Means over them.
     Grids(FlankGrids),

@@ -13,7 +13,7 @@ use crate::{FlankGrid, LayerProfile, ReductionError, cyclic::face_nodes, general
 /// is clamped.
 ///
 /// Pressing a point of a mesh makes a dent whose depth is the mesh's, not the gear's. The same dent is in W (the whole
-/// gear) and in W_c, so W - W_c is free of it: it is how far the centre surface of the tooth gives way, smooth and
+/// gear) and in W_c, so W - W_c is free of it: it is how far the centre surface of the tooth deflects, smooth and
 /// nearly the same on every mesh. The dent itself comes in closed form (crate `contact`, `LocalContact`). Free are the
 /// nodes above the root circle on the loaded side of the centre surface. W - W_c is positive semi-definite, because
 /// clamping only takes compliance away.
@@ -64,7 +64,7 @@ impl LocalCompliance {
         Ok(Self { nodes, compliance, overshoot: half.overshoot, layer })
     }
 
-    /// The same for loads on the nodes of a grid; `nodes` are then the grid's.
+    /// Local compliance for loads on the nodes of a grid; `nodes` are then the grid's.
     ///
     /// # Errors
     /// [`ReductionError::Fem`].

@@ -31,7 +31,7 @@ pub(crate) struct MeanSeat {
 const LEAST: f64 = 1e-8;
 
 impl MeanSeat {
-    /// Of the held faces of a bore; all nodes of the mesh are free.
+    /// Seat of the held faces of a bore; all nodes of the mesh are free.
     pub(crate) fn new(gear: &MeshedGear, dofs: &DofMap) -> Result<Self, ReductionError> {
         let (weights, nodes) = (gear.bore_weights(), &gear.mesh().nodes);
         let at = |node: u32| Vector3::from(nodes[node as usize]);

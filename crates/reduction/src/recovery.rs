@@ -19,8 +19,8 @@ impl GearReducer {
         Ok(self.field(window, &[u], None)?.pop().unwrap_or_default())
     }
 
-    /// The same at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear only
-    /// the sectors that hold the nodes are gone through, and the factor once for all.
+    /// Displacement at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear
+    /// only the sectors that hold the nodes are gone through, and the factor once for all.
     ///
     /// # Errors
     /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.

@@ -82,8 +82,8 @@ impl GearReducer {
         Ok(StressModes { nodes: nodes.to_vec(), modes })
     }
 
-    /// The same for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the frame
-    /// of the window's matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
+    /// Stress modes for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the
+    /// frame of the window's matrices): D B is [`fem::StressOperator::on_surface`]. Theory (22c).
     ///
     /// # Errors
     /// As [`GearReducer::stress_modes`].

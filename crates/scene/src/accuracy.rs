@@ -77,7 +77,7 @@ impl ToleranceError {
 pub struct AccuracyScene(Vec<(Quantity, Tolerance)>);
 
 impl AccuracyScene {
-    /// Of these tolerances; of two for one quantity the last one holds.
+    /// Accuracy of these tolerances; of two for one quantity the last one holds.
     pub fn new(tolerances: impl IntoIterator<Item = (Quantity, Tolerance)>) -> Self {
         let mut all: Vec<(Quantity, Tolerance)> = Vec::new();
         for (quantity, tolerance) in tolerances {

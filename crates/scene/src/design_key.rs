@@ -15,7 +15,7 @@ impl Scene {
         if key.ends_with("_um") { 0.01 } else { 1e-3 }
     }
 
-    /// The same scene with another number; of a modification of both flanks on the driving ones. It asks for no
+    /// This scene with another number; of a modification of both flanks on the driving ones. It asks for no
     /// derivatives.
     ///
     /// # Errors

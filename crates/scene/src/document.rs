@@ -88,7 +88,7 @@ impl Document {
         self.0.root.as_ref().ok().and_then(DocumentKind::of_machine)
     }
 
-    /// The same text with these names at its top alone.
+    /// This document with these names at its top alone.
     pub(crate) fn only(&self, names: &[&str]) -> Self {
         let Read { file, text, root, origin, files, .. } = &*self.0;
         let (file, text, files) = (file.clone(), text.clone(), Arc::clone(files));
@@ -143,7 +143,7 @@ impl Document {
         self.0.root.as_ref()
     }
 
-    /// Its text, for complaints about what stands in it.
+    /// Text of the document, for complaints about what stands in it.
     pub(crate) fn text(&self) -> &str {
         &self.0.text
     }

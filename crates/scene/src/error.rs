@@ -48,7 +48,7 @@ pub enum SceneError {
     WrongType {
         /// Where it stands.
         place: Place,
-        /// Its key.
+        /// The key.
         key: String,
         /// The type wanted.
         expected: Box<str>,
@@ -62,7 +62,7 @@ pub enum SceneError {
     OutOfRange {
         /// Where it stands.
         place: Place,
-        /// Its key.
+        /// The key.
         key: String,
         /// As written.
         value: String,
@@ -94,7 +94,7 @@ pub enum SceneError {
     NotYet {
         /// Where it stands.
         place: Place,
-        /// Its key.
+        /// The key.
         key: String,
         /// What it asks for.
         what: String,
@@ -116,10 +116,10 @@ pub enum SceneError {
         file: PathBuf,
         /// What is there twice.
         what: String,
-        /// The way out.
+        /// Hint: the action that cures it.
         advice: String,
     },
-    /// What a scene made in code sets is no key.
+    /// A scene made in code sets an unknown key.
     #[error("unknown key `{key}`")]
     NoKey {
         /// As the program says it.
@@ -132,7 +132,7 @@ pub enum SceneError {
         place: Place,
         /// The contradiction.
         what: String,
-        /// The way out.
+        /// Hint: the action that cures it.
         advice: String,
     },
     /// No running pair can be made of the data.

@@ -4,7 +4,7 @@ use std::{borrow::Cow, ops::Range};
 
 use crate::units::{in_another_unit, plain};
 
-/// Of a number that is out of its range.
+/// Hint for a number that is out of its range.
 pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String {
     match about {
         Some(about) => format!("`{key}` means: {about}"),
@@ -15,7 +15,7 @@ pub(super) fn of_range(key: &str, allowed: &str, about: Option<&str>) -> String 
 /// Times by which a number passes the end of its range that is in the right unit all the same.
 const NEAR: f64 = 3.0;
 
-/// Of a number that is out of its range and in another unit within it.
+/// Hint for a number that is out of its range and in another unit within it.
 pub(super) fn of_number(key: &str, value: f64, [low, high]: [f64; 2]) -> Option<String> {
     let fits = |x: f64| (low..=high).contains(&x);
     // A unit is a factor of a hundred or more, or of 57 or 9.5: what misses the range by less is a number too large.
@@ -34,7 +34,7 @@ pub(super) fn found(readers: &str) -> String {
     }
 }
 
-/// Of a value of another type.
+/// Hint for a value of another type.
 pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
     match expected {
         "a whole number" if found.starts_with("number") => "write it without a decimal point".into(),
@@ -84,13 +84,13 @@ fn value_of_line<'a>(text: &'a str, at: &Range<usize>) -> Option<(&'a str, &'a s
     (!value.starts_with(['"', '\'', '[', '{'])).then_some((key.trim(), value))
 }
 
-/// Of text that is no TOML; `None` where nothing better is known than what a TOML file is.
+/// Hint for text that is no TOML; `None` where nothing better is known than what a TOML file is.
 pub(super) fn of_syntax(text: &str, at: &Range<usize>, message: &str) -> Option<Cow<'static, str>> {
     let of_number = value_of_line(text, at).and_then(|(key, value)| number_in(key, value));
     of_number.map(Cow::Owned).or_else(|| of_toml(text, at, message).map(Cow::Borrowed))
 }
 
-/// Of the syntax alone.
+/// Hint from the syntax alone.
 fn of_toml(text: &str, at: &Range<usize>, message: &str) -> Option<&'static str> {
     let begin = text.get(..at.start).unwrap_or_default();
     let after_digit = begin.ends_with(|c: char| c.is_ascii_digit());

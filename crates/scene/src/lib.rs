@@ -15,13 +15,14 @@
 //! | scene | [`Scene`], `check`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
+mod checked_macros;
+#[macro_use]
 mod macros;
 
 mod accuracy;
 mod analysis;
 mod builder;
 mod check;
-mod contact;
 mod data_file;
 mod default_scene;
 mod design_key;
@@ -69,32 +70,27 @@ use geometry::Side;
 use serde::Serialize;
 
 pub use accuracy::{AccuracyScene, Tolerance, ToleranceError};
-pub use analysis::Analysis;
 pub use builder::{SceneBuilder, Value};
-pub use contact::ContactScene;
 pub use data_file::DataFile;
 pub use document::Document;
 pub use document_kind::DocumentKind;
 pub use error::SceneError;
 pub use files::{Line, Place};
-pub use gear::{BoreScene, GearScene, Material, MesherScene, PairScene, ShaperScene};
 pub use geometry::{Driver, Sense};
 pub use input_text::read_text;
 pub use key_tables::{KeyTable, key_tables};
 pub use keys::{Tables, nearest};
-pub use ladder::{DiscScene, Lumped8Scene, MeshScene, Shaft18Scene, ShaftScene};
 pub use machine::Machine;
-pub use modification::ModificationScene;
-pub use motion::{BearingScene, BodyScene, DriveScene, ModesScene, MotionScene, SweepScene, TorqueScene};
-pub use output::OutputScene;
+pub use motion::{DriveScene, TorqueScene};
 pub use places::Written;
-pub use rating::{RatedGearScene, RatingScene};
 pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_pair, read_rexs, read_shaft, rexs_of};
 pub use schema::{
-    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, Coupling, DriveBy, FieldName, FlankScene, Flanks,
-    Gap, ImpactScene, Integration, Kind, Law, Lumped12Scene, Method, MisalignmentScene, Model, Operation, Quantity,
-    RampScene, RatingEdition, Reduction, Run, ShaftCoordinate, Sharing, SteadyBy, StiffnessFrom, SupportScene,
-    SweepWay, all_keys, json_schema,
+    Analysis, Axis, BasinScene, BearingScene, BodyScene, BoreScene, Boundary, ContactScene, ContinuationKey,
+    ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene, ImpactScene,
+    Integration, Kind, Law, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method, MisalignmentScene,
+    Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene, PairScene, Quantity, RampScene,
+    RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene, ShaperScene,
+    Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;
@@ -212,7 +208,7 @@ impl Scene {
         Self::parse_with(text, file, &[])
     }
 
-    /// The same with some of its keys set otherwise.
+    /// Scene of a text with some of its keys set otherwise.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
@@ -226,7 +222,7 @@ impl Scene {
         toml::to_string(self).unwrap_or_default()
     }
 
-    /// The same scene with the paths of its files as they are from anywhere.
+    /// This scene with the paths of its files as they are from anywhere.
     pub fn standing_alone(&self) -> Self {
         let mut all = self.clone();
         for gear in [&mut all.pinion, &mut all.wheel] {

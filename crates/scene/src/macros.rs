@@ -1,26 +1,38 @@
 //! What a row of the table of keys becomes: a key of the schema, a field of what is read, and where the meaning is the
 //! value, a field of what is checked.
 
-/// A table of the scene file: its rows make the [`Table`](crate::table::Table) and the struct of what is written. With `=>
-/// Checked` they make the struct of what is meant as well, and `read`, which takes it from what is written.
+/// A table of the scene file: its rows make the [`Table`](crate::table::Table) and the struct of what is written. With
+/// `=> Checked` they make the struct of what is meant as well, with `read`, which takes it from what is written.
 ///
 /// ```text
-/// table! { STATIC, RawStruct [=> Checked [Default]]: "what it is about", needed ["key", ...]; { key: kind(range and default), "meaning"; ... } }
+/// table! { STATIC, RawStruct [=> Checked Derive ... [; defaults]]: "what it is about", needed ["key", ...]; { row; ... } }
+/// row:   key: kind(range and default) [=> how] [as written], "meaning"
+/// how:   nothing   the value within its range, or its default; of `bare` and `bare_whole` an option
+///        Some      the same as an option, which the check empties where the key has no meaning
+///        must      a `bare_whole` that the check has found there
+///        [Type]    the file of this type that the text names
+///        (Table)   another checked table, of its defaults where it is not there
+///        {Type}    the type's default, until the check fills it in
+/// as:    method of the checked table that gives what the written scene has, in place of the value itself
 /// ```
 macro_rules! table {
     (
-        $(#[$meta:meta])* $table:ident, $raw:ident $(=> $checked:ident $($derive:ident)?)?: $about:literal
+        $(#[$meta:meta])* $table:ident, $raw:ident $(=> $checked:ident $($derive:ident)* $(; $defaults:ident)?)?:
+        $about:literal
         $(, needed [$($needed:literal),*])?; $rows:tt
     ) => {
         static_table! { $(#[$meta])* $table: $about [$($($needed),*)?] $rows }
         raw_table! { $raw $rows }
-        $(checked_table! { $checked $($derive)?, $raw, $table: $about $rows })?
+        $(
+            checked_table! { $checked [$($derive)*], $raw, $table: $about $rows }
+            $($defaults! { $checked $rows })?
+        )?
     };
 }
 
 macro_rules! static_table {
     ($(#[$meta:meta])* $table:ident: $about:literal [$($needed:literal),*]
-        { $($name:ident: $kind:ident($($args:tt)*) $(, $meaning:literal)?;)* }) => {
+        { $($name:ident: $kind:ident($($args:tt)*) $(=> $how:tt)? $(as $written:ident)? $(, $meaning:literal)?;)* }) => {
         $(#[$meta])*
         pub(crate) static $table: $crate::table::Table = $crate::table::Table {
             about: $about,
@@ -31,36 +43,17 @@ macro_rules! static_table {
 }
 
 macro_rules! raw_table {
-    ($raw:ident { $($name:ident: $kind:ident($($args:tt)*) $(, $meaning:literal)?;)* }) => {
+    ($raw:ident
+        { $($name:ident: $kind:ident($($args:tt)*) $(=> $how:tt)? $(as $written:ident)? $(, $meaning:literal)?;)* }) => {
         #[derive(Debug, Default, Clone, serde::Deserialize)]
         #[serde(default, deny_unknown_fields)]
         pub(crate) struct $raw {
             $(pub $name: raw!($kind ($($args)*)),)*
         }
-    };
-}
 
-macro_rules! checked_table {
-    ($checked:ident $($derive:ident)?, $raw:ident, $table:ident: $about:literal
-        { $($name:ident: $kind:ident($($args:tt)*) , $meaning:literal;)* }) => {
-        #[doc = concat!("Checked table of the scene: ", $about, ".")]
-        #[derive(Debug, Clone, Copy, PartialEq, $($derive,)? serde::Serialize)]
-        pub struct $checked {
-            $(
-                #[doc = concat!($meaning, ".")]
-                #[serde(skip_serializing_if = "crate::table::Field::is_absent")]
-                pub $name: checked!($kind ($($args)*)),
-            )*
-        }
-
-        impl $checked {
-            /// Each key within its range; an infinite end of a range is `end`.
-            pub(crate) fn read(
-                s: &$crate::source::Source<'_>,
-                raw: &$raw,
-                end: f64,
-            ) -> Result<Self, $crate::SceneError> {
-                Ok(Self { $($name: read_as!($kind, s, $table, raw.$name, end),)* })
+        impl $crate::spanned::Over for $raw {
+            fn over(&self, base: &Self) -> Self {
+                Self { $($name: $crate::spanned::Over::over(&self.$name, &base.$name),)* }
             }
         }
     };
@@ -111,31 +104,6 @@ macro_rules! raw {
     ($number:ident $args:tt) => { $crate::spanned::Number };
 }
 
-/// What a row is when it is checked.
-macro_rules! checked {
-    (word ($choice:ident)) => { $choice };
-    (whole $args:tt) => { u32 };
-    (number $args:tt) => { f64 };
-    (must $args:tt) => { f64 };
-    (bare $args:tt) => { Option<f64> };
-}
-
-/// The checked value of a row.
-macro_rules! read_as {
-    (word, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.choice_of(stringify!($name), &$raw.$name)?
-    };
-    (whole, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.whole_of(&$table, stringify!($name), &$raw.$name)?
-    };
-    (bare, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.optional_up_to(&$table, stringify!($name), &$raw.$name, $end)?
-    };
-    ($number:ident, $s:ident, $table:ident, $raw:ident.$name:ident, $end:ident) => {
-        $s.number_up_to(&$table, stringify!($name), &$raw.$name, $end)?
-    };
-}
-
 /// The value of a key with range and default of its row; the names of key and field are one.
 macro_rules! value {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
@@ -143,7 +111,7 @@ macro_rules! value {
     };
 }
 
-/// The same where it is written, else nothing.
+/// The value of a key by its row where it is written, else nothing.
 macro_rules! optional {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
         $raw.$key.is_some().then(|| value!($s, $table, $raw.$key)).transpose()

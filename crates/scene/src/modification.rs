@@ -2,25 +2,13 @@
 
 use geometry::FlankModification;
 use geometry::modification::{EndRelief, ProfilePlace, Relief, ReliefShape};
-use serde::Serialize;
 
 use crate::error::SceneError;
-use crate::schema::{FlankScene, RawFlank, RawModification};
+use crate::schema::{FlankScene, ModificationScene, RawFlank, RawModification};
 use crate::source::Source;
 use crate::spanned::{Number, Word};
 
 type Checked<T> = Result<T, SceneError>;
-
-/// What is ground off the flanks that the torque presses, and off the others.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct ModificationScene {
-    /// Flanks that the torque presses.
-    #[serde(skip_serializing_if = "FlankScene::is_none")]
-    pub drive: FlankScene,
-    /// Flanks behind them.
-    #[serde(skip_serializing_if = "FlankScene::is_none")]
-    pub coast: FlankScene,
-}
 
 impl FlankScene {
     /// Whether nothing is said.

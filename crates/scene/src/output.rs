@@ -1,33 +1,13 @@
 //! Which files are written.
 
-use serde::Serialize;
-
 use crate::Scene;
-use crate::schema::{FieldName, Model, Run};
+use crate::schema::{Model, OutputScene, Run};
 
-fn is_false(value: &bool) -> bool {
-    !value
-}
-
-/// What is computed on request, and which files are written beside `summary.json`, `history.csv` and `report.html`.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct OutputScene {
-    /// Stress in the root fillets at every position.
-    pub root_stress: bool,
-    /// The contact lines slice by slice.
-    pub contact_lines: bool,
-    /// Every table column by column as well: `history.parquet` beside `history.csv`.
-    #[serde(skip_serializing_if = "is_false")]
-    pub parquet: bool,
-    /// ParaView files.
-    pub vtu: bool,
-    /// Fields in them.
-    pub fields: Vec<FieldName>,
-    /// One ParaView file every so many positions.
-    pub vtu_every: u32,
-    /// Keys by which the history of a pair at rest is differentiated.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub derivatives: Vec<String>,
+impl OutputScene {
+    /// Whether Parquet files are asked for, as a scene file states it: nothing where they are not.
+    pub(crate) fn written_parquet(&self) -> Option<bool> {
+        self.parquet.then_some(true)
+    }
 }
 
 impl Scene {

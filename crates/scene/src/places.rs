@@ -9,7 +9,7 @@ use crate::{Place, Scene, Setting, data_file::DataFiles, origin::Origin, tree::N
 pub(crate) struct Places(BTreeMap<String, Place>);
 
 impl Places {
-    /// Of all that a table holds but entries of lists.
+    /// Places of all that a table holds but entries of lists.
     pub fn of(root: &Node, place: &dyn Fn(&Range<usize>) -> Place) -> Self {
         let mut all = Self::default();
         all.take(root, "", place);
@@ -24,7 +24,7 @@ impl Places {
         }
     }
 
-    /// The same with what was set beside the file: of two settings of a key the last one holds.
+    /// These places with what was set beside the file: of two settings of a key the last one holds.
     pub fn with(&self, settings: &[Setting]) -> Self {
         let mut all = self.clone();
         for setting in settings {

@@ -58,7 +58,7 @@ impl Setting {
         Ok(Self { label: key.to_owned(), key: key.to_owned(), path, written, value })
     }
 
-    /// The same setting, named otherwise in messages: by a word of its own, as `--torque-nm`.
+    /// This setting, named otherwise in messages: by a word of its own, as `--torque-nm`.
     pub fn called(self, label: &str) -> Self {
         Self { label: label.to_owned(), ..self }
     }
@@ -84,7 +84,7 @@ impl Setting {
         &self.label
     }
 
-    /// The same of what stands below the first `parts` of its key.
+    /// This setting of what stands below the first `parts` of its key.
     pub(crate) fn below(&self, parts: usize) -> Self {
         let path = self.path[parts..].to_vec();
         Self { key: path.join("."), path, ..self.clone() }

@@ -46,17 +46,17 @@ impl<'a> Source<'a> {
         Self { file: document.file(), document, settings, tables, meaning: |_| None, beside, named }
     }
 
-    /// The same file with what its keys mean.
+    /// This file with what its keys mean.
     pub(crate) fn with_meanings(self, meaning: fn(&str) -> Option<&'static str>) -> Self {
         Self { meaning, ..self }
     }
 
-    /// The same file with what was set beside it.
+    /// This file with what was set beside it.
     pub(crate) fn with_settings(self, settings: &'a [Setting]) -> Self {
         Self { settings, ..self }
     }
 
-    /// The same file with names and texts of files beside it that are not written yet.
+    /// This file with names and texts of files beside it that are not written yet.
     pub(crate) fn with_beside(self, beside: &'a [(String, String)]) -> Self {
         Self { beside, ..self }
     }

@@ -18,7 +18,7 @@ impl Source<'_> {
         self.within(key, value, default, [low, high], (self.meaning)(key))
     }
 
-    /// The same of a key that means `about`.
+    /// The number of a key that means `about`, or `default`, within `low..=high`.
     fn within(
         &self,
         key: &str,
@@ -53,7 +53,7 @@ impl Source<'_> {
         self.number_up_to(table, key, value, f64::INFINITY)
     }
 
-    /// The same of a range whose infinite ends are `end`, which depends on the rest of the scene.
+    /// The number of a key within a range whose infinite ends are `end`, which depends on the rest of the scene.
     pub(crate) fn number_up_to(&self, table: &Table, key: &str, value: &Number, end: f64) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
         let finite = |x: f64| if x.is_finite() { x } else { end.copysign(x) };
@@ -61,7 +61,7 @@ impl Source<'_> {
         self.within(key, value, default.unwrap_or(0.0), [finite(low), finite(high)], about)
     }
 
-    /// The same where it is written, else nothing.
+    /// The number of a key where it is written, else nothing.
     pub(crate) fn optional_up_to(
         &self,
         table: &Table,

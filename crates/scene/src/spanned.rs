@@ -26,6 +26,25 @@ pub(crate) type Wholes = Option<Spanned<Vec<i64>>>;
 /// Rows of numbers as written.
 pub(crate) type Rows = Option<Spanned<Vec<Spanned<Vec<f64>>>>>;
 
+/// What is written in two places.
+pub(crate) trait Over {
+    /// The value written here, or where there is none that of `base`.
+    #[must_use]
+    fn over(&self, base: &Self) -> Self;
+}
+
+impl<T: Clone> Over for Option<T> {
+    fn over(&self, base: &Self) -> Self {
+        self.clone().or_else(|| base.clone())
+    }
+}
+
+impl<T: Clone> Over for Vec<T> {
+    fn over(&self, base: &Self) -> Self {
+        if self.is_empty() { base.clone() } else { self.clone() }
+    }
+}
+
 /// A document as another one names it.
 #[derive(Debug, Clone)]
 pub(crate) enum Named {

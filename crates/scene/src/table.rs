@@ -1,6 +1,7 @@
 //! What a table of keys is: of each key type, range, default and meaning; and enums whose values are words of a file.
 
 use geometry::{Driver, Sense, modification::ReliefShape};
+use serde::{Serialize, ser::SerializeMap};
 
 /// An end of a range that depends on the rest of the scene.
 pub(crate) const INF: f64 = f64::INFINITY;
@@ -36,14 +37,22 @@ pub(crate) trait Field {
     }
 }
 
-impl Field for f64 {}
-impl Field for Driver {}
-impl Field for Sense {}
-impl Field for u32 {}
+fields! { f64, u32, i64, bool, String, Driver, Sense, [f64; 3], Vec<[f64; 3]>; Vec<f64>: is_empty, Vec<String>: is_empty }
+
+impl<T: Choice> Field for Vec<T> {}
 impl<T> Field for Option<T> {
     fn is_absent(&self) -> bool {
         self.is_none()
     }
+}
+
+/// A row of a written table, unless it is left out.
+pub(crate) fn write_field<M: SerializeMap>(
+    map: &mut M,
+    name: &'static str,
+    value: &(impl Field + Serialize),
+) -> Result<(), M::Error> {
+    if value.is_absent() { Ok(()) } else { map.serialize_entry(plain(name), value) }
 }
 
 /// A table of the scene file.

@@ -156,7 +156,7 @@ impl Node {
         matches!(&self.value, Value::Text(own) if own == text)
     }
 
-    /// The same with those entries of its table alone.
+    /// This node with those entries of its table alone.
     pub fn only(self, keeps: impl Fn(&str) -> bool) -> Self {
         let value = match self.value {
             Value::Table(table) => Value::Table(table.into_iter().filter(|(name, _)| keeps(name)).collect()),
@@ -165,7 +165,7 @@ impl Node {
         Self { value, ..self }
     }
 
-    /// The same with all places so much further on.
+    /// This node with all places so much further on.
     pub fn moved(&self, by: usize) -> Self {
         let moved = |span: &Range<usize>| span.start + by..span.end + by;
         let value = match &self.value {

@@ -3,7 +3,7 @@
 /// Another unit that users write in keys whose names end so: the factor to the key's own, its name, the key's own.
 type Unit = (&'static str, f64, &'static str, &'static str);
 
-/// Of several that fit the first one is told.
+/// Units that keys have in their names; of several that fit the first one is told.
 const UNITS: &[Unit] = &[
     ("_deg", 180.0 / std::f64::consts::PI, "rad", "degrees"),
     ("young_mpa", 1e-6, "Pa", "MPa"),

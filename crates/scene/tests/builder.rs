@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use scene::{Place, Scene, SceneBuilder, SceneError, Value};
+use scene::{MesherScene, ModesScene, MotionScene, Place, Scene, SceneBuilder, SceneError, Value};
 
 fn repository() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).ancestors().nth(2).unwrap().to_owned()
@@ -111,4 +111,16 @@ fn a_complaint_of_the_geometry_names_the_key() {
     let error = scene.gear_pair().unwrap_err();
     assert!(matches!(error, SceneError::Geometry { .. }), "{error:?}");
     assert!(error.to_string().starts_with("pair.centre_distance_mm: [pair]: "), "{error}");
+}
+
+/// Tables of a scene that says nothing of them are the tables' defaults, without the keys that the energy method, a
+/// massless boundary and the width of the gear decide.
+#[test]
+fn tables_that_are_not_written_are_their_defaults() {
+    let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(300.0);
+    let scene = base.set("analysis.kind", "dynamic").set("analysis.model", "reduced+modes").build().unwrap();
+    assert_eq!(scene.motion, Some(MotionScene { spectral_radius: None, ..MotionScene::default() }));
+    assert_eq!(scene.modes, Some(ModesScene { fixed_modes: None, ..ModesScene::default() }));
+    let mesher = scene.pinion.mesher.unwrap();
+    assert_eq!(mesher, MesherScene { elements_face: mesher.elements_face, ..MesherScene::default() });
 }

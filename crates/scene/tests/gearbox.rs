@@ -306,7 +306,7 @@ fn a_damaged_gearbox_is_read_or_refused() {
     assert!(read > 50 && told > 500, "{read} were read, {told} refused");
 }
 
-/// What [accuracy] of a gearbox asks is read; what it cannot have is refused with its line and a way out, and so is the
+/// What [accuracy] of a gearbox asks is read; what it cannot have is refused with its line and a hint, and so is the
 /// table in the scene of a pair.
 #[test]
 fn an_accuracy_is_asked_in_the_document_of_the_gearbox() {

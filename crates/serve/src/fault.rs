@@ -31,20 +31,20 @@ impl Fault {
         Self { keys: vec![key.to_owned()], ..self }
     }
 
-    /// Of the scene of a text.
+    /// Fault of the scene of a text.
     pub fn of_scene(text: &str, error: &SceneError) -> Self {
         let excerpt = error.excerpt().map(str::to_owned);
         Self { message: error.to_string(), excerpt, hint: error.hint(), keys: keys_of(text, error) }
     }
 
-    /// Of the analysis of the scene of a text.
+    /// Fault of the analysis of the scene of a text.
     pub fn of_analysis(text: &str, error: &AnalysisError) -> Self {
         let keys = if let AnalysisError::Scene(error) = error.what() { keys_of(text, error) } else { Vec::new() };
         let excerpt = error.excerpt().map(str::to_owned);
         Self { message: error.to_string(), excerpt, hint: error.hint(), keys }
     }
 
-    /// Of a scene that asks for more than memory holds.
+    /// Fault of a scene that asks for more than memory holds.
     pub fn of_memory(error: &MemoryDemandError) -> Self {
         let excerpt = error.excerpt.clone();
         Self { message: error.to_string(), excerpt, hint: Some(error.hint()), keys: Vec::new() }

@@ -18,7 +18,7 @@ const PATIENCE: Duration = Duration::from_millis(100);
 const MOST_PAGES: usize = 256;
 /// Moves that are solved at once, those included that nobody waits for any more and that end at their next step.
 const MOST_AT_ONCE: usize = 8;
-/// Of one page: the latest, and one before it that still ends.
+/// Moves of one page that are solved at once: the latest, and one before it that still ends.
 const MOST_OF_A_PAGE: usize = 2;
 
 /// The moves of all pages, numbered by each of them in the order in which they are made.

@@ -8,7 +8,7 @@ use std::{
 };
 
 use analysis::{
-    AnalysisError, GearCache, Interest, RestRequest, SharedGears, SharedModels, SolvedAtRest, WarningsAtRest,
+    AnalysisError, GearCache, Interest, RemarksAtRest, RestRequest, SharedGears, SharedModels, SolvedAtRest,
     lumped::is_lumped,
     results::{StaticHeadline, patterns, static_headline},
     solve_at_rest,
@@ -55,7 +55,7 @@ struct Answer<'a> {
     number: u64,
     /// The scene with what was set, to copy out.
     text: &'a str,
-    /// Its keys as they are written.
+    /// Keys of the scene as they are written.
     written: BTreeMap<String, String>,
     /// All keys, defaults filled in.
     effective: BTreeMap<String, String>,
@@ -94,7 +94,7 @@ pub(crate) struct Session<'a> {
 pub(crate) struct Taken {
     /// The scene with what is set by hand.
     text: String,
-    /// Of the scene before.
+    /// Sliders of the scene before.
     sliders: Vec<Slider>,
     /// The scene checked, or what is wrong with it.
     scene: Result<Scene, Fault>,
@@ -209,7 +209,7 @@ impl<'a> Session<'a> {
     fn at_rest(&self, scene: &Scene, interest: Interest<'_>) -> Result<SolvedAtRest, AnalysisError> {
         let mut scene = scene.clone();
         scene.output.derivatives.clear();
-        solve_at_rest(&scene, &self.models, RestRequest { remarks: WarningsAtRest::Collected, interest })
+        solve_at_rest(&scene, &self.models, RestRequest { remarks: RemarksAtRest::Collected, interest })
     }
 }
 

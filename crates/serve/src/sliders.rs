@@ -15,7 +15,7 @@ pub(crate) struct Slider {
     pub key: String,
     /// In words.
     pub label: &'static str,
-    /// Of the number.
+    /// Unit of the number.
     pub unit: &'static str,
     /// Ends, which stay while the text of the scene does.
     pub ends: [f64; 2],

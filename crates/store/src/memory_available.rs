@@ -5,7 +5,7 @@ pub fn available_bytes() -> f64 {
     1e6 * available_mb().unwrap_or(1e6)
 }
 
-/// The same, MB; `None` where the system does not tell.
+/// Memory that is available, MB; `None` where the system does not tell.
 pub fn available_mb() -> Option<f64> {
     let info = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = info.lines().find_map(|l| l.strip_prefix("MemAvailable:"))?;

@@ -32,7 +32,7 @@ const FLANK_MATRICES: f64 = 3.0;
 /// Numbers of something, and what each takes.
 #[derive(Debug, Clone, PartialEq)]
 struct Demand {
-    /// Of what.
+    /// What needs the memory.
     what: &'static str,
     /// Keys or words of a command line, and the count that each stands for.
     factors: Vec<(String, f64)>,
@@ -73,8 +73,8 @@ pub fn check_memory(scene: &Scene, free_bytes: f64) -> Result<(), Box<MemoryDema
     demands(scene).iter().try_for_each(|demand| demand.within(scene, free_bytes))
 }
 
-/// The same of a scene that is run at many values of a key: `points` of a section each, with a point `every` so many
-/// mesh cycles.
+/// Checks the memory of a scene that is run at many values of a key: `points` of a section each, with a point `every`
+/// so many mesh cycles.
 ///
 /// # Errors
 /// As [`check_memory`].

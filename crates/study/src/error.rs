@@ -57,7 +57,7 @@ pub enum StudyError {
     NotPositive {
         /// Name of the input.
         quantity: &'static str,
-        /// Its value.
+        /// Value of the input.
         value: f64,
     },
     /// Lists that belong together are of different lengths.

@@ -29,7 +29,8 @@ described::described! {
 }
 
 impl Lyapunov {
-    /// Of rates of growth, ln(d_1 / d_0) / T of each stretch: their mean, and its standard error from ten parts.
+    /// Exponent of rates of growth, ln(d_1 / d_0) / T of each stretch: their mean, and its standard error from ten
+    /// parts.
     pub fn of_rates(rates: &[f64]) -> Self {
         let mean = |of: &[f64]| of.iter().sum::<f64>() / of.len().max(1) as f64;
         let exponent = mean(rates);

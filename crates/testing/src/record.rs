@@ -31,7 +31,7 @@ fn repository() -> &'static Path {
 /// time; `part` where several keep their own.
 ///
 /// # Errors
-/// Of the file system.
+/// Errors of the file system.
 pub fn note(folder: &Path, source: &str, part: &str, records: &[Record]) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let mut text = format!("{source}\n");

@@ -6,7 +6,7 @@ use std::{fs, io, path::Path};
 /// Files of a question, and the words of `ale-gear` that ask it.
 #[derive(Debug, Clone)]
 pub struct SmallDocument {
-    /// Of the record.
+    /// Name of the record.
     pub name: &'static str,
     /// Names and texts.
     pub files: Vec<(&'static str, String)>,

@@ -11,7 +11,7 @@ use serde_json::Value;
 
 /// Mesh frequency over the mesh resonance.
 const SPEEDS: [f64; 6] = [0.1, 0.35, 0.6, 0.8, 1.3, 2.0];
-/// The same, where folds are looked for: from above the resonance down.
+/// Mesh frequency over the mesh resonance where folds are looked for: from above the resonance down.
 const FOLDS: [f64; 2] = [1.35, 0.6];
 
 type Failure = Box<dyn std::error::Error>;

@@ -5,7 +5,7 @@ use std::{fs, io, path::Path};
 /// Rows of a result.
 #[derive(Debug, Clone)]
 pub struct Csv {
-    /// Of the columns.
+    /// Names of the columns.
     pub names: Vec<String>,
     /// As they stand there.
     pub rows: Vec<Vec<String>>,

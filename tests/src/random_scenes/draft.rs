@@ -79,7 +79,7 @@ impl Draft {
         if self.chance(0.85) { self.between(usual[0], usual[1]) } else { self.between(all[0], all[1]) }
     }
 
-    /// The same with orders of magnitude.
+    /// A value that is mostly within a usual range, drawn by its order of magnitude.
     pub fn mostly_log(&mut self, usual: [f64; 2], all: [f64; 2]) -> f64 {
         if self.chance(0.85) { self.log(usual[0], usual[1]) } else { self.log(all[0], all[1]) }
     }
@@ -104,7 +104,7 @@ impl Draft {
         self.set(key, rows.into_iter().map(Value::from).collect::<Vec<_>>());
     }
 
-    /// The same keys and files; chance goes on from another place.
+    /// A draft with the same keys and files; chance goes on from another place.
     pub fn copy(&self) -> Self {
         Self { random: Random::new(0), table: self.table.clone(), files: self.files.clone() }
     }

@@ -13,7 +13,7 @@ const UNTRIED: f64 = 0.06;
 /// Numbers of the pair that the rest of the scene is measured by.
 #[derive(Debug, Clone)]
 pub struct Sizes {
-    /// Of pinion and wheel.
+    /// Teeth of pinion and wheel.
     pub teeth: [u32; 2],
     /// Face width, mm.
     pub width: f64,

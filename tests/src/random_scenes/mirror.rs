@@ -8,7 +8,7 @@ use super::{Csv, Draft, RandomScene, csv::largest};
 
 /// Largest difference over the largest value of a column.
 const SAME: f64 = 5e-5;
-/// The same of the contact lines: how much of a slice at their end counts is found from its gap.
+/// Largest difference of the contact lines: how much of a slice at their end counts is found from its gap.
 const SAME_LENGTH: f64 = 1e-3;
 
 /// Round-off of places of some hundred mm, um.

@@ -11,7 +11,7 @@ use super::{Attempt, RandomScene, Refusals};
 pub enum Outcome {
     /// A result that holds.
     Solved,
-    /// The same, with something to be said of it.
+    /// A result that holds, with something to be said of it.
     SolvedWithWarnings,
     /// A result that is less exact than was asked.
     LessExact,
@@ -58,7 +58,7 @@ impl Outcome {
 /// What became of a scene.
 #[derive(Debug, Clone)]
 pub struct Verdict {
-    /// Its number.
+    /// Number of the scene.
     pub index: u64,
     /// Word of its model.
     pub model: String,
@@ -79,7 +79,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Of the process; files are judged elsewhere.
+    /// Verdict of the process; files are judged elsewhere.
     pub(super) fn of(index: u64, scene: &RandomScene, attempt: &Attempt, refusals: &Refusals) -> Self {
         let message = message(&attempt.said);
         let mut wrong = Vec::new();

@@ -12,7 +12,7 @@ use verification::judged::{accurate, bound, holds, sharpness};
 
 const CONVERGED: [(Quantity, f64); 3] =
     [(Quantity::MeanSte, 10.77), (Quantity::PeakToPeakSte, 0.96), (Quantity::MaxPairForce, 2508.0)];
-/// Of its finest mesh, ten elements along the profile.
+/// Values of CalculiX's finest mesh, ten elements along the profile.
 const CALCULIX: [(Quantity, f64); 2] = [(Quantity::MeanSte, 10.277), (Quantity::PeakToPeakSte, 0.902)];
 
 /// The reference's pair on its meshes.
@@ -35,7 +35,7 @@ fn on(mesh: &str) -> SceneBuilder {
     scene
 }
 
-/// The same with pressed points and penalty, as CalculiX has it.
+/// The mesh with pressed points and penalty, as CalculiX has it.
 fn as_calculix(mesh: &str, gap: &str) -> SceneBuilder {
     on(mesh)
         .set("contact.method", "nodal")

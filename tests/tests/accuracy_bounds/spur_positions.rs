@@ -4,7 +4,7 @@ use analysis::accuracy::{CalibratedMesh, Calibration};
 use scene::Quantity;
 use verification::measured_pair::MeasuredPair;
 
-/// Of 53 spur pairs that took no part in the laws, at least 95 in 100 lie within the bound of their positions alone, number
+/// 53 spur pairs took no part in the laws; of them at least 95 in 100 lie within the bound of their positions alone, number
 /// by number: with the law of all pairs it were 70 for the first harmonic at eight positions.
 #[test]
 fn few_positions_of_spur_pairs_are_covered() {

@@ -1,4 +1,4 @@
-//! The same bytes whatever the threads, whatever the cache, in one piece or two; the same numbers as were recorded.
+//! Bytes are equal whatever the threads, whatever the cache, in one piece or two; numbers are those that were recorded.
 
 use std::path::Path;
 

@@ -25,7 +25,7 @@ pub(super) struct CaseReports {
     /// report
     #[arg(long, value_name = "N|all", value_parser = how_many)]
     reports: Option<usize>,
-    /// The same of these cases, by their numbers with commas between
+    /// A whole result of each of these cases, by their numbers with commas between
     #[arg(long, value_name = "CASES", value_delimiter = ',')]
     report_case: Vec<usize>,
 }

@@ -186,7 +186,7 @@ impl OptimiseArgs {
         Answer::of_folder(&self.out, (text, failure), (self.json, quiet))
     }
 
-    /// The same of numbers of a headline; what is solved is kept beside the results until they are complete.
+    /// Optimises numbers of a headline; what is solved is kept beside the results until they are complete.
     fn numbers(&self, document: &Document, is_file: bool, quiet: bool) -> Result<Answer, CommandError> {
         let settings = self.overrides.settings()?;
         let plan = if is_file {

@@ -246,7 +246,7 @@ fn by_hand(scratch: Scratch) -> Scratch {
     scratch.file("one.toml", one).file("two.toml", two).file("hand.toml", coarse(BY_HAND))
 }
 
-/// The same with few elements and slices, at two positions.
+/// A scene with few elements and slices, at two positions.
 fn coarse(text: &str) -> String {
     let keys = ["pinion", "wheel"].map(|gear| {
         let of = |key: &str, n: u32| format!("\"{gear}.mesher.{key}={n}\"");

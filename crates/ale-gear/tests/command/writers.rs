@@ -305,7 +305,7 @@ fn a_full_disk_leaves_every_file_as_it_was() {
     assert_eq!(scratch.command(&words("init another.toml")).code, Some(0));
 }
 
-/// The same of all commands that write a folder, from nothing to nearly enough room.
+/// All commands that write a folder leave it as it was, from nothing to nearly enough room.
 #[test]
 fn a_full_disk_leaves_every_folder_as_it_was() {
     let scratch = scratch();

@@ -13,7 +13,7 @@ fn at_rest() -> String {
         + "positions_per_cycle = 2\n[output]\nroot_stress = true\ncontact_lines = true\n"
 }
 
-/// The same, rated with a spectrum of loads.
+/// The scene at rest, rated with a spectrum of loads.
 fn rated() -> String {
     let gear = "material = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nroot_roughness_rz_um = 20.0\n";
     at_rest()

@@ -109,7 +109,7 @@ fn a_result_that_does_not_hold_says_so_everywhere() {
     assert!(scratch.read("o/report.html").contains("This result failed a check."));
 }
 
-/// Steps so long that teeth leap over each other end the run at once, with where it happened and a way out; in a sweep
+/// Steps so long that teeth leap over each other end the run at once, with where it happened and a hint; in a sweep
 /// the speed has that for its reason, and where no speed is left the command fails.
 #[test]
 fn teeth_that_pass_through_each_other_end_the_run_there() {

@@ -92,7 +92,7 @@ fn slow_gears_do_not_see_their_modes() {
     }
 }
 
-/// What does not go together is told with line and way out.
+/// What does not go together is told with line and hint.
 #[test]
 fn wrong_modes_are_told_with_line_and_hint() {
     let says = |from: (&str, &str), text: &str| {

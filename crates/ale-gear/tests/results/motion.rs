@@ -224,7 +224,7 @@ fn a_run_up_has_a_waterfall() {
     assert_eq!(column(&waterfall, "mesh_order").iter().fold(0.0, |m: f64, o| m.max(*o)), 8.0);
 }
 
-/// What does not go together is told before any work, with line and way out.
+/// What does not go together is told before any work, with line and hint.
 #[test]
 fn wrong_motions_are_told_with_line_and_hint() {
     let says = |scene: String, text: &str| {

@@ -62,7 +62,7 @@ fn the_bore_of_a_mesh_without_names_is_found() {
     let scratch = scratch.file("b.toml", &with_mesh);
     let run = scratch.ale_gear(["mesh", "check", "p.msh", "--scene", "b.toml", "--gear", "pinion"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
-    // The way out of groups under other numbers: patterns that no group has.
+    // The hint for groups under other numbers: patterns that no group has.
     let mut odd = mesh::Mesh::read(scratch.path().join("named.msh")).unwrap();
     for group in &mut odd.surfaces {
         if let Some((of, n)) = group.name.rsplit_once('_').and_then(|(of, n)| Some((of, n.parse::<i64>().ok()?))) {

@@ -59,7 +59,7 @@ fn entries_of_lists_are_counted_from_0() {
     assert!(beyond.starts_with("--set pinion.shaft.supports.9.stiffness_x_n_per_mm: "), "{beyond}");
 }
 
-/// The same messages as for a file, naming the setting in place of file and line; places in the file stay right.
+/// Settings get the messages of a file, naming the setting in place of file and line; places in the file stay right.
 #[test]
 fn complaints_name_the_setting() {
     for (word, text) in [

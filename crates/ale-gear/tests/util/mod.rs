@@ -130,7 +130,7 @@ pub fn motion_scene(cycles: u32, motion: &str) -> String {
         + motion
 }
 
-/// The same at rest.
+/// The tiny scene of [`motion_scene`] at rest.
 pub fn tiny_at_rest(positions: u32) -> String {
     let scene = motion_scene(0, "");
     let at_rest = scene.split("kind = \"dynamic\"").next().unwrap_or_default();

@@ -16,7 +16,7 @@ use crate::{
 
 /// A scene at rest that is to be solved with bounds.
 ///
-/// Of `model = "auto"` the cheapest rung of the ladder is taken that keeps what `[accuracy]` asks: the first guess comes
+/// With `model = "auto"` the cheapest rung of the ladder is taken that keeps what `[accuracy]` asks: the first guess comes
 /// from the calibration, the proof from the estimate of the run; where that falls short, what it is mostly made of is
 /// refined. Of any other model the bounds of the run are estimated; of a scene that asks for no accuracy, none are.
 #[derive(Clone, Copy)]
@@ -34,7 +34,7 @@ impl std::fmt::Debug for StaticAnalysis<'_> {
 }
 
 impl<'a> StaticAnalysis<'a> {
-    /// Of a scene.
+    /// Analysis of a scene.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, meshes: None, cache: &NoCache, shared: None }
     }

@@ -45,9 +45,9 @@ described::described! {
 }
 
 impl Term {
-    /// The same where the known part is not worth taking off: one that is no larger than what it may be off by may make
-    /// a value worse, and is a part of that. What positions happen to miss has a mean and no known part: of 70 pairs that
-    /// took no part in the calibration, taking it off made ten of ten numbers worse.
+    /// This term, without its known part where that is not worth taking off: one that is no larger than what it may be
+    /// off by may make a value worse, and is a part of that. What positions happen to miss has a mean and no known
+    /// part: of 70 pairs that took no part in the calibration, taking it off made ten of ten numbers worse.
     fn offered(self) -> Self {
         if self.amount < self.known.abs() && self.cause != Cause::Positions {
             return self;
@@ -89,7 +89,7 @@ described::described! {
 }
 
 impl Bound {
-    /// Of a value and what its error is made of.
+    /// Bound of a value and what its error is made of.
     ///
     /// `above` and `below` hold the whole known error and its uncertainty; the corrected value has those known parts
     /// alone that are larger than their uncertainty, and the others count to what it may be off by.
@@ -113,7 +113,7 @@ impl Bound {
         }
     }
 
-    /// The same of a mesh or a bearing.
+    /// This bound as that of a mesh or a bearing.
     #[must_use]
     pub fn of(self, name: Option<String>) -> Self {
         Self { of: name, ..self }
@@ -125,7 +125,7 @@ impl Bound {
         self.of.as_ref().map_or_else(|| key.to_owned(), |of| format!("{key} of {of}"))
     }
 
-    /// The same against what is asked; a share is one of the value.
+    /// This bound against what is asked; a share is one of the value.
     #[must_use]
     pub fn against(self, tolerance: Option<Tolerance>) -> Self {
         let asked = tolerance.map(|t| t.of(self.value));

@@ -52,13 +52,13 @@ impl PairLaw {
 /// What is known of one quantity.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct QuantityLaws {
-    /// Its key in `[accuracy]`.
+    /// Key of the quantity in `[accuracy]`.
     pub quantity: String,
-    /// Of the mesh.
+    /// Laws of the mesh.
     pub mesh: Vec<MeshLaw>,
-    /// Of the number of slices that a pair asks for.
+    /// Law of the number of slices that a pair asks for.
     pub slices: PairLaw,
-    /// Of a number of positions, from half as many.
+    /// Laws of a number of positions, from half as many.
     pub positions: Vec<PositionsLaw>,
 }
 
@@ -67,7 +67,7 @@ pub struct QuantityLaws {
 pub struct MeshLaw {
     /// Which.
     pub mesh: CalibratedMesh,
-    /// Its law.
+    /// Law of the mesh.
     pub law: PairLaw,
 }
 
@@ -136,7 +136,7 @@ impl QuantityLaws {
         self.mesh.iter().find(|law| law.mesh == mesh)
     }
 
-    /// Of the largest calibrated number of positions that a run has; the smallest for fewer.
+    /// Law of the largest calibrated number of positions that a run has; the smallest for fewer.
     pub fn of_positions(&self, positions: u32) -> Option<&PositionsLaw> {
         self.positions.iter().rev().find(|law| law.positions <= positions).or(self.positions.first())
     }

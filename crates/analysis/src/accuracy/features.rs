@@ -16,7 +16,7 @@ pub type Features = [f64; FEATURES];
 /// Where the logarithm of a share ends.
 const LEAST_SHARE: f64 = 1e-4;
 
-/// Of a scene, its pair and a sample of its cycle.
+/// Features of a scene, its pair and a sample of its cycle.
 ///
 /// | number | what |
 /// |---|---|
@@ -69,7 +69,7 @@ pub fn is_spur(x: &Features) -> bool {
     x[8] == 0.0
 }
 
-/// The same before anything is solved: of what only a solved cycle knows, what many pairs have.
+/// Features before anything is solved: of what only a solved cycle knows, what many pairs have.
 pub(super) fn features_before(scene: &Scene, pair: &GearPair) -> Features {
     let mut all = features(scene, pair, &Sample::new(|_| None, 1.0));
     [all[6], all[7]] = [0.1f64.ln(), 0.3f64.ln()];

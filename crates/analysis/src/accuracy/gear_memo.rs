@@ -23,7 +23,7 @@ impl<'a> GearMemo<'a> {
         Self::holding(Arc::new(store))
     }
 
-    /// The same of a store that others may hold as well.
+    /// Memo over a store that others may hold as well.
     pub fn holding(store: Arc<dyn GearCache + Send + 'a>) -> Self {
         Self { store, kept: Mutex::default() }
     }

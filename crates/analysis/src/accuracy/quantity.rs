@@ -54,7 +54,7 @@ pub fn goes_with_deflection(quantity: Quantity) -> bool {
 }
 
 impl Sample {
-    /// Of values and the mean deflection, um; NaN for what there is none of.
+    /// Sample of values and the mean deflection, um; NaN for what there is none of.
     pub fn new(value: impl Fn(Quantity) -> Option<f64>, deflection: f64) -> Self {
         Self { values: std::array::from_fn(|i| value(Quantity::ALL[i]).unwrap_or(f64::NAN)), deflection }
     }
@@ -64,7 +64,8 @@ impl Sample {
         self.deflection
     }
 
-    /// Of every `stride`-th position of a history of the scene's cycles; the stride divides the positions of a cycle.
+    /// Sample of every `stride`-th position of a history of the scene's cycles; the stride divides the positions of a
+    /// cycle.
     ///
     /// # Errors
     /// [`StudyError`] when the history is not what the scene asked for.

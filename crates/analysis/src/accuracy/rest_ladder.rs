@@ -28,7 +28,7 @@ pub(super) struct RestLadder<'a> {
 }
 
 impl<'a> RestLadder<'a> {
-    /// Of a scene that asks for an accuracy.
+    /// Ladder of a scene that asks for an accuracy.
     pub fn new(scene: &'a Scene, cache: &'a dyn GearCache, sink: &'a mut dyn StaticSink) -> Self {
         Self { scene, kept: GearMemo::new(cache), companions: Companions::default(), sink, failed: false }
     }

@@ -77,7 +77,7 @@ impl Rung {
             elements_thickness: 2 * n.div_ceil(3),
             elements_face: by_length.max(n + 2 + oblique),
             elements_rim: n + MORE_IN_RIM,
-            sector_teeth: 0,
+            ..MesherScene::default()
         }
     }
 

@@ -28,7 +28,7 @@ impl SolvedCycle {
         Ok(Self { scene: scene.clone(), history: solved.history, model: solved.model })
     }
 
-    /// The same gears with other numbers of slices and positions.
+    /// This cycle solved again by the same gears, with other numbers of slices and positions.
     ///
     /// # Errors
     /// [`AnalysisError::Solver`].

@@ -1,4 +1,4 @@
-//! The same mesh through CalculiX.
+//! A mesh of the chart through CalculiX.
 
 use ale::ToothWindow;
 use geometry::{GearPair, Side};

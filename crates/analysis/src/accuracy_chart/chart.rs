@@ -70,7 +70,7 @@ pub enum Outcome {
 pub struct PointRow {
     /// Name of its way.
     pub way: &'static str,
-    /// Its mesh; `None` without one.
+    /// Mesh of the point; `None` without one.
     pub density: Option<Density>,
     /// What became of it.
     pub outcome: Outcome,
@@ -123,7 +123,7 @@ impl std::fmt::Debug for AccuracyChart<'_> {
 }
 
 impl<'a> AccuracyChart<'a> {
-    /// Of a scene, without memory readings and CalculiX.
+    /// Chart of a scene, without memory readings and CalculiX.
     pub fn new(scene: &'a Scene, options: &'a ChartOptions) -> Self {
         Self { scene, options, tools: ChartTools { memory: &NoGauge, scratch: None } }
     }

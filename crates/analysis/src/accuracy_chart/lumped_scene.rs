@@ -2,9 +2,9 @@
 //! beside.
 
 use scene::{
-    AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Integration, Kind, Law,
-    Lumped8Scene, Lumped12Scene, MeshScene, Model, MotionScene, Run, Scene, Shaft18Scene, ShaftScene, Sharing,
-    StiffnessFrom, SupportScene, TorqueScene,
+    AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, GearScene, ImpactScene, Kind, Law, Lumped8Scene,
+    Lumped12Scene, MeshScene, Model, MotionScene, Scene, Shaft18Scene, ShaftScene, Sharing, StiffnessFrom,
+    SupportScene, TorqueScene,
 };
 
 /// Supports that hold as the reduced model's fixed axes do, N/mm and N mm/rad: they yield less than 1e-4 of the teeth.
@@ -17,23 +17,13 @@ pub(super) fn in_motion(scene: &mut Scene) {
     scene.analysis.kind = Kind::Dynamic;
     scene.accuracy = AccuracyScene::default();
     scene.motion = Some(MotionScene {
-        run: Run::Steady,
-        method: Integration::Energy,
         spectral_radius: None,
         steps_per_mesh_cycle: 64,
         steps_per_resonance: 16,
-        error_tolerance: None,
-        stop_at_events: false,
         mesh_damping_ratio: Some(0.05),
-        mesh_damping_ns_per_mm2: None,
         periodic_tolerance: Some(1e-4),
         warm_up_cycles: Some(400),
-        duration_s: None,
-        checkpoint_every_cycles: Some(0),
-        ramp: None,
-        sweep: None,
-        continuation: None,
-        basins: None,
+        ..MotionScene::default()
     });
     scene.drive = Some(DriveScene { by: DriveBy::Speed, torque: TorqueScene::default() });
     scene.load = Some(TorqueScene::default());

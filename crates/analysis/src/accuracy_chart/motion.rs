@@ -22,7 +22,7 @@ pub const REDUCED: &str = "reduced";
 /// A model in motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionRow {
-    /// Its name.
+    /// Name of the way.
     pub way: &'static str,
     /// What it gave, or why nothing.
     pub outcome: Result<MotionPoint, String>,
@@ -110,7 +110,7 @@ fn cheap(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, AnalysisEr
 }
 
 impl MotionPoint {
-    /// Of dynamic transmission errors, um, evenly spaced in time, and what they took.
+    /// Point of dynamic transmission errors, um, evenly spaced in time, and what they took.
     fn of(dte_um: &[f64], coordinates: usize, offline_s: f64, cycle_s: f64) -> Self {
         let mean_um = study::mean(dte_um);
         let squares: f64 = dte_um.iter().map(|x| (x - mean_um).powi(2)).sum();

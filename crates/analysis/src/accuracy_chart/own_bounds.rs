@@ -18,7 +18,7 @@ pub struct OwnBound {
 }
 
 impl OwnBound {
-    /// Of a bound; `exact` in its unit.
+    /// A bound against what is exact; `exact` in its unit.
     fn new(bound: &Bound, exact: f64) -> Self {
         let Bound { value, below, above, .. } = *bound;
         let scale = exact.abs();
@@ -30,14 +30,14 @@ impl OwnBound {
 /// Bounds of a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OwnBounds {
-    /// Of the mean STE.
+    /// Bound of the mean STE.
     pub mean_ste: OwnBound,
-    /// Of its peak to peak; `None` where a part of the cycle was run.
+    /// Bound of the peak to peak of the STE; `None` where a part of the cycle was run.
     pub peak_to_peak_ste: Option<OwnBound>,
 }
 
 impl OwnBounds {
-    /// Of an answer that has every `n`-th position of the reference; `None` without a bound of the mean.
+    /// Bounds of an answer that has every `n`-th position of the reference; `None` without a bound of the mean.
     pub(super) fn new(accuracy: &Accuracy, answer: &Answer, reference: &Answer) -> Option<Self> {
         let of = |quantity| accuracy.bounds.iter().find(|b| b.quantity == quantity);
         let [own, all] = [answer, reference].map(|a| a.ste_um.len());

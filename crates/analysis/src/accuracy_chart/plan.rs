@@ -29,7 +29,7 @@ impl Density {
             elements_thickness: 2 * p.div_ceil(3),
             elements_face: p.max(2),
             elements_rim: (p / 2).max(2),
-            sector_teeth: own.map_or(0, |m| m.sector_teeth),
+            ..own.unwrap_or_default()
         }
     }
 }
@@ -179,9 +179,9 @@ pub(super) fn reference(scene: &mut Scene) {
 /// One point of the chart.
 #[derive(Debug, Clone)]
 pub struct Point {
-    /// Its way.
+    /// Way of the point.
     pub way: Way,
-    /// Its mesh; `None` without one.
+    /// Mesh of the point; `None` without one.
     pub density: Option<Density>,
     /// Positions of the cycle that are run; they divide [`Point::positions_asked`].
     pub positions: u32,

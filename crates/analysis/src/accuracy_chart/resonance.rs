@@ -3,7 +3,7 @@
 
 use std::time::Instant;
 
-use scene::{Boundary, Model, ModesScene, MotionScene, Run, Scene, SweepScene, SweepWay};
+use scene::{Model, ModesScene, MotionScene, Run, Scene, SweepScene, SweepWay};
 
 use super::{NoGauge, lumped_scene, phase_times::PhaseTimes, plan};
 use crate::{
@@ -27,7 +27,7 @@ const MODELS: [(&str, Edit); 6] = [
 ];
 /// Halves of the scene's steps: of the points, and of the reference.
 const HALVES: (&[u32], u32) = (&[1, 2, 4], 8);
-/// Of a quick look.
+/// Halves of the scene's steps of a quick look: of the points, and of the reference.
 const QUICK_HALVES: (&[u32], u32) = (&[2], 4);
 /// Modes of each gear where the scene says none.
 const MODES: u32 = 12;
@@ -41,7 +41,7 @@ const SWEEP: &str = "sweep";
 pub struct SpeedPoint {
     /// Which way the speeds are gone through.
     pub way: SweepWay,
-    /// Of the driver, 1/min.
+    /// Speed of the driver, 1/min.
     pub speed_rpm: f64,
     /// Largest minus smallest dynamic transmission error, um; `None` without a motion.
     pub peak_to_peak_um: Option<f64>,
@@ -92,7 +92,7 @@ impl ResonanceCurve {
 /// A model with one length of its steps.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResonancePoint {
-    /// Its name.
+    /// Name of the model.
     pub model: &'static str,
     /// Steps of a mesh cycle; shorter where the scene's `steps_per_resonance`, in proportion, asks for it.
     pub steps: u32,
@@ -200,13 +200,8 @@ fn with_modes(scene: &mut Scene) {
     let own = scene.modes;
     reduced(scene);
     scene.analysis.model = Model::ReducedModes;
-    let usual = ModesScene {
-        count: Some(MODES),
-        below_hz: None,
-        boundary: Boundary::Massless,
-        fixed_modes: None,
-        damping_ratio: MODAL_DAMPING,
-    };
+    let usual =
+        ModesScene { count: Some(MODES), fixed_modes: None, damping_ratio: MODAL_DAMPING, ..ModesScene::default() };
     scene.modes = own.or(Some(usual));
 }
 

@@ -68,7 +68,7 @@ pub fn speed_up(scene: &Scene, positions: u32, memory: &dyn MemoryGauge) -> Resu
     })
 }
 
-/// The same pair under the same load, without motion; only the flanks that the torque presses.
+/// The pair under the same load, without motion; only the flanks that the torque presses.
 fn at_rest(scene: &Scene) -> Scene {
     let mut own = scene.clone();
     own.analysis.kind = Kind::Static;

@@ -25,7 +25,7 @@ use crate::{
     motion::body,
     options::options,
     reduced_pairs::ReducedPair,
-    warnings::{PressedMesh, jam_warning},
+    solution_remarks::{PressedMesh, jam_remark},
 };
 
 /// Pairs before it is known which way they turn.
@@ -96,7 +96,7 @@ impl ReducedMesh {
         let options = options(&scene, &mesh.pair);
         let pair = models.pairs.of(&scene, &mesh.pair, &options, (models.cache(), progress, &|| true))?;
         let of_meshes = pair.meshes.iter().flat_map(|m| &m.remarks).chain(&pair.remarks).cloned();
-        let remarks = gears::warnings(&mesh.pair).into_iter().chain(of_meshes);
+        let remarks = gears::remarks(&mesh.pair).into_iter().chain(of_meshes);
         let remarks = remarks.map(|said| said.about(&mesh.name)).collect();
         Ok(Self { scene, options, pair, remarks })
     }
@@ -128,7 +128,7 @@ impl ReducedMesh {
             PressedMesh { sum: *normal_force, needed: moment[1][2].abs() / lever }
         };
         let all: Vec<PressedMesh> = positions.iter().map(of).collect();
-        let said = contact.both_flanks.then(|| jam_warning(&all, contact.friction)).flatten()?;
+        let said = contact.both_flanks.then(|| jam_remark(&all, contact.friction)).flatten()?;
         Some(said.about(&mesh.name))
     }
 

@@ -12,7 +12,7 @@ use super::{
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
 };
-use crate::{accuracy::Accuracy, plausible::effective_modulus, warnings::large_error, waves::waves_on};
+use crate::{accuracy::Accuracy, plausible::effective_modulus, solution_remarks::large_error, waves::waves_on};
 
 /// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
 const LARGE: f64 = 0.2;

@@ -17,8 +17,8 @@ use super::{
     inputs::{LumpedInputs, LumpedSystem},
     integration::{MeshFrequencies, stable_step},
     mechanism::BoxedMechanism,
+    remarks::{backlash_um, certificate_remarks, no_backlash},
     run_loop::{LumpedCheckpoint, LumpedResume, LumpedRun, NoRunObserver, RunObserver, RunPlan},
-    warnings::{backlash_um, certificate_warnings, no_backlash},
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
@@ -121,7 +121,7 @@ impl std::fmt::Debug for LumpedAnalysis<'_> {
 }
 
 impl<'a> LumpedAnalysis<'a> {
-    /// Of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
+    /// Analysis of a scene with the model `mapped`, `lumped8`, `lumped12`, `shaft18` or `impact`, in motion at one speed or over a ramp.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache, checkpoint_every: 0, resume: None }
     }
@@ -170,7 +170,7 @@ impl<'a> LumpedAnalysis<'a> {
         let inputs = LumpedInputs::gather(&scene, &mut ExcitationSource::new(observer, self.cache))?;
         let mut system = inputs.build()?;
         let (mut facts, mut remarks) = (facts(&inputs, system.coordinates()), std::mem::take(&mut system.remarks));
-        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(gears::remarks(&inputs.pair));
         remarks.extend(no_backlash(&inputs));
         if !scene.analysis.model.has_reduced_gears() {
             remarks.extend(plausible::remarks(&scene, &inputs.pair));
@@ -248,8 +248,8 @@ fn result(
     };
     let mut headline = headline(scene, motion, &run, &beside)?;
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
-    remarks.extend(certificate_warnings(motion, &headline));
-    remarks.extend(inputs.warnings_of(motion, &headline));
+    remarks.extend(certificate_remarks(motion, &headline));
+    remarks.extend(inputs.remarks_of(motion, &headline));
     let judged = motion_series(run.judged_rows());
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {

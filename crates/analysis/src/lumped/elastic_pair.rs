@@ -86,7 +86,7 @@ impl ElasticPair {
     }
 
     /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
-    pub fn warnings_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
+    pub fn remarks_of(&self, scene: &Scene, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
         let mesh_hz = mesh_range_hz(scene, motion, None);
         let found = Vibration { mesh_hz, resonance: self.resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
         let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;

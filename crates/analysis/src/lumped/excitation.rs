@@ -34,7 +34,7 @@ pub(crate) struct ExcitationSource<'a> {
     /// What the reduced model gave last, by the scene that it was solved for: scenes that differ in speed only share
     /// it.
     last: Option<(Scene, MeshExcitation)>,
-    /// The same of gears that are elastic in motion.
+    /// Gears that are elastic in motion, as they were made last, by the scene that they were made for.
     last_pair: Option<(Scene, Arc<ElasticPair>)>,
 }
 
@@ -129,7 +129,7 @@ fn projection(scene: &Scene, pair: &GearPair) -> f64 {
     }
 }
 
-/// The same as a quasi-static analysis of the reduced model: friction is the cheaper model's own.
+/// Scene of a quasi-static analysis of the reduced model: friction is the cheaper model's own.
 pub(crate) fn static_scene(scene: &Scene) -> Scene {
     let without_body =
         |gear: &GearScene| GearScene { body: None, bearing: BearingScene::default(), shaft: None, ..gear.clone() };

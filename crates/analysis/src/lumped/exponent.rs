@@ -22,7 +22,7 @@ const SETTLING: u32 = 5;
 /// ```text
 /// M y'' + D(t) y' + K(t) y = 0 along the motion,   lambda = mean of ln(|y(t + T)| / |y(t)|) / T
 /// ```
-/// Of the gears' free turn, which nothing holds, it says nothing.
+/// The exponent says nothing of the gears' free rotation, which nothing holds.
 pub(super) fn exponent(
     (model, free): (&mut BoxedMechanism, Option<&FreeDirection>),
     motion: &MotionScene,

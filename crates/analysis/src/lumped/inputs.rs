@@ -34,7 +34,7 @@ pub(crate) struct LumpedInputs {
 /// A model, ready to run.
 pub(crate) struct LumpedSystem {
     pub model: BoxedMechanism,
-    /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
+    /// Resonance of the gears' inertias on the mean mesh stiffness, Hz; 0: the mesh has no one stiffness.
     pub resonance_hz: f64,
     pub remarks: Vec<Remark>,
     /// The system of shafts, where it is one: for the continuum beside it.
@@ -54,7 +54,7 @@ impl LumpedSystem {
 }
 
 impl LumpedInputs {
-    /// Of a scene with a model of few coordinates.
+    /// Inputs of a scene with a model of few coordinates.
     ///
     /// # Errors
     /// Those of a pair that is none, and of the reduced model where it feeds the mesh.
@@ -77,7 +77,7 @@ impl LumpedInputs {
         Ok(Self { scene: scene.clone(), pair, excitation, elastic })
     }
 
-    /// The same pair in a scene that differs in what neither pair nor excitation depends on: speed, load, damping,
+    /// These inputs in a scene that differs in what neither pair nor excitation depends on: speed, load, damping,
     /// clearance.
     pub fn in_scene(&self, scene: Scene) -> Self {
         let Self { pair, excitation, elastic, .. } = self;
@@ -127,8 +127,8 @@ impl LumpedInputs {
     }
 
     /// What a user should hear of a run, beside what the model itself says.
-    pub fn warnings_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
-        self.elastic.as_ref().map_or_else(Vec::new, |gears| gears.warnings_of(&self.scene, motion, headline))
+    pub fn remarks_of(&self, motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
+        self.elastic.as_ref().map_or_else(Vec::new, |gears| gears.remarks_of(&self.scene, motion, headline))
     }
 
     /// What a run at many speeds does not look into.

@@ -12,9 +12,9 @@ const PHASES: u32 = 32;
 /// Frequencies by which steps are chosen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct MeshFrequencies {
-    /// Of the mesh, Hz.
+    /// Mesh frequency, Hz.
     pub mesh_hz: f64,
-    /// Of the gears' inertias on the mean mesh stiffness, Hz; 0: none.
+    /// Resonance of the gears' inertias on the mean mesh stiffness, Hz; 0: none.
     pub resonance_hz: f64,
 }
 

@@ -166,7 +166,7 @@ macro_rules! lumped_mechanism {
 lumped_mechanism!(Motion8, |_: &Motion8| Vec::new());
 lumped_mechanism!(Motion12, frequencies);
 
-/// Of the pair at the start of a mesh cycle, with friction as it then is.
+/// Natural frequencies of the pair at the start of a mesh cycle, with friction as it then is, Hz.
 fn frequencies(model: &Motion12) -> Vec<f64> {
     model.modes(START).map_or_else(Vec::new, |modes| modes.iter().map(|m| m.frequency_hz).collect())
 }

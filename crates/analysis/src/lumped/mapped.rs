@@ -27,7 +27,7 @@ pub(super) struct MappedModel {
 
 impl MappedModel {
     /// Where forces on a copy of the pair balance at a time, the driver's own turn held.
-    fn stands(
+    fn mesh_displacements(
         &self,
         pair: Result<MappedPair, PairMotionError>,
         t: f64,
@@ -47,7 +47,7 @@ mechanism_of_field!([] MappedModel, pair);
 
 impl LumpedMechanism for MappedModel {
     fn start(&mut self) -> Result<State, ModelFailure> {
-        let now = |t: f64, from: Option<&DVector<f64>>| self.stands(self.pair.again(), t, from);
+        let now = |t: f64, from: Option<&DVector<f64>>| self.mesh_displacements(self.pair.again(), t, from);
         let q = now(0.0, None)?;
         let mut v = DVector::zeros(q.len());
         let hz = self.pair.mesh_hz(0.0);
@@ -96,7 +96,7 @@ impl LumpedMechanism for MappedModel {
         let mut from: Option<DVector<f64>> = None;
         let mut at = |k: usize| {
             let t = k as f64 / (phases as f64 * hz);
-            let q = self.stands(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
+            let q = self.mesh_displacements(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
             let line_length = self.pair.instant(t, &q, &DVector::zeros(q.len()))[0].line_length;
             let point = StaticPoint { error: q[lag], line_length: Some(line_length) };
             from = Some(q);

@@ -147,7 +147,7 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
     /// [`StaticError`].
     fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError>;
 
-    /// Its transmission error alone, um.
+    /// Transmission error of a state alone, um.
     ///
     /// # Errors
     /// [`StaticError`].
@@ -222,7 +222,7 @@ pub enum LumpedMemory {
 /// Another value of what a pair of reduced gears is driven by.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum ParameterChange {
-    /// Of the driver, rad/s.
+    /// Speed of the driver, rad/s.
     Speed(f64),
     /// On the driven gear against its turn, N mm.
     Load(f64),
@@ -266,7 +266,7 @@ pub(super) fn at_rest(q: DVector<f64>) -> State {
     State::new(0.0, q, DVector::zeros(n))
 }
 
-/// Any of them.
+/// A mechanism of any of the lumped models.
 pub(crate) struct BoxedMechanism(Box<dyn LumpedMechanism>);
 
 impl std::fmt::Debug for BoxedMechanism {

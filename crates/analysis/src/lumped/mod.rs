@@ -36,11 +36,11 @@ mod lumped_pair;
 mod mapped;
 mod mechanism;
 mod reduced;
+mod remarks;
 mod row;
 mod run_loop;
 mod shafts;
 mod sweep;
-mod warnings;
 
 pub use analysis::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink, is_lumped};
 pub use basins::{Attractor, BasinAnalysis, BasinHeadline, BasinResult, BasinStart};

@@ -24,7 +24,7 @@ pub(super) struct ReducedModel {
 }
 
 impl ReducedModel {
-    /// Of a pair at its beginning.
+    /// Model of a pair at its beginning.
     pub fn new(system: PairMechanism, frame: ElasticFrame) -> Self {
         Self { home: system.memory(), system, frame }
     }

@@ -100,7 +100,7 @@ pub enum CoordinateAxis {
     Turn,
 }
 
-/// Its number among the six of a gear: x, y, z, and the turns about them.
+/// Number of an axis among the six of a gear: x, y, z, and the turns about them.
 pub(super) fn axis_number(axis: CoordinateAxis) -> usize {
     SIX.iter().position(|a| *a == axis).unwrap_or(SIX.len() - 1)
 }
@@ -110,14 +110,14 @@ pub(super) fn axis_number(axis: CoordinateAxis) -> usize {
 pub struct GearCoordinate {
     /// 0 pinion, 1 wheel.
     pub gear: usize,
-    /// Its direction.
+    /// Direction of the coordinate.
     pub axis: CoordinateAxis,
 }
 
-/// Of a gear with four coordinates.
+/// Axes of a gear with four coordinates.
 const FOUR: [CoordinateAxis; 4] =
     [CoordinateAxis::Across, CoordinateAxis::Along, CoordinateAxis::Z, CoordinateAxis::Turn];
-/// Of one with six.
+/// Axes of a gear with six coordinates.
 pub(super) const SIX: [CoordinateAxis; 6] = [
     CoordinateAxis::X,
     CoordinateAxis::Y,

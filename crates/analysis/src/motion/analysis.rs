@@ -25,7 +25,7 @@ use crate::{
     failure::Failure,
     inputs::resolved_scene,
     refused::Refusal,
-    results::{GearPattern, root_stress_warnings},
+    results::{GearPattern, root_stress_remarks},
     run_up::RunUpTorque,
 };
 
@@ -321,7 +321,7 @@ fn warnings_of(
     let pace = Pace::of(wall_s, headline.certificate.steps as f64);
     all.extend(prepared.elasticity.warning(&vibration, &demand, pace));
     all.extend(prepared.elasticity.rotation_warning(&vibration));
-    all.extend(headline.root_tensions().into_iter().flat_map(root_stress_warnings));
+    all.extend(headline.root_tensions().into_iter().flat_map(root_stress_remarks));
     all
 }
 

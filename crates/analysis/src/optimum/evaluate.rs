@@ -4,7 +4,7 @@ use design::{Curve, Evaluation, Limited};
 use scene::{Scene, optimum::Optimisation};
 
 use crate::{
-    AnalysisError, RestRequest, SharedModels, VariedScene, WarningsAtRest, parallel_map,
+    AnalysisError, RemarksAtRest, RestRequest, SharedModels, VariedScene, parallel_map,
     resolution::with_slices,
     shared_solutions::{Rates, SolvedWithRates},
 };
@@ -21,9 +21,9 @@ pub(super) fn slices(plan: &Optimisation) -> Option<u32> {
 /// Limits of the contact pressure, MPa; `None`: it is not looked at.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct PressureLimits {
-    /// Of all slices.
+    /// Limit of all slices.
     pub anywhere: Option<f64>,
-    /// Of those at end faces and tip edges.
+    /// Limit of the slices at end faces and tip edges.
     pub at_edges: Option<f64>,
 }
 
@@ -40,7 +40,7 @@ pub(super) fn evaluate(
         let (sample, torque) = (i / torques, plan.torques[i % torques].torque_nm);
         let at = |values: &[f64]| plan.scene(values, torque, Some(sample));
         let rates = Rates { of: &varied(plan, values, at)?, of_unloaded: false };
-        models.solve(&at(values)?, rates, RestRequest::to_the_end(WarningsAtRest::Skipped))
+        models.solve(&at(values)?, rates, RestRequest::to_the_end(RemarksAtRest::Skipped))
     });
     let mut evaluation = Evaluation::default();
     for (i, solved) in solved.into_iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use design::{Evaluation, Found, Goal, Search, rounded};
+use design::{Evaluation, Goal, Search, SearchResult, rounded};
 use scene::optimum::Optimisation;
 use serde::Serialize;
 
@@ -15,7 +15,7 @@ pub struct Optimum {
     /// The plan as it was searched: with its number of slices.
     pub plan: Optimisation,
     /// The search.
-    pub found: Found,
+    pub found: SearchResult,
     /// Values that a machine can be set to; those of the search where that is any.
     pub values: Vec<f64>,
     /// All that is known there.

@@ -6,7 +6,7 @@ use scene::optimum::Optimisation;
 use serde::Serialize;
 
 use super::Optimum;
-use crate::{AnalysisError, RestRequest, SharedModels, WarningsAtRest, parallel_map, shared_solutions::Rates};
+use crate::{AnalysisError, RemarksAtRest, RestRequest, SharedModels, parallel_map, shared_solutions::Rates};
 
 /// Before and after.
 #[derive(Debug, Clone)]
@@ -100,7 +100,7 @@ pub fn summarise(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimis
     let solved = parallel_map(2 * all.len(), |i| {
         let values = if i % 2 == 0 { &start } else { values };
         let scene = plan.scene(values, all[i / 2], None)?;
-        let request = RestRequest::to_the_end(WarningsAtRest::Skipped);
+        let request = RestRequest::to_the_end(RemarksAtRest::Skipped);
         Ok(cycle(&models.solve(&scene, Rates::default(), request)?.history))
     });
     let mut cycles = Vec::new();

@@ -16,7 +16,7 @@ const STEEL: f64 = 2.06e5;
 pub struct LoadEstimate {
     /// Mean deflection of the teeth along the line of action, over the normal module.
     pub modules: f64,
-    /// The same, mm.
+    /// Mean deflection of the teeth along the line of action, mm.
     pub deflection_mm: f64,
     /// Largest nominal Hertz pressure, MPa.
     pub pressure_mpa: f64,
@@ -26,7 +26,7 @@ pub struct LoadEstimate {
 }
 
 impl LoadEstimate {
-    /// Of a loaded pair.
+    /// Estimate of a loaded pair.
     pub(crate) fn of(loaded: &LoadedPair<'_>) -> Self {
         let (pair, force, young) = (loaded.pair, loaded.base_force(), loaded.young());
         let mean = 2.0 * young[0] * young[1] / (young[0] + young[1]);

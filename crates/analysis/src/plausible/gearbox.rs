@@ -95,7 +95,7 @@ struct Disc {
     radius: f64,
 }
 
-/// Of the first pair that the gear is in: its tips are about a module beyond its reference circle.
+/// Disc of a gear in the first pair that it is in: its tips are about a module beyond its reference circle.
 fn disc(file: &Gearbox, gear: usize) -> Option<Disc> {
     let (mesh, end) = file.meshes.iter().find_map(|m| Some((m, m.gears.iter().position(|&g| g == gear)?)))?;
     let (pair, own) = (&mesh.scene.pair, mesh.scene.gears()[end]);

@@ -35,7 +35,7 @@ described::described! {
 }
 
 impl PressurePlace {
-    /// Of a history at rest; `None` without loaded slices.
+    /// Place of the largest pressure of a history at rest; `None` without loaded slices.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
         let slices = history
             .positions
@@ -58,7 +58,7 @@ impl PressurePlace {
         })
     }
 
-    /// Of one row of a motion.
+    /// Place of the largest pressure of one row of a motion.
     pub fn of_spot(spot: &PressureSpot, pinion_angle_deg: f64, mesh_phase: f64) -> Self {
         let PressureSpot { site: place, z_mm, pinion_diameter_mm } = *spot;
         let (wheel_diameter_mm, pinion_tooth, wheel_tooth) = (None, None, None);
@@ -103,13 +103,13 @@ pub struct PressureSpot {
 }
 
 impl PressureSpot {
-    /// Of the loaded slices of a row; `None` without any.
+    /// Spot of the largest pressure of the loaded slices of a row; `None` without any.
     pub fn of<'a>(base_radius_mm: f64, slices: impl IntoIterator<Item = &'a SliceResult>) -> Option<Self> {
         let s = SliceResult::hardest(slices)?;
         Some(Self { site: s.site, z_mm: s.z, pinion_diameter_mm: diameter(base_radius_mm, s.roll[0]) })
     }
 
-    /// Of a site by its number in files; `None` for a number that no site has.
+    /// Spot of a site by its number in files; `None` for a number that no site has.
     pub fn of_number(number: usize, z_mm: f64, pinion_diameter_mm: f64) -> Option<Self> {
         let site = *Site::ALL.get(number.checked_sub(1)?)?;
         Some(Self { site, z_mm, pinion_diameter_mm })

@@ -114,7 +114,7 @@ pub fn error_percent(fillets: &[FilletStress]) -> f64 {
 /// What a user should hear of root stresses whose mesh is too coarse for them.
 ///
 /// `largest`: the largest tension of pinion and wheel (MPa) and its estimated error (%).
-pub fn root_stress_warnings(largest: [(f64, f64); 2]) -> impl Iterator<Item = answer::Remark> {
+pub fn root_stress_remarks(largest: [(f64, f64); 2]) -> impl Iterator<Item = answer::Remark> {
     ["pinion", "wheel"]
         .into_iter()
         .zip(largest)

@@ -27,7 +27,7 @@ described::described! {
 }
 
 impl ToothChangeHeadline {
-    /// Of a history at rest; `None` where no tooth changes.
+    /// Tooth changes of a history at rest; `None` where no tooth changes.
     pub fn of(history: &StaticHistory) -> Option<Self> {
         let all = &history.tooth_changes;
         let first = all.first()?;

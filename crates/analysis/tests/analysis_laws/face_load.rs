@@ -33,7 +33,7 @@ fn misaligned(case: &Case, wedge_um: f64, slices: usize) -> StaticOptions {
 }
 
 /// The position with the loads of its slices on a uniform bed in place of the gears: the gaps are those of the solved
-/// pair's flanks, the solver is that of the contact, and each slice gives way by its own load alone.
+/// pair's flanks, the solver is that of the contact, and each slice deflects under its own load alone.
 fn on_a_bed(model: &mut StaticModel, station: Station) -> StaticPosition {
     let mut position = model.solve(station).unwrap_or_else(|e| panic!("{e}"));
     let (driven, torque, side) = (model.options().driven(), model.options().torque, model.options().side());

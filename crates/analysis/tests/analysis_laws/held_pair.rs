@@ -82,7 +82,7 @@ impl Observer for Watch {
     fn end(&mut self) {}
 }
 
-/// Of a thousand positions two are solved when who waits gives up after two.
+/// Two of a thousand positions are solved when who waits gives up after two.
 #[test]
 fn work_that_nobody_waits_for_ends_at_the_next_step() {
     let scene = quick().torque_nm(100.0).set("analysis.positions_per_cycle", 1000).build().unwrap();
@@ -93,7 +93,7 @@ fn work_that_nobody_waits_for_ends_at_the_next_step() {
     assert_eq!(ended.blame(), Blame::NoResult);
 }
 
-/// The same of a motion, in its quasi-static cycle and in its rows.
+/// A motion that nobody waits for ends at the next step, in its quasi-static cycle and in its rows.
 #[test]
 fn a_motion_that_nobody_waits_for_ends_at_the_next_step() {
     let scene = quick()

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use analysis::{
-    AnalysisError, Interest, NoCache, RestRequest, SharedGears, SharedModels, WarningsAtRest, solve_at_rest,
+    AnalysisError, Interest, NoCache, RemarksAtRest, RestRequest, SharedGears, SharedModels, solve_at_rest,
 };
 use ltca::StaticHistory;
 use scene::Scene;
@@ -23,7 +23,7 @@ fn lost_after(models: &SharedModels<'_>, scene: &Scene, questions: usize) -> (bo
     let asked = AtomicUsize::new(0);
     let gears = || asked.fetch_add(1, Ordering::SeqCst) < questions;
     let interest = Interest { gears: &gears, positions: &|| true };
-    let solved = match solve_at_rest(scene, models, RestRequest { remarks: WarningsAtRest::Collected, interest }) {
+    let solved = match solve_at_rest(scene, models, RestRequest { remarks: RemarksAtRest::Collected, interest }) {
         Ok(_) => true,
         Err(AnalysisError::Cancelled) => false,
         Err(e) => panic!("{e}"),
@@ -32,7 +32,7 @@ fn lost_after(models: &SharedModels<'_>, scene: &Scene, questions: usize) -> (bo
 }
 
 fn to_the_end(models: &SharedModels<'_>, scene: &Scene) -> StaticHistory {
-    solve_at_rest(scene, models, RestRequest::to_the_end(WarningsAtRest::Skipped)).unwrap().history
+    solve_at_rest(scene, models, RestRequest::to_the_end(RemarksAtRest::Skipped)).unwrap().history
 }
 
 /// By the sector and by one factor of the whole gear.

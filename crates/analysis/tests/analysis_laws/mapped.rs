@@ -16,7 +16,7 @@ pub fn small(model: &str) -> SceneBuilder {
         .set("motion.mesh_damping_ratio", 0.08)
 }
 
-/// The same, whatever is run.
+/// A pair in motion by a model, whatever is run.
 fn moving(model: &str) -> SceneBuilder {
     let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(300.0);
     let meshed = ["pinion.mesher", "wheel.mesher"].iter().fold(base, |scene, gear| {
@@ -45,7 +45,7 @@ fn built(scene: SceneBuilder) -> Scene {
 }
 
 /// Peak to peak, mean and rows' order of the dynamic transmission error are those of the contact itself, with gears that
-/// turn alone and with one that gives way and tilts.
+/// rotate alone and with one whose bearings deflect and that tilts.
 #[test]
 fn it_moves_as_the_reduced_model() {
     for change in [|s: SceneBuilder| s, on_bearings] {

@@ -91,7 +91,7 @@ fn the_dearest_model_is_known_best() {
     }
 }
 
-/// What has no bounds is refused, with a way out.
+/// What has no bounds is refused, with a hint.
 #[test]
 fn what_has_no_bounds_is_refused_with_a_hint() {
     let refused = |builder: SceneBuilder| {

@@ -56,7 +56,7 @@ fn the_iso_example_has_its_printed_forces_and_stress() {
     close("F_a", axial.abs(), 36_040.0, 5.0);
 }
 
-/// The same scene by the model of closed forms.
+/// The scene by the model of closed forms.
 fn built_iso(scene: &Scene) -> Scene {
     let mut scene = scene.clone();
     scene.analysis.model = scene::Model::Iso;

@@ -108,7 +108,7 @@ fn hub_and_shaft_in_one_are_those_of_calculix() {
     assert!(load.abs() < 0.03, "largest over mean line load off by {:.2} %", 100.0 * load);
 }
 
-/// The same with a helix of 15 degrees: three pairs share the load, an axial force tilts the shaft.
+/// The pinion with a helix of 15 degrees: three pairs share the load, an axial force tilts the shaft.
 #[test]
 fn a_helical_pinion_in_one_with_its_shaft_is_that_of_calculix() {
     let reference = Reference::read("overhung_helical_pinion.json");

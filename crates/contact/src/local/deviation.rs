@@ -49,15 +49,15 @@ impl BandMean {
         &TABLES.0
     }
 
-    /// Of the means of the deviation (mm) at both sides of the place at each of [`BandMean::places`], for bands up to
-    /// `widest` (mm).
+    /// Mean of the deviation over bands of contact, from its means (mm) at both sides of the place at each of
+    /// [`BandMean::places`], for bands up to `widest` (mm).
     pub fn new(widest: f64, samples: &[f64; SAMPLES]) -> Self {
         let of = |weights: &[f64; SAMPLES]| weights.iter().zip(samples).map(|(w, f)| w * f).sum();
         let all = &TABLES.1;
         Self { widest, at_rest: of(&all[0]), terms: std::array::from_fn(|i| of(&all[i + 1])) }
     }
 
-    /// The same as far as the approach grows with the load: `load` (N/mm) makes the widest band, `slope` (mm^2/N) is that
+    /// This mean as far as the approach grows with the load: `load` (N/mm) makes the widest band, `slope` (mm^2/N) is that
     /// of the approach on the smooth surface there. What changes too fast is kept near its mean over the widest band.
     #[must_use]
     pub fn kept_rising(mut self, load: f64, slope: f64) -> Self {

@@ -21,7 +21,7 @@ fn search(measure: Measure, over: Over, bounds: [Bounds; 3]) -> Search {
     Search { goal: Goal { measure, over }, bounds: bounds.to_vec(), evaluations: 40 }
 }
 
-fn found(search: &Search, samples: usize) -> design::Found {
+fn found(search: &Search, samples: usize) -> design::SearchResult {
     search.run::<()>(&[0.5, 0.0, 1.0], |x| Ok(curves(x, samples))).unwrap()
 }
 

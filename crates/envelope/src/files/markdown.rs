@@ -1,4 +1,4 @@
-//! The same as tables of a document.
+//! Outcomes of the failure modes as tables of a document.
 
 use std::fmt::Write;
 

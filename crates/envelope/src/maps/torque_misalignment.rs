@@ -4,7 +4,7 @@ use super::{EnvelopeMap, judge};
 
 pub(super) const PAIR: &str = include_str!("../../../../scenes/envelope/map-pair.toml");
 pub(super) const FILE: &str = "map-pair";
-/// The same pair, three times as exact.
+/// Settings that make the pair three times as exact.
 pub(super) const FINER: [&str; 2] = ["accuracy.mean_ste=1 %", "analysis.positions_per_cycle=16"];
 
 pub(super) const MAP: EnvelopeMap = EnvelopeMap {

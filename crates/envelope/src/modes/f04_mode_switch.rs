@@ -55,7 +55,7 @@ const IN_MOTION: [&str; 6] = [
     "motion.steps_per_mesh_cycle=32",
     "motion.periodic_tolerance=1e-9",
 ];
-/// The same pair at rest, on points: slices have no coordinates of their own to tear.
+/// Settings of the pair at rest, on points: slices have no coordinates of their own to tear.
 const AT_REST: [&str; 3] = ["contact.method=nodal", "contact.points_per_face_edge=4", "analysis.cycles=1"];
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

@@ -22,7 +22,7 @@ pub(super) const MODE: FailureMode = FailureMode {
     look,
 };
 
-/// What a pressed cube gives way at this Poisson's ratio, over a fine one, beside the same at 0.3: parts that are lost.
+/// What a pressed cube deflects at this Poisson's ratio, over a fine one, beside the same at 0.3: parts that are lost.
 fn lost(kind: ElementKind, poisson: f64) -> Result<f64, EnvelopeError> {
     let options = ElementOptions::default();
     let pressed = |kind, cells, nu| compliance(Test::Pressed, kind, [cells; 3], nu, &options);
@@ -46,7 +46,7 @@ fn wedges(bench: &Bench) -> Result<Vec<String>, EnvelopeError> {
     let material = fem::Material::new(2000.0, 0.49, 1.2e-9).map_err(EnvelopeError::of(piece))?;
     let full = reduction::FullGear::new(parts.map_err(EnvelopeError::of(piece))?, material, &ElementOptions::default());
     let gear = reduction::ElasticGear::Full(full.map_err(EnvelopeError::of(piece))?);
-    Ok(analysis::locking_warning(&gear, "pinion").iter().map(ToString::to_string).collect())
+    Ok(analysis::locking_remark(&gear, "pinion").iter().map(ToString::to_string).collect())
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {

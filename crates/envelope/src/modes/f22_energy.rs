@@ -14,7 +14,7 @@ pub(super) const MODE: FailureMode = FailureMode {
     name: "energy drift",
     file: "F22-energy",
     scene: scene_text!("F22-energy"),
-    fails: "Methods that keep energy of linear systems make it, or lose it, wherever flanks part and meet, and where the stiffness follows the mesh.",
+    fails: "Methods that keep energy of linear systems make it, or lose it, wherever flanks lose contact and meet again, and where the stiffness follows the mesh.",
     does: "An energy-conserving step (discrete gradient) with a ledger of work: what is not accounted for is in every result, and a certificate.",
     naive: &["motion.method=newmark"],
     look,

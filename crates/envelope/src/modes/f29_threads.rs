@@ -76,7 +76,7 @@ fn summed_as_they_finish(terms: &[f64], threads: usize) -> f64 {
     total.into_inner().unwrap_or_else(PoisonError::into_inner).1
 }
 
-/// Of answers, how many differ from the first.
+/// Number of answers that differ from the first.
 fn differ<T: PartialEq>(all: &[T]) -> f64 {
     all.iter().skip(1).filter(|other| **other != all[0]).count() as f64
 }

@@ -49,7 +49,7 @@ fn ball_centre_by_formula(gear: &Gear, ball_mm: f64, shift_mm: f64) -> f64 {
     gear.base_radius() / at.cos()
 }
 
-/// The same from the surfaces: the ball moves outwards along the middle of a space, at mid-face, until both flanks are as
+/// Centre of the ball from the surfaces: it moves outwards along the middle of a space, at mid-face, until both flanks are as
 /// far from its centre as its radius.
 fn ball_centre_by_flanks(gear: &Gear, ball_mm: f64) -> f64 {
     let flanks = [gear.flank_of(Side::Left, 0), gear.flank_of(Side::Right, 1)];

@@ -22,7 +22,7 @@ struct Oscillator {
     mass: DMatrix<f64>,
     damping_ratio: f64,
     amplitude: f64,
-    /// Of the shaking, over the natural one; and its phase at time 0.
+    /// Frequency of the shaking over the natural one; and its phase at time 0.
     speed: f64,
 }
 

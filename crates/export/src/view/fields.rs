@@ -28,12 +28,7 @@ const CHEAP_AGAIN: usize = 300_000;
 
 impl ViewRecorder {
     /// [`ViewRecorder::view`]; a picture that does not come out is a warning.
-    pub fn view_or_warning(
-        self,
-        scene: &Scene,
-        model: &StaticModel,
-        remarks: &mut Vec<answer::Remark>,
-    ) -> Option<View> {
+    pub fn view_or_remark(self, scene: &Scene, model: &StaticModel, remarks: &mut Vec<answer::Remark>) -> Option<View> {
         self.view(scene, model).map_err(|e| remarks.push(analysis::remark::no_view(e.to_string()))).ok()
     }
 

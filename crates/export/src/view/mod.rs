@@ -81,7 +81,7 @@ impl Shape {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct WindowView {
     shape: Shape,
-    /// Its teeth, as that frame numbers them.
+    /// Teeth of the window, as that frame numbers them.
     teeth: Vec<u32>,
     /// Displacement of the points, frame by frame, um.
     displacement: Packed,
@@ -156,7 +156,7 @@ impl View {
 }
 
 impl View {
-    /// Of a motion: what it is drawn from is not the motion itself.
+    /// This view as that of a motion: what it is drawn from is not the motion itself.
     pub fn quasi_static(mut self) -> Self {
         self.note =
             format!("The quasi-static mesh cycle under the mean load, which the motion goes about. {}", self.note);

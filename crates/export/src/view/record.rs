@@ -41,7 +41,7 @@ pub(super) struct RecordedGear {
 }
 
 impl ViewRecorder {
-    /// Of a scene's first mesh cycle.
+    /// Recorder of a scene's first mesh cycle.
     pub fn new(scene: &Scene) -> Self {
         let per_cycle = scene.analysis.positions_per_cycle as usize;
         Self { per_cycle, every: per_cycle.div_ceil(FRAMES).max(1), positions: Vec::new() }

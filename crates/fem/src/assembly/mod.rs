@@ -26,7 +26,7 @@ pub struct System {
 
 /// Stiffness K (N/mm) and consistent mass M (t) of the free degrees of freedom.
 ///
-/// The same bits for any number of threads.
+/// Any number of threads gives the same bits.
 ///
 /// # Errors
 /// [`FemError::Inverted`], [`FemError::NodeOutOfRange`], [`FemError::RaggedBlock`], and

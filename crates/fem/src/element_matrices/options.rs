@@ -7,7 +7,7 @@ pub enum IncompatibleModes {
     /// distorted elements pass the patch test. Source: Taylor, Beresford and Wilson, IJNME 10, 1976.
     #[default]
     Taylor,
-    /// The same without the ratio, as some other programs have it: fails the patch test slightly on
+    /// Incompatible modes without the ratio, as some other programs have them: fails the patch test slightly on
     /// distorted elements. For comparison with them.
     WithoutJacobianRatio,
     /// Plain hex8: locks in bending. For comparison.
@@ -29,7 +29,7 @@ pub enum Integration {
 /// Poisson's ratio from which elements of a kind, as the program integrates them, are too stiff by volumetric locking;
 /// `None` where they are not up to 0.499.
 ///
-/// A cube of 4 x 4 x 4 cells under a quarter of its top, sides held, gives way at 0.499 less than it should by 94 %
+/// A cube of 4 x 4 x 4 cells under a quarter of its top, sides held, deflects at 0.499 less than it should by 94 %
 /// (tet4), 88 % (wedge6), 20 % (hex27), 17 % (tet10), 12 % (wedge15); at 0.3 by 24, 16, 0, 7 and 4 %. Source: own
 /// measurement, `ale-gear envelope --only F11`.
 pub fn locks_from(kind: mesh::ElementKind) -> Option<f64> {

@@ -50,7 +50,7 @@ impl BoundaryLastFactor {
         Self::new_while(stiffness, boundary, &|| true)
     }
 
-    /// The same for who may lose interest: before and after ordering and factor `wanted` says whether it is.
+    /// Factor for who may lose interest: before and after ordering and factor `wanted` says whether it is.
     ///
     /// # Errors
     /// As [`BoundaryLastFactor::new`], and [`FemError::Unwanted`].

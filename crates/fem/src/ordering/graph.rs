@@ -84,7 +84,7 @@ impl Graph {
         &self.neighbours[self.starts[group] as usize..self.starts[group + 1] as usize]
     }
 
-    /// The same elimination, children of the elimination tree straight before their parents.
+    /// Order of the same elimination that has children of the elimination tree straight before their parents.
     ///
     /// `order[new] = group`. Source: Liu, SIAM J. Matrix Anal. Appl. 11, 1990.
     pub(super) fn postorder(&self, order: &[usize]) -> Vec<usize> {

@@ -111,7 +111,7 @@ mod tests {
         Graph::new(&SymmetricMatrix::from_triplets(n, &triplets).unwrap(), &vec![false; n]).unwrap()
     }
 
-    /// The same by the entry that catches signals.
+    /// Ordering by the entry that catches signals.
     fn by_the_common_entry(graph: &Graph) -> Vec<usize> {
         let nodes = graph.group_count();
         let (mut starts, mut neighbours) = (graph.starts.clone(), graph.neighbours.clone());

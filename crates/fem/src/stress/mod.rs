@@ -152,7 +152,7 @@ impl StressOperator {
         Ok(Self { rows, free_count: dofs.free_count() })
     }
 
-    /// The same on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress
+    /// Stress on free surfaces, from the displacement of their faces alone: strains in the tangent plane, no stress
     /// across it. Theory (22c), (22d).
     ///
     /// By polynomials through the most accurate points of the faces about each corner, which do not reach from one

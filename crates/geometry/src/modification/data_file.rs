@@ -57,7 +57,7 @@ pub enum DataFileError {
     TooFew {
         /// The file.
         path: PathBuf,
-        /// Of what.
+        /// What there is too little of.
         what: &'static str,
         /// How many there are.
         found: usize,

@@ -139,8 +139,8 @@ impl DepthField {
         places.fold(f64::INFINITY, f64::min)
     }
 
-    /// Its smooth part and the deviation from that, as slices of an axial length (mm; 0: points) see it; `None` where
-    /// nothing was measured and all of it is smooth.
+    /// Smooth part of the depth and the deviation from that, as slices of an axial length (mm; 0: points) see it;
+    /// `None` where nothing was measured and all of it is smooth.
     pub fn split(field: &Arc<Self>, slice: f64) -> Option<SplitDepth> {
         let grid = field.grid.as_ref()?;
         let split = field.splits.of(grid, &field.size, slice);

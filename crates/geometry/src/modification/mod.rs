@@ -77,9 +77,9 @@ pub struct FlankModification {
 /// Micro-geometry of a gear.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct GearModifications {
-    /// Of the left flanks.
+    /// Modification of the left flanks.
     pub left: FlankModification,
-    /// Of the right flanks.
+    /// Modification of the right flanks.
     pub right: FlankModification,
     /// Cumulative pitch deviation (index deviation) of each tooth, mm of arc on the reference circle in the transverse
     /// plane; positive: the tooth as a whole stands too far in the direction in which teeth are
@@ -96,7 +96,7 @@ impl FlankModification {
 }
 
 impl GearModifications {
-    /// The same on both sides of every tooth, no pitch errors.
+    /// One modification on both sides of every tooth, no pitch errors.
     pub fn both(flank: FlankModification) -> Self {
         Self { left: flank.clone(), right: flank, pitch_errors: Vec::new() }
     }

@@ -32,7 +32,7 @@ impl ModifiedFlank {
         Self { flank, field, split: None, pitch }
     }
 
-    /// The same flank with what was measured taken apart: its depth is the smooth part, and [`ModifiedFlank::deviation`]
+    /// This flank with what was measured taken apart: its depth is the smooth part, and [`ModifiedFlank::deviation`]
     /// the rest as slices of an axial length (mm; 0: points) see it. A flank that was not measured stays as it is.
     #[must_use]
     pub fn split(mut self, slice: f64) -> Self {

@@ -37,7 +37,7 @@ pub(super) struct Split {
 }
 
 impl Split {
-    /// Of a grid on a flank; `slice`: axial length that deviations are averaged over, mm, 0 for none.
+    /// Split of a grid on a flank; `slice`: axial length that deviations are averaged over, mm, 0 for none.
     pub fn new(grid: &Bicubic, size: &FlankSize, slice: f64) -> Self {
         let deviation = SMOOTHED * size.band();
         let [form, tip] = size.roll.map(|u| 0.5 * size.base_radius * u * u);

@@ -102,7 +102,7 @@ fn turned(v: Vec3, angle: f64) -> Vec3 {
     Vec3::new(v.x * c - v.y * s, v.x * s + v.y * c, v.z)
 }
 
-/// Of 1,000 random internal pairs: flanks that touch along every contact line at 1e-9 mm, whichever side, with opposite normals; both turn the same way, by the ratio of the teeth; the mean length of the contact lines is eps_alpha b / cos b_b to 1e-9; and in the middle of a line the curvature of the pinion exceeds that of the ring.
+/// 1,000 random internal pairs have flanks that touch along every contact line at 1e-9 mm, whichever side, with opposite normals; both turn the same way, by the ratio of the teeth; the mean length of the contact lines is eps_alpha b / cos b_b to 1e-9; and in the middle of a line the curvature of the pinion exceeds that of the ring.
 #[test]
 fn random_internal_pairs_are_conjugate() {
     let mut r = Random(44);

@@ -1,4 +1,4 @@
-//! Data of which no gear, or no running pair, can be made: each refused with its number and a way out.
+//! Data of which no gear, or no running pair, can be made: each refused with its number and a hint.
 
 use geometry::{Gear, GearData, GearPair, GeometryError, Side};
 
@@ -19,7 +19,7 @@ fn refused(pinion: &GearData, wheel: &GearData, distance: Option<f64>, said: &st
     let text = error.to_string();
     assert!(text.contains(said), "`{text}` does not say `{said}`");
     assert!(text.chars().any(|c| c.is_ascii_digit()), "`{text}` has no number");
-    assert!(error.hint().is_some_and(|h| h.len() > 10), "`{text}` has no way out");
+    assert!(error.hint().is_some_and(|h| h.len() > 10), "`{text}` has no hint");
 }
 
 #[test]

@@ -136,7 +136,7 @@ fn clearance_oscillator_jumps_where_it_must() {
     }
 }
 
-/// The same with a stiffness that varies instead of a force.
+/// The oscillator with a stiffness that varies instead of a force.
 #[test]
 fn parametric_clearance_oscillator() {
     let of = Oscillator::new(0.02, 0.1, 0.0, 0.1, 1.0);

@@ -129,7 +129,7 @@ fn load_lies_on_the_common_face() {
     }
 }
 
-/// Of a spur pair the tilting moment is the force times the height of the load over the gear's own mid-face. Two equal gears
+/// The tilting moment of a spur pair is the force times the height of the load over the gear's own mid-face. Two equal gears
 /// see each other the other way up, at a phase s as at 1 - s: the load is as far above the middle of the common face there
 /// as it is below it here.
 #[test]

@@ -28,8 +28,8 @@ fn options(pair: &GearPair) -> StaticOptions {
     StaticOptions::new(0.0, pair)
 }
 
-/// The same on both sides of both gears, tips relieved by `amount` (mm) over the last part of the profile from `from`
-/// on.
+/// One modification on both sides of both gears: tips relieved by `amount` (mm) over the last part of the profile from
+/// `from` on.
 fn flanks(
     beta_deg: f64,
     from: f64,
@@ -432,7 +432,7 @@ fn the_mirror_image_has_the_same_transmission_error() {
     }
 }
 
-/// Offsets and tilts with which the gears do not mesh are errors with a way out.
+/// Offsets and tilts with which the gears do not mesh are errors with a hint.
 #[test]
 fn impossible_offsets_are_refused() {
     let pair = pair(10.0, Default::default());

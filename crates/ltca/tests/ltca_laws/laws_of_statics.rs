@@ -94,7 +94,7 @@ fn forces_are_in_equilibrium() {
     }
 }
 
-/// The same contact on all degrees of freedom and on the reduced gears: STE and pair forces within 1e-8, with either
+/// Contact on all degrees of freedom and on the reduced gears agrees: STE and pair forces within 1e-8, with either
 /// law.
 #[test]
 fn reduced_equals_full() {

@@ -206,7 +206,7 @@ fn twenty_random_pairs() {
 }
 
 /// Root stress of a narrow pair of high helix and great shift, whose largest nodal value lies next to the flank at the
-/// end face and grows without an end: the hill in the fillet converges.
+/// end face and grows without an end: the bending peak in the fillet converges.
 #[test]
 #[ignore = "many minutes"]
 fn the_narrow_pair_of_high_helix_converges() {

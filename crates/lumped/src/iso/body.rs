@@ -17,7 +17,7 @@ const SHEAR_ORDERS: u32 = 2000;
 /// ```text
 /// c_i = tan^2(b_b) w_i / F_a,   te = F_bt [1/(b c_gamma_alpha) + c_1 + c_2]
 /// ```
-/// F_a = F_bt tan b_b lifts the rim where the teeth mesh by w, and a tooth that gives way by w along the axis gives way
+/// F_a = F_bt tan b_b lifts the rim where the teeth mesh by w, and a tooth that deflects by w along the axis deflects
 /// by w tan b_b along the line of action. The body is a plate of the face width b (`axial_compliance`), held rigidly
 /// at the bore and loaded over the arc that the path of contact and half a pitch take of the working circle. Zero for
 /// spur gears.

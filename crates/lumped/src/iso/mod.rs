@@ -75,7 +75,7 @@ pub struct IsoStiffness {
 /// c_ga  = c' (0.75 eps_alpha + 0.25),   c_gb = 0.85 c_ga
 /// ```
 ///
-/// Of an internal gear z_n2 is infinite there.
+/// For an internal gear z_n2 is infinite there.
 ///
 /// Index 1 is the gear with fewer teeth (ISO 6336-1, "pinion"). For equal numbers of teeth and different profile shifts
 /// the standard names neither: q' is then the mean of both orders, so that names change nothing.

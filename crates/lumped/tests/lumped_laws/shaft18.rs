@@ -433,7 +433,7 @@ fn methods_agree_and_energy_closes() {
     }
 }
 
-/// The same shafts with their ends exchanged.
+/// The system of shafts with their ends exchanged.
 fn reversed(system: &ShaftSystem) -> ShaftSystem {
     let mut other = system.clone();
     for shaft in &mut other.shafts {

@@ -99,7 +99,7 @@ pub enum MshProblem {
     ElementType {
         /// Gmsh's number of the type.
         code: i64,
-        /// Its name, as far as known.
+        /// Name of the type, as far as known.
         name: &'static str,
     },
     /// A coordinate that is NaN or infinite.

@@ -15,7 +15,7 @@ pub enum StructuredError {
     Count {
         /// Name of the option.
         name: &'static str,
-        /// Its value.
+        /// Value of the option.
         value: u32,
         /// Least value.
         least: u32,

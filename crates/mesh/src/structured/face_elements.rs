@@ -2,9 +2,9 @@
 
 /// Least number of elements along a face.
 const LEAST: u32 = 6;
-/// Longest element along the face, in modules: a tooth gives way to a load over some two modules of its length.
+/// Longest element along the face, in modules: a tooth deflects under a load over some two modules of its length.
 const LENGTH_MODULES: f64 = 1.7;
-/// The same where root stress is wanted: towards an end face it falls within a module.
+/// Longest element where root stress is wanted, in modules: towards an end face the stress falls within a module.
 const LENGTH_FOR_STRESS_MODULES: f64 = 1.0;
 
 /// What a mesh has to resolve along the face.

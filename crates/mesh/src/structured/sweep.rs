@@ -114,7 +114,7 @@ struct Numbering<'a> {
     slots: [Vec<u32>; 2],
     /// Nodes in an even and in an odd layer of a tooth.
     per_layer: [usize; 2],
-    /// The same along a cut.
+    /// Nodes in an even and in an odd layer along a cut.
     per_cut_layer: [usize; 2],
 }
 

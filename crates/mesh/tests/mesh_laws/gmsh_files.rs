@@ -22,7 +22,7 @@ fn assert_same_model(a: &Mesh, b: &Mesh, what: &str) {
     }
 }
 
-/// The same digits give the same bits: 2.2 like 4.1 in text, and in binary.
+/// Equal digits give equal bits: 2.2 like 4.1 in text, and in binary.
 #[test]
 fn versions_of_one_coding_are_bit_identical() {
     for stem in ["hex8", "hex20", "hex27", "tet4", "tet10", "wedge6", "wedge15", "overlap", "plain", "parametric"] {

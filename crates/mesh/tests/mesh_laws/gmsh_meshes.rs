@@ -40,7 +40,7 @@ fn flanks_and_volume_are_those_of_the_exact_gear() {
     }
 }
 
-/// The same of the pairs of seed 000, which differ in the helix angle alone.
+/// Gears of the pairs of seed 000, which differ in the helix angle alone, have the flanks of their helix angles.
 #[test]
 fn gears_of_the_seed_have_the_flanks_of_their_helix_angles() {
     for (degrees, hand) in [10.0, 15.0, 20.0, 25.0].into_iter().flat_map(|d| [(d, 1.0), (d, -1.0)]) {

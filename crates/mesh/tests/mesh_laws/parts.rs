@@ -78,7 +78,7 @@ fn names_first_then_the_fit() {
     assert!(found.cuts().is_some());
 }
 
-/// The same faces are found without names as with them.
+/// Faces found without names are those found with them.
 #[test]
 fn the_fit_finds_what_the_names_say() {
     let gear = pinion();

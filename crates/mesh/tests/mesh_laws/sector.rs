@@ -113,7 +113,7 @@ fn a_repeated_sector_is_the_whole_gear() {
     }
 }
 
-/// The same of the meshes by Gmsh: the periodic files are one tooth of the coarse ones.
+/// Periodic meshes by Gmsh become the coarse gears: each periodic file is one tooth of a coarse one.
 #[test]
 fn periodic_files_become_the_coarse_gears() {
     for (sector, gear) in

@@ -208,7 +208,7 @@ fn damaged_spectra_are_refused() {
         ("", "line 1: the file is empty"),
         ("torque,speed_rpm,share\n", "line 1: the columns are torque, speed_rpm, share"),
         ("torque_nm,speed_rpm,share\n1,2\n", "line 2: 2 values, the heading has 3"),
-        ("torque_nm,speed_rpm,share\n1,2,3\n1,x,3\n", "line 3: `1,x,3` holds what is no number"),
+        ("torque_nm,speed_rpm,share\n1,2,3\n1,x,3\n", "line 3: `1,x,3` has a value that is not a number"),
         ("torque_nm,speed_rpm,share\n1,-2,3\n", "line 2:"),
         ("torque_nm,speed_rpm,share\n1,2,0\n", "line 1: no load lasts any time"),
     ] {

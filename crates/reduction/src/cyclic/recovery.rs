@@ -166,7 +166,7 @@ impl CyclicGear {
         Ok(stress)
     }
 
-    /// Of which the nodal mean at each node is made.
+    /// Shares of which the nodal mean at each node is made.
     fn shares(&self, nodes: &[u32], touching: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
         let z = self.part.teeth;
         let count = self.part.places.len();

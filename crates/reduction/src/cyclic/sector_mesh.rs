@@ -36,7 +36,7 @@ const FEWEST_TEETH: u32 = 4;
 const TIE: f64 = 1e-6;
 
 impl SectorMesh {
-    /// Of a periodic one-tooth sector; `None` when its copies share the axis.
+    /// Mesh of a periodic one-tooth sector; `None` when its copies share the axis.
     pub(crate) fn of_sector(sector: &MeshedGear, copies: &Copies) -> Option<Self> {
         let teeth = sector.tooth_count();
         if copies.on_axis || teeth < FEWEST_TEETH {
@@ -53,7 +53,7 @@ impl SectorMesh {
         Some(Self::new(teeth, sector.numbering_sign(), sector.mesh().clone(), held, cuts, places))
     }
 
-    /// Of a whole gear that is cyclic: the elements about tooth 0.
+    /// Sector mesh of a whole gear that is cyclic: the elements about tooth 0.
     ///
     /// From every orbit of elements one is taken, the one nearest to the twisted centre line of tooth 0; which one
     /// changes the cuts, not the gear. `None` when a node belongs to more than two neighbouring sectors.

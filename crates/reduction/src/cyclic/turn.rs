@@ -13,12 +13,12 @@ const CYCLIC_TOLERANCE: f64 = 1e-9;
 pub(crate) struct PitchTurn {
     /// Node i goes where node `nodes[i]` is.
     pub nodes: Vec<u32>,
-    /// The same for the elements of each block.
+    /// Element j of each block goes where element `elements[block][j]` is.
     pub elements: Vec<Vec<u32>>,
 }
 
 impl PitchTurn {
-    /// Of a whole gear; `None` unless every node, element, flank and held node has its image.
+    /// Turn by one pitch of a whole gear; `None` unless every node, element, flank and held node has its image.
     pub(crate) fn of_gear(gear: &MeshedGear) -> Option<Self> {
         let mesh = gear.mesh();
         if !gear.is_whole_gear() {

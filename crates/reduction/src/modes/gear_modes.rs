@@ -43,7 +43,7 @@ pub(super) enum Shapes {
 
 /// Columns of a Lanczos step for a whole gear.
 pub(super) const WHOLE_BLOCK: usize = 8;
-/// The same for one harmonic.
+/// Columns of a Lanczos step for one harmonic.
 pub(super) const HARMONIC_BLOCK: usize = 4;
 
 impl GearReducer {
@@ -204,7 +204,7 @@ impl GearModes {
     /// Phi' M R: inertia that each mode shares with motion of the gear as a rigid body about its centre, along x, y, z
     /// (t^(1/2)) and about x, y, z (t^(1/2) mm) of the gear's own frame.
     ///
-    /// Of a cyclic gear modes without waves go with z and the turn, those of one wave with x, y and the tilts, all
+    /// For a cyclic gear modes without waves go with z and the turn, those of one wave with x, y and the tilts, all
     /// others with nothing.
     pub fn coupling(&self) -> &[[f64; 6]] {
         &self.coupling

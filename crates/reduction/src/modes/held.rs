@@ -1,4 +1,4 @@
-//! The same body with some coordinates held.
+//! A body with some coordinates held.
 
 use faer::{Mat, MatRef};
 use fem::dense;
@@ -38,7 +38,7 @@ impl<'a> Held<'a> {
         Self::with_compliance(body, loads, &compliance)
     }
 
-    /// The same where C is known, mm/N.
+    /// Held body where C is known, mm/N.
     pub fn with_compliance(
         body: &'a dyn Pencil,
         loads: Vec<Rows>,

@@ -84,7 +84,7 @@ struct Ritz {
 }
 
 impl Ritz {
-    /// Of the first `size` vectors of a basis; `columns`: T's block columns down to their own block.
+    /// Ritz pairs of the first `size` vectors of a basis; `columns`: T's block columns down to their own block.
     fn new(columns: &[Mat<f64>], size: usize, residual: &Mat<f64>) -> Result<Self, ReductionError> {
         let mut t = Mat::<f64>::zeros(size, size);
         let mut start = 0;

@@ -59,7 +59,7 @@ impl GearReducer {
         Self::watched(gear, material, options, false, ReductionWatch::IDLE)
     }
 
-    /// The same by one factor of the whole gear, whatever the gear is.
+    /// Reducer by one factor of the whole gear, whatever the gear is.
     ///
     /// # Errors
     /// As [`GearReducer::new`].
@@ -151,7 +151,7 @@ impl GearReducer {
         &self.gear
     }
 
-    /// Its material.
+    /// Material of the gear.
     pub fn material(&self) -> &Material {
         &self.material
     }

@@ -40,7 +40,7 @@ fn integrals(mesh: &MeshedGear, faces: &[Face]) -> BTreeMap<u32, f64> {
     all
 }
 
-/// The same with all that it has to hold: K, and B of which B'u = 0.
+/// The gear with all that it has to hold: K, and B of which B'u = 0.
 struct Whole {
     dofs: DofMap,
     stiffness: DMatrix<f64>,

@@ -44,7 +44,7 @@ impl Sample {
     }
 }
 
-/// Of version, of its code without comments, and of what a record of the sample holds: count, sum of sizes and sum
+/// Record of the sample: version, digest of its code without comments, and what it holds: count, sum of sizes and sum
 /// weighted by place of the numbers of a window and of a half tooth.
 const RECORD: (u32, &str, usize, f64, f64) = (2, "db51ce2e00b5f6b7", 7290, 0.0032079394506089438, 11.442760429138692);
 

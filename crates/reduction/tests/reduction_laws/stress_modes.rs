@@ -102,7 +102,8 @@ fn modes_give_the_stress_of_the_whole_field_in_a_cyclic_gear() {
     }
 }
 
-/// The same on sectors that Gmsh made, every kind of element; windows other than the factored one go by whole solves.
+/// Modes give the stress on sectors that Gmsh made, every kind of element; windows other than the factored one go by
+/// whole solves.
 #[test]
 fn modes_give_the_stress_of_the_whole_field_in_a_sector() {
     for kind in ["hex20", "hex27", "hex8_v41_binary", "tet10", "tet4", "wedge15", "wedge6"] {

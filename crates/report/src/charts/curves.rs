@@ -70,7 +70,7 @@ pub fn banded_chart(
     Some(figure(&svg, &[embedded("plot", &Plot::banded(title, x, y, &curves))]))
 }
 
-/// The same with dots in place of lines: sections and bifurcation diagrams.
+/// Chart with dots in place of lines: sections and bifurcation diagrams.
 pub fn dot_chart(title: &str, x: &str, y: &str, curves: &[Curve]) -> Option<String> {
     let curves = with_points(curves);
     let svg = picture(title, [x, y], &curves, false, Marks::Dots)?;
@@ -99,7 +99,7 @@ fn with_points(curves: &[Curve]) -> Vec<Curve> {
     curves.iter().filter(seen).cloned().collect()
 }
 
-/// The same for the lines of a spectrum: one stick each.
+/// Chart of the lines of a spectrum: one stick each.
 pub fn stick_chart(title: &str, x: &str, y: &str, curve: Curve) -> Option<String> {
     let sticks = curve.points.iter().flat_map(|&(at, height)| [(at, 0.0), (at, height), (at, 0.0)]).collect();
     let svg = picture(title, [x, y], &[Curve { label: curve.label.clone(), points: sticks }], true, Marks::Lines)?;

@@ -27,7 +27,7 @@ pub struct Captions<'a> {
     pub title: &'a str,
     /// Quantity and unit of the horizontal axis.
     pub x: &'a str,
-    /// The same of the vertical one.
+    /// Quantity and unit of the vertical axis.
     pub y: &'a str,
 }
 

@@ -10,7 +10,7 @@ use super::ResultFolder;
 /// A number of every run that has it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct NumberRow {
-    /// Its name with unit; `a.b` and `a[1]` where it lies deeper in the summary.
+    /// Name of the number with unit; `a.b` and `a[1]` where it lies deeper in the summary.
     pub key: String,
     /// Run by run; `None` where a run has no such number.
     pub values: Vec<Option<f64>>,
@@ -23,8 +23,8 @@ pub struct NumberRow {
 pub struct Difference {
     /// This run's less the first one's, in the unit of the key.
     pub absolute: f64,
-    /// The same over the first one's, per cent, so that a load twice as large reads +100 on either side of 0; `None`
-    /// where the first is 0.
+    /// This run's less the first one's over the first one's, per cent, so that a load twice as large reads +100 on
+    /// either side of 0; `None` where the first is 0.
     pub per_cent: Option<f64>,
 }
 

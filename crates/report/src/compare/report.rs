@@ -43,7 +43,7 @@ const SHOWN: [(&str, &str, &str); 11] = [
     ("wheel_root_stress_max_principal_mpa", "Largest principal root stress, wheel", "stress [MPa]"),
     ("wheel_force_z_n", "Axial force on the wheel", "force [N]"),
 ];
-/// Of these the transmission errors, which are drawn without their mean as well: what a gear excites.
+/// Number of transmission errors among these, which are drawn without their mean as well: what a gear excites.
 const ERRORS: usize = 3;
 
 /// Columns of a table beside the rows of a pair that are drawn; all stand in `compare_curves.csv`.

@@ -53,14 +53,14 @@ struct GearInSpace {
 struct BearingInSpace {
     shaft: usize,
     position: f64,
-    /// Of the shaft in it, mm.
+    /// Radius of the shaft in it, mm.
     radius: f64,
 }
 
 /// One position.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 struct Frame {
-    /// Of the input, rad.
+    /// Angle of the input, rad.
     angle: f64,
     /// Six numbers a node, a list a shaft: mm and rad.
     shafts: Packed,

@@ -76,7 +76,7 @@ pub fn report_again(folder: &Path) -> Result<String, ReportError> {
     report_from(&packed, &file)
 }
 
-/// The same from the bytes of the source (JSON, gzip); `file` is what messages name.
+/// Report from the bytes of the source (JSON, gzip); `file` is what messages name.
 ///
 /// # Errors
 /// As [`report_again`].

@@ -119,7 +119,7 @@ fn lines(h: &ContinuationHeadline) -> Vec<Line> {
         Line::text("folds", h.folds.len(), listed(&h.folds)),
         Line::text("period doublings", h.period_doublings.len(), listed(&h.period_doublings)),
         Line::text("torus bifurcations", h.torus_bifurcations.len(), listed(&h.torus_bifurcations)),
-        Line::text("motions in which flanks part", h.parting, ""),
+        Line::text("motions with loss of contact", h.parting, ""),
         Line::text("most harmonics", h.most_harmonics, ""),
         Line::text("Newton steps", h.newton_steps, ""),
         Line::science("largest difference of a motion in time", h.difference_in_time, ""),

@@ -13,7 +13,7 @@ use crate::{Cost, ReportError, Written};
 use export::view::View;
 use store::folder::ResultDirectory;
 
-/// Of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
+/// Writes the results of whichever analysis a scene in time asked for; `view`: the gears in space, of reduced ones.
 ///
 /// # Errors
 /// When the system refuses, or a page does not come out.

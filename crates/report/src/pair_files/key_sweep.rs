@@ -113,7 +113,7 @@ fn lines(s: &SweepHeadline) -> Vec<Line> {
         let text: Vec<String> = bands.iter().map(|[a, b]| format!("{a} .. {b}")).collect();
         all.push(Line::text("coexisting solutions", bands.len(), text.join(", ")));
     }
-    all.push(Line::text("points at which flanks part", s.parting, ""));
+    all.push(Line::text("points with loss of contact", s.parting, ""));
     if !s.failed.is_empty() {
         let values: Vec<f64> = s.failed.iter().map(|(_, v, _)| *v).collect();
         all.push(Line::text("points without a solution", s.failed.len(), listed(values)));

@@ -46,7 +46,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Of the finite ones among some values.
+    /// Spread of the finite ones among some values.
     pub fn of(values: impl IntoIterator<Item = f64>) -> Self {
         let mut values: Vec<f64> = values.into_iter().filter(|x| x.is_finite()).collect();
         values.sort_by(f64::total_cmp);

@@ -9,7 +9,7 @@ use scene::study::Study;
 use super::{CaseResult, with_result};
 
 /// Cases without a result first; then what the others warn of, each once, with their names.
-pub fn study_warnings(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<Remark> {
+pub fn study_remarks(study: &Study, runs: &[CaseResult], findings: &Findings) -> Vec<Remark> {
     let failed = (0..study.cases.len()).filter_map(|i| {
         let reason = findings.reason(i)?;
         Some(remark::case_unsolved(reason).about(&study.cases[i].label))

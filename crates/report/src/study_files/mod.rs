@@ -6,7 +6,7 @@ mod outcome;
 mod report;
 mod tables;
 
-pub use cases::study_warnings;
+pub use cases::study_remarks;
 pub use outcome::{CaseMiss, CaseResult, CaseRun, StudyResult, with_result};
 pub(crate) use report::OBJECTS;
 pub use report::{study_answer, study_page};

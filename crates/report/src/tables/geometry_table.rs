@@ -22,7 +22,7 @@ pub fn geometry_table(name: &str, facts: &RunInfo, torque: &str, speed_rpm: f64)
     Some(t)
 }
 
-/// The same as JSON, with the names of `summary.json`: the sheet, and beside it what the nominal load does.
+/// Geometry as JSON, with the names of `summary.json`: the sheet, and beside it what the nominal load does.
 pub fn geometry_json(facts: &RunInfo) -> String {
     #[derive(Serialize)]
     struct Sheet<'a> {

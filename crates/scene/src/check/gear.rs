@@ -7,9 +7,8 @@ use toml::Spanned;
 use super::Checked;
 use super::pitch_errors::pitch_errors;
 use crate::{
-    BoreScene, DataFile, GearScene, Material, MesherScene, MisalignmentScene, ModificationScene, PairScene,
-    ShaperScene, inputs,
-    schema::{GEAR, MATERIAL, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMaterial, RawMesher, RawPair, RawShaper},
+    BoreScene, DataFile, GearScene, MesherScene, ModificationScene, PairScene, ShaperScene, inputs,
+    schema::{GEAR, MESHER, PAIR, RawBore, RawGear, RawGroups, RawMesher, RawPair, RawShaper},
     source::Source,
     spanned::{Number, Word},
 };
@@ -24,24 +23,6 @@ const RING_RIM: f64 = 4.0;
 /// Rounding over the module with which the teeth of a shaper are chosen that says none: it hardly matters to them.
 const LEAST_ROUNDING: f64 = 0.02;
 
-/// What a gear is of where nothing is said.
-pub(super) fn steel() -> Material {
-    let of = |key| MATERIAL.number(key).2.unwrap_or(0.0);
-    Material { young_mpa: of("young_mpa"), poisson: of("poisson"), density_kg_m3: of("density_kg_m3") }
-}
-
-pub(super) fn material(s: &Source<'_>, raw: &RawMaterial, default: Material) -> Checked<Material> {
-    let or = |key, value, default| {
-        let (low, high, _) = MATERIAL.number(key);
-        s.number(key, value, default, low, high)
-    };
-    Ok(Material {
-        young_mpa: or("young_mpa", &raw.young_mpa, default.young_mpa)?,
-        poisson: or("poisson", &raw.poisson, default.poisson)?,
-        density_kg_m3: or("density_kg_m3", &raw.density_kg_m3, default.density_kg_m3)?,
-    })
-}
-
 /// What both share; the gears say whether they have widths of their own.
 pub(super) fn pair(s: &Source<'_>, raw: &RawPair, [pinion, wheel]: [&RawGear; 2]) -> Checked<PairScene> {
     let own = [optional!(s, GEAR, pinion.face_width_mm)?, optional!(s, GEAR, wheel.face_width_mm)?];
@@ -54,20 +35,8 @@ pub(super) fn pair(s: &Source<'_>, raw: &RawPair, [pinion, wheel]: [&RawGear; 2]
     // Each at most 0.01 rad over the narrower face: more than that is no misalignment but another gear drive.
     let [a, b] = own.map(|width| width.unwrap_or(face_width_mm));
     let most = 10.0 * a.min(b);
-    let mut pair = PairScene {
-        normal_module_mm: value!(s, PAIR, raw.normal_module_mm)?,
-        normal_pressure_angle_deg: value!(s, PAIR, raw.normal_pressure_angle_deg)?,
-        face_width_mm,
-        mid_face_offset_mm: optional!(s, PAIR, raw.mid_face_offset_mm)?,
-        centre_distance_mm: centre_distance(s, &raw.centre_distance_mm, is_ring(wheel))?,
-        addendum_coefficient: value!(s, PAIR, raw.addendum_coefficient)?,
-        dedendum_coefficient: value!(s, PAIR, raw.dedendum_coefficient)?,
-        root_radius_coefficient: value!(s, PAIR, raw.root_radius_coefficient)?,
-        misalignment: match &raw.misalignment {
-            None => Default::default(),
-            Some(table) => MisalignmentScene::read(s, table.get_ref(), most)?,
-        },
-    };
+    let centre_distance_mm = centre_distance(s, &raw.centre_distance_mm, is_ring(wheel))?;
+    let mut pair = PairScene { face_width_mm, centre_distance_mm, ..PairScene::read(s, raw, most)? };
     if raw.root_radius_coefficient.is_none() {
         pair.root_radius_coefficient = fitting_root_radius(&pair);
     }
@@ -104,7 +73,8 @@ fn shaper(s: &Source<'_>, raw: &RawGear, gear: GearData) -> Checked<Option<Shape
     }
     let none = RawShaper::default();
     let stated = raw.shaper.as_ref().map_or(&none, |table| table.get_ref());
-    let profile_shift = value!(s, SHAPER, stated.profile_shift)?;
+    let read = ShaperScene::read(s, stated, f64::INFINITY)?;
+    let profile_shift = read.profile_shift;
     let stated_teeth = optional!(s, SHAPER, stated.teeth)?;
     let rounding = optional!(s, SHAPER, stated.tip_rounding_coefficient)?;
     let usual = GearData { root_radius_coefficient: rounding.unwrap_or(LEAST_ROUNDING), ..gear.clone() };
@@ -113,7 +83,7 @@ fn shaper(s: &Source<'_>, raw: &RawGear, gear: GearData) -> Checked<Option<Shape
     // A cutter that has room for none says so where the geometry is made.
     let largest = (1e4 * made.largest_root_radius_coefficient()).floor() / 1e4;
     let fitting = if largest > 0.0 { made.root_radius_coefficient.min(largest) } else { made.root_radius_coefficient };
-    Ok(Some(ShaperScene { teeth, profile_shift, tip_rounding_coefficient: rounding.unwrap_or(fitting) }))
+    Ok(Some(ShaperScene { teeth, tip_rounding_coefficient: rounding.unwrap_or(fitting), ..read }))
 }
 
 /// The default radius of the rack's tip, or the largest that the rack has room for, to four decimals, where that is
@@ -152,7 +122,6 @@ pub(super) fn gear(
     raw: &RawGear,
     hand: Hand,
     pair: &PairScene,
-    shared: Material,
     face_elements: impl Fn(f64, u32) -> u32,
 ) -> Checked<GearScene> {
     let ring = is_ring(raw);
@@ -162,8 +131,8 @@ pub(super) fn gear(
         |z: &i64| z.checked_neg().filter(|n| ring && (i64::from(fewest)..=i64::from(most)).contains(n)).unwrap_or(*z);
     let count = raw.teeth.as_ref().map(|z| Spanned::new(z.span(), counted(z.get_ref())));
     let teeth = s.whole("teeth", &count, fewest, fewest, most)?;
-    let face_width_mm = optional!(s, GEAR, raw.face_width_mm)?;
-    let width = face_width_mm.unwrap_or(pair.face_width_mm);
+    let read = GearScene::read(s, raw, f64::INFINITY)?;
+    let width = read.face_width_mm.unwrap_or(pair.face_width_mm);
     let helix_angle_deg = match hand {
         Hand::Own => value!(s, GEAR, raw.helix_angle_deg)?,
         Hand::Against(other) => against(s, raw, other, ring)?,
@@ -182,9 +151,8 @@ pub(super) fn gear(
         }
         _ => None,
     };
-    let (pitch_errors_um, pitch_errors_file) = pitch_errors(s, raw, teeth)?;
-    let profile_shift = value!(s, GEAR, raw.profile_shift)?;
-    let shifted_root = root + sign * 2.0 * pair.normal_module_mm * profile_shift;
+    let pitch_errors_um = pitch_errors(s, raw, teeth)?;
+    let shifted_root = root + sign * 2.0 * pair.normal_module_mm * read.profile_shift;
     let usual_bore = BORE_RATIO * reference;
     let default_bore = if ring {
         shifted_root + 2.0 * RING_RIM * pair.normal_module_mm
@@ -205,7 +173,7 @@ pub(super) fn gear(
         normal_module: pair.normal_module_mm,
         normal_pressure_angle: pair.normal_pressure_angle(),
         helix_angle: helix_angle_deg.to_radians(),
-        profile_shift,
+        profile_shift: read.profile_shift,
         thickness_allowance: thickness_allowance_mm,
         addendum_coefficient: pair.addendum_coefficient,
         dedendum_coefficient: pair.dedendum_coefficient,
@@ -215,10 +183,8 @@ pub(super) fn gear(
     };
     Ok(GearScene {
         teeth,
-        signed_teeth: if ring { -i64::from(teeth) } else { i64::from(teeth) },
         shaper: shaper(s, raw, cut)?,
         helix_angle_deg,
-        face_width_mm,
         bore_diameter_mm: s.number(
             "bore_diameter_mm",
             &unsigned(&raw.bore_diameter_mm, ring),
@@ -226,12 +192,10 @@ pub(super) fn gear(
             1e-3,
             bore_limit,
         )?,
-        profile_shift,
         tip_edge_radius_mm: s.number("tip_edge_radius_mm", &raw.tip_edge_radius_mm, 0.0, 0.0, widest_arc)?,
         tip_diameter_mm,
         thickness_allowance_mm,
         pitch_errors_um,
-        pitch_errors_file,
         mesh,
         mesher,
         groups,
@@ -239,14 +203,11 @@ pub(super) fn gear(
             None => Default::default(),
             Some(table) => bore(s, table)?,
         },
-        material: material(s, &raw.material, shared)?,
         modification: match &raw.modification {
             None => Default::default(),
             Some(table) => ModificationScene::read(s, table.get_ref(), width)?,
         },
-        body: None,
-        bearing: Default::default(),
-        shaft: None,
+        ..read
     })
 }
 
@@ -293,16 +254,12 @@ fn mesher_options(
     teeth: u32,
     face_elements: impl Fn(u32) -> u32,
 ) -> Checked<MesherScene> {
-    let order = value!(s, MESHER, raw.order)?;
+    let read = MesherScene::read(s, raw, f64::INFINITY)?;
     let (least, most, _) = MESHER.whole("elements_face");
     Ok(MesherScene {
-        order,
-        elements_profile: value!(s, MESHER, raw.elements_profile)?,
-        elements_fillet: value!(s, MESHER, raw.elements_fillet)?,
-        elements_thickness: value!(s, MESHER, raw.elements_thickness)?,
-        elements_face: s.whole("elements_face", &raw.elements_face, face_elements(order), least, most)?,
-        elements_rim: value!(s, MESHER, raw.elements_rim)?,
+        elements_face: s.whole("elements_face", &raw.elements_face, face_elements(read.order), least, most)?,
         sector_teeth: s.whole("sector_teeth", &raw.sector_teeth, 0, 0, teeth - 1)?,
+        ..read
     })
 }
 
@@ -322,7 +279,7 @@ fn bore(s: &Source<'_>, table: &Spanned<RawBore>) -> Checked<BoreScene> {
             }
         }
     };
-    Ok(BoreScene { held_mm, coupling: choice!(s, raw.coupling)? })
+    Ok(BoreScene { held_mm, ..BoreScene::read(s, raw, f64::INFINITY)? })
 }
 
 /// The mesh's own names; those of flanks need a place for the tooth number.

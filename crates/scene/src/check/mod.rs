@@ -10,8 +10,10 @@ mod rating;
 mod tables;
 mod together;
 
-use super::{Analysis, Kind, Run, Scene, SceneError, Setting, ladder, schema::RawScene, source::Source};
-use gear::{Hand, gear, material, pair, steel};
+use super::{
+    Analysis, Kind, Material, Run, Scene, SceneError, Setting, ladder, schema::RawScene, source::Source, spanned::Over,
+};
+use gear::{Hand, gear, pair};
 use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
 use tables::{accuracy, analysis, contact, operation, output};
 use together::together;
@@ -19,15 +21,18 @@ use together::together;
 type Checked<T> = Result<T, SceneError>;
 
 /// Every complaint is made here, before any work starts or any file is written.
-pub(super) fn scene(source: &Source<'_>, raw: RawScene) -> Checked<Scene> {
+pub(super) fn scene(source: &Source<'_>, mut raw: RawScene) -> Checked<Scene> {
     all_given(source, &raw)?;
-    let shared = material(source, &raw.material, steel())?;
+    Material::read(source, &raw.material, f64::INFINITY)?;
+    for gear in [&mut raw.pinion, &mut raw.wheel] {
+        gear.material = gear.material.over(&raw.material);
+    }
     let pair = pair(source, &raw.pair, [&raw.pinion, &raw.wheel])?;
     let root_stress = raw.output.root_stress.as_ref().is_some_and(|on| *on.get_ref());
     let face_elements = |width, order| pair.face_elements(width, order, root_stress);
-    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, shared, face_elements)?;
+    let mut pinion = gear(source, &raw.pinion, Hand::Own, &pair, face_elements)?;
     let hand = Hand::Against(pinion.helix_angle_deg);
-    let mut wheel = gear(source, &raw.wheel, hand, &pair, shared, face_elements)?;
+    let mut wheel = gear(source, &raw.wheel, hand, &pair, face_elements)?;
     let accuracy = accuracy(source, &raw)?;
     let analysis = analysis(source, &raw.analysis, !accuracy.is_none())?;
     ladder::check_tables(source, &raw, analysis.model)?;

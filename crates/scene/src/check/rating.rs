@@ -4,8 +4,7 @@ use toml::Spanned;
 
 use super::Checked;
 use crate::{
-    Kind, RatedGearScene, RatingScene, Scene, SceneError,
-    inputs::named,
+    Kind, RatingScene, Scene, SceneError,
     keys::nearest,
     schema::{RawRatedGear, RawRating, RawScene},
     source::Source,
@@ -22,57 +21,21 @@ fn of_gear(table: &Option<Spanned<RawRatedGear>>) -> RawRatedGear {
 }
 
 fn read(s: &Source<'_>, raw: &RawRating) -> Checked<RatingScene> {
-    let edition = choice!(s, raw.edition)?;
     let gears = [&raw.pinion, &raw.wheel].map(of_gear);
     let missing = missing(raw, &gears);
     if !missing.is_empty() {
         return Err(SceneError::Missing { file: s.file.to_owned(), keys: missing });
     }
-    let [pinion, wheel] = gears;
-    let rating = RatingScene {
-        edition,
-        life_h: value!(s, RATING, raw.life_h)?,
-        application_factor: value!(s, RATING, raw.application_factor)?,
-        face_load_factor: optional!(s, RATING, raw.face_load_factor)?,
-        dynamic_factor: optional!(s, RATING, raw.dynamic_factor)?,
-        transverse_load_factor: optional!(s, RATING, raw.transverse_load_factor)?,
-        tolerance_class: value!(s, RATING, raw.tolerance_class)?,
-        base_pitch_deviation_um: optional!(s, RATING, raw.base_pitch_deviation_um)?,
-        profile_form_deviation_um: optional!(s, RATING, raw.profile_form_deviation_um)?,
-        tip_relief_um: optional!(s, RATING, raw.tip_relief_um)?,
-        gear_blank_factor: value!(s, RATING, raw.gear_blank_factor)?,
-        limited_pitting: value!(s, RATING, raw.limited_pitting)?,
-        long_life_factor: value!(s, RATING, raw.long_life_factor)?,
-        spectrum: raw.spectrum.as_ref().map(|word| named(s, "spectrum", word)).transpose()?,
-        lubricant: text(&raw.lubricant),
-        lubricants: raw.lubricants.as_ref().map(|word| named(s, "lubricants", word)).transpose()?,
-        materials: raw.materials.as_ref().map(|word| named(s, "materials", word)).transpose()?,
-        pinion: gear(s, &pinion)?,
-        wheel: gear(s, &wheel)?,
-    };
+    let rating = RatingScene::read(s, raw, f64::INFINITY)?;
     if let (Some(word), None) = (&raw.lubricant, rating.oil()) {
         return Err(unknown(s, "lubricant", word, rating.lubricant_table().names().collect()));
     }
-    for (k, raw) in [&pinion, &wheel].into_iter().enumerate() {
+    for (k, raw) in gears.iter().enumerate() {
         if let (Some(word), None) = (&raw.material, rating.material_of(k)) {
             return Err(unknown(s, "material", word, rating.material_table().names().collect()));
         }
     }
     Ok(rating)
-}
-
-fn gear(s: &Source<'_>, raw: &RawRatedGear) -> Checked<RatedGearScene> {
-    Ok(RatedGearScene {
-        material: text(&raw.material),
-        flank_roughness_rz_um: value!(s, RATED_GEAR, raw.flank_roughness_rz_um)?,
-        root_roughness_rz_um: value!(s, RATED_GEAR, raw.root_roughness_rz_um)?,
-        reversed_load_ratio: value!(s, RATED_GEAR, raw.reversed_load_ratio)?,
-        meshes_per_turn: value!(s, RATED_GEAR, raw.meshes_per_turn)?,
-    })
-}
-
-fn text(word: &Option<Spanned<String>>) -> String {
-    word.as_ref().map(|word| word.get_ref().clone()).unwrap_or_default()
 }
 
 /// Keys without a default that are not there, all at once.

@@ -1,5 +1,7 @@
 //! Load, contact, analysis and output: tables that stand for themselves.
 
+use std::collections::HashSet;
+
 use super::Checked;
 use crate::{
     AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
@@ -16,26 +18,20 @@ pub(super) fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation
 }
 
 pub(super) fn contact(s: &Source<'_>, raw: &RawContact, kind: Kind) -> Checked<ContactScene> {
-    let method = choice!(s, raw.method)?;
+    let method: Method = choice!(s, raw.method)?;
     let (sliced, nodal) = (method == Method::Slice, method == Method::Nodal);
     let (least, most, _) = CONTACT.whole("slices");
     // Where none are said and the pair is to be cut, its own number follows once the scene is checked.
     let slices = s.whole("slices", &raw.slices, LEAST_SLICES, least, most)?;
-    let gap = choice!(s, raw.gap)?;
-    let points = value!(s, CONTACT, raw.points_per_face_edge)?;
+    let read = ContactScene::read(s, raw, f64::INFINITY)?;
     Ok(ContactScene {
-        method,
         slices: sliced.then_some(slices),
-        corner_contact: sliced.then_some(raw.corner_contact.as_ref().is_none_or(|c| *c.get_ref())),
-        friction: value!(s, CONTACT, raw.friction)?,
-        penalty_mpa_per_mm: optional!(s, CONTACT, raw.penalty_mpa_per_mm)?,
-        gap: nodal.then_some(gap),
-        points_per_face_edge: nodal.then_some(points),
+        corner_contact: read.corner_contact.filter(|_| sliced),
+        gap: read.gap.filter(|_| nodal),
+        points_per_face_edge: read.points_per_face_edge.filter(|_| nodal),
         // What moves may part and come back on the other side.
-        flanks: match (kind, &raw.flanks) {
-            (Kind::Dynamic, None) => Flanks::Both,
-            _ => choice!(s, raw.flanks)?,
-        },
+        flanks: if kind == Kind::Dynamic && raw.flanks.is_none() { Flanks::Both } else { read.flanks },
+        ..read
     })
 }
 
@@ -82,41 +78,23 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Che
             "say `kind = \"dynamic\"` in [analysis], or use `model = \"reduced\"`: at rest both are the same",
         ));
     }
-    let reduction = choice!(s, raw.reduction)?;
+    let read = Analysis::read(s, raw, f64::INFINITY)?;
+    let (low, high, _) = ANALYSIS.whole("cycles");
     Ok(Analysis {
         kind,
         model,
-        reduction: (model.has_reduced_gears() || model == Model::Auto).then_some(reduction),
-        positions_per_cycle: value!(s, ANALYSIS, raw.positions_per_cycle)?,
-        cycles: {
-            let (low, high, _) = ANALYSIS.whole("cycles");
-            s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, low, high)?
-        },
-        window_teeth: match raw.window_teeth {
-            None => None,
-            Some(_) => Some(value!(s, ANALYSIS, raw.window_teeth)?),
-        },
+        reduction: read.reduction.filter(|_| model.has_reduced_gears() || model == Model::Auto),
+        cycles: s.whole("cycles", &raw.cycles, if kind == Kind::Dynamic { 8 } else { 1 }, low, high)?,
+        ..read
     })
 }
 
 pub(super) fn output(s: &Source<'_>, raw: &RawOutput) -> Checked<OutputScene> {
-    let fields = match &raw.fields {
-        None => FieldName::CHOICES.iter().map(|(_, field)| *field).collect(),
-        words => s.choices_of("fields", words)?,
-    };
-    let mut derivatives: Vec<String> = Vec::new();
-    for key in raw.derivatives.iter().flatten().map(toml::Spanned::get_ref) {
-        if !derivatives.contains(key) {
-            derivatives.push(key.clone());
-        }
+    let mut read = OutputScene::read(s, raw, f64::INFINITY)?;
+    if raw.fields.is_none() {
+        read.fields = FieldName::CHOICES.iter().map(|(_, field)| *field).collect();
     }
-    Ok(OutputScene {
-        root_stress: value!(s, OUTPUT, raw.root_stress)?,
-        contact_lines: value!(s, OUTPUT, raw.contact_lines)?,
-        parquet: value!(s, OUTPUT, raw.parquet)?,
-        vtu: value!(s, OUTPUT, raw.vtu)?,
-        fields,
-        vtu_every: value!(s, OUTPUT, raw.vtu_every)?,
-        derivatives,
-    })
+    let mut seen = HashSet::new();
+    read.derivatives.retain(|key| seen.insert(key.clone()));
+    Ok(read)
 }

@@ -104,7 +104,7 @@ pub struct GearboxBearing {
     pub name: String,
     /// Shaft.
     pub shaft: usize,
-    /// Its middle, mm from the shaft's z = 0.
+    /// Middle of the bearing, mm from the shaft's z = 0.
     pub position: f64,
     /// Stiffness for displacements x, y, z and turns about them: N/mm, N, N mm.
     pub stiffness: [[f64; 6]; 6],
@@ -117,9 +117,9 @@ pub struct GearboxBearing {
 /// A rolling bearing whose stiffness follows its load.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRolling {
-    /// Of which kind.
+    /// Kind of the bearing.
     pub kind: RollingKind,
-    /// Its rolling elements, or what a catalogue says.
+    /// Size of its rolling elements, or what a catalogue says.
     pub size: RollingSize,
     /// Nominal contact angle, rad; 0 for deep grooves and cylindrical rollers.
     pub contact_angle: f64,
@@ -189,7 +189,7 @@ pub struct GearboxGear {
     pub name: String,
     /// Shaft.
     pub shaft: usize,
-    /// Its mid-plane, mm from the shaft's z = 0.
+    /// Mid-plane of the gear, mm from the shaft's z = 0.
     pub position: f64,
     /// The cross-section that its bore moves with, mm from the shaft's z = 0.
     pub seat: f64,

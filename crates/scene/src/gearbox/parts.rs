@@ -57,7 +57,7 @@ pub(super) fn place<R>(
     Ok((on, needed_number(s, table, name, "position_mm", position, 0.0, said)?.min(end)))
 }
 
-/// The same of a gear whose mid-plane may be beyond an end.
+/// Place on a shaft of a gear whose mid-plane may be beyond an end.
 pub(super) fn place_of_gear<R>(
     s: &Source<'_>,
     table: &Spanned<R>,

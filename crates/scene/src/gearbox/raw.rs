@@ -247,9 +247,9 @@ choices! {
     pub enum GearboxRun {
         /// All cycles from the equilibrium on.
         Span = "span",
-        /// The same from where the motion repeats itself.
+        /// All cycles from where the motion repeats itself.
         Steady = "steady",
-        /// The same, found by Newton's method on the common period of the meshes.
+        /// All cycles of the periodic motion that Newton's method finds on the common period of the meshes.
         Shooting = "shooting",
     }
 }

@@ -36,8 +36,8 @@ impl Gearbox {
         Self::parse_with(text, file, &[])
     }
 
-    /// The same with some of its keys set otherwise: `gear.0.position_mm`, `vibration.speeds`. Of two settings of a key
-    /// the last one holds.
+    /// Gearbox of a text with some of its keys set otherwise: `gear.0.position_mm`, `vibration.speeds`. Of two settings
+    /// of a key the last one holds.
     ///
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
@@ -45,7 +45,7 @@ impl Gearbox {
         Document::new(text.to_owned(), file).gearbox(settings)
     }
 
-    /// The same with the scenes of some names as texts: before they are written.
+    /// Gearbox of a text with the scenes of some names as texts: before they are written.
     pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
         let document = Document::new(text.to_owned(), file);
         read(&Source::of(&document, tables).with_beside(beside), &[])

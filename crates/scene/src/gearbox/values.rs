@@ -97,7 +97,7 @@ macro_rules! row {
     };
 }
 
-/// The same where it is written, else nothing.
+/// The value of a key by its row where it is written, else nothing.
 macro_rules! given {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
         $raw.$key.is_some().then(|| row!($s, $table, $raw.$key)).transpose()

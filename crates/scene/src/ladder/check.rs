@@ -1,7 +1,6 @@
 //! From the words of the tables on the cheaper models to what they mean.
 
-use super::{Lumped8Scene, MeshScene};
-use crate::schema::{RawLumped8, RawLumped12, RawMesh, StiffnessFrom};
+use crate::schema::{Lumped8Scene, MeshScene, RawLumped8, RawLumped12, RawMesh, StiffnessFrom};
 use crate::source::Source;
 use crate::spanned::Numbers;
 use crate::{Axis, Lumped12Scene, Model, SceneError};
@@ -27,7 +26,7 @@ pub(crate) enum Torques {
 /// What a model of the ladder takes from the scene.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Rung {
-    /// Its name in [analysis].
+    /// Name of the model in [analysis].
     pub name: &'static str,
     /// Coordinates of each gear beside the turn, where the model has them fixed.
     pub moves: Option<&'static [Axis]>,
@@ -44,7 +43,7 @@ pub(crate) struct Rung {
 }
 
 impl Rung {
-    /// Of a model, if it is one.
+    /// Rung of a model, if it is one.
     pub fn of(model: Model) -> Option<Self> {
         match model {
             Model::Lumped8 => Some(Self {
@@ -150,16 +149,15 @@ pub(crate) fn mesh(s: &Source<'_>, raw: &RawMesh, rung: Rung) -> Checked<MeshSce
         let what = format!("`line_sharing` means nothing to the model \"{}\", which has no friction", rung.name);
         return Err(s.conflict(&word.span(), what, "leave it out"));
     }
-    let sharing = choice!(s, raw.line_sharing)?;
+    let read = MeshScene::read(s, raw, f64::INFINITY)?;
     Ok(MeshScene {
         stiffness_from: from,
-        stiffness_n_per_um: optional!(s, MESH, raw.stiffness_n_per_um)?,
         stiffness_cos_n_per_um: list(s, "stiffness_cos_n_per_um", &raw.stiffness_cos_n_per_um)?,
         stiffness_sin_n_per_um: list(s, "stiffness_sin_n_per_um", &raw.stiffness_sin_n_per_um)?,
         error_cos_um: list(s, "error_cos_um", &raw.error_cos_um)?,
         error_sin_um: list(s, "error_sin_um", &raw.error_sin_um)?,
-        half_backlash_um: optional!(s, MESH, raw.half_backlash_um)?,
-        line_sharing: rung.lines.then_some(sharing),
+        line_sharing: read.line_sharing.filter(|_| rung.lines),
+        ..read
     })
 }
 
@@ -168,20 +166,16 @@ pub(crate) fn lumped8(s: &Source<'_>, raw: &RawLumped8) -> Checked<Lumped8Scene>
         ("speed_fluctuation_rpm", &raw.speed_fluctuation_rpm, "speed_fluctuation_hz"),
         ("speed_fluctuation_hz", &raw.speed_fluctuation_hz, "speed_fluctuation_rpm"),
     ];
-    let fluctuation = value!(s, LUMPED8, raw.speed_fluctuation_rpm)?;
-    let swings = fluctuation > 0.0;
+    let read = Lumped8Scene::read(s, raw, f64::INFINITY)?;
+    let fluctuates = read.speed_fluctuation_rpm > 0.0;
     if let Some((key, Some(value), other)) = both.into_iter().find(|(_, v, other)| {
         let gone = both.iter().any(|(k, v, _)| k == other && v.is_none());
         // An amplitude of zero needs no frequency.
-        v.is_some() && gone && (swings || *other == "speed_fluctuation_rpm")
+        v.is_some() && gone && (fluctuates || *other == "speed_fluctuation_rpm")
     }) {
         return Err(s.conflict(&value.span(), format!("`{key}` without `{other}`"), "give both, or leave both out"));
     }
-    Ok(Lumped8Scene {
-        law: choice!(s, raw.law)?,
-        speed_fluctuation_rpm: fluctuation,
-        speed_fluctuation_hz: optional!(s, LUMPED8, raw.speed_fluctuation_hz)?,
-    })
+    Ok(read)
 }
 
 pub(crate) fn lumped12(s: &Source<'_>, raw: &RawLumped12) -> Checked<Lumped12Scene> {

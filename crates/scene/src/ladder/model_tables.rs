@@ -5,8 +5,7 @@ use toml::Spanned;
 use super::check::{Rung, lumped8, lumped12, mesh};
 use super::impact::impact;
 use super::shaft::shaft18;
-use super::{Lumped8Scene, MeshScene, Shaft18Scene};
-use crate::schema::{ImpactScene, Lumped12Scene, RawScene};
+use crate::schema::{ImpactScene, Lumped8Scene, Lumped12Scene, MeshScene, RawScene, Shaft18Scene};
 use crate::source::Source;
 use crate::{Model, SceneError};
 
@@ -36,7 +35,8 @@ pub(crate) fn model_tables(s: &Source<'_>, raw: &RawScene, model: Model) -> Chec
     })
 }
 
-fn table<R: Default, T>(
+/// The checked table of a scene that asks for it, of its defaults where it is not written.
+pub(crate) fn table<R: Default, T>(
     raw: &Option<Spanned<R>>,
     wanted: bool,
     checked: impl FnOnce(&R) -> Checked<T>,

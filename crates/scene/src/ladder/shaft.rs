@@ -3,10 +3,9 @@
 use toml::Spanned;
 
 use super::check::list;
-use super::{DiscScene, Shaft18Scene, ShaftScene};
-use crate::schema::{RawDisc, RawShaft, RawShaft18, RawSupport, ShaftCoordinate};
+use crate::schema::{DiscScene, RawDisc, RawShaft, RawShaft18, RawSupport, Shaft18Scene, ShaftCoordinate, ShaftScene};
 use crate::source::Source;
-use crate::spanned::{Number, Rows};
+use crate::spanned::Rows;
 use crate::{SceneError, SupportScene};
 
 type Checked<T> = Result<T, SceneError>;
@@ -24,11 +23,7 @@ pub(crate) fn shaft18(s: &Source<'_>, raw: &RawShaft18) -> Checked<Shaft18Scene>
             return Err(s.conflict(&at.span(), what, "along x, y and z, as in [0.0, -9.81, 0.0]"));
         }
     };
-    Ok(Shaft18Scene {
-        mass_damping_per_s: value!(s, SHAFT18, raw.mass_damping_per_s)?,
-        stiffness_damping_s: value!(s, SHAFT18, raw.stiffness_damping_s)?,
-        gravity_m_per_s2,
-    })
+    Ok(Shaft18Scene { gravity_m_per_s2, ..Shaft18Scene::read(s, raw, f64::INFINITY)? })
 }
 
 /// The shaft of a gear; `at` is the table, for what it does not say.
@@ -37,11 +32,10 @@ pub(crate) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftS
     let segments_mm = segments(s, table, &raw.segments_mm)?;
     // Without the last bits of the sum: the end of the shaft is on it.
     let length = (segments_mm.iter().map(|s| s[0]).sum::<f64>() * 1e9).round() / 1e9;
-    let place = |key: &str, value: &Number| s.number(key, value, 0.0, 0.0, length);
     if raw.gear_at_mm.is_none() {
         return Err(s.conflict(&table.span(), "a shaft without `gear_at_mm`", "say where on the shaft its gear sits"));
     }
-    let gear_at_mm = place("gear_at_mm", &raw.gear_at_mm)?;
+    let read = ShaftScene::read(s, raw, length)?;
     let nodes_mm = list(s, "nodes_mm", &raw.nodes_mm)?;
     if let (Some(at), Some(x)) = (&raw.nodes_mm, nodes_mm.iter().find(|x| !(0.0..=length).contains(*x))) {
         let what = format!("`nodes_mm` holds {x}, which is not on a shaft of {length} mm");
@@ -49,13 +43,11 @@ pub(crate) fn shaft(s: &Source<'_>, table: &Spanned<RawShaft>) -> Checked<ShaftS
     }
     Ok(ShaftScene {
         segments_mm,
-        gear_at_mm,
-        torque_at_mm: s.number("torque_at_mm", &raw.torque_at_mm, gear_at_mm, 0.0, length)?,
+        torque_at_mm: s.number("torque_at_mm", &raw.torque_at_mm, read.gear_at_mm, 0.0, length)?,
         nodes_mm,
-        run_out_um: value!(s, SHAFT, raw.run_out_um)?,
-        run_out_phase_deg: value!(s, SHAFT, raw.run_out_phase_deg)?,
         discs: raw.discs.iter().map(|d| disc(s, d, length)).collect::<Checked<_>>()?,
         supports: raw.supports.iter().map(|b| support(s, b, length)).collect::<Checked<_>>()?,
+        ..read
     })
 }
 
@@ -83,13 +75,8 @@ fn disc(s: &Source<'_>, table: &Spanned<RawDisc>, length: f64) -> Checked<DiscSc
     if raw.at_mm.is_none() {
         return Err(s.conflict(&table.span(), "a disc without `at_mm`", "say where on the shaft it sits"));
     }
-    Ok(DiscScene {
-        at_mm: s.number("at_mm", &raw.at_mm, 0.0, 0.0, length)?,
-        mass_kg: value!(s, DISC, raw.mass_kg)?,
-        polar_inertia_kg_m2: value!(s, DISC, raw.polar_inertia_kg_m2)?,
-        transverse_inertia_kg_m2: value!(s, DISC, raw.transverse_inertia_kg_m2)?,
-        keeps: if raw.keeps.is_some() { s.choices_of("keeps", &raw.keeps)? } else { ENDS.to_vec() },
-    })
+    let read = DiscScene::read(s, raw, length)?;
+    Ok(if raw.keeps.is_some() { read } else { DiscScene { keeps: ENDS.to_vec(), ..read } })
 }
 
 fn support(s: &Source<'_>, table: &Spanned<RawSupport>, length: f64) -> Checked<SupportScene> {

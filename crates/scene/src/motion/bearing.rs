@@ -1,8 +1,7 @@
 //! Bodies of the gears, and what holds them.
 
-use super::{BearingScene, BodyScene};
 use crate::SceneError;
-use crate::schema::{Axis, BEARING, RawBearing, RawBody};
+use crate::schema::{Axis, BearingScene, BodyScene, RawBearing, RawBody};
 use crate::source::Source;
 use crate::spanned::{Number, Rows};
 
@@ -20,13 +19,7 @@ pub(crate) fn body(s: &Source<'_>, raw: &RawBody) -> Checked<BodyScene> {
     }
     let mut free: Vec<Axis> = s.choices_of("free", &raw.free)?;
     free.sort_by_key(|a| a.number());
-    Ok(BodyScene {
-        mass_kg: optional!(s, BODY, raw.mass_kg)?,
-        transverse_inertia_kg_m2: optional!(s, BODY, raw.transverse_inertia_kg_m2)?,
-        polar_inertia_kg_m2: optional!(s, BODY, raw.polar_inertia_kg_m2)?,
-        added_inertia_kg_m2: value!(s, BODY, raw.added_inertia_kg_m2)?,
-        free,
-    })
+    Ok(BodyScene { free, ..BodyScene::read(s, raw, f64::INFINITY)? })
 }
 
 /// A bearing of a gear whose coordinates `free` are free: each of them is held, and nothing else is said.
@@ -56,31 +49,17 @@ pub(crate) fn bearing(
     one_way(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad, &stiffness)?;
     one_way(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad, &damping)?;
     held(s, raw, [&stiffness, &damping], (free, free_at), whose)?;
-    let of = |list: &[(&str, &Number); 5], i: usize| s.optional_up_to(&BEARING, list[i].0, list[i].1, f64::INFINITY);
+    if let (true, Some(value)) = (free.is_empty(), &raw.damping_ratio) {
+        let what = format!("`damping_ratio` has nothing to damp: no coordinate of the {whose} is free");
+        let advice = format!("add `free` to [{whose}.body], or leave it out");
+        return Err(s.conflict(&value.span(), what, advice));
+    }
+    let read = BearingScene::read(s, raw, f64::INFINITY)?;
     Ok(BearingScene {
-        stiffness_x_n_per_mm: of(&stiffness, 0)?,
-        stiffness_y_n_per_mm: of(&stiffness, 1)?,
-        stiffness_z_n_per_mm: of(&stiffness, 2)?,
-        stiffness_rx_nmm_per_rad: of(&stiffness, 3)?,
-        stiffness_ry_nmm_per_rad: of(&stiffness, 4)?,
-        stiffness_rz_nmm_per_rad: optional!(s, BEARING, raw.stiffness_rz_nmm_per_rad)?,
-        damping_ratio: match (free.is_empty(), &raw.damping_ratio) {
-            (true, Some(value)) => {
-                let what = format!("`damping_ratio` has nothing to damp: no coordinate of the {whose} is free");
-                let advice = format!("add `free` to [{whose}.body], or leave it out");
-                return Err(s.conflict(&value.span(), what, advice));
-            }
-            (true, None) => None,
-            (false, ratio) => Some(s.number_of(&BEARING, "damping_ratio", ratio)?),
-        },
-        damping_x_ns_per_mm: of(&damping, 0)?,
-        damping_y_ns_per_mm: of(&damping, 1)?,
-        damping_z_ns_per_mm: of(&damping, 2)?,
-        damping_rx_nmms_per_rad: of(&damping, 3)?,
-        damping_ry_nmms_per_rad: of(&damping, 4)?,
-        damping_rz_nmms_per_rad: optional!(s, BEARING, raw.damping_rz_nmms_per_rad)?,
+        damping_ratio: read.damping_ratio.filter(|_| !free.is_empty()),
         stiffness_matrix_n_mm_rad: matrix(s, "stiffness_matrix_n_mm_rad", &raw.stiffness_matrix_n_mm_rad)?,
         damping_matrix_ns_mm_rad: matrix(s, "damping_matrix_ns_mm_rad", &raw.damping_matrix_ns_mm_rad)?,
+        ..read
     })
 }
 

@@ -2,8 +2,10 @@
 
 use toml::Spanned;
 
-use super::{MotionScene, SweepScene};
-use crate::schema::{Integration, RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep, Run, SweepWay};
+use crate::ladder::table;
+use crate::schema::{
+    Integration, MotionScene, RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep, Run, SweepScene, SweepWay,
+};
 use crate::source::Source;
 use crate::spanned::{Number, Whole};
 use crate::{BasinScene, ContinuationScene, RampScene, SceneError};
@@ -40,43 +42,21 @@ pub(crate) fn motion(s: &Source<'_>, raw: &RawMotion, cycles: &Whole) -> Checked
         return Err(s.conflict(&per_length.span(), what, "keep one of them"));
     }
     let settles = matches!(run, Run::Steady | Run::Shooting | Run::Sweep | Run::Continuation | Run::Basins);
-    let ramp_words = RawRamp::default();
-    let sweep_words = RawSweep::default();
-    let branch_words = RawContinuation::default();
-    let basin_words = RawBasins::default();
+    let writes_checkpoints = matches!(run, Run::Steady | Run::Span | Run::Ramp);
+    let read = MotionScene::read(s, raw, f64::INFINITY)?;
     Ok(MotionScene {
-        run,
-        method,
-        spectral_radius: (method == Integration::GeneralisedAlpha)
-            .then(|| value!(s, MOTION, raw.spectral_radius))
-            .transpose()?,
-        steps_per_mesh_cycle: value!(s, MOTION, raw.steps_per_mesh_cycle)?,
-        steps_per_resonance: value!(s, MOTION, raw.steps_per_resonance)?,
-        error_tolerance: optional!(s, MOTION, raw.error_tolerance)?,
-        stop_at_events: value!(s, MOTION, raw.stop_at_events)?,
-        mesh_damping_ratio: match raw.mesh_damping_ns_per_mm2 {
-            Some(_) => None,
-            None => Some(value!(s, MOTION, raw.mesh_damping_ratio)?),
-        },
-        mesh_damping_ns_per_mm2: optional!(s, MOTION, raw.mesh_damping_ns_per_mm2)?,
-        periodic_tolerance: settles.then(|| value!(s, MOTION, raw.periodic_tolerance)).transpose()?,
-        warm_up_cycles: settles.then(|| value!(s, MOTION, raw.warm_up_cycles)).transpose()?,
-        duration_s: optional!(s, MOTION, raw.duration_s)?,
-        checkpoint_every_cycles: matches!(run, Run::Steady | Run::Span | Run::Ramp)
-            .then(|| value!(s, MOTION, raw.checkpoint_every_cycles))
-            .transpose()?,
-        ramp: (run == Run::Ramp)
-            .then(|| ramp(s, raw.ramp.as_ref().map_or(&ramp_words, |r| r.get_ref()), span(&raw.run)))
-            .transpose()?,
-        sweep: (run == Run::Sweep)
-            .then(|| sweep(s, raw.sweep.as_ref().map_or(&sweep_words, |r| r.get_ref()), span(&raw.run)))
-            .transpose()?,
-        continuation: (run == Run::Continuation)
-            .then(|| continuation(s, raw.continuation.as_ref().map_or(&branch_words, |r| r.get_ref()), span(&raw.run)))
-            .transpose()?,
-        basins: (run == Run::Basins)
-            .then(|| basins(s, raw.basins.as_ref().map_or(&basin_words, |r| r.get_ref()), span(&raw.run)))
-            .transpose()?,
+        spectral_radius: read.spectral_radius.filter(|_| method == Integration::GeneralisedAlpha),
+        mesh_damping_ratio: read.mesh_damping_ratio.filter(|_| read.mesh_damping_ns_per_mm2.is_none()),
+        periodic_tolerance: read.periodic_tolerance.filter(|_| settles),
+        warm_up_cycles: read.warm_up_cycles.filter(|_| settles),
+        checkpoint_every_cycles: read.checkpoint_every_cycles.filter(|_| writes_checkpoints),
+        ramp: table(&raw.ramp, run == Run::Ramp, |words| ramp(s, words, span(&raw.run)))?,
+        sweep: table(&raw.sweep, run == Run::Sweep, |words| sweep(s, words, span(&raw.run)))?,
+        continuation: table(&raw.continuation, run == Run::Continuation, |words| {
+            continuation(s, words, span(&raw.run))
+        })?,
+        basins: table(&raw.basins, run == Run::Basins, |words| basins(s, words, span(&raw.run)))?,
+        ..read
     })
 }
 
@@ -131,23 +111,15 @@ fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> 
 
 fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScene> {
     needed(s, "sweep", &[("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm)], run)?;
-    let from_rpm = value!(s, SWEEP, raw.from_rpm)?;
-    let to_rpm = value!(s, SWEEP, raw.to_rpm)?;
-    if let (Some(to), true) = (&raw.to_rpm, to_rpm <= from_rpm) {
-        let what = format!("`to_rpm` is {to_rpm}, not above `from_rpm`, {from_rpm}");
+    let mut read = SweepScene::read(s, raw, f64::INFINITY)?;
+    if let (Some(to), true) = (&raw.to_rpm, read.to_rpm <= read.from_rpm) {
+        let what = format!("`to_rpm` is {}, not above `from_rpm`, {}", read.to_rpm, read.from_rpm);
         return Err(s.conflict(&to.span(), what, "the way is said by `ways`"));
     }
-    let mut ways = s.choices_of("ways", &raw.ways)?;
-    if ways.is_empty() {
-        ways = vec![SweepWay::Up, SweepWay::Down];
+    if read.ways.is_empty() {
+        read.ways = vec![SweepWay::Up, SweepWay::Down];
     }
-    Ok(SweepScene {
-        from_rpm,
-        to_rpm,
-        speeds: value!(s, SWEEP, raw.speeds)?,
-        ways,
-        steady_by: choice!(s, raw.steady_by)?,
-    })
+    Ok(read)
 }
 
 fn continuation(s: &Source<'_>, raw: &RawContinuation, run: Option<Span>) -> Checked<ContinuationScene> {

@@ -8,71 +8,12 @@ mod torque;
 use integrate::Scheme;
 use serde::Serialize;
 
-use crate::schema::{Axis, BasinScene, ContinuationScene, DriveBy, Integration, RampScene, Run, SteadyBy, SweepWay};
+use crate::schema::{BasinScene, BearingScene, DriveBy, MotionScene, SweepScene};
 
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
-pub use modes::ModesScene;
 pub(super) use modes::modes;
 pub(super) use torque::{drive, load};
-
-/// Rigid body of a gear with what turns with it.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-pub struct BodyScene {
-    /// Mass, kg; `None`: of the mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mass_kg: Option<f64>,
-    /// Inertia about an axis across the gear's own, through its centre at mid-face, kg m^2; `None`: of the mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub transverse_inertia_kg_m2: Option<f64>,
-    /// Inertia about the gear's own axis, kg m^2; `None`: of the mesh.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub polar_inertia_kg_m2: Option<f64>,
-    /// Inertia of engine, load or shaft on the same axis, kg m^2.
-    pub added_inertia_kg_m2: f64,
-    /// Coordinates that are free beside the turn.
-    pub free: Vec<Axis>,
-}
-
-/// Support of a gear's centre; `None`: none in that direction.
-#[derive(Debug, Clone, Default, PartialEq, Serialize)]
-#[allow(missing_docs)] // the keys say direction and unit, `docs/scene.md` the rest
-pub struct BearingScene {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_x_n_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_y_n_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_z_n_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_rx_nmm_per_rad: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_ry_nmm_per_rad: Option<f64>,
-    /// Against the turn off the nominal one, of lumped gears.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_rz_nmm_per_rad: Option<f64>,
-    /// Of each direction that is free and has no damping of its own.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_ratio: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_x_ns_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_y_ns_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_z_ns_per_mm: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_rx_nmms_per_rad: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_ry_nmms_per_rad: Option<f64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_rz_nmms_per_rad: Option<f64>,
-    /// Whole matrices, 5 x 5 in the order x, y, z, rx, ry; N/mm, N/rad, N mm/rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub stiffness_matrix_n_mm_rad: Option<[[f64; 5]; 5]>,
-    /// The same in N s/mm, N s/rad, N mm s/rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub damping_matrix_ns_mm_rad: Option<[[f64; 5]; 5]>,
-}
 
 impl BearingScene {
     /// Whether nothing is said.
@@ -106,7 +47,7 @@ impl BearingScene {
 /// What drives the driver.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DriveScene {
-    /// Its speed or its torque.
+    /// What is given of the driver: its speed or its torque.
     pub by: DriveBy,
     /// Torque of the driver in the running sense; nothing where its speed is given.
     #[serde(flatten)]
@@ -122,7 +63,7 @@ pub struct TorqueScene {
     /// Amplitude of a harmonic part, N m.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub amplitude_nm: Option<f64>,
-    /// Its frequency, Hz.
+    /// Frequency of the harmonic part, Hz.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub frequency_hz: Option<f64>,
     /// Phase of the cosine at t = 0, degrees.
@@ -138,57 +79,6 @@ impl TorqueScene {
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
-}
-
-/// Integration and analysis.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct MotionScene {
-    /// What is run.
-    pub run: Run,
-    /// Method of integration.
-    pub method: Integration,
-    /// Spectral radius at infinite frequency of the generalised-alpha method.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub spectral_radius: Option<f64>,
-    /// Rows in a mesh cycle, and least number of steps.
-    pub steps_per_mesh_cycle: u32,
-    /// Least number of steps in a period of the mesh resonance; 0: rows are the steps.
-    pub steps_per_resonance: u32,
-    /// Local error of a step over the static deflection; `None`: steps of equal length.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub error_tolerance: Option<f64>,
-    /// Ends a step wherever contact is lost or gained.
-    pub stop_at_events: bool,
-    /// Damping ratio of the mesh; exactly one of the two is there.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_damping_ratio: Option<f64>,
-    /// Damping of a mm of contact line, N s/mm^2.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub mesh_damping_ns_per_mm2: Option<f64>,
-    /// Difference after a period over the peak to peak that counts as none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub periodic_tolerance: Option<f64>,
-    /// Mesh cycles to wait for the periodic state at the most.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub warm_up_cycles: Option<u32>,
-    /// Length of a span, s; `None`: `cycles` mesh cycles.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub duration_s: Option<f64>,
-    /// A checkpoint every so many mesh cycles; 0: none.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub checkpoint_every_cycles: Option<u32>,
-    /// Run-up or run-down.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ramp: Option<RampScene>,
-    /// Sweep.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub sweep: Option<SweepScene>,
-    /// Continuation.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub continuation: Option<ContinuationScene>,
-    /// Basins of attraction.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub basins: Option<BasinScene>,
 }
 
 impl BasinScene {
@@ -208,21 +98,6 @@ impl MotionScene {
     pub fn scheme(&self) -> Scheme {
         self.method.scheme(self.spectral_radius)
     }
-}
-
-/// Speeds of the driver.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SweepScene {
-    /// Lowest, 1/min.
-    pub from_rpm: f64,
-    /// Highest, 1/min.
-    pub to_rpm: f64,
-    /// How many, evenly spaced.
-    pub speeds: u32,
-    /// Which way they are gone through.
-    pub ways: Vec<SweepWay>,
-    /// How each steady state is found.
-    pub steady_by: SteadyBy,
 }
 
 impl SweepScene {

@@ -12,7 +12,7 @@ const PITCH_ERRORS: &str = "pitch_errors_um";
 /// Pitch deviations of one gear: one draw is one gear from the machine.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PitchTolerance {
-    /// Its key, with dots.
+    /// Key of the pitch errors, with dots.
     key: String,
     /// f_pT and F_pT, um: between neighbours, and between any two teeth.
     limits_um: [f64; 2],

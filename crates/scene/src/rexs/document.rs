@@ -178,7 +178,7 @@ pub(super) struct Part<'m, 'a> {
 }
 
 impl<'a> Part<'_, 'a> {
-    /// Its kind and its number, for messages.
+    /// Kind and number of the part, for messages.
     pub(super) fn named(&self) -> String {
         format!("{} {}", self.kind, self.id)
     }

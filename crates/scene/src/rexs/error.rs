@@ -57,7 +57,7 @@ pub enum RexsError {
     /// A gear with teeth inside.
     #[error("{part} {why}: internal gears cannot be run")]
     Internal {
-        /// Its kind and the number of its component.
+        /// Kind and number of the component.
         part: String,
         /// What says so.
         why: String,
@@ -65,7 +65,7 @@ pub enum RexsError {
     /// A part that the file says something of that cannot be taken as it is.
     #[error("{part} {what}")]
     Unfit {
-        /// Its kind and the number of its component; the whole file where it is of no part.
+        /// Kind and number of the component; the whole file where it is of no part.
         part: String,
         /// What cannot be taken.
         what: String,
@@ -75,7 +75,7 @@ pub enum RexsError {
     /// A number that every part of its kind has.
     #[error("{part} has no `{attribute}`")]
     Missing {
-        /// Its kind and the number of its component.
+        /// Kind and number of the component.
         part: String,
         /// Name of the attribute.
         attribute: &'static str,
@@ -83,7 +83,7 @@ pub enum RexsError {
     /// A value that cannot be used.
     #[error("{part}: `{attribute}` is {value} {unit}, wanted is a number in {wanted}")]
     Value {
-        /// Its kind and the number of its component.
+        /// Kind and number of the component.
         part: String,
         /// Name of the attribute.
         attribute: &'static str,
@@ -97,7 +97,7 @@ pub enum RexsError {
     /// A number of teeth that no gear has.
     #[error("{part}: `number_of_teeth` is {value}, wanted is a whole number above 0")]
     Teeth {
-        /// Its kind and the number of its component.
+        /// Kind and number of the component.
         part: String,
         /// As read.
         value: f64,
@@ -105,7 +105,7 @@ pub enum RexsError {
     /// A place or direction that is not three numbers.
     #[error("{part}: `{attribute}` is not three finite numbers in {wanted}")]
     Vector {
-        /// Its kind and the number of its component.
+        /// Kind and number of the component.
         part: String,
         /// Name of the attribute.
         attribute: &'static str,

@@ -31,7 +31,7 @@ pub(super) struct GearData<'m, 'a> {
 }
 
 impl<'m, 'a> GearData<'m, 'a> {
-    /// Of an external cylindrical gear.
+    /// Data of an external cylindrical gear.
     pub(super) fn of(model: &'m Model<'a>, part: Part<'m, 'a>) -> Result<Self, RexsError> {
         let teeth = external_teeth(&part)?;
         let module = part.needed("normal_module", "mm")?;

@@ -56,7 +56,7 @@ pub(super) fn stages<'a>(model: &Model<'a>) -> Vec<Node<'a, 'a>> {
     model.relations("stage").filter(|r| model.refers(*r, "stage", "cylindrical_stage")).collect()
 }
 
-/// The same within a file that is read; what is left of it is not told.
+/// A pair within a file that is read; what is left of it is not told.
 pub(super) fn pair_of(
     model: &Model<'_>,
     train: &Train<'_, '_>,
@@ -325,7 +325,7 @@ mod tests {
         assert_eq!((found.own_face_width_mm, found.mid_face_offset_mm), ([Some(50.0), Some(48.0)], Some(7.0)));
     }
 
-    /// Each fault is told with its place and a way out; a file cut off anywhere ends in a message.
+    /// Each fault is told with its place and a hint; a file cut off anywhere ends in a message.
     #[test]
     fn what_is_wrong_is_told() {
         let said = |text: &str, stage| {

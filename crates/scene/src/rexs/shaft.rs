@@ -214,7 +214,7 @@ mod tests {
         assert!((own / exact - 1.0).abs() <= 5e-3 && steps.len() > 2, "{own} beside {exact}, {} steps", steps.len());
     }
 
-    /// Each fault is told with its place and a way out; a file cut off anywhere ends in a message.
+    /// Each fault is told with its place and a hint; a file cut off anywhere ends in a message.
     #[test]
     fn what_is_wrong_is_told() {
         let said = |text: &str, which: Option<&str>| {

@@ -47,7 +47,7 @@ pub(super) struct StageLoad {
     pub driver: usize,
     /// On the driven gear, N m.
     pub torque: f64,
-    /// Of the gear that drives, 1/min, with its sign about the u axis of the first shaft.
+    /// Speed of the gear that drives, 1/min, with its sign about the u axis of the first shaft.
     pub driver_speed: f64,
 }
 

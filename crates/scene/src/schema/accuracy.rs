@@ -27,7 +27,7 @@ macro_rules! quantities {
             /// All of a gearbox, in the order of tables.
             pub const OF_GEARBOX: &'static [Self] = &[$(Self::$both,)* $(Self::$own),*];
 
-            /// Its key in `[accuracy]`.
+            /// Key of the quantity in `[accuracy]`.
             pub fn key(self) -> &'static str {
                 match self {
                     $(Self::$variant => stringify!($key),)*
@@ -35,7 +35,7 @@ macro_rules! quantities {
                 }
             }
 
-            /// Its unit; empty for a ratio.
+            /// Unit of the quantity; empty for a ratio.
             pub fn unit(self) -> &'static str {
                 match self { $(Self::$variant => $unit,)* $(Self::$own => $own_unit,)* }
             }

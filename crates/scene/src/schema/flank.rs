@@ -162,3 +162,14 @@ static DRIVE_FLANK: Table = Table {
 };
 static COAST_FLANK: Table =
     Table { about: "micro-geometry of the flanks behind them, in place of both", keys: FLANK_KEYS, needed: &[] };
+
+/// What is ground off the flanks that the torque presses, and off the others.
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
+pub struct ModificationScene {
+    /// Flanks that the torque presses.
+    #[serde(skip_serializing_if = "FlankScene::is_none")]
+    pub drive: FlankScene,
+    /// Flanks behind them.
+    #[serde(skip_serializing_if = "FlankScene::is_none")]
+    pub coast: FlankScene,
+}

@@ -27,23 +27,29 @@ use crate::table::{Key, ValueKind};
 
 pub use accuracy::Quantity;
 pub(crate) use accuracy::{Asked, GEARBOX_ACCURACY, RawGearboxAccuracy};
-pub use flank::FlankScene;
+pub use flank::{FlankScene, ModificationScene};
 pub(crate) use flank::{RawFlank, RawModification};
-pub use gear::Coupling;
 pub(crate) use gear::*;
+pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, ShaperScene};
 pub(crate) use json::DOCUMENTS;
 pub use json::json_schema;
 pub(crate) use ladder::*;
-pub use ladder::{ImpactScene, Law, Lumped12Scene, ShaftCoordinate, Sharing, StiffnessFrom, SupportScene};
+pub use ladder::{
+    DiscScene, ImpactScene, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene,
+    Sharing, StiffnessFrom, SupportScene,
+};
 pub(crate) use motion::*;
 pub use motion::{
-    Axis, BasinScene, Boundary, ContinuationKey, ContinuationScene, DriveBy, Integration, RampScene, Run, SteadyBy,
-    SweepWay,
+    Axis, BasinScene, BearingScene, BodyScene, Boundary, ContinuationKey, ContinuationScene, DriveBy, Integration,
+    ModesScene, MotionScene, RampScene, Run, SteadyBy, SweepScene, SweepWay,
 };
-pub use rating::RatingEdition;
 pub(crate) use rating::*;
+pub use rating::{RatedGearScene, RatingEdition, RatingScene};
 pub(crate) use scene::*;
-pub use scene::{FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, Reduction};
+pub use scene::{
+    Analysis, ContactScene, FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, OutputScene,
+    PairScene, Reduction,
+};
 
 /// Every key of the scene file with dots before it: `pinion.modification.drive.tip_relief_um`,
 /// `pinion.shaft.discs.0.at_mm`.

@@ -1,7 +1,7 @@
 //! The numbers of the page are those of a run, its complaints those of the command.
 
 use analysis::{
-    NoCache, RestRequest, SharedModels, StaticAnalysis, WarningsAtRest, results::static_headline, solve_at_rest,
+    NoCache, RemarksAtRest, RestRequest, SharedModels, StaticAnalysis, results::static_headline, solve_at_rest,
 };
 use scene::Scene;
 use serde_json::{Value, json};
@@ -12,7 +12,7 @@ use crate::served::{ISO, Served, with_contact};
 fn headline_of_a_run(text: &str) -> Value {
     let scene = Scene::parse(text, "a.toml".as_ref()).unwrap();
     let solved = StaticAnalysis::new(&scene).solve().unwrap();
-    let settled = solve_at_rest(&scene, &SharedModels::new(&NoCache), RestRequest::to_the_end(WarningsAtRest::Skipped))
+    let settled = solve_at_rest(&scene, &SharedModels::new(&NoCache), RestRequest::to_the_end(RemarksAtRest::Skipped))
         .unwrap()
         .scene;
     let headline = static_headline(&settled, &solved.history).unwrap();

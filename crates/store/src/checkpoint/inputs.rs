@@ -99,7 +99,7 @@ pub(crate) enum Change {
 }
 
 impl InputDigests {
-    /// Of a document as everything was when it was read.
+    /// Digests of a document as everything was when it was read.
     pub fn of(document: &dyn Resumable) -> Self {
         let digest =
             |(_, path, blake3): (&Scene, &Path, String)| FileDigest { path: path.display().to_string(), blake3 };

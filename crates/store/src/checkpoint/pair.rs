@@ -32,7 +32,7 @@ pub struct PairState {
 }
 
 impl PairState {
-    /// Of a motion between such meshes.
+    /// State of a motion between such meshes.
     pub fn new(
         meshes: &[MeshFacts],
         MotionCheckpoint { window, motion, patterns }: MotionCheckpoint,

@@ -14,7 +14,7 @@ use columns::{ColumnsError, ENERGY, EnergyRows, MOTION_HISTORY, MotionRows, Shee
 
 /// Rows of a motion.
 pub const HISTORY: &str = "history.csv";
-/// Its ledger of energy, row by row.
+/// Ledger of energy of a motion, row by row.
 pub const ENERGY_FILE: &str = "energy.csv";
 
 /// Columns that `history.csv` of a scene's motion will have, but for those of single pairs, which go with the window.
@@ -46,7 +46,7 @@ pub fn read_rows(
     Ok(motion_rows(layout, &history, &energy)?)
 }
 
-/// The same from the texts of both files, `history.csv` first; `folder` is what messages name.
+/// Rows from the texts of both files, `history.csv` first; `folder` is what messages name.
 ///
 /// # Errors
 /// When a file holds what is no row.

@@ -82,7 +82,7 @@ pub(super) fn first_stranger(folder: &Path) -> io::Result<Option<String>> {
     Ok(None)
 }
 
-/// The same of a folder in which a result grows, which has no summary yet.
+/// What is strange in a folder in which a result grows, which has no summary yet.
 fn strange_in_growing(folder: &Path) -> io::Result<Option<String>> {
     for name in names(folder)? {
         let path = folder.join(&name);

@@ -16,7 +16,7 @@ use super::{
 pub struct Body<'a> {
     /// The meshed gear, in its own frame.
     pub gear: &'a MeshedGear,
-    /// Its material.
+    /// Material of the gear.
     pub material: &'a Material,
     /// Turn about its own axis, rad, +z.
     pub angle: f64,

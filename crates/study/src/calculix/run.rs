@@ -23,7 +23,7 @@ pub struct CalculixRun {
     pub result: CalculixResult,
     /// Wall time of the process, s.
     pub wall_s: f64,
-    /// Its largest resident set, MB; `None` where the system does not tell.
+    /// Largest resident set of the process, MB; `None` where the system does not tell.
     pub peak_memory_mb: Option<f64>,
 }
 

@@ -36,7 +36,7 @@ fn what_is_beyond_the_ranges_is_caught_or_said_not_to_be_covered() {
     all_are_caught(beyond_ranges());
 }
 
-/// The same pairs on the lowest rung of the ladder, which an accuracy of 50 % asks for.
+/// The pairs on the lowest rung of the ladder, which an accuracy of 50 % asks for, are caught as well.
 #[test]
 fn on_the_lowest_rung_they_are_caught_as_well() {
     let folder = tempfile::tempdir().unwrap();

@@ -177,7 +177,7 @@ impl VaryArgs {
         }
     }
 
-    /// The same by the words of a plan whose values do not each start alone.
+    /// The command by the words of a plan whose values do not each start alone.
     fn of_plan(self, plan: StartedPlan) -> Self {
         let plan_file = Some(self.file);
         Self {

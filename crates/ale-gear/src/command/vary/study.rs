@@ -8,7 +8,7 @@ use analysis::{
     resolution::with_slices,
 };
 use plan::{columns_of_scene, study_digest};
-use report::study_files::{StudyResult, study_answer, study_page, study_warnings};
+use report::study_files::{StudyResult, study_answer, study_page, study_remarks};
 use scene::study::Study;
 
 use super::{
@@ -69,7 +69,7 @@ impl VaryArgs {
                 return Err(e.into());
             }
         };
-        let mut remarks = study_warnings(&study, &runs, &findings);
+        let mut remarks = study_remarks(&study, &runs, &findings);
         let speed_up = against_full(&study, &findings, &mut phases).unwrap_or_else(|said| {
             remarks.push(said);
             None

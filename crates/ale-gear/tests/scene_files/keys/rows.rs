@@ -7,11 +7,11 @@ pub enum Base {
     Iso,
     /// The reduced model on tiny meshes.
     Reduced,
-    /// The same on sectors from files.
+    /// The reduced model on sectors from files.
     Files,
     /// The reduced model in motion.
     Motion,
-    /// The same with normal modes.
+    /// The reduced model in motion with normal modes.
     Modes,
     /// The seeds' scenes, shortened.
     Lumped8,
@@ -158,7 +158,7 @@ const SWEEP: &str = "motion.run=sweep; motion.sweep.from_rpm=2000; motion.sweep.
 
 const BRANCH: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=3200; motion.continuation.longest_step=1.0; motion.continuation.motions=12; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.tail=0.01";
 
-/// The same with so few harmonics that more are wanted.
+/// A continuation with so few harmonics that more are wanted.
 const MORE: &str = "motion.run=continuation; motion.continuation.from=3000; motion.continuation.to=3200; motion.continuation.longest_step=1.0; motion.continuation.motions=12; motion.continuation.time_points=0; motion.continuation.phases=64; motion.continuation.harmonics=2; motion.continuation.tail=1e-3";
 
 /// A plane of four starts.

@@ -22,14 +22,14 @@ use crate::{
 pub struct AccurateMotionResult {
     /// The scene as it was solved: of `model = "auto"` with the model, mesh, slices and steps that were taken.
     pub scene: Scene,
-    /// Its rows and facts, [`RunInfo::accuracy`] among them.
+    /// Rows and facts of the motion, [`RunInfo::accuracy`] among them.
     pub answer: MotionAnswer,
 }
 
 /// A scene in motion that is to be solved with bounds.
 ///
-/// Of `model = "auto"` the cheapest of `lumped12`, `reduced` and `reduced+modes` is taken that keeps what `[accuracy]`
-/// asks; of "reduced" and "reduced+modes" the bounds of the run are estimated.
+/// With `model = "auto"` the cheapest of `lumped12`, `reduced` and `reduced+modes` is taken that keeps what
+/// `[accuracy]` asks; of "reduced" and "reduced+modes" the bounds of the run are estimated.
 #[derive(Clone, Copy)]
 pub struct AccurateMotion<'a> {
     scene: &'a Scene,
@@ -43,7 +43,7 @@ impl std::fmt::Debug for AccurateMotion<'_> {
 }
 
 impl<'a> AccurateMotion<'a> {
-    /// Of a scene in motion with `[accuracy]`.
+    /// Analysis of a scene in motion with `[accuracy]`.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache }
     }

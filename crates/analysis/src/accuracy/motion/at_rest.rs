@@ -30,7 +30,7 @@ pub struct PairAtRest {
 }
 
 impl PairAtRest {
-    /// Of a scene in motion and the pair of its meshes at rest.
+    /// Pair at rest of a scene in motion, from its meshes at rest.
     ///
     /// # Errors
     /// [`AnalysisError`] where a gear has no mass or no frequency.
@@ -71,7 +71,7 @@ impl PairAtRest {
         })
     }
 
-    /// Of a scene in motion, its pair solved at rest under its load without friction.
+    /// Pair at rest of a scene in motion, solved under its load without friction.
     ///
     /// # Errors
     /// [`AnalysisError`].

@@ -13,14 +13,14 @@ use crate::accuracy::Law;
 /// What is known of one quantity of a motion. Each law is that of theory (67), s the number itself.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionLaws {
-    /// Its key in `[accuracy]`.
+    /// Key of the quantity in `[accuracy]`.
     pub quantity: String,
-    /// Of steps of time; d: what half as many change, s: the number itself times the square of
+    /// Law of steps of time; d: what half as many change, s: the number itself times the square of
     /// [`MotionCalibration::STEPS`] over the steps in a period of the mesh resonance.
     pub step: Law,
-    /// Of elasticity without inertia; d: what theory (63) says that it may change.
+    /// Law of elasticity without inertia; d: what theory (63) says that it may change.
     pub elasticity: Law,
-    /// Of twelve coordinates, by stratum of speed; d: what the motion adds to the number at rest.
+    /// Laws of twelve coordinates, by stratum of speed; d: what the motion adds to the number at rest.
     pub lumped12: Vec<SpeedLaw>,
     /// What bounds usually come to, by stratum and model.
     pub usual: Vec<UsualBound>,
@@ -100,7 +100,7 @@ impl MotionCalibration {
 }
 
 impl MotionLaws {
-    /// Of twelve coordinates at a speed; beyond all strata the last one.
+    /// Law of twelve coordinates at a speed; beyond all strata the last one.
     pub fn lumped12_at(&self, rest: &PairAtRest) -> Option<Law> {
         let found = self.lumped12.iter().find(|law| rest.speed_ratio() <= law.speed_to);
         Some(found.or(self.lumped12.last())?.law)

@@ -65,7 +65,7 @@ pub(super) struct MotionLadder<'a, 't> {
 }
 
 impl<'a, 't> MotionLadder<'a, 't> {
-    /// Of a scene in motion that asks for an accuracy.
+    /// Ladder of a scene in motion that asks for an accuracy.
     pub fn new(scene: &'a Scene, cache: &'a dyn GearCache, told: &'a mut MotionTold<'t>) -> Self {
         Self { scene, kept: GearMemo::new(cache), told, base: None }
     }
@@ -166,7 +166,7 @@ impl<'a, 't> MotionLadder<'a, 't> {
         (rows * base.rest.speed_ratio()).max(f64::from(choice.steps) * highest).max(1.0)
     }
 
-    /// The same with half the steps; `None` where rows are the steps.
+    /// Sample of the motion with half the steps; `None` where rows are the steps.
     fn halved(&self, base: &Base, choice: Choice) -> Result<Option<MotionSample>, AnalysisError> {
         let rows = self.scene.motion.as_ref().map_or(0.0, |m| f64::from(m.steps_per_mesh_cycle));
         let by_rows = rows * base.rest.speed_ratio() >= f64::from(choice.steps);
@@ -189,7 +189,7 @@ impl<'a, 't> MotionLadder<'a, 't> {
         let dearer = choice.model.finer().map(|model| Choice { model, steps: model.first_steps(choice.steps) });
         let with = |choice: Choice| MotionRung { scene: base.scene.clone(), choice };
         if choice.model == MotionModel::Lumped12 && own.least_force <= 0.0 {
-            return Some((with(dearer?), "its flanks part, which a linear mesh does not know".into()));
+            return Some((with(dearer?), "its flanks lose contact, which a linear mesh does not know".into()));
         }
         let worst = accuracy.worst()?;
         let model = worst.by(Cause::Model) + worst.by(Cause::QuasiStaticElasticity);

@@ -12,16 +12,16 @@ pub enum MotionModel {
     /// Flanks of the tooth window, elasticity at once.
     #[serde(rename = "reduced")]
     Reduced,
-    /// The same with normal modes of both gears.
+    /// Reduced gears with normal modes of both.
     #[serde(rename = "reduced+modes")]
     ReducedModes,
 }
 
 impl MotionModel {
-    /// Of the ladder, cheap to dear.
+    /// All models of the ladder, cheap to dear.
     pub const ALL: [Self; 3] = [Self::Lumped12, Self::Reduced, Self::ReducedModes];
 
-    /// Of a scene that says which; `None` for `auto`, and for models that no bounds are given of.
+    /// Model of a scene that says which; `None` for `auto`, and for models that no bounds are given of.
     pub fn of(scene: &Scene) -> Option<Self> {
         match scene.analysis.model {
             Model::Reduced => Some(Self::Reduced),

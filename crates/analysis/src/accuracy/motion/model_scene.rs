@@ -1,8 +1,8 @@
 //! Scenes of the models of a motion.
 
 use scene::{
-    AccuracyScene, Axis, BearingScene, BodyScene, Boundary, DriveBy, DriveScene, Driver, Lumped12Scene, MeshScene,
-    Model, ModesScene, Scene, Sharing, StiffnessFrom, TorqueScene,
+    AccuracyScene, Axis, BearingScene, BodyScene, DriveBy, DriveScene, Driver, Lumped12Scene, MeshScene, Model,
+    ModesScene, Scene, Sharing, StiffnessFrom, TorqueScene,
 };
 
 use super::{MotionModel, PairAtRest};
@@ -38,10 +38,9 @@ impl MotionModel {
                 own.analysis.model = Model::ReducedModes;
                 own.modes.get_or_insert(ModesScene {
                     count: Some(MODES),
-                    below_hz: None,
-                    boundary: Boundary::Massless,
                     fixed_modes: None,
                     damping_ratio: MODE_DAMPING,
+                    ..ModesScene::default()
                 });
             }
         }
@@ -62,8 +61,8 @@ fn lumped12(scene: &mut Scene, rest: &PairAtRest) {
             mass_kg: Some(KILOGRAM * body.mass),
             transverse_inertia_kg_m2: Some(KILOGRAM_METRE2 * body.transverse_inertia),
             polar_inertia_kg_m2: Some(KILOGRAM_METRE2 * more * body.polar_inertia),
-            added_inertia_kg_m2: 0.0,
             free: Axis::ALL.to_vec(),
+            ..BodyScene::default()
         });
         gear.bearing = BearingScene {
             stiffness_x_n_per_mm: Some(HELD[0]),

@@ -10,9 +10,9 @@ use crate::{
 
 /// What is told of a run as it comes; each model has its own rows.
 pub struct MotionTold<'a> {
-    /// Of reduced gears.
+    /// Sink of the rows of reduced gears.
     pub motion: &'a mut dyn MotionSink,
-    /// Of lumped gears.
+    /// Sink of the rows of lumped gears.
     pub lumped: &'a mut dyn LumpedSink,
 }
 
@@ -25,9 +25,9 @@ impl std::fmt::Debug for MotionTold<'_> {
 /// The answer of a model.
 #[derive(Debug)]
 pub enum MotionAnswer {
-    /// Of twelve coordinates.
+    /// Answer of twelve coordinates.
     Lumped(Box<LumpedResult>),
-    /// Of reduced gears, with modes or without.
+    /// Answer of reduced gears, with modes or without.
     Reduced(Box<MotionResult>),
 }
 
@@ -36,9 +36,9 @@ pub enum MotionAnswer {
 pub struct MotionSample {
     /// Root mean square of the dynamic transmission error about its mean, um.
     pub rms_um: f64,
-    /// Its peak to peak, um.
+    /// Peak to peak of the dynamic transmission error, um.
     pub peak_to_peak_um: f64,
-    /// Least sum of the normal forces over the mean: at zero and below the flanks part.
+    /// Least sum of the normal forces over the mean: at zero and below the flanks lose contact.
     pub least_force: f64,
     /// How nearly the motion repeats itself, over the peak to peak; `None`: nobody looked.
     pub periodicity: Option<f64>,
@@ -76,7 +76,7 @@ impl MotionAnswer {
         }
     }
 
-    /// The same, told nobody.
+    /// Runs a scene without telling anybody.
     ///
     /// # Errors
     /// [`AnalysisError`].
@@ -84,7 +84,7 @@ impl MotionAnswer {
         Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
     }
 
-    /// Its numbers.
+    /// Headline numbers of the motion.
     pub fn sample(&self) -> MotionSample {
         // Both headlines have the same names for them.
         macro_rules! sample {

@@ -12,7 +12,7 @@ use super::{
         LumpedInputs,
         analysis::{self, checked_run},
         excitation::ExcitationSource,
-        warnings::no_backlash,
+        remarks::no_backlash,
     },
     Attractor, BasinHeadline, BasinStart,
     attractor::told_apart,
@@ -52,7 +52,7 @@ pub struct BasinResult {
 }
 
 impl<'a> BasinAnalysis<'a> {
-    /// Of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
+    /// Analysis of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache }
     }
@@ -120,7 +120,7 @@ impl<'a> BasinAnalysis<'a> {
             .collect();
         let headline = BasinHeadline::new(&words, (coordinates, resonance_hz), &starts, &attractors);
         let mut remarks = system.remarks;
-        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(gears::remarks(&inputs.pair));
         remarks.extend(no_backlash(&inputs));
         remarks.extend(headline.remarks(&starts));
         remarks.extend(inputs.left_out_of_sweeps());

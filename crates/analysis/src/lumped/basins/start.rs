@@ -9,7 +9,7 @@ use crate::AnalysisError;
 pub struct BasinStart {
     /// Transmission error beside that of rest, um.
     pub initial_dte_um: f64,
-    /// Its rate beside that of rest, mm/s.
+    /// Rate of the transmission error beside that of rest, mm/s.
     pub initial_dte_rate_mm_s: f64,
     /// Number of the motion that it ends in; `None` where none comes out.
     pub attractor: Option<usize>,

@@ -7,7 +7,7 @@ use periodic::{BalanceOptions, Branch, BranchOptions, FourierSeries, PeriodicErr
 use scene::{ContinuationScene, Scene};
 
 use super::{
-    super::{LumpedInputs, analysis, excitation::ExcitationSource, warnings::no_backlash},
+    super::{LumpedInputs, analysis, excitation::ExcitationSource, remarks::no_backlash},
     BranchPoint, BranchTurn, ContinuationHeadline, TimePoint,
     family::ModelFamily,
     headline::{HeadlineInputs, headline},
@@ -66,7 +66,7 @@ pub struct ContinuationResult {
 }
 
 impl<'a> ContinuationAnalysis<'a> {
-    /// Of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
+    /// Analysis of a scene with the model `mapped`, `reduced`, `lumped8`, `lumped12` or `shaft18`.
     pub fn new(scene: &'a Scene) -> Self {
         Self { scene, cache: &NoCache }
     }
@@ -135,7 +135,7 @@ impl<'a> ContinuationAnalysis<'a> {
             broken: branch.broken.as_ref().map(ToString::to_string).or_else(|| cut_short(&branch, &words)),
         };
         let headline = headline(of, &points, &turns, &in_time).ok_or_else(Refusal::no_values)?;
-        remarks.extend(gears::warnings(&inputs.pair));
+        remarks.extend(gears::remarks(&inputs.pair));
         remarks.extend(no_backlash(&inputs));
         remarks.extend(headline.remarks());
         remarks.extend(inputs.left_out_of_sweeps());

@@ -28,7 +28,7 @@ pub(super) struct ModelFamily<'a> {
 }
 
 impl<'a> ModelFamily<'a> {
-    /// Of the model that `inputs` make at the first value of the key.
+    /// Family of the model that `inputs` make at the first value of the key.
     ///
     /// # Errors
     /// [`AnalysisError`] of a model that cannot be made or does not stand.

@@ -118,7 +118,7 @@ impl ContinuationHeadline {
 }
 
 impl BranchTurn {
-    /// Of a bifurcation and what was read off its motion.
+    /// Turn of a branch: a bifurcation and what was read off its motion.
     pub(super) fn new(bifurcation: &Bifurcation, point: BranchPoint) -> Self {
         Self { loss: bifurcation.loss.into(), point }
     }

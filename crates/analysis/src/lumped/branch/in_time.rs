@@ -31,9 +31,9 @@ const HARMONICS: usize = 12;
 pub struct TimePoint {
     /// Value of the key.
     pub value: f64,
-    /// Of the mesh cycles that are looked at.
+    /// Peak to peak of the mesh cycles that are looked at.
     pub peak_to_peak_dte_um: f64,
-    /// Of the branch.
+    /// Peak to peak of the branch.
     pub branch_peak_to_peak_dte_um: f64,
 }
 

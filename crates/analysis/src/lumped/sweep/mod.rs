@@ -21,7 +21,7 @@ pub use headline::SweepHeadline;
 pub use options::{LumpedQuantity, SweepOptions};
 pub use point::SweepPoint;
 
-use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, warnings::no_backlash};
+use super::{ExcitationSource, LumpedInputs, analysis, inputs::LumpedSystem, remarks::no_backlash};
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::RunInfo,
     refused::Refusal, resolution::with_slices, run_phase,
@@ -58,8 +58,8 @@ pub struct BifurcationAnalysis {
 }
 
 impl<'a> KeySweep<'a> {
-    /// Of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever its
-    /// `run`.
+    /// Sweep of scenes with the values of a key, ascending; of each the motion to the steady state is taken, whatever
+    /// its `run`.
     pub fn new(scenes: &'a [(f64, Scene)], options: &'a SweepOptions) -> Self {
         Self { scenes, options, cache: &NoCache }
     }

@@ -22,7 +22,7 @@ impl fmt::Debug for LumpedQuantity {
 }
 
 impl LumpedQuantity {
-    /// Of a name and what it stands for.
+    /// Quantity of a name and what it stands for.
     pub fn new(name: impl Into<String>, value: impl Fn(&LumpedRow) -> f64 + Send + Sync + 'static) -> Self {
         Self { name: name.into(), value: Arc::new(value) }
     }
@@ -32,7 +32,7 @@ impl LumpedQuantity {
         Self::new("dte_um", |row| row.transmission_error_um)
     }
 
-    /// Its number in a row.
+    /// Value of the quantity in a row.
     pub fn of(&self, row: &LumpedRow) -> f64 {
         (self.value)(row)
     }

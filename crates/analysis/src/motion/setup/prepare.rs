@@ -12,7 +12,7 @@ use scene::{Flanks, MotionScene, Scene};
 
 use super::{Elasticity, QuasiStatic, motion_options, scheme};
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, body_warnings,
+    AnalysisError, GearCache, Observer, PhaseWork, body_remarks,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     estimated_time::announced_seconds,
     facts::RunInfo,
@@ -114,15 +114,15 @@ pub(crate) fn prepare(
     let quasi_static = QuasiStatic::of(&history);
     let (resolution, said) = resolution(scene, pair, &contact);
     remarks.extend(said);
-    remarks.extend(gears::warnings(pair));
+    remarks.extend(gears::remarks(pair));
     remarks.extend(plausible::remarks(scene, pair));
     remarks.extend(meshes.iter().flat_map(|m| m.remarks.clone()));
-    remarks.extend(body_warnings(&model));
+    remarks.extend(body_remarks(&model));
     remarks.extend(sink.quasi_static(&model, observer));
     let mut facts = facts_of(&model, inputs, &history);
     facts.resolution = Some(resolution);
     if scene.output.root_stress {
-        remarks.extend(iso_root::warning(&LoadedPair::of(scene, pair)));
+        remarks.extend(iso_root::remark(&LoadedPair::of(scene, pair)));
     }
     let gears = model.into_gears();
     let (coast, coast_keys) = match coast {

@@ -99,7 +99,7 @@ pub fn gearbox(speed: f64, half_backlash: f64) -> ShaftSystem {
     }
 }
 
-/// The same with little load, a transmission error of 5 um and a drive that holds the mean turn: teeth separate.
+/// The gearbox with little load, a transmission error of 5 um and a drive that holds the mean turn: teeth separate.
 /// `half_backlash` in mm.
 pub fn light(speed: f64, half_backlash: f64) -> ShaftSystem {
     let mut system = gearbox(speed, half_backlash);

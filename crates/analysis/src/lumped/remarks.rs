@@ -54,7 +54,7 @@ fn why_not(exponent: Option<Lyapunov>) -> String {
 }
 
 /// What the certificate says that a user should hear.
-pub(super) fn certificate_warnings(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
+pub(super) fn certificate_remarks(motion: &MotionScene, headline: &LumpedHeadline) -> Vec<Remark> {
     let mut remarks = Vec::new();
     let c = &headline.certificate;
     if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {

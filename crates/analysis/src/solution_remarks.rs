@@ -13,18 +13,18 @@ const NAMES: [&str; 2] = ["pinion", "wheel"];
 
 /// What the bodies of the gears do that those of the user's machine may not: free cuts soften, bores close to the teeth
 /// stiffen.
-pub fn body_warnings(model: &StaticModel) -> Vec<Remark> {
+pub fn body_remarks(model: &StaticModel) -> Vec<Remark> {
     let gears = model.gears();
     let coarse = Coarse::new(model.pair(), [gears[0].material(), gears[1].material()], model.options());
     let warn = |i: usize| {
-        let bodies = sector_warning(model, &coarse, i).into_iter().chain(rim_warning(model, &coarse, i));
-        bodies.chain(locking_warning(&gears[i], NAMES[i]))
+        let bodies = sector_remark(model, &coarse, i).into_iter().chain(rim_remark(model, &coarse, i));
+        bodies.chain(locking_remark(&gears[i], NAMES[i]))
     };
     (0..2).flat_map(warn).collect()
 }
 
 /// A free-cut sector is softer than the gear it was cut from: by how much, two coarse models say.
-fn sector_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
+fn sector_remark(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
     let gear = model.gears()[i].gear();
     let (meshed, teeth) = (gear.teeth().len(), gear.tooth_count());
     let cyclic = reduced(&model.gears()[i]).is_some_and(GearReducer::is_cyclic);
@@ -54,7 +54,7 @@ const HELD: f64 = 0.1;
 
 /// A bore close to the teeth holds them: what the answer would be were the gear solid further in, two coarse models
 /// say.
-fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
+fn rim_remark(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Remark> {
     let gear = [&model.pair().pinion, &model.pair().wheel][i];
     let (bore, reference) = (gear.data().bore_diameter, 2.0 * gear.reference_radius());
     let held = |g: &ElasticGear| g.gear().bore_coupling() == BoreCoupling::Kinematic;
@@ -70,7 +70,7 @@ fn rim_warning(model: &StaticModel, coarse: &Coarse<'_>, i: usize) -> Option<Rem
 }
 
 /// Elements that lock: linear tetrahedra and wedges in bending always, others near a Poisson's ratio of 0.5.
-pub fn locking_warning(gear: &ElasticGear, name: &str) -> Option<Remark> {
+pub fn locking_remark(gear: &ElasticGear, name: &str) -> Option<Remark> {
     let poisson = gear.material().poisson();
     let kinds: Vec<ElementKind> = gear.gear().mesh().blocks.iter().map(|b| b.kind).collect();
     let locks = kinds.iter().find(|kind| locks_from(**kind).is_some_and(|from| poisson >= from));
@@ -96,7 +96,7 @@ pub(crate) struct PressedMesh {
 }
 
 /// Gears that jam: driving and coast flanks press against each other, and the teeth carry many times their load.
-pub(crate) fn jam_warning(all: &[PressedMesh], friction: f64) -> Option<Remark> {
+pub(crate) fn jam_remark(all: &[PressedMesh], friction: f64) -> Option<Remark> {
     let jammed = |p: &&PressedMesh| p.sum > (JAMMED + friction) * p.needed;
     let count = all.iter().filter(jammed).count();
     let worst = all.iter().filter(jammed).max_by(|a, b| a.sum.total_cmp(&b.sum))?;
@@ -104,13 +104,13 @@ pub(crate) fn jam_warning(all: &[PressedMesh], friction: f64) -> Option<Remark> 
     Some(remark::jammed(count, all.len(), worst.sum, times, worst.needed))
 }
 
-/// [`jam_warning`] of a pair at rest whose flanks may touch on both sides.
+/// [`jam_remark`] of a pair at rest whose flanks may touch on both sides.
 pub(crate) fn jammed_pair(positions: &[StaticPosition], pair: &GearPair, options: &StaticOptions) -> Option<Remark> {
     let driven = [&pair.pinion, &pair.wheel][options.driven()];
     let needed = options.torque.abs() / (driven.base_radius() * pair.base_helix_angle().cos());
     let of = |p: &StaticPosition| PressedMesh { sum: p.pairs.iter().map(|q| q.normal_force).sum(), needed };
     let all: Vec<PressedMesh> = positions.iter().map(of).collect();
-    options.contact.both_flanks.then(|| jam_warning(&all, options.contact.friction)).flatten()
+    options.contact.both_flanks.then(|| jam_remark(&all, options.contact.friction)).flatten()
 }
 
 /// Transmission error over the module from which on small deflections are doubtful; gears at their limits reach 0.02.
@@ -120,7 +120,7 @@ const LARGE_ERROR_MODULES: f64 = 0.05;
 const FEW_DIGITS: f64 = 1e3;
 
 /// What a solution says that a user should hear; module and centre distance in mm.
-pub(crate) fn deflection_warnings(positions: &[StaticPosition], module: f64, centre_distance: f64) -> Vec<Remark> {
+pub(crate) fn deflection_remarks(positions: &[StaticPosition], module: f64, centre_distance: f64) -> Vec<Remark> {
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
