@@ -198,6 +198,10 @@ mod tests {
             ),
             ("modes", "[analysis]\nkind = \"dynamic\"\nmodel = \"reduced+modes\"\n"),
             (
+                "rating",
+                "life_h = 1.0\napplication_factor = 1.0\ntolerance_class = 6\nlubricant = \"a\"\n[rating.pinion]\nmaterial = \"a\"\nflank_roughness_rz_um = 3.0\nroot_roughness_rz_um = 16.0\n[rating.wheel]\nmaterial = \"a\"\nflank_roughness_rz_um = 3.0\nroot_roughness_rz_um = 16.0\n",
+            ),
+            (
                 "mesh",
                 "[analysis]\nmodel = \"lumped8\"\n[pinion.bearing]\nstiffness_x_n_per_mm = 1e5\nstiffness_y_n_per_mm = 1e5\nstiffness_z_n_per_mm = 1e5\n[wheel.bearing]\nstiffness_x_n_per_mm = 1e5\nstiffness_y_n_per_mm = 1e5\nstiffness_z_n_per_mm = 1e5\n",
             ),
