@@ -11,7 +11,7 @@
 //! | words | `units`, `hints`, `keys`, `spanned`, `excerpt`, `error`, `table` (what a row of keys is) |
 //! | text | `tree` (tables and values with their places), `setting`, `document` (a file, read once), `places` (of keys), `source` and `source_values` (words, ranges, complaints), `data_file`, `inputs` (files that it names) |
 //! | schema | `schema` (every key with its type, range, default and choices), `raw` (what is read) |
-//! | checked tables | `gear`, `modification`, `motion`, `ladder`, `contact`, `accuracy`, `output`, ...; `solver_units` (their numbers in mm, N, t, s, rad) |
+//! | checked tables | `gear`, `modification`, `motion`, `models`, `contact`, `accuracy`, `output`, ...; `solver_units` (their numbers in mm, N, t, s, rad) |
 //! | scene | [`Scene`], `check`, `default_scene`, `builder`, and the readers of the other kinds of file |
 
 #[macro_use]
@@ -39,8 +39,8 @@ mod input_text;
 mod inputs;
 mod key_tables;
 mod keys;
-mod ladder;
 mod machine;
+mod models;
 mod modification;
 mod motion;
 pub mod optimum;

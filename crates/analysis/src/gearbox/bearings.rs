@@ -124,7 +124,7 @@ pub(super) fn rolling_load(
 }
 
 /// What the user should hear of a rolling bearing.
-pub(super) fn warnings(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
+pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {

@@ -159,7 +159,7 @@ pub(super) fn result(
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
     for (own, load) in file.bearings.iter().zip(&bearings) {
         let is_held = file.shafts[own.shaft].held;
-        remarks.extend(load.rolling.iter().flat_map(|r| super::bearings::warnings(&own.name, is_held, (load.tilt, r))));
+        remarks.extend(load.rolling.iter().flat_map(|r| super::bearings::remarks(&own.name, is_held, (load.tilt, r))));
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     for (i, pair) in pairs.iter().enumerate() {

@@ -13,10 +13,10 @@ use super::{
     MotionSpectrum, NoMotionSink, RunUp, WaterfallLine,
     checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
-    headline,
+    headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand, fastest_hz},
-    unresolved, warnings, waterfall,
+    unresolved, waterfall,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
@@ -184,7 +184,7 @@ impl<'a> MotionAnalysis<'a> {
             |window, failure| {
                 let Failure::Static(e) = failure else { return None };
                 let teeth = inputs.wider(window, e)?;
-                widened.push(warnings::widened(e, teeth));
+                widened.push(motion_remarks::widened(e, teeth));
                 Some(teeth)
             },
         );
@@ -224,10 +224,11 @@ pub(super) fn ready(
 ) -> Result<PreparedMotion, Failure> {
     let MotionInputs { scene, motion, .. } = *inputs;
     let mut prepared = prepare(inputs, observer, sink, window)?;
-    warnings::unstable(scene, &prepared)?;
-    prepared.remarks.extend(warnings::coarse(scene, motion, &prepared));
-    prepared.remarks.extend(warnings::no_backlash(scene, prepared.system.pair()));
-    let slow = warnings::slow(scene, motion, &prepared).or_else(|| warnings::long(scene, motion, &prepared));
+    motion_remarks::unstable(scene, &prepared)?;
+    prepared.remarks.extend(motion_remarks::coarse(scene, motion, &prepared));
+    prepared.remarks.extend(motion_remarks::no_backlash(scene, prepared.system.pair()));
+    let slow =
+        motion_remarks::slow(scene, motion, &prepared).or_else(|| motion_remarks::long(scene, motion, &prepared));
     if let Some(slow) = slow {
         // Who waits should hear it before the end.
         observer.note(slow.to_string());
@@ -276,7 +277,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         }
     };
     let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
-    let mut remarks = warnings_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
+    let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
         remarks.extend(ramp.run_up.coarse_cut());
@@ -305,7 +306,7 @@ fn run_up_torque(scene: &Scene, system: &PairMechanism) -> Option<Remark> {
 }
 
 /// What was heard before the motion, and what its numbers say.
-fn warnings_of(
+fn remarks_of(
     (scene, motion): (&Scene, &MotionScene),
     prepared: &PreparedMotion,
     headline: &MotionHeadline,
@@ -313,7 +314,7 @@ fn warnings_of(
     wall_s: f64,
 ) -> Vec<Remark> {
     let mut all = prepared.remarks.clone();
-    all.extend(warnings::of_motion(motion, prepared, headline));
+    all.extend(motion_remarks::of_motion(motion, prepared, headline));
     let resonance = prepared.system.mesh_resonance();
     let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
     let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;

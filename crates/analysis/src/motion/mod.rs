@@ -19,6 +19,7 @@ mod certificate;
 mod checks;
 mod course;
 mod headline;
+mod motion_remarks;
 mod orders;
 mod pattern;
 mod precision;
@@ -28,7 +29,6 @@ mod setup;
 mod sink;
 mod step_estimate;
 mod sweep;
-mod warnings;
 
 pub use crate::unstable_steps::Steps;
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
@@ -36,6 +36,9 @@ pub use checks::{
     MOTION_HINT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
 };
 pub use headline::{MotionCertificate, MotionHeadline};
+pub use motion_remarks::NO_BACKLASH_UM;
+pub(crate) use motion_remarks::coarse_steps;
+pub(crate) use motion_remarks::no_backlash;
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
     RunUpHeadline, WaterfallLine, waterfall,
@@ -52,6 +55,3 @@ pub use sink::{MotionCheckpoint, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};
 pub(crate) use sweep::direction;
 pub use sweep::{FailedSpeed, SWEEP_ORDERS, SweepAnalysis, SweepHeadline, SweepResult, SweepRow, SweepStatus};
-pub use warnings::NO_BACKLASH_UM;
-pub(crate) use warnings::coarse_steps;
-pub(crate) use warnings::no_backlash;

@@ -9,7 +9,7 @@ use analysis::{
 use ltca::StaticHistory;
 use scene::Scene;
 
-use super::parts::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
+use super::common::{Shown, harmonics, iso_root_stress, key, pair_answer, pair_page, pressure};
 use super::rating;
 use crate::{
     Cost, ReportError, Written,

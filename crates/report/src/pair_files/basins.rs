@@ -4,8 +4,8 @@ use analysis::lumped::{Attractor, BasinHeadline, BasinResult};
 use scene::Scene;
 
 use super::{
+    common::{Shown, pair_answer, pair_page},
     key_rows,
-    parts::{Shown, pair_answer, pair_page},
 };
 use crate::{
     Cost, ReportError, Written,

@@ -4,8 +4,8 @@ use analysis::lumped::{BranchPoint, ContinuationHeadline, ContinuationResult, Lo
 use scene::Scene;
 
 use super::{
+    common::{Shown, key, pair_answer, pair_page},
     key_rows,
-    parts::{Shown, key, pair_answer, pair_page},
 };
 use crate::{
     Cost, ReportError, Written,

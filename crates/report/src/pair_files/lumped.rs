@@ -8,7 +8,7 @@ use scene::Scene;
 use study::Columns;
 
 use super::{
-    parts::{Shown, cycles, errors, harmonics, key, pair_answer, pair_page},
+    common::{Shown, cycles, errors, harmonics, key, pair_answer, pair_page},
     rows,
 };
 use crate::{

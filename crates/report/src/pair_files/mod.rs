@@ -2,7 +2,7 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | `parts` | what all pages of a pair have |
+//! | `common` | what all pages of a pair have |
 //! | `rows`, `key_rows` | rows beside the histories as tables |
 //! | `at_rest` | positions at rest |
 //! | `rating` | whether the pair will hold |
@@ -14,12 +14,12 @@
 mod at_rest;
 mod basins;
 mod branch;
+mod common;
 mod in_time;
 pub(crate) mod key_rows;
 mod key_sweep;
 mod lumped;
 mod motion;
-mod parts;
 mod rating;
 pub(crate) mod rows;
 

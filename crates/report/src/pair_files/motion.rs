@@ -7,7 +7,7 @@ use analysis::{
 use scene::{Scene, SweepWay};
 
 use super::{
-    parts::{
+    common::{
         Shown, cycles, elasticity, errors, harmonics, inertia, iso_root_stress, key, pair_answer, pair_page, pressure,
     },
     rows,

@@ -4,7 +4,7 @@ use analysis::pair_rating::RatingHeadline;
 use answer::Table;
 use rating::{GearDamage, GearRating, StandardRating, local_pitting_safety};
 
-use super::parts::key;
+use super::common::key;
 use crate::page::{Cell, Content, Grid, Line, Part};
 
 /// The safeties that people look for first.

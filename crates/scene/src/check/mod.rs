@@ -11,7 +11,7 @@ mod tables;
 mod together;
 
 use super::{
-    Analysis, Kind, Material, Run, Scene, SceneError, Setting, ladder, schema::RawScene, source::Source, spanned::Over,
+    Analysis, Kind, Material, Run, Scene, SceneError, Setting, models, schema::RawScene, source::Source, spanned::Over,
 };
 use gear::{Hand, gear, pair};
 use motion::{bodies, drive, in_time, load, normal_modes, refuse_motion_tables, shaft};
@@ -35,7 +35,7 @@ pub(super) fn scene(source: &Source<'_>, mut raw: RawScene) -> Checked<Scene> {
     let mut wheel = gear(source, &raw.wheel, hand, &pair, face_elements)?;
     let accuracy = accuracy(source, &raw)?;
     let analysis = analysis(source, &raw.analysis, !accuracy.is_none())?;
-    ladder::check_tables(source, &raw, analysis.model)?;
+    models::check_tables(source, &raw, analysis.model)?;
     let dynamic = analysis.kind == Kind::Dynamic;
     if dynamic {
         bodies(source, &raw, analysis.model, [&mut pinion, &mut wheel])?;
@@ -44,8 +44,8 @@ pub(super) fn scene(source: &Source<'_>, mut raw: RawScene) -> Checked<Scene> {
     }
     let modes = normal_modes(source, &raw, analysis.model)?;
     let in_time = dynamic.then(|| in_time(source, &raw, analysis.model)).transpose()?;
-    let ladder::ModelTables { mesh, lumped8, lumped12, shaft18, impact } =
-        ladder::model_tables(source, &raw, analysis.model)?;
+    let models::ModelTables { mesh, lumped8, lumped12, shaft18, impact } =
+        models::model_tables(source, &raw, analysis.model)?;
     if let Some(word) = raw.analysis.model.as_ref().filter(|_| shaft18.is_some()) {
         pinion.shaft = Some(shaft(source, &raw.pinion, "pinion", word)?);
         wheel.shaft = Some(shaft(source, &raw.wheel, "wheel", word)?);

@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::Checked;
 use crate::{
-    DriveScene, GearScene, Model, ModesScene, MotionScene, ShaftScene, TorqueScene, ladder, motion,
+    DriveScene, GearScene, Model, ModesScene, MotionScene, ShaftScene, TorqueScene, models, motion,
     schema::{RawGear, RawScene},
     source::Source,
 };
@@ -16,12 +16,12 @@ fn table_of<T>(table: &Option<Spanned<T>>) -> Option<&T> {
 
 /// Bodies and bearings of both gears.
 pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut GearScene; 2]) -> Checked<()> {
-    let rung = ladder::Rung::of(model);
+    let rung = models::Rung::of(model);
     for (of, (said, whose)) in gears.into_iter().zip([(&raw.pinion, "pinion"), (&raw.wheel, "wheel")]) {
         let mut body = table_of(&said.body).map(|b| motion::body(s, b)).transpose()?.unwrap_or_default();
         let mut free_at = said.body.as_ref().map(Spanned::span);
         if let Some((rung, moves)) = rung.and_then(|r| Some((r, r.moves?))) {
-            ladder::check_free_coordinates(s, said, rung, &body)?;
+            models::check_free_coordinates(s, said, rung, &body)?;
             body.free = moves.to_vec();
             free_at = raw.analysis.model.as_ref().map(Spanned::span);
         }
@@ -39,7 +39,7 @@ pub(super) fn bodies(s: &Source<'_>, raw: &RawScene, model: Model, gears: [&mut 
 pub(super) fn in_time(s: &Source<'_>, raw: &RawScene, model: Model) -> Checked<MotionScene> {
     let said = motion::motion(s, table_of(&raw.motion).unwrap_or(&Default::default()), &raw.analysis.cycles)?;
     // Only a mesh that says so has a damping of its own.
-    let damped = ladder::Rung::of(model).is_none_or(|r| r.mesh_damping);
+    let damped = models::Rung::of(model).is_none_or(|r| r.mesh_damping);
     Ok(MotionScene { mesh_damping_ratio: said.mesh_damping_ratio.filter(|_| damped), ..said })
 }
 
@@ -56,7 +56,7 @@ pub(super) fn load(s: &Source<'_>, raw: &RawScene) -> Checked<TorqueScene> {
 /// The shaft of a gear, which the model of shafts wants.
 pub(super) fn shaft(s: &Source<'_>, raw: &RawGear, whose: &str, model: &Spanned<String>) -> Checked<ShaftScene> {
     match &raw.shaft {
-        Some(table) => ladder::shaft(s, table),
+        Some(table) => models::shaft(s, table),
         None => Err(s.conflict(
             &model.span(),
             format!("the model \"shaft18\" wants the shaft of the {whose}"),

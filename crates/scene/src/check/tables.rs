@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use super::Checked;
 use crate::{
-    AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, ladder,
+    AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, models,
     schema::{ANALYSIS, CONTACT, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
     source::Source,
     table::Choice,
@@ -59,7 +59,7 @@ pub(super) fn analysis(s: &Source<'_>, raw: &RawAnalysis, accuracy: bool) -> Che
             "leave it out: this model reduces nothing",
         ));
     }
-    let rung = ladder::Rung::of(model);
+    let rung = models::Rung::of(model);
     let kind = match (&raw.kind, rung) {
         (None, Some(_)) => Kind::Dynamic,
         _ => choice!(s, raw.kind)?,

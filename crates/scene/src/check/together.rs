@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::{Checked, accuracy_in_time};
 use crate::{
-    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, ladder, schema::RawScene, source::Source,
+    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, models, schema::RawScene, source::Source,
 };
 
 /// What can only be judged with the whole scene in view.
@@ -211,10 +211,10 @@ fn of_model(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
 
 /// An analysis in time.
 fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
-    let rung = ladder::Rung::of(scene.analysis.model);
+    let rung = models::Rung::of(scene.analysis.model);
     possible(s, raw, scene, rung.is_some())?;
     if let Some(rung) = rung {
-        ladder::check_in_time(s, raw, scene, rung)?;
+        models::check_in_time(s, raw, scene, rung)?;
     }
     let linear = rung.is_some_and(|r| r.mesh && !r.backlash);
     if let (Some(torque), true, false) = (&raw.operation.torque_nm, scene.operation.torque_nm == 0.0, linear) {

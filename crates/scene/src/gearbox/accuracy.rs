@@ -1,6 +1,6 @@
 //! The table of accuracy of a gearbox file.
 
-use super::{raw::RawGearbox, values::Checked};
+use super::{schema::RawGearbox, values::Checked};
 use crate::{AccuracyScene, Quantity, Source};
 
 /// What is asked; nothing where there is no table.

@@ -5,8 +5,8 @@ use toml::Spanned;
 use super::{
     file::GearboxBearing,
     parts::place,
-    raw::RawBearing,
     rolling::{TYPED, rolling},
+    schema::RawBearing,
     values::{Checked, missing, numbers, square},
 };
 use crate::Source;

@@ -12,7 +12,7 @@ use super::loads::{apart, loaded};
 use super::motion::{GearboxMotion, motion};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
-use super::raw::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
+use super::schema::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;

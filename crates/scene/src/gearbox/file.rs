@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{GearboxMotion, raw::RollingKind};
+use super::{GearboxMotion, schema::RollingKind};
 use crate::{AccuracyScene, Scene, Sense};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.

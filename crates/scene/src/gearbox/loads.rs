@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::{
     file::{GearboxGear, GearboxInput, GearboxMesh, GearboxTorque},
-    raw::RawMesh,
+    schema::RawMesh,
     values::Checked,
 };
 use crate::Source;

@@ -9,7 +9,7 @@
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
 //! | `of_pair` | the gearbox that a pair is the short form of |
-//! | `raw`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
+//! | `schema`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
 mod accuracy;
 mod bearing;
@@ -21,9 +21,9 @@ mod motion;
 mod of_pair;
 mod pair_setting;
 mod parts;
-mod raw;
 mod read;
 mod rolling;
+mod schema;
 mod shaft;
 mod values;
 mod vibration;
@@ -34,5 +34,5 @@ pub use file::{
 };
 pub use motion::GearboxMotion;
 pub use of_pair::gearbox_of_pair;
-pub(crate) use raw::GEARBOX;
-pub use raw::{GearboxDrive, MeshModel, RollingKind};
+pub(crate) use schema::GEARBOX;
+pub use schema::{GearboxDrive, MeshModel, RollingKind};

@@ -4,7 +4,7 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
-    raw::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawMotion},
+    schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawMotion},
     values::{Checked, given, needed_of, row},
 };
 use crate::{Integration, Source};

@@ -6,7 +6,7 @@ use super::{
     Gearbox,
     check::check,
     pair_setting::{PairSetting, is_of_pair},
-    raw::{RawGearbox, tables},
+    schema::{RawGearbox, tables},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source};
 

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::{
     file::{AxialPlay, GearboxRolling, RollingSize, ThrustSeat},
-    raw::{Arrangement, BEARING, RawBearing, RollerProfile, RollingKind, Thrust},
+    schema::{Arrangement, BEARING, RawBearing, RollerProfile, RollingKind, Thrust},
     values::{Checked, missing, needed_number, needed_of, row},
 };
 use crate::{Number, Source};

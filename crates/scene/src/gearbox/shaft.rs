@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::{
     file::{GearboxSection, GearboxShaft},
     parts::{all, few},
-    raw::{RawSection, RawShaft, SECTION, SHAFT},
+    schema::{RawSection, RawShaft, SECTION, SHAFT},
     values::{Checked, given, missing, needed_of, needed_word, numbers, row},
 };
 use crate::{RexsShaft, Source, read_rexs, read_shaft};

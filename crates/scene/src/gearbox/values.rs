@@ -93,7 +93,7 @@ pub(super) fn needed_of<R>(
 /// The value of a key by its row, or the row's default; the names of key and field are one.
 macro_rules! row {
     ($s:expr, $table:ident, $raw:ident.$key:ident) => {
-        $crate::source_values::Entry::value(&$raw.$key, $s, &$crate::gearbox::raw::$table, stringify!($key))
+        $crate::source_values::Entry::value(&$raw.$key, $s, &$crate::gearbox::schema::$table, stringify!($key))
     };
 }
 

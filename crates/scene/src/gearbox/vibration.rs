@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::{
     file::GearboxVibration,
-    raw::{InputTurn, RawVibration, VIBRATION},
+    schema::{InputTurn, RawVibration, VIBRATION},
     values::{Checked, needed_of, row},
 };
 use crate::Source;

@@ -2,7 +2,7 @@
 
 use toml::Spanned;
 
-use crate::ladder::table;
+use crate::models::table;
 use crate::schema::{
     Integration, MotionScene, RawBasins, RawContinuation, RawMotion, RawRamp, RawSweep, Run, SweepScene, SweepWay,
 };

@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::{
     DesignParameter, Optimisation, TorqueWeight,
     file::TORQUE,
-    raw::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, RawOptimise, SAMPLES},
+    schema::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, RawOptimise, SAMPLES},
     words::parameter,
 };
 use crate::{

@@ -6,16 +6,16 @@
 //! | `file` | a checked optimisation, and the scenes of its designs |
 //! | `numbers` | one of any numbers, of a pair or a gearbox, by differences |
 //! | `read` | from a file, or from words of a command line, to that |
-//! | `raw`, `check` | its words, and what they mean: every complaint is made here |
+//! | `schema`, `check` | its words, and what they mean: every complaint is made here |
 
 mod check;
 mod file;
 mod numbers;
-mod raw;
 mod read;
+mod schema;
 mod words;
 
 pub use file::{DesignParameter, Optimisation, TorqueWeight};
 pub use numbers::{NumberLimit, NumberOptimisation};
-pub(crate) use raw::{OPTIMISATION, OPTIMISE};
+pub(crate) use schema::{OPTIMISATION, OPTIMISE};
 pub use words::OptimisationWords;

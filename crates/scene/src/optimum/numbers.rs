@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::{
     DesignParameter,
     check::{parameters, settings, words as listed},
-    raw::{EVALUATIONS, RawOptimisation},
+    schema::{EVALUATIONS, RawOptimisation},
     words::{OptimisationWords, parameter},
 };
 use toml::Spanned;

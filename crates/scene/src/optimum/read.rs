@@ -9,7 +9,7 @@ use super::{
     NumberOptimisation, Optimisation, TorqueWeight,
     check::{check, default_parameters, finish, measure, words as listed},
     numbers::numbers,
-    raw::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, tables},
+    schema::{EVALUATIONS, FRONT, PRESSURES, RawOptimisation, tables},
     words::{OptimisationWords, parameter},
 };
 use crate::{

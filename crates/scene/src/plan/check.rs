@@ -5,7 +5,7 @@ use toml::Spanned;
 
 use super::{
     AxisValues, AxisWord, PitchTolerance, Plan, PlanAxis, PlanOutput, classed,
-    raw::{RawPlan, RawVary, SAMPLES, SEED},
+    schema::{RawPlan, RawVary, SAMPLES, SEED},
     start::Start,
     tolerance::is_pitch,
 };

@@ -8,7 +8,7 @@ use super::{
     Plan, PlanOutput,
     check::{DESIGNS, axis, check, finish},
     classed,
-    raw::{RawPlan, SAMPLES, SEED, tables},
+    schema::{RawPlan, SAMPLES, SEED, tables},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source, nearest};
 

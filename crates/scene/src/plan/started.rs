@@ -5,8 +5,8 @@ use toml::Spanned;
 use super::{
     SectionEvery, Start,
     check::{fits, setting},
-    raw::{RawVary, VARY},
     read::{base_of, words_of},
+    schema::{RawVary, VARY},
 };
 use crate::{Document, SceneError, Setting, SweepWay, Whole};
 

@@ -3,7 +3,7 @@
 use mesh::{GroupNames, Mesh};
 
 use super::flank::{MODIFICATION, ModificationScene, RawModification};
-use super::ladder::{RawShaft, SHAFT, ShaftScene};
+use super::models::{RawShaft, SHAFT, ShaftScene};
 use super::motion::{BEARING, BODY, BearingScene, BodyScene, RawBearing, RawBody};
 use crate::data_file::DataFile;
 use crate::table::{INF, Table};

@@ -8,7 +8,7 @@
 //! | `flank` | micro-geometry |
 //! | `accuracy` | headline numbers that an accuracy may be asked of |
 //! | `motion` | bodies, bearings, torques, integration, analyses in time |
-//! | `ladder` | cheaper models |
+//! | `models` | cheaper models |
 //! | `rating` | whether the pair will hold |
 //! | `json` | all of them as JSON Schema |
 //!
@@ -18,7 +18,7 @@ mod accuracy;
 mod flank;
 mod gear;
 mod json;
-mod ladder;
+mod models;
 mod motion;
 mod rating;
 mod scene;
@@ -33,8 +33,8 @@ pub(crate) use gear::*;
 pub use gear::{BoreScene, Coupling, GearScene, Material, MesherScene, ShaperScene};
 pub(crate) use json::DOCUMENTS;
 pub use json::json_schema;
-pub(crate) use ladder::*;
-pub use ladder::{
+pub(crate) use models::*;
+pub use models::{
     DiscScene, ImpactScene, Law, Lumped8Scene, Lumped12Scene, MeshScene, Shaft18Scene, ShaftCoordinate, ShaftScene,
     Sharing, StiffnessFrom, SupportScene,
 };
@@ -211,7 +211,7 @@ mod tests {
             ),
         ];
         for (path, table) in every_table() {
-            // Shafts are many tables deep; their one list is that of the axes, checked in `ladder/shaft.rs`.
+            // Shafts are many tables deep; their one list is that of the axes, checked in `models/shaft.rs`.
             if path.contains("shaft") {
                 continue;
             }

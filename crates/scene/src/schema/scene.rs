@@ -2,7 +2,7 @@
 
 use super::accuracy::{ACCURACY, RawAccuracy};
 use super::gear::{GEAR, MATERIAL, RawGear, RawMaterial, WHEEL};
-use super::ladder::{
+use super::models::{
     IMPACT, LUMPED8, LUMPED12, MESH, RawImpact, RawLumped8, RawLumped12, RawMesh, RawShaft18, SHAFT18,
 };
 use super::motion::{DRIVE, LOAD, MODES, MOTION, RawDrive, RawLoad, RawModes, RawMotion};

@@ -4,7 +4,7 @@ use toml::Spanned;
 
 use super::columns::{self, ColumnsOf};
 use super::file::{Follow, FullRun, OverTime, RefusedCase, Study, StudyCase, StudyQuantity};
-use super::raw::{CASE, FOLLOW, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
+use super::schema::{CASE, FOLLOW, FULL, RawCase, RawFollow, RawFull, RawQuantity, RawStudy};
 use crate::{Place, Run, SceneError, Setting, Source, Whole, Word};
 
 type Checked<T> = Result<T, SceneError>;

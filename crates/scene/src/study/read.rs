@@ -6,7 +6,7 @@ use super::{
     Study,
     check::check,
     columns::ColumnsOf,
-    raw::{RawStudy, tables},
+    schema::{RawStudy, tables},
 };
 use crate::{Document, DocumentKind, SceneError, Setting, Source};
 

@@ -17,9 +17,9 @@ use crate::{
     motion::{
         CampbellDiagram, MotionSink, NoMotionSink,
         analysis::{campbell_diagram, ready},
+        motion_remarks,
         setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz},
         step_estimate::{Pace, StepDemand},
-        warnings,
     },
 };
 
@@ -121,7 +121,7 @@ impl<'a> SweepAnalysis<'a> {
             |window, failure| {
                 let Failure::Static(e) = failure else { return None };
                 let teeth = inputs.wider(window, e)?;
-                widened.push(warnings::widened(e, teeth));
+                widened.push(motion_remarks::widened(e, teeth));
                 Some(teeth)
             },
         );
@@ -155,6 +155,6 @@ fn result(
     let pace = Pace::of(wall_s, waited as f64 * own_steps);
     let PreparedMotion { quasi_static, facts, elasticity, mut remarks, .. } = prepared;
     remarks.extend(elasticity.warning(&vibration, &demand, pace));
-    remarks.extend(warnings::of_sweep(&headline, rows.len()));
+    remarks.extend(motion_remarks::of_sweep(&headline, rows.len()));
     Ok(SweepResult { rows, headline, campbell, quasi_static, facts, remarks })
 }

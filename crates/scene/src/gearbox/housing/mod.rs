@@ -14,7 +14,7 @@ use std::path::Path;
 use toml::Spanned;
 
 use super::{
-    raw::RawHousing,
+    schema::RawHousing,
     values::{Checked, missing, square},
 };
 use crate::{Source, read_text};
