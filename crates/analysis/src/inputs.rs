@@ -11,8 +11,7 @@ use crate::{
 };
 
 /// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes
-/// in
-/// memory.
+/// in memory.
 pub(crate) fn resolved_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
     let mut scene = with_slices(scene.clone());
     if meshes_in_memory {

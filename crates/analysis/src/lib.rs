@@ -1,10 +1,8 @@
 //! What are the answers to a scene?
 //!
 //! A checked [`scene::Scene`], and meshes in memory if the caller has them, go in; typed results come out, row by row
-//! through a
-//! sink. Who waits hears of the phases through an [`Observer`]; reduced gears are kept in a [`GearCache`]. Nothing here
-//! reads a
-//! command line, writes a file or prints.
+//! through a sink. Who waits hears of the phases through an [`Observer`]; reduced gears are kept in a [`GearCache`].
+//! Nothing here reads a command line, writes a file or prints.
 //!
 //! ```
 //! use analysis::StaticAnalysis;

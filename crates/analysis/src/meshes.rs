@@ -43,8 +43,7 @@ pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], Ana
 ///
 /// # Errors
 /// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh
-/// of
-/// another gear; when the built-in mesher cannot make the one asked for.
+/// of another gear; when the built-in mesher cannot make the one asked for.
 pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
     match &gear.mesh {
         Some(file) => {
@@ -217,8 +216,7 @@ fn same_bore(scene: &Scene, file: &str, whose: &str, found: &MeshedGear, exact: 
 }
 
 /// The mesh to compute with, and what the summary says of the gear: a periodic sector stays one where that is enough,
-/// else it is
-/// repeated to the whole gear.
+/// else it is repeated to the whole gear.
 fn to_compute(
     scene: &Scene,
     gear: &GearScene,

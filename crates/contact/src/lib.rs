@@ -3,7 +3,7 @@
 //! Three steps, in the order of the files:
 //!
 //! 1. [`flank::Candidates`]: which flank faces may touch (bounding volumes, surface against surface);
-//! 2. [`slice`]: the least gap of the two profiles at each height, the contact's default; or [`nodal::closest_points`]:
+//! 2. [`mod@slice`]: the least gap of the two profiles at each height, the contact's default; or [`nodal::closest_points`]:
 //!    gap and normal of each candidate point against the other flank's smooth surface, and of the line of least gap;
 //! 3. [`complementarity`]: forces so that g >= 0, p >= 0, p g = 0 at every point, together with the rotation that
 //!    balances the torque.

@@ -101,22 +101,21 @@ fn bounds(page: &mut String) -> Result<(), std::fmt::Error> {
 const INTRODUCTION: &str = "\
 # Which model suffices
 
-No more model than a scene needs: measured on random narrow pairs (b/m_n up to 8, else the ranges of
-[theory](theory.md), section 15) in steady motion at mesh frequencies f_m of 0.05 to 1.5 of the mesh resonance f_0, with
-mesh damping of 0.04 to 0.12. `lumped12` is fed by the reduced model at rest; both it and `reduced` take 16 steps in a
-period of the resonance; they are held against `reduced+modes` with four modes of each gear and steps of a sixth of the
-period of the highest.
+Errors of the models, measured on random narrow pairs (b/m_n up to 8, otherwise the ranges of [theory](theory.md), section
+15). Motions are steady, at mesh frequencies f_m of 0.05 to 1.5 of the mesh resonance f_0, with mesh damping of 0.04 to
+0.12. `lumped12` takes the stiffness of the reduced model at rest. It and `reduced` take 16 steps in a period of the
+resonance. The reference is `reduced+modes` with four modes of each gear and steps of a sixth of the period of the highest.
 
-A cell names the cheapest model that is within the tolerance of `reduced+modes` in nine of ten motions; in brackets
-stands in how many of a hundred `lumped12` and `reduced` are. These are errors of models: those of meshes and slices
-come on top, alike for all. The page is made by `motion_map` (section 15 has the commands).
+A cell names the cheapest model that is within the tolerance of the reference in nine of ten motions. In brackets: the
+per cent of motions in which `lumped12` and `reduced` are within it. Errors of meshes and slices add to these, alike for all models. `motion_map`
+writes this page (section 15 has the commands).
 ";
 
 const BOUNDS: &str = "
 ## What bounds say
 
-`model = \"auto\"` knows no errors, only bounds, which are wider. What steps, elasticity without inertia and model
-together usually come to (in three of five motions), of the number itself, without meshes and slices; from this the
-first model is chosen:
+`model = \"auto\"` does not know errors, only bounds, which are wider. It chooses the first model by the usual bounds below.
+In three of five motions the bound is at most this share of the number. It covers steps, elasticity without inertia and the
+model, not meshes and slices.
 
 ";

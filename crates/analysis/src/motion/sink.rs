@@ -21,8 +21,7 @@ pub struct MotionCheckpoint {
 }
 
 /// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis
-/// and comes back as
-/// [`crate::AnalysisError::Sink`].
+/// and comes back as [`crate::AnalysisError::Sink`].
 pub trait MotionSink {
     /// The meshes are read.
     ///

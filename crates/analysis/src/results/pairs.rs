@@ -6,8 +6,7 @@ use ltca::{StaticHistory, StaticPosition};
 
 /// Number of a pair within its mesh cycle: 0 for the pair whose contact passes the middle of the path during
 /// this cycle, 1 for the one ahead of it in the sense of rotation, -1 for the one behind; so that a column means the
-/// same in every cycle
-/// and a run of a thousand turns has as many columns as one of a single cycle.
+/// same in every cycle and a run of a thousand turns has as many columns as one of a single cycle.
 pub fn in_cycle(position: &StaticPosition, pair: i64, pitch_angle: f64) -> i64 {
     // angle / pitch - phase is a whole number, or half of one where phase 1/2 is the middle: both round alike.
     // Pair numbers grow in the sense of rotation, so the pair of the next cycle is one less.

@@ -238,8 +238,7 @@ fn vibration(
 }
 
 /// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those
-/// that
-/// came of it as well, 1/min.
+/// that came of it as well, 1/min.
 pub(crate) fn mesh_range_hz(scene: &Scene, motion: &MotionScene, driver_rpm: Option<&[f64]>) -> [f64; 2] {
     let teeth = scene.driver_teeth();
     let by_torque = scene.drive.as_ref().is_some_and(|d| d.by == DriveBy::Torque && !d.torque.is_none());
