@@ -37,7 +37,7 @@ pub fn modes_markdown(of: &EnvelopeResult) -> String {
                     let _ = writeln!(
                         text,
                         "| {case} | {} | {} | {} | {asked}{naive_asked} | {verdict} |",
-                        cut(figure.what.clone()).replace("...", ""),
+                        figure.what.replace('|', "\\|"),
                         cut(naive),
                         cut(robust)
                     );
@@ -49,17 +49,18 @@ pub fn modes_markdown(of: &EnvelopeResult) -> String {
     for (mode, found) in &of.modes {
         let _ = writeln!(
             text,
-            "#### {}\n\n**{}.** {} *Here:* {} `{}`",
+            "#### {}\n\n**{}.** {}\n\n*Here:* {} ({:.1} s)\n\n```sh\n{}",
             mode.label(),
             mode.name,
             mode.fails,
             mode.does,
+            found.seconds,
             mode.command()
         );
         if let Some(naive) = mode.naive_command() {
-            let _ = writeln!(text, "; to see it fail: `{naive}`");
+            let _ = writeln!(text, "{naive}   # the naive way");
         }
-        let _ = writeln!(text, "({:.1} s)\n", found.seconds);
+        text.push_str("```\n\n");
     }
     text
 }

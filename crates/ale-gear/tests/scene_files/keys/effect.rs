@@ -1,6 +1,7 @@
 //! Every key has an effect: another value changes the result, or is refused.
 
 use std::collections::BTreeMap;
+use std::sync::Mutex;
 
 use ale_gear::scene::all_keys;
 use serde_json::Value;
@@ -159,11 +160,21 @@ fn prepared() -> Scratch {
 /// Checkpoints leave nothing behind when all goes well: seen by a file that is in their way.
 const IN_THE_WAY: &str = "o.checkpoint";
 
-/// Every key that the schema lists has a row here, and another value of it changes what a user sees.
-#[test]
-fn every_key_has_an_effect() {
-    let scratch = prepared().file(IN_THE_WAY, "");
-    let mut known: BTreeMap<(Base, Vec<String>), String> = BTreeMap::new();
+/// Keys in groups of one scene each, so that what a scene shows without them is found once.
+fn groups() -> (Vec<Vec<(String, Case)>>, Vec<String>) {
+    let mut groups: BTreeMap<(Base, Vec<String>), Vec<(String, Case)>> = BTreeMap::new();
+    let mut faults = Vec::new();
+    for key in all_keys() {
+        match case(&key) {
+            Some(case) => groups.entry((case.base, case.before.clone())).or_default().push((key, case)),
+            None => faults.push(format!("{key}: has no row in tests/scene_files/keys/rows.rs")),
+        }
+    }
+    (groups.into_values().collect(), faults)
+}
+
+/// Keys of one group that change nothing, each with the reason.
+fn without_effect(scratch: &Scratch, group: Vec<(String, Case)>) -> Vec<String> {
     let run = |base: Base, words: &[String]| {
         let file = format!("{base:?}.toml");
         let mut all = vec!["run", &file, "--out", "o", "--threads", "1"];
@@ -172,29 +183,46 @@ fn every_key_has_an_effect() {
         let short = if seconds && base == Base::Motion { &[] } else { short(base) };
         all.extend(short.iter().flat_map(|w| ["--set", w]));
         all.extend(words.iter().flat_map(|w| ["--set", w]));
-        seen(&scratch, scratch.command(&all))
+        seen(scratch, scratch.command(&all))
     };
     let mut faults = Vec::new();
-    for key in all_keys() {
-        let Some(mut case) = case(&key) else {
-            faults.push(format!("{key}: has no row in tests/scene_files/keys/rows.rs"));
-            continue;
-        };
+    let mut without = None;
+    for (key, case) in group {
         if key.ends_with(".mesh") {
             let gear = &key[..key.len() - 5];
             let made = scratch.ale_gear(["mesh", "generate", "Other.toml", "--gear", gear, "--output", "other.msh"]);
             assert_eq!(made.code, Some(0), "{}", made.stderr);
         }
-        let before =
-            known.entry((case.base, case.before.clone())).or_insert_with(|| run(case.base, &case.before)).clone();
-        let words = case.before.clone();
-        case.before.push(case.other.clone());
-        let after = run(case.base, &case.before);
+        let before: &String = without.get_or_insert_with(|| run(case.base, &case.before));
+        let words = [&case.before[..], std::slice::from_ref(&case.other)].concat();
         if !before.starts_with("Some(0)") {
-            faults.push(format!("{key}: the case itself fails with {words:?}: {before}"));
-        } else if before == after {
-            faults.push(format!("{key}: {} changes nothing in {:?} with {words:?}", case.other, case.base));
+            faults.push(format!("{key}: the case itself fails with {:?}: {before}", case.before));
+        } else if *before == run(case.base, &words) {
+            faults.push(format!("{key}: {} changes nothing in {:?} with {:?}", case.other, case.base, case.before));
         }
     }
+    faults
+}
+
+/// Every key that the schema lists has a row here, and another value of it changes what a user sees. Each run has one
+/// thread, so cases share the machine.
+#[test]
+fn every_key_has_an_effect() {
+    let (groups, mut faults) = groups();
+    let left = Mutex::new(groups.into_iter());
+    let work = || {
+        let scratch = prepared().file(IN_THE_WAY, "");
+        let mut faults = Vec::new();
+        loop {
+            let group = left.lock().unwrap().next();
+            let Some(group) = group else { return faults };
+            faults.extend(without_effect(&scratch, group));
+        }
+    };
+    let workers = std::thread::available_parallelism().map_or(1, usize::from).min(8);
+    std::thread::scope(|scope| {
+        let all: Vec<_> = (0..workers).map(|_| scope.spawn(work)).collect();
+        faults.extend(all.into_iter().flat_map(|worker| worker.join().unwrap()));
+    });
     assert!(faults.is_empty(), "{} keys without effect:\n{}", faults.len(), faults.join("\n"));
 }
