@@ -6,8 +6,8 @@ use nalgebra::{Matrix6, Vector6};
 
 use crate::rolling_bearing::RollingBearing;
 
-/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one; at
-/// rest also rolling elements.
+/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one; or
+/// rolling elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
     /// Name for messages and tables.
@@ -21,7 +21,7 @@ pub struct Bearing {
     pub stiffness: Matrix6<f64>,
     /// Damping of the same, symmetric: N s/mm, N s, N mm s.
     pub damping: Matrix6<f64>,
-    /// Rolling elements beside that stiffness; at rest alone: a vibration and a motion have springs in their place.
+    /// Rolling elements beside that stiffness, at rest and in motion; a vibration has springs in their place.
     pub law: Option<Arc<RollingBearing>>,
     /// Force (N) and moment (N mm) on the shaft with nothing displaced: of a spring about a loaded state.
     pub preload: Vector6<f64>,

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector, Vector5, Vector6};
 
 use crate::{
-    Assembly,
+    Assembly, Structure, Supports,
     rolling_bearing::{RollingBearing, RollingReply, RollingState},
     seats::Seats,
 };
@@ -32,6 +32,25 @@ impl CompliantBearing {
             Some(Self { bearing, law, shaft, housing })
         };
         moving.filter_map(one).collect()
+    }
+
+    /// All of them, but those of shafts that do not move, among the coordinates of [`Supports`].
+    pub fn at_supports(structure: &Structure, supports: &Supports, held: &[bool]) -> Vec<Self> {
+        let own = structure.bearings.iter().enumerate().filter(|(_, b)| !held[b.shaft]);
+        let one = |(bearing, b): (usize, &crate::Bearing)| {
+            let law = Arc::clone(b.law.as_ref()?);
+            let open = supports.open().iter().position(|i| *i == bearing);
+            let housing = open.map(|at| 6 * (structure.bearings.len() + at));
+            Some(Self { bearing, law, shaft: 6 * bearing, housing })
+        };
+        own.filter_map(one).collect()
+    }
+
+    /// Puts its seat in the housing, if it has one, at displacements in the order of the six axes.
+    pub fn set_housing(&self, y: &mut DVector<f64>, seat: impl Fn(usize) -> f64) {
+        if let Some(at) = self.housing {
+            (0..6).for_each(|k| y[at + k] = seat(k));
+        }
     }
 
     /// Displacement of the shaft against the housing at those of the seats.

@@ -7,7 +7,7 @@ use crate::{
 
 impl Structure {
     /// The structure with springs in place of rolling elements: about the mean over some positions at rest, each with
-    /// the mean of its tangents. Models of vibration and motion are made of it.
+    /// the mean of its tangents. Models of vibration are made of it; those of motion begin with it.
     ///
     /// # Errors
     /// [`GearboxError::Count`] where there are no positions, or those of another gearbox.

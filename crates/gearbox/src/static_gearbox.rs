@@ -192,7 +192,7 @@ pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<
 }
 
 /// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
-fn guessed_force(meshes: &[GearMesh], operation: &Operation) -> f64 {
+pub(crate) fn guessed_force(meshes: &[GearMesh], operation: &Operation) -> f64 {
     let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
     let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
     // Without a load any force will do.

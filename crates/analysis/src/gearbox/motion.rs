@@ -112,6 +112,8 @@ impl GearboxMotionResult {
 pub(super) struct AtRest<'a> {
     pub file: &'a Gearbox,
     pub structure: &'a Structure,
+    /// The structure with springs in place of rolling elements.
+    pub linear: &'a Structure,
     pub meshes: &'a [GearMesh],
     pub operation: &'a Operation,
     pub train: &'a Train,
@@ -130,7 +132,7 @@ pub(super) fn run(
 ) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
     let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
     let bodies = inertia::gears(rest.file, rest.reduced)?;
-    let structure = inertia::heavy(rest.file, rest.structure, rest.operation, &bodies);
+    let structure = inertia::heavy(rest.file, rest.linear, rest.operation, &bodies);
     let springs: Vec<ContactSpring> = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {
         (0..rest.meshes.len()).map(|i| rest.spring(i)).collect::<Result<_, _>>()
     })
@@ -163,6 +165,7 @@ pub(super) fn run(
     let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
         elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
     });
+    let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
     let run_up = match options.drive {

@@ -101,7 +101,7 @@ pub(super) fn solve(
     for (i, own) in reduced.iter().enumerate() {
         remarks.extend(own.jammed(i, &meshes[i], &positions));
     }
-    // What swings and moves has springs in place of rolling elements, about where these stand.
+    // A vibration has springs in place of rolling elements, about where these stand; a motion begins with them.
     let linear = match (&file.vibration, &file.motion) {
         (None, None) => structure.clone(),
         _ => {
@@ -122,7 +122,8 @@ pub(super) fn solve(
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
     let rest = motion::AtRest {
         file,
-        structure: &linear,
+        structure: &structure,
+        linear: &linear,
         meshes: &meshes,
         operation: &operation,
         train: &train,

@@ -8,8 +8,20 @@ use crate::GearboxError;
 
 impl GearboxMechanism {
     /// Forces of the shafts, bearings, loads and drive; `acceleration` is that of a given turn.
-    fn bodies_and_loads(&self, q: &DVector<f64>, v: &DVector<f64>, [speed, acceleration]: [f64; 2], out: &mut Forces) {
+    fn bodies_and_loads(
+        &self,
+        q: &DVector<f64>,
+        v: &DVector<f64>,
+        [speed, acceleration]: [f64; 2],
+        out: &mut Forces,
+    ) -> Result<(), GearboxError> {
         out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
+        if let Some(own) = self.beside_springs(q, out.tangents)? {
+            out.conservative += own.force;
+            if let Some(stiffness) = own.stiffness {
+                out.stiffness += stiffness;
+            }
+        }
         let damped = &self.damping * v;
         out.dissipated += damped.dot(v);
         out.other -= damped;
@@ -32,6 +44,13 @@ impl GearboxMechanism {
                 column += turned;
             }
         }
+        Ok(())
+    }
+
+    /// Elastic energy of shafts, bearings and housing, but what preloads of bearings do as loads, N mm.
+    fn body_energy(&self, q: &DVector<f64>) -> Result<f64, GearboxError> {
+        let beside = self.beside_springs(q, false)?.map_or(0.0, |own| own.energy);
+        Ok(0.5 * q.dot(&(&self.stiffness * q)) + beside)
     }
 
     /// Forces of one mesh.
@@ -87,13 +106,13 @@ impl Mechanism for GearboxMechanism {
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         let input = self.input(t, q, v);
-        self.bodies_and_loads(q, v, [input[1], self.acceleration(t)], out);
+        self.bodies_and_loads(q, v, [input[1], self.acceleration(t)], out)?;
         (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let [angle, _] = self.input(t, q, q);
-        let mut sum = 0.5 * q.dot(&(&self.stiffness * q));
+        let mut sum = self.body_energy(q)?;
         for i in 0..self.live.len() {
             sum += self.ask(i, angle, q)?.1.element().energy();
         }
@@ -102,7 +121,7 @@ impl Mechanism for GearboxMechanism {
 
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let [angle, _] = self.input(t, q, q);
-        let mut sum = 0.5 * q.dot(&(&self.stiffness * q));
+        let mut sum = self.body_energy(q)?;
         for i in 0..self.live.len() {
             let (cycles, d) = (self.cycles(i, angle), self.displacements(i, q));
             sum += self.live[i].energy_at(&self.meshes[i], cycles, &d)?;

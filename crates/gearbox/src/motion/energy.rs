@@ -57,7 +57,7 @@ impl GearboxMechanism {
             output_work: of_outputs,
             kinetic: ledger.kinetic,
             shafts: 0.0,
-            supports: self.support_energy(&state.q),
+            supports: self.support_energy(&state.q)?,
             meshes: 0.0,
             gained: ledger.kinetic + ledger.potential - ledger.initial - of_preload,
             dissipated: ledger.dissipated,

@@ -77,6 +77,15 @@ impl FreeCoordinates {
         self.basis.ncols()
     }
 
+    /// B with nothing where the turn of the whole train is.
+    pub fn of_deviations(&self) -> DMatrix<f64> {
+        let mut own = self.basis.clone();
+        if let Some(i) = self.turn {
+            own.column_mut(i).fill(0.0);
+        }
+        own
+    }
+
     /// y of the deviations alone.
     pub fn deviations(&self, z: &DVector<f64>) -> DVector<f64> {
         let mut own = z.clone();

@@ -4,7 +4,7 @@ use integrate::State;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::GearboxMechanism;
+use super::{GearboxMechanism, rolling_supports::BesideSprings};
 use crate::{BearingState, GearboxError};
 
 /// A mesh at an instant.
@@ -71,7 +71,7 @@ impl GearboxMechanism {
             input_torque,
             output_speeds,
             meshes,
-            bearings: self.bearing_states(&y, &rates),
+            bearings: self.bearing_states(q, &y, &rates)?,
         })
     }
 
@@ -122,17 +122,25 @@ impl GearboxMechanism {
         (0..self.bodies.size()).filter(own).map(row).sum::<f64>() - modal
     }
 
-    fn bearing_states(&self, y: &DVector<f64>, rates: &DVector<f64>) -> Vec<BearingState> {
+    fn bearing_states(
+        &self,
+        q: &DVector<f64>,
+        y: &DVector<f64>,
+        rates: &DVector<f64>,
+    ) -> Result<Vec<BearingState>, GearboxError> {
         let (u, du) = (self.at_bearings(y), self.at_bearings(rates));
         let supports = self.assembly.supports();
-        let [relative, springs] = supports.standing(&u);
-        let forces = springs - &supports.damping * du;
+        let [relative, elastic] = match &self.rolling {
+            Some(rolling) => rolling.standing(&rolling.at(supports, q)?),
+            None => supports.standing(&u),
+        };
+        let forces = elastic - &supports.damping * du;
         let of = |i: usize| BearingState {
             force: std::array::from_fn(|k| forces[6 * i + k]),
             moment: std::array::from_fn(|k| forces[6 * i + 3 + k]),
             displacement: std::array::from_fn(|k| relative[6 * i + k]),
         };
-        (0..u.len() / 6).map(of).collect()
+        Ok((0..u.len() / 6).map(of).collect())
     }
 
     /// Twice the strain energy of the springs of bearings and housing at a state, N mm.
@@ -142,15 +150,34 @@ impl GearboxMechanism {
         bearings.iter().sum::<f64>() + housing.unwrap_or(0.0)
     }
 
-    /// Energy of bearings and housing at a state, that of preloads among it, N mm.
-    pub(super) fn support_energy(&self, q: &DVector<f64>) -> f64 {
-        let stored: f64 = self.assembly.structure().bearings.iter().map(|b| b.stored).sum();
-        let pressed = self.assembly.supports().pressed_energy() + stored;
-        0.5 * self.springs_energy(q) - self.preload.dot(&self.free.deviations(q)) + pressed
+    /// Energy of bearings and housing at a state, that of preloads and of what laws store beside springs among it, N mm.
+    pub(super) fn support_energy(&self, q: &DVector<f64>) -> Result<f64, GearboxError> {
+        let beside = self.beside_springs(q, false)?.map_or(0.0, |own| own.energy);
+        Ok(0.5 * self.springs_energy(q) - self.preload.dot(&self.free.deviations(q)) + self.stored() + beside)
+    }
+
+    /// What rolling bearings do by their laws beside the springs in their place.
+    pub(super) fn beside_springs(
+        &self,
+        q: &DVector<f64>,
+        tangent: bool,
+    ) -> Result<Option<BesideSprings>, GearboxError> {
+        let springs = (self.assembly.supports(), self.stored());
+        self.rolling.as_ref().map(|rolling| rolling.beside(springs, q, tangent)).transpose()
+    }
+
+    /// Energy that springs store with nothing displaced, N mm.
+    fn stored(&self) -> f64 {
+        let of_bearings: f64 = self.assembly.structure().bearings.iter().map(|b| b.stored).sum();
+        self.assembly.supports().pressed_energy() + of_bearings
+    }
+
+    /// Reduced coordinate of a shaft at a bearing, six a bearing.
+    pub(super) fn at_bearing(&self, i: usize) -> usize {
+        self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6
     }
 
     fn at_bearings(&self, y: &DVector<f64>) -> DVector<f64> {
-        let rows = |i: usize| self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6;
-        DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[rows(i)])
+        DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[self.at_bearing(i)])
     }
 }

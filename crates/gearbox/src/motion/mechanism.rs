@@ -3,11 +3,14 @@
 use dynamics::Speed;
 use nalgebra::{DMatrix, DVector};
 
-use super::{Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh};
+use super::{
+    Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh,
+    rolling_supports::RollingSupports,
+};
 use crate::{
     Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
     even_mesh::turn,
-    static_gearbox::{at_mesh, check},
+    static_gearbox::{at_mesh, check, guessed_force},
 };
 
 /// Shafts, bearings and meshes that move: any number of each, every mesh at its own phase.
@@ -36,6 +39,8 @@ pub struct GearboxMechanism {
     pub(super) momentum: DVector<f64>,
     /// Forces of preloaded bearings on the bodies.
     pub(super) preload: DVector<f64>,
+    /// Rolling bearings that follow their laws, beside the springs in their place.
+    pub(super) rolling: Option<RollingSupports>,
     /// Loads of the outputs with the preloads of bearings, and load of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
     /// Most that each mesh has been used of what it holds, at the ends of steps.
@@ -79,10 +84,7 @@ impl GearboxMechanism {
         let momentum = free.basis.tr_mul(&(&bodies.mass * &free.rigid));
         let preload = bodies.preload(&assembly);
         let loads = [free.basis.tr_mul(&(&outputs + &preload)), free.basis.tr_mul(&free.input) * given];
-        let mut deviations = free.basis.clone();
-        if let Some(i) = free.turn {
-            deviations.column_mut(i).fill(0.0);
-        }
+        let deviations = free.of_deviations();
         let (start_cycles, further) = (train.cycles(0.0), train.cycles(1.0));
         let mut live = Vec::new();
         for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
@@ -113,10 +115,34 @@ impl GearboxMechanism {
             outputs,
             momentum,
             preload,
+            rolling: None,
             loads,
             reach,
             start_cycles,
         })
+    }
+
+    /// The mechanism, with rolling bearings that follow their laws from now on. It was made with springs in their place
+    /// ([`Structure::about`] of `structure`): what laws do beside these acts at every instant, with its tangent. Damping of
+    /// bearings in a housing keeps the share that seats take of a velocity by the springs.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] where `structure` has another number of bearings.
+    pub fn with_rolling_bearings(mut self, structure: &Structure) -> Result<Self, GearboxError> {
+        let (found, wanted) = (structure.bearings.len(), self.assembly.structure().bearings.len());
+        if found != wanted {
+            return Err(GearboxError::Count { what: "bearings", found, wanted });
+        }
+        if structure.bearings.iter().any(|b| b.law.is_some()) {
+            let mut held = vec![false; structure.shafts.len()];
+            self.operation.held.iter().for_each(|&shaft| held[shaft] = true);
+            let deviations = self.free.of_deviations();
+            let to_bearings =
+                DMatrix::from_fn(6 * found, deviations.ncols(), |i, j| deviations[(self.at_bearing(i), j)]);
+            let force = guessed_force(&self.meshes, &self.operation);
+            self.rolling = Some(RollingSupports::new(structure, &held, force, to_bearings)?);
+        }
+        Ok(self)
     }
 
     /// Matrices and parts.

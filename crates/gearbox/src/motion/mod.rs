@@ -5,6 +5,7 @@
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
+//! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
@@ -27,6 +28,7 @@ mod periodic_state;
 mod pitch_errors;
 mod plan;
 mod reduced_bodies;
+mod rolling_supports;
 mod run;
 mod spring_mesh;
 mod start;

@@ -90,6 +90,11 @@ impl GearboxMechanism {
         let found = equilibrium(&norms, &load, start, |z| {
             let mut left = Left { residual: &stiffness * z - &load, tangent: stiffness.clone() };
             let whole = all(z);
+            if let Some(own) = self.beside_springs(&whole, true)? {
+                left.residual -= own.force.rows(0, n);
+                left.tangent +=
+                    own.stiffness.map_or_else(|| DMatrix::zeros(n, n), |k| k.view((0, 0), (n, n)).into_owned());
+            }
             for i in 0..self.live.len() {
                 let cycles = self.cycles(i, angle);
                 let d = self.displacements(i, &whole);

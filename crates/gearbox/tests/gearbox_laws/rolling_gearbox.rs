@@ -233,69 +233,152 @@ fn laws_do_not_swing() {
     assert_eq!(free, 3, "{:?}", &modes.modes_at_rest().frequencies[..6]);
 }
 
-/// A motion on springs about the load begins where the gearbox stands, in a housing that gives way, with its forces
-/// and the energy of the law, and all of it is accounted for.
-#[test]
-fn a_motion_begins_where_rolling_bearings_stand() {
-    let (mut structure, meshes) = on_rolling_bearings(0.01, AxialSetting::Preload(200.0));
+/// Gears with mass on rolling bearings, in a housing that gives way where it is asked for.
+fn heavy(play: f64, axial: AxialSetting, is_housed: bool) -> (Structure, Vec<gearbox::GearMesh>) {
+    let (mut structure, meshes) = on_rolling_bearings(play, axial);
     for (disc, outer) in structure.discs.iter_mut().zip([53.0, 160.0, 58.0, 145.0, 80.0, 120.0]) {
         *disc = Disc::ring(disc.name.clone(), disc.shaft, disc.position, [outer, 30.0], 20.0, 7.85e-9);
     }
     let n = 6 * structure.bearings.len();
-    let seat = |axis: usize| if axis < 3 { 3e5 } else { 3e8 };
-    structure.housing = Some(DMatrix::from_fn(n, n, |i, j| if i == j { seat(i % 6) } else { 0.0 }));
-    let base = solved(&structure, &meshes, TORQUE);
-    let linear = structure.about(std::slice::from_ref(&base)).unwrap();
-    let stored: f64 = base.rolling.iter().flatten().map(|r| r.energy).sum();
-    let pressed = |(i, b): (usize, &gearbox::BearingState)| {
-        let shaft = &base.shafts[structure.bearings[i].shaft];
-        let node = shaft.positions.iter().position(|z| (z - structure.bearings[i].position).abs() < 1e-9).unwrap();
-        let seat_moves = |k: usize| shaft.displacements[node][k] - b.displacement[k];
-        (0..5).map(|k| 0.5 * seat(k) * seat_moves(k).powi(2)).sum::<f64>()
+    let seat = |i: usize, j: usize| match (i == j, i % 6 < 3) {
+        (true, true) => 3e5,
+        (true, false) => 3e8,
+        // Neighbours pull at each other.
+        _ if i.abs_diff(j) == 6 && i % 6 < 3 => -5e4,
+        _ => 0.0,
     };
-    let housing: f64 = base.bearings.iter().enumerate().map(pressed).sum();
-    let options =
-        MotionOptions { drive: Drive::Speed(Speed::Constant(50.0)), modal_damping: 0.02, limit: TAU * 3000.0 };
-    let operation = run(&linear, Sense::Ccw, TORQUE);
-    let mut mechanism = GearboxMechanism::new(linear, meshes, operation, &options, |_, mesh, meshing| {
-        let even = Fourier { mean: 4e5, cosine: Vec::new(), sine: Vec::new() };
-        Ok(Box::new(SpringMesh::new(mesh, meshing, even)?.with_damping(5.0)))
+    structure.housing = is_housed.then(|| DMatrix::from_fn(n, n, seat));
+    (structure, meshes)
+}
+
+/// A mechanism on springs about `base`, meshes of a stiffness over the phase.
+fn moving(
+    structure: &Structure,
+    meshes: &[gearbox::GearMesh],
+    base: &GearboxPosition,
+    (drive, torque): (Drive, f64),
+    stiffness: &Fourier,
+) -> GearboxMechanism {
+    let linear = structure.about(std::slice::from_ref(base)).unwrap();
+    let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 3000.0 };
+    let operation = run(&linear, Sense::Ccw, torque);
+    GearboxMechanism::new(linear, meshes.to_vec(), operation, &options, |_, mesh, meshing| {
+        Ok(Box::new(SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(5.0)))
     })
-    .unwrap();
-    let start = mechanism.start(0.02).unwrap();
-    let (scheme, tolerance) = (Scheme::Energy, None);
-    let (cycles, steps_per_cycle, steps_per_row) = (2, 100, 100);
-    let plan = MotionPlan {
-        scheme,
-        step: 1e-5,
-        cycles,
-        steps_per_cycle,
-        steps_per_row,
-        tolerance,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    };
-    let mut rows = Vec::new();
-    let done = mechanism.run(&start, &plan, |instant| {
-        rows.push(instant.clone());
+    .unwrap()
+}
+
+fn plan(step: f64, [cycles, steps_per_cycle, steps_per_row]: [u64; 3]) -> MotionPlan {
+    let (scheme, tolerance, stop_at_events, settle, shoots) = (Scheme::Energy, None, false, None, false);
+    MotionPlan { scheme, step, cycles, steps_per_cycle, steps_per_row, tolerance, stop_at_events, settle, shoots }
+}
+
+/// A motion on springs about the load begins where the gearbox stands, in a housing that gives way, with its forces
+/// and the energy of the law, and all of it is accounted for; so does one on the laws themselves.
+#[test]
+fn a_motion_begins_where_rolling_bearings_stand() {
+    let (structure, meshes) = heavy(0.01, AxialSetting::Preload(200.0), true);
+    let base = solved(&structure, &meshes, TORQUE);
+    let stored: f64 = base.rolling.iter().flatten().map(|r| r.energy).sum();
+    let seats = nalgebra::DVector::from_fn(6 * structure.bearings.len(), |i, _| {
+        let (own, b) = (&structure.bearings[i / 6], &base.bearings[i / 6]);
+        let shaft = &base.shafts[own.shaft];
+        let node = shaft.positions.iter().position(|z| (z - own.position).abs() < 1e-9).unwrap();
+        if i % 6 < 5 { shaft.displacements[node][i % 6] - b.displacement[i % 6] } else { 0.0 }
     });
-    let energy = done.unwrap().energy;
-    for row in &rows {
-        for (a, b) in row.bearings.iter().zip(&base.bearings) {
-            for k in 0..3 {
-                assert!(
-                    (a.force[k] - b.force[k]).abs() < 1e-3,
-                    "{} beside {} N at {} s",
-                    a.force[k],
-                    b.force[k],
-                    row.time
-                );
-                assert!((a.displacement[k] - b.displacement[k]).abs() < 1e-8, "{k}");
+    let housing = 0.5 * seats.dot(&(structure.housing.as_ref().unwrap() * &seats));
+    let even = Fourier { mean: 4e5, cosine: Vec::new(), sine: Vec::new() };
+    for by_laws in [false, true] {
+        let drive = (Drive::Speed(Speed::Constant(50.0)), TORQUE);
+        let mut mechanism = moving(&structure, &meshes, &base, drive, &even);
+        if by_laws {
+            mechanism = mechanism.with_rolling_bearings(&structure).unwrap();
+        }
+        let start = mechanism.start(0.02).unwrap();
+        let mut rows = Vec::new();
+        let done = mechanism.run(&start, &plan(1e-5, [2, 100, 100]), |instant| rows.push(instant.clone()));
+        let energy = done.unwrap().energy;
+        for row in &rows {
+            for (a, b) in row.bearings.iter().zip(&base.bearings) {
+                for k in 0..3 {
+                    let off = (a.force[k] - b.force[k]).abs();
+                    assert!(off < 1e-3, "{} beside {} N at {} s", a.force[k], b.force[k], row.time);
+                    assert!((a.displacement[k] - b.displacement[k]).abs() < 1e-8, "{k}");
+                }
             }
         }
+        let off = energy.supports / (stored + housing) - 1.0;
+        assert!(off.abs() < 1e-6, "{} beside {stored} and {housing} mJ", energy.supports);
+        assert!(energy.relative_residual.abs() < 1e-9, "{energy:?}");
     }
-    let off = energy.supports / (stored + housing) - 1.0;
-    assert!(off.abs() < 1e-6, "{} beside {stored} and {housing} mJ", energy.supports);
-    assert!(energy.relative_residual.abs() < 1e-9, "{energy:?}");
+}
+
+/// At every instant of a vibration the force of a bearing is that of its law, seats balance it, and the energy of all is
+/// accounted for: at given speed and under a given torque, with and without a housing. The springs that the mechanism
+/// was made with, about another load, leave no trace.
+#[test]
+fn rolling_bearings_in_motion_follow_their_laws() {
+    let uneven = Fourier { mean: 4e5, cosine: vec![1e5], sine: vec![4e4, 2e4] };
+    let drives = [Drive::Speed(Speed::Constant(120.0)), Drive::Torque { start: 120.0, torque: None }];
+    for (drive, is_housed) in drives.into_iter().flat_map(|d| [(d, false), (d, true)]) {
+        let (structure, meshes) = heavy(0.02, AxialSetting::Preload(200.0), is_housed);
+        let base = solved(&structure, &meshes, LIGHT);
+        let mechanism = moving(&structure, &meshes, &base, (drive, TORQUE), &uneven);
+        let mut mechanism = mechanism.with_rolling_bearings(&structure).unwrap();
+        let start = mechanism.start(0.02).unwrap();
+        let mut rows = Vec::new();
+        let steps = plan(TAU / 120.0 / 17.0 / 60.0, [6, 60, 5]);
+        let done = mechanism.run(&start, &steps, |instant| rows.push(instant.clone())).unwrap();
+        let said = format!("{drive:?}, housing {is_housed}: {:?}", done.energy);
+        assert!(done.energy.relative_residual.abs() < 1e-9, "{said}");
+        let mut span = [f64::INFINITY, f64::NEG_INFINITY];
+        for row in &rows {
+            span = [span[0].min(row.bearings[0].force[0]), span[1].max(row.bearings[0].force[0])];
+            for (bearing, state) in structure.bearings.iter().zip(&row.bearings) {
+                let d = nalgebra::Vector5::from_fn(|k, _| state.displacement[k]);
+                let reply = bearing.law.as_ref().unwrap().evaluate(&d);
+                for k in 0..3 {
+                    let off = (reply.force[k] - state.force[k]).abs();
+                    assert!(off < 1e-8 * reply.force.amax().max(1.0), "{}: {off} N, {said}", bearing.name);
+                }
+            }
+        }
+        assert!(span[1] - span[0] > 8.0, "forces hardly change: {span:?} N, {said}");
+    }
+}
+
+/// Turned slowly, a gearbox on rolling bearings goes through its positions at rest, whatever load the springs that it was
+/// made with are about.
+#[test]
+fn slow_motion_on_rolling_bearings_goes_through_the_positions_at_rest() {
+    let uneven = Fourier { mean: 4e5, cosine: vec![1e5], sine: vec![4e4, 2e4] };
+    for is_housed in [false, true] {
+        let (structure, meshes) = heavy(0.02, AxialSetting::Preload(200.0), is_housed);
+        let base = solved(&structure, &meshes, LIGHT);
+        let speed = 1e-3;
+        let drive = (Drive::Speed(Speed::Constant(speed)), TORQUE);
+        let mechanism = moving(&structure, &meshes, &base, drive, &uneven);
+        let mut mechanism = mechanism.with_rolling_bearings(&structure).unwrap();
+        let start = mechanism.start(0.02).unwrap();
+        let mut rows = Vec::new();
+        // What is left of the first steps dies out at once.
+        let scheme = Scheme::GeneralisedAlpha { rho: 0.0 };
+        let steps = MotionPlan { scheme, ..plan(TAU / speed / 17.0 / 400.0, [1, 400, 40]) };
+        mechanism.run(&start, &steps, |instant| rows.push(instant.clone())).unwrap();
+        let own = run(&structure, Sense::Ccw, TORQUE);
+        let mut at_rest = StaticGearbox::new(structure.clone(), meshes.clone(), own, |_, mesh, meshing| {
+            Ok(Box::new(SpringMesh::new(mesh, meshing, uneven.clone())?))
+        })
+        .unwrap();
+        for i in 0..2 {
+            let (mut off, mut span) = (0.0f64, [f64::INFINITY, f64::NEG_INFINITY]);
+            for row in &rows {
+                let wanted = at_rest.solve(row.input[0]).unwrap().meshes[i].transmission_error;
+                off = off.max((row.meshes[i].transmission_error - wanted).abs());
+                span = [span[0].min(wanted), span[1].max(wanted)];
+            }
+            let share = off / (span[1] - span[0]);
+            assert!(share < 1e-6, "mesh {i}, housing {is_housed}: {share:.1e} of the peak to peak");
+        }
+    }
 }
