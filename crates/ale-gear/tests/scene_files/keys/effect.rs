@@ -160,9 +160,12 @@ fn prepared() -> Scratch {
 /// Checkpoints leave nothing behind when all goes well: seen by a file that is in their way.
 const IN_THE_WAY: &str = "o.checkpoint";
 
-/// Keys in groups of one scene each, so that what a scene shows without them is found once.
-fn groups() -> (Vec<Vec<(String, Case)>>, Vec<String>) {
-    let mut groups: BTreeMap<(Base, Vec<String>), Vec<(String, Case)>> = BTreeMap::new();
+/// Keys that are tried in one scene, each with its case.
+type Group = Vec<(String, Case)>;
+
+/// All keys in groups of one scene each, so that what a scene shows without them is found once; and keys without a row.
+fn groups() -> (Vec<Group>, Vec<String>) {
+    let mut groups: BTreeMap<(Base, Vec<String>), Group> = BTreeMap::new();
     let mut faults = Vec::new();
     for key in all_keys() {
         match case(&key) {
@@ -174,7 +177,7 @@ fn groups() -> (Vec<Vec<(String, Case)>>, Vec<String>) {
 }
 
 /// Keys of one group that change nothing, each with the reason.
-fn without_effect(scratch: &Scratch, group: Vec<(String, Case)>) -> Vec<String> {
+fn without_effect(scratch: &Scratch, group: Group) -> Vec<String> {
     let run = |base: Base, words: &[String]| {
         let file = format!("{base:?}.toml");
         let mut all = vec!["run", &file, "--out", "o", "--threads", "1"];
