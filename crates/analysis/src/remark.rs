@@ -217,6 +217,12 @@ answer::remarks! {
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
         "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
         "say `seat_mm = {better_seat_mm:.3}`";
+    few_gear_modes(gear, highest_hz, excitation_hz)
+        "the elastic modes of gear {gear} are kept up to {highest_hz:.0} Hz, and mesh orders reach {excitation_hz:.0} Hz: beyond its modes the gear deflects as at rest",
+        "keep more modes (`below_hz = {excitation_hz:.0}` in [modes])";
+    gear_modes_do_not_travel(gear)
+        "gear {gear} is not known by one sector: its elastic modes are taken as they stand with the input at its start, without what rotation does to them",
+        "mesh one periodic sector (`sector_teeth = 1`)";
     gears_at_one_place(gear, other, shaft) "gears {gear} and {other} stand at one place of shaft {shaft}", "";
     gear_beyond_shaft(gear, beyond_mm, shaft)
         "gear {gear} reaches {beyond_mm:.3} mm beyond the end of shaft {shaft}", "";

@@ -1,9 +1,9 @@
 //! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79), (79a).
 
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::{ComplexField, DMatrix, DVector};
 
-use crate::{Disc, GearboxError, Structure, Supports};
+use crate::{Disc, ElasticBody, GearboxError, Structure, Supports};
 
 /// A structure cut into beam elements; six coordinates a node (displacements x, y, z in mm, turns about them in rad),
 /// shaft after shaft.
@@ -59,9 +59,40 @@ impl Assembly {
         &self.structure
     }
 
-    /// Number of coordinates: six a node, and six an open seat of the [`Supports`] after them.
+    /// Number of coordinates: six a node, six an open seat of the [`Supports`] after them, and the elastic modes of gears.
     pub fn size(&self) -> usize {
+        self.modes_at() + self.structure.bodies.iter().map(ElasticBody::count).sum::<usize>()
+    }
+
+    /// Number of coordinates before those of elastic modes.
+    fn modes_at(&self) -> usize {
         self.nodes() + 6 * self.supports.open().len()
+    }
+
+    /// First coordinate of the modes of every [`ElasticBody`], and the first of its disc.
+    pub(crate) fn bodies(&self) -> impl Iterator<Item = (usize, usize, &ElasticBody)> {
+        let mut next = self.modes_at();
+        self.structure.bodies.iter().map(move |body| {
+            let at = next;
+            next += body.count();
+            (at, self.discs[body.disc], body)
+        })
+    }
+
+    /// Coordinates of elastic modes.
+    pub(crate) fn modes(&self) -> std::ops::Range<usize> {
+        self.modes_at()..self.size()
+    }
+
+    /// Coordinates that a mesh between two discs has: six of each gear, then the modes of each.
+    fn of_mesh(&self, discs: [usize; 2]) -> impl Iterator<Item = usize> {
+        let of_disc = discs.into_iter().flat_map(|disc| self.discs[disc]..self.discs[disc] + 6);
+        of_disc.chain(self.modes_of_mesh(discs))
+    }
+
+    fn modes_of_mesh(&self, discs: [usize; 2]) -> impl Iterator<Item = usize> {
+        let of = move |disc: usize| self.bodies().filter(move |(_, _, body)| body.disc == disc);
+        discs.into_iter().flat_map(of).flat_map(|(at, _, body)| at..at + body.count())
     }
 
     /// Number of coordinates of nodes.
@@ -166,27 +197,37 @@ impl Assembly {
             k.ger(spring.stiffness, &lever, &lever, 1.0);
         }
         for mesh in &self.structure.elastic_meshes {
-            let at = mesh.discs.map(|d| self.discs[d]);
-            for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
-                k[(at[i / 6] + i % 6, at[j / 6] + j % 6)] += 0.5 * (mesh.stiffness[(i, j)] + mesh.stiffness[(j, i)]);
+            let at: Vec<usize> = self.of_mesh(mesh.discs).collect();
+            for (i, j) in (0..at.len()).flat_map(|i| (0..at.len()).map(move |j| (i, j))) {
+                k[(at[i], at[j])] += 0.5 * (mesh.stiffness[(i, j)] + mesh.stiffness[(j, i)]);
             }
         }
     }
 
-    /// Displacements of both gears of a mesh out of those of all nodes; nothing moves where a disc is not there.
-    pub(crate) fn at_gears<T: nalgebra::ComplexField + Copy>(
-        &self,
-        discs: [usize; 2],
-        q: &DVector<T>,
-    ) -> SVector<T, 12> {
-        SVector::from_fn(|i, _| self.disc(discs[i / 6]).map_or(T::zero(), |at| q[at + i % 6]))
+    /// Displacements of both gears of a mesh, and the amplitudes of their modes, out of those of all coordinates.
+    pub(crate) fn at_mesh<T: ComplexField + Copy>(&self, discs: [usize; 2], q: &DVector<T>) -> DVector<T> {
+        let own: Vec<T> = self.of_mesh(discs).map(|at| q[at]).collect();
+        DVector::from_vec(own)
     }
 
-    /// Stiffness of shafts, bearings and housing: N/mm, N, N mm.
+    /// Adds forces on both gears of a mesh, and on their modes.
+    pub(crate) fn add_at_mesh<T: ComplexField + Copy>(
+        &self,
+        discs: [usize; 2],
+        own: &DVector<T>,
+        all: &mut DVector<T>,
+    ) {
+        self.of_mesh(discs).zip(own.iter()).for_each(|(at, force)| all[at] += *force);
+    }
+
+    /// Stiffness of shafts, gear bodies, bearings and housing: N/mm, N, N mm.
     pub(crate) fn stiffness_without_meshes(&self) -> DMatrix<f64> {
         let mut k = self.of_shafts(|line| &line.stiffness);
         self.to_coordinates(&mut k);
         self.add_supports(&mut k, &self.supports.stiffness);
+        for (at, _, body) in self.bodies() {
+            body.squares.iter().enumerate().for_each(|(i, square)| k[(at + i, at + i)] += square);
+        }
         k
     }
 
@@ -225,12 +266,20 @@ impl Assembly {
         let mut m = self.of_shafts(|line| &line.mass);
         self.to_coordinates(&mut m);
         for (disc, &at) in self.structure.discs.iter().zip(&self.discs) {
-            let inertia = [disc.mass; 3].into_iter().chain([disc.diametral_inertia; 2]).chain([disc.polar_inertia]);
-            inertia.enumerate().for_each(|(axis, value)| m[(at + axis, at + axis)] += value);
+            disc.inertia().into_iter().enumerate().for_each(|(axis, value)| m[(at + axis, at + axis)] += value);
         }
         for machine in &self.structure.machines {
             let at = self.discs[machine.disc] + 5;
             m[(at, at)] += machine.inertia;
+        }
+        for (at, disc, body) in self.bodies() {
+            for i in 0..body.count() {
+                m[(at + i, at + i)] += 1.0;
+                for axis in 0..6 {
+                    m[(at + i, disc + axis)] += body.coupling[(i, axis)];
+                    m[(disc + axis, at + i)] += body.coupling[(i, axis)];
+                }
+            }
         }
         m
     }
@@ -265,6 +314,18 @@ impl Assembly {
             let momentum = disc.polar_inertia * speeds[disc.shaft];
             g[(at + 3, at + 4)] += momentum;
             g[(at + 4, at + 3)] -= momentum;
+        }
+        for (at, disc, body) in self.bodies() {
+            let speed = speeds[self.structure.discs[body.disc].shaft];
+            for i in 0..body.count() {
+                for j in 0..body.count() {
+                    g[(at + i, at + j)] += speed * body.gyroscopic[(i, j)];
+                }
+                for axis in 0..6 {
+                    g[(disc + axis, at + i)] += speed * body.rigid_gyroscopic[(axis, i)];
+                    g[(at + i, disc + axis)] -= speed * body.rigid_gyroscopic[(axis, i)];
+                }
+            }
         }
         Ok(g)
     }

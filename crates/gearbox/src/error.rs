@@ -4,6 +4,7 @@ use fem::FemError;
 use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
+use reduction::ReductionError;
 
 use crate::rolling_bearing::RollingBearingError;
 
@@ -69,6 +70,38 @@ pub enum GearboxError {
     NotLinear {
         /// Name of the bearing.
         bearing: String,
+    },
+    /// A gear of a motion in time has elastic modes.
+    #[error("gear {gear} has elastic modes, and a motion in time has rigid gears beside their teeth")]
+    ModesInMotion {
+        /// Name of the gear.
+        gear: String,
+    },
+    /// Mass or inertia below what the elastic modes of a gear move.
+    #[error(
+        "gear {gear}: its elastic modes move more than its mass and inertia, which leave {share:.1e} of a direction to the rest"
+    )]
+    LessThanModes {
+        /// Name of the gear.
+        gear: String,
+        /// Smallest eigenvalue of what is left over, over the disc's own inertia.
+        share: f64,
+    },
+    /// A gear of which the mesh has a part alone, or that two meshes have unlike.
+    #[error("gear {gear} cannot have elastic modes: {said}")]
+    NoModes {
+        /// Name of the gear.
+        gear: String,
+        /// What is wrong with its meshes.
+        said: &'static str,
+    },
+    /// Elastic modes that were not found.
+    #[error("elastic modes of gear {gear}: {source}")]
+    GearModes {
+        /// Name of the gear.
+        gear: String,
+        /// Error of the reduction.
+        source: ReductionError,
     },
     /// A part names a shaft that is not there.
     #[error("{part} is on shaft {shaft}, and there are {count} (they count from 0)")]
@@ -337,6 +370,14 @@ impl GearboxError {
             }
             Self::Bearing { source, .. } => source.hint(),
             Self::NotLinear { .. } => "take the springs about where it stands, `Structure::about`",
+            Self::ModesInMotion { .. } => "leave [motion] out, or [modes]",
+            Self::LessThanModes { .. } => {
+                "leave `mass_kg` and the inertias of the gear out: its mesh has them; or keep fewer modes"
+            }
+            Self::NoModes { .. } => {
+                "mesh the whole gear or one periodic sector (`sector_teeth = 1`), the same in all scenes that it is in"
+            }
+            Self::GearModes { source, .. } => return source.hint(),
             Self::SharedSeat { .. } => {
                 "move one of them: bearings and loads act beside the part of the shaft that is meshed with the gear"
             }

@@ -6,16 +6,19 @@ use ale::{SlidingWindow, Station};
 use contact::{
     ContactError, ContactSet, MeshForce, Pose, SliceResult,
     line::NeighbourPairs,
-    pose::{displaced, frames, generalised},
+    pose::{displaced, frames, generalised, reference_angle},
     slice::MeshContact,
     slice_result,
 };
 use geometry::GearPair;
 use ltca::{StaticError, StaticOptions};
-use nalgebra::SMatrix;
-use reduction::ElasticGear;
+use nalgebra::{DMatrix, SMatrix};
+use reduction::{ElasticGear, GearModes};
 
-use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
+use crate::{
+    GearboxError, MeshElement, MeshForces, ModalForces, Vector12, mesh_element::finite_cycles,
+    modal_contact::ModalContact,
+};
 
 /// Slices of two reduced gears, station by station, as `ltca` solves them for a pair alone.
 #[derive(Debug)]
@@ -29,6 +32,8 @@ pub struct ExactMesh {
     poses: [Pose; 2],
     /// Gap up to which the last evaluation has rows, mm; none where the next one looks for all that are near.
     within: Option<f64>,
+    /// The contact with elastic modes as coordinates, where some are kept.
+    modal: Option<ModalContact>,
 }
 
 /// Overlap over that of the last evaluation up to which the search is narrow.
@@ -52,7 +57,27 @@ impl ExactMesh {
         let set = ContactSet::new(&pair, &gears, window.window(), &options.contact).map_err(StaticError::from)?;
         let contact = MeshContact::new(&pair, set, &options.contact).map_err(StaticError::from)?;
         let station = Station::at_cycles(0.0);
-        Ok(Self { pair, gears, options, contact, window, station, poses: [Pose::identity(); 2], within: None })
+        Ok(Self {
+            pair,
+            gears,
+            options,
+            contact,
+            window,
+            station,
+            poses: [Pose::identity(); 2],
+            within: None,
+            modal: None,
+        })
+    }
+
+    /// The mesh with elastic modes of gear 1 and gear 2 kept for [`MeshElement::modal`]; at rest it is what it was.
+    ///
+    /// # Errors
+    /// [`GearboxError::Contact`] for modes of other gears.
+    pub fn with_modes(mut self, modes: [Arc<GearModes>; 2]) -> Result<Self, GearboxError> {
+        let own = ModalContact::new(&self.pair, &self.gears, self.window.window(), modes, &self.options.contact)?;
+        self.modal = Some(own);
+        Ok(self)
     }
 
     /// The pair.
@@ -126,6 +151,10 @@ impl MeshElement for ExactMesh {
             self.contact
                 .enter_window(&self.pair, &self.gears, window.window(), set, &self.options.contact)
                 .map_err(StaticError::from)?;
+            if let Some(modal) = &mut self.modal {
+                let entered = modal.enter_window(&self.pair, &self.gears, window.window(), &self.options.contact);
+                entered.map_err(StaticError::from)?;
+            }
             self.window = window;
         }
         self.station = station;
@@ -166,6 +195,28 @@ impl MeshElement for ExactMesh {
         let torque = self.contact.force().wrench[self.options.driven()].moment[2].abs();
         let served = self.window.check_neighbours(self.station, torque, 1e-3 * deepest, |k| neighbours.gap(k));
         Ok(served.map_err(StaticError::from)?)
+    }
+
+    fn modal(&mut self, d: &Vector12) -> Result<Option<ModalForces>, GearboxError> {
+        let Some(modal) = &mut self.modal else { return Ok(None) };
+        let (options, Station { cycle, phase }) = (&self.options.contact, self.station);
+        let window = self.window.window();
+        let nominal = frames(&self.pair, modal.contact_set(), window, options, self.station, [d[5], d[11]]);
+        let poses = displaced(nominal, &(*d).into());
+        // Tooth 0 of gear 1 stands where the cycles count from.
+        let cycles = cycle as f64 + phase - 0.5;
+        let first = self.pair.middle_angle(options.side())
+            + options.sense.sign() as f64 * cycles * self.pair.pinion.pitch_angle();
+        let angles = [first, reference_angle(&self.pair, options, first)];
+        let failed = |source| GearboxError::from(StaticError::Contact { cycle, phase, source });
+        let mut found = modal.solve(&poses, angles, failed)?;
+        if let Some(g) = generalised(&poses, &(*d).into()) {
+            let mut all = DMatrix::identity(found.force.len(), found.force.len());
+            all.view_mut((0, 0), (12, 12)).copy_from(&g);
+            found.force = &all * found.force;
+            found.tangent = &all * found.tangent * all.transpose();
+        }
+        Ok(Some(found))
     }
 
     fn slices(&self) -> Vec<SliceResult> {

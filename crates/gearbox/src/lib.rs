@@ -9,7 +9,7 @@
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
 //! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
 //! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
-//! 8. [`Vibration`]: how it swings about that, driven by its meshes;
+//! 8. [`Vibration`]: how it swings about that, driven by its meshes, gears with their elastic modes ([`ElasticBody`]) or rigid;
 //! 9. [`motion`]: how all of it moves in time.
 //!
 //! Axes of shafts are along +z; units mm, N, MPa, t, s, rad; common axes. Results are the same bits for any number of
@@ -20,6 +20,8 @@ mod balance;
 mod bearing;
 mod campbell;
 mod compliant_support;
+mod elastic_body;
+mod elastic_gears;
 mod equilibrium;
 mod error;
 mod even_mesh;
@@ -27,6 +29,7 @@ mod exact_mesh;
 mod linearised;
 mod mesh_element;
 mod mesh_torques;
+mod modal_contact;
 mod modal_energy;
 pub mod motion;
 mod position;
@@ -46,9 +49,11 @@ mod whirl;
 
 pub use assembly::Assembly;
 pub use bearing::Bearing;
+pub use elastic_body::ElasticBody;
+pub use elastic_gears::elastic_gears;
 pub use error::GearboxError;
 pub use exact_mesh::ExactMesh;
-pub use mesh_element::{LinearMesh, MeshElement, MeshForces, Vector12};
+pub use mesh_element::{LinearMesh, MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_torques::mesh_torques;
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
 pub use static_gearbox::{Operation, StaticGearbox, Torque};

@@ -1,7 +1,7 @@
 //! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
 
 use contact::SliceResult;
-use nalgebra::{SMatrix, SVector, Vector6};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
 
 use crate::GearboxError;
 
@@ -19,6 +19,18 @@ pub struct MeshForces {
     pub tangent: SMatrix<f64, 12, 12>,
     /// Sum of the normal forces, N.
     pub normal_force: f64,
+}
+
+/// Forces of a mesh on its gears and on their elastic modes, the modes in equilibrium with the flanks; axes of the mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ModalForces {
+    /// Amplitudes p of the modes of gear 1, then gear 2, mm t^(1/2): patterns that stand in space
+    /// ([`reduction::StandingModes`]), of a gear that is not cyclic those of its own frame.
+    pub amplitudes: DVector<f64>,
+    /// Forces on the twelve displacements and on the modes: N, N mm, N t^(-1/2).
+    pub force: DVector<f64>,
+    /// df/d(q, p), (12 + m) x (12 + m).
+    pub tangent: DMatrix<f64>,
 }
 
 /// A mesh between two gears whose nominal motion is given: displacements count from where the unmodified flanks touch
@@ -43,6 +55,15 @@ pub trait MeshElement {
     /// [`GearboxError`] when they are not.
     fn check(&mut self) -> Result<(), GearboxError> {
         Ok(())
+    }
+
+    /// The same with the gears' elastic modes as coordinates, for elements that keep some; the last evaluation stays.
+    ///
+    /// # Errors
+    /// [`GearboxError`] where the modes find no equilibrium.
+    fn modal(&mut self, displacements: &Vector12) -> Result<Option<ModalForces>, GearboxError> {
+        let _ = displacements;
+        Ok(None)
     }
 
     /// Loaded slices of the last evaluation, for elements that know them.

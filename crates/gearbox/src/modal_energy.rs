@@ -2,7 +2,7 @@
 
 use nalgebra::{Complex, DMatrix, DVector};
 
-use crate::Assembly;
+use crate::{Assembly, ElasticBody};
 
 /// A part that holds energy; numbers from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,8 +15,10 @@ pub enum Component {
     Housing,
     /// A mesh: springs first, then whole stiffnesses.
     Mesh(usize),
-    /// A disc or gear body.
+    /// A disc or gear body: what it moves, its elastic modes with it.
     Disc(usize),
+    /// The elastic modes of the gear on a disc: what they strain beside the mesh.
+    Body(usize),
     /// A machine at an end of the train.
     Machine(usize),
 }
@@ -72,15 +74,22 @@ impl ModalEnergy {
         }
         let springs = assembly.structure().springs.len();
         for (i, mesh) in assembly.structure().elastic_meshes.iter().enumerate() {
-            let own = parts.each_ref().map(|p| assembly.at_gears(mesh.discs, p));
-            strain.push((Component::Mesh(springs + i), own.iter().map(|u| u.dot(&(mesh.stiffness * u))).sum()));
+            let own = parts.each_ref().map(|p| assembly.at_mesh(mesh.discs, p));
+            strain.push((Component::Mesh(springs + i), own.iter().map(|u| u.dot(&(&mesh.stiffness * u))).sum()));
         }
         for (i, disc) in assembly.structure().discs.iter().enumerate() {
             let Some(at) = assembly.disc(i) else { continue };
             let square = |axis: usize| shape[at + axis].norm_sqr();
             let shift: f64 = (0..3).map(square).sum();
             let turn = disc.diametral_inertia * (square(3) + square(4)) + disc.polar_inertia * square(5);
-            kinetic.push((Component::Disc(i), disc.mass * shift + turn));
+            let modes: f64 =
+                assembly.bodies().filter(|(_, _, body)| body.disc == i).map(|own| of_modes(own, shape)).sum();
+            kinetic.push((Component::Disc(i), disc.mass * shift + turn + modes));
+        }
+        for (at, _, body) in assembly.bodies() {
+            let energy = |(i, square): (usize, &f64)| square * shape[at + i].norm_sqr();
+            // Of no modes there is no negative zero.
+            strain.push((Component::Body(body.disc), 0.0 + body.squares.iter().enumerate().map(energy).sum::<f64>()));
         }
         for (i, machine) in assembly.structure().machines.iter().enumerate() {
             let Some(at) = assembly.disc(machine.disc) else { continue };
@@ -89,6 +98,15 @@ impl ModalEnergy {
         let total = |matrix: &DMatrix<f64>| parts.iter().map(|p| p.dot(&(matrix * p))).sum::<f64>();
         Self { strain: shares(&strain, total(k), ROUND_OFF * gross), kinetic: shares(&kinetic, total(m), 0.0) }
     }
+}
+
+/// p^H p + 2 Re p^H L d: what modes add to the kinetic energy of their disc.
+fn of_modes((at, disc, body): (usize, usize, &ElasticBody), shape: &DVector<Complex<f64>>) -> f64 {
+    let one = |i: usize| {
+        let shared: Complex<f64> = (0..6).map(|axis| shape[disc + axis] * body.coupling[(i, axis)]).sum();
+        shape[at + i].norm_sqr() + 2.0 * (shape[at + i].conj() * shared).re
+    };
+    (0..body.count()).map(one).sum()
 }
 
 /// Shares in a total; none where that is at most `least`.

@@ -4,7 +4,7 @@ use geometry::Sense;
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use crate::{
-    Assembly, GearMesh, GearboxError, MeshElement, MeshForces, Structure, Train, Vector12,
+    Assembly, GearMesh, GearboxError, MeshElement, MeshForces, ModalForces, Structure, Train, Vector12,
     compliant_support::CompliantBearing,
     equilibrium::Norms,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
@@ -142,6 +142,16 @@ impl StaticGearbox {
     /// Forces and tangents of the meshes at the last position that was solved, in their own axes; empty before.
     pub fn replies(&self) -> &[MeshForces] {
         &self.replies
+    }
+
+    /// What a mesh does to the elastic modes of its gears at displacements of the last position, its own axes; `None` for
+    /// elements that keep none.
+    ///
+    /// # Errors
+    /// [`GearboxError`] where the modes find no equilibrium.
+    pub(crate) fn modal(&mut self, mesh: usize, at: &Vector12) -> Result<Option<ModalForces>, GearboxError> {
+        let Some(element) = self.elements.get_mut(mesh) else { return Ok(None) };
+        element.modal(at).map_err(|source| at_mesh(&self.meshes[mesh], source))
     }
 
     /// Places of the gears of a mesh among the seats' coordinates, and the rotation of its axes.

@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use fem::beam::BeamPiece;
 use lumped::shaft18::MeshGeometry;
-use nalgebra::{DMatrix, Matrix6, SMatrix, Vector6};
+use nalgebra::{DMatrix, Matrix6, Vector6};
 
-use crate::{Bearing, GearboxError};
+use crate::{Bearing, ElasticBody, GearboxError};
 
 /// A shaft: Timoshenko sections one after the other along +z.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,15 +56,17 @@ pub struct MeshSpring {
     pub stiffness: f64,
 }
 
-/// A mesh as a stiffness between its gears, tilts included: the mean of an exact contact's tangent, turned about.
+/// A mesh as a stiffness between its gears, tilts and elastic modes included: the mean of an exact contact's tangent,
+/// turned about.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticMesh {
     /// Name for messages and tables.
     pub name: String,
     /// Gears 1 and 2, numbers of discs.
     pub discs: [usize; 2],
-    /// Stiffness for displacements and turns of gear 1 and gear 2, common axes, symmetric: N/mm, N, N mm.
-    pub stiffness: SMatrix<f64, 12, 12>,
+    /// Stiffness for displacements and turns of gear 1 and gear 2, and behind them for the modes of both where their discs
+    /// have an [`ElasticBody`]; common axes, symmetric: N/mm, N, N mm, and mm t^(1/2) in place of mm for modes.
+    pub stiffness: DMatrix<f64>,
 }
 
 /// A machine behind a coupling that passes on torque alone: its rotor turns with the shaft and does not tilt with it.
@@ -94,6 +96,8 @@ pub struct Structure {
     pub springs: Vec<MeshSpring>,
     /// Meshes as whole stiffnesses.
     pub elastic_meshes: Vec<ElasticMesh>,
+    /// Modes of gears, at most once for a disc: of vibration alone, a motion has rigid gears beside their teeth.
+    pub bodies: Vec<ElasticBody>,
     /// Machines at the ends of the train.
     pub machines: Vec<Machine>,
 }
@@ -126,6 +130,12 @@ impl Disc {
     /// The disc, moving with the cross-section at `seat` (mm from the shaft's z = 0).
     pub fn seated_at(self, seat: f64) -> Self {
         Self { reach: self.position - seat, ..self }
+    }
+
+    /// Mass (t) and inertia (t mm^2) that its six coordinates move.
+    pub(crate) fn inertia(&self) -> [f64; 6] {
+        let Self { mass, diametral_inertia, polar_inertia, .. } = *self;
+        [mass, mass, mass, diametral_inertia, diametral_inertia, polar_inertia]
     }
 
     /// Place of the disc's cross-section, mm from the shaft's z = 0.
@@ -198,11 +208,37 @@ impl Structure {
             self.has_discs(&machine.name, [machine.disc; 2])?;
             not_negative(&machine.name, "inertia, t mm^2", machine.inertia)?;
         }
+        for (i, body) in self.bodies.iter().enumerate() {
+            self.has_discs("the modes of a gear", [body.disc; 2])?;
+            let disc = &self.discs[body.disc];
+            body.check(&disc.name, disc.inertia())?;
+            if self.bodies[..i].iter().any(|other| other.disc == body.disc) {
+                let (found, wanted) = (2, 1);
+                return Err(GearboxError::Count { what: "sets of modes of one gear", found, wanted });
+            }
+        }
         for mesh in &self.elastic_meshes {
             self.has_discs(&mesh.name, mesh.discs)?;
-            elastic(&mesh.name, "mesh stiffness", &DMatrix::from_column_slice(12, 12, mesh.stiffness.as_slice()))?;
+            let wanted = 12 + mesh.discs.iter().map(|disc| self.modes_of(*disc)).sum::<usize>();
+            if let Some(&found) = [mesh.stiffness.nrows(), mesh.stiffness.ncols()].iter().find(|n| **n != wanted) {
+                return Err(GearboxError::Count { what: "coordinates of a mesh stiffness", found, wanted });
+            }
+            elastic(&mesh.name, "mesh stiffness", &mesh.stiffness)?;
         }
         Ok(())
+    }
+
+    /// Number of elastic modes of a disc.
+    pub(crate) fn modes_of(&self, disc: usize) -> usize {
+        self.bodies.iter().find(|body| body.disc == disc).map_or(0, ElasticBody::count)
+    }
+
+    /// Checks that no gear has modes of its own, which a motion in time has no coordinates for.
+    pub(crate) fn check_rigid(&self) -> Result<(), GearboxError> {
+        match self.bodies.first() {
+            Some(body) => Err(GearboxError::ModesInMotion { gear: self.discs[body.disc].name.clone() }),
+            None => Ok(()),
+        }
     }
 
     /// Checks that the matrices of all nodes are small enough for dense algebra.
@@ -213,6 +249,7 @@ impl Structure {
             1.0 + shaft.pieces.iter().map(of_piece).sum::<f64>()
         };
         let nodes = self.shafts.iter().map(of_shaft).sum::<f64>() + (self.discs.len() + self.bearings.len()) as f64;
+        let nodes = nodes + self.bodies.iter().map(|body| body.count() as f64 / 6.0).sum::<f64>();
         // What is no number is told by the shaft itself.
         if nodes > MOST as f64 { Err(GearboxError::TooLarge { nodes, most: MOST }) } else { Ok(()) }
     }

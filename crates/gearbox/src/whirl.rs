@@ -252,6 +252,7 @@ fn basis(assembly: &Assembly, held: &Held) -> Result<DMatrix<f64>, GearboxError>
             columns.push(all.skip(5).step_by(6).collect());
         }
     }
+    columns.extend(assembly.modes().map(|i| vec![i]));
     Ok(DMatrix::from_fn(assembly.size(), columns.len(), |i, j| if columns[j].contains(&i) { 1.0 } else { 0.0 }))
 }
 

@@ -31,7 +31,7 @@ pub use error::ReductionError;
 pub use layer_profile::LayerProfile;
 pub use load::{FlankGrid, FlankGrids};
 pub use local_compliance::LocalCompliance;
-pub use modes::{GearModes, LowestFrequencies, ModeChoice};
+pub use modes::{GearModes, LowestFrequencies, ModeChoice, StandingModes};
 pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
 pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 pub use stress_modes::StressModes;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use scene::{
-    Quantity, SceneError, Sense, Tolerance,
+    Boundary, Quantity, SceneError, Sense, Tolerance,
     gearbox::{Gearbox, GearboxDrive, MeshModel},
 };
 
@@ -331,6 +331,28 @@ fn an_accuracy_is_asked_in_the_document_of_the_gearbox() {
             "asks for an accuracy",
         ),
         (text.replace("bearing_force", "rms_dte"), "rms_dte"),
+    ] {
+        let error = Gearbox::parse(&wrong, &file).map(|_| ()).expect_err(says);
+        assert!(error.to_string().contains(says) && error.hint().is_some(), "{says}: {error}");
+    }
+}
+
+/// Modes of gears are those that a pair has; what they cannot have is refused with its line and a hint.
+#[test]
+fn modes_of_gears_belong_to_a_vibration() {
+    let file = folder().join("elastic_gears.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let own = Gearbox::read(&file).unwrap().modes.unwrap();
+    assert_eq!((own.count, own.below_hz, own.boundary), (None, Some(12000.0), Boundary::Massless));
+    let other = Gearbox::read(&folder().join("elastic_pair.toml")).unwrap().modes.unwrap();
+    assert_eq!((other.count, other.boundary, other.fixed_modes), (Some(12), Boundary::Consistent, Some(2)));
+    let (without, _) = text.split_once("[vibration]").unwrap();
+    for (wrong, says) in [
+        (format!("{without}[modes]\ncount = 6\n"), "[modes] belongs to a vibration"),
+        (format!("{text}[motion]\nspeed_rpm = 500.0\n"), "[modes] with [motion]"),
+        (text.replace("boundary = ", "count = 6\nboundary = "), "both say which modes are kept"),
+        (text.replace("boundary = ", "fixed_modes = 6\nboundary = "), "`fixed_modes` belongs to"),
+        (text.replace("below_hz = 12000.0", "damping_ratio = 0.1"), "unknown key `damping_ratio`"),
     ] {
         let error = Gearbox::parse(&wrong, &file).map(|_| ()).expect_err(says);
         assert!(error.to_string().contains(says) && error.hint().is_some(), "{says}: {error}");

@@ -11,6 +11,7 @@ use gearbox::{
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
 use ltca::StaticOptions;
+use reduction::{ElasticGear, GearModes};
 use scene::{
     Scene,
     gearbox::{Gearbox, GearboxGear, GearboxMesh},
@@ -135,6 +136,20 @@ impl ReducedMesh {
     /// Its contact.
     pub fn element(&self, mesh: &GearMesh) -> Result<Box<dyn MeshElement>, GearboxError> {
         Ok(Box::new(self.exact(mesh)?))
+    }
+
+    /// Its contact, with the elastic modes of its gears.
+    pub fn with_modes(
+        &self,
+        mesh: &GearMesh,
+        modes: [Arc<GearModes>; 2],
+    ) -> Result<Box<dyn MeshElement>, GearboxError> {
+        Ok(Box::new(self.exact(mesh)?.with_modes(modes)?))
+    }
+
+    /// Its gears.
+    pub fn gears(&self) -> Arc<[ElasticGear; 2]> {
+        Arc::clone(&self.pair.gears)
     }
 
     /// The same, as itself.

@@ -50,7 +50,7 @@ pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;
 use solve::{Asked, Slices, solve};
-pub use swings::{ExcitationLine, OrderForces, SpeedRms, VibrationResult};
+pub use swings::{ExcitationLine, GearFrequencies, OrderForces, SpeedRms, VibrationResult};
 
 impl Question for Gearbox {
     type Answer = GearboxResult;

@@ -116,7 +116,9 @@ pub(super) fn solve(
             let found = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
                 vibration::vibration(&parts, asked, reduced, &samples, observer)
             });
-            Some(found?)
+            let found = found?;
+            remarks.extend(found.remarks(file));
+            Some(found)
         }
     };
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));

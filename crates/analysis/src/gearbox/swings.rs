@@ -3,13 +3,18 @@
 use dynamics::RigidBody;
 use gearbox::{Harmonic, Vibration, WhirlModes, rms};
 use nalgebra::Complex;
+use scene::gearbox::{Gearbox, GearboxGear};
 use study::Campbell;
+
+use crate::remark::{self, Remark};
 
 /// Vibration of a gearbox about where it stands, order by order of its meshes.
 #[derive(Debug, Clone)]
 pub struct VibrationResult {
     /// Mass and inertia of the gears, in their order.
     pub gears: Vec<RigidBody>,
+    /// Elastic modes of the gears, in their order; `None` of gears that are rigid beside their teeth.
+    pub gear_modes: Vec<Option<GearFrequencies>>,
     /// Mean stiffness of every mesh along its normal, N/mm, by the turn of gear 1.
     pub mesh_stiffness: Vec<f64>,
     /// Single-sided amplitudes of the loaded transmission error of every mesh, mm, order by order.
@@ -30,6 +35,15 @@ pub struct VibrationResult {
     pub orders: Vec<Vec<OrderForces>>,
     /// All orders together, speed by speed.
     pub rms: Vec<SpeedRms>,
+}
+
+/// Elastic modes of a gear that vibrate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearFrequencies {
+    /// Natural frequencies with the bore held and the flanks free, Hz, ascending.
+    pub frequencies_hz: Vec<f64>,
+    /// Whether the gear is known by sectors: its modes then stand in space while the teeth pass.
+    pub by_sectors: bool,
 }
 
 /// What excites: a multiple of the input's speed.
@@ -91,6 +105,21 @@ impl SpeedRms {
 }
 
 impl VibrationResult {
+    /// What a user should hear of the modes of gears.
+    pub(super) fn remarks(&self, file: &Gearbox) -> Vec<Remark> {
+        let orders = self.orders.iter().flatten().map(|order| order.frequency_hz);
+        let fastest = orders.fold(0.0, f64::max);
+        let one = |(gear, own): (&GearboxGear, &Option<GearFrequencies>)| {
+            let own = own.as_ref()?;
+            let highest =
+                file.modes.and_then(|asked| asked.below_hz).or(own.frequencies_hz.last().copied()).unwrap_or(0.0);
+            let few = (highest < fastest).then(|| remark::few_gear_modes(&*gear.name, highest, fastest));
+            let fixed = (!own.by_sectors).then(|| remark::gear_modes_do_not_travel(&*gear.name));
+            Some(few.into_iter().chain(fixed))
+        };
+        file.gears.iter().zip(&self.gear_modes).filter_map(one).flatten().collect()
+    }
+
     /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` without speeds.
     pub fn peak(&self, of: impl Fn(&SpeedRms) -> f64) -> Option<(f64, f64)> {
         let all = self.speeds.iter().zip(&self.rms).map(|(speed, rms)| (*speed, of(rms)));

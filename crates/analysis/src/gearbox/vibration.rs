@@ -1,21 +1,26 @@
 //! The search for how a gearbox swings about where it stands.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use gearbox::{
     GearMesh, GearboxError, Held, MeanMesh, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
-    Structure, Train, Vibration, WhirlModes, own_cycle, turn_levers,
+    Structure, Train, Vibration, WhirlModes, elastic_gears, own_cycle, turn_levers,
 };
 use rayon::prelude::*;
+use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxVibration};
 use study::campbell;
 
 use super::{
     inertia,
     meshes::ReducedMesh,
-    swings::{OrderForces, SpeedRms, VibrationResult, lines},
+    swings::{GearFrequencies, OrderForces, SpeedRms, VibrationResult, lines},
 };
-use crate::{AnalysisError, Observer, PhaseWork, motion::RPM, run_phase, unless_cancelled};
+use crate::{
+    AnalysisError, Observer, PhaseWork,
+    motion::{RPM, kept_modes},
+    run_phase, unless_cancelled,
+};
 
 /// A gearbox as its solvers take it.
 pub(super) struct Parts<'a> {
@@ -41,11 +46,29 @@ impl Parts<'_> {
         AnalysisError::from(source).in_file(&self.file.file)
     }
 
+    /// Elastic modes of all gears in mesh, where the file keeps some; else none.
+    fn modes(
+        &self,
+        reduced: &[ReducedMesh],
+        observer: &mut dyn Observer,
+    ) -> Result<Vec<Option<Arc<GearModes>>>, AnalysisError> {
+        let Some(asked) = &self.file.modes else { return Ok(Vec::new()) };
+        let gears: Vec<_> = reduced.iter().map(ReducedMesh::gears).collect();
+        run_phase(observer, "modes", PhaseWork::Steps(self.file.gears.len() as u64), |progress| {
+            let found = elastic_gears(self.structure, self.meshes, &gears, |reducer| {
+                let own = kept_modes(reducer, asked);
+                progress.tick();
+                own
+            });
+            found.map_err(|e| self.failed(e))
+        })
+    }
+
     /// Every mesh through its own cycle while the others are linear about what they did in `samples`.
     fn excitations(
         &self,
         asked: &GearboxVibration,
-        reduced: &[ReducedMesh],
+        (reduced, modes): (&[ReducedMesh], &[Option<Arc<GearModes>>]),
         samples: &[Vec<MeshSample>],
         observer: &mut dyn Observer,
     ) -> Result<Vec<MeshExcitation>, AnalysisError> {
@@ -58,7 +81,10 @@ impl Parts<'_> {
                 let made = StaticGearbox::new(structure, meshes, self.operation.clone(), |i, mesh, _| {
                     match means.get(i).filter(|_| i != own) {
                         Some(mean) => Ok(Box::new(mean.clone()) as Box<dyn MeshElement>),
-                        None => reduced[i].element(mesh),
+                        None => match mesh.discs.map(|disc| modes.get(disc).cloned().flatten()) {
+                            [Some(a), Some(b)] => reduced[i].with_modes(mesh, [a, b]),
+                            _ => reduced[i].element(mesh),
+                        },
                     }
                 });
                 let mut gearbox = made.map_err(|e| self.failed(e))?;
@@ -84,7 +110,8 @@ pub(super) fn vibration(
     observer: &mut dyn Observer,
 ) -> Result<VibrationResult, AnalysisError> {
     let failed = |source: GearboxError| parts.failed(source);
-    let excitations = parts.excitations(asked, reduced, samples, observer)?;
+    let modes_of_gears = parts.modes(reduced, observer)?;
+    let excitations = parts.excitations(asked, (reduced, &modes_of_gears), samples, observer)?;
     let gears = inertia::gears(parts.file, reduced)?;
     let held = Held {
         shafts: parts.operation.held.clone(),
@@ -97,7 +124,7 @@ pub(super) fn vibration(
     let drawn: Vec<f64> = (0..asked.speeds.min(DRAWN)).map(|i| speed(i, asked.speeds.min(DRAWN))).collect();
     let speeds: Vec<f64> = (0..asked.speeds).map(|i| speed(i, asked.speeds)).collect();
     run_phase(observer, "vibrate", PhaseWork::Steps((drawn.len() + speeds.len()) as u64), |progress| {
-        let whole = Vibration::new(structure, train, excitations, &held).map_err(failed)?;
+        let whole = Vibration::with_modes(structure, train, excitations, &modes_of_gears, &held).map_err(failed)?;
         let limit = limit(&whole, asked, to);
         let vibration = whole.reduced(limit).map_err(failed)?;
         drop(whole);
@@ -120,7 +147,13 @@ pub(super) fn vibration(
         let orders = orders.into_iter().collect::<Result<Vec<_>, _>>()?;
         let lines = lines(&vibration, parts.train.ratios(), asked.orders);
         let campbell = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
+        let kept = |own: &Arc<GearModes>| GearFrequencies {
+            frequencies_hz: own.frequencies_hz(),
+            by_sectors: own.standing().is_some(),
+        };
+        let of_gear = |i: usize| modes_of_gears.get(i).and_then(Option::as_ref).map(kept);
         Ok(VibrationResult {
+            gear_modes: (0..gears.len()).map(of_gear).collect(),
             gears,
             mesh_stiffness: vibration.mesh_stiffness(),
             transmission_error: vibration

@@ -50,7 +50,9 @@ pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, bearing, drive, motion_options, refuse_unstable,
     scheme, speed, stated_body, steady_by, torque,
 };
-pub(crate) use setup::{Elasticity, MotionInputs, PreparedMotion, Vibration, body, mesh_range_hz, pair_drive, prepare};
+pub(crate) use setup::{
+    Elasticity, MotionInputs, PreparedMotion, Vibration, body, kept_modes, mesh_range_hz, pair_drive, prepare,
+};
 pub use sink::{MotionCheckpoint, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};
 pub(crate) use sweep::direction;

@@ -66,6 +66,7 @@ impl GearboxMechanism {
         check(&structure, &train, &operation)?;
         check_motion(&structure, options)?;
         structure.check_linear()?;
+        structure.check_rigid()?;
         let mut held = vec![false; structure.shafts.len()];
         operation.held.iter().for_each(|&shaft| held[shaft] = true);
         let assembly = Assembly::new(structure)?;

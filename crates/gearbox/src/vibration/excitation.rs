@@ -2,9 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Complex, SMatrix, SVector};
+use nalgebra::{Complex, DMatrix, DVector, SMatrix};
 
-use crate::{GearMesh, GearboxError, MeshElement, MeshForces, Meshing, Vector12, even_mesh::guessed_lever};
+use crate::{
+    GearMesh, GearboxError, MeshElement, MeshForces, Meshing, ModalForces, Vector12, even_mesh::guessed_lever,
+};
 
 /// A mesh at one place of its cycle, in its own axes.
 #[derive(Debug, Clone, PartialEq)]
@@ -15,6 +17,28 @@ pub struct MeshSample {
     pub displacements: Vector12,
     /// Forces there, and their tangent.
     pub reply: MeshForces,
+    /// The same with elastic modes of the gears as coordinates, where the mesh keeps some.
+    pub modal: Option<ModalForces>,
+}
+
+impl MeshSample {
+    /// Displacements, and amplitudes of modes behind them.
+    fn coordinates(&self) -> DVector<f64> {
+        let modes = self.modal.as_ref().map_or(&[][..], |own| own.amplitudes.as_slice());
+        DVector::from_iterator(12 + modes.len(), self.displacements.iter().chain(modes).copied())
+    }
+
+    /// Forces on these.
+    fn force(&self) -> DVector<f64> {
+        let rigid = || DVector::from_column_slice(self.reply.force.as_slice());
+        self.modal.as_ref().map_or_else(rigid, |own| own.force.clone())
+    }
+
+    /// How forces follow coordinates.
+    fn tangent(&self) -> DMatrix<f64> {
+        let rigid = || DMatrix::from_column_slice(12, 12, self.reply.tangent.as_slice());
+        self.modal.as_ref().map_or_else(rigid, |own| own.tangent.clone())
+    }
 }
 
 /// A mesh that is linear about its mean: f = f_0 + T (q - q_0), at any phase.
@@ -62,11 +86,21 @@ pub fn turn_levers(mesh: &GearMesh, meshing: &Meshing) -> Result<[f64; 2], Gearb
 /// P'T P,   P: theta_i -> (h_1 theta_1 + h_2 theta_2)/(2 h_i)
 /// ```
 /// Contact points off the line of action have levers some 1e-4 unlike: left as they are, a free train would swing.
-fn turning_with_the_teeth(tangent: &SMatrix<f64, 12, 12>, [h1, h2]: [f64; 2]) -> SMatrix<f64, 12, 12> {
-    let mut p = SMatrix::<f64, 12, 12>::identity();
+fn turning_with_the_teeth(tangent: &DMatrix<f64>, [h1, h2]: [f64; 2]) -> DMatrix<f64> {
+    let mut p = DMatrix::identity(tangent.nrows(), tangent.nrows());
     (p[(5, 5)], p[(5, 11)]) = (0.5, 0.5 * h2 / h1);
     (p[(11, 5)], p[(11, 11)]) = (0.5 * h1 / h2, 0.5);
-    p.transpose() * tangent * p
+    turned_about(&p.transpose(), tangent)
+}
+
+/// A M A', column by column: matrices of twelve coordinates have the same bits with modes behind them and without.
+pub(super) fn turned_about(a: &DMatrix<f64>, m: &DMatrix<f64>) -> DMatrix<f64> {
+    let product = |a: &DMatrix<f64>, b: &DMatrix<f64>| {
+        let mut all = DMatrix::zeros(a.nrows(), b.ncols());
+        all.column_iter_mut().zip(b.column_iter()).for_each(|(mut own, column)| own.gemv(1.0, a, &column, 0.0));
+        all
+    };
+    product(&product(a, m), &a.transpose())
 }
 
 impl MeshElement for MeanMesh {
@@ -85,16 +119,19 @@ impl MeshElement for MeanMesh {
 /// ```text
 /// f(c) = f_0 + T (q - q_0) + g(c),   g_k = 2/N sum_j (f_j - T q_j) exp(-2 pi i k c_j)
 /// ```
-/// c: mesh cycles; f_j, q_j, T_j: at rest under load; T: the mean of T_j. Where forces at rest do not change, as in any
+/// q: twelve displacements, then the amplitudes of elastic modes where these are kept; c: mesh cycles; f_j, q_j, T_j: at rest under load; T: the mean of T_j. Where forces at rest do not change, as in any
 /// train without a ring, g is -T times the displacements of the loaded transmission error: mean mesh stiffness times
 /// the harmonics of the STE. What else is in it is the resultant that moves over the width as contact lines do. The
 /// linear answer at rest is the loaded gearbox at rest, exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MeshExcitation {
-    /// The mean.
+    /// The mean at rest: all elasticity of the gears is in it.
     pub mean: MeanMesh,
-    /// g_1, g_2, ... (peak of a cosine over the cycles, forces on both gears in the mesh's own axes): N, N mm.
-    pub orders: Vec<SVector<Complex<f64>, 12>>,
+    /// T of the coordinates, symmetric, (12 + m) x (12 + m): N/mm, N, N mm, and mm t^(1/2) in place of mm for modes. It
+    /// does not resist a turn with the teeth.
+    pub tangent: DMatrix<f64>,
+    /// g_1, g_2, ... (peak of a cosine over the cycles, forces on the coordinates in the mesh's own axes): N, N mm.
+    pub orders: Vec<DVector<Complex<f64>>>,
     /// Single-sided amplitudes of the loaded transmission error of the same orders, mm, where it is given.
     pub transmission_error: Vec<Complex<f64>>,
 }
@@ -105,17 +142,20 @@ impl MeshExcitation {
     /// not resist a turn with the teeth. `None` without samples.
     pub fn new(samples: &[MeshSample], transmission_error: &[f64], orders: usize, turns: [f64; 2]) -> Option<Self> {
         let mut mean = MeanMesh::of(samples)?;
-        mean.tangent = turning_with_the_teeth(&mean.tangent, turns);
+        let rigid = turning_with_the_teeth(&DMatrix::from_column_slice(12, 12, mean.tangent.as_slice()), turns);
+        mean.tangent = SMatrix::from_column_slice(rigid.as_slice());
+        let tangent = mean_of(samples, MeshSample::tangent)?;
+        let tangent = turning_with_the_teeth(&(0.5 * (&tangent + tangent.transpose())), turns);
+        let (centre, force_0) = (mean_of(samples, MeshSample::coordinates)?, mean_of(samples, MeshSample::force)?);
         let orders = 1..=orders.min(samples.len().saturating_sub(1) / 2);
         // Means are taken off first: what does not move has no round-off.
-        let start =
-            |s: &MeshSample| (s.reply.force - mean.force) - mean.tangent * (s.displacements - mean.displacements);
+        let start = |s: &MeshSample| (s.force() - &force_0) - &tangent * (s.coordinates() - &centre);
         let wave = |order: usize, s: &MeshSample| {
             Complex::from_polar(2.0 / samples.len() as f64, -TAU * (order as f64 * s.cycles).fract())
         };
         let force = |k: usize| {
             let one = |s: &MeshSample| start(s).map(|x| Complex::from(x) * wave(k, s));
-            samples.iter().map(one).sum::<SVector<Complex<f64>, 12>>()
+            samples.iter().map(one).fold(DVector::zeros(centre.len()), |sum, own| sum + own)
         };
         let level = transmission_error.iter().sum::<f64>() / transmission_error.len().max(1) as f64;
         let error = |k: usize| {
@@ -126,6 +166,26 @@ impl MeshExcitation {
             orders: orders.clone().map(force).collect(),
             transmission_error: orders.map(error).collect(),
             mean,
+            tangent,
         })
     }
+}
+
+/// Mean over samples; `None` without any, and where they keep unlike modes.
+fn mean_of<C: nalgebra::Dim>(
+    samples: &[MeshSample],
+    of: impl Fn(&MeshSample) -> nalgebra::OMatrix<f64, nalgebra::Dyn, C>,
+) -> Option<nalgebra::OMatrix<f64, nalgebra::Dyn, C>>
+where
+    nalgebra::DefaultAllocator: nalgebra::allocator::Allocator<nalgebra::Dyn, C>,
+{
+    let mut sum = of(samples.first()?);
+    for sample in &samples[1..] {
+        let own = of(sample);
+        if own.shape() != sum.shape() {
+            return None;
+        }
+        sum += own;
+    }
+    Some(sum * (1.0 / samples.len() as f64))
 }

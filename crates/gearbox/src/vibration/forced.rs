@@ -1,13 +1,15 @@
 //! Orders of all meshes over speed. Theory (90).
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use geometry::Sense;
-use nalgebra::{Complex, DMatrix, DVector, SMatrix};
+use nalgebra::{Complex, DMatrix, DVector};
 
-use super::{MeshExcitation, response::Spinning};
+use reduction::GearModes;
+
+use super::{MeshExcitation, excitation::turned_about, response::Spinning};
 use crate::{
-    Assembly, ElasticMesh, GearMesh, GearboxError, Held, Rotors, Structure, Train, Vector12,
+    Assembly, ElasticBody, ElasticMesh, GearMesh, GearboxError, Held, Rotors, Structure, Train, Vector12,
     even_mesh::{guessed_lever, turn},
 };
 
@@ -25,8 +27,8 @@ pub struct Vibration {
 struct SwingingMesh {
     discs: [usize; 2],
     excitation: MeshExcitation,
-    /// Turn of its axes to the common ones.
-    turn: SMatrix<f64, 12, 12>,
+    /// Turn of its axes to the common ones, of displacements and modes.
+    turn: DMatrix<f64>,
     /// Compression of an evenly loaded mesh for unit displacements.
     lever: Vector12,
     /// Cycles with the input at its start, and cycles a rad of the input.
@@ -60,10 +62,26 @@ impl Vibration {
     /// [`GearboxError`]: another number of excitations, or as [`Rotors::holding`].
     pub fn new(
         structure: Structure,
-        (meshes, train, sense): (&[GearMesh], &Train, Sense),
+        parts: (&[GearMesh], &Train, Sense),
         excitations: Vec<MeshExcitation>,
         held: &Held,
     ) -> Result<Self, GearboxError> {
+        Self::with_modes(structure, parts, excitations, &[], held)
+    }
+
+    /// The same with elastic modes of gears, disc by disc ([`crate::elastic_gears`]); excitations have those of their gears
+    /// as coordinates.
+    ///
+    /// # Errors
+    /// As [`Vibration::new`]; excitations of other coordinates, and gears whose mass is less than their modes move.
+    pub fn with_modes(
+        structure: Structure,
+        (meshes, train, sense): (&[GearMesh], &Train, Sense),
+        excitations: Vec<MeshExcitation>,
+        modes: &[Option<Arc<GearModes>>],
+        held: &Held,
+    ) -> Result<Self, GearboxError> {
+        let structure = Structure { bodies: bodies((meshes, train), modes), ..structure };
         if excitations.len() != meshes.len() {
             let (found, wanted) = (excitations.len(), meshes.len());
             return Err(GearboxError::Count { what: "excitations of meshes", found, wanted });
@@ -73,8 +91,8 @@ impl Vibration {
         let mut elastic_meshes = Vec::with_capacity(meshes.len());
         for (i, (mesh, excitation)) in meshes.iter().zip(excitations).enumerate() {
             let meshing = &train.meshing()[i];
-            let turn = turn(meshing.direction);
-            let stiffness = -turn * excitation.mean.tangent * turn.transpose();
+            let turn = turn_with_modes(meshing.direction, &structure, (mesh, modes), &excitation)?;
+            let stiffness = -turned_about(&turn, &excitation.tangent);
             elastic_meshes.push(ElasticMesh { name: mesh.name.clone(), discs: mesh.discs, stiffness });
             let (lever, cycles) = (guessed_lever(mesh, meshing)?, (one[i] - start[i]).abs());
             swinging.push(SwingingMesh { discs: mesh.discs, excitation, turn, lever, start: start[i], cycles });
@@ -85,7 +103,7 @@ impl Vibration {
     }
 
     /// Vibration in modes up to `highest` (rad/s) and in what forces at gears and bearings need beyond, gyroscopic
-    /// moments of discs among them ([`Rotors::reduced`]).
+    /// moments of discs and elastic modes of gears among them ([`Rotors::reduced`]).
     ///
     /// # Errors
     /// None that [`Vibration::new`] has let pass.
@@ -98,7 +116,7 @@ impl Vibration {
             let at = assembly.bearing(i);
             (0..6).filter(|k| bearing.stiffness[(*k, *k)] > 0.0).map(move |k| at + k)
         });
-        let mut at: Vec<usize> = discs.flat_map(|d| d..d + 6).chain(held).collect();
+        let mut at: Vec<usize> = discs.flat_map(|d| d..d + 6).chain(held).chain(assembly.modes()).collect();
         at.sort_unstable();
         at.dedup();
         let loads = DMatrix::from_fn(assembly.size(), at.len(), |i, j| f64::from(u8::from(i == at[j])));
@@ -166,21 +184,17 @@ impl Vibration {
     ) -> Result<Harmonic, GearboxError> {
         let own = &self.meshes[mesh];
         let phase = Complex::from_polar(1.0, TAU * (order as f64 * own.start).fract());
-        let exciting = own.excitation.orders[order - 1] * phase;
         let assembly = self.rotors.assembly();
         let mut force = DVector::zeros(assembly.size());
-        let common = complex(&own.turn) * exciting;
-        for (g, disc) in own.discs.iter().enumerate() {
-            let Some(at) = assembly.disc(*disc) else { continue };
-            (0..6).for_each(|k| force[at + k] += common[6 * g + k]);
-        }
+        let exciting = &own.excitation.orders[order - 1] * phase;
+        assembly.add_at_mesh(own.discs, &(complex(&own.turn) * &exciting), &mut force);
         let frequency = order as f64 * TAU * own.cycles * speed;
         let displacements = spinning.amplitudes(frequency, &force)?;
         let of_mesh = |(i, m): (usize, &SwingingMesh)| {
-            let moved = complex(&m.turn.transpose()) * assembly.at_gears(m.discs, &displacements);
-            let mut f = complex(&m.excitation.mean.tangent) * moved;
+            let moved = complex(&m.turn.transpose()) * assembly.at_mesh(m.discs, &displacements);
+            let mut f = complex(&m.excitation.tangent) * moved;
             if i == mesh {
-                f += exciting;
+                f += &exciting;
             }
             -f[5] / m.lever[5]
         };
@@ -192,8 +206,47 @@ impl Vibration {
     }
 }
 
-fn complex(m: &SMatrix<f64, 12, 12>) -> SMatrix<Complex<f64>, 12, 12> {
+fn complex(m: &DMatrix<f64>) -> DMatrix<Complex<f64>> {
     m.map(Complex::from)
+}
+
+/// Modes of every gear that has some, as it stands with the input at its start.
+fn bodies((meshes, train): (&[GearMesh], &Train), modes: &[Option<Arc<GearModes>>]) -> Vec<ElasticBody> {
+    let angle = |disc: usize| {
+        let mut places = meshes.iter().zip(train.meshing());
+        places.find_map(|(mesh, meshing)| {
+            let end = mesh.discs.iter().position(|own| *own == disc)?;
+            Some(meshing.gear_angles(&mesh.pair)[end])
+        })
+    };
+    let one = |(disc, own): (usize, &Option<Arc<GearModes>>)| Some(ElasticBody::new(disc, own.as_ref()?, angle(disc)?));
+    modes.iter().enumerate().filter_map(one).collect()
+}
+
+/// Turn of a mesh's coordinates to the common axes: displacements, and behind them the modes of both gears, whose patterns
+/// stand in space.
+fn turn_with_modes(
+    direction: f64,
+    structure: &Structure,
+    (mesh, modes): (&GearMesh, &[Option<Arc<GearModes>>]),
+    excitation: &MeshExcitation,
+) -> Result<DMatrix<f64>, GearboxError> {
+    let (found, wanted) =
+        (excitation.tangent.nrows(), 12 + mesh.discs.iter().map(|d| structure.modes_of(*d)).sum::<usize>());
+    if found != wanted {
+        return Err(GearboxError::Count { what: "coordinates of the excitation of a mesh", found, wanted });
+    }
+    let mut all = DMatrix::identity(wanted, wanted);
+    all.view_mut((0, 0), (12, 12)).copy_from(&turn(direction));
+    let mut at = 12;
+    for own in mesh.discs.iter().filter_map(|disc| modes.get(*disc)?.as_ref()) {
+        if let Some(standing) = own.standing() {
+            // p of the mesh's axes is e^(phi N) p of the common ones.
+            all.view_mut((at, at), (own.count(), own.count())).copy_from(&standing.turned(-direction));
+        }
+        at += own.count();
+    }
+    Ok(all)
 }
 
 /// Frequencies that are one, relative.

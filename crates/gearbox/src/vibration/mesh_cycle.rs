@@ -3,7 +3,8 @@
 use crate::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Vector12};
 
 /// Solves a gearbox at `positions` places that are evenly spaced over one cycle of `mesh`, and hands on that mesh at
-/// each of them with its transmission error (mm). The other meshes are best linear then ([`crate::MeanMesh`]): their
+/// each of them with its transmission error (mm), and with what it does to the modes of its gears where its element keeps
+/// some. The other meshes are best linear then ([`crate::MeanMesh`]): their
 /// cycles are not whole.
 ///
 /// # Errors
@@ -23,7 +24,10 @@ pub fn own_cycle(
     let mut errors = Vec::with_capacity(positions);
     for i in 0..positions {
         let position = gearbox.solve(i as f64 / positions as f64 / slope)?;
-        samples.extend(MeshSample::at(gearbox, &position, mesh));
+        if let Some(mut sample) = MeshSample::at(gearbox, &position, mesh) {
+            sample.modal = gearbox.modal(mesh, &sample.displacements)?;
+            samples.push(sample);
+        }
         errors.push(position.meshes[mesh].transmission_error);
         each();
     }
@@ -31,10 +35,10 @@ pub fn own_cycle(
 }
 
 impl MeshSample {
-    /// A mesh at the position that a gearbox has solved last; `None` without a mesh of that number.
+    /// A mesh at the position that a gearbox has solved last, without modes; `None` without a mesh of that number.
     pub fn at(gearbox: &StaticGearbox, position: &GearboxPosition, mesh: usize) -> Option<Self> {
         let (state, reply) = (position.meshes.get(mesh)?, gearbox.replies().get(mesh)?);
         let displacements = Vector12::from(state.displacements);
-        Some(Self { cycles: state.cycles, displacements, reply: reply.clone() })
+        Some(Self { cycles: state.cycles, displacements, reply: reply.clone(), modal: None })
     }
 }

@@ -1,5 +1,6 @@
 //! Laws of shafts, bearings and gears that stand and swing together.
 
+mod elastic;
 mod exact;
 mod forced;
 mod motion;

@@ -21,12 +21,13 @@ fn elastic(mesh: &GearMesh, train: &Train, i: usize, stiffness: f64) -> MeshExci
     let h = Vector12::from_fn(|k, _| own.levers[k / 6][k % 6]);
     let displacements = 1e-3 * h / h.norm_squared();
     let reply = own.clone().evaluate(&displacements).unwrap();
-    let samples = [0.0, 0.25, 0.5, 0.75].map(|cycles| MeshSample { cycles, displacements, reply: reply.clone() });
+    let samples =
+        [0.0, 0.25, 0.5, 0.75].map(|cycles| MeshSample { cycles, displacements, reply: reply.clone(), modal: None });
     MeshExcitation::new(&samples, &[], 1, [own.levers[0][5], own.levers[1][5]]).unwrap()
 }
 
 /// Pinion and wheel of a pair on shafts that only turn.
-fn two_discs(pair: &GearPair, held: &Held, order: SVector<Complex<f64>, 12>) -> Vibration {
+fn two_discs(pair: &GearPair, held: &Held, order: DVector<Complex<f64>>) -> Vibration {
     let mut structure = single(pair, 0.4);
     (structure.discs[0].polar_inertia, structure.discs[1].polar_inertia) = (40.0, 700.0);
     let meshes = [GearMesh { name: "pair".into(), discs: [0, 1], pair: pair.clone() }];
@@ -46,7 +47,7 @@ fn of_shaft(length: f64, diameter: f64) -> f64 {
 fn two_discs_on_a_mesh_have_the_closed_form() {
     let pair = pair([21, 40], 18.0);
     let held = Held { shafts: vec![0, 1], turns: Vec::new() };
-    let box_ = two_discs(&pair, &held, SVector::zeros());
+    let box_ = two_discs(&pair, &held, DVector::zeros(12));
     let inertia = [40.0 + of_shaft(150.0, 30.0), 700.0 + of_shaft(150.0, 40.0)];
     let radii = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
     let wanted = (4e5 * (radii[0] * radii[0] / inertia[0] + radii[1] * radii[1] / inertia[1])).sqrt();
@@ -66,7 +67,7 @@ fn two_discs_on_a_mesh_have_the_closed_form() {
 fn a_lone_mode_at_resonance_answers_with_one_over_two_zeta() {
     let pair = pair([21, 40], 18.0);
     let held = Held { shafts: vec![0, 1], turns: vec![2] };
-    let box_ = two_discs(&pair, &held, SVector::zeros());
+    let box_ = two_discs(&pair, &held, DVector::zeros(12));
     let [own] = box_.rotors().modes_at_rest().frequencies[..] else { panic!("one coordinate is left") };
     let wheel = box_.rotors().assembly().disc(1).unwrap() + 5;
     let mut force = DVector::zeros(box_.rotors().assembly().size());
@@ -207,7 +208,7 @@ fn a_train_of_any_meshes_turns_on() {
             one.evaluate(&(1e-3 * h / h.norm_squared())).unwrap()
         });
         let displacements = Vector12::zeros();
-        let samples = replies.map(|reply| MeshSample { cycles: 0.0, displacements, reply });
+        let samples = replies.map(|reply| MeshSample { cycles: 0.0, displacements, reply, modal: None });
         MeshExcitation::new(&samples, &[], 1, [own.levers[0][5], own.levers[1][5]]).unwrap()
     };
     let lowest = |off: f64| {
@@ -236,18 +237,15 @@ fn a_spring_is_a_whole_stiffness() {
     let springs = Structure { springs: vec![of(0), of(1)], ..structure.clone() };
     let whole = [0, 1].map(|i| {
         let h = Vector12::from_fn(|k, _| of(i).levers[k / 6][k % 6]);
-        ElasticMesh { name: meshes[i].name.clone(), discs: meshes[i].discs, stiffness: 4e5 * h * h.transpose() }
+        let stiffness = DMatrix::from_column_slice(12, 12, (4e5 * h * h.transpose()).as_slice());
+        ElasticMesh { name: meshes[i].name.clone(), discs: meshes[i].discs, stiffness }
     });
     let whole = Structure { elastic_meshes: whole.into(), ..structure.clone() };
     let [a, b] = [springs, whole].map(|s| Assembly::new(s).unwrap().stiffness());
     assert!((&a - &b).amax() < 1e-12 * a.amax());
     let mut pushing = structure;
     let stiffness = -DMatrix::<f64>::identity(12, 12);
-    pushing.elastic_meshes.push(ElasticMesh {
-        name: "pushing".into(),
-        discs: [0, 1],
-        stiffness: nalgebra::SMatrix::from_iterator(stiffness.iter().copied()),
-    });
+    pushing.elastic_meshes.push(ElasticMesh { name: "pushing".into(), discs: [0, 1], stiffness });
     assert!(matches!(Assembly::new(pushing), Err(GearboxError::NotElastic { .. })));
 }
 

@@ -91,6 +91,12 @@ impl CyclicGear {
         VibratingSector::new(&self.part, &self.material, &self.elements)
     }
 
+    /// Whether another gear is made of the same sector.
+    pub(crate) fn has_sector_of(&self, other: &Self) -> bool {
+        let [a, b] = [&self.part, &other.part];
+        a.teeth == b.teeth && a.way == b.way && a.mesh == b.mesh && a.held == b.held
+    }
+
     /// Copy and node of the sector under a node of the larger mesh.
     pub(crate) fn place(&self, node: u32) -> Option<Origin> {
         self.part.places.get(node as usize).copied()

@@ -64,7 +64,8 @@ impl VibratingSector {
         Ok(Ring { of: self, cuts })
     }
 
-    fn inertia(&self, x: MatRef<'_, f64>, parts: usize) -> Result<Mat<f64>, ReductionError> {
+    /// M x of vectors whose parts stand one above the other.
+    pub(crate) fn inertia(&self, x: MatRef<'_, f64>, parts: usize) -> Result<Mat<f64>, ReductionError> {
         Ok(together(&self.mass.multiply(apart(x, parts).as_ref())?, parts))
     }
 }

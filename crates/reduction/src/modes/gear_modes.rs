@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use super::{
     choice::ModeChoice,
     krylov::{Eigenpairs, Until, lowest},
+    spin::{Spin, spin_products, swept},
     whole::Whole,
 };
 use crate::{GearReducer, ReductionError, Window, cyclic::VibratingSector, reducer::Method};
@@ -30,6 +31,7 @@ pub struct GearModes {
     waves: Option<Vec<u32>>,
     coupling: Vec<[f64; 6]>,
     shapes: Shapes,
+    spin: Option<Spin>,
 }
 
 /// Where the shapes are known.
@@ -65,6 +67,26 @@ impl GearReducer {
     }
 }
 
+impl GearReducer {
+    /// Whether another reducer has the same body, reduced the same way: their modes are of one gear, whichever flanks
+    /// either is reduced to.
+    ///
+    /// # Errors
+    /// [`ReductionError::Fem`] where a stored reduction has to be made anew.
+    pub fn has_body_of(&self, other: &Self) -> Result<bool, ReductionError> {
+        let alike = self.material() == other.material() && self.elements() == other.elements();
+        Ok(alike
+            && match (self.method()?, other.method()?) {
+                (Method::Cyclic(a), Method::Cyclic(b)) => a.has_sector_of(b),
+                (Method::General(..), Method::General(..)) => {
+                    let [a, b] = [self, other].map(GearReducer::gear);
+                    a.mesh() == b.mesh() && a.bore_coupling() == b.bore_coupling() && a.bore_nodes() == b.bore_nodes()
+                }
+                _ => false,
+            })
+    }
+}
+
 /// The modes of a gear that is known as a whole.
 pub(super) fn of_whole(
     reducer: &GearReducer,
@@ -74,9 +96,9 @@ pub(super) fn of_whole(
     let Eigenpairs { mut squares, shapes } = found;
     squares.truncate(choice.cut(&squares));
     let shapes = shapes.get(.., ..squares.len()).to_owned();
-    let of_motion = rigid_inertia(reducer.gear().mesh(), reducer.material(), reducer.dofs())?;
+    let of_motion = inertia_of((reducer.gear().mesh(), reducer.material(), reducer.dofs()), rigid)?;
     let coupling = products(&of_motion, shapes.as_ref());
-    Ok(GearModes { squares, waves: None, coupling, shapes: Shapes::Whole(shapes) })
+    Ok(GearModes { squares, waves: None, coupling, shapes: Shapes::Whole(shapes), spin: None })
 }
 
 /// Modes by harmonics.
@@ -132,23 +154,33 @@ pub(super) fn of_harmonics(
     };
     let parts = [0, 1].map(|p| Mat::from_fn(rows, order.len(), |row, j| part(row, j, p)));
     let waves: Vec<u32> = order.iter().map(|o| o.1).collect();
-    let of_motion = rigid_inertia(sector.mesh(), material, sector.dofs())?;
-    let [re, im] = parts.each_ref().map(|p| products(&of_motion, p.as_ref()));
     let phases: Vec<f64> = waves.iter().map(|&n| sector.phase(n)).collect();
-    let coupling = (0..order.len()).map(|j| around(z, sector.way, (phases[j], re[j], im[j]))).collect();
+    let shared = |field: fn(usize, Vector3<f64>) -> Vector3<f64>| -> Result<Vec<[f64; 6]>, ReductionError> {
+        let of_motion = inertia_of((sector.mesh(), material, sector.dofs()), field)?;
+        let [re, im] = parts.each_ref().map(|p| products(&of_motion, p.as_ref()));
+        Ok((0..order.len()).map(|j| around(z, sector.way, (phases[j], re[j], im[j]))).collect())
+    };
+    let (coupling, swept) = (shared(rigid)?, shared(swept)?);
+    let places: Vec<(u32, usize)> = order.iter().map(|o| (o.1, o.2)).collect();
+    let spin = Spin { way: sector.way, products: spin_products(sector, found, &places)?, swept };
     let shapes = Shapes::Sector { dofs: sector.dofs().clone(), phases, parts };
-    Ok(GearModes { squares: order.iter().map(|o| o.0).collect(), waves: Some(waves), coupling, shapes })
+    let squares = order.iter().map(|o| o.0).collect();
+    Ok(GearModes { squares, waves: Some(waves), coupling, shapes, spin: Some(spin) })
 }
 
-/// M R on the free freedoms: inertia forces (t, t mm) of unit accelerations of a rigid body along and about the axes of
-/// its frame.
-fn rigid_inertia(mesh: &Mesh, material: &Material, dofs: &DofMap) -> Result<Mat<f64>, ReductionError> {
+/// Unit displacements of a rigid body along and about the axes of its frame, at x.
+fn rigid(j: usize, x: Vector3<f64>) -> Vector3<f64> {
+    let unit = Vector3::from_fn(|i, _| f64::from(u8::from(i == j % 3)));
+    if j < 3 { unit } else { unit.cross(&x) }
+}
+
+/// M times a field of six columns, on the free freedoms: t, t mm.
+fn inertia_of(
+    (mesh, material, dofs): (&Mesh, &Material, &DofMap),
+    field: impl Fn(usize, Vector3<f64>) -> Vector3<f64>,
+) -> Result<Mat<f64>, ReductionError> {
     let all = DofMap::new(mesh.nodes.len(), &[]);
-    let motion = Mat::from_fn(all.free_count(), 6, |row, j| {
-        let (x, axis) = (Vector3::from(mesh.nodes[row / 3]), row % 3);
-        let unit = |k: usize| Vector3::from_fn(|i, _| f64::from(u8::from(i == k)));
-        if j < 3 { f64::from(u8::from(j == axis)) } else { unit(j - 3).cross(&x)[axis] }
-    });
+    let motion = Mat::from_fn(all.free_count(), 6, |row, j| field(j, Vector3::from(mesh.nodes[row / 3]))[row % 3]);
     let inertia = fem::assemble_mass(mesh, material, &all)?.multiply(motion.as_ref())?;
     Ok(Mat::from_fn(dofs.free_count(), 6, |row, j| {
         dofs.node_and_axis(row).map_or(0.0, |(node, axis)| inertia[(3 * node as usize + axis, j)])
@@ -181,6 +213,10 @@ impl GearModes {
         &self.shapes
     }
 
+    pub(super) fn spin(&self) -> Option<&Spin> {
+        self.spin.as_ref()
+    }
+
     /// Number of modes m.
     pub fn count(&self) -> usize {
         self.squares.len()
@@ -199,6 +235,14 @@ impl GearModes {
     /// Number of waves about the axis of each mode (nodal diameters); `None` for a gear that is not known by sectors.
     pub fn waves(&self) -> Option<&[u32]> {
         self.waves.as_deref()
+    }
+
+    /// psi of a mode, rad: what neighbouring sectors differ by.
+    pub(super) fn phase(&self, mode: usize) -> Option<f64> {
+        match &self.shapes {
+            Shapes::Sector { phases, .. } => phases.get(mode).copied(),
+            Shapes::Whole(_) => None,
+        }
     }
 
     /// Phi' M R: inertia that each mode shares with motion of the gear as a rigid body about its centre, along x, y, z

@@ -15,6 +15,8 @@ mod held;
 mod krylov;
 mod lowest;
 mod pencil;
+mod spin;
+mod standing;
 mod turn;
 mod whole;
 
@@ -22,3 +24,4 @@ pub use choice::ModeChoice;
 pub use gear_modes::GearModes;
 pub use lowest::LowestFrequencies;
 pub(crate) use pencil::Pencil;
+pub use standing::StandingModes;

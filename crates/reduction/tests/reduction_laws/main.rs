@@ -5,4 +5,5 @@ mod common;
 mod cyclic;
 mod modes;
 mod record;
+mod spin;
 mod stress_modes;

@@ -8,7 +8,7 @@ mod swing_words;
 mod vibration;
 mod vibration_rows;
 
-use analysis::gearbox::{ExcitationLine, GearboxResult, VibrationResult};
+use analysis::gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult};
 use answer::{Answer, Cost, Table};
 use columns::gearbox as rows;
 use scene::gearbox::Gearbox;
@@ -62,6 +62,8 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<Object>) {
     let (frequencies, orders) = (vec![Vec::new()], vec![1.0, 1.0]);
     let none = VibrationResult {
         gears: Vec::new(),
+        // Columns that only elastic gears have are there.
+        gear_modes: vec![Some(GearFrequencies { frequencies_hz: Vec::new(), by_sectors: true })],
         mesh_stiffness: Vec::new(),
         transmission_error: Vec::new(),
         modes_kept: 0,

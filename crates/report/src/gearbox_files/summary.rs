@@ -206,6 +206,10 @@ described::described! {
         transverse_inertia_kg_m2: f64,
         /// moment of inertia about the axis, stated or of the mesh
         polar_inertia_kg_m2: f64,
+        /// elastic modes that vibrate; 0 of a gear that is rigid beside its teeth
+        elastic_modes: usize,
+        /// highest frequency of these modes; `null` of a rigid gear
+        highest_elastic_mode_hz: Option<f64>,
     }
 }
 
@@ -290,7 +294,9 @@ fn vibration<'a>(file: &'a Gearbox, (asked, swings): (&GearboxVibration, &Vibrat
         largest_housing_force_rms_n: peak.force_n,
         at_input_rpm: peak.input_rpm,
     });
-    let gears = file.gears.iter().zip(&swings.gears).map(|(gear, body)| GearMass {
+    let gears = file.gears.iter().zip(&swings.gears).zip(&swings.gear_modes).map(|((gear, body), modes)| GearMass {
+        elastic_modes: modes.as_ref().map_or(0, |own| own.frequencies_hz.len()),
+        highest_elastic_mode_hz: modes.as_ref().and_then(|own| own.frequencies_hz.last().copied()),
         name: &gear.name,
         mass_kg: 1e3 * body.mass,
         transverse_inertia_kg_m2: 1e-3 * body.transverse_inertia,

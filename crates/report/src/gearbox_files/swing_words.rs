@@ -45,6 +45,7 @@ fn part(file: &Gearbox, component: Component) -> String {
         Component::Housing => "housing".to_owned(),
         Component::Mesh(i) => format!("mesh {}", or(file.meshes.get(i).map(|m| &m.name))),
         Component::Disc(i) => format!("gear {}", or(file.gears.get(i).map(|g| &g.name))),
+        Component::Body(i) => format!("body of gear {}", or(file.gears.get(i).map(|g| &g.name))),
         Component::Machine(0) => "machine at the input".to_owned(),
         Component::Machine(i) => format!("machine at output {i}"),
     }

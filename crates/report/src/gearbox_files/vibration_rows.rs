@@ -29,7 +29,8 @@ pub(super) fn modes(file: &Gearbox, swings: &VibrationResult) -> Table {
         let meaning = "direction of whirl: +1 forward on circles, -1 backward, 0 in a plane";
         table.push_numbers(format!("shaft_{}_whirl", i + 1), meaning, rows.iter().map(|r| r.2.whirl[i]));
     }
-    for (name, component, strain) in parts(file) {
+    let elastic = swings.gear_modes.iter().any(Option::is_some);
+    for (name, component, strain) in parts(file, elastic) {
         let meaning = if strain {
             "share of the strain energy of the mode; all add up to 1"
         } else {
@@ -40,8 +41,8 @@ pub(super) fn modes(file: &Gearbox, swings: &VibrationResult) -> Table {
     table
 }
 
-/// Columns of the shares of energy: name, part, and whether it is strain.
-fn parts(file: &Gearbox) -> Vec<(String, Component, bool)> {
+/// Columns of the shares of energy: name, part, and whether it is strain; of gears strain where they are `elastic`.
+fn parts(file: &Gearbox, elastic: bool) -> Vec<(String, Component, bool)> {
     let each = |count: usize, name: &'static str, of: fn(usize) -> Component, strain: bool| {
         let what = if strain { "strain_share" } else { "kinetic_share" };
         (0..count).map(move |i| (format!("{name}_{}_{what}", i + 1), of(i), strain))
@@ -49,7 +50,9 @@ fn parts(file: &Gearbox) -> Vec<(String, Component, bool)> {
     let strain = each(file.shafts.len(), "shaft", Component::Shaft, true)
         .chain(each(file.bearings.len(), "bearing", Component::Bearing, true))
         .chain(each(file.meshes.len(), "mesh", Component::Mesh, true))
-        .chain([("housing_strain_share".to_owned(), Component::Housing, true)]);
+        .chain([("housing_strain_share".to_owned(), Component::Housing, true)])
+        // Gears that are rigid beside their teeth have none.
+        .chain(each(if elastic { file.gears.len() } else { 0 }, "gear", Component::Body, true));
     let kinetic = each(file.shafts.len(), "shaft", Component::Shaft, false)
         .chain(each(file.gears.len(), "gear", Component::Disc, false))
         .chain([("input_kinetic_share".to_owned(), Component::Machine(0), false)])

@@ -9,6 +9,7 @@ use super::file::{
 };
 use super::housing::housing;
 use super::loads::{apart, loaded};
+use super::modes::modes;
 use super::motion::{GearboxMotion, motion};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
@@ -64,6 +65,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let motion = raw.motion.as_ref().map(|table| motion(s, table)).transpose()?;
+    let modes = modes(s, &raw)?;
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), motion.as_ref())?;
     let name = s.title(&raw.name);
     let (analysis, output) = (&raw.analysis, &raw.output);
@@ -83,6 +85,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         shaft_elements: row!(s, ANALYSIS, analysis.shaft_elements)?,
         accuracy: accuracy(s, &raw)?,
         vibration,
+        modes,
         motion,
         parquet: row!(s, OUTPUT, output.parquet)?,
     })

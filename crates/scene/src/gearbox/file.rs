@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{GearboxMotion, schema::RollingKind};
-use crate::{AccuracyScene, Scene, Sense};
+use crate::{AccuracyScene, ModesScene, Scene, Sense};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -38,6 +38,8 @@ pub struct Gearbox {
     pub accuracy: AccuracyScene,
     /// Vibration about where it stands, where it is asked for.
     pub vibration: Option<GearboxVibration>,
+    /// Normal modes of the gears in that vibration; none: gears are rigid beside their teeth. Damping is the vibration's.
+    pub modes: Option<ModesScene>,
     /// How it runs in time; none: at rest alone.
     pub motion: Option<GearboxMotion>,
     /// Every table column by column as well, for other programs.

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | `file` | a checked gearbox |
 //! | `read` | from a file to that |
-//! | `vibration`, `motion` | how it swings, and how it runs in time |
+//! | `vibration`, `modes`, `motion` | how it swings, with which modes of its gears, and how it runs in time |
 //! | `accuracy` | how exact its numbers are to be |
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
@@ -17,6 +17,7 @@ mod check;
 mod file;
 mod housing;
 mod loads;
+mod modes;
 mod motion;
 mod of_pair;
 mod pair_setting;

@@ -3,7 +3,7 @@
 
 use crate::{
     Integration, Sense,
-    schema::{GEARBOX_ACCURACY, RawGearboxAccuracy},
+    schema::{Boundary, GEARBOX_ACCURACY, RawGearboxAccuracy},
     table::INF,
 };
 
@@ -21,6 +21,7 @@ table! {
         accuracy: table(GEARBOX_ACCURACY: RawGearboxAccuracy);
         analysis: always(ANALYSIS: RawAnalysis);
         vibration: table(VIBRATION: RawVibration);
+        modes: table(GEARBOX_MODES: RawGearboxModes);
         motion: table(MOTION: RawMotion);
         output: always(OUTPUT: RawOutput);
     }
@@ -217,6 +218,16 @@ table! {
         damping_ratio: number(1e-6, 1.0, 0.02), "share of critical damping of every mode, which limits the peaks at resonance";
         modes: whole(1, 500, 20), "natural frequencies in the results";
         input: word(InputTurn), "whether the input turns freely with its machine, or its turn is given. held: as by a machine of any inertia";
+    }
+}
+
+table! {
+    /// `[modes]` of a gearbox
+    GEARBOX_MODES, RawGearboxModes: "which normal modes of the gears vibrate beside their rigid motion (with [vibration], not with [motion]); what is not kept stays quasi-static. Left out: gears are rigid beside their teeth"; {
+        count: whole(1, 1000, 12), "the lowest so many modes of each gear that meshes, bore held and flanks free. Modes of one frequency stay together, so there may be one more";
+        below_hz: bare(1.0, 1e9), "in place of count: all modes of each gear up to this frequency, Hz";
+        boundary: word(Boundary), "whether the flanks have inertia of their own. massless: modes of the whole mesh, the rest of the flanks' compliance without inertia; consistent: modes of the Craig-Bampton model, with the flanks' consistent mass";
+        fixed_modes: whole(0, 100, 2), "modes with the flanks held behind a consistent boundary: of every harmonic of a cyclic gear, in all of any other one";
     }
 }
 

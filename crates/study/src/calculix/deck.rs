@@ -80,58 +80,18 @@ impl Deck<'_> {
         let mut t = String::new();
         let (mut first_node, mut first_element) = (1, 1);
         for i in 0..2 {
-            self.body(&mut t, i, first_node, first_element)?;
-            let mesh = self.bodies[i].gear.mesh();
+            let body = self.bodies[i];
+            let turned = body.angle + if i == self.driven { self.sense() * self.closing } else { 0.0 };
+            t += &Body { angle: turned, ..body }.text(NAMES[i], [first_node, first_element])?;
+            for (k, teeth) in self.pairs.iter().enumerate() {
+                t += &body.flank_text(&format!("{}_{k}", NAMES[i]), NAMES[i], (teeth[i], self.side), first_element)?;
+            }
+            let mesh = body.gear.mesh();
             first_node += mesh.nodes.len();
             first_element += mesh.element_count();
         }
         self.rest(&mut t);
         Ok(t)
-    }
-
-    /// Nodes, elements, material, bore and flanks of one gear.
-    fn body(&self, t: &mut String, i: usize, first_node: usize, first_element: usize) -> Result<(), CalculixError> {
-        let Body { gear, material, angle, centre } = self.bodies[i];
-        let (mesh, name) = (gear.mesh(), NAMES[i]);
-        let turned = angle + if i == self.driven { self.sense() * self.closing } else { 0.0 };
-        let (sin, cos) = turned.sin_cos();
-        line(t, format_args!("*NODE, NSET=all_{name}"));
-        for (n, [x, y, z]) in mesh.nodes.iter().enumerate() {
-            // CalculiX reads at most 20 characters a number.
-            let (px, py, pz) = (centre[0] + cos * x - sin * y, sin * x + cos * y, centre[1] + z);
-            line(t, format_args!("{}, {px:.12e}, {py:.12e}, {pz:.12e}", first_node + n));
-        }
-        let mut number = first_element;
-        for block in &mesh.blocks {
-            line(t, format_args!("*ELEMENT, TYPE={}, ELSET={name}", element_type(block.kind)?));
-            for nodes in block.elements() {
-                let ordered = node_order(block.kind).iter().map(|&l| first_node + nodes[l] as usize);
-                numbers(t, std::iter::once(number).chain(ordered));
-                number += 1;
-            }
-        }
-        line(t, format_args!("*MATERIAL, NAME=material_{name}"));
-        line(t, format_args!("*ELASTIC\n{:.12e}, {:.12e}", material.young_mpa(), material.poisson()));
-        line(t, format_args!("*SOLID SECTION, ELSET={name}, MATERIAL=material_{name}"));
-        line(t, format_args!("*NSET, NSET=bore_{name}"));
-        for &n in gear.bore_nodes() {
-            line(t, format_args!("{},", first_node + n as usize));
-        }
-        self.flanks(t, i, first_element)
-    }
-
-    fn flanks(&self, t: &mut String, i: usize, first_element: usize) -> Result<(), CalculixError> {
-        let gear = self.bodies[i].gear;
-        let numbering = Numbering::new(gear.mesh());
-        for (k, teeth) in self.pairs.iter().enumerate() {
-            let missing = || CalculixError::MissingFlank { gear: NAMES[i], side: self.side.name(), tooth: teeth[i] };
-            line(t, format_args!("*SURFACE, NAME={}_{k}, TYPE=ELEMENT", NAMES[i]));
-            for face in gear.flank(teeth[i], self.side).ok_or_else(missing)? {
-                let (element, number) = numbering.face(gear.mesh(), face).ok_or_else(missing)?;
-                line(t, format_args!("{}, S{number}", first_element + element));
-            }
-        }
-        Ok(())
     }
 
     /// Contact, supports, load and what is to be printed.
@@ -157,6 +117,66 @@ impl Deck<'_> {
             line(t, format_args!("*CONTACT PRINT, SLAVE={driver}_{k}, MASTER={driven}_{k}\nCF"));
         }
         line(t, format_args!("*END STEP"));
+    }
+}
+
+impl Body<'_> {
+    /// Cards of a gear: its nodes, elements and material, and the set `bore_NAME` of the nodes of its bore. Nodes and elements
+    /// are numbered on from `first`.
+    ///
+    /// # Errors
+    /// [`CalculixError::NoSuchElement`].
+    pub fn text(&self, name: &str, [first_node, first_element]: [usize; 2]) -> Result<String, CalculixError> {
+        let Body { gear, material, angle, centre } = *self;
+        let (mesh, mut text) = (gear.mesh(), String::new());
+        let t = &mut text;
+        let (sin, cos) = angle.sin_cos();
+        line(t, format_args!("*NODE, NSET=all_{name}"));
+        for (n, [x, y, z]) in mesh.nodes.iter().enumerate() {
+            // CalculiX reads at most 20 characters a number.
+            let (px, py, pz) = (centre[0] + cos * x - sin * y, sin * x + cos * y, centre[1] + z);
+            line(t, format_args!("{}, {px:.12e}, {py:.12e}, {pz:.12e}", first_node + n));
+        }
+        let mut number = first_element;
+        for block in &mesh.blocks {
+            line(t, format_args!("*ELEMENT, TYPE={}, ELSET={name}", element_type(block.kind)?));
+            for nodes in block.elements() {
+                let ordered = node_order(block.kind).iter().map(|&l| first_node + nodes[l] as usize);
+                numbers(t, std::iter::once(number).chain(ordered));
+                number += 1;
+            }
+        }
+        line(t, format_args!("*MATERIAL, NAME=material_{name}"));
+        line(t, format_args!("*ELASTIC\n{:.12e}, {:.12e}", material.young_mpa(), material.poisson()));
+        line(t, format_args!("*DENSITY\n{:.12e}", material.density_t_per_mm3()));
+        line(t, format_args!("*SOLID SECTION, ELSET={name}, MATERIAL=material_{name}"));
+        line(t, format_args!("*NSET, NSET=bore_{name}"));
+        for &n in gear.bore_nodes() {
+            line(t, format_args!("{},", first_node + n as usize));
+        }
+        Ok(text)
+    }
+
+    /// Card of the surface of one flank, of a gear whose elements are numbered on from `first_element`.
+    ///
+    /// # Errors
+    /// [`CalculixError::MissingFlank`].
+    pub fn flank_text(
+        &self,
+        surface: &str,
+        name: &'static str,
+        (tooth, side): (u32, Side),
+        first_element: usize,
+    ) -> Result<String, CalculixError> {
+        let mesh = self.gear.mesh();
+        let numbering = Numbering::new(mesh);
+        let missing = || CalculixError::MissingFlank { gear: name, side: side.name(), tooth };
+        let mut text = format!("*SURFACE, NAME={surface}, TYPE=ELEMENT\n");
+        for face in self.gear.flank(tooth, side).ok_or_else(missing)? {
+            let (element, number) = numbering.face(mesh, face).ok_or_else(missing)?;
+            line(&mut text, format_args!("{}, S{number}", first_element + element));
+        }
+        Ok(text)
     }
 }
 

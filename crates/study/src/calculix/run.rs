@@ -65,13 +65,25 @@ impl Calculix {
     /// # Errors
     /// [`CalculixError`] of the deck, of a file, or [`CalculixError::NoResult`].
     pub fn run(&self, deck: &Deck<'_>, folder: &Path) -> Result<CalculixRun, CalculixError> {
+        let start = Instant::now();
+        let (print, peak_memory_mb, said) = self.solve(&deck.text()?, folder)?;
+        let wall_s = start.elapsed().as_secs_f64();
+        let result = CalculixResult::read(&print, deck).ok_or(CalculixError::NoResult { said })?;
+        Ok(CalculixRun { result, wall_s, peak_memory_mb })
+    }
+
+    /// Runs the text of any deck in `folder`: what it prints (its `.dat` file), the largest resident set (MB), and its last
+    /// words.
+    ///
+    /// # Errors
+    /// [`CalculixError`] of a file.
+    pub fn solve(&self, text: &str, folder: &Path) -> Result<(String, Option<f64>, String), CalculixError> {
         let at = |name: String| folder.join(name);
         let failed = |path: &Path, source| CalculixError::File { path: path.to_owned(), source };
         let input = at(format!("{JOB}.inp"));
-        fs::write(&input, deck.text()?).map_err(|e| failed(&input, e))?;
+        fs::write(&input, text).map_err(|e| failed(&input, e))?;
         let log = at(format!("{JOB}.log"));
         let said = fs::File::create(&log).map_err(|e| failed(&log, e))?;
-        let start = Instant::now();
         let mut child = Command::new(&self.program)
             .arg(JOB)
             .current_dir(folder)
@@ -82,16 +94,12 @@ impl Calculix {
             .spawn()
             .map_err(|_| CalculixError::NotInstalled { program: self.program.display().to_string() })?;
         let peak_memory_mb = wait(&mut child).map_err(|e| failed(&self.program, e))?;
-        let wall_s = start.elapsed().as_secs_f64();
         // The exit status is no measure: 2.20 ends with 201 after warnings.
         let print = fs::read_to_string(at(format!("{JOB}.dat"))).unwrap_or_default();
-        let result = CalculixResult::read(&print, deck).ok_or_else(|| {
-            let said = fs::read_to_string(&log).unwrap_or_default();
-            let mut last: Vec<&str> = said.lines().rev().map(str::trim).filter(|l| !l.is_empty()).take(4).collect();
-            last.reverse();
-            CalculixError::NoResult { said: last.join("; ") }
-        })?;
-        Ok(CalculixRun { result, wall_s, peak_memory_mb })
+        let said = fs::read_to_string(&log).unwrap_or_default();
+        let mut last: Vec<&str> = said.lines().rev().map(str::trim).filter(|l| !l.is_empty()).take(4).collect();
+        last.reverse();
+        Ok((print, peak_memory_mb, last.join("; ")))
     }
 }
 

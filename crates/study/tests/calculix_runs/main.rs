@@ -3,6 +3,7 @@
 
 #[path = "../calculix_pair/mod.rs"]
 mod calculix_pair;
+mod gearbox_modes;
 
 use std::process::ExitCode;
 
@@ -19,6 +20,7 @@ fn main() -> ExitCode {
     Suite::new(file!())
         .needing(&calculix, "calculix_balances_the_torque", balances_the_torque)
         .needing(&calculix, "calculix_agrees_on_a_planet_in_its_ring", agrees_on_a_planet_in_its_ring)
+        .needing(&calculix, "calculix_agrees_on_a_box_of_elastic_gears", gearbox_modes::elastic_gears_in_a_box)
         .run()
 }
 

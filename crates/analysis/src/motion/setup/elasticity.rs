@@ -223,18 +223,23 @@ fn vibration(
     let first = |of: &GearModes| of.frequencies_hz().first().copied();
     let lowest = || reducer.lowest_elastic_hz();
     let Some(asked) = modes else { return Ok((lowest()?, None)) };
-    let choice = match (asked.below_hz, asked.count) {
-        (Some(hz), _) => ModeChoice::Below { hz },
-        (None, count) => ModeChoice::Count(count.unwrap_or(0) as usize),
-    };
-    let found = match asked.boundary {
-        Boundary::Massless => reducer.modes(choice)?,
-        Boundary::Consistent => reducer.craig_bampton_modes(choice, asked.fixed_modes.unwrap_or(0) as usize)?,
-    };
+    let found = kept_modes(reducer, asked)?;
     // The gear's own frequencies: those of a Craig-Bampton model lie above.
     let own = first(&found).filter(|_| asked.boundary == Boundary::Massless);
     let hz = own.map_or_else(lowest, Ok)?;
     Ok((hz, Some(GearVibration { modes: Arc::new(found), damping_ratio: asked.damping_ratio })))
+}
+
+/// The modes of a gear that a scene keeps.
+pub(crate) fn kept_modes(reducer: &GearReducer, asked: &ModesScene) -> Result<GearModes, ReductionError> {
+    let choice = match (asked.below_hz, asked.count) {
+        (Some(hz), _) => ModeChoice::Below { hz },
+        (None, count) => ModeChoice::Count(count.unwrap_or(0) as usize),
+    };
+    match asked.boundary {
+        Boundary::Massless => reducer.modes(choice),
+        Boundary::Consistent => reducer.craig_bampton_modes(choice, asked.fixed_modes.unwrap_or(0) as usize),
+    }
 }
 
 /// Least and highest mesh frequency of a run, Hz: of the given speeds, and where a torque of its own drives of those

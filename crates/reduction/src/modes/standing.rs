@@ -1,0 +1,67 @@
+//! Modes of a gear that spins, as patterns that stand in space while the teeth pass. Theory (58a).
+
+use nalgebra::DMatrix;
+
+use super::GearModes;
+
+/// Modes of a cyclic gear as patterns that stand in space: amplitudes p instead of those in the gear's own frame q.
+///
+/// ```text
+/// q = e^(theta N) p,   p.. + W G p. + ... ,   W d.' A p beside the kinetic energy
+/// ```
+/// | name | shape | unit | meaning |
+/// |---|---|---|---|
+/// | theta | 1 | rad | angle of the gear's own frame from the axes in which p counts, about +z |
+/// | G = 2 (N + B) | m x m | 1 | gyroscopic matrix of the modes at unit angular velocity about +z, skew-symmetric |
+/// | A = L'N + E | 6 x m | t^(1/2), t^(1/2) mm | gyroscopic coupling with the rigid motion of the gear, likewise |
+///
+/// A pattern of n waves whose material does not move sideways is met at omega +- n W; one that is a rigid tilt has the
+/// gyroscopic moment of a rigid body, exactly. First order in W / omega.
+#[derive(Debug, Clone)]
+pub struct StandingModes {
+    waves: Vec<f64>,
+    /// N by waves: a quarter of a wave on.
+    quarter: DMatrix<f64>,
+    /// G, m x m.
+    pub gyroscopic: DMatrix<f64>,
+    /// A, 6 x m.
+    pub coupling: DMatrix<f64>,
+}
+
+impl StandingModes {
+    /// e^(theta N), m x m, orthogonal: amplitudes in the frame of a gear that stands at `angle` (rad) by those in space.
+    pub fn turned(&self, angle: f64) -> DMatrix<f64> {
+        DMatrix::from_fn(self.waves.len(), self.waves.len(), |i, j| {
+            let (sin, cos) = (self.waves[i] * angle).sin_cos();
+            sin * self.quarter[(i, j)] + if i == j { cos } else { 0.0 }
+        })
+    }
+}
+
+impl GearModes {
+    /// The modes as patterns that stand in space. `None` for a gear that is not known by sectors, and where modes of one
+    /// frequency are not all there.
+    ///
+    /// Modes without waves, and those of z/2 waves, which neighbouring teeth have with opposite signs, are as they are in
+    /// the gear's frame.
+    pub fn standing(&self) -> Option<StandingModes> {
+        let (spin, waves) = (self.spin()?, self.waves()?);
+        let turned = self.turned_by_a_tooth()?;
+        let m = self.count();
+        let phase = |j: usize| self.phase(j).filter(|psi| psi.sin().abs() > f64::EPSILON.sqrt());
+        let raw = DMatrix::from_fn(m, m, |i, j| match phase(i) {
+            Some(psi) if waves[i] == waves[j] => {
+                let own = if i == j { psi.cos() } else { 0.0 };
+                spin.way * (turned[(i, j)] - own) / psi.sin()
+            }
+            _ => 0.0,
+        });
+        let quarter = 0.5 * (&raw - raw.transpose());
+        let waves: Vec<f64> = (0..m).map(|j| phase(j).map_or(0.0, |_| f64::from(waves[j]))).collect();
+        let rate = DMatrix::from_fn(m, m, |i, j| waves[i] * quarter[(i, j)]);
+        let shared = DMatrix::from_fn(6, m, |axis, j| self.coupling()[j][axis]);
+        let swept = DMatrix::from_fn(6, m, |axis, j| spin.swept[j][axis]);
+        let (gyroscopic, coupling) = (2.0 * (&rate + &spin.products), shared * &rate + swept);
+        Some(StandingModes { waves, quarter, gyroscopic, coupling })
+    }
+}
