@@ -2,7 +2,10 @@
 
 use described::Key;
 use geometry::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
-use rating::{BendingFactors, GearDamage, GearRating, Outside, PittingFactors, SpectrumRating, StandardRating};
+use rating::{
+    BendingFactors, FlashRating, GearDamage, GearRating, IntegralRating, LocalScuffing, MeshLoss, MicropittingRating,
+    Outside, PittingFactors, ScuffingRating, SpectrumRating, StandardRating,
+};
 use study::Lyapunov;
 
 use crate::{
@@ -69,6 +72,12 @@ pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
         of("spectrum", SpectrumRating::KEYS),
         of("pinion, spectrum", GearDamage::KEYS),
         of("local", LocalRating::KEYS),
+        of("scuffing", ScuffingRating::KEYS),
+        of("flash", FlashRating::KEYS),
+        of("integral", IntegralRating::KEYS),
+        of("local_scuffing", LocalScuffing::KEYS),
+        of("micropitting", MicropittingRating::KEYS),
+        of("mesh_loss", MeshLoss::KEYS),
         of("tooth_change", ToothChangeHeadline::KEYS),
         of("headline, a motion of reduced gears", MotionHeadline::KEYS),
         of("certificate, a motion of reduced gears", MotionCertificate::KEYS),

@@ -1,20 +1,23 @@
 //! Whether a pair at rest will hold: the standard's rating of a scene that asks for it.
 
+use contact::Site;
 use geometry::{FlankTolerances, Gear, GearPair};
 use ltca::StaticHistory;
 use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
 use rating::{
-    Deviations, Edition, FlankFactors, GearInput, GivenFactors, MeshStiffness, PairGeometry, RatingInput, RootFactors,
-    SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, spectrum_rating, standard_rating,
+    ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LocalScuffing, Lubrication,
+    LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, PressedPlace, RatingError,
+    RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, SpectrumRating, StandardRating,
+    local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating, standard_rating,
 };
-use scene::{RatingEdition, RatingScene, Scene};
+use scene::{LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
 use crate::{
     AnalysisError,
     error::place_in,
     loaded_pair::LoadedPair,
-    results::{PressurePlace, face_load_factor, root_stress_headline},
+    results::{PressurePlace, base_radius_mm, face_load_factor, root_stress_headline},
 };
 
 /// The coarsest ISO 1328-1 class whose relief counts in K_V.
@@ -48,7 +51,56 @@ described::described! {
         /// safeties from the solved stresses; missing for models without slices
         #[serde(skip_serializing_if = "Option::is_none")]
         pub local: Option<LocalRating>,
+        /// least safety against scuffing: flash temperature with its start of approach, integral temperature, and the solved contact; missing without `scuffing`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub least_scuffing_safety: Option<f64>,
+        /// scuffing by the standard; missing without `scuffing`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub scuffing: Option<ScuffingRating>,
+        /// scuffing by the solved contact; missing without `scuffing` and for models without slices
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub local_scuffing: Option<LocalScuffing>,
+        /// micropitting by the solved contact; missing without `micropitting`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub micropitting: Option<MicropittingRating>,
+        /// losses of the mesh by the friction of the oil; missing without `oil_temperature_c` and for models without slices
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub mesh_loss: Option<MeshLoss>,
+        /// Contact temperature at any place of the flanks.
+        #[serde(skip)]
+        pub contact_field: Option<ContactField>,
+        /// Film at any place of the flanks.
+        #[serde(skip)]
+        pub film_field: Option<FilmField>,
     }
+}
+
+/// What the solved contact says of oil and flanks.
+#[derive(Debug, Default)]
+struct Oiled {
+    scuffing: Option<ScuffingRating>,
+    local: Option<(LocalScuffing, ContactField)>,
+    micropitting: Option<(MicropittingRating, FilmField)>,
+    loss: Option<MeshLoss>,
+}
+
+/// Places of the solved contact, all positions together.
+fn pressed(scene: &Scene, history: &StaticHistory) -> Vec<PressedPlace> {
+    let base = [0, 1].map(|gear| base_radius_mm(scene, gear));
+    let pairs = history.positions.iter().flat_map(|p| &p.pairs);
+    let of_pair = |pair: &ltca::PairResult| {
+        let all: f64 = pair.slices.iter().map(|s| s.line_load).sum();
+        let share = if all > 0.0 { pair.normal_force / all } else { 0.0 };
+        let place = move |s: &contact::SliceResult| PressedPlace {
+            radii: [0, 1].map(|gear| base[gear] * s.roll[gear].abs()),
+            force: share * s.line_load,
+            line_load: s.line_load,
+            pressure: s.pressure,
+            is_edge: matches!(s.site, Site::PinionTipEdge | Site::WheelTipEdge),
+        };
+        pair.slices.iter().map(place).collect::<Vec<_>>()
+    };
+    pairs.flat_map(of_pair).collect()
 }
 
 described::described! {
@@ -108,7 +160,7 @@ impl RatingHeadline {
         let Some(rating) = &scene.rating else { return Ok(None) };
         let solved = || face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history);
         let Some(face_load) = rating.face_load_factor.or_else(solved) else { return Ok(None) };
-        let (standard, spectrum) = rated(scene, rating, pair, face_load)?;
+        let (standard, spectrum, oiled) = rated(scene, rating, pair, face_load, Some(history))?;
         let gears = standard.gears();
         let least = |of: fn(&rating::GearRating) -> f64| {
             let [pinion, wheel] = gears.map(of);
@@ -123,6 +175,16 @@ impl RatingHeadline {
             least_bending_safety_of: bending.1,
             bending_utilisation: 1.0 / bending.0,
             local: LocalRating::of(scene, &standard, history),
+            least_scuffing_safety: oiled.scuffing.map(|s| {
+                let local = oiled.local.as_ref().map_or(f64::INFINITY, |(local, _)| local.safety);
+                s.least_safety().min(local)
+            }),
+            scuffing: oiled.scuffing,
+            local_scuffing: oiled.local.as_ref().map(|(local, _)| *local),
+            micropitting: oiled.micropitting.as_ref().map(|(rating, _)| *rating),
+            mesh_loss: oiled.loss,
+            contact_field: oiled.local.map(|(_, field)| field),
+            film_field: oiled.micropitting.map(|(_, field)| field),
             spectrum,
             standard,
         }))
@@ -140,6 +202,10 @@ pub(crate) fn remarks(scene: &Scene, history: &StaticHistory) -> Vec<answer::Rem
         let low = safeties.into_iter().filter(|(_, safety)| *safety < 1.0);
         all.extend(low.map(|(failure, safety)| crate::remark::rating_fails(name, failure, safety)));
     }
+    let of_pair =
+        [("scuffing", headline.least_scuffing_safety), ("micropitting", headline.micropitting.map(|m| m.safety))];
+    let low = of_pair.into_iter().filter_map(|(failure, safety)| Some((failure, safety.filter(|s| *s < 1.0)?)));
+    all.extend(low.map(|(failure, safety)| crate::remark::rating_fails("pair", failure, safety)));
     for (name, damage) in NAMES.into_iter().zip(headline.spectrum.iter().flat_map(|s| [s.pinion, s.wheel])) {
         let sums = [("pitting", damage.pitting_damage), ("tooth root breakage", damage.bending_damage)];
         let high = sums.into_iter().filter(|(_, sum)| *sum > 1.0);
@@ -154,17 +220,21 @@ pub(crate) fn remarks(scene: &Scene, history: &StaticHistory) -> Vec<answer::Rem
 /// [`AnalysisError::Rating`], [`AnalysisError::Lumped`] where a standard has no value.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(rating) = &scene.rating else { return Ok(()) };
-    let found = rated(scene, rating, pair, rating.face_load_factor.unwrap_or(1.0));
+    let found = rated(scene, rating, pair, rating.face_load_factor.unwrap_or(1.0), None);
     found.map(|_| ()).map_err(|e| e.of_part("[rating]").at(place_in(scene, &["rating.life_h"])))
 }
 
-/// The standard's rating with a face load factor K_Hbeta, and Miner's sums where the scene has a spectrum.
+/// What a rating is made of: the standard's, Miner's sums where the scene has a spectrum, oil and flanks.
+type Rated = (StandardRating, Option<SpectrumRating>, Oiled);
+
+/// The ratings with a face load factor K_Hbeta; those of the solved contact with a history alone.
 fn rated(
     scene: &Scene,
     rating: &RatingScene,
     pair: &GearPair,
     face_load: f64,
-) -> Result<(StandardRating, Option<SpectrumRating>), AnalysisError> {
+    history: Option<&StaticHistory>,
+) -> Result<Rated, AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let gears = [&pair.pinion, &pair.wheel];
     let application = rating.application_factor;
@@ -224,7 +294,57 @@ fn rated(
     };
     let nominal = [scene.operation.torque_nm, scene.operation.speed_rpm];
     let spectrum = rating.spectrum.as_ref().map(|file| spectrum_rating(&input, file.values(), nominal)).transpose()?;
-    Ok((standard_rating(&input)?, spectrum))
+    let standard = standard_rating(&input)?;
+    let oiled = oiled(scene, rating, &loaded, (&input, &standard), history)?;
+    Ok((standard, spectrum, oiled))
+}
+
+/// Scuffing, micropitting and losses, as far as the scene asks for them.
+fn oiled(
+    scene: &Scene,
+    rating: &RatingScene,
+    loaded: &LoadedPair<'_>,
+    (pair, standard): (&RatingInput<'_>, &StandardRating),
+    history: Option<&StaticHistory>,
+) -> Result<Oiled, RatingError> {
+    let Some(oil_temperature_c) = rating.oil_temperature_c else { return Ok(Oiled::default()) };
+    let input = ScuffingInput {
+        pair,
+        standard,
+        lubrication: Lubrication {
+            lubricant: pair.lubricant.clone(),
+            oil_temperature_c,
+            method: match rating.lubrication {
+                Some(LubricationScene::Spray) => LubricationMethod::Spray,
+                Some(LubricationScene::Submerged) => LubricationMethod::Submerged,
+                Some(LubricationScene::Dip) | None => LubricationMethod::Dip,
+            },
+            // The scene is asked for them.
+            roughness_ra_um: rating.gears().map(|gear| gear.flank_roughness_ra_um.unwrap_or(f64::NAN)),
+        },
+        young: loaded.young(),
+        poisson: loaded.poisson(),
+        driver: loaded.driver.opposite().driven(),
+        structural_factor: rating.structural_factor.unwrap_or(f64::NAN),
+    };
+    input.lubrication.checked()?;
+    let scuffing = rating.scuffing.then(|| scuffing_rating(&input)).transpose()?;
+    let (material, permissible) = (rating.material_factor, rating.permissible_specific_film_thickness);
+    let material = material.unwrap_or(f64::NAN);
+    if rating.micropitting {
+        permissible_film(pair.lubricant, material, permissible)?;
+        input.thermal_contact()?;
+    }
+    let Some(history) = history else { return Ok(Oiled { scuffing, ..Oiled::default() }) };
+    let rolling = Rolling::new(&pair.geometry, pair.pinion_speed_rpm);
+    let turning = scene.pinion_speed().abs() * [1.0, 1.0 / pair.geometry.ratio()][input.driver];
+    let count = history.positions.len();
+    let driven: f64 = history.positions.iter().map(|p| p.wrench[input.driver].moment[2].abs()).sum();
+    let power_w = 1e-3 * turning * driven / count.max(1) as f64;
+    let solved = SolvedContact::new(input.lubrication.clone(), rolling, pressed(scene, history), count, power_w);
+    let local = if rating.scuffing { solved.scuffing(&input)? } else { None };
+    let micropitting = if rating.micropitting { solved.micropitting(&input, material, permissible)? } else { None };
+    Ok(Oiled { scuffing, local, micropitting, loss: solved.loss() })
 }
 
 /// The numbers of a pair that ratings need.
@@ -247,6 +367,7 @@ fn numbers(pair: &GearPair) -> PairGeometry {
         tip_diameter: diameter(Gear::tip_radius),
         root_diameter: diameter(Gear::root_radius),
         bore_diameter: gears.map(|gear| gear.data().bore_diameter),
+        path_of_contact: pair.path_of_contact(),
         eps_alpha: pair.transverse_contact_ratio(),
         eps_beta: pair.overlap_ratio(),
     }

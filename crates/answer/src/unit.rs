@@ -1,7 +1,7 @@
 //! The unit that a name ends with.
 
 /// Endings of names and their units, the longest first where one ends with another.
-const UNITS: [(&str, &str); 35] = [
+const UNITS: [(&str, &str); 38] = [
     ("n_per_mm_um", "N/(mm um)"),
     ("mm_s_per_rpm", "mm/s at 1/min"),
     ("n_mm_rad", "N, mm, rad"),
@@ -33,7 +33,10 @@ const UNITS: [(&str, &str); 35] = [
     ("mb", "MB"),
     ("percent", "%"),
     ("ms", "ms"),
+    ("mpa_s", "mPa s"),
     ("h", "h"),
+    ("c", "C"),
+    ("k", "K"),
     ("s", "s"),
     ("n", "N"),
     ("w", "W"),

@@ -34,6 +34,16 @@ pub enum RatingError {
         /// Standard and clause.
         clause: &'static str,
     },
+    /// A lubricant without a number that a formula needs.
+    #[error("the lubricant \"{lubricant}\" states no `{key}`, which {clause} needs")]
+    LubricantLacks {
+        /// Name of the lubricant.
+        lubricant: String,
+        /// The key of the table.
+        key: &'static str,
+        /// Standard and clause.
+        clause: &'static str,
+    },
 }
 
 /// A value that is positive and finite.

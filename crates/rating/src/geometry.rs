@@ -35,6 +35,8 @@ pub struct PairGeometry {
     pub root_diameter: [f64; 2],
     /// Diameters of the bores d_i.
     pub bore_diameter: [f64; 2],
+    /// Transverse radii of curvature of the pinion at the ends of the path of contact, A at the tip of the wheel and E at that of the pinion.
+    pub path_of_contact: [f64; 2],
     /// Transverse contact ratio eps_alpha.
     pub eps_alpha: f64,
     /// Overlap ratio eps_beta.

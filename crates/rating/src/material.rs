@@ -50,6 +50,12 @@ pub struct Material {
     pub yield_stress_mpa: Option<f64>,
     /// Hardness of the surface, HV.
     pub surface_hardness_hv: f64,
+    /// Thermal conductivity lambda_M, W/(m K).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thermal_conductivity_w_per_m_k: Option<f64>,
+    /// Specific heat c_M, J/(kg K).
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub specific_heat_j_per_kg_k: Option<f64>,
     /// Whether the roots are shot-peened.
     #[serde(default)]
     pub is_shot_peened: bool,
@@ -83,6 +89,8 @@ impl Materials {
                 ("root_limit_mpa", Some(m.root_limit_mpa)),
                 ("yield_stress_mpa", m.yield_stress_mpa),
                 ("surface_hardness_hv", Some(m.surface_hardness_hv)),
+                ("thermal_conductivity_w_per_m_k", m.thermal_conductivity_w_per_m_k),
+                ("specific_heat_j_per_kg_k", m.specific_heat_j_per_kg_k),
             ];
             let bad = |value: &f64| !(*value > 0.0 && value.is_finite());
             if let Some((key, value)) = positive.into_iter().find_map(|(key, v)| Some((key, v.filter(bad)?))) {

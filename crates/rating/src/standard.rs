@@ -85,6 +85,14 @@ pub struct RatingInput<'a> {
     pub long_life: f64,
 }
 
+impl RatingInput<'_> {
+    /// C_a, tip relief that counts, um: the stated one, or what running in leaves, the mean of both gears' C_ay = 1.5 um + (sigma_Hlim/97 - 18.45)^2/18. Source: ISO 6336-1, clause 6.
+    pub(crate) fn tip_relief(&self) -> f64 {
+        let of = |m: &Material| (m.contact_limit_mpa / 97.0 - 18.45).powi(2) / 18.0 + 1.5;
+        self.tip_relief_um.unwrap_or_else(|| 0.5 * self.gears.iter().map(|g| of(g.material)).sum::<f64>())
+    }
+}
+
 described::described! {
     /// Rating of one gear; units are in the names.
     #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -276,11 +284,6 @@ struct LoadFactors {
 fn vibration(input: &RatingInput<'_>, run_in: RunningIn, force: f64, speed_rpm: f64) -> DynamicFactor {
     let geometry = &input.geometry;
     let mass = [0, 1].map(|i| geometry.relative_mass(i, input.gears[i].density));
-    let relief = input.tip_relief_um.unwrap_or_else(|| {
-        // C_ay of running in, the mean of both gears: ISO 6336-1, clause 6.
-        let of = |m: &Material| (m.contact_limit_mpa / 97.0 - 18.45).powi(2) / 18.0 + 1.5;
-        0.5 * input.gears.iter().map(|g| of(g.material)).sum::<f64>()
-    });
     dynamic_factor(&DynamicLoad {
         teeth: geometry.teeth[0],
         speed_rpm,
@@ -291,7 +294,7 @@ fn vibration(input: &RatingInput<'_>, run_in: RunningIn, force: f64, speed_rpm: 
         reduced_mass: mass[0] * mass[1] / (mass[0] + mass[1]),
         base_pitch_um: input.deviations.base_pitch_um - run_in.base_pitch_um,
         profile_form_um: input.deviations.profile_form_um - run_in.profile_form_um,
-        tip_relief_um: input.deviations.is_fine.then_some(relief),
+        tip_relief_um: input.deviations.is_fine.then(|| input.tip_relief()),
     })
 }
 

@@ -87,10 +87,10 @@ pub use rexs::{RexsError, RexsGearbox, RexsPair, RexsShaft, read_gearbox, read_p
 pub use schema::{
     Analysis, Axis, BasinScene, BearingScene, BodyScene, BoreScene, Boundary, ContactScene, ContinuationKey,
     ContinuationScene, Coupling, DiscScene, DriveBy, FieldName, FlankScene, Flanks, Gap, GearScene, ImpactScene,
-    Integration, Kind, Law, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method, MisalignmentScene,
-    Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene, PairScene, Quantity, RampScene,
-    RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene, ShaperScene,
-    Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
+    Integration, Kind, Law, LubricationScene, Lumped8Scene, Lumped12Scene, Material, MeshScene, MesherScene, Method,
+    MisalignmentScene, Model, ModesScene, ModificationScene, MotionScene, Operation, OutputScene, PairScene, Quantity,
+    RampScene, RatedGearScene, RatingEdition, RatingScene, Reduction, Run, Shaft18Scene, ShaftCoordinate, ShaftScene,
+    ShaperScene, Sharing, SteadyBy, StiffnessFrom, SupportScene, SweepScene, SweepWay, all_keys, json_schema,
 };
 pub use setting::Setting;
 pub use solver_units::RPM;

@@ -81,3 +81,49 @@ fn a_rating_needs_a_load_distribution_and_rest() {
     let idle = read(&format!("{PAIR}{RATING}").replace("torque_nm = 300.0", "torque_nm = 0.0")).unwrap_err();
     assert!(idle.to_string().contains("nothing is loaded"), "{idle}");
 }
+
+/// What scuffing, micropitting and losses need is asked for by name, all at once; what nothing reads is refused.
+#[test]
+fn oil_and_flanks_are_asked_for_by_name() {
+    let with = |lines: &str| format!("{PAIR}{RATING}").replace("[rating]\n", &format!("[rating]\n{lines}"));
+    let missing = |lines: &str| match read(&with(lines)).unwrap_err() {
+        SceneError::Missing { keys, .. } => keys,
+        other => panic!("{other}"),
+    };
+    let rough = ["`[rating.pinion] flank_roughness_ra_um`", "`[rating.wheel] flank_roughness_ra_um`"];
+    let hot = ["`[rating] oil_temperature_c`", "`[rating] lubrication`"];
+    assert_eq!(missing("oil_temperature_c = 80.0\n"), rough);
+    assert_eq!(missing("scuffing = true\n"), [&hot[..], &["`[rating] structural_factor`"], &rough[..]].concat());
+    assert_eq!(missing("micropitting = true\n"), [&hot[..], &["`[rating] material_factor`"], &rough[..]].concat());
+    let stated = "micropitting = true\npermissible_specific_film_thickness = 0.3\n";
+    assert_eq!(missing(stated), [&hot[..], &rough[..]].concat());
+    let smooth = |lines: &str| with(lines).replace("material =", "flank_roughness_ra_um = 0.6\nmaterial =");
+    let scene =
+        read(&smooth("oil_temperature_c = 80.0\nlubrication = \"spray\"\nscuffing = true\nstructural_factor = 1.0\n"));
+    let scene = scene.unwrap();
+    assert_eq!(scene.rating.as_ref().unwrap().lubrication, Some(scene::LubricationScene::Spray));
+    assert_eq!(read(&scene.to_toml()).unwrap().rating, scene.rating);
+    for (lines, key) in [
+        ("oil_temperature_c = 80.0\nlubrication = \"dip\"\n", "lubrication"),
+        ("oil_temperature_c = 80.0\nstructural_factor = 1.0\n", "structural_factor"),
+        ("oil_temperature_c = 80.0\nmaterial_factor = 1.0\n", "material_factor"),
+        (
+            "oil_temperature_c = 80.0\npermissible_specific_film_thickness = 0.3\n",
+            "permissible_specific_film_thickness",
+        ),
+        ("", "flank_roughness_ra_um"),
+    ] {
+        let error = read(&smooth(lines)).unwrap_err().to_string();
+        assert!(error.contains(&format!("`{key}` belongs to")), "{error}");
+    }
+    let iso = |lines: &str| {
+        let text = smooth(lines).replace("[rating]\n", "[rating]\nface_load_factor = 1.2\n");
+        read(&text.replace("[rating]\n", "[analysis]\nmodel = \"iso\"\n[rating]\n"))
+    };
+    let error = iso("oil_temperature_c = 80.0\n").unwrap_err().to_string();
+    assert!(error.contains("`oil_temperature_c` wants the pressures"), "{error}");
+    assert!(iso("oil_temperature_c = 80.0\nlubrication = \"dip\"\nscuffing = true\nstructural_factor = 1.0\n").is_ok());
+    let film = "oil_temperature_c = 80.0\nlubrication = \"dip\"\nmicropitting = true\nmaterial_factor = 1.0\n";
+    let error = iso(film).unwrap_err().to_string();
+    assert!(error.contains("`micropitting` wants the pressures"), "{error}");
+}

@@ -72,4 +72,40 @@ pub fn draw_rating(d: &mut Draft, asked: &Asked) {
             d.set(&format!("rating.{gear}.meshes_per_turn"), i64::from(meshes));
         }
     }
+    draw_oil(d, asked);
+}
+
+/// What scuffing, micropitting and losses ask for.
+fn draw_oil(d: &mut Draft, asked: &Asked) {
+    let [scuffing, micropitting] = [d.chance(0.5), asked.sliced && d.chance(0.5)];
+    if !(scuffing || asked.sliced && d.chance(0.5) || micropitting) {
+        return;
+    }
+    let oil = d.mostly([40.0, 120.0], [-50.0, 250.0]);
+    d.set("rating.oil_temperature_c", oil);
+    for gear in ["pinion", "wheel"] {
+        let roughness = d.mostly_log([0.2, 2.0], [0.001, 50.0]);
+        d.set(&format!("rating.{gear}.flank_roughness_ra_um"), roughness);
+    }
+    if scuffing || micropitting {
+        let method = d.pick(&["dip", "spray", "submerged"]);
+        d.set("rating.lubrication", method);
+    }
+    if scuffing {
+        d.set("rating.scuffing", true);
+        let structure = d.mostly([0.8, 1.5], [0.1, 10.0]);
+        d.set("rating.structural_factor", structure);
+    }
+    if micropitting {
+        d.set("rating.micropitting", true);
+        let (key, usual, all) = if d.chance(0.5) {
+            // Of the drawn oils one has a test of micropitting.
+            d.set("rating.lubricant", "mineral VG 220");
+            ("material_factor", [0.5, 1.5], [0.1, 10.0])
+        } else {
+            ("permissible_specific_film_thickness", [0.1, 0.5], [1e-4, 100.0])
+        };
+        let value = d.mostly(usual, all);
+        d.set(&format!("rating.{key}"), value);
+    }
 }

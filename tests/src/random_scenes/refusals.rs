@@ -65,6 +65,9 @@ pub fn matches(pattern: &str, text: &str) -> bool {
     text.ends_with(last)
 }
 
+/// What a number of a message may be off by: one with many digits is printed with four of them.
+const SHOWN: f64 = 5e-4;
+
 /// "`key` is 3, allowed is 4 .. 9": the scene has that number behind such a key, and it is not within that range.
 fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
     let Some((key, rest)) = message.strip_prefix('`').and_then(|m| m.split_once("` is ")) else { return Ok(()) };
@@ -73,12 +76,13 @@ fn range_is_left(message: &str, scene: &Draft) -> Result<(), String> {
     let (Ok(low), Ok(high)) = (low.parse::<f64>(), high.parse::<f64>()) else {
         return Err(format!("a range that is none: {message}"));
     };
-    if (low..=high).contains(&value) {
-        return Err(format!("refused, though it is within the range: {message}"));
+    let of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
+    let is_shown = |n: &f64| (n - value).abs() <= SHOWN * value.abs();
+    match of_key.filter_map(|k| scene.number(&k)).find(is_shown) {
+        None => Err(format!("the scene has no such value: {message}")),
+        Some(own) if (low..=high).contains(&own) => Err(format!("refused, though it is within the range: {message}")),
+        Some(_) => Ok(()),
     }
-    let mut of_key = scene.keys().into_iter().filter(|k| k.rsplit('.').next() == Some(key));
-    let there = of_key.any(|k| scene.number(&k).is_some_and(|n| (n - value).abs() <= 1e-9 * value.abs()));
-    if there { Ok(()) } else { Err(format!("the scene has no such value: {message}")) }
 }
 
 /// "contact did not converge": without friction there is one solution, and with little; with much there may be none.

@@ -15,10 +15,11 @@ fn at_rest() -> String {
 
 /// The scene at rest, rated with a spectrum of loads.
 fn rated() -> String {
-    let gear = "material = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nroot_roughness_rz_um = 20.0\n";
+    let gear = "material = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nflank_roughness_ra_um = 0.6\nroot_roughness_rz_um = 20.0\n";
     at_rest()
         + "[rating]\nlife_h = 2e4\napplication_factor = 1.25\ntolerance_class = 6\nlubricant = \"mineral VG 220\"\n\
-           spectrum = \"loads.csv\"\n"
+           spectrum = \"loads.csv\"\noil_temperature_c = 80.0\nlubrication = \"dip\"\nscuffing = true\n\
+           structural_factor = 1.0\nmicropitting = true\nmaterial_factor = 1.0\n"
         + &format!("[rating.pinion]\n{gear}[rating.wheel]\n{gear}")
 }
 

@@ -97,6 +97,73 @@ fn third_stage_of_nrel() {
     assert_eq!((headline.least_pitting_safety_of, headline.least_bending_safety_of), ("pinion", "wheel"));
 }
 
+/// What scuffing needs beside the rating, as in the report.
+fn oiled(pair: SceneBuilder, roughness_um: f64) -> SceneBuilder {
+    ["pinion", "wheel"]
+        .into_iter()
+        .fold(pair, |pair, gear| pair.set(&format!("rating.{gear}.flank_roughness_ra_um"), roughness_um))
+        .set("rating.oil_temperature_c", 80.0)
+        .set("rating.lubrication", "dip")
+        .set("rating.scuffing", true)
+        .set("rating.structural_factor", 1.0)
+}
+
+/// Scuffing of the same report (ISO/TR 13989), from the gears' data alone; friction, angle factor and temperatures as printed.
+#[test]
+fn scuffing_of_the_third_stage_of_nrel() {
+    let (headline, _) = rated(oiled(nrel(), 0.6));
+    let s = headline.scuffing.unwrap();
+    close("w_Bt", s.line_load_n_per_mm, 1119.632, 5e-4);
+    close("X_M", s.thermo_elastic_factor, 50.058, 2e-5);
+    close("theta_flm", s.flash.mean_flash_temperature_k, 30.20, 5e-4);
+    close("theta_B", s.flash.contact_temperature_c, 169.50, 2e-4);
+    close("theta_S", s.flash.scuffing_temperature_c, 451.98, 2e-5);
+    close("S_B", s.flash.safety, 4.156, 5e-4);
+    close("theta_flaint", s.integral.mean_flash_temperature_k, 16.25, 8e-4);
+    close("theta_int", s.integral.integral_temperature_c, 115.75, 3e-4);
+    close("S_intS", s.integral.safety, 3.932, 4e-4);
+    assert!(headline.local_scuffing.is_none() && headline.micropitting.is_none() && headline.mesh_loss.is_none());
+}
+
+/// The solved contact: the loss of the mesh is its mean friction times the loss factor of the headline, and no place of the patterns is warmer or thinner than the numbers of the headline say.
+#[test]
+fn solved_contacts_have_heat_film_and_loss() {
+    let builder = oiled(coarse(), 0.8).set("rating.lubricant", "mineral VG 220").set("rating.micropitting", true);
+    let scene = builder.set("rating.material_factor", 0.5).build().unwrap();
+    let result = StaticAnalysis::new(&scene).solve().unwrap();
+    let headline = static_headline(&scene, &result.history).unwrap();
+    let rating = headline.rating.unwrap();
+    let (loss, local) = (rating.mesh_loss.unwrap(), rating.local_scuffing.unwrap());
+    let lost = loss.mean_friction_coefficient * headline.tooth_loss_factor.unwrap();
+    assert!(((1.0 - loss.efficiency) / lost - 1.0).abs() < 0.01, "{loss:?}, {lost}");
+    assert!(rating.least_scuffing_safety.unwrap() <= local.safety);
+    let film = rating.micropitting.unwrap();
+    let (heat_field, film_field) = (rating.contact_field.unwrap(), rating.film_field.unwrap());
+    let flanks = result.history.positions.iter().flat_map(|p| &p.pairs).flat_map(|pair| &pair.slices);
+    let flanks: Vec<_> = flanks.filter(|s| matches!(s.site, contact::Site::Flank | contact::Site::EndFace)).collect();
+    for gear in [0, 1] {
+        let base = analysis::results::base_radius_mm(&scene, gear);
+        let at = |field: &dyn Fn(f64, f64) -> f64| {
+            flanks.iter().map(|s| field(base * s.roll[gear], s.pressure)).collect::<Vec<_>>()
+        };
+        let hottest = at(&|radius, p| heat_field.temperature_c(gear, radius, p)).into_iter().fold(0.0, f64::max);
+        let thinnest = at(&|radius, p| film_field.specific(gear, radius, p)).into_iter().fold(f64::INFINITY, f64::min);
+        // The field takes the line of action of gears that do not approach each other.
+        let rise = (hottest - local.bulk_temperature_c) / (local.contact_temperature_c - local.bulk_temperature_c);
+        assert!((rise - 1.0).abs() < 0.01, "{hottest}, {local:?}");
+        assert!((thinnest / film.specific_film_thickness - 1.0).abs() < 0.01, "{thinnest}, {film:?}");
+    }
+}
+
+/// An oil without a test of scuffing or micropitting is refused before any work.
+#[test]
+fn oils_without_a_test_are_refused() {
+    let builder = oiled(coarse(), 0.8).set("rating.micropitting", true).set("rating.material_factor", 1.0);
+    let scene = builder.set("rating.lubricant", "mineral VG 320").build().unwrap();
+    let error = StaticAnalysis::new(&scene).solve().unwrap_err().to_string();
+    assert!(error.contains("states no `micropitting_load_stage`"), "{error}");
+}
+
 /// ISO/TR 6336-30, example 1: what is printed of it on pitting. K_Hbeta is printed as 1.16, tip diameters are rounded.
 fn iso_example() -> SceneBuilder {
     let pair = Scene::builder().pinion(17, 15.8).wheel(103).normal_module_mm(8.0).face_width_mm(100.0);

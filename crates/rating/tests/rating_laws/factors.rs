@@ -6,7 +6,7 @@ use rating::{
 };
 
 /// Half of the last digit that is printed.
-fn printed(value: f64, expected: &str) {
+pub fn printed(value: f64, expected: &str) {
     let decimals = expected.split_once('.').map_or(0, |(_, digits)| digits.len());
     let half = 0.5000001 * 10f64.powi(-(decimals as i32));
     let number: f64 = expected.parse().unwrap();

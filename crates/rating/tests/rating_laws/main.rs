@@ -3,3 +3,4 @@
 mod factors;
 mod life;
 mod pair;
+mod tribology;

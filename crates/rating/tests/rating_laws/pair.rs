@@ -6,8 +6,14 @@ use rating::{
     spectrum_rating, standard_rating,
 };
 
+/// Radii of curvature of the pinion at both ends of the path of contact between tip circles, mm.
+fn ends(base: [f64; 2], tip: [f64; 2]) -> [f64; 2] {
+    let [one, two] = [0, 1].map(|i| 0.5 * (tip[i] * tip[i] - base[i] * base[i]).sqrt());
+    [(861.0 * 861.0 - 0.25 * (base[0] + base[1]).powi(2)).sqrt() - two, one]
+}
+
 /// The third stage of NREL's 5 MW gearbox as KISSsoft 03/2017 prints it (report in the open repository gfsReboucas/Drivetrain): ISO 6336:2006, grade 6 of ISO 1328:1995, 175,200 h.
-fn nrel() -> RatingInput<'static> {
+pub fn nrel() -> RatingInput<'static> {
     let steel = Materials::built_in().find("18CrNiMo7-6").unwrap();
     let alpha_n = 20f64.to_radians();
     // h_F*, s_Fn*, alpha_Fen, q_s as printed.
@@ -49,6 +55,7 @@ fn nrel() -> RatingInput<'static> {
             tip_diameter: [380.747, 1395.376],
             root_diameter: [319.623, 1334.252],
             bore_diameter: [179.10, 1193.32],
+            path_of_contact: ends([320.026, 1266.770], [380.747, 1395.376]),
             eps_alpha: 1.463,
             eps_beta: 1.421,
         },
@@ -121,6 +128,7 @@ fn exchanged_gears_are_rated_alike() {
             tip_diameter: exchange(g.tip_diameter),
             root_diameter: exchange(g.root_diameter),
             bore_diameter: exchange(g.bore_diameter),
+            path_of_contact: ends(exchange(g.base_diameter), exchange(g.tip_diameter)),
             ..g
         },
         gears: [one.gears[1], one.gears[0]],

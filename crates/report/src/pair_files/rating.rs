@@ -44,18 +44,55 @@ pub(super) fn parts(rating: &RatingHeadline) -> [Part; 2] {
         lines.push(Line::text("safety of the spectrum, pitting", pair(both(|d| d.pitting_safety)), "(pinion, wheel)"));
         lines.push(Line::text("safety of the spectrum, breakage", pair(both(|d| d.bending_safety)), "(pinion, wheel)"));
     }
+    lines.extend(oiled(rating));
     let safeties = Part::new("Will it hold?").closing().lines(lines);
     let note = "Pitting after ISO 6336-2, tooth root breakage after ISO 6336-3, load factors after ISO 6336-1, method B unless stated; K_Hbeta is that of the solved load distribution unless stated. A life ends where the safety is 1; a safety below the one that your application asks for is not enough.";
     let sheet = Part::more().lines(load(r)).with(Content::Grid(sheet(r))).note(note);
     [safeties, sheet]
 }
 
-/// Patterns of pinion and wheel with the local safety of every place behind their columns.
+/// Scuffing, micropitting and losses, as far as they are rated.
+fn oiled(rating: &RatingHeadline) -> Vec<Line> {
+    let mut lines = Vec::new();
+    if let Some(s) = &rating.scuffing {
+        let flash = format!("({:.1} C of {:.1} C)", s.flash.contact_temperature_c, s.flash.scuffing_temperature_c);
+        lines.push(Line::number("safety against scuffing S_B, flash temperature", s.flash.safety, 2, flash));
+        let start = format!("({:.1} C)", s.flash.start_temperature_c);
+        lines.push(Line::number("  at the start of approach", s.flash.start_safety, 2, start));
+        let integral =
+            format!("({:.1} C of {:.1} C)", s.integral.integral_temperature_c, s.integral.scuffing_temperature_c);
+        lines.push(Line::number(
+            "safety against scuffing S_intS, integral temperature",
+            s.integral.safety,
+            2,
+            integral,
+        ));
+    }
+    if let Some(local) = &rating.local_scuffing {
+        let at = format!("({:.1} C, d1 {:.2} mm)", local.contact_temperature_c, local.pinion_diameter_mm);
+        lines.push(Line::number("  local S_B, by the solved pressure", local.safety, 2, at));
+    }
+    if let Some(m) = &rating.micropitting {
+        let at = format!("(lambda {:.3}, d1 {:.2} mm)", m.specific_film_thickness, m.pinion_diameter_mm);
+        lines.push(Line::number("safety against micropitting S_lambda, local", m.safety, 2, at));
+        let permissible = m.permissible_specific_film_thickness;
+        lines.push(Line::number("  permissible specific film thickness", permissible, 3, ""));
+        lines.push(Line::number("  bulk temperature", m.bulk_temperature_c, 1, "C"));
+    }
+    if let Some(loss) = &rating.mesh_loss {
+        lines.push(Line::number("loss of the mesh by friction of the oil", loss.mesh_loss_w, 1, "W"));
+        lines.push(Line::number("  mean coefficient of friction", loss.mean_friction_coefficient, 4, ""));
+        lines.push(Line::number("  efficiency, sliding of the teeth", 100.0 * loss.efficiency, 3, "%"));
+    }
+    lines
+}
+
+/// Patterns of pinion and wheel with the local safety of every place behind their columns, and temperature and film where they are rated.
 pub(super) fn with_safeties(mut patterns: Vec<Table>, rating: Option<&RatingHeadline>) -> Vec<Table> {
     let local = rating.and_then(|rating| Some((rating.standard.gears(), rating.local.as_ref()?)));
     let Some((gears, local)) = local else { return patterns };
     let helix = rating.map_or(1.0, |rating| rating.standard.helix_angle_factor);
-    for (table, gear) in patterns.iter_mut().zip(gears) {
+    for (k, (table, gear)) in patterns.iter_mut().zip(gears).enumerate() {
         let safety = |p: &f64| local_pitting_safety(gear.contact_stress_limit_mpa, *p, helix, local.load_factor);
         let all: Vec<f64> = table.find("max_pressure_mpa").unwrap_or_default().iter().map(safety).collect();
         table.push_numbers(
@@ -63,8 +100,32 @@ pub(super) fn with_safeties(mut patterns: Vec<Table>, rating: Option<&RatingHead
             "safety against pitting by the largest pressure that came there",
             all,
         );
+        add_oiled(table, k, rating);
     }
     patterns
+}
+
+/// Contact temperature and film of every place of a pattern, where they are rated.
+fn add_oiled(table: &mut Table, gear: usize, rating: Option<&RatingHeadline>) {
+    let column = |name: &str| table.find(name).unwrap_or_default().to_vec();
+    // tan of the pressure angle times the base radius: the radius of curvature of an involute.
+    let places: Vec<(f64, f64)> = (column("diameter_mm").into_iter())
+        .zip(column("roll_angle_deg"))
+        .zip(column("max_pressure_mpa"))
+        .map(|((diameter, roll), pressure)| {
+            let tan = roll.to_radians();
+            (0.5 * diameter * tan / tan.hypot(1.0), pressure)
+        })
+        .collect();
+    if let Some(field) = rating.and_then(|rating| rating.contact_field.as_ref()) {
+        let all: Vec<f64> = places.iter().map(|(radius, p)| field.temperature_c(gear, *radius, *p)).collect();
+        table.push_numbers("contact_temperature_c", "contact temperature by the largest pressure that came there", all);
+    }
+    if let Some(field) = rating.and_then(|rating| rating.film_field.as_ref()) {
+        let all: Vec<f64> = places.iter().map(|(radius, p)| field.specific(gear, *radius, *p)).collect();
+        let meaning = "oil film over R_a, by the largest pressure that came there";
+        table.push_numbers("specific_film_thickness", meaning, all);
+    }
 }
 
 fn load(r: &StandardRating) -> Vec<Line> {

@@ -44,7 +44,7 @@ pub use motion::{
     ModesScene, MotionScene, RampScene, Run, SteadyBy, SweepScene, SweepWay,
 };
 pub(crate) use rating::*;
-pub use rating::{RatedGearScene, RatingEdition, RatingScene};
+pub use rating::{LubricationScene, RatedGearScene, RatingEdition, RatingScene};
 pub(crate) use scene::*;
 pub use scene::{
     Analysis, ContactScene, FieldName, Flanks, Gap, Kind, Method, MisalignmentScene, Model, Operation, OutputScene,

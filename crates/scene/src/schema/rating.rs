@@ -24,6 +24,13 @@ table! {
         lubricant: text(), "name in the table of lubricants";
         lubricants: text() => [Lubricants], "file that replaces the table of lubricants; default: the program's, `crates/rating/data/lubricants.toml`";
         materials: text() => [Materials], "file that replaces the table of materials; default: the program's, `crates/rating/data/materials.toml`";
+        oil_temperature_c: bare(-50.0, 250.0), "theta_oil, temperature of the oil before the mesh, C. With it the friction of the oil gives the losses of the mesh (models with slices); `scuffing` and `micropitting` need it";
+        lubrication: bare_word(LubricationScene) => Some, "how oil gets to the flanks, for `scuffing` and `micropitting`. dip: gears dip into the oil; spray: oil is sprayed into the mesh; submerged: the mesh runs in the oil";
+        scuffing: switch(false), "whether scuffing is rated after ISO/TS 6336-20 and -21, and from the solved pressures. Needs `oil_temperature_c`, `lubrication`, `structural_factor`, both `flank_roughness_ra_um`, of the lubricant `scuffing_load_stage`, of the materials `thermal_conductivity_w_per_m_k` and `specific_heat_j_per_kg_k`";
+        structural_factor: bare(0.1, 10.0), "X_W of ISO/TS 6336-20 and -21: how the structure of both flanks bears scuffing, 1 for through-hardened steel and case-hardened steel with usual retained austenite; `scuffing` asks for it";
+        micropitting: switch(false), "whether micropitting is rated after ISO/TS 6336-22 from the solved pressures (models with slices). Needs what `scuffing` needs without `structural_factor` and the scuffing test, and of the lubricant `micropitting_load_stage` with `material_factor`, or `permissible_specific_film_thickness`";
+        material_factor: bare(0.1, 10.0), "W_W of ISO/TS 6336-22: what the material makes of the micropitting test, 1 for case-hardened steel; `micropitting` asks for it";
+        permissible_specific_film_thickness: bare(1e-4, 100.0), "lambda_GFP, film thickness over R_a that is enough; default: method B of ISO/TS 6336-22, from the lubricant's `micropitting_load_stage` and `material_factor`";
         pinion: table(RATED_GEAR: RawRatedGear) => (RatedGearScene);
         wheel: table(RATED_GEAR: RawRatedGear) => (RatedGearScene);
     }
@@ -39,11 +46,24 @@ choices! {
     }
 }
 
+choices! {
+    /// How oil gets to the flanks.
+    pub enum LubricationScene {
+        /// Gears dip into the oil.
+        Dip = "dip",
+        /// Oil is sprayed into the mesh.
+        Spray = "spray",
+        /// The mesh runs in the oil.
+        Submerged = "submerged",
+    }
+}
+
 table! {
     /// `[rating.pinion]`
     RATED_GEAR, RawRatedGear => RatedGearScene: "what is rated of a gear", needed ["material", "flank_roughness_rz_um", "root_roughness_rz_um"]; {
         material: text(), "name in the table of materials";
         flank_roughness_rz_um: must(0.01, 200.0), "R_z of the flanks as run in, um";
+        flank_roughness_ra_um: bare(1e-3, 50.0), "R_a of the flanks as run in, um; `oil_temperature_c` of `[rating]` asks for it";
         root_roughness_rz_um: must(0.01, 500.0), "R_z of the roots, um";
         reversed_load_ratio: number(0.0, 1.0, 0.0), "load on the flank that is loaded less over that of the other. 0: one flank works; 1: idlers and planets";
         meshes_per_turn: whole(1, 100, 1), "times that each tooth is loaded in a turn of the gear";

@@ -307,6 +307,9 @@ const SCENE: &[Row] = &[
 /// A whole rating of the small pair.
 const RATED: &str = "rating.life_h=10000; rating.application_factor=1.25; rating.face_load_factor=1.2; rating.tolerance_class=6; rating.lubricant=mineral VG 220; rating.pinion.material=18CrNiMo7-6; rating.pinion.flank_roughness_rz_um=4; rating.pinion.root_roughness_rz_um=20; rating.wheel.material=18CrNiMo7-6; rating.wheel.flank_roughness_rz_um=4; rating.wheel.root_roughness_rz_um=20";
 
+/// What scuffing and micropitting want beside a rating.
+const OILED: &str = "rating.oil_temperature_c=80; rating.lubrication=dip; rating.scuffing=true; rating.structural_factor=1; rating.micropitting=true; rating.material_factor=1; rating.pinion.flank_roughness_ra_um=0.6; rating.wheel.flank_roughness_ra_um=0.6";
+
 /// Keys of a rating.
 const RATING: &[Row] = &[
     ("edition", Iso, "", "iso-2006"),
@@ -326,6 +329,18 @@ const RATING: &[Row] = &[
     ("lubricant", Iso, "", "mineral VG 460"),
     ("lubricants", Iso, "", "oils.toml"),
     ("materials", Iso, "", "steels.toml"),
+    ("oil_temperature_c", Reduced, OILED, "70"),
+    ("lubrication", Reduced, OILED, "spray"),
+    ("scuffing", Reduced, OILED, "false"),
+    ("structural_factor", Reduced, OILED, "1.15"),
+    ("micropitting", Reduced, OILED, "false"),
+    ("material_factor", Reduced, OILED, "0.8"),
+    (
+        "permissible_specific_film_thickness",
+        Reduced,
+        "rating.oil_temperature_c=80; rating.lubrication=dip; rating.micropitting=true; rating.permissible_specific_film_thickness=0.3; rating.pinion.flank_roughness_ra_um=0.6; rating.wheel.flank_roughness_ra_um=0.6",
+        "0.4",
+    ),
 ];
 
 /// Keys of a rated gear.
@@ -333,6 +348,7 @@ const RATED_GEAR: &[Row] = &[
     ("material", Iso, "", "42CrMo4 300 HV"),
     ("flank_roughness_rz_um", Iso, "", "12"),
     ("root_roughness_rz_um", Iso, "", "60"),
+    ("flank_roughness_ra_um", Reduced, OILED, "0.8"),
     ("reversed_load_ratio", Iso, "", "1"),
     ("meshes_per_turn", Iso, "", "2"),
 ];

@@ -1,0 +1,81 @@
+//! Rolling and sliding of two flanks on the path of contact.
+
+use std::f64::consts::PI;
+
+use crate::PairGeometry;
+
+/// Two flanks that roll and slide on each other; lengths in mm, speeds in m/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rolling {
+    /// cos of the base helix angle.
+    cos_base_helix: f64,
+    /// Speeds of pinion and wheel, rad/s.
+    turning: [f64; 2],
+    /// a sin(alpha_wt): distance of the points where the line of action touches the base circles.
+    line_of_action: f64,
+    /// Transverse radii at the pitch point.
+    pitch: [f64; 2],
+}
+
+/// A place on the path of contact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RollingPlace {
+    /// rho_n, normal radius of relative curvature, mm.
+    pub relative_radius: f64,
+    /// Speeds of both surfaces along the profile, m/s.
+    pub speeds: [f64; 2],
+}
+
+impl RollingPlace {
+    /// v_Sigma, sum of both speeds, m/s.
+    pub fn rolling_speed(&self) -> f64 {
+        self.speeds[0] + self.speeds[1]
+    }
+
+    /// v_g, sliding speed, m/s.
+    pub fn sliding_speed(&self) -> f64 {
+        (self.speeds[0] - self.speeds[1]).abs()
+    }
+}
+
+impl Rolling {
+    /// Flanks of an external pair at a speed of the pinion, 1/min.
+    pub fn new(geometry: &PairGeometry, pinion_speed_rpm: f64) -> Self {
+        let turning = PI / 30.0 * pinion_speed_rpm;
+        Self {
+            cos_base_helix: geometry.base_helix_angle.cos(),
+            turning: [turning, turning / geometry.ratio()],
+            line_of_action: geometry.centre_distance * geometry.working_pressure_angle.sin(),
+            pitch: geometry.pitch_radii(),
+        }
+    }
+
+    /// The place of two transverse radii of curvature, mm.
+    ///
+    /// ```text
+    /// rho_n = rho_1 rho_2/(rho_1 + rho_2)/cos(beta_b),   v_i = omega_i rho_i
+    /// ```
+    /// `None` where a flank has no curvature. Source: ISO/TS 6336-22, clause on the radius of relative curvature.
+    pub fn at(&self, radii: [f64; 2]) -> Option<RollingPlace> {
+        let [one, two] = radii;
+        (one > 0.0 && two > 0.0).then(|| RollingPlace {
+            relative_radius: one * two / (one + two) / self.cos_base_helix,
+            speeds: [1e-3 * self.turning[0] * one, 1e-3 * self.turning[1] * two],
+        })
+    }
+
+    /// The place at which the pinion has a transverse radius of curvature, mm, on the line of action.
+    pub fn at_pinion(&self, radius: f64) -> Option<RollingPlace> {
+        self.at([radius, self.line_of_action - radius])
+    }
+
+    /// The place at which the wheel has a transverse radius of curvature, mm, on the line of action.
+    pub fn at_wheel(&self, radius: f64) -> Option<RollingPlace> {
+        self.at([self.line_of_action - radius, radius])
+    }
+
+    /// The pitch point.
+    pub fn pitch(&self) -> Option<RollingPlace> {
+        self.at(self.pitch)
+    }
+}
