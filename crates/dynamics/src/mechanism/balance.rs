@@ -91,7 +91,11 @@ impl Mechanism for PairMechanism {
         }
         self.coordinates.add_force(&conservative, &mut out.conservative);
         self.coordinates.add_force(&other, &mut out.other);
-        if out.rates {
+        if out.rates && self.modal.is_none() {
+            // Turning on works against the normal forces.
+            let turn = |g: usize| COORDINATES * (g + 1) - 1;
+            out.parametric = -(0..2).map(|g| normal[turn(g)] * nominal.velocity[g]).sum::<f64>();
+        } else if out.rates {
             // A ten-thousandth of a mesh cycle either way; at rest nothing changes.
             let way = 1e-4 * self.pair.pinion.pitch_angle();
             let [speed, growth] = [nominal.velocity[0].abs(), nominal.acceleration[0].abs()];

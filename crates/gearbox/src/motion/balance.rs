@@ -53,7 +53,12 @@ impl GearboxMechanism {
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
         let energy_rate = live.element().energy_rate();
-        let to_gears = &live.to_gears;
+        let answer = self.balance_of(mesh, &(losses.friction + losses.force));
+        if answer != 0.0 {
+            out.other.axpy(answer, &self.push, 1.0);
+            out.supplied += answer * self.push.dot(v);
+        }
+        let to_gears = &self.live[mesh].to_gears;
         out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
