@@ -3,6 +3,7 @@
 mod exact;
 mod forced;
 mod motion;
+mod motion_branch;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;
