@@ -119,7 +119,7 @@ fn pitch_errors_act_on_the_map_as_in_the_contact() {
     assert!(off < 2e-3 * a.mean_dte_um, "mean {} um, on the map {} um", a.mean_dte_um, b.mean_dte_um);
     let alike = built(moving("mapped").set("drive.by", "speed").set("motion.run", "span").set("analysis.cycles", 35));
     let alike = LumpedAnalysis::new(&alike).solve().unwrap_or_else(|e| panic!("{e}")).headline.peak_to_peak_dte_um;
-    assert!(b.peak_to_peak_dte_um > 1.5 * alike, "{} um beside {alike} um without errors", b.peak_to_peak_dte_um);
+    assert!(b.peak_to_peak_dte_um > 1.3 * alike, "{} um beside {alike} um without errors", b.peak_to_peak_dte_um);
 }
 
 /// A load that swings through zero presses the coast flanks: forces on either side and the way between them are those
