@@ -66,7 +66,7 @@ fn pairs_that_do_not_feel_each_other_are_exact() {
     let at = |phase: f64| Ok::<_, Infallible>(Pairs { cycles: phase, offsets: &none });
     let map = ContactMap::build(&plan, &|_| {}, at).unwrap_or_else(|e| panic!("{e}"));
     let deflection = map.certificate().deflection_mm;
-    let offsets = PairOffsets::new([vec![0.0, 3e-3, -4e-3], vec![2e-3, -1e-3, 4e-3, -8e-3, 0.0]]);
+    let offsets = PairOffsets::new([vec![0.0, 5e-3, -9e-3], vec![4e-3, -3e-3, 6e-3, -12e-3, 0.0]]);
     assert_eq!(offsets.period(), 15);
     let own = OffsetMap::new(map.into(), offsets.clone());
     let mut parted = 0;

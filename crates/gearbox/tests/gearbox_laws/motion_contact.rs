@@ -180,7 +180,7 @@ fn a_map_with_pitch_errors_has_one_energy() {
         let reply = map.evaluate(d).unwrap();
         (reply, map.energy(), map.energy_rate())
     };
-    for (cycles, further) in [(0.3, 0.0), (17.45, 0.6), (17.95, -0.3), (101.2, 0.4), (-5.6, 5.0)] {
+    for (cycles, further) in [(0.3, 0.0), (17.45, 0.6), (17.95, 0.3), (101.2, 0.4), (-5.6, 5.0)] {
         let mut at = about + projection.displacement(further * deflection, 0.0) - projection.displacement(0.0, 0.0);
         (at[3], at[10]) = (at[3] + 2e-5, at[10] - 1e-5);
         let (reply, _, rate) = ask(cycles, &at);
