@@ -64,7 +64,7 @@ impl Lubrication {
         0.5 * (self.roughness_ra_um[0] + self.roughness_ra_um[1])
     }
 
-    /// X_L of the integral temperature: 1 (mineral), 0.8 (polyalphaolefin, ester), 0.7 (polyglycol). Source: ISO/TS 6336-21, lubricant factor.
+    /// X_L of the integral temperature: 1 (mineral), 0.8 (polyalphaolefin), 0.7 (polyglycol). Source: ISO/TS 6336-21, lubricant factor.
     pub fn base_factor(&self) -> f64 {
         match self.lubricant.base {
             LubricantBase::Mineral => 1.0,

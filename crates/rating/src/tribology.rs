@@ -68,7 +68,7 @@ described::described! {
         pub specific_film_thickness: f64,
         /// diameter of the pinion at that place
         pub pinion_diameter_mm: f64,
-        /// lambda_GFT of the test gears; missing where `permissible_film_thickness` is stated
+        /// lambda_GFT of the test gears; missing where `permissible_specific_film_thickness` is stated
         #[serde(skip_serializing_if = "Option::is_none")]
         pub test_specific_film_thickness: Option<f64>,
         /// lambda_GFP, permissible specific film thickness

@@ -101,8 +101,12 @@ pub fn long_sweep(speeds: u32) -> String {
     moving("cycles = 1\n", &format!("run = \"sweep\"\nwarm_up_cycles = 20\nperiodic_tolerance = 1e-2\n{sweep}"))
 }
 
-/// Two stages on three shafts: at rest, in vibration, in motion up a ramp, with one bearing by its type.
-fn gearbox() -> SmallDocument {
+const VIBRATION: &str = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 4000.0\nspeeds = 6\norders = 2\nmodes = 6\n";
+const RUN_UP: &str =
+    "[motion]\nspeed_rpm = 1000.0\nto_speed_rpm = 1500.0\nmesh = \"spring\"\ncycles = 6\nsteps_per_cycle = 20\n";
+
+/// Two stages on three shafts, with one bearing by its type: at rest, and what `tasks` ask.
+fn gearbox(name: &'static str, tasks: &str) -> SmallDocument {
     let shaft = |name: &str, y: f64, length: f64, diameter: f64| {
         format!(
             "[[shaft]]\nname = \"{name}\"\norigin_mm = [0.0, {y}, 0.0]\n[[shaft.section]]\nlength_mm = {length}\n\
@@ -138,16 +142,15 @@ fn gearbox() -> SmallDocument {
         mesh("pair.toml", "3", "4"),
         "[input]\nshaft = \"fast\"\nposition_mm = 0.0\ninertia_kg_m2 = 0.001\n\
          [[torque]]\nshaft = \"slow\"\nposition_mm = 90.0\ntorque_nm = 60.0\ninertia_kg_m2 = 0.01\n\
-         [analysis]\npositions_per_cycle = 4\n\
-         [vibration]\nfrom_rpm = 500.0\nto_rpm = 4000.0\nspeeds = 6\norders = 2\nmodes = 6\n\
-         [motion]\nspeed_rpm = 1000.0\nto_speed_rpm = 1500.0\nmesh = \"spring\"\ncycles = 6\nsteps_per_cycle = 20\n"
+         [analysis]\npositions_per_cycle = 4\n"
             .to_owned(),
+        tasks.to_owned(),
     ];
     let pair = at_rest(4, "[contact]\nslices = 6\n")
         .replace("helix_angle_deg = 12.0", "helix_angle_deg = 0.0")
         .replace("face_width_mm = 14.0", "face_width_mm = 14.0\ncentre_distance_mm = 50.5");
     SmallDocument {
-        name: "gearbox",
+        name,
         files: vec![("box.toml", parts.concat()), ("pair.toml", pair)],
         words: vec!["run", "box.toml"],
     }
@@ -162,7 +165,8 @@ fn other_than_scenes() -> Vec<SmallDocument> {
     let study = "[[case]]\nscene = \"scene.toml\"\nvalue = 1\n[[case]]\nscene = \"b.toml\"\nvalue = 2\n\
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     vec![
-        gearbox(),
+        gearbox("gearbox", &format!("{VIBRATION}{RUN_UP}")),
+        gearbox("gearbox_modes", &format!("{VIBRATION}[modes]\ncount = 4\n")),
         SmallDocument {
             name: "plan",
             files: vec![("scene.toml", rest.clone()), ("plan.toml", plan.to_owned())],
@@ -196,6 +200,21 @@ fn other_than_scenes() -> Vec<SmallDocument> {
     ]
 }
 
+/// Everything that a pair at rest is rated for.
+fn rating() -> String {
+    let gears = ["pinion", "wheel"].map(|gear| {
+        format!(
+            "[rating.{gear}]\nmaterial = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nflank_roughness_ra_um = 0.6\n\
+             root_roughness_rz_um = 20.0\n"
+        )
+    });
+    "[rating]\nlife_h = 2e4\napplication_factor = 1.25\ntolerance_class = 6\nlubricant = \"mineral VG 220\"\n\
+     oil_temperature_c = 80.0\nlubrication = \"dip\"\nscuffing = true\nstructural_factor = 1.0\n\
+     micropitting = true\nmaterial_factor = 1.0\n"
+        .to_owned()
+        + &gears.concat()
+}
+
 /// All documents.
 pub fn all() -> Vec<SmallDocument> {
     scenes().into_iter().map(|(name, text)| SmallDocument::scene(name, text)).chain(other_than_scenes()).collect()
@@ -214,6 +233,7 @@ pub fn scenes() -> Vec<(&'static str, String)> {
     });
     vec![
         ("rest_slices", at_rest(6, &format!("[contact]\nslices = 8\n{relief}[output]\nroot_stress = true\n"))),
+        ("rest_rated", at_rest(4, &format!("[contact]\nslices = 6\n{}", rating()))),
         ("rest_friction", at_rest(4, "[contact]\nslices = 6\nfriction = 0.08\nflanks = \"both\"\n")),
         ("rest_nodal", at_rest(3, "[contact]\nmethod = \"nodal\"\npoints_per_face_edge = 3\n")),
         (
