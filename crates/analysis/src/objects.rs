@@ -11,14 +11,15 @@ use study::Lyapunov;
 use crate::{
     accuracy::{Accuracy, Bound, Term, TriedRung, TriedSettings, motion::TriedModel},
     accuracy_chart::SpeedUp,
+    branch::BranchPoint,
     facts::{MeshFacts, RunInfo},
     gearbox::GearboxResult,
     gears::GeometryFacts,
     iso_model::IsoFacts,
     iso_root::{IsoGearRoot, IsoRootStress},
     lumped::{
-        Attractor, BasinHeadline, BranchPoint, ContinuationHeadline, FrequencyFacts, LumpedCertificate, LumpedHeadline,
-        Meeting, SweepHeadline, SweepPoint,
+        Attractor, BasinHeadline, ContinuationHeadline, FrequencyFacts, LumpedCertificate, LumpedHeadline, Meeting,
+        SweepHeadline, SweepPoint,
     },
     motion,
     motion::{

@@ -1,7 +1,8 @@
 //! Periodic motions along a key: what the branch says must be what motions in time do.
 
+use analysis::branch::LossName;
 use analysis::lumped::{
-    ContinuationAnalysis, ContinuationResult, KeySweep, LossName, LumpedAnalysis, LumpedQuantity, SweepOptions,
+    ContinuationAnalysis, ContinuationResult, KeySweep, LumpedAnalysis, LumpedQuantity, SweepOptions,
 };
 use scene::{Scene, SceneBuilder, SweepWay, plan::SectionEvery};
 

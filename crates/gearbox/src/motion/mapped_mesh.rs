@@ -215,6 +215,10 @@ impl MovingMesh for MappedMesh {
         Ok([self.approach - self.map.first_touch(self.kept.last()), f64::NEG_INFINITY])
     }
 
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        Some(vec![self.projection.approach, self.projection.tilt])
+    }
+
     fn reach(&self) -> f64 {
         let force = self.contact.force / self.map.largest_force();
         // Without contact a tilt does nothing.

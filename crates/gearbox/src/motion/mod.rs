@@ -9,9 +9,11 @@
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
+//! | `branch`, `speed_family` | periodic motions over the speed, stable and unstable |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
+mod branch;
 mod contact_spring;
 mod energy;
 mod free_coordinates;
@@ -30,10 +32,12 @@ mod plan;
 mod reduced_bodies;
 mod rolling_supports;
 mod run;
+mod speed_family;
 mod spring_mesh;
 mod start;
 mod tilting_spring;
 
+pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
 pub use dynamics::Speed;
 pub use energy::GearboxEnergy;

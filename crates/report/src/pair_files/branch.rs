@@ -1,6 +1,9 @@
 //! Periodic motions along a key, around folds: pictures, page, closing table.
 
-use analysis::lumped::{BranchPoint, ContinuationHeadline, ContinuationResult, LossName};
+use analysis::{
+    branch::{BranchPoint, LossName},
+    lumped::{ContinuationHeadline, ContinuationResult},
+};
 use scene::Scene;
 
 use super::{

@@ -1,6 +1,9 @@
 //! Rows of many motions of a reduced-order model as tables: over a key, along a branch, from many starts.
 
-use analysis::lumped::{Attractor, BasinStart, BranchPoint, BranchTurn, LossName, SweepOptions, SweepPoint, TimePoint};
+use analysis::{
+    branch::{BranchPoint, BranchTurn, LossName, TimePoint},
+    lumped::{Attractor, BasinStart, SweepOptions, SweepPoint},
+};
 use answer::Table;
 
 use super::rows::{PERIODICITY, STATUS};

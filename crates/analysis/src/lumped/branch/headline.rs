@@ -1,26 +1,9 @@
 //! What is read off a branch.
 
-use crate::remark;
-use periodic::Bifurcation;
 use scene::ContinuationScene;
 use serde::Serialize;
 
-use super::{BranchPoint, LossName, TimePoint};
-
-/// A motion in time that differs from that of the branch by more than this has left it, or has too long steps.
-const APART: f64 = 0.02;
-
-described::described! {
-    /// Where the branch turns, or where another one leaves it.
-    #[derive(Debug, Clone, PartialEq, Serialize)]
-    pub struct BranchTurn {
-        /// `fold`, `period-doubling` or `torus`
-        pub loss: LossName,
-        /// the motion there
-        #[serde(flatten)]
-        pub point: BranchPoint,
-    }
-}
+use crate::branch::{BranchPoint, BranchTurn, LossName, Outcome, TimePoint};
 
 described::described! {
     /// What a continuation is made for; units are in the names.
@@ -107,19 +90,14 @@ pub(super) fn headline(
 impl ContinuationHeadline {
     /// What a user should hear.
     pub(super) fn remarks(&self) -> Vec<answer::Remark> {
-        let ends = self.broken.as_ref().map(|why| remark::branch_ends(&**why));
-        let apart = self.difference_in_time.filter(|d| *d > APART).map(|d| remark::branch_apart(100.0 * d));
-        let back = (self.broken.is_none() && self.returns).then(remark::branch_turns_back);
-        let lost = (!self.torus_bifurcations.is_empty()).then(remark::torus_bifurcation);
-        let doubled =
-            self.period_doublings.first().map(|value| remark::period_doubling(*value, 2 * self.period_cycles));
-        ends.into_iter().chain(back).chain(apart).chain(lost).chain(doubled).collect()
-    }
-}
-
-impl BranchTurn {
-    /// Turn of a branch: a bifurcation and what was read off its motion.
-    pub(super) fn new(bifurcation: &Bifurcation, point: BranchPoint) -> Self {
-        Self { loss: bifurcation.loss.into(), point }
+        let said = Outcome {
+            broken: self.broken.as_deref(),
+            returns: self.returns,
+            difference_in_time: self.difference_in_time,
+            has_torus: !self.torus_bifurcations.is_empty(),
+            doubled: self.period_doublings.first().copied(),
+            period_cycles: self.period_cycles,
+        };
+        said.remarks()
     }
 }

@@ -1,0 +1,159 @@
+//! A linear machine between few places at which other forces act, harmonic by harmonic.
+
+use nalgebra::{Complex, DMatrix, DVector};
+
+use crate::dense::Factors;
+
+type ComplexMatrix = DMatrix<Complex<f64>>;
+
+/// A machine of n coordinates that is linear but for forces on m combinations s of them. Theory (71a).
+///
+/// ```text
+/// M z'' + (C + w G) z' + K z = p + B f(t, s, s'),   s = B' z
+/// ```
+/// w: angular frequency of the period, with which the machine turns.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearMachine {
+    /// M: symmetric, positive definite.
+    pub mass: DMatrix<f64>,
+    /// K: symmetric; it may leave motions free that only the forces f hold.
+    pub stiffness: DMatrix<f64>,
+    /// C.
+    pub damping: DMatrix<f64>,
+    /// G: gyroscopic forces at w = 1 rad/s.
+    pub gyroscopic: DMatrix<f64>,
+    /// p.
+    pub load: DVector<f64>,
+    /// B, n x m.
+    pub levers: DMatrix<f64>,
+    /// k_0, m x m: what stands for -df/ds so that K + B k_0 B' is positive definite. It is added to the machine and taken
+    /// off the forces: results do not depend on it.
+    pub reference: DMatrix<f64>,
+    /// Frequency (rad/s) up to which the machine is known. Modes beyond have their own damping alone, Phi' (C + w G) Phi on its
+    /// diagonal, and follow as if they had no inertia when a motion is disturbed. Infinite: all is exact.
+    pub highest: f64,
+}
+
+/// The machine with k_0 in its undamped modes, M-orthonormal and ascending.
+///
+/// ```text
+/// (K + B k_0 B') Phi = M Phi diag(omega^2),   Phi' M Phi = 1,   z = Phi y
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct ModalMachine {
+    /// Phi, n x n.
+    pub shapes: DMatrix<f64>,
+    /// omega^2.
+    pub squares: DVector<f64>,
+    /// Phi' C Phi and Phi' G Phi.
+    pub damping: DMatrix<f64>,
+    pub gyroscopic: DMatrix<f64>,
+    /// Phi' B and Phi' p.
+    pub levers: DMatrix<f64>,
+    pub load: DVector<f64>,
+    /// s under p alone.
+    pub rest: DVector<f64>,
+    /// B' M^-1 B.
+    pub mobility: DMatrix<f64>,
+    /// Number of modes up to [`LinearMachine::highest`].
+    pub known: usize,
+}
+
+/// What forces on s do at one harmonic k of a frequency.
+///
+/// ```text
+/// Z = diag(omega^2) - (k w)^2 + i k w (C + w G),   H = B' Z^-1 B,   dH/dw = -B' Z^-1 (dZ/dw) Z^-1 B
+/// ```
+#[derive(Debug, Clone)]
+pub(crate) struct Receptance {
+    /// H, m x m.
+    pub value: ComplexMatrix,
+    /// dH/dw.
+    pub slope: ComplexMatrix,
+    /// Z^-1 B: coordinates of the modes by forces on s, n x m.
+    pub modes: ComplexMatrix,
+}
+
+impl ModalMachine {
+    /// `None` where masses or stiffness with k_0 are not positive definite.
+    pub fn new(machine: &LinearMachine) -> Option<Self> {
+        let LinearMachine { mass, stiffness, damping, gyroscopic, load, levers, reference, highest } = machine;
+        let held = stiffness + levers * reference * levers.transpose();
+        let lower = mass.clone().cholesky()?.l();
+        let half = lower.solve_lower_triangular(&held)?;
+        let raw = lower.solve_lower_triangular(&half.transpose())?;
+        let eigen = (0.5 * (&raw + raw.transpose())).symmetric_eigen();
+        let mut order: Vec<usize> = (0..mass.nrows()).collect();
+        order.sort_by(|&a, &b| eigen.eigenvalues[a].total_cmp(&eigen.eigenvalues[b]));
+        let squares = DVector::from_iterator(order.len(), order.iter().map(|&i| eigen.eigenvalues[i]));
+        let vectors = DMatrix::from_fn(order.len(), order.len(), |i, j| eigen.eigenvectors[(i, order[j])]);
+        let shapes = lower.tr_solve_lower_triangular(&vectors)?;
+        if !squares.iter().all(|s| *s > 0.0 && s.is_finite()) {
+            return None;
+        }
+        let of = |m: &DMatrix<f64>| shapes.tr_mul(m) * &shapes;
+        let (levers, load) = (shapes.tr_mul(levers), shapes.tr_mul(load));
+        let rest = levers.tr_mul(&load.component_div(&squares));
+        let mobility = levers.tr_mul(&levers);
+        let known = squares.iter().take_while(|s| **s <= highest * highest).count().max(1);
+        Some(Self {
+            known,
+            squares,
+            damping: of(damping),
+            gyroscopic: of(gyroscopic),
+            levers,
+            load,
+            rest,
+            mobility,
+            shapes,
+        })
+    }
+
+    /// What forces on s do at harmonic k of w. `None` at a resonance without damping.
+    pub fn receptance(&self, k: usize, w: f64) -> Option<Receptance> {
+        let (n, r, k) = (self.squares.len(), self.known, k as f64);
+        let imaginary = |x: f64| Complex::new(0.0, x);
+        // Z and dZ/dw = -2 k^2 w + i k (C + 2 w G), of the modes that are known and, one by one, of those beyond.
+        let z_of = |i: usize, j: usize| {
+            let re = if i == j { self.squares[i] - (k * w).powi(2) } else { 0.0 };
+            Complex::new(re, k * w * (self.damping[(i, j)] + w * self.gyroscopic[(i, j)]))
+        };
+        let rate_of = |i: usize, j: usize| imaginary(k * (self.damping[(i, j)] + 2.0 * w * self.gyroscopic[(i, j)]));
+        let factors = Factors::new(ComplexMatrix::from_fn(r, r, z_of))?;
+        let rates = ComplexMatrix::from_fn(r, r, rate_of);
+        let solved = |mut x: ComplexMatrix| {
+            let known = factors.solve(x.rows(0, r).into_owned())?;
+            x.rows_mut(0, r).copy_from(&known);
+            (r..n).for_each(|i| x.row_mut(i).iter_mut().for_each(|own| *own /= z_of(i, i)));
+            Some(x)
+        };
+        let levers = self.levers.map(|x| Complex::new(x, 0.0));
+        let modes = solved(levers.clone())?;
+        let mut turned = &modes * Complex::new(-2.0 * k * k * w, 0.0);
+        let mut known = turned.rows_mut(0, r);
+        known += rates * modes.rows(0, r);
+        for i in r..n {
+            let own = modes.row(i) * rate_of(i, i);
+            let mut row = turned.row_mut(i);
+            row += own;
+        }
+        let slope = -levers.tr_mul(&solved(turned)?);
+        let value = levers.tr_mul(&modes);
+        value.iter().chain(slope.iter()).all(|x| x.re.is_finite() && x.im.is_finite()).then_some(Receptance {
+            value,
+            slope,
+            modes,
+        })
+    }
+
+    /// Compliance of s by the modes beyond those that are known, as if they had no inertia, m x m.
+    pub fn compliance_beyond(&self) -> DMatrix<f64> {
+        let (n, m) = self.levers.shape();
+        let mut sum = DMatrix::zeros(m, m);
+        for i in self.known..n {
+            let own = self.levers.row(i).transpose();
+            sum.ger(1.0 / self.squares[i], &own, &own, 1.0);
+        }
+        sum
+    }
+}
