@@ -108,7 +108,9 @@ fn balance<S: PeriodicFamily>(
     let beyond = basis.values() * (&inertia - &residual).transpose() - &forces;
     let tail = system.mass().clone().cholesky().map_or(f64::INFINITY, |mass| {
         let added = mass.solve(&beyond.transpose()) / (frequency * (motion.harmonics() + 1) as f64).powi(2);
-        over_vibration(added, motion, &scale) / per_sample
+        let mut scaled = added;
+        scale_rows(&mut scaled, &scale.map(|s| 1.0 / s));
+        over_vibration(scaled.norm() / per_sample, motion, &scale)
     });
     scale_rows(&mut residual, &scale);
     let norm = |mut terms: DMatrix<f64>| {
@@ -145,16 +147,13 @@ fn frequency_derivative<S: PeriodicFamily>(
     all
 }
 
-/// Bound of the motion that harmonics above H would `add`, over the vibration: forces beyond them over the inertia at the
-/// first that is left out. Summed over the samples.
-pub(crate) fn over_vibration(mut added: DMatrix<f64>, motion: &FourierSeries, scale: &DVector<f64>) -> f64 {
-    let inverse = scale.map(|s| 1.0 / s);
-    scale_rows(&mut added, &inverse);
+/// Motion that is `added`, root mean square in time and in units of the scale, over that of the vibration.
+pub(crate) fn over_vibration(added: f64, motion: &FourierSeries, scale: &DVector<f64>) -> f64 {
     let mut vibration = motion.coefficients().clone();
     vibration.column_mut(0).fill(0.0);
-    scale_rows(&mut vibration, &inverse);
+    scale_rows(&mut vibration, &scale.map(|s| 1.0 / s));
     let size = vibration.norm() / 2f64.sqrt();
-    if size > 0.0 { added.norm() / size } else { 0.0 }
+    if size > 0.0 { added / size } else { 0.0 }
 }
 
 /// dR/dc, scaled: (harmonic, coordinate) by (harmonic, coordinate), harmonics outermost.

@@ -10,6 +10,8 @@ use crate::{
     balance::{force_slopes, over_vibration, scale_rows},
     equations::{Balance, PeriodicEquations},
     linear_machine::{ModalMachine, Receptance},
+    modal_flow::ModalFlow,
+    product::SeriesTransform,
     series::Basis,
 };
 
@@ -96,6 +98,45 @@ impl<S: CondensedFamily> Condensed<S> {
         let mut mean = modes.column_mut(0);
         mean += self.machine.load.component_div(&self.machine.squares);
         Ok(FourierSeries::from_coefficients(&self.machine.shapes * modes))
+    }
+
+    /// Multipliers of a motion with all modes of the machine, those beyond [`LinearMachine::highest`] among them.
+    ///
+    /// # Errors
+    /// Those of the forces; [`PeriodicError::Singular`] where disturbances have no equation.
+    pub fn with_all_modes(&mut self, motion: &PeriodicMotionOf<'_>) -> Result<Floquet, PeriodicError<S::Error>> {
+        let PeriodicMotionOf { parameter, series, samples } = *motion;
+        let at = |source| PeriodicError::Mechanism { parameter, phase: 0.0, source };
+        self.set_parameter(parameter).map_err(at)?;
+        let balance = self.balance(parameter, series, &Basis::new(series.harmonics(), samples), true)?;
+        self.multipliers(self.machine.squares.len(), &balance).ok_or(PeriodicError::Singular { parameter })
+    }
+
+    /// Multipliers with the lowest so many modes.
+    fn multipliers(&self, modes: usize, at: &Balance) -> Option<Floquet> {
+        let flow = ModalFlow::new(&self.machine, modes, self.frequency, at.stiffness.len())?;
+        flow.floquet(at, &self.reference)
+    }
+
+    /// Motion that harmonics beyond those of the equations would add, over the vibration: what they leave of the forces on
+    /// the machine.
+    ///
+    /// ```text
+    /// s_k = H(k w) f_k,   k = H + 1 .. N/2
+    /// ```
+    fn tail(&self, samples: DMatrix<f64>, motion: &FourierSeries, scale: &DVector<f64>) -> f64 {
+        let count = samples.nrows();
+        let mut transform = SeriesTransform::new(count);
+        let sums: Option<Vec<_>> = samples.column_iter().map(|own| transform.sums(own.iter().copied())).collect();
+        let Some(sums) = sums else { return f64::INFINITY };
+        let of = |k: usize| {
+            let forces = DVector::from_iterator(sums.len(), sums.iter().map(|own| own[k]));
+            let added = self.machine.uncoupled((k, self.frequency), &forces);
+            added.iter().zip(scale.iter()).map(|(s, size)| s.norm_sqr() / (size * size)).sum::<f64>()
+        };
+        // Root mean square in time: a sum of N samples is N/2 times its amplitude.
+        let added: f64 = (motion.harmonics() + 1..=count / 2).map(of).sum();
+        over_vibration((2.0 * added).sqrt() / count as f64, motion, scale)
     }
 
     /// f_k + k_0 s_k.
@@ -188,11 +229,7 @@ impl<S: CondensedFamily> PeriodicEquations for Condensed<S> {
         };
         let [forces, samples] = self.forces((parameter, self.frequency), motion, basis, seen, tangents)?;
         let scale = self.family.scale();
-        // What the harmonics of the equations leave of the forces, in time.
-        let beyond = (basis.values() * forces.transpose() - samples).transpose();
-        let first_out = self.frequency * (motion.harmonics() + 1) as f64;
-        let added = &self.machine.mobility * beyond / first_out.powi(2);
-        let tail = over_vibration(added, motion, &scale) / (basis.samples() as f64).sqrt();
+        let tail = self.tail(samples, motion, &scale);
         let mut at = Balance { residual: DMatrix::zeros(0, 0), size: 0.0, tail, forces, stiffness, damping };
         let driven = self.driven(motion, &at);
         let mut answer = DMatrix::zeros(driven.nrows(), driven.ncols());
@@ -269,29 +306,9 @@ impl<S: CondensedFamily> PeriodicEquations for Condensed<S> {
         Ok(all)
     }
 
-    /// Multipliers of the modes up to [`LinearMachine::highest`]; those beyond follow at rest (g: their compliance).
-    ///
-    /// ```text
-    /// y'' + (C + w G + B (1 + x g)^-1 d (1 + g x)^-1 B') y' + (omega^2 + B x (1 + g x)^-1 B') y = 0,   x = -df/ds - k_0,  d = -df/ds'
-    /// ```
+    /// Multipliers of the modes up to [`LinearMachine::highest`].
     fn floquet(&self, _: &Basis, at: &Balance) -> Option<Floquet> {
-        let machine = &self.machine;
-        let r = machine.known;
-        let g = machine.compliance_beyond();
-        let (levers, m) = (machine.levers.rows(0, r).into_owned(), g.nrows());
-        let one = DMatrix::<f64>::identity(m, m);
-        let squares = DMatrix::from_diagonal(&machine.squares.rows(0, r));
-        let own = |all: &DMatrix<f64>| all.view((0, 0), (r, r)).into_owned();
-        let damped = own(&machine.damping) + own(&machine.gyroscopic) * self.frequency;
-        let (mut stiffness, mut damping) = (Vec::new(), Vec::new());
-        for (k, d) in at.stiffness.iter().zip(&at.damping) {
-            let x = k - &self.reference;
-            let inward = (&one + &g * &x).try_inverse()?;
-            let outward = (&one + &x * &g).try_inverse()?;
-            stiffness.push(&squares + &levers * (&x * &inward) * levers.transpose());
-            damping.push(&damped + &levers * (outward * d * inward) * levers.transpose());
-        }
-        Floquet::of(&DMatrix::identity(r, r), &stiffness, &damping, self.period(), None)
+        self.multipliers(self.machine.known, at)
     }
 }
 

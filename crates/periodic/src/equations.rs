@@ -18,7 +18,7 @@ pub struct Balance {
     pub residual: DMatrix<f64>,
     /// Size of the terms that balance.
     pub size: f64,
-    /// Bound of the motion that the harmonics leave out, over the vibration.
+    /// Motion that the harmonics leave out, over the vibration.
     pub tail: f64,
     /// P f: harmonics of the forces, n x (2 H + 1).
     pub forces: DMatrix<f64>,

@@ -15,6 +15,7 @@ mod error;
 mod family;
 mod free_direction;
 mod linear_machine;
+mod modal_flow;
 mod plan;
 mod product;
 mod series;

@@ -30,7 +30,8 @@ pub struct LinearMachine {
     /// off the forces: results do not depend on it.
     pub reference: DMatrix<f64>,
     /// Frequency (rad/s) up to which the machine is known. Modes beyond have their own damping alone, Phi' (C + w G) Phi on its
-    /// diagonal, and follow as if they had no inertia when a motion is disturbed. Infinite: all is exact.
+    /// diagonal, and follow as if they had no inertia when a motion is disturbed ([`crate::Condensed::with_all_modes`]: what
+    /// that leaves out). Infinite: all is exact.
     pub highest: f64,
 }
 
@@ -53,8 +54,6 @@ pub(crate) struct ModalMachine {
     pub load: DVector<f64>,
     /// s under p alone.
     pub rest: DVector<f64>,
-    /// B' M^-1 B.
-    pub mobility: DMatrix<f64>,
     /// Number of modes up to [`LinearMachine::highest`].
     pub known: usize,
 }
@@ -94,7 +93,6 @@ impl ModalMachine {
         let of = |m: &DMatrix<f64>| shapes.tr_mul(m) * &shapes;
         let (levers, load) = (shapes.tr_mul(levers), shapes.tr_mul(load));
         let rest = levers.tr_mul(&load.component_div(&squares));
-        let mobility = levers.tr_mul(&levers);
         let known = squares.iter().take_while(|s| **s <= highest * highest).count().max(1);
         Some(Self {
             known,
@@ -104,7 +102,6 @@ impl ModalMachine {
             levers,
             load,
             rest,
-            mobility,
             shapes,
         })
     }
@@ -146,11 +143,23 @@ impl ModalMachine {
         })
     }
 
-    /// Compliance of s by the modes beyond those that are known, as if they had no inertia, m x m.
-    pub fn compliance_beyond(&self) -> DMatrix<f64> {
+    /// H f at harmonic k of w, every mode by its own damping alone.
+    pub fn uncoupled(&self, (k, w): (usize, f64), forces: &DVector<Complex<f64>>) -> DVector<Complex<f64>> {
+        let turn = k as f64 * w;
+        let mut sum = DVector::zeros(forces.len());
+        for (i, lever) in self.levers.row_iter().enumerate() {
+            let own: Complex<f64> = lever.iter().zip(forces.iter()).map(|(b, f)| f * *b).sum();
+            let mode = own / Complex::new(self.squares[i] - turn * turn, turn * self.damping[(i, i)]);
+            sum.iter_mut().zip(lever.iter()).for_each(|(s, b): (&mut Complex<f64>, _)| *s += mode * *b);
+        }
+        sum
+    }
+
+    /// Compliance of s by all modes but the lowest so many, as if they had no inertia, m x m.
+    pub fn compliance_beyond(&self, modes: usize) -> DMatrix<f64> {
         let (n, m) = self.levers.shape();
         let mut sum = DMatrix::zeros(m, m);
-        for i in self.known..n {
+        for i in modes..n {
             let own = self.levers.row(i).transpose();
             sum.ger(1.0 / self.squares[i], &own, &own, 1.0);
         }

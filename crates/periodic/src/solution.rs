@@ -53,7 +53,8 @@ pub struct PeriodicMotion {
     pub floquet: Floquet,
     /// What is left of the equations, over the terms that balance.
     pub residual: f64,
-    /// Bound of the motion that the harmonics leave out, over the vibration.
+    /// Motion that the harmonics leave out, over the vibration: by the inertia alone, which bounds it where no resonance lies
+    /// beyond them, or of [`crate::Condensed`] by the machine itself.
     pub tail: f64,
     /// Newton steps.
     pub iterations: usize,

@@ -66,12 +66,6 @@ pub(crate) fn checks<E>(branch: &Branch<E>, plan: &BranchPlan) -> Checks {
     ])
 }
 
-/// Why a branch over a key ends within its range, where it does.
-pub(crate) fn broken<E: std::fmt::Display>(branch: &Branch<E>, plan: &BranchPlan, key: &str) -> Option<String> {
-    let cut = |last: f64| format!("{key} = {last:.6} is reached after all {} `motions`", plan.most);
-    branch.broken.as_ref().map(ToString::to_string).or_else(|| plan.cut_short(branch).map(cut))
-}
-
 /// Motions to be integrated in time: stable ones, spread over the branch.
 pub(crate) fn stable_ones<'a>(points: impl Iterator<Item = &'a BranchPoint>, most: usize) -> Vec<usize> {
     let stable: Vec<usize> = points.enumerate().filter(|(_, p)| p.is_stable).map(|(i, _)| i).collect();

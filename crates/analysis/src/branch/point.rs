@@ -67,7 +67,7 @@ described::described! {
         pub newton_steps: usize,
         /// residual of the balance of forces, over the forces
         pub residual: f64,
-        /// bound of the vibration that further harmonics would add, over the vibration
+        /// estimate of the vibration that further harmonics would add, over the vibration
         pub tail: f64,
     }
 }

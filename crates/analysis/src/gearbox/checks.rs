@@ -44,7 +44,10 @@ impl GearboxResult {
         let of_branch = self.branch.as_ref().map(|own| (&own.reach, &own.reduction));
         if let Some((reach, reduction)) = of_motion.or(of_branch) {
             let beyond = reach.iter().copied().fold(0.0, crate::worse);
-            let hint = "take `mesh = \"exact\"`, or let it run with more damping";
+            let hint = match &self.motion {
+                Some(_) => "take `mesh = \"exact\"`, or let it run with more damping",
+                None => "give it more damping, or a larger load",
+            };
             all.push(Check::new("map_use", beyond, 1.0, hint));
             let hint = "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept";
             all.push(Check::new("shaft_frequency_error", reduction.error, FREQUENCIES, hint));

@@ -4,7 +4,7 @@ use described::Key;
 use scene::gearbox::Gearbox;
 use serde_json::{Map, Value, json};
 
-use crate::{branch::LossName, run_up::RunUpTorque};
+use crate::run_up::RunUpTorque;
 
 use super::{
     BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult,
@@ -126,7 +126,7 @@ const NUMBERS: [Number; 22] = [
             "f64",
             "number of folds of the branch over the speed; with `run = \"continuation\"`",
         ),
-        of: Of::Branch(|b| b.speeds_at(LossName::Fold).len() as f64),
+        of: Of::Branch(|b| b.figures.folds.len() as f64),
     },
     Number {
         key: Key::new(
@@ -134,7 +134,7 @@ const NUMBERS: [Number; 22] = [
             "f64",
             "number of unstable motions of the branch; with `run = \"continuation\"`",
         ),
-        of: Of::Branch(|b| b.unstable() as f64),
+        of: Of::Branch(|b| b.figures.unstable as f64),
     },
     list(
         "branch_peak_to_peak_dte_um",

@@ -12,6 +12,9 @@ use crate::GearboxError;
 /// Harmonics of a period at the most, of all cycles in it.
 const HARMONICS: usize = 1000;
 
+/// Motions whose multipliers are found with all modes as well.
+const WITH_ALL_MODES: usize = 8;
+
 /// Periodic motions of a gearbox along the speed of its input, 1/min.
 #[derive(Debug)]
 pub struct GearboxBranch {
@@ -25,8 +28,11 @@ pub struct GearboxBranch {
     pub period_cycles: u64,
     /// Cycles of each mesh in a period.
     pub mesh_cycles: Vec<u64>,
-    /// Coordinates of the gearbox, and those of them that the balance is about.
+    /// Coordinates of the gearbox, and those that the meshes see.
     pub coordinates: [usize; 2],
+    /// Size of the largest multiplier of some of the motions, spread over the branch: as the branch has it, and with the
+    /// modes above twice the highest frequency that shafts must show.
+    pub with_all_modes: Vec<[f64; 2]>,
 }
 
 impl GearboxMechanism {
@@ -66,14 +72,25 @@ impl GearboxMechanism {
         let failed = |e| GearboxError::Branch(Box::new(e));
         let plan = BranchPlan { balance, ..*plan };
         let branch = plan.follow(&mut system, &start, seen).map_err(failed)?;
-        let mut whole = |motion: &PeriodicMotion| {
+        let of = |motion: &PeriodicMotion| {
             let samples = (balance.samples_per_harmonic * motion.series.harmonics()).max(balance.least_samples);
-            let of = PeriodicMotionOf { parameter: motion.parameter, series: &motion.series, samples };
-            system.whole(&of).map_err(failed)
+            (motion.parameter, samples)
+        };
+        let mut whole = |motion: &PeriodicMotion| {
+            let (parameter, samples) = of(motion);
+            system.whole(&PeriodicMotionOf { parameter, series: &motion.series, samples }).map_err(failed)
         };
         let motions = branch.motions.iter().map(&mut whole).collect::<Result<_, _>>()?;
         let bifurcations = branch.bifurcations.iter().map(|b| whole(&b.motion)).collect::<Result<_, _>>()?;
-        Ok(GearboxBranch { branch, motions, bifurcations, period_cycles, mesh_cycles, coordinates })
+        let judged = WITH_ALL_MODES.min(branch.motions.len());
+        let with_all_modes = (0..judged).map(|k| {
+            let motion = &branch.motions[(2 * k + 1) * branch.motions.len() / (2 * judged)];
+            let (parameter, samples) = of(motion);
+            let all = system.with_all_modes(&PeriodicMotionOf { parameter, series: &motion.series, samples });
+            Ok([motion.floquet.largest(), all.map_err(failed)?.largest()])
+        });
+        let with_all_modes = with_all_modes.collect::<Result<_, GearboxError>>()?;
+        Ok(GearboxBranch { branch, motions, bifurcations, period_cycles, mesh_cycles, coordinates, with_all_modes })
     }
 
     /// How much of what each mesh holds has been used at most ([`super::MovingMesh::reach`]).

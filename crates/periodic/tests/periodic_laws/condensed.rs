@@ -1,12 +1,13 @@
 //! A chain of masses with forces at few places: the balance of those places alone is that of all coordinates.
+#![allow(clippy::print_stdout, reason = "the figures are what the tests are for")]
 
 use std::{convert::Infallible, f64::consts::TAU, ops::ControlFlow};
 
 use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 use periodic::{
-    BalanceOptions, Branch, BranchPlan, Condensed, CondensedFamily, FourierSeries, LinearMachine, PeriodicFamily,
-    PeriodicMotionOf,
+    BalanceOptions, Branch, BranchPlan, Condensed, CondensedFamily, FourierSeries, LinearMachine, Loss, PeriodicFamily,
+    PeriodicMotion, PeriodicMotionOf, Tracer,
 };
 
 /// Contact with clearance between the ends of two chains, stiffer and softer over the period; nothing else holds the second one.
@@ -141,7 +142,7 @@ fn few(machine: &LinearMachine) -> (Condensed<Few>, Branch<Infallible>) {
 fn few_places_stand_for_all_coordinates() {
     let machine = machine();
     let (mut system, branch) = few(&machine);
-    let folds = branch.bifurcations.iter().filter(|b| b.loss == periodic::Loss::Fold).count();
+    let folds = branch.bifurcations.iter().filter(|b| b.loss == Loss::Fold).count();
     assert!(branch.broken.is_none() && folds >= 2, "{folds} folds, {:?}", branch.broken);
     let mut all = All { contact: Contact { frequency: 1.0 }, machine: machine.clone() };
     let unstable = branch.motions.iter().filter(|m| !m.floquet.is_stable()).count();
@@ -149,7 +150,7 @@ fn few_places_stand_for_all_coordinates() {
     for motion in branch.motions.iter().step_by(5) {
         let of = PeriodicMotionOf { parameter: motion.parameter, series: &motion.series, samples: 1024 };
         let whole = system.whole(&of).unwrap();
-        let mut tracer = periodic::Tracer::new(&mut all, plan().balance, 1.0).unwrap();
+        let mut tracer = Tracer::new(&mut all, plan().balance, 1.0).unwrap();
         let wanted = tracer.motion_at(motion.parameter, &whole).unwrap();
         assert!(wanted.iterations <= 2, "{} Newton steps from what is a solution", wanted.iterations);
         let size = wanted.series.peak_to_peak(&dvector![0.0, 0.0, 1.0, 0.0]);
@@ -160,6 +161,76 @@ fn few_places_stand_for_all_coordinates() {
         let [found, right] = [motion, &wanted].map(|m| m.floquet.largest());
         assert!((found - right).abs() < 1e-6 * right, "w {}: multiplier {found}, not {right}", motion.parameter);
     }
+}
+
+/// The motion of a machine at the value of another one that is near.
+fn beside(machine: &LinearMachine, options: BalanceOptions, motion: &PeriodicMotion) -> PeriodicMotion {
+    let mut system = Condensed::new(Few(Contact { frequency: 1.0 }), machine).unwrap();
+    Tracer::new(&mut system, options, 1.0).unwrap().motion_at(motion.parameter, &motion.series).unwrap()
+}
+
+/// k_0 is added to the machine and taken off the forces: motions, multipliers and folds are the same whatever it is.
+#[test]
+fn the_reference_stiffness_changes_nothing() {
+    let machine = machine();
+    let other = LinearMachine { reference: dmatrix![1.3], ..machine.clone() };
+    let [a, b] = [&machine, &other].map(|machine| few(machine).1);
+    for motion in a.motions.iter().step_by(4) {
+        let same = beside(&other, plan().balance, motion);
+        assert!(same.iterations <= 1, "w {}: {} Newton steps", motion.parameter, same.iterations);
+        let [found, wanted] = [&same, motion].map(|m| m.floquet.largest());
+        assert!((found / wanted - 1.0).abs() < 1e-7, "w {}: multiplier {found}, not {wanted}", motion.parameter);
+    }
+    let folds = |of: &Branch<Infallible>| -> Vec<f64> {
+        of.bifurcations.iter().filter(|b| b.loss == Loss::Fold).map(|b| b.motion.parameter).collect()
+    };
+    let [a, b] = [folds(&a), folds(&b)];
+    assert!(a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a / b - 1.0).abs() < 1e-7), "{a:?}, {b:?}");
+}
+
+/// Modes above the highest frequency that is known follow as if at rest: motions and multipliers are nearly those of the whole
+/// machine, and what is left out of the multipliers is what those of all modes say.
+#[test]
+fn modes_beyond_the_highest_frequency_follow() {
+    let machine = machine();
+    let fewer = LinearMachine { highest: 5.0, ..machine.clone() };
+    let (_, branch) = few(&machine);
+    for motion in branch.motions.iter().step_by(6) {
+        let found = beside(&fewer, plan().balance, motion);
+        let size = motion.series.peak_to_peak(&dvector![1.0]);
+        let off = (0..8).map(|i| (found.series.at(f64::from(i)) - motion.series.at(f64::from(i)))[0].abs());
+        let off = off.fold(0.0, f64::max) / size;
+        assert!(off < 1e-3, "w {}: off by {off:e}", motion.parameter);
+        let mut system = Condensed::new(Few(Contact { frequency: 1.0 }), &fewer).unwrap();
+        let of = PeriodicMotionOf { parameter: motion.parameter, series: &found.series, samples: 1024 };
+        let all = system.with_all_modes(&of).unwrap();
+        assert!(all.multipliers.len() == 8 && found.floquet.multipliers.len() == 4, "{all:?}, {found:?}");
+        let [known, all, exact] = [&found.floquet, &all, &motion.floquet].map(|f| f.largest());
+        println!("w {:.4}: off {off:.1e}, multiplier {exact:.5}, {all:.5}, {known:.5}", motion.parameter);
+        assert!((all - exact).abs() < 1e-3 * exact && (known - exact).abs() < 2e-2 * exact);
+    }
+}
+
+/// What few harmonics say that they leave out is what more of them add, in root mean square over the vibration.
+#[test]
+fn the_tail_is_what_more_harmonics_add() {
+    let (_, branch) = few(&machine());
+    let off = |a: &PeriodicMotion, b: &PeriodicMotion| {
+        let at = |i: usize| TAU * i as f64 / 256.0;
+        let square = |of: &dyn Fn(f64) -> f64| (0..256).map(|i| of(at(i)).powi(2)).sum::<f64>();
+        let mean = b.series.amplitude(0, 0);
+        (square(&|t| (a.series.at(t) - b.series.at(t))[0]) / square(&|t| b.series.at(t)[0] - mean)).sqrt()
+    };
+    let mut seen = 0;
+    for motion in branch.motions.iter().filter(|m| m.tail > 1e-6).step_by(5) {
+        let fewer = BalanceOptions { harmonics: 8, most_harmonics: 8, tail: 1.0, ..plan().balance };
+        let found = beside(&machine(), fewer, motion);
+        let (left, added) = (found.tail, off(&found, motion));
+        println!("w {:.4}: tail {left:.2e}, added {added:.2e}", motion.parameter);
+        assert!(added < 5.0 * left && left < 5.0 * added, "w {}: tail {left:e}, added {added:e}", motion.parameter);
+        seen += 1;
+    }
+    assert!(seen > 3, "{seen} motions");
 }
 
 /// A plan that ends too early says where, and what it left out.

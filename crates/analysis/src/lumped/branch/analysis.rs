@@ -10,13 +10,12 @@ use super::{
     super::{LumpedInputs, analysis, excitation::ExcitationSource, remarks::no_backlash},
     ContinuationHeadline,
     family::ModelFamily,
-    headline::{HeadlineInputs, headline},
     in_time::{integrated, settled},
     point::point,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress,
-    branch::{BranchPoint, BranchTurn, BranchWords, TimePoint, broken, checks, stable_ones},
+    branch::{BranchFigures, BranchPoint, BranchTurn, BranchWords, ReadOff, TimePoint, checks, stable_ones},
     certificate::Checks,
     error::in_scene,
     facts::RunInfo,
@@ -125,17 +124,19 @@ impl<'a> ContinuationAnalysis<'a> {
             chosen.iter().map(one).collect::<Result<Vec<TimePoint>, AnalysisError>>()
         })?;
         facts.certificate = checks(&branch, &plan).and(Checks::new(family.now().0.checks()));
-        let of = HeadlineInputs {
-            words: &words,
-            coordinates,
+        let largest = points.iter().max_by(|a, b| a.peak_to_peak_dte_um.total_cmp(&b.peak_to_peak_dte_um));
+        let read = ReadOff { points: &alone(&points), turns: &alone(&turns), in_time: &alone(&in_time) };
+        let figures =
+            BranchFigures::new((&branch, &plan, words.key.word()), read, (coordinates, words.period_cycles));
+        let headline = ContinuationHeadline {
+            key: words.key.word(),
             mesh_resonance_hz: system.resonance_hz,
-            newton_steps: branch.iterations,
-            broken: broken(&branch, &plan, words.key.word()),
+            largest: largest.cloned().ok_or_else(Refusal::no_values)?,
+            figures,
         };
-        let headline = headline(of, &points, &turns, &in_time).ok_or_else(Refusal::no_values)?;
         remarks.extend(gears::remarks(&inputs.pair));
         remarks.extend(no_backlash(&inputs));
-        remarks.extend(headline.remarks());
+        remarks.extend(headline.figures.remarks(("period_cycles", 2 * words.period_cycles)));
         remarks.extend(inputs.left_out_of_sweeps());
         Ok(ContinuationResult { facts, points, turns, in_time, headline, remarks })
     }
@@ -152,6 +153,11 @@ impl<'a> ContinuationAnalysis<'a> {
         first.analysis.cycles = first.analysis.cycles.max(words.period_cycles);
         first
     }
+}
+
+/// What is read off each motion, of the one mesh of a pair.
+fn alone<T: Clone>(all: &[T]) -> Vec<Vec<T>> {
+    all.iter().map(|own| vec![own.clone()]).collect()
 }
 
 /// The branch from its first motion on.
