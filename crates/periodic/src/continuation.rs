@@ -8,6 +8,7 @@ use crate::{
     equations::{Balance, PeriodicEquations},
     series::Basis,
     solution::{Condition, Equations, Point, Solved, unknowns},
+    turns::listed,
 };
 
 /// Options of a branch.
@@ -55,9 +56,6 @@ const SHORTEST: f64 = 1e-5;
 const REFINEMENTS: usize = 40;
 /// How near to a bifurcation is near enough, over the step that passed it.
 const NEAR: f64 = 1e-7;
-/// Distance of a fold's turn and its multiplier of +1 in neighbouring steps, over the scale of the parameter, up to which they
-/// are one.
-const SAME: f64 = 1e-2;
 /// Largest growth and decrease of a step.
 const CHANGE: [f64; 2] = [0.5, 1.6];
 
@@ -239,8 +237,7 @@ impl<'a, S: PeriodicEquations> Tracer<'a, S> {
                 }
             };
             if let Some((loss, motion)) = self.between(&here, &next, step)? {
-                let bifurcation = Bifurcation { loss, motion, after: branch.motions.len() - 1 };
-                passed.push((bifurcation, here.slope() * next.slope() < 0.0));
+                passed.push(Bifurcation { loss, motion, after: branch.motions.len() - 1 });
             }
             let growth = WANTED / next.motion.iterations.max(1) as f64;
             step = (step * growth.clamp(CHANGE[0], CHANGE[1])).min(options.longest_step);
@@ -257,7 +254,7 @@ impl<'a, S: PeriodicEquations> Tracer<'a, S> {
             }
         }
         branch.iterations = self.iterations;
-        branch.bifurcations = without_echoes(passed, SAME * self.unit);
+        branch.bifurcations = listed(&branch.motions, passed, self.unit);
         Ok(branch)
     }
 
@@ -315,19 +312,6 @@ impl<'a, S: PeriodicEquations> Tracer<'a, S> {
     fn unknowns(&self) -> usize {
         self.system.scale().len() * (2 * self.basis.harmonics() + 1) + 1
     }
-}
-
-/// Bifurcations without folds that are found twice: where the branch turns, and where a multiplier passes +1, which their
-/// discretisation sets a little apart. With each: whether the branch turns there.
-fn without_echoes(passed: Vec<(Bifurcation, bool)>, near: f64) -> Vec<Bifurcation> {
-    let is_echo = |(own, turns): &(Bifurcation, bool)| {
-        let of = |(other, turned): &(Bifurcation, bool)| {
-            let apart = (other.motion.parameter - own.motion.parameter).abs();
-            *turned && other.after.abs_diff(own.after) <= 1 && apart <= near
-        };
-        !turns && own.loss == Loss::Fold && passed.iter().any(of)
-    };
-    passed.iter().filter(|own| !is_echo(own)).map(|(own, _)| own.clone()).collect()
 }
 
 fn basis_of(options: &BalanceOptions, harmonics: usize) -> Basis {

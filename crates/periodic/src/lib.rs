@@ -22,6 +22,7 @@ mod series;
 mod shooting;
 mod solution;
 mod stability;
+mod turns;
 
 pub use condensed::{Condensed, CondensedFamily, PeriodicMotionOf};
 pub use continuation::{Bifurcation, Branch, BranchOptions, Tracer};

@@ -94,16 +94,7 @@ impl ModalMachine {
         let (levers, load) = (shapes.tr_mul(levers), shapes.tr_mul(load));
         let rest = levers.tr_mul(&load.component_div(&squares));
         let known = squares.iter().take_while(|s| **s <= highest * highest).count().max(1);
-        Some(Self {
-            known,
-            squares,
-            damping: of(damping),
-            gyroscopic: of(gyroscopic),
-            levers,
-            load,
-            rest,
-            shapes,
-        })
+        Some(Self { known, squares, damping: of(damping), gyroscopic: of(gyroscopic), levers, load, rest, shapes })
     }
 
     /// What forces on s do at harmonic k of w. `None` at a resonance without damping.

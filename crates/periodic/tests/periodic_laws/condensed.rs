@@ -185,6 +185,7 @@ fn the_reference_stiffness_changes_nothing() {
         of.bifurcations.iter().filter(|b| b.loss == Loss::Fold).map(|b| b.motion.parameter).collect()
     };
     let [a, b] = [folds(&a), folds(&b)];
+    assert_eq!(a.len(), 2, "{a:?}: where the branch turns, and nowhere else");
     assert!(a.len() == b.len() && a.iter().zip(&b).all(|(a, b)| (a / b - 1.0).abs() < 1e-7), "{a:?}, {b:?}");
 }
 
@@ -193,14 +194,15 @@ fn the_reference_stiffness_changes_nothing() {
 #[test]
 fn modes_beyond_the_highest_frequency_follow() {
     let machine = machine();
-    let fewer = LinearMachine { highest: 5.0, ..machine.clone() };
+    let fewer = LinearMachine { highest: 5.0, gyroscopic: DMatrix::zeros(4, 4), ..machine };
+    let machine = LinearMachine { highest: f64::INFINITY, ..fewer.clone() };
     let (_, branch) = few(&machine);
     for motion in branch.motions.iter().step_by(6) {
         let found = beside(&fewer, plan().balance, motion);
         let size = motion.series.peak_to_peak(&dvector![1.0]);
         let off = (0..8).map(|i| (found.series.at(f64::from(i)) - motion.series.at(f64::from(i)))[0].abs());
         let off = off.fold(0.0, f64::max) / size;
-        assert!(off < 1e-3, "w {}: off by {off:e}", motion.parameter);
+        assert!(off < 5e-3, "w {}: off by {off:e}", motion.parameter);
         let mut system = Condensed::new(Few(Contact { frequency: 1.0 }), &fewer).unwrap();
         let of = PeriodicMotionOf { parameter: motion.parameter, series: &found.series, samples: 1024 };
         let all = system.with_all_modes(&of).unwrap();
@@ -222,12 +224,14 @@ fn the_tail_is_what_more_harmonics_add() {
         (square(&|t| (a.series.at(t) - b.series.at(t))[0]) / square(&|t| b.series.at(t)[0] - mean)).sqrt()
     };
     let mut seen = 0;
-    for motion in branch.motions.iter().filter(|m| m.tail > 1e-6).step_by(5) {
+    // Next to a fold a motion moves by many times what it is pushed by.
+    let far = |m: &&PeriodicMotion| m.tail > 1e-6 && m.parameter > 1.07 && m.floquet.is_stable();
+    for motion in branch.motions.iter().filter(far).step_by(3) {
         let fewer = BalanceOptions { harmonics: 8, most_harmonics: 8, tail: 1.0, ..plan().balance };
         let found = beside(&machine(), fewer, motion);
         let (left, added) = (found.tail, off(&found, motion));
         println!("w {:.4}: tail {left:.2e}, added {added:.2e}", motion.parameter);
-        assert!(added < 5.0 * left && left < 5.0 * added, "w {}: tail {left:e}, added {added:e}", motion.parameter);
+        assert!(added < 2.0 * left && left < 2.0 * added, "w {}: tail {left:e}, added {added:e}", motion.parameter);
         seen += 1;
     }
     assert!(seen > 3, "{seen} motions");

@@ -8,7 +8,8 @@ use crate::page::Line;
 pub(crate) fn lines(key: &str, of: &BranchFigures, largest: &[(&str, &BranchPoint)]) -> Vec<Line> {
     let listed = |values: &[f64]| values.iter().map(|v| format!("{v:.6}")).collect::<Vec<_>>().join(", ");
     let peaks = largest.iter().map(|(name, point)| {
-        let label = if name.is_empty() { "largest peak-to-peak DTE".to_owned() } else { format!("{name}: largest p-p DTE") };
+        let label =
+            if name.is_empty() { "largest peak-to-peak DTE".to_owned() } else { format!("{name}: largest p-p DTE") };
         Line::number(label, point.peak_to_peak_dte_um, 4, format!("um at {:.6}", point.value))
     });
     let cycles = format!("{} unstable, {} mesh cycle(s) each", of.unstable, of.period_cycles);

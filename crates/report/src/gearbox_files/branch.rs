@@ -72,10 +72,7 @@ impl<'a> BranchSummary<'a> {
 
 /// Objects of the summary with their keys; the motions are those of a continuation.
 pub(super) fn objects() -> [(&'static str, Vec<Key>); 2] {
-    [
-        ("branch", [BranchSummary::KEYS, BranchFigures::KEYS].concat()),
-        ("meshes, branch", MeshBranch::KEYS.to_vec()),
-    ]
+    [("branch", [BranchSummary::KEYS, BranchFigures::KEYS].concat()), ("meshes, branch", MeshBranch::KEYS.to_vec())]
 }
 
 /// The branch as tables and charts take it.

@@ -126,8 +126,7 @@ impl<'a> ContinuationAnalysis<'a> {
         facts.certificate = checks(&branch, &plan).and(Checks::new(family.now().0.checks()));
         let largest = points.iter().max_by(|a, b| a.peak_to_peak_dte_um.total_cmp(&b.peak_to_peak_dte_um));
         let read = ReadOff { points: &alone(&points), turns: &alone(&turns), in_time: &alone(&in_time) };
-        let figures =
-            BranchFigures::new((&branch, &plan, words.key.word()), read, (coordinates, words.period_cycles));
+        let figures = BranchFigures::new((&branch, &plan, words.key.word()), read, (coordinates, words.period_cycles));
         let headline = ContinuationHeadline {
             key: words.key.word(),
             mesh_resonance_hz: system.resonance_hz,
