@@ -29,8 +29,8 @@ pub struct LinearMachine {
     /// k_0, m x m: what stands for -df/ds so that K + B k_0 B' is positive definite. It is added to the machine and taken
     /// off the forces: results do not depend on it.
     pub reference: DMatrix<f64>,
-    /// Frequency (rad/s) up to which the machine is known. Modes beyond have their own damping alone, Phi' (C + w G) Phi on its
-    /// diagonal, and follow as if they had no inertia when a motion is disturbed ([`crate::Condensed::with_all_modes`]: what
+    /// Frequency (rad/s) up to which the machine is known. Modes beyond have no damping and gyroscopic forces among themselves,
+    /// but for each its own Phi' (C + w G) Phi on the diagonal, and follow as if they had no inertia when a motion is disturbed ([`crate::Condensed::with_all_modes`]: what
     /// that leaves out). Infinite: all is exact.
     pub highest: f64,
 }
@@ -100,32 +100,45 @@ impl ModalMachine {
     /// What forces on s do at harmonic k of w. `None` at a resonance without damping.
     pub fn receptance(&self, k: usize, w: f64) -> Option<Receptance> {
         let (n, r, k) = (self.squares.len(), self.known, k as f64);
-        let imaginary = |x: f64| Complex::new(0.0, x);
-        // Z and dZ/dw = -2 k^2 w + i k (C + 2 w G), of the modes that are known and, one by one, of those beyond.
+        // Z and dZ/dw = -2 k^2 w + i k (C + 2 w G).
         let z_of = |i: usize, j: usize| {
             let re = if i == j { self.squares[i] - (k * w).powi(2) } else { 0.0 };
             Complex::new(re, k * w * (self.damping[(i, j)] + w * self.gyroscopic[(i, j)]))
         };
-        let rate_of = |i: usize, j: usize| imaginary(k * (self.damping[(i, j)] + 2.0 * w * self.gyroscopic[(i, j)]));
-        let factors = Factors::new(ComplexMatrix::from_fn(r, r, z_of))?;
-        let rates = ComplexMatrix::from_fn(r, r, rate_of);
-        let solved = |mut x: ComplexMatrix| {
-            let known = factors.solve(x.rows(0, r).into_owned())?;
-            x.rows_mut(0, r).copy_from(&known);
-            (r..n).for_each(|i| x.row_mut(i).iter_mut().for_each(|own| *own /= z_of(i, i)));
-            Some(x)
+        let rate_of = |i: usize, j: usize| {
+            let re = if i == j { -2.0 * k * k * w } else { 0.0 };
+            Complex::new(re, k * (self.damping[(i, j)] + 2.0 * w * self.gyroscopic[(i, j)]))
+        };
+        // Modes beyond are coupled to those that are known, and not among themselves.
+        let across = [
+            ComplexMatrix::from_fn(r, n - r, |i, j| z_of(i, r + j)),
+            ComplexMatrix::from_fn(n - r, r, |i, j| z_of(r + i, j)),
+        ];
+        let over = |mut x: ComplexMatrix| {
+            (r..n).for_each(|i| x.row_mut(i - r).iter_mut().for_each(|own| *own /= z_of(i, i)));
+            x
+        };
+        let known = ComplexMatrix::from_fn(r, r, z_of) - &across[0] * over(across[1].clone());
+        let factors = Factors::new(known)?;
+        let solved = |x: &ComplexMatrix| {
+            let beyond = over(x.rows(r, n - r).into_owned());
+            let known = factors.solve(x.rows(0, r) - &across[0] * &beyond)?;
+            let beyond = beyond - over(&across[1] * &known);
+            let mut all = ComplexMatrix::zeros(n, x.ncols());
+            all.rows_mut(0, r).copy_from(&known);
+            all.rows_mut(r, n - r).copy_from(&beyond);
+            Some(all)
         };
         let levers = self.levers.map(|x| Complex::new(x, 0.0));
-        let modes = solved(levers.clone())?;
-        let mut turned = &modes * Complex::new(-2.0 * k * k * w, 0.0);
-        let mut known = turned.rows_mut(0, r);
-        known += rates * modes.rows(0, r);
+        let modes = solved(&levers)?;
+        let mut turned = ComplexMatrix::from_fn(r, n, rate_of) * &modes;
+        turned = turned.resize_vertically(n, Complex::new(0.0, 0.0));
         for i in r..n {
-            let own = modes.row(i) * rate_of(i, i);
-            let mut row = turned.row_mut(i);
-            row += own;
+            let own =
+                modes.row(i) * rate_of(i, i) + ComplexMatrix::from_fn(1, r, |_, j| rate_of(i, j)) * modes.rows(0, r);
+            turned.set_row(i, &own.row(0));
         }
-        let slope = -levers.tr_mul(&solved(turned)?);
+        let slope = -levers.tr_mul(&solved(&turned)?);
         let value = levers.tr_mul(&modes);
         value.iter().chain(slope.iter()).all(|x| x.re.is_finite() && x.im.is_finite()).then_some(Receptance {
             value,

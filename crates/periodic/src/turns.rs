@@ -4,7 +4,7 @@ use crate::{Bifurcation, Loss, PeriodicMotion};
 
 /// Way back of the parameter from which on a branch turns, over the scale of the parameter. Equations at phases have kinks
 /// where contact is lost between two of them, and waver by less.
-const TURN: f64 = 1e-4;
+const TURN: f64 = 1e-3;
 /// Distance from a turn, over the same scale, within which a multiplier of +1 is that of the turn.
 const SAME: f64 = 1e-2;
 

@@ -192,8 +192,7 @@ fn a_branch_of_a_long_period_is_refused() {
     let text = scratch.read("two_stages.toml");
     let (before, _) = text.split_once("[motion]").unwrap();
     let (before, _) = before.split_once("[vibration]").unwrap_or((before, ""));
-    let motion =
-        "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1100.0\nmesh = \"spring\"\n";
+    let motion = "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1100.0\nmesh = \"spring\"\n";
     let scratch = scratch.file("long.toml", before.to_owned() + motion);
     let run = scratch.ale_gear(["run", "long.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);

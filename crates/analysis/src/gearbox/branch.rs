@@ -20,7 +20,7 @@ use crate::{
     remark, run_phase, unless_cancelled,
 };
 
-/// Difference that modes above `highest_frequency_hz` may make to the size of the largest multiplier.
+/// Difference that modes above twice `highest_frequency_hz` may make to the size of the largest multiplier.
 const MULTIPLIER: f64 = 0.02;
 
 /// The branch of a gearbox over the speed of its input; a point for each mesh of every motion.
@@ -128,12 +128,13 @@ pub(super) fn branch(
 
 /// What modes do to the stability of motions that are judged without them.
 fn modes_left_out(found: &Followed) -> Check {
-    let off = found.with_all_modes.iter().map(|[known, all]| (known - all).abs()).fold(0.0, crate::worse);
+    let of = |[known, all]: &[f64; 2]| (known - all).abs() / all.max(1.0);
+    let off = found.with_all_modes.iter().map(of).fold(0.0, crate::worse);
     Check::new(
         "multiplier_error",
         off,
         MULTIPLIER,
-        "state a higher `highest_frequency_hz`: modes up to it are judged",
+        "state a higher `highest_frequency_hz`: modes up to twice that are judged",
     )
 }
 

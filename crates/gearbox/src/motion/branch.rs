@@ -31,7 +31,7 @@ pub struct GearboxBranch {
     /// Coordinates of the gearbox, and those that the meshes see.
     pub coordinates: [usize; 2],
     /// Size of the largest multiplier of some of the motions, spread over the branch: as the branch has it, and with the
-    /// modes above the highest frequency that shafts must show.
+    /// modes above twice the highest frequency that shafts must show.
     pub with_all_modes: Vec<[f64; 2]>,
 }
 

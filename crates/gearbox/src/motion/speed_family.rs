@@ -13,6 +13,9 @@ use crate::{GearboxError, Vector12};
 /// Angular speed (rad/s) of a turn a minute.
 const RPM: f64 = TAU / 60.0;
 
+/// Frequency of the modes that move when a motion is disturbed, over the highest that shafts must show.
+const BEYOND: f64 = 2.0;
+
 /// The meshes of a gearbox, each by the levers that it sees.
 pub(super) struct SpeedFamily<'a> {
     mechanism: &'a mut GearboxMechanism,
@@ -98,7 +101,7 @@ impl<'a> SpeedFamily<'a> {
             load: own.loads[0].clone(),
             levers,
             reference,
-            highest: own.bodies.certificate().limit,
+            highest: BEYOND * own.bodies.certificate().limit,
         };
         Ok((family, machine, cycles))
     }

@@ -70,7 +70,7 @@ fn branch(mechanism: &mut GearboxMechanism, plan: &BranchPlan) -> GearboxBranch 
     println!("{:?} coordinates, {motions} motions, {seconds:.2} s", found.coordinates);
     assert!(found.branch.broken.is_none(), "{:?}", found.branch.broken);
     for [known, all] in &found.with_all_modes {
-        assert!((known - all).abs() < 0.01, "multiplier {known}, {all} with all modes");
+        assert!((known - all).abs() < 0.02 * all.max(1.0), "multiplier {known}, {all} with all modes");
     }
     found
 }
@@ -246,9 +246,9 @@ fn held_shafts_have_the_branch_of_their_coordinate() {
         let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: gears }];
         let drive = Drive::Speed(Speed::Constant(1500.0));
         let options = MotionOptions { drive, modal_damping: 0.0, limit: TAU * 6000.0 };
-        let stiffness = Fourier { mean: 4e5, cosine: vec![1.2e5], sine: vec![2e4] };
+        let stiffness = Fourier { mean: 4e5, cosine: vec![1.6e5], sine: vec![2e4] };
         GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
-            let spring = SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(0.6);
+            let spring = SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(0.5);
             Ok(Box::new(spring.with_coast_flanks(mesh, meshing)?))
         })
         .unwrap()
@@ -273,7 +273,9 @@ fn held_shafts_have_the_branch_of_their_coordinate() {
         of.bifurcations.iter().filter(|b| b.loss == Loss::Fold).map(|b| b.motion.parameter).collect()
     };
     let [a, b] = [folds(&found.branch), folds(&wanted)];
-    println!("resonance at {resonance:.1} 1/min, folds at {a:.4?}");
+    let largest =
+        found.motions.iter().map(|m| 1e6 * m.peak_to_peak(&DVector::from_element(1, 1.0))).fold(0.0, f64::max);
+    println!("resonance at {resonance:.1} 1/min, folds at {a:.4?}, {largest} urad, at rest {} urad", 1e6 * rest.q[0]);
     assert!(a.len() == 2 && b.len() == 2, "folds at {a:?} and {b:?}");
     assert!(a.iter().zip(&b).all(|(a, b)| (a / b - 1.0).abs() < 1e-7), "folds at {a:?}, not {b:?}");
     for (motion, whole) in found.branch.motions.iter().zip(&found.motions).step_by(4) {
