@@ -178,6 +178,7 @@ fn a_branch_over_the_speed_is_written() {
         ("motion.to_speed_rpm=16000", "ends where it begins"),
         ("motion.continuation.most_harmonics=3", "below `harmonics`"),
         ("motion.drive=torque", "no period"),
+        ("motion.drive=balanced", "keeps its speed"),
     ];
     for (word, said) in wrong {
         let run = scratch.ale_gear(["run", &file, "--set", word, "--out", "w"]);

@@ -66,7 +66,7 @@ impl GearboxMechanism {
         };
         let mut began = ledger.initial;
         if self.free.turn.is_none() {
-            let inertia = self.free.rigid.dot(&(&self.bodies.mass * &self.free.rigid));
+            let inertia = self.train_inertia();
             let of = |s: &State| self.input(s.time, &s.q, &s.v);
             let along = |s: &State| {
                 let [_, omega] = of(s);

@@ -7,7 +7,7 @@ use integrate::{Forces, State};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, U12};
 use periodic::{CondensedFamily, LinearMachine};
 
-use super::GearboxMechanism;
+use super::{Drive, GearboxMechanism};
 use crate::{GearboxError, Vector12};
 
 /// Angular speed (rad/s) of a turn a minute.
@@ -56,7 +56,7 @@ impl<'a> SpeedFamily<'a> {
     /// of the fastest mesh in a period, so many common periods of all meshes.
     ///
     /// # Errors
-    /// [`GearboxError::NoBranch`] where a torque drives, a mesh cannot say what it sees, or the meshes have no common period of
+    /// [`GearboxError::NoBranch`] where the input does not keep its speed, a mesh cannot say what it sees, or the meshes have no common period of
     /// up to `most` cycles of the fastest; those of the meshes.
     pub fn new(
         mechanism: &'a mut GearboxMechanism,
@@ -64,8 +64,8 @@ impl<'a> SpeedFamily<'a> {
         (periods, most): (u64, u64),
     ) -> Result<(Self, LinearMachine, u64), GearboxError> {
         let refuse = |what| Err(GearboxError::NoBranch { what });
-        if mechanism.free.turn.is_some() {
-            return refuse("whose input has a given torque: its speed is no parameter");
+        if !matches!(mechanism.drive, Drive::Speed(_)) {
+            return refuse("whose input does not keep its speed");
         }
         let period = mechanism.common_period().map(|cycles| periods.max(1).saturating_mul(cycles));
         let Some(cycles) = period.filter(|c| *c <= most) else {

@@ -66,6 +66,7 @@ impl Box1 {
 
     fn map(&self) -> MappedMesh {
         let request = MapRequest {
+            tilts: true,
             stands: self.stands.clone(),
             mean_force: self.mean_force,
             overload: 3.0,
