@@ -108,7 +108,7 @@ const RUN_UP: &str =
 /// Both meshes come back after 23 cycles of the faster one.
 const BRANCH: &str = "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1010.0\nmesh = \"spring\"\n\
                       steps_per_cycle = 20\nwarm_up_cycles = 46\nperiodic_tolerance = 1e-2\n[motion.continuation]\n\
-                      harmonics = 2\nmost_harmonics = 3\ntail = 0.1\nphases = 64\nlongest_step = 1.0\ntime_points = 1\n";
+                      harmonics = 4\nmost_harmonics = 4\ntail = 0.1\nphases = 64\nlongest_step = 1.0\ntime_points = 1\n";
 
 /// Two stages on three shafts, with one bearing by its type: at rest, and what `tasks` ask.
 fn gearbox(name: &'static str, tasks: &str) -> SmallDocument {
