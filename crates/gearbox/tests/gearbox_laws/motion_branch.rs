@@ -259,7 +259,7 @@ fn held_shafts_have_the_branch_of_their_coordinate() {
     };
     let mut mechanism = make();
     assert_eq!(mechanism.count(), 1);
-    let rest = mechanism.start(0.0).unwrap();
+    let rest = mechanism.start(DAMPING).unwrap();
     // Its natural frequency is that of the wheel on the mesh.
     let mut at_rest = Forces::zeros(1);
     at_rest.tangents = true;
@@ -270,7 +270,7 @@ fn held_shafts_have_the_branch_of_their_coordinate() {
     (plan.balance.harmonics, plan.balance.most_harmonics, plan.balance.tail) = (32, 32, 0.1);
     let found = branch(&mut mechanism, &plan);
     let mut all = AllCoordinates { mechanism: make(), scale: rest.q.map(f64::abs) };
-    all.mechanism.start(0.0).unwrap();
+    all.mechanism.start(DAMPING).unwrap();
     let start = FourierSeries::at_rest(&rest.q, 1);
     let wanted = plan.follow(&mut all, &start, |_| ControlFlow::Continue(())).unwrap();
     let folds = |of: &Branch<GearboxError>| -> Vec<f64> {
