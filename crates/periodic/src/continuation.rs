@@ -8,7 +8,7 @@ use crate::{
     equations::{Balance, PeriodicEquations},
     series::Basis,
     solution::{Condition, Equations, Point, Solved, unknowns},
-    turns::listed,
+    turns::{Bifurcation, listed},
 };
 
 /// Options of a branch.
@@ -22,17 +22,6 @@ pub struct BranchOptions {
     pub longest_step: f64,
     /// Largest number of motions.
     pub most: usize,
-}
-
-/// Point at which a branch changes its stability.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Bifurcation {
-    /// How.
-    pub loss: Loss,
-    /// The motion there.
-    pub motion: PeriodicMotion,
-    /// Number (from 0) of the motion of the branch before it.
-    pub after: usize,
 }
 
 /// A branch of periodic motions.

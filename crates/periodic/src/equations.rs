@@ -28,7 +28,7 @@ pub struct Balance {
 }
 
 /// Equations of the harmonics of periodic motions over one parameter: those of all coordinates of a
-/// [`crate::PeriodicFamily`], or those of few of them, the others eliminated ([`crate::Condensed`]).
+/// [`crate::PeriodicFamily`], or those of few of them, the others eliminated (`Condensed`).
 pub trait PeriodicEquations {
     /// Error of an evaluation of forces.
     type Error;

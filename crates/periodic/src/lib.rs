@@ -25,7 +25,7 @@ mod stability;
 mod turns;
 
 pub use condensed::{Condensed, CondensedFamily, PeriodicMotionOf};
-pub use continuation::{Bifurcation, Branch, BranchOptions, Tracer};
+pub use continuation::{Branch, BranchOptions, Tracer};
 pub use equations::PeriodicEquations;
 pub use error::PeriodicError;
 pub use family::PeriodicFamily;
@@ -36,3 +36,4 @@ pub use series::FourierSeries;
 pub use shooting::Shooting;
 pub use solution::{BalanceOptions, PeriodicMotion};
 pub use stability::{Floquet, Loss, TangentFlow};
+pub use turns::Bifurcation;

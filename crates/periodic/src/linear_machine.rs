@@ -30,8 +30,8 @@ pub struct LinearMachine {
     /// off the forces: results do not depend on it.
     pub reference: DMatrix<f64>,
     /// Frequency (rad/s) up to which the machine is known. Modes beyond have no damping and gyroscopic forces among themselves,
-    /// but for each its own Phi' (C + w G) Phi on the diagonal, and follow as if they had no inertia when a motion is disturbed ([`crate::Condensed::with_all_modes`]: what
-    /// that leaves out). Infinite: all is exact.
+    /// but for each its own Phi' (C + w G) Phi on the diagonal, and follow as if they had no inertia when a motion is
+    /// disturbed (`Condensed::with_all_modes`: what that leaves out). Infinite: all is exact.
     pub highest: f64,
 }
 

@@ -54,7 +54,7 @@ pub struct PeriodicMotion {
     /// What is left of the equations, over the terms that balance.
     pub residual: f64,
     /// Motion that the harmonics leave out, over the vibration: by the inertia alone, which bounds it where no resonance lies
-    /// beyond them, or of [`crate::Condensed`] by the machine itself.
+    /// beyond them, or of `Condensed` by the machine itself.
     pub tail: f64,
     /// Newton steps.
     pub iterations: usize,

@@ -1,6 +1,17 @@
-//! Folds of a branch: where its parameter turns.
+//! Bifurcations of a branch; folds are where its parameter turns.
 
-use crate::{Bifurcation, Loss, PeriodicMotion};
+use crate::{Loss, PeriodicMotion};
+
+/// Point at which a branch changes its stability.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Bifurcation {
+    /// How.
+    pub loss: Loss,
+    /// The motion there.
+    pub motion: PeriodicMotion,
+    /// Number (from 0) of the motion of the branch before it.
+    pub after: usize,
+}
 
 /// Way back of the parameter from which on a branch turns, over the scale of the parameter. Equations at phases have kinks
 /// where contact is lost between two of them, and waver by less.
@@ -19,7 +30,7 @@ pub(crate) fn listed(motions: &[PeriodicMotion], passed: Vec<Bifurcation>, scale
     let mut all: Vec<Bifurcation> = Vec::new();
     for turn in &turns {
         let folds = passed.iter().filter(|own| own.loss == Loss::Fold && near(turn, own));
-        let nearest = folds.min_by_key(|own| own.after.abs_diff(turn.after));
+        let nearest = folds.filter(|own| !all.contains(own)).min_by_key(|own| own.after.abs_diff(turn.after));
         let motion = || Bifurcation { loss: Loss::Fold, motion: motions[turn.after].clone(), after: turn.after };
         all.push(nearest.cloned().unwrap_or_else(motion));
     }

@@ -8,10 +8,9 @@ use gearbox::{
     motion::{Drive, GearboxBranch, GearboxMechanism, MotionOptions, MotionPlan, Speed, SpringMesh},
 };
 use geometry::Sense;
-use integrate::{Forces, Mechanism, Scheme, Settle, State};
+use integrate::{Scheme, Settle, State};
 use lumped::Fourier;
-use nalgebra::{DMatrix, DVector};
-use periodic::{BalanceOptions, Bifurcation, Branch, BranchPlan, FourierSeries, Loss, PeriodicFamily, PeriodicMotion, Tracer};
+use periodic::{BalanceOptions, Bifurcation, BranchPlan, FourierSeries, Loss, PeriodicMotion};
 
 use crate::{
     motion::train,
@@ -199,111 +198,6 @@ fn two_to_one() -> GearboxMechanism {
         Ok(Box::new(SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(1.0)))
     })
     .unwrap()
-}
-
-/// All coordinates of a gearbox, as the search for periodic motions takes those of any mechanism.
-struct AllCoordinates {
-    mechanism: GearboxMechanism,
-    scale: DVector<f64>,
-}
-
-impl Mechanism for AllCoordinates {
-    type Error = GearboxError;
-
-    fn mass(&self) -> &DMatrix<f64> {
-        self.mechanism.mass()
-    }
-
-    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
-        self.mechanism.forces(t, q, v, out)
-    }
-
-    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
-        self.mechanism.potential(t, q)
-    }
-}
-
-impl PeriodicFamily for AllCoordinates {
-    fn set_parameter(&mut self, value: f64) -> Result<(), GearboxError> {
-        self.mechanism.set_speed(value * RPM);
-        Ok(())
-    }
-
-    fn period(&self) -> f64 {
-        1.0 / self.mechanism.mesh_frequencies()[0]
-    }
-
-    fn scale(&self) -> DVector<f64> {
-        self.scale.clone()
-    }
-}
-
-/// A pair of held shafts is one coordinate: its branch by what the mesh sees is that by its coordinate, around both folds, and so
-/// are the multipliers.
-#[test]
-fn held_shafts_have_the_branch_of_their_coordinate() {
-    let make = || {
-        let gears = pair([23, 31], 12.0);
-        let structure = single(&gears, 0.3);
-        let mut operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: 1.5e5 }]);
-        operation.held = vec![0, 1];
-        let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: gears }];
-        let drive = Drive::Speed(Speed::Constant(1500.0));
-        let options = MotionOptions { drive, modal_damping: 0.0, limit: TAU * 6000.0 };
-        let stiffness = Fourier { mean: 4e5, cosine: vec![5e4], sine: vec![2e4] };
-        GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
-            let spring = SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(0.5);
-            Ok(Box::new(spring.with_coast_flanks(mesh, meshing)?))
-        })
-        .unwrap()
-    };
-    let mut mechanism = make();
-    assert_eq!(mechanism.count(), 1);
-    let rest = mechanism.start(DAMPING).unwrap();
-    // Its natural frequency is that of the wheel on the mesh.
-    let mut at_rest = Forces::zeros(1);
-    at_rest.tangents = true;
-    mechanism.forces(0.0, &rest.q, &rest.v, &mut at_rest).unwrap();
-    let natural = (at_rest.stiffness[(0, 0)] / mechanism.mass()[(0, 0)]).sqrt() / TAU;
-    let resonance = natural * 60.0 / 23.0;
-    let mut plan = plan(1.3 * resonance, 0.7 * resonance);
-    (plan.balance.harmonics, plan.balance.most_harmonics, plan.balance.tail) = (32, 32, 0.1);
-    let found = branch(&mut mechanism, &plan);
-    let mut all = AllCoordinates { mechanism: make(), scale: rest.q.map(f64::abs) };
-    all.mechanism.start(DAMPING).unwrap();
-    let start = FourierSeries::at_rest(&rest.q, 1);
-    let wanted = plan.follow(&mut all, &start, |_| ControlFlow::Continue(())).unwrap();
-    let folds = |of: &Branch<GearboxError>| -> Vec<f64> {
-        of.bifurcations.iter().filter(|b| b.loss == Loss::Fold).map(|b| b.motion.parameter).collect()
-    };
-    let [a, b] = [folds(&found.branch), folds(&wanted)];
-    let largest =
-        found.motions.iter().map(|m| 1e6 * m.peak_to_peak(&DVector::from_element(1, 1.0))).fold(0.0, f64::max);
-    println!("resonance at {resonance:.1} 1/min, folds at {a:.4?}, {largest} urad, at rest {} urad", 1e6 * rest.q[0]);
-    for (m, w) in found.branch.motions.iter().zip(&found.motions) {
-        println!(
-            "M {:.1} {:.4} {:.4} {}",
-            m.parameter,
-            1e6 * w.peak_to_peak(&DVector::from_element(1, 1.0)),
-            m.floquet.largest(),
-            m.series.harmonics()
-        );
-    }
-    assert!(a.len() == 2 && b.len() == 2, "folds at {a:?} and {b:?}");
-    assert!(a.iter().zip(&b).all(|(a, b)| (a / b - 1.0).abs() < 1e-7), "folds at {a:?}, not {b:?}");
-    for (motion, whole) in found.branch.motions.iter().zip(&found.motions).step_by(4) {
-        let mut tracer = Tracer::new(&mut all, plan.balance, 1.0).unwrap();
-        let own = tracer.motion_at(motion.parameter, whole).unwrap();
-        assert!(own.iterations <= 1, "{} Newton steps from what is a solution", own.iterations);
-        let one = DVector::from_element(1, 1.0);
-        let [a, b] = [whole.peak_to_peak(&one), own.series.peak_to_peak(&one)];
-        assert!((a / b - 1.0).abs() < 1e-8, "{:.1} 1/min: {a} rad, not {b} rad", motion.parameter);
-        let [a, b] = [&motion.floquet, &own.floquet].map(|f| f.largest());
-        assert!((a / b - 1.0).abs() < 1e-7, "{:.1} 1/min: multiplier {a}, not {b}", motion.parameter);
-    }
-    for [known, all] in found.with_all_modes {
-        assert!((known - all).abs() < 1e-9, "one mode is all there is: {known}, {all}");
-    }
 }
 
 /// A gearbox that a torque drives has no branch over its speed, and one whose meshes come back together after hundreds of cycles has
