@@ -344,8 +344,15 @@ impl AtRest<'_> {
         let stands = self.stands(mesh);
         let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
         let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
-        let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
-        ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
+        let own = &self.meshes[mesh];
+        let alike = GearMesh { pair: own.pair.without_pitch_errors(), ..own.clone() };
+        let mut exact = self.reduced[mesh].exact(&alike).map_err(named)?;
+        if alike.pair == own.pair {
+            return ContactSpring::of(&mut exact, &about, PHASES).map_err(named);
+        }
+        let force =
+            self.positions.iter().map(|p| p.meshes[mesh].normal_force).sum::<f64>() / stands.len().max(1) as f64;
+        ContactSpring::under(&mut exact, &about, force, PHASES).map_err(named)
     }
 
     /// Damping along the normal, N s/mm: the ratio of both gears turning against each other.
