@@ -10,6 +10,7 @@ mod load_axis;
 mod map;
 mod offset_pairs;
 mod pair_shares;
+mod pair_sums;
 mod sampler;
 mod spline;
 mod spline_cache;

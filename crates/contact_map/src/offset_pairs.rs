@@ -5,8 +5,8 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
-    ContactMap, CutPlace, MapContact, MapError, PhaseContact, Wanted, build::halton, load_axis::LoadCurve,
-    pair_shares::ShareCurves,
+    ContactMap, CutPlace, MapContact, MapError, PhaseContact, Wanted, build::halton, pair_shares::ShareCurves,
+    pair_sums::PairSums,
 };
 
 /// Offsets of the teeth of two gears, mm along the normal: positive where a tooth stands nearer to its mate.
@@ -82,14 +82,6 @@ const CHECKS: usize = 64;
 const STEPS: usize = 60;
 /// Part of the force at the least load from which on a pair counts as touching first.
 const TOUCHES: f64 = 1e-2;
-/// Gauss' points and weights between -1 and 1, exact to the seventh power, as products of force, approach and part are.
-const GAUSS: [[f64; 2]; 4] = [
-    [-0.861_136_311_594_052_6, 0.347_854_845_137_453_8],
-    [-0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
-    [0.339_981_043_584_856_3, 0.652_145_154_862_546_1],
-    [0.861_136_311_594_052_6, 0.347_854_845_137_453_8],
-];
-
 impl OffsetMap {
     /// A map with offsets; the map alone where there are none.
     pub fn new(map: Arc<ContactMap>, offsets: PairOffsets) -> Self {
@@ -131,7 +123,8 @@ impl OffsetMap {
     /// Pairs with their offsets, mm.
     fn pairs<'a>(&'a self, place: &'a CutPlace) -> impl Iterator<Item = (&'a ShareCurves, f64)> {
         let cycle = place.at[0].floor() as i64;
-        let all = self.offsets.iter().flat_map(move |o| place.shares.iter().map(move |own| (own, o)));
+        let carrying = || place.shares.iter().filter(|own| own.carries);
+        let all = self.offsets.iter().flat_map(move |o| carrying().map(move |own| (own, o)));
         all.map(move |(own, offsets)| (own, offsets.of(cycle + own.pair)))
     }
 
@@ -158,24 +151,55 @@ impl OffsetMap {
         }
         let of = |(own, e): (&ShareCurves, f64)| {
             let load = place.curve.solve(approach + e)?;
-            Some(self.held(&own.value, load)[0] * self.map.load_axis().force(load))
+            Some(self.map.held(&own.value, load)[0] * self.map.load_axis().force(load))
         };
         self.pairs(place).filter_map(of).sum()
     }
 
     /// The contact at a place of this map and an approach (mm).
+    ///
+    /// ```text
+    /// dg/dx = (s' F + s F') / X',   g = s F
+    /// ```
+    /// ': over the place nu on the load's axis; X(nu): approach.
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         if self.offsets.is_none() {
             return self.map.contact(place, approach, wanted);
         }
-        let by_phase = wanted.phase_rate.then(|| self.map.by_phase(place));
+        let axis = self.map.load_axis();
         let mut all = MapContact::default();
+        let (mut touching, mut parted) = (Vec::with_capacity(place.shares.len()), false);
         for (own, e) in self.pairs(place) {
-            let Some(load) = place.curve.solve(approach + e) else { continue };
-            self.add(&mut all, (place, own), load, (wanted, by_phase.as_ref()));
+            match place.curve.solve(approach + e) {
+                Some(load) => touching.push((own, load)),
+                None => parted = true,
+            }
+        }
+        if wanted.energy || wanted.phase_rate || place.by_tilt.is_some() {
+            let by_phase = wanted.phase_rate.then(|| self.map.by_phase(place));
+            let sums = PairSums::new(&self.map, place, by_phase.as_ref(), (&touching, parted));
+            let per_tilt = self.map.per_tilt();
+            all.energy = if wanted.energy { sums.energy } else { 0.0 };
+            all.phase_rate = self.map.phases as f64 * sums.phase_rate;
+            all.moment = per_tilt * sums.moment;
+            all.stiffness[1][1] = -per_tilt * per_tilt * sums.tilting;
+        }
+        for (own, load) in touching {
+            let [s, ds] = self.map.held(&own.value, load);
+            let [f, df] = [axis.force(load), axis.force_slope(load)];
+            let (slope, grows) = (place.curve.value(load)[1], ds * f + s * df);
+            all.force += s * f;
+            all.stiffness[0][0] += grows / slope;
+            if let Some(by_tilt) = &place.by_tilt {
+                let per_tilt = self.map.per_tilt();
+                let (x1, s1) = (by_tilt[0].value(load)[0], self.map.held(&own.by_tilt[0], load)[0]);
+                let mixed = per_tilt * (s1 * f - grows * x1 / slope);
+                all.stiffness[0][1] += mixed;
+                all.stiffness[1][0] += mixed;
+                all.stiffness[1][1] += per_tilt * per_tilt * x1 / slope * (grows * x1 - s1 * f * slope);
+            }
         }
         if all.force > 0.0 {
-            let axis = self.map.load_axis();
             let load = axis.place(all.force);
             all.load = Some([load, all.stiffness[0][0] / axis.force_slope(load)]);
         }
@@ -240,71 +264,5 @@ impl OffsetMap {
             rms_mm: (squares / CHECKS as f64).sqrt(),
             largest_mm: off.iter().fold(0.0, |m: f64, e| m.max(e.abs())),
         }))
-    }
-
-    /// A pair's part and its slope over the load; beyond the largest force of the map the part stays.
-    fn held(&self, part: &LoadCurve, load: f64) -> [f64; 2] {
-        let last = self.map.loads as f64;
-        if load > last { [part.value(last)[0], 0.0] } else { part.value(load) }
-    }
-
-    /// Adds a pair's force, and all else that is wanted, under a load.
-    ///
-    /// ```text
-    /// g = s F,   -dU/dgamma = integral of (g' X_gamma - g_gamma X') dnu,   dU/dc = integral of (g_c X' - g' X_c) dnu
-    /// ```
-    /// nu: place over load, ' its derivative; X(nu): approach.
-    fn add(
-        &self,
-        all: &mut MapContact,
-        (place, own): (&CutPlace, &ShareCurves),
-        load: f64,
-        (wanted, by_phase): (Wanted, Option<&LoadCurve>),
-    ) {
-        let (axis, n) = (self.map.load_axis(), self.map.loads);
-        let phase_share = by_phase.map(|_| self.map.share_by_phase(own, &place.tilt));
-        let along = by_phase.zip(phase_share.as_ref());
-        let [s, ds] = self.held(&own.value, load);
-        let [f, df] = [axis.force(load), axis.force_slope(load)];
-        let slope = place.curve.value(load)[1];
-        let grows = ds * f + s * df;
-        all.force += s * f;
-        all.stiffness[0][0] += grows / slope;
-        let per_tilt = self.map.per_tilt();
-        let [mut moment, mut tilting, mut energy, mut rate] = [0.0; 4];
-        if place.by_tilt.is_some() || wanted.energy || along.is_some() {
-            let whole = (load as usize).min(n);
-            for cell in 0..=whole {
-                let (begin, end) = (cell as f64, if cell < whole { cell as f64 + 1.0 } else { load });
-                for [point, weight] in GAUSS {
-                    let (half, nu) = (0.5 * (end - begin), begin + 0.5 * (end - begin) * (1.0 + point));
-                    let w = weight * half;
-                    let [f, df] = [axis.force(nu), axis.force_slope(nu)];
-                    let [s, ds] = self.held(&own.value, nu);
-                    let (dx, dg) = (place.curve.value(nu)[1], ds * f + s * df);
-                    energy += w * s * f * dx;
-                    if let Some((x, s)) = along {
-                        rate += w * (self.held(s, nu)[0] * f * dx - dg * x.value(nu)[0]);
-                    }
-                    if let Some(by_tilt) = &place.by_tilt {
-                        let [x1, x2] = [0, 1].map(|i| by_tilt[i].value(nu));
-                        let [s1, s2] = [0, 1].map(|i| self.held(&own.by_tilt[i], nu));
-                        moment += w * (dg * x1[0] - s1[0] * f * dx);
-                        tilting +=
-                            w * ((s1[1] * f + s1[0] * df) * x1[0] + dg * x2[0] - s2[0] * f * dx - s1[0] * f * x1[1]);
-                    }
-                }
-            }
-        }
-        all.energy += energy;
-        all.phase_rate += self.map.phases as f64 * rate;
-        if let Some(by_tilt) = &place.by_tilt {
-            let (x1, s1) = (by_tilt[0].value(load)[0], self.held(&own.by_tilt[0], load)[0]);
-            let mixed = per_tilt * (s1 * f - grows * x1 / slope);
-            all.moment += per_tilt * moment;
-            all.stiffness[0][1] += mixed;
-            all.stiffness[1][0] += mixed;
-            all.stiffness[1][1] -= per_tilt * per_tilt * (tilting - x1 / slope * (grows * x1 - s1 * f * slope));
-        }
     }
 }

@@ -31,8 +31,11 @@ pub struct PairShares {
 pub(crate) struct ShareCurves {
     /// Number of the pair, counted from the cycle of the place.
     pub pair: i64,
-    way: Splines,
+    /// Whether it carries at all at the place.
+    pub carries: bool,
     pub value: LoadCurve,
+    /// Slope over the phase, per unit of the spacing.
+    pub by_phase: LoadCurve,
     /// First and second derivatives over tilt, per unit of the spacing.
     pub by_tilt: [LoadCurve; 2],
 }
@@ -61,6 +64,17 @@ impl PairShares {
     }
 }
 
+/// Part of the force below which a pair carries nothing: splines ring before and after its way, ever less.
+const NOTHING: f64 = 1e-13;
+
+impl ShareCurves {
+    /// Coefficients in an interval of the load's axis: of the part, of its slope over the phase, and of its first and
+    /// second slopes over the tilt, 0 where the map has none.
+    pub(crate) fn in_cell(&self, cell: usize) -> [[f64; 4]; 4] {
+        [&self.value, &self.by_phase, &self.by_tilt[0], &self.by_tilt[1]].map(|curve| curve.in_cell(cell))
+    }
+}
+
 impl ContactMap {
     /// Parts of all pairs at a phase (mesh cycles) and with the splines over the tilt there.
     pub(crate) fn shares_at(&self, curves: &mut Vec<ShareCurves>, phase: f64, tilt: &Splines) {
@@ -68,21 +82,16 @@ impl ContactMap {
         curves.resize_with(*count, ShareCurves::default);
         for (own, pair) in curves.iter_mut().zip((0..*count as i64).map(|i| last - i)) {
             own.pair = pair;
-            own.way = self.pairs.way(self.phases, phase - phase.floor(), pair);
-            let way = &own.way;
-            self.sum(&mut own.value, table, [way, tilt], [&way.values, &tilt.values]);
-            if self.tilts > 0 {
+            let way = self.pairs.way(self.phases, phase - phase.floor(), pair);
+            let along = [&way, tilt];
+            self.sum(&mut own.value, table, along, [&way.values, &tilt.values]);
+            self.sum(&mut own.by_phase, table, along, [&way.slopes, &tilt.values]);
+            own.carries = own.value.exceeds(NOTHING) || own.by_phase.exceeds(NOTHING);
+            if self.tilts > 0 && own.carries {
                 let [first, second] = &mut own.by_tilt;
-                self.sum(first, table, [way, tilt], [&way.values, &tilt.slopes]);
-                self.sum(second, table, [way, tilt], [&way.values, &tilt.curvatures]);
+                self.sum(first, table, along, [&way.values, &tilt.slopes]);
+                self.sum(second, table, along, [&way.values, &tilt.curvatures]);
             }
         }
-    }
-
-    /// Change of a pair's part with the phase, per unit of the spacing.
-    pub(crate) fn share_by_phase(&self, own: &ShareCurves, tilt: &Splines) -> LoadCurve {
-        let mut curve = LoadCurve::default();
-        self.sum(&mut curve, &self.pairs.table, [&own.way, tilt], [&own.way.slopes, &tilt.values]);
-        curve
     }
 }

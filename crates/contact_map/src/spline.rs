@@ -164,7 +164,7 @@ impl Splines {
 
 /// The four cubic B-splines of an interval at `s`, 0 .. 1.
 #[inline]
-fn splines(s: f64) -> Splines {
+pub(crate) fn splines(s: f64) -> Splines {
     let r = 1.0 - s;
     let middle = |s: f64| (4.0 + s * s * (3.0 * s - 6.0)) / 6.0;
     let slope = |s: f64| s * (1.5 * s - 2.0);
