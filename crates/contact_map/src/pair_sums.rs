@@ -106,8 +106,7 @@ impl PairSums {
             }
             if let Some([first, second]) = &by_tilt {
                 let ([x1, dx1], x2) = ([dot(first, &values), dot(first, &slopes)], dot(second, &values));
-                let ([s1, ds1], s2) =
-                    ([dot(&parts[2], &values), dot(&parts[2], &slopes)], dot(&parts[3], &values));
+                let ([s1, ds1], s2) = ([dot(&parts[2], &values), dot(&parts[2], &slopes)], dot(&parts[3], &values));
                 self.moment += w * (dg * x1 - s1 * f * dx);
                 self.tilting += w * ((ds1 * f + s1 * df) * x1 + dg * x2 - s2 * f * dx - s1 * f * dx1);
             }
