@@ -74,15 +74,11 @@ impl LoadCurve {
         }
     }
 
-    /// Coefficients of the splines in an interval; 0 for a curve that was never made.
+    /// Coefficients of the splines in an interval.
     #[inline]
     pub fn in_cell(&self, cell: usize) -> [f64; 4] {
-        self.coefficients.get(cell..cell + 4).map_or([0.0; 4], |k| [k[0], k[1], k[2], k[3]])
-    }
-
-    /// Whether a coefficient is larger than a limit, whatever its sign.
-    pub fn exceeds(&self, limit: f64) -> bool {
-        self.coefficients.iter().any(|k| k.abs() > limit)
+        let k = &self.coefficients[cell..cell + 4];
+        [k[0], k[1], k[2], k[3]]
     }
 
     /// Coefficients of an interval's cubic in the place from its beginning, lowest power first.

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     damping_table::DampingTable,
     load_axis::{LoadAxis, LoadCurve},
-    pair_shares::{PairShares, ShareCurves},
+    pair_shares::{PairPlace, PairShares},
     spline::{Axis, Splines},
 };
 
@@ -97,8 +97,8 @@ pub struct CutPlace {
     pub(crate) length: LoadCurve,
     /// L_1 and L_2, where the map has a tilt.
     pub(crate) levers: Option<Box<[LoadCurve; 2]>>,
-    /// Parts of pairs of teeth, where these are asked for one by one.
-    pub(crate) shares: Vec<ShareCurves>,
+    /// Pairs of teeth that carry, where these are asked for one by one.
+    pub(crate) pairs: Vec<PairPlace>,
 }
 
 impl Default for CutPlace {
@@ -111,7 +111,7 @@ impl Default for CutPlace {
             by_tilt: None,
             length: LoadCurve::default(),
             levers: None,
-            shares: Vec::new(),
+            pairs: Vec::new(),
         }
     }
 }
@@ -173,7 +173,7 @@ impl ContactMap {
     }
 
     /// Makes a curve over load the sum of a table over phases and tilts with weights.
-    pub(crate) fn sum(
+    fn sum(
         &self,
         curve: &mut LoadCurve,
         table: &[f64],

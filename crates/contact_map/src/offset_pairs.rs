@@ -5,7 +5,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 
 use crate::{
-    ContactMap, CutPlace, MapContact, MapError, PhaseContact, Wanted, build::halton, pair_shares::ShareCurves,
+    ContactMap, CutPlace, MapContact, MapError, PhaseContact, Wanted,
+    build::halton,
+    pair_shares::{PairPlace, PartsWanted},
     pair_sums::PairSums,
 };
 
@@ -78,6 +80,8 @@ pub struct OffsetError {
 
 /// Places at which offsets are held against the contact.
 const CHECKS: usize = 64;
+/// Parts of pairs alone, without their slopes.
+const PART: PartsWanted = PartsWanted { phase: false, tilt: false };
 /// Newton steps and halvings to an approach.
 const STEPS: usize = 60;
 /// Part of the force at the least load from which on a pair counts as touching first.
@@ -107,9 +111,7 @@ impl OffsetMap {
     pub(crate) fn move_place(&self, place: &mut CutPlace, at: [f64; 2]) {
         self.map.move_place(place, at);
         if self.offsets.is_some() {
-            let mut shares = std::mem::take(&mut place.shares);
-            self.map.shares_at(&mut shares, at[0], &place.tilt);
-            place.shares = shares;
+            self.map.pairs_at(&mut place.pairs, at[0]);
         }
     }
 
@@ -121,10 +123,9 @@ impl OffsetMap {
     }
 
     /// Pairs with their offsets, mm.
-    fn pairs<'a>(&'a self, place: &'a CutPlace) -> impl Iterator<Item = (&'a ShareCurves, f64)> {
+    fn pairs<'a>(&'a self, place: &'a CutPlace) -> impl Iterator<Item = (&'a PairPlace, f64)> {
         let cycle = place.at[0].floor() as i64;
-        let carrying = || place.shares.iter().filter(|own| own.carries);
-        let all = self.offsets.iter().flat_map(move |o| carrying().map(move |own| (own, o)));
+        let all = self.offsets.iter().flat_map(move |o| place.pairs.iter().map(move |own| (own, o)));
         all.map(move |(own, offsets)| (own, offsets.of(cycle + own.pair)))
     }
 
@@ -132,7 +133,8 @@ impl OffsetMap {
     /// apart.
     pub fn overlap(&self, place: &CutPlace, approach: f64) -> f64 {
         let own = approach - self.map.first_touch(place);
-        let touching = self.pairs(place).filter(|(own, _)| own.value.begin() > TOUCHES).map(|(_, e)| e);
+        let part = |own: &PairPlace| self.map.held(own, &place.tilt, 0.0, PART).0[0];
+        let touching = self.pairs(place).filter(|(own, _)| part(own) > TOUCHES).map(|(_, e)| e);
         touching.reduce(f64::max).map_or(own, |e| own + e)
     }
 
@@ -149,9 +151,9 @@ impl OffsetMap {
         if self.offsets.is_none() {
             return self.map.force(place, approach);
         }
-        let of = |(own, e): (&ShareCurves, f64)| {
+        let of = |(own, e): (&PairPlace, f64)| {
             let load = place.curve.solve(approach + e)?;
-            Some(self.map.held(&own.value, load)[0] * self.map.load_axis().force(load))
+            Some(self.map.held(own, &place.tilt, load, PART).0[0] * self.map.load_axis().force(load))
         };
         self.pairs(place).filter_map(of).sum()
     }
@@ -168,7 +170,7 @@ impl OffsetMap {
         }
         let axis = self.map.load_axis();
         let mut all = MapContact::default();
-        let (mut touching, mut parted) = (Vec::with_capacity(place.shares.len()), false);
+        let (mut touching, mut parted) = (Vec::with_capacity(place.pairs.len()), false);
         for (own, e) in self.pairs(place) {
             match place.curve.solve(approach + e) {
                 Some(load) => touching.push((own, load)),
@@ -185,14 +187,14 @@ impl OffsetMap {
             all.stiffness[1][1] = -per_tilt * per_tilt * sums.tilting;
         }
         for (own, load) in touching {
-            let [s, ds] = self.map.held(&own.value, load);
+            let ([s, _, s1, _], ds) = self.map.held(own, &place.tilt, load, PartsWanted { tilt: true, ..PART });
             let [f, df] = [axis.force(load), axis.force_slope(load)];
             let (slope, grows) = (place.curve.value(load)[1], ds * f + s * df);
             all.force += s * f;
             all.stiffness[0][0] += grows / slope;
             if let Some(by_tilt) = &place.by_tilt {
                 let per_tilt = self.map.per_tilt();
-                let (x1, s1) = (by_tilt[0].value(load)[0], self.map.held(&own.by_tilt[0], load)[0]);
+                let x1 = by_tilt[0].value(load)[0];
                 let mixed = per_tilt * (s1 * f - grows * x1 / slope);
                 all.stiffness[0][1] += mixed;
                 all.stiffness[1][0] += mixed;

@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     column::Node,
-    load_axis::LoadCurve,
     map::ContactMap,
     spline::{Axis, Splines, periodic_coefficients},
 };
@@ -24,21 +23,24 @@ pub struct PairShares {
     pub(crate) last: i64,
     /// Coefficients over the way, tilts and loads.
     table: Vec<f64>,
+    /// Whether a pair carries at all between two places of the way.
+    carries: Vec<bool>,
 }
 
-/// Parts of a pair at a place of the map, over the load.
-#[derive(Debug, Clone, Default, PartialEq)]
-pub(crate) struct ShareCurves {
+/// A pair at a place of the map: where it is on its way.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct PairPlace {
     /// Number of the pair, counted from the cycle of the place.
     pub pair: i64,
-    /// Whether it carries at all at the place.
-    pub carries: bool,
-    pub value: LoadCurve,
-    /// Slope over the phase, per unit of the spacing.
-    pub by_phase: LoadCurve,
-    /// First and second derivatives over tilt, per unit of the spacing.
-    pub by_tilt: [LoadCurve; 2],
+    way: Splines,
 }
+
+/// Parts of one pair or of several together in an interval of the load's axis: coefficients of the part, of its slope over
+/// the phase, and of its first and second slopes over the tilt, per unit of the spacings.
+pub(crate) type CellParts = [[f64; 4]; 4];
+
+/// Part of the force below which a pair carries nothing: splines ring before and after its way, ever less.
+const NOTHING: f64 = 1e-13;
 
 impl PairShares {
     /// Table of the parts at the nodes of a map: phase by phase, tilt by tilt, load by load; `interpolate` gives the
@@ -54,7 +56,9 @@ impl PairShares {
                 rows.push(interpolate(nodes.iter().flatten().map(part).collect()));
             }
         }
-        Self { count, last, table: periodic_coefficients(&rows).concat() }
+        let coefficients = periodic_coefficients(&rows);
+        let of = |rows: &[Vec<f64>]| rows.iter().flatten().any(|k| k.abs() > NOTHING);
+        Self { count, last, carries: coefficients.windows(4).map(of).collect(), table: coefficients.concat() }
     }
 
     /// Splines over the way of a pair at a phase, 0 .. 1.
@@ -64,34 +68,54 @@ impl PairShares {
     }
 }
 
-/// Part of the force below which a pair carries nothing: splines ring before and after its way, ever less.
-const NOTHING: f64 = 1e-13;
-
-impl ShareCurves {
-    /// Coefficients in an interval of the load's axis: of the part, of its slope over the phase, and of its first and
-    /// second slopes over the tilt, 0 where the map has none.
-    pub(crate) fn in_cell(&self, cell: usize) -> [[f64; 4]; 4] {
-        [&self.value, &self.by_phase, &self.by_tilt[0], &self.by_tilt[1]].map(|curve| curve.in_cell(cell))
-    }
-}
-
 impl ContactMap {
-    /// Parts of all pairs at a phase (mesh cycles) and with the splines over the tilt there.
-    pub(crate) fn shares_at(&self, curves: &mut Vec<ShareCurves>, phase: f64, tilt: &Splines) {
-        let PairShares { count, last, table } = &self.pairs;
-        curves.resize_with(*count, ShareCurves::default);
-        for (own, pair) in curves.iter_mut().zip((0..*count as i64).map(|i| last - i)) {
-            own.pair = pair;
+    /// Pairs that carry at a phase (mesh cycles).
+    pub(crate) fn pairs_at(&self, pairs: &mut Vec<PairPlace>, phase: f64) {
+        let PairShares { count, last, carries, .. } = &self.pairs;
+        pairs.clear();
+        for pair in (0..*count as i64).map(|i| last - i) {
             let way = self.pairs.way(self.phases, phase - phase.floor(), pair);
-            let along = [&way, tilt];
-            self.sum(&mut own.value, table, along, [&way.values, &tilt.values]);
-            self.sum(&mut own.by_phase, table, along, [&way.slopes, &tilt.values]);
-            own.carries = own.value.exceeds(NOTHING) || own.by_phase.exceeds(NOTHING);
-            if self.tilts > 0 && own.carries {
-                let [first, second] = &mut own.by_tilt;
-                self.sum(first, table, along, [&way.values, &tilt.slopes]);
-                self.sum(second, table, along, [&way.values, &tilt.curvatures]);
+            if carries[way.first] {
+                pairs.push(PairPlace { pair, way });
             }
         }
     }
+
+    /// Parts of a pair in an interval of the load's axis, with the splines over the tilt; slopes over the tilt where the map
+    /// has one.
+    pub(crate) fn parts(&self, own: &PairPlace, tilt: &Splines, cell: usize, wanted: PartsWanted) -> CellParts {
+        let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
+        let mut parts = CellParts::default();
+        for j in 0..tilt.count {
+            // Over the way: value, and slope where it is wanted.
+            let [mut value, mut slope] = [[0.0; 4]; 2];
+            for i in 0..4 {
+                let at = ((own.way.first + i) * tilts + tilt.first + j) * loads + cell;
+                let row = &self.pairs.table[at..at + 4];
+                value.iter_mut().zip(row).for_each(|(sum, k)| *sum += own.way.values[i] * k);
+                if wanted.phase {
+                    slope.iter_mut().zip(row).for_each(|(sum, k)| *sum += own.way.slopes[i] * k);
+                }
+            }
+            let mut add = |kind: usize, weight: f64, row: &[f64; 4]| {
+                parts[kind].iter_mut().zip(row).for_each(|(sum, k)| *sum += weight * k);
+            };
+            add(0, tilt.values[j], &value);
+            if wanted.phase {
+                add(1, tilt.values[j], &slope);
+            }
+            if wanted.tilt && self.tilts > 0 {
+                add(2, tilt.slopes[j], &value);
+                add(3, tilt.curvatures[j], &value);
+            }
+        }
+        parts
+    }
+}
+
+/// Which slopes of parts are wanted.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct PartsWanted {
+    pub phase: bool,
+    pub tilt: bool,
 }

@@ -3,7 +3,7 @@
 use crate::{
     ContactMap, CutPlace,
     load_axis::LoadCurve,
-    pair_shares::ShareCurves,
+    pair_shares::{CellParts, PairPlace, PartsWanted},
     spline::{Splines, splines},
 };
 
@@ -30,10 +30,6 @@ const GAUSS: [[f64; 2]; 4] = [
     [0.861_136_311_594_052_6, 0.347_854_845_137_453_8],
 ];
 
-/// Parts of one pair or of several together in an interval of the load's axis: coefficients of the part, of its slope over
-/// the phase, and of its first and second slopes over the tilt.
-type CellParts = [[f64; 4]; 4];
-
 impl PairSums {
     /// Sums over pairs that touch, each with its place over load; `by_phase`: slope of the approach over the phase, where
     /// the phase's rate is wanted; `parted`: whether another pair of the place does not touch.
@@ -41,7 +37,7 @@ impl PairSums {
         map: &ContactMap,
         place: &CutPlace,
         by_phase: Option<&LoadCurve>,
-        (touching, parted): (&[(&ShareCurves, f64)], bool),
+        (touching, parted): (&[(&PairPlace, f64)], bool),
     ) -> Self {
         let mut sums = Self::default();
         let whole = |load: f64| (load as usize).min(map.loads);
@@ -58,18 +54,20 @@ impl PairSums {
                 [sums.moment, sums.tilting] = [0, 1].map(|i| by_tilt[i].integral(end));
             }
         }
+        let wanted = PartsWanted { phase: by_phase.is_some(), tilt: true };
         for cell in together..=most {
             let mut several = CellParts::default();
             let mut any = false;
             for (own, load) in touching.iter().filter(|(_, load)| *load > cell as f64) {
                 let part = load - cell as f64;
+                // The last interval of the map is followed by what is beyond its largest force.
+                let parts = map.parts(own, &place.tilt, cell.min(map.loads - 1), wanted);
                 if cell == map.loads {
-                    sums.add_beyond(map, place, by_phase, (own, *load));
+                    sums.add_beyond(map, place, by_phase, (&parts, *load));
                 } else if part < 1.0 {
-                    sums.add(map, place, by_phase, (&own.in_cell(cell), cell, part));
+                    sums.add(map, place, by_phase, (&parts, cell, part));
                 } else {
                     any = true;
-                    let parts = own.in_cell(cell);
                     several.iter_mut().flatten().zip(parts.iter().flatten()).for_each(|(sum, k)| *sum += k);
                 }
             }
@@ -89,7 +87,6 @@ impl PairSums {
         (parts, cell, to): (&CellParts, usize, f64),
     ) {
         let axis = map.load_axis();
-        let dot = |a: &[f64; 4], b: &[f64; 4]| (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3]);
         let curve = place.curve.in_cell(cell);
         let along = by_phase.map(|curve| curve.in_cell(cell));
         let by_tilt = place.by_tilt.as_ref().map(|both| [both[0].in_cell(cell), both[1].in_cell(cell)]);
@@ -119,11 +116,10 @@ impl PairSums {
         map: &ContactMap,
         place: &CutPlace,
         by_phase: Option<&LoadCurve>,
-        (own, load): (&ShareCurves, f64),
+        (parts, load): (&CellParts, f64),
     ) {
         let (axis, begin) = (map.load_axis(), map.loads as f64);
-        let at_end = |curve: &LoadCurve| curve.value(begin)[0];
-        let s = at_end(&own.value);
+        let [s, by_c, s1, s2] = parts.map(|own| at_end(&own));
         for [point, weight] in GAUSS {
             let half = 0.5 * (load - begin);
             let (w, nu) = (half * weight, begin + half * (1.0 + point));
@@ -131,11 +127,10 @@ impl PairSums {
             let dx = place.curve.value(nu)[1];
             self.energy += w * s * f * dx;
             if let Some(along) = by_phase {
-                self.phase_rate += w * (at_end(&own.by_phase) * f * dx - s * df * along.value(nu)[0]);
+                self.phase_rate += w * (by_c * f * dx - s * df * along.value(nu)[0]);
             }
             if let Some(by_tilt) = &place.by_tilt {
                 let ([x1, dx1], [x2, _]) = (by_tilt[0].value(nu), by_tilt[1].value(nu));
-                let [s1, s2] = [0, 1].map(|i| at_end(&own.by_tilt[i]));
                 self.moment += w * (s * df * x1 - s1 * f * dx);
                 self.tilting += w * (s1 * df * x1 + s * df * x2 - s2 * f * dx - s1 * f * dx1);
             }
@@ -143,10 +138,26 @@ impl PairSums {
     }
 }
 
+/// Value of a spline at the end of an interval.
+fn at_end(k: &[f64; 4]) -> f64 {
+    (k[1] + 4.0 * k[2] + k[3]) / 6.0
+}
+
 impl ContactMap {
-    /// A pair's part and its slope over the load; beyond the largest force of the map the part stays.
-    pub(crate) fn held(&self, part: &LoadCurve, load: f64) -> [f64; 2] {
-        let last = self.loads as f64;
-        if load > last { [part.value(last)[0], 0.0] } else { part.value(load) }
+    /// Parts of a pair under a load, and the slope of its part over that; beyond the largest force of the map the parts
+    /// stay. In the order of [`CellParts`].
+    pub(crate) fn held(&self, own: &PairPlace, tilt: &Splines, load: f64, wanted: PartsWanted) -> ([f64; 4], f64) {
+        let cell = (load as usize).min(self.loads - 1);
+        let parts = self.parts(own, tilt, cell, wanted);
+        if load > self.loads as f64 {
+            return (parts.map(|own| at_end(&own)), 0.0);
+        }
+        let Splines { values, slopes, .. } = splines(load - cell as f64);
+        (parts.map(|own| dot(&own, &values)), dot(&parts[0], &slopes))
     }
+}
+
+#[inline]
+fn dot(a: &[f64; 4], b: &[f64; 4]) -> f64 {
+    (a[0] * b[0] + a[1] * b[1]) + (a[2] * b[2] + a[3] * b[3])
 }
