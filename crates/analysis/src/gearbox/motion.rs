@@ -19,6 +19,7 @@ use super::{
     inertia,
     meshes::ReducedMesh,
     orders::{MotionOrder, orders},
+    parts::over_time,
     sink::GearboxSink,
 };
 use crate::{
@@ -166,6 +167,7 @@ pub(super) fn run(
         elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
     });
     let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
+    let made = made.and_then(|own| own.with_torques(over_time(rest.file, rest.operation)));
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
     let run_up = match options.drive {

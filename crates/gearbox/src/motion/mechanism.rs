@@ -1,11 +1,12 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
-use dynamics::Speed;
+use dynamics::{Speed, Torque};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh,
     rolling_supports::RollingSupports,
+    varying_torques::{VaryingTorque, VaryingTorques},
 };
 use crate::{
     Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
@@ -33,15 +34,17 @@ pub struct GearboxMechanism {
     pub(super) damping: DMatrix<f64>,
     /// Gyroscopic matrix at the unit speed of the input.
     pub(super) gyroscopic: DMatrix<f64>,
-    /// Torques of the outputs on the bodies.
+    /// Constant torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
+    /// Torques of the outputs that change with time.
+    pub(super) varying: VaryingTorques,
     /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
     pub(super) momentum: DVector<f64>,
     /// Forces of preloaded bearings on the bodies.
     pub(super) preload: DVector<f64>,
     /// Rolling bearings that follow their laws, beside the springs in their place.
     pub(super) rolling: Option<RollingSupports>,
-    /// Loads of the outputs with the preloads of bearings, and load of the input where a torque drives.
+    /// Constant loads of the outputs with the preloads of bearings, and load of the input where a torque drives.
     pub(super) loads: [DVector<f64>; 2],
     /// Most that each mesh has been used of what it holds, at the ends of steps.
     pub(super) reach: Vec<f64>,
@@ -114,6 +117,7 @@ impl GearboxMechanism {
             damping,
             gyroscopic,
             outputs,
+            varying: VaryingTorques::default(),
             momentum,
             preload,
             rolling: None,
@@ -143,6 +147,35 @@ impl GearboxMechanism {
             let force = guessed_force(&self.meshes, &self.operation);
             self.rolling = Some(RollingSupports::new(structure, &held, force, to_bearings)?);
         }
+        Ok(self)
+    }
+
+    /// The mechanism, with torques over time in place of constant ones: number among the torques of the operation, and
+    /// torque in N mm about +z. The motion starts in equilibrium under what they are then; a torque on the input that
+    /// balances the loads still balances the constant ones.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] for a torque that the operation does not have, [`GearboxError::OutOfRange`] where one is no
+    /// number.
+    pub fn with_torques(mut self, laws: Vec<(usize, Torque)>) -> Result<Self, GearboxError> {
+        let wanted = self.operation.torques.len();
+        let mut all = Vec::new();
+        for (i, law) in laws {
+            let found = i + 1;
+            let own = *self.operation.torques.get(i).ok_or(GearboxError::Count { what: "torques", found, wanted })?;
+            if let Some(value) = law.numbers().find(|x| !x.is_finite()) {
+                return Err(GearboxError::OutOfRange { part: "a torque over time".into(), quantity: "number", value });
+            }
+            let shaft = self.assembly.structure().discs[own.disc].shaft;
+            let at = self.bodies.of_node(self.assembly.disc(own.disc).unwrap_or(0)) + 5;
+            let along = self.free.basis.row(at).transpose();
+            self.outputs[at] -= own.torque;
+            self.loads[0].axpy(-own.torque, &along, 1.0);
+            // A free turn of the train is a coordinate.
+            let ratio = if self.free.turn.is_some() { 0.0 } else { self.train.ratios()[shaft] };
+            all.push(VaryingTorque { law, along, at, ratio });
+        }
+        self.varying = VaryingTorques::new(all);
         Ok(self)
     }
 

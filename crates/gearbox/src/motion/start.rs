@@ -78,7 +78,8 @@ impl GearboxMechanism {
         let n = count - usize::from(self.free.turn.is_some());
         let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
         let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
-        let load = self.loads[0].rows(0, n).into_owned();
+        let mut load = self.loads[0].rows(0, n).into_owned();
+        self.varying.forces(0.0).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
         let mut guessed = stiffness.clone();
         for (i, (mesh, meshing)) in self.meshes.iter().zip(self.train.meshing()).enumerate() {
             let lever = self.live[i].to_gears.tr_mul(&guessed_lever(mesh, meshing)?);

@@ -7,6 +7,7 @@ mod motion;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;
+mod motion_loads;
 mod motion_pair;
 mod overhung;
 mod pairs;
