@@ -5,6 +5,7 @@ mod command_line;
 mod faults;
 mod folders;
 mod gearbox;
+mod gearbox_loads;
 mod gearbox_pitch_errors;
 mod gearbox_resume;
 mod messages;

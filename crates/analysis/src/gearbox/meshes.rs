@@ -2,15 +2,16 @@
 
 use crate::remark;
 use answer::Remark;
+use contact::Offset;
 use std::sync::Arc;
 
 use dynamics::RigidBody;
 use fem::Wanted;
 use gearbox::{
-    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train,
+    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train, Vector12,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
-use ltca::StaticOptions;
+use ltca::{StaticModel, StaticOptions};
 use reduction::{ElasticGear, GearModes};
 use scene::{
     Scene,
@@ -23,7 +24,7 @@ use crate::{
     gears,
     inputs::resolved_scene,
     meshes::SceneMesh,
-    motion::body,
+    motion::{QuasiStatic, body},
     options::options,
     reduced_pairs::ReducedPair,
     solution_remarks::{PressedMesh, jam_remark},
@@ -163,6 +164,35 @@ impl ReducedMesh {
         let gears = &self.pair.gears;
         let coast = self.options.contact.both_flanks.then(|| Arc::clone(gears));
         MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
+    }
+
+    /// The mesh alone through its own cycle at rest: `torque` (N mm) on the driven gear, axes displaced by `about` in the
+    /// mesh's own axes.
+    pub fn cycle(
+        &self,
+        mesh: &GearMesh,
+        torque: f64,
+        about: &Vector12,
+        positions: u32,
+    ) -> Result<QuasiStatic, AnalysisError> {
+        let options = StaticOptions { torque, ..self.options.clone() }.with_contact(|contact| {
+            contact.both_flanks = false;
+            for (gear, offset) in contact.offsets.iter_mut().enumerate() {
+                let [x, y, z, tilt_x, tilt_y] = std::array::from_fn(|i| about[6 * gear + i]);
+                *offset = Offset {
+                    x: offset.x + x,
+                    y: offset.y + y,
+                    z: offset.z + z,
+                    tilt_x: offset.tilt_x + tilt_x,
+                    tilt_y: offset.tilt_y + tilt_y,
+                };
+            }
+        });
+        let named =
+            |source| GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(GearboxError::from(source)) };
+        let made = StaticModel::new(mesh.pair.clone(), Arc::clone(&self.pair.gears), options);
+        let history = made.and_then(|mut model| model.run(positions as usize, 1, |_, _, _| ())).map_err(named)?;
+        Ok(QuasiStatic::of(&history))
     }
 
     /// The contact by its map: that of the cache, or a new one; remarks are about files of the cache.

@@ -60,7 +60,8 @@ fn young(shaft: &GearboxShaft) -> Option<Remark> {
 fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let density = 1e12 * shaft.density;
     let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
-    (!usual(density)).then(|| {
+    // A held shaft may leave all inertia to its gears.
+    (!usual(density) && !shaft.held).then(|| {
         let other = meant("density_kg_m3", density, usual);
         remark::unlikely_shaft_density(shaft.name.as_str(), density, other)
     })

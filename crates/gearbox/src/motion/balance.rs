@@ -76,7 +76,12 @@ impl GearboxMechanism {
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
         let energy_rate = live.element().energy_rate();
-        let to_gears = &live.to_gears;
+        let answer = self.balance_of(mesh, &(losses.friction + losses.force));
+        if answer != 0.0 {
+            out.other.axpy(answer, &self.push, 1.0);
+            out.supplied += answer * self.push.dot(v);
+        }
+        let to_gears = &self.live[mesh].to_gears;
         out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
@@ -88,14 +93,14 @@ impl GearboxMechanism {
             None => {
                 // What the input pushes uneven teeth through with, and against friction.
                 out.supplied -= losses.along_cycles * passing;
-                if out.rates {
-                    out.parametric += energy_rate * passing;
-                }
             }
         }
         if out.tangents {
             out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears));
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
+        }
+        if out.rates && turn.is_none() {
+            out.parametric += self.live[mesh].energy_change(&self.meshes[mesh])? * passing;
         }
         Ok(())
     }

@@ -68,10 +68,11 @@ impl GearboxMechanism {
         let mut began = ledger.initial;
         if !self.varying.is_empty() {
             let constant = of_loads + energy.input_work;
-            energy.output_work += if self.free.turn.is_some() { ledger.supplied - constant } else { self.varying.work() };
+            energy.output_work +=
+                if self.free.turn.is_some() { ledger.supplied - constant } else { self.varying.work() };
         }
         if self.free.turn.is_none() {
-            let inertia = self.free.rigid.dot(&(&self.bodies.mass * &self.free.rigid));
+            let inertia = self.train_inertia();
             let of = |s: &State| self.input(s.time, &s.q, &s.v);
             let along = |s: &State| {
                 let [_, omega] = of(s);

@@ -22,6 +22,8 @@ use crate::{
 pub struct MapRequest {
     /// Displacements of the gears in the mesh's own axes at rest, one entry a position: the map is made about their mean.
     pub stands: Vec<Vector12>,
+    /// Whether the gears can tilt against each other: between held shafts a map needs no tilt.
+    pub tilts: bool,
     /// Sum of the normal forces there, N.
     pub mean_force: f64,
     /// Largest force over that.
@@ -76,7 +78,7 @@ impl MappedMesh {
         let plan = MapPlan {
             mean_force: request.mean_force,
             largest_force: request.overload * request.mean_force,
-            tilt: Some(tilt_range(&request.stands, &projection, pair)),
+            tilt: request.tilts.then(|| tilt_range(&request.stands, &projection, pair)),
             width: pair.face_width(),
             tolerance: request.tolerance,
             worst: request.worst,
@@ -89,7 +91,7 @@ impl MappedMesh {
     /// The mesh on a map that [`MappedMesh::new`] made of the same gears, options and request.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for a map without tilts.
+    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for a map with tilts where none are asked for, or without.
     pub fn on(
         pair: &GearPair,
         options: &StaticOptions,
@@ -97,7 +99,7 @@ impl MappedMesh {
         map: ContactMap,
     ) -> Result<Self, GearboxError> {
         refuse(pair, options, request)?;
-        if map.tilts().is_none() {
+        if map.tilts().is_some() != request.tilts {
             return Err(GearboxError::Unmapped { what: "a mesh that this map was not made for" });
         }
         let offsets = PairOffsets::new(pair.pitch_approaches(options.side(), options.contact.sense));
@@ -120,6 +122,12 @@ impl MappedMesh {
         Self { damping_per_length: per_length, ..self }
     }
 
+    /// Approach (mm) and tilt (rad) of displacements, or their rates; no tilt where the map has none.
+    fn along(&self, displacements: &Vector12) -> [f64; 2] {
+        let [approach, tilt] = [&self.projection.approach, &self.projection.tilt].map(|a| a.dot(displacements));
+        [approach, if self.map().tilts().is_some() { tilt } else { 0.0 }]
+    }
+
     /// The map of teeth at their nominal places.
     pub fn map(&self) -> &ContactMap {
         self.map.map()
@@ -140,19 +148,6 @@ impl MappedMesh {
         let about = request.about();
         let at = |cycles: f64| MappedPhase::new((pair, gears, options), cycles, (&self.projection, &about));
         self.map.error(request.mean_force, at).map_err(|e| GearboxError::Map(Box::new(e)))
-    }
-
-    /// Mean over a cycle of the loaded length of contact lines, mm, under a force (N) and the mean tilt.
-    pub fn mean_loaded_length(&self, force: f64, phases: usize) -> f64 {
-        let map = self.map();
-        let tilt = map.tilts().map_or(0.0, |[low, high]| 0.5 * (low + high));
-        let at = |i: usize| {
-            let phase = i as f64 / phases as f64;
-            let place = map.place(phase, tilt);
-            let contact = map.contact(&place, map.approach(phase, tilt, force), Wanted::default());
-            map.loaded_length(&place, &contact)
-        };
-        (0..phases).map(at).sum::<f64>() / phases.max(1) as f64
     }
 }
 
@@ -186,9 +181,9 @@ impl MeshElement for MappedMesh {
     }
 
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
+        [self.approach, self.tilt] = self.along(displacements);
         let Self { map, projection, kept, .. } = self;
         let along = [&projection.approach, &projection.tilt];
-        [self.approach, self.tilt] = along.map(|a| a.dot(displacements));
         let wanted = Wanted { energy: true, phase_rate: true };
         self.contact = map.contact(kept.at(map, self.cycles, self.tilt), self.approach, wanted);
         let contact = &self.contact;
@@ -223,7 +218,7 @@ impl MovingMesh for MappedMesh {
 
     fn losses(&mut self, rates: &Vector12, _cycles: f64) -> MeshLosses {
         let along = [&self.projection.approach, &self.projection.tilt];
-        let own = along.map(|a| a.dot(rates));
+        let own = self.along(rates);
         let found = self.map().damping(self.kept.last(), &self.contact, own, self.damping_per_length);
         let mut all = MeshLosses::default();
         for (i, a) in along.into_iter().enumerate() {

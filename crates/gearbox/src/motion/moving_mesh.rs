@@ -40,6 +40,15 @@ pub trait MovingMesh: MeshElement {
     /// dV/dc: how it follows the mesh cycles with displacements held, N mm a cycle.
     fn energy_rate(&self) -> f64;
 
+    /// The same, with what the stiffness changes by on the way, which is in no force of the flanks: what the energy
+    /// follows to the second order of the deflections. Where the mesh stands afterwards is open.
+    ///
+    /// # Errors
+    /// As of [`MeshElement::evaluate`].
+    fn energy_change(&mut self) -> Result<f64, GearboxError> {
+        Ok(self.energy_rate())
+    }
+
     /// Friction and dampers of the flanks that touch, with the gears moving at `rates` beside their nominal motion (mm/s,
     /// rad/s) and the mesh going on by `cycles` a second.
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses;

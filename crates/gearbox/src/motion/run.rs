@@ -7,7 +7,9 @@ use integrate::{
 };
 use nalgebra::DVector;
 
-use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, periodic_state::Settling};
+use super::{
+    Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, periodic_state::Settling,
+};
 use crate::GearboxError;
 
 /// A state of a gearbox's motion to go on from.
@@ -33,7 +35,7 @@ impl GearboxTimes {
     }
 
     fn is_ramp(&self) -> bool {
-        matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
+        matches!(self.drive.nominal(), Speed::Ramp { .. })
     }
 
     fn steps(&self) -> u64 {
@@ -44,7 +46,7 @@ impl GearboxTimes {
     /// where it never turns so far.
     fn time_of(&self, step: u64) -> Option<f64> {
         // Times are counted from the start: sums of steps would drift.
-        let Drive::Speed(ramp @ Speed::Ramp { start: begin, duration, .. }) = self.drive else {
+        let ramp @ Speed::Ramp { start: begin, duration, .. } = self.drive.nominal() else {
             return Some(self.start + self.plan.step * step as f64);
         };
         ramp.time_at(ramp.angle(begin + duration) * (step as f64 / self.steps().max(1) as f64))

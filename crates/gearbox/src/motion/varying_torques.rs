@@ -9,8 +9,10 @@ use serde::{Deserialize, Serialize};
 pub(super) struct VaryingTorque {
     /// T(t), N mm about +z.
     pub law: Torque,
-    /// Generalised force of a unit torque on the coordinates z.
+    /// Generalised force of a unit torque on the coordinates z, with what a balanced drive answers.
     pub along: DVector<f64>,
+    /// Turn of the disc by the coordinates z.
+    pub disc: DVector<f64>,
     /// Reduced coordinate of the bodies that it acts on.
     pub at: usize,
     /// Turn of its shaft over the given one of the input; 0 where that is among the coordinates.
@@ -54,13 +56,18 @@ impl VaryingTorques {
         self.all.iter().map(move |own| (own.law.at(t), &own.along))
     }
 
+    /// Torque (N mm about +z) on the input that balances them at a time.
+    pub fn balance(&self, t: f64) -> f64 {
+        self.all.iter().map(|own| -own.ratio * own.law.at(t)).sum()
+    }
+
     /// Torque (N mm) on a reduced coordinate of the bodies at a time.
     pub fn on_body(&self, t: f64, coordinate: usize) -> f64 {
         self.all.iter().filter(|own| own.at == coordinate).map(|own| own.law.at(t)).sum()
     }
 
     fn angles(&self, input: f64, q: &DVector<f64>) -> Vec<f64> {
-        self.all.iter().map(|own| own.ratio * input + own.along.dot(q)).collect()
+        self.all.iter().map(|own| own.ratio * input + own.disc.dot(q)).collect()
     }
 
     /// A motion begins at a time, with the input at an angle.

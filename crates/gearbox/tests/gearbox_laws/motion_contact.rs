@@ -69,6 +69,7 @@ impl Box1 {
 
     fn request(&self) -> MapRequest {
         MapRequest {
+            tilts: true,
             stands: self.stands.clone(),
             mean_force: self.mean_force,
             overload: 3.0,

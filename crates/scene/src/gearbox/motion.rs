@@ -42,23 +42,34 @@ pub struct GearboxMotion {
     pub settle: Option<(f64, u32)>,
     /// Whether the motion that settles is taken to its periodic state by Newton's method.
     pub shoots: bool,
-    /// Damping ratio of the gears turning against each other at a mesh.
-    pub mesh_damping_ratio: f64,
+    /// Damping of the meshes.
+    pub mesh_damping: GearboxDamping,
     /// Damping ratio of every elastic mode.
     pub modal_damping_ratio: f64,
     /// Highest frequency that shafts must show, Hz; none: four times that of the fastest mesh.
     pub highest_frequency_hz: Option<f64>,
     /// Error of maps that is aimed at, over the mean approach.
     pub map_tolerance: f64,
+    /// Largest force of maps over the mean at rest.
+    pub map_overload: f64,
     /// Cycles of the fastest mesh from one checkpoint to the next; 0: none.
     pub checkpoint_every_cycles: u32,
+}
+
+/// Damping of meshes in motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GearboxDamping {
+    /// Damping ratio of the gears turning against each other at a mesh.
+    Ratio(f64),
+    /// N s/mm a mm of contact line.
+    PerLength(f64),
 }
 
 pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
     let raw = table.get_ref();
     let drive = s.choice_of("drive", &raw.drive)?;
     let input_torque = given!(s, MOTION, raw.input_torque_nm)?.map(|t| 1e3 * t);
-    if let (GearboxDrive::Speed, Some(own)) = (drive, &raw.input_torque_nm) {
+    if let (GearboxDrive::Speed | GearboxDrive::Balanced, Some(own)) = (drive, &raw.input_torque_nm) {
         let said = "an input of given speed has a torque of its own";
         return Err(s.conflict(
             &own.span(),
@@ -70,6 +81,10 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
     if let (GearboxDrive::Torque, Some(own)) = (drive, &raw.to_speed_rpm) {
         let said = "the speed at the end is a result where a torque drives";
         return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, or leave `to_speed_rpm` out"));
+    }
+    if let (Some(_), Some(own)) = (&raw.mesh_damping_ns_per_mm2, &raw.mesh_damping_ratio) {
+        let said = "the damping of the meshes is given twice";
+        return Err(s.conflict(&own.span(), said, "keep one of `mesh_damping_ratio` and `mesh_damping_ns_per_mm2`"));
     }
     let method = s.choice_of::<Integration>("method", &raw.method)?;
     let radius = given!(s, MOTION, raw.spectral_radius)?;
@@ -100,10 +115,14 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
         stop_at_events: row!(s, MOTION, raw.stop_at_events)?,
         settle,
         shoots: s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Shooting,
-        mesh_damping_ratio: row!(s, MOTION, raw.mesh_damping_ratio)?,
+        mesh_damping: match given!(s, MOTION, raw.mesh_damping_ns_per_mm2)? {
+            Some(per_length) => GearboxDamping::PerLength(per_length),
+            None => GearboxDamping::Ratio(row!(s, MOTION, raw.mesh_damping_ratio)?),
+        },
         modal_damping_ratio: row!(s, MOTION, raw.modal_damping_ratio)?,
         highest_frequency_hz: given!(s, MOTION, raw.highest_frequency_hz)?,
         map_tolerance: row!(s, MOTION, raw.map_tolerance)?,
+        map_overload: row!(s, MOTION, raw.map_overload)?,
         checkpoint_every_cycles: row!(s, MOTION, raw.checkpoint_every_cycles)?,
     })
 }

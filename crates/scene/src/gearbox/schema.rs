@@ -37,7 +37,7 @@ table! {
         rexs_shaft: text(), "number or name of the shaft in that file; default: the only one";
         young_mpa: bare(1.0, 1e12), "Young's modulus, MPa; default: 206000, or the REXS file's";
         poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
-        density_kg_m3: bare(1.0, 1e5), "density, kg/m^3, for vibration and motion; default: 7850, or the REXS file's";
+        density_kg_m3: bare(1e-9, 1e5), "density, kg/m^3, for vibration and motion; next to nothing where gears have all mass; default: 7850, or the REXS file's";
         held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
     }
 }
@@ -240,6 +240,8 @@ choices! {
     pub enum GearboxDrive {
         /// It keeps its speed.
         Speed = "speed",
+        /// The turn of the whole train keeps its speed.
+        Balanced = "balanced",
         /// A torque acts on it.
         Torque = "torque",
     }
@@ -274,8 +276,8 @@ table! {
     MOTION, RawMotion: "motion in time from the equilibrium on, after the positions at rest; left out: none", needed ["speed_rpm"]; {
         run: word(GearboxRun), "what is run. span: from the equilibrium on; steady: from where the motion repeats itself; shooting: as steady, and taken there by Newton's method as soon as it nearly repeats itself, which is faster than to wait where little damps or the common period is short";
         speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
-        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed); default: speed_rpm. Steps are then turns of the input that are alike";
-        drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it from that speed on";
+        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed and balanced); default: speed_rpm. Steps are then turns of the input that are alike";
+        drive: word(GearboxDrive), "what drives. speed: the input keeps its speed, as of a machine of any inertia; balanced: the common turn of the whole train keeps it, every part is free to vibrate against the others, and the torque of the input is in balance with loads and losses at every instant; torque: a torque acts on the input from that speed on";
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
         mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth and friction and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
@@ -287,10 +289,12 @@ table! {
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
         periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady, shooting)";
         warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady, shooting)";
-        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
+        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other on the mean stiffness of its cycle at rest; the input's gear does not turn where its held shaft keeps the speed. Shared over the contact lines, never a pull";
+        mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
         modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode about the equilibrium, beside that of bearings and meshes";
         highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh. Modes with seats held are kept up to twice that, and more until natural frequencies up to it are off by half a per cent at the most";
         map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at, over the mean approach";
+        map_overload: number(1.0, 1000.0, 4.0), "largest force of maps over the mean at rest";
         checkpoint_every_cycles: whole(0, 1_000_000, 0), "a checkpoint every so many cycles of the fastest mesh; 0: none";
     }
 }
