@@ -59,13 +59,15 @@ fn work(rows: &[GearboxInstant], power: impl Fn(&GearboxInstant) -> f64) -> f64 
     rows.windows(2).map(|w| 0.5 * (power(&w[0]) + power(&w[1])) * (w[1].time - w[0].time)).sum()
 }
 
-const DRIVES: [(Drive, Sense); 3] = [
+const DRIVES: [(Drive, Sense); 4] = [
     (Drive::Speed(Speed::Constant(SPEED)), Sense::Cw),
     (Drive::Speed(Speed::Ramp { from: 0.6 * SPEED, to: 1.4 * SPEED, start: 0.0, duration: DURATION }), Sense::Ccw),
     (Drive::Torque { start: SPEED, torque: None }, Sense::Ccw),
+    (Drive::Balanced(Speed::Constant(SPEED)), Sense::Ccw),
 ];
 
-/// Input, outputs, what is stored and what dampers take add up to nothing at given speed, up a ramp and under a given torque;
+/// Input, outputs, what is stored and what dampers take add up to nothing at given speed, up a ramp, under a given torque and
+/// under one that balances;
 /// and the work of the load and of the input are those of their torques at every instant.
 #[test]
 fn energy_under_loads_over_time_is_accounted_for() {
