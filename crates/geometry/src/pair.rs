@@ -388,9 +388,15 @@ impl GearPair {
     ///
     /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
     pub fn path_coordinate(&self, side: Side, pinion_angle: f64, tooth: i64, z: f64) -> f64 {
+        self.path_coordinates(side, pinion_angle)(tooth, z)
+    }
+
+    /// [`Self::path_coordinate`] of any tooth and height, with its constants found once.
+    pub fn path_coordinates(&self, side: Side, pinion_angle: f64) -> impl Fn(i64, f64) -> f64 {
         let p = &self.pinion;
-        let turn = pinion_angle + tooth as f64 * p.pitch_angle() + p.twist() * z;
-        p.base_radius() * (side.sign() * turn + p.profile().base_half_angle() + self.working_pressure_angle())
+        let (pitch, twist, base, sign) = (p.pitch_angle(), p.twist(), p.base_radius(), side.sign());
+        let (half, a_wt) = (p.profile().base_half_angle(), self.working_pressure_angle());
+        move |tooth, z| base * (sign * (pinion_angle + tooth as f64 * pitch + twist * z) + half + a_wt)
     }
 
     /// Pinion angle (rad) at which pinion tooth 0 stands, in the middle of the common face, in the middle of the path of
