@@ -189,18 +189,21 @@ answer::remarks! {
         "the branch ends within its range: {reason}",
         "more `motions`, `most_harmonics` or `phases`, or a larger `tail`, may lead on";
     branch_apart(difference_percent)
-        "a motion integrated in time differs from the branch by {difference_percent:.1} %: near a fold it has jumped, else its steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`)",
+        "a motion integrated in time differs from the branch by {difference_percent:.1} %: near a fold it has jumped, else its steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`; of a gearbox `steps_per_cycle`)",
         "";
     branch_turns_back()
         "the branch turns back and leaves the range where it began: another one leads on",
-        "begin at the other end (swap `from` and `to`)";
+        "begin at the other end of the range";
     torus_bifurcation()
         "beyond a torus bifurcation the motion has a second frequency: the branch goes on, unstable, and no periodic motion near it is seen in time",
         "";
-    period_doubling(begins_at, period_cycles)
-        "a motion of twice the period begins at {begins_at:.6}: `period_cycles` = {period_cycles} follows it", "";
+    period_doubling(begins_at, key, value)
+        "a motion of twice the period begins at {begins_at:.6}: `{key}` = {value} follows it", "";
 
     // Gearboxes.
+    branch_linear_bearings()
+        "along the branch rolling bearings are springs about their mean equilibrium; motions integrated in time follow the laws of the bearings",
+        "";
     bearing_estimated(bearing, elements)
         "bearing {bearing}: its inside is estimated from bore, outer diameter and static rating: {elements} a row",
         "state `elements` and their sizes where they are known";

@@ -123,13 +123,26 @@ pub(super) struct AtRest<'a> {
     pub cache: &'a dyn GearCache,
 }
 
-/// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
-pub(super) fn run(
+/// A gearbox that is ready to move, with what its meshes are.
+pub(super) struct Ready {
+    pub mechanism: GearboxMechanism,
+    /// Equilibrium in which it begins.
+    pub start: State,
+    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    pub stiffness: Vec<f64>,
+    /// Damping of each mesh along its normal, N s/mm.
+    pub damping: Vec<f64>,
+    /// What was said of files of maps.
+    pub map_remarks: Vec<Remark>,
+}
+
+/// Makes the mechanism of a gearbox with a drive, up to a fastest speed (rad/s) of its input.
+pub(super) fn ready(
     rest: &AtRest<'_>,
     asked: &GearboxMotion,
-    span: Span,
-    (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
-) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
+    (drive, fastest): (Drive, f64),
+    observer: &mut dyn Observer,
+) -> Result<Ready, AnalysisError> {
     let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
     let bodies = inertia::gears(rest.file, rest.reduced)?;
     let structure = inertia::heavy(rest.file, rest.linear, rest.operation, &bodies);
@@ -149,17 +162,8 @@ pub(super) fn run(
         (0..rest.meshes.len()).map(one).collect::<Result<Vec<_>, _>>()
     })
     .map_err(failed)?;
-    let speed = asked.speed_rpm * TAU / 60.0;
-    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
-    let options = MotionOptions {
-        drive: match asked.drive {
-            GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
-            GearboxDrive::Balanced => Drive::Balanced(rest.nominal(asked)),
-            GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
-        },
-        modal_damping: asked.modal_damping_ratio,
-        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest)),
-    };
+    let limit = TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest));
+    let options = MotionOptions { drive, modal_damping: asked.modal_damping_ratio, limit };
     let mut elements = elements.into_iter();
     let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
     let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
@@ -169,7 +173,28 @@ pub(super) fn run(
     let made = made.and_then(|own| own.with_torques(over_time(rest.file, rest.operation)));
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
-    let run_up = match options.drive {
+    let stiffness = springs.iter().map(|s| s.stiffness().mean).collect();
+    Ok(Ready { mechanism, start, stiffness, damping, map_remarks })
+}
+
+/// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
+pub(super) fn run(
+    rest: &AtRest<'_>,
+    asked: &GearboxMotion,
+    span: Span,
+    (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
+) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
+    let speed = asked.speed_rpm * TAU / 60.0;
+    let drive = match asked.drive {
+        GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
+        GearboxDrive::Balanced => Drive::Balanced(rest.nominal(asked)),
+        GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
+    };
+    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
+    let Ready { mut mechanism, start, stiffness, damping, map_remarks } =
+        ready(rest, asked, (drive, fastest), observer)?;
+    let run_up = match drive {
         Drive::Speed(speed) | Drive::Balanced(speed) => {
             RunUpTorque::new(speed, (mechanism.driven_inertia(), 1.0), rest.load_at_input())
         }
@@ -207,7 +232,7 @@ pub(super) fn run(
         orders: orders(&rows)?,
         rows,
         mesh_frequencies: frequencies,
-        stiffness: springs.iter().map(|s| s.stiffness().mean).collect(),
+        stiffness,
         damping,
         step: plan.step,
         steps: [done.steps, done.divided],
@@ -306,7 +331,7 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
 
 impl AtRest<'_> {
     /// How its motion is integrated.
-    fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
+    pub(super) fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
         // A ramp has its longest steps where it is slowest.
         let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
         MotionPlan {

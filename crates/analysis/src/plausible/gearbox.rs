@@ -28,7 +28,7 @@ const MACHINE: f64 = 1e7;
 
 /// What is unlikely in a gearbox file, with the unit that may have been meant.
 pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
-    let moves = file.vibration.is_some() || file.motion.is_some();
+    let moves = file.vibration.is_some() || file.motion.is_some() || file.branch.is_some();
     let shafts = file.shafts.iter().flat_map(|shaft| {
         let density = moves.then(|| density(shaft)).flatten();
         [young(shaft), density].into_iter().flatten()

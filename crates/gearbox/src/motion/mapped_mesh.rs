@@ -236,6 +236,10 @@ impl MovingMesh for MappedMesh {
         Ok([self.map.overlap(self.kept.last(), self.approach), f64::NEG_INFINITY])
     }
 
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        Some(vec![self.projection.approach, self.projection.tilt])
+    }
+
     fn reach(&self) -> f64 {
         let map = self.map();
         let force = self.contact.force / map.largest_force();

@@ -10,9 +10,11 @@
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
+//! | `branch`, `speed_family` | periodic motions over the speed, stable and unstable |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
+mod branch;
 mod contact_spring;
 mod energy;
 mod free_coordinates;
@@ -31,11 +33,13 @@ mod plan;
 mod reduced_bodies;
 mod rolling_supports;
 mod run;
+mod speed_family;
 mod spring_mesh;
 mod start;
 mod tilting_spring;
 mod varying_torques;
 
+pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
 pub use dynamics::{Speed, Torque as TorqueOverTime};
 pub use energy::GearboxEnergy;

@@ -87,6 +87,12 @@ pub trait MovingMesh: MeshElement {
     /// do for a mesh that is a pure function of it.
     fn forget(&mut self) {}
 
+    /// The combinations of displacements that all forces of this mesh depend on and act along, as rows of 12 each;
+    /// `None` for a mesh that depends on more than it can name.
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        None
+    }
+
     /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
     /// such bounds.
     fn reach(&self) -> f64 {

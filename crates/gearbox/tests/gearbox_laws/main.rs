@@ -4,6 +4,7 @@ mod elastic;
 mod exact;
 mod forced;
 mod motion;
+mod motion_branch;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;

@@ -10,7 +10,7 @@ use super::file::{
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::modes::modes;
-use super::motion::{GearboxMotion, motion};
+use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
 use super::schema::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
@@ -64,10 +64,15 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
-    let motion = raw.motion.as_ref().map(|table| motion(s, table)).transpose()?;
-    over_time(s, &raw.torque, &torques, motion.as_ref())?;
+    let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
+    over_time(s, &raw.torque, &torques, moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw)?;
-    without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), motion.as_ref())?;
+    without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
+    let (motion, branch) = match moves {
+        None => (None, None),
+        Some(Asked::Motion(motion)) => (Some(motion), None),
+        Some(Asked::Branch(branch)) => (None, Some(branch)),
+    };
     let name = s.title(&raw.name);
     let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
@@ -88,6 +93,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         vibration,
         modes,
         motion,
+        branch,
         parquet: row!(s, OUTPUT, output.parquet)?,
     })
 }

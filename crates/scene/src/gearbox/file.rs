@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::{GearboxMotion, schema::RollingKind};
+use super::{GearboxBranch, GearboxMotion, schema::RollingKind};
 use crate::{AccuracyScene, ModesScene, Scene, Sense, TorqueScene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -42,6 +42,8 @@ pub struct Gearbox {
     pub modes: Option<ModesScene>,
     /// How it runs in time; none: at rest alone.
     pub motion: Option<GearboxMotion>,
+    /// Periodic motions over the speed of the input; none: not asked for.
+    pub branch: Option<GearboxBranch>,
     /// Every table column by column as well, for other programs.
     pub parquet: bool,
 }

@@ -4,7 +4,7 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
-    schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawMotion},
+    schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawContinuation, RawMotion},
     values::{Checked, given, needed_of, row},
 };
 use crate::{Integration, Source};
@@ -65,7 +65,103 @@ pub enum GearboxDamping {
     PerLength(f64),
 }
 
-pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
+/// The branch of periodic motions of a gearbox over the speed of its input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxBranch {
+    /// The motion at the speed where it begins: drive, meshes, damping, and how motions in time are run.
+    pub motion: GearboxMotion,
+    /// Speed where it ends, 1/min.
+    pub to_speed_rpm: f64,
+    /// Common periods of all meshes after which a motion comes back.
+    pub periods: u32,
+    /// Harmonics of a cycle of the fastest mesh to begin with.
+    pub harmonics: u32,
+    /// The largest number of them.
+    pub most_harmonics: u32,
+    /// Largest share of the vibration that harmonics left out may have.
+    pub tail: f64,
+    /// Least number of phases of a cycle of the fastest mesh at which forces are evaluated.
+    pub phases: u32,
+    /// Longest step, in ranges of the speed and static deflections.
+    pub longest_step: f64,
+    /// Largest number of motions.
+    pub motions: u32,
+    /// Stable motions that are run in time.
+    pub time_points: u32,
+}
+
+/// What a table of motion asks for: a motion in time, or a branch.
+pub(super) enum Asked {
+    Motion(GearboxMotion),
+    Branch(GearboxBranch),
+}
+
+impl Asked {
+    /// The motion in time, or that where the branch begins.
+    pub fn motion(&self) -> &GearboxMotion {
+        match self {
+            Self::Motion(motion) => motion,
+            Self::Branch(branch) => &branch.motion,
+        }
+    }
+}
+
+/// What the table asks for.
+pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked> {
+    let (raw, motion) = (table.get_ref(), motion(s, table)?);
+    if s.choice_of::<GearboxRun>("run", &raw.run)? != GearboxRun::Continuation {
+        return match &raw.continuation {
+            None => Ok(Asked::Motion(motion)),
+            Some(own) => {
+                let said = "[motion.continuation] belongs to a branch over the speed";
+                Err(s.conflict(&own.span(), said, "take `run = \"continuation\"`, or leave the table out"))
+            }
+        };
+    }
+    let at = raw.run.as_ref().map_or(table.span(), Spanned::span);
+    let Some(to_speed_rpm) = motion.to_speed_rpm.filter(|to| *to != motion.speed_rpm) else {
+        let said = "a branch over the speed that ends where it begins";
+        return Err(s.conflict(&at, said, "give `to_speed_rpm`, above or below `speed_rpm`"));
+    };
+    if let (MeshModel::Exact, Some(own)) = (motion.mesh, &raw.mesh) {
+        let said = "the exact contact has no continuation: all displacements of its flanks count";
+        return Err(s.conflict(&own.span(), said, "take `mesh = \"mapped\"` or `mesh = \"spring\"`"));
+    }
+    if let (GearboxDrive::Balanced, Some(own)) = (motion.drive, &raw.drive) {
+        let said = "a branch has an input that keeps its speed";
+        return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, with the inertia of the machine in [input]"));
+    }
+    let of_rows = [
+        ("cycles", raw.cycles.as_ref().map(Spanned::span)),
+        ("steps_per_row", raw.steps_per_row.as_ref().map(Spanned::span)),
+        ("checkpoint_every_cycles", raw.checkpoint_every_cycles.as_ref().map(Spanned::span)),
+    ];
+    if let Some((key, span)) = of_rows.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        let said = format!("`{key}` belongs to a motion that writes rows in time");
+        return Err(s.conflict(&span, said, "leave it out: a branch has a row for each motion"));
+    }
+    let none = RawContinuation::default();
+    let words = raw.continuation.as_ref().map_or(&none, Spanned::get_ref);
+    let branch = GearboxBranch {
+        motion: GearboxMotion { to_speed_rpm: None, shoots: true, ..motion },
+        to_speed_rpm,
+        periods: row!(s, CONTINUATION, words.periods)?,
+        harmonics: row!(s, CONTINUATION, words.harmonics)?,
+        most_harmonics: row!(s, CONTINUATION, words.most_harmonics)?,
+        tail: row!(s, CONTINUATION, words.tail)?,
+        phases: row!(s, CONTINUATION, words.phases)?,
+        longest_step: row!(s, CONTINUATION, words.longest_step)?,
+        motions: row!(s, CONTINUATION, words.motions)?,
+        time_points: row!(s, CONTINUATION, words.time_points)?,
+    };
+    if let (true, Some(own)) = (branch.most_harmonics < branch.harmonics, &words.most_harmonics) {
+        let said = format!("`most_harmonics` = {} is below `harmonics` = {}", branch.most_harmonics, branch.harmonics);
+        return Err(s.conflict(&own.span(), said, "begin with fewer, or allow more"));
+    }
+    Ok(Asked::Branch(branch))
+}
+
+fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
     let raw = table.get_ref();
     let drive = s.choice_of("drive", &raw.drive)?;
     let input_torque = given!(s, MOTION, raw.input_torque_nm)?.map(|t| 1e3 * t);
@@ -129,7 +225,9 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
 
 /// What a motion waits for before its rows.
 fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Checked<Option<(f64, u32)>> {
-    if s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Span {
+    let run = s.choice_of::<GearboxRun>("run", &raw.run)?;
+    let is_branch = run == GearboxRun::Continuation;
+    if run == GearboxRun::Span {
         let own = [
             raw.periodic_tolerance.as_ref().map(|x| (x.span(), "periodic_tolerance")),
             raw.warm_up_cycles.as_ref().map(|x| (x.span(), "warm_up_cycles")),
@@ -146,7 +244,7 @@ fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Ch
         let said = "under a torque the speed wanders, and a motion without a given speed has no period";
         return Err(s.conflict(&drive.span(), said, "take `run = \"span\"`, or `drive = \"speed\"`"));
     }
-    if let Some(ramp) = &raw.to_speed_rpm {
+    if let (Some(ramp), false) = (&raw.to_speed_rpm, is_branch) {
         let said = "a motion whose speed changes never repeats itself";
         return Err(s.conflict(&ramp.span(), said, "take `run = \"span\"`, or leave `to_speed_rpm` out"));
     }
