@@ -129,7 +129,11 @@ pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked
     }
     if let (GearboxDrive::Balanced, Some(own)) = (motion.drive, &raw.drive) {
         let said = "a branch has an input that keeps its speed";
-        return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, with the inertia of the machine in [input]"));
+        return Err(s.conflict(
+            &own.span(),
+            said,
+            "take `drive = \"speed\"`, with the inertia of the machine in [input]",
+        ));
     }
     let of_rows = [
         ("cycles", raw.cycles.as_ref().map(Spanned::span)),
