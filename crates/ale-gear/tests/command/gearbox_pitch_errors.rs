@@ -93,7 +93,7 @@ fn pitch_errors_of_all_gears_act_on_maps_as_in_the_exact_contact() {
             off / size,
             rms(&wanted_with)
         );
-        // Forces have the error of the map itself, a few permille of the deflection times the stiffness, whatever the errors do.
+        // Forces have the error of the map itself, some permille of the deflection times the stiffness.
         let mean = wanted_with.iter().sum::<f64>().abs() / wanted_with.len() as f64;
         let (of_order, of_all) = if name.ends_with("_um") { (0.03, 0.05 * size) } else { (0.1, 0.01 * mean) };
         // The middle shaft turns once in 53 cycles of the first mesh.
