@@ -111,7 +111,7 @@ impl OffsetMap {
     pub(crate) fn move_place(&self, place: &mut CutPlace, at: [f64; 2]) {
         self.map.move_place(place, at);
         if self.offsets.is_some() {
-            self.map.pairs_at(&mut place.pairs, at[0]);
+            self.map.pairs.places(self.map.phases, at[0], &mut place.pairs);
         }
     }
 

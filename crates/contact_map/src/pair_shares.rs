@@ -4,7 +4,6 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     column::Node,
-    map::ContactMap,
     spline::{Axis, Splines, periodic_coefficients},
 };
 
@@ -66,32 +65,34 @@ impl PairShares {
         let place = (phase + (self.last - pair) as f64) * phases as f64;
         Axis::Periodic(phases * self.count).splines_at(place)
     }
-}
 
-impl ContactMap {
-    /// Pairs that carry at a phase (mesh cycles).
-    pub(crate) fn pairs_at(&self, pairs: &mut Vec<PairPlace>, phase: f64) {
-        let PairShares { count, last, carries, .. } = &self.pairs;
+    /// Pairs that carry at a phase (mesh cycles) of a map of so many phases, in place of those before.
+    pub(crate) fn places(&self, phases: usize, phase: f64, pairs: &mut Vec<PairPlace>) {
         pairs.clear();
-        for pair in (0..*count as i64).map(|i| last - i) {
-            let way = self.pairs.way(self.phases, phase - phase.floor(), pair);
-            if carries[way.first] {
+        for pair in (0..self.count as i64).map(|i| self.last - i) {
+            let way = self.way(phases, phase - phase.floor(), pair);
+            if self.carries[way.first] {
                 pairs.push(PairPlace { pair, way });
             }
         }
     }
 
-    /// Parts of a pair in an interval of the load's axis, with the splines over the tilt; slopes over the tilt where the map
-    /// has one.
-    pub(crate) fn parts(&self, own: &PairPlace, tilt: &Splines, cell: usize, wanted: PartsWanted) -> CellParts {
-        let (loads, tilts) = (self.loads + 3, self.tilt_axis().coefficients());
+    /// Parts of a pair in an interval of the load's axis, with the splines over the tilt and the numbers of coefficients
+    /// over tilts and loads; slopes over the tilt where the map has one.
+    pub(crate) fn parts(
+        &self,
+        own: &PairPlace,
+        (tilt, cell): (&Splines, usize),
+        [tilts, loads]: [usize; 2],
+        wanted: PartsWanted,
+    ) -> CellParts {
         let mut parts = CellParts::default();
         for j in 0..tilt.count {
             // Over the way: value, and slope where it is wanted.
             let [mut value, mut slope] = [[0.0; 4]; 2];
             for i in 0..4 {
                 let at = ((own.way.first + i) * tilts + tilt.first + j) * loads + cell;
-                let row = &self.pairs.table[at..at + 4];
+                let row = &self.table[at..at + 4];
                 value.iter_mut().zip(row).for_each(|(sum, k)| *sum += own.way.values[i] * k);
                 if wanted.phase {
                     slope.iter_mut().zip(row).for_each(|(sum, k)| *sum += own.way.slopes[i] * k);
@@ -104,7 +105,7 @@ impl ContactMap {
             if wanted.phase {
                 add(1, tilt.values[j], &slope);
             }
-            if wanted.tilt && self.tilts > 0 {
+            if wanted.tilt && tilt.count > 1 {
                 add(2, tilt.slopes[j], &value);
                 add(3, tilt.curvatures[j], &value);
             }

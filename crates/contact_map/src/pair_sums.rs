@@ -144,6 +144,11 @@ fn at_end(k: &[f64; 4]) -> f64 {
 }
 
 impl ContactMap {
+    /// Parts of a pair in an interval of the load's axis, with the splines over the tilt.
+    fn parts(&self, own: &PairPlace, tilt: &Splines, cell: usize, wanted: PartsWanted) -> CellParts {
+        self.pairs.parts(own, (tilt, cell), [self.tilt_axis().coefficients(), self.loads + 3], wanted)
+    }
+
     /// Parts of a pair under a load, and the slope of its part over that; beyond the largest force of the map the parts
     /// stay. In the order of [`CellParts`].
     pub(crate) fn held(&self, own: &PairPlace, tilt: &Splines, load: f64, wanted: PartsWanted) -> ([f64; 4], f64) {

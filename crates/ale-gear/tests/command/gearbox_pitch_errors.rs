@@ -11,7 +11,8 @@ use crate::{
 /// Steps and rows a cycle of the first mesh.
 const STEPS: usize = 20;
 
-/// The two stages of the scenes, pitch errors of all four gears in files, as large as `amount` (um); their meshes are what `mesh` says.
+/// The two stages of the scenes, pitch errors of all four gears in files, as large as `amount` (um); their meshes are what
+/// `mesh` says.
 fn two_stages(mesh: &str, amount: f64) -> Scratch {
     let read = |name: &str| std::fs::read_to_string(repository().join("scenes/gearbox").join(name)).unwrap();
     let mut scratch = Scratch::new();
@@ -87,14 +88,21 @@ fn pitch_errors_of_all_gears_act_on_maps_as_in_the_exact_contact() {
         let (own, wanted) = (less(&with, &without), less(&wanted_with, &wanted_without));
         let (off, size) = (rms(&less(&own, &wanted)), ripple(&wanted));
         let apart = [rms(&less(&with, &wanted_with)), rms(&less(&without, &wanted_without))];
-        println!("{name}: pitch errors do {size:.3}, off by {:.1e}; all off by {apart:.3?}", off / size);
+        println!(
+            "{name}: pitch errors do {size:.3}, off by {:.1e}; all off by {apart:.3?}, mean {:.1}",
+            off / size,
+            rms(&wanted_with)
+        );
+        // Forces have the error of the map itself, some permille of the deflection times the stiffness.
+        let mean = wanted_with.iter().sum::<f64>().abs() / wanted_with.len() as f64;
+        let (of_order, of_all) = if name.ends_with("_um") { (0.03, 0.05 * size) } else { (0.1, 0.01 * mean) };
         // The middle shaft turns once in 53 cycles of the first mesh.
         let turn = 53 * STEPS;
         for order in [1.0, 2.0, 19.0, 53.0] {
             let [own, wanted] = [&own, &wanted].map(|x| amplitude(&x[x.len() - turn..], order));
             println!("  order {order} of the middle shaft: {own:.4}, exact {wanted:.4}");
-            assert!((own - wanted).abs() < 0.03 * size, "{name}, order {order}: {own} beside {wanted}");
+            assert!((own - wanted).abs() < of_order * size, "{name}, order {order}: {own} beside {wanted}");
         }
-        assert!(off < 0.05 * size, "{name}: off by {off} of {size}");
+        assert!(off < of_all, "{name}: off by {off}, allowed {of_all}");
     }
 }

@@ -46,7 +46,8 @@ pub struct GearboxMechanism {
     pub(super) preload: DVector<f64>,
     /// Rolling bearings that follow their laws, beside the springs in their place.
     pub(super) rolling: Option<RollingSupports>,
-    /// Constant loads of the outputs with the preloads of bearings, and load of the input where a torque drives or balances.
+    /// Constant loads of the outputs with the preloads of bearings, and load of the input where a torque drives or
+    /// balances.
     pub(super) loads: [DVector<f64>; 2],
     /// Torque on the input that is given, or balances the loads by the ratios of the train, N mm about +z; 0 where the
     /// input keeps its speed.
