@@ -19,6 +19,9 @@ use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
 use element::ElementStress;
 use patch::Patches;
 
+/// Stress at nodes in their order, MPa.
+type NodalStress = Vec<[f64; 6]>;
+
 /// Stress at every node (MPa) from the displacement of every node (mm).
 ///
 /// Nodes of no element get zero. The same bits for any number of threads.
@@ -64,7 +67,7 @@ pub fn nodal_stresses(
             let prepared = kernel.prepare(&at(&mesh.nodes), tag)?;
             Ok(Some(displacements.iter().map(|u| kernel.at_nodes(&prepared, &at(u))).collect::<Vec<_>>()))
         };
-        let stresses: Vec<Result<Option<Vec<Vec<[f64; 6]>>>, FemError>> =
+        let stresses: Vec<Result<Option<Vec<NodalStress>>, FemError>> =
             block.connectivity.par_chunks(block.kind.node_count()).zip(&block.tags).map(of_element).collect();
         for (element, stresses) in block.elements().zip(stresses) {
             let Some(stresses) = stresses? else { continue };
