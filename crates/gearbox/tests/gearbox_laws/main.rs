@@ -5,6 +5,7 @@ mod exact;
 mod forced;
 mod motion;
 mod motion_branch;
+mod motion_branch_mapped;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;

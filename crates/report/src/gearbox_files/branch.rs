@@ -37,7 +37,7 @@ described::described! {
     struct MeshBranch<'a> {
         /// name of the mesh
         name: &'a str,
-        /// its mesh cycles in a period
+        /// cycles of this mesh in a period
         period_cycles: u64,
         /// mean stiffness along the normal
         mean_mesh_stiffness_n_per_um: f64,
