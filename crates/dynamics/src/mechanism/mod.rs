@@ -91,6 +91,11 @@ impl PairMechanism {
         &self.options
     }
 
+    /// Mean stiffness of the mesh, N/mm on the base circle.
+    pub(crate) fn mean_stiffness(&self) -> f64 {
+        self.means[0]
+    }
+
     /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
     /// tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
