@@ -51,12 +51,12 @@ pub(super) fn quasi_static_balance(
     balance(system, time, from, scale)
 }
 
-/// Start of the search for balance: the driven gear lags by `guess` (mm), or as much beyond the backlash.
+/// Start of the search for balance: the driven gear lags by `guess` (mm), or as much beyond the backlash; no mode bends.
 pub(super) fn guessed(system: &PairMechanism, time: f64, guess: f64) -> DVector<f64> {
     let mut q = DVector::zeros(system.count());
     let coasts = system.load_on_lag(time) < 0.0;
     q[system.coordinates().lag()] = if coasts { -(system.pair().backlash() + guess) } else { guess };
-    q
+    system.stiffened(time, q)
 }
 
 /// Where forces balance at `time` (s) without motion, a driver's own turn held.

@@ -29,16 +29,13 @@ impl GearboxMechanism {
     /// # Errors
     /// [`GearboxError`] where there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
-        let guess = self.guess()?;
-        let near = self.standing(0.0, 0.0, guess)?;
-        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
-        self.forget();
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let speed = self.input_speed();
-        let span = if speed == 0.0 { 0.0 } else { SPAN / (fastest * speed.abs()) };
-        let mut state = quasi_static(self, 0.0, span, near, |own, t, z| own.standing(t, speed * t, z))?;
+        // A ramp accelerates on one side of its beginning alone.
+        let drive = std::mem::replace(&mut self.drive, self.drive.steady());
+        let found = self.standing_on();
+        self.drive = drive;
+        let mut state = found?;
         if let Some(i) = self.free.turn {
-            state.v[i] = speed;
+            state.v[i] = self.input_speed();
         }
         if modal_damping > 0.0 {
             let k = self.tangent(&state.q)?;
@@ -71,6 +68,18 @@ impl GearboxMechanism {
             scale[i] = sizes[1];
         }
         scale
+    }
+
+    /// The state at t = 0 in equilibrium at the speed that the input begins with.
+    fn standing_on(&mut self) -> Result<State, GearboxError> {
+        let guess = self.guess()?;
+        let near = self.standing(0.0, 0.0, guess)?;
+        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
+        self.forget();
+        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let speed = self.input_speed();
+        let span = if speed == 0.0 { 0.0 } else { SPAN / (fastest * speed.abs()) };
+        quasi_static(self, 0.0, span, near, |own, t, z| own.standing(t, speed * t, z))?
     }
 
     /// Where forces balance at a time with the input turned by an angle (rad about +z).
