@@ -79,7 +79,7 @@ impl GearboxMechanism {
         let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
         let speed = self.input_speed();
         let span = if speed == 0.0 { 0.0 } else { SPAN / (fastest * speed.abs()) };
-        quasi_static(self, 0.0, span, near, |own, t, z| own.standing(t, speed * t, z))?
+        quasi_static(self, 0.0, span, near, |own, t, z| own.standing(t, speed * t, z))
     }
 
     /// Where forces balance at a time with the input turned by an angle (rad about +z).
