@@ -11,9 +11,7 @@ pub enum PairMotionError {
     #[error(transparent)]
     Integration(#[from] MotionError<StaticError>),
     /// There is no equilibrium to begin with.
-    #[error(
-        "at {time:.9} s: no equilibrium to begin with; the search leaves {left:.3e} of the load"
-    )]
+    #[error("at {time:.9} s: no equilibrium to begin with; the search leaves {left:.3e} of the load")]
     NoStart {
         /// Time, s.
         time: f64,

@@ -78,7 +78,7 @@ fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
         ("generalised-alpha", 1e-8, |s| s.set("motion.method", "generalised-alpha")),
         ("rk4", 1e-8, |s| s.set("motion.method", "rk4")),
         ("dormand-prince", 1e-8, |s| s.set("motion.method", "dormand-prince")),
-        ("energy", 1e-8, |s| s.set("motion.method", "energy").set("motion.mesh_damping_ns_per_mm2", 0.0)),
+        ("energy", 1e-7, |s| s.set("motion.method", "energy").set("motion.mesh_damping_ns_per_mm2", 0.0)),
         ("events", 1e-7, |s| s.set("motion.stop_at_events", true).set("motion.method", "energy")),
         ("shooting", 1e-8, |s| s.set("motion.run", "shooting").set("motion.periodic_tolerance", 1e-11)),
         ("damper", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.2)),

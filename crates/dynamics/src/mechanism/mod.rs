@@ -12,7 +12,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Displacement, Extremes, FlankStates, MeshDamping, MeshResonance, PairBodies, Speed, ToothChanges, Torque,
+    COORDINATES, Extremes, FlankStates, MeshDamping, MeshResonance, PairBodies, Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::equivalent_mass,
     mesh_flanks::MeshFlanks,

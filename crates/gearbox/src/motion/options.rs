@@ -38,15 +38,6 @@ impl Drive {
         self.nominal().at(0.0)
     }
 
-    /// The drive at the speed that it begins with.
-    pub(super) fn steady(&self) -> Self {
-        match *self {
-            Self::Speed(speed) => Self::Speed(Speed::Constant(speed.at(0.0))),
-            Self::Balanced(speed) => Self::Balanced(Speed::Constant(speed.at(0.0))),
-            Self::Torque { start, torque } => Self::Torque { start, torque },
-        }
-    }
-
     /// Speed of the input by time where it is given, else that of the start.
     pub(super) fn nominal(&self) -> Speed {
         match *self {

@@ -1,13 +1,13 @@
 //! Where a motion begins: in equilibrium, moving on as the equilibrium moves.
 
 use fem::natural_modes;
-use integrate::{Forces, Mechanism, State, equilibrium, quasi_static};
+use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
-use super::GearboxMechanism;
+use super::{Drive, GearboxMechanism};
 use crate::{
-    GearboxError,
-    equilibrium::Norms,
+    GearboxError, Vector12,
+    equilibrium::{Left, Norms, equilibrium},
     even_mesh::{guessed_lever, guessed_stiffness},
 };
 
@@ -15,9 +15,6 @@ use crate::{
 const SPAN: f64 = 1e-3;
 /// Size of a coordinate that the equilibrium does not move, over the largest of its kind.
 const LEAST: f64 = 1e-3;
-
-/// Where no search ends.
-const NOWHERE: GearboxError = GearboxError::NoEquilibrium { iterations: 0, step: f64::INFINITY };
 
 impl GearboxMechanism {
     /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly; and modal damping
@@ -29,16 +26,12 @@ impl GearboxMechanism {
     /// # Errors
     /// [`GearboxError`] where there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
-        // A ramp accelerates on one side of its beginning alone.
-        let drive = std::mem::replace(&mut self.drive, self.drive.steady());
-        let found = self.standing_on();
-        self.drive = drive;
-        let mut state = found?;
-        if let Some(i) = self.free.turn {
-            state.v[i] = self.input_speed();
-        }
+        let z = self.standing(0.0, None)?;
+        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
+        self.forget();
+        let z = self.standing(0.0, Some(&z))?;
         if modal_damping > 0.0 {
-            let k = self.tangent(&state.q)?;
+            let k = self.tangent(&z)?;
             let modes = natural_modes(&k, &self.mass)?;
             // A tangent has round-off: what turns the whole train is no elastic mode.
             let turning = usize::from(self.free.turn.is_some());
@@ -51,8 +44,20 @@ impl GearboxMechanism {
                 self.damping.column_mut(i).fill(0.0);
             }
         }
+        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let speed = self.input_speed();
+        let mut v = DVector::zeros(z.len());
+        if speed != 0.0 {
+            let way = SPAN / fastest;
+            let after = self.standing(way, Some(&z))?;
+            let before = self.standing(-way, Some(&z))?;
+            v = (after - before) * (speed / (2.0 * way));
+        }
+        if let Some(i) = self.free.turn {
+            v[i] = speed;
+        }
         self.forget();
-        Ok(state)
+        Ok(State::new(0.0, z, v))
     }
 
     /// Sizes of the coordinates: what deflections and turns are at `state`.
@@ -70,43 +75,49 @@ impl GearboxMechanism {
         scale
     }
 
-    /// The state at t = 0 in equilibrium at the speed that the input begins with.
-    fn standing_on(&mut self) -> Result<State, GearboxError> {
-        let guess = self.guess()?;
-        let near = self.standing(0.0, 0.0, guess)?;
-        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
-        self.forget();
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let speed = self.input_speed();
-        let span = if speed == 0.0 { 0.0 } else { SPAN / (fastest * speed.abs()) };
-        quasi_static(self, 0.0, span, near, |own, t, z| own.standing(t, speed * t, z))
-    }
-
-    /// Where forces balance at a time with the input turned by an angle (rad about +z).
-    fn standing(&mut self, t: f64, angle: f64, mut from: DVector<f64>) -> Result<DVector<f64>, GearboxError> {
-        let turn = self.free.turn;
-        turn.into_iter().for_each(|i| from[i] = angle);
-        let scale = self.scale(&State::new(t, from.clone(), from.clone()));
-        let held: Vec<usize> = turn.into_iter().collect();
-        let mut found = equilibrium(self, t, &from, &held, &scale)?.ok_or(NOWHERE)?;
-        turn.into_iter().for_each(|i| found[i] = 0.0);
-        Ok(found)
-    }
-
-    /// Coordinates that the loads press the gears to, about.
-    fn guess(&self) -> Result<DVector<f64>, GearboxError> {
+    /// Equilibrium with the input turned by an angle (rad about +z); the turn itself is left at 0.
+    fn standing(&mut self, angle: f64, from: Option<&DVector<f64>>) -> Result<DVector<f64>, GearboxError> {
         // The turn of the whole train comes last, if it is one.
         let count = self.count();
         let n = count - usize::from(self.free.turn.is_some());
-        let mut stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
-        for (live, (mesh, meshing)) in self.live.iter().zip(self.meshes.iter().zip(self.train.meshing())) {
-            let lever = live.to_gears.tr_mul(&guessed_lever(mesh, meshing)?);
-            let lever = lever.rows(0, n).into_owned();
-            stiffness.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
-        }
+        let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
+        let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
         // What a torque gives to the turn itself is left out.
         let load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
-        Ok(Norms::new(stiffness)?.displacements(&load).resize_vertically(count, 0.0))
+        let push = self.push.rows(0, n).into_owned();
+        let balances = matches!(self.drive, Drive::Balanced(_));
+        let mut guessed = stiffness.clone();
+        for (i, (mesh, meshing)) in self.meshes.iter().zip(self.train.meshing()).enumerate() {
+            let lever = self.live[i].to_gears.tr_mul(&guessed_lever(mesh, meshing)?);
+            let lever = lever.rows(0, n).into_owned();
+            guessed.ger(guessed_stiffness(&mesh.pair), &lever, &lever, 1.0);
+        }
+        let norms = Norms::new(guessed)?;
+        let start = from.map_or_else(|| norms.displacements(&load), |z| z.rows(0, n).into_owned());
+        let found = equilibrium(&norms, &load, start, |z| {
+            let mut left = Left { residual: &stiffness * z - &load, tangent: stiffness.clone() };
+            let whole = all(z);
+            if let Some(own) = self.beside_springs(&whole, true)? {
+                left.residual -= own.force.rows(0, n);
+                left.tangent +=
+                    own.stiffness.map_or_else(|| DMatrix::zeros(n, n), |k| k.view((0, 0), (n, n)).into_owned());
+            }
+            for i in 0..self.live.len() {
+                let cycles = self.cycles(i, angle);
+                let d = self.displacements(i, &whole);
+                let live = &mut self.live[i];
+                let reply = live.reply(&self.meshes[i], cycles, &d, true)?.clone();
+                let own = live.to_gears.columns(0, n);
+                left.residual -= own.tr_mul(&reply.force);
+                left.tangent -= own.tr_mul(&(reply.tangent * own));
+                if balances {
+                    let losses = live.element().losses(&Vector12::zeros(), 0.0);
+                    left.residual.axpy(-self.balance_of(i, &losses.friction), &push, 1.0);
+                }
+            }
+            Ok(left)
+        })?;
+        Ok(all(&found.displacements))
     }
 
     /// K - df_mesh/dz at a place, symmetric.

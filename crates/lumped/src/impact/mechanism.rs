@@ -113,11 +113,7 @@ impl ImpactMechanism {
         let (pair, statics) = (self.pair(), &self.bodies.options().statics);
         let (sign, side) = (statics.contact.sense.sign(), statics.side());
         let pinion_angle = pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * pair.pinion.pitch_angle();
-        NominalPose {
-            pinion_angle,
-            shift: -sign * station.cycle,
-            wheel_angle: pair.wheel_angle(side, pinion_angle),
-        }
+        NominalPose { pinion_angle, shift: -sign * station.cycle, wheel_angle: pair.wheel_angle(side, pinion_angle) }
     }
 
     fn poses(&self, at: &NominalPose, d: &Displacement) -> [Pose; 2] {
@@ -166,7 +162,6 @@ impl ImpactMechanism {
         // The coast flanks begin where the backlash ends.
         if force < 0.0 { -overlap - pair.backlash() } else { overlap }
     }
-
 }
 
 impl Mechanism for ImpactMechanism {
