@@ -3,7 +3,9 @@
 
 mod rows;
 
-use faer::MatRef;
+use std::borrow::Cow;
+
+use faer::{ColRef, MatRef};
 use nalgebra::Matrix3;
 
 use crate::{
@@ -101,18 +103,26 @@ impl BulkCompliance<'_> {
     /// Adds the displacements by a force at a node along an axis.
     #[inline(always)]
     fn add_column(&self, (node, axis): (u32, usize), force: f64, out: &mut [f64]) {
-        let column = self.whole.col(3 * node as usize + axis);
-        match column.try_as_col_major() {
-            Some(column) => out.iter_mut().zip(column.as_slice()).for_each(|(o, w)| *o += force * w),
-            None => out.iter_mut().zip(column.iter()).for_each(|(o, w)| *o += force * w),
-        }
+        let column = contiguous(self.whole.col(3 * node as usize + axis));
+        out.iter_mut().zip(&*column).for_each(|(o, w)| *o += force * w);
+        let blocks = out.as_chunks_mut::<3>().0;
         for (numbers, local) in &self.local {
             let Ok(own) = numbers.binary_search(&node) else { continue };
-            let column = local.col(3 * own + axis);
-            for (at, &number) in numbers.iter().enumerate() {
-                (0..3).for_each(|b| out[3 * number as usize + b] -= force * column[3 * at + b]);
+            let column = contiguous(local.col(3 * own + axis));
+            for (&number, [x, y, z]) in numbers.iter().zip(column.as_chunks().0) {
+                let block = &mut blocks[number as usize];
+                *block = [block[0] - force * x, block[1] - force * y, block[2] - force * z];
             }
         }
+    }
+}
+
+/// A column as it stands, or copied.
+#[inline(always)]
+fn contiguous(column: ColRef<'_, f64>) -> Cow<'_, [f64]> {
+    match column.try_as_col_major() {
+        Some(column) => Cow::Borrowed(column.as_slice()),
+        None => column.iter().copied().collect(),
     }
 }
 
