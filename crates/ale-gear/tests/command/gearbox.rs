@@ -151,7 +151,8 @@ fn a_branch_over_the_speed_is_written() {
     assert_eq!(branch["unstable"].as_u64().unwrap() as usize, stable.iter().filter(|s| **s == 0.0).count());
     let folds: Vec<f64> = branch["folds"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
     let turns = scratch.read("o/bifurcations.csv");
-    let listed = turns.lines().filter(|l| l.starts_with("fold,")).map(|l| l.split(',').nth(1).unwrap().parse().unwrap());
+    let listed =
+        turns.lines().filter(|l| l.starts_with("fold,")).map(|l| l.split(',').nth(1).unwrap().parse().unwrap());
     assert_eq!(listed.collect::<Vec<f64>>(), folds);
     assert!(folds.len() >= 2 && branch["unstable"].as_u64() > Some(2), "{branch}");
     let largest = errors.iter().copied().fold(0.0, f64::max);

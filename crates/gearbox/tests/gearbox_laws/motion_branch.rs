@@ -11,7 +11,9 @@ use geometry::Sense;
 use integrate::{Forces, Mechanism, Scheme, Settle, State};
 use lumped::Fourier;
 use nalgebra::{DMatrix, DVector};
-use periodic::{BalanceOptions, Bifurcation, Branch, BranchPlan, FourierSeries, Loss, PeriodicFamily, PeriodicMotion, Tracer};
+use periodic::{
+    BalanceOptions, Bifurcation, Branch, BranchPlan, FourierSeries, Loss, PeriodicFamily, PeriodicMotion, Tracer,
+};
 
 use crate::{
     motion::train,
