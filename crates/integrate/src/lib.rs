@@ -9,7 +9,6 @@
 
 mod course;
 mod eigenvalues;
-mod equilibrium;
 mod error;
 mod events;
 mod integrator;
@@ -28,7 +27,6 @@ pub use course::{
     RowPlace, RowReader, Settle, Stage, Stop, Timetable,
 };
 pub use eigenvalues::eigenvalues;
-pub use equilibrium::{equilibrium, quasi_static};
 pub use error::MotionError;
 pub use events::{Crossing, Direction};
 pub use integrator::{Integrator, Progress};

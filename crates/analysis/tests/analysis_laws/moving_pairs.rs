@@ -69,8 +69,8 @@ fn small(changes: impl Fn(SceneBuilder) -> SceneBuilder) -> Scene {
 type Change = fn(SceneBuilder) -> SceneBuilder;
 
 /// Shafts held, a pair in motion is its own gearbox, row by row: with every method, drive, way and side, friction and
-/// dampers. What is left is round-off of places, of which the energy has 1e-14 mm times the force; the discrete gradient
-/// (`energy`) divides that by its path.
+/// dampers. What is left is mostly the start of the pair, in balance to 1e-9 of its load; the discrete gradient (`energy`)
+/// divides by its path what round-off of places makes of the energy.
 #[test]
 fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
     let all: [(&str, f64, Change); 15] = [
@@ -83,9 +83,9 @@ fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
         ("shooting", 1e-8, |s| s.set("motion.run", "shooting").set("motion.periodic_tolerance", 1e-11)),
         ("damper", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.2)),
         ("balanced", 1e-8, |s| s.set("drive.by", "torque")),
-        ("balanced, friction", 1e-8, |s| s.set("drive.by", "torque").set("contact.friction", 0.05)),
+        ("balanced, friction", 1e-7, |s| s.set("drive.by", "torque").set("contact.friction", 0.05)),
         ("friction", 1e-8, |s| s.set("contact.friction", 0.05)),
-        ("wheel drives", 2e-8, |s| s.set("operation.driver", "wheel")),
+        ("wheel drives", 1e-8, |s| s.set("operation.driver", "wheel")),
         ("clockwise", 1e-8, |s| s.set("operation.rotation", "cw")),
         ("driving flanks", 1e-8, |s| s.set("contact.flanks", "driving")),
         ("mapped", 1e-8, |s| {
