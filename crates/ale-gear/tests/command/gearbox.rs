@@ -166,7 +166,7 @@ fn a_branch_over_the_speed_is_written() {
     for check in ["harmonic_residual", "harmonic_tail", "range_left_out", "multiplier_error", "map_use"] {
         assert!(told["certificate_checks"][check]["value"].is_f64(), "{check}: {}", told["certificate_checks"]);
     }
-    assert!(run.stdout.contains("Periodic motions over the speed"), "{}", run.stdout);
+    assert!(run.stdout.contains("motions with loss of contact"), "{}", run.stdout);
     let page = scratch.read("o/report.html");
     assert!(page.contains("Largest Floquet multiplier") && page.contains("Periodic motions, mesh stage"));
     let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
