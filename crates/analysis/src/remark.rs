@@ -262,6 +262,9 @@ answer::remarks! {
     // Stores and pictures.
     gear_not_loaded(file, reason) "{file}: {reason}; the gear was reduced again", "";
     gear_not_stored(file, reason) "{file}: {reason}; the next run will reduce the gear again", "";
+    pitch_errors_on_map(checks, rms_error_um, largest_error_um, error_percent)
+        "pitch errors act on the map as an offset of each tooth pair: beside exact contact at {checks} places the approach is off by {rms_error_um:.3} um (rms) and {largest_error_um:.3} um (largest), {error_percent:.2} % of the mean deflection",
+        "exact contact has no such error: `model = \"reduced\"`, in a gearbox `mesh = \"exact\"` in [motion]";
     map_not_loaded(file, reason) "{file}: {reason}; the contact was mapped again", "";
     map_not_stored(file, reason) "{file}: {reason}; the next run will map the contact again", "";
     no_view(reason) "the report has no fields in space: {reason}", "";

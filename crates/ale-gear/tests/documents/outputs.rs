@@ -117,9 +117,8 @@ fn every_kind() -> Scratch {
     run(&["run", &accurate, "--out", "out-accurate"]);
     let elastic = repository().join("scenes/gearbox/elastic_gears.toml").display().to_string();
     run(&["run", &elastic, "--out", "out-elastic"]);
-    let curve = repository().join("scenes/gearbox/resonance_curve.toml").display().to_string();
-    let [short, coarse] = ["motion.to_speed_rpm=11500", "motion.continuation.longest_step=1"];
-    run(&["run", &curve, "--set", short, "--set", coarse, "--out", "out-resonance-curve"]);
+    let branch = repository().join("scenes/gearbox/resonance_curve.toml").display().to_string();
+    run(&["run", &branch, "--set", "motion.continuation.time_points=1", "--out", "out-branch"]);
     let ring = "[pinion]\nteeth = 36\nhelix_angle_deg = 0.0\n[wheel]\nteeth = -93\ntip_diameter_mm = -182.5\n[pair]\n\
                 normal_module_mm = 2.0\nface_width_mm = 15.0\n[operation]\ntorque_nm = 100.0\n[analysis]\npositions_per_cycle = 2\n";
     std::fs::write(scratch.path().join("ring.toml"), ring).unwrap();

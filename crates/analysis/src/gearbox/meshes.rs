@@ -20,7 +20,7 @@ use scene::{
 
 use crate::{
     AnalysisError, GearCache, NoObserver, Progress, SharedModels,
-    contact_maps::{map_teller, map_words},
+    contact_maps::{map_teller, map_words, pitch_errors_told},
     gears,
     inputs::resolved_scene,
     meshes::SceneMesh,
@@ -209,6 +209,7 @@ impl ReducedMesh {
             if let Some(map) = kept.and_then(|kept| kept.of(key)).and_then(|mut maps| maps.pop())
                 && let Ok(made) = MappedMesh::on(&mesh.pair, &self.options, request, map)
             {
+                remarks.extend(self.pitch_errors(mesh, request, &made)?);
                 return Ok(made);
             }
         }
@@ -216,7 +217,19 @@ impl ReducedMesh {
         let teller = map_teller(progress, &of);
         let made = MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, (request, &teller))?;
         remarks.extend(key.and_then(|key| cache.save_maps(&key, &[made.map()])));
+        remarks.extend(self.pitch_errors(mesh, request, &made)?);
         Ok(made)
+    }
+
+    /// How far pitch errors on a map are off.
+    fn pitch_errors(
+        &self,
+        mesh: &GearMesh,
+        request: &MapRequest,
+        map: &MappedMesh,
+    ) -> Result<Option<Remark>, GearboxError> {
+        let found = map.pitch_error(&mesh.pair, &self.pair.gears, &self.options, request)?;
+        Ok(found.map(|error| pitch_errors_told(&error, map.map()).about(&mesh.name)))
     }
 
     /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.

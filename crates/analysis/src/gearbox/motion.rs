@@ -19,6 +19,7 @@ use super::{
     inertia,
     meshes::ReducedMesh,
     orders::{MotionOrder, orders},
+    parts::over_time,
     sink::GearboxSink,
 };
 use crate::{
@@ -169,6 +170,7 @@ pub(super) fn ready(
         elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
     });
     let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
+    let made = made.and_then(|own| own.with_torques(over_time(rest.file, rest.operation)));
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
     let stiffness = springs.iter().map(|s| s.stiffness().mean).collect();
@@ -370,8 +372,15 @@ impl AtRest<'_> {
         let stands = self.stands(mesh);
         let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
         let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
-        let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
-        ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
+        let own = &self.meshes[mesh];
+        let alike = GearMesh { pair: own.pair.without_pitch_errors(), ..own.clone() };
+        let mut exact = self.reduced[mesh].exact(&alike).map_err(named)?;
+        if alike.pair == own.pair {
+            return ContactSpring::of(&mut exact, &about, PHASES).map_err(named);
+        }
+        let force =
+            self.positions.iter().map(|p| p.meshes[mesh].normal_force).sum::<f64>() / stands.len().max(1) as f64;
+        ContactSpring::under(&mut exact, &about, force, PHASES).map_err(named)
     }
 
     /// Mean torque of a mesh on its driven gear, N mm without sign.

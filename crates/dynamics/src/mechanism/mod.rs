@@ -190,9 +190,9 @@ impl PairMechanism {
         self.modal.is_some()
     }
 
-    /// Whether the teeth of a gear differ from each other.
-    pub(crate) fn has_own_teeth(&self) -> bool {
-        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_teeth())
+    /// Whether flanks of teeth of a gear have forms of their own.
+    pub(crate) fn has_own_flanks(&self) -> bool {
+        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_flanks())
     }
 
     /// Stiffness and damping of the bearings on the twelve coordinates.

@@ -59,9 +59,10 @@ impl GearboxMechanism {
         let input_torque = match self.free.turn {
             Some(i) => self.loads[1][i],
             None if matches!(self.drive, Drive::Balanced(_)) => {
-                self.given + answered + self.acceleration(*time) * self.train_inertia()
+                let of_loads = self.given + self.varying.balance(*time);
+                of_loads + answered + self.acceleration(*time) * self.train_inertia()
             }
-            None => self.reaction([q, v, a], self.acceleration(*time), &on_bodies),
+            None => self.reaction(*time, [q, v, a], &on_bodies),
         };
         let speed_of = |torque: &crate::Torque| {
             let shaft = self.assembly.structure().discs[torque.disc].shaft;
@@ -105,9 +106,9 @@ impl GearboxMechanism {
 
     /// Torque that keeps the input at its speed: what its coordinate leaves over. Dampers of modes do not brake the turn
     /// of the whole train, so that what they do to the other turns is held here.
-    fn reaction(&self, z: [&DVector<f64>; 3], of_turn: f64, on_bodies: &DVector<f64>) -> f64 {
+    fn reaction(&self, t: f64, z: [&DVector<f64>; 3], on_bodies: &DVector<f64>) -> f64 {
         let [y, rate, mut acceleration] = z.map(|x| self.free.deviations(x));
-        acceleration.axpy(of_turn, &self.free.rigid, 1.0);
+        acceleration.axpy(self.acceleration(t), &self.free.rigid, 1.0);
         let shaft = self.assembly.structure().discs[self.operation.input].shaft;
         let held = self.operation.held.contains(&shaft);
         let own = |i: &usize| {
@@ -123,6 +124,7 @@ impl GearboxMechanism {
             of(&self.bodies.mass, &acceleration) + of(&self.bodies.damping, &rate) + of(&self.bodies.stiffness, &y)
                 - on_bodies[i]
                 - self.outputs[i]
+                - self.varying.on_body(t, i)
         };
         let modal = self.free.turning.dot(&(&self.damping * z[1]));
         (0..self.bodies.size()).filter(own).map(row).sum::<f64>() - modal

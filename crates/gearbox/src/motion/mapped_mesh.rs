@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use contact::FlankProjection;
 use contact_map::{
-    ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, MapWatch, PhaseContact, SplineCache, Wanted,
+    ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, MapWatch, OffsetError, OffsetMap, PairOffsets,
+    PhaseContact, SplineCache, Wanted,
 };
 use geometry::GearPair;
 use ltca::StaticOptions;
@@ -12,7 +13,9 @@ use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
 use super::{MeshLosses, MovingMesh};
-use crate::{ExactMesh, GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
+use crate::{
+    ExactMesh, GearboxError, MeshElement, MeshForces, Vector12, exact_mesh::PressedSlice, mesh_element::finite_cycles,
+};
 
 /// What a map of a mesh must hold, and how well.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,11 +35,18 @@ pub struct MapRequest {
     pub worst: f64,
 }
 
+impl MapRequest {
+    /// Mean displacements at rest.
+    fn about(&self) -> Vector12 {
+        self.stands.iter().sum::<Vector12>() / self.stands.len() as f64
+    }
+}
+
 /// The driving flanks of a mesh by a table of their exact contact: forces, moments and energy over phase, approach and
-/// tilt in the plane of action.
+/// tilt in the plane of action. Pitch errors are offsets of the pairs of teeth ([`OffsetMap`]).
 #[derive(Debug, Clone)]
 pub struct MappedMesh {
-    map: Arc<ContactMap>,
+    map: OffsetMap,
     projection: FlankProjection,
     kept: SplineCache,
     /// N s/mm a mm of contact line.
@@ -63,7 +73,8 @@ impl MappedMesh {
     ) -> Result<Self, GearboxError> {
         refuse(pair, options, request)?;
         let projection = FlankProjection::new(pair, options.side());
-        let about = request.stands.iter().sum::<Vector12>() / request.stands.len() as f64;
+        let about = request.about();
+        let alike = pair.without_pitch_errors();
         let plan = MapPlan {
             mean_force: request.mean_force,
             largest_force: request.overload * request.mean_force,
@@ -72,11 +83,7 @@ impl MappedMesh {
             tolerance: request.tolerance,
             worst: request.worst,
         };
-        let at = |phase: f64| {
-            let mut mesh = ExactMesh::new(pair.clone(), Arc::clone(gears), options.clone())?;
-            mesh.go_to(phase)?;
-            Ok(MappedPhase { mesh, projection: &projection, about: &about })
-        };
+        let at = |phase: f64| MappedPhase::new((&alike, gears, options), phase, (&projection, &about));
         let map = ContactMap::build(&plan, watch, at).map_err(|e| GearboxError::Map(Box::new(e)))?;
         Self::on(pair, options, request, map)
     }
@@ -95,8 +102,9 @@ impl MappedMesh {
         if map.tilts().is_some() != request.tilts {
             return Err(GearboxError::Unmapped { what: "a mesh that this map was not made for" });
         }
+        let offsets = PairOffsets::new(pair.pitch_approaches(options.side(), options.contact.sense));
         Ok(Self {
-            map: Arc::new(map),
+            map: OffsetMap::new(Arc::new(map), offsets),
             projection: FlankProjection::new(pair, options.side()),
             kept: SplineCache::default(),
             damping_per_length: 0.0,
@@ -117,12 +125,29 @@ impl MappedMesh {
     /// Approach (mm) and tilt (rad) of displacements, or their rates; no tilt where the map has none.
     fn along(&self, displacements: &Vector12) -> [f64; 2] {
         let [approach, tilt] = [&self.projection.approach, &self.projection.tilt].map(|a| a.dot(displacements));
-        [approach, if self.map.tilts().is_some() { tilt } else { 0.0 }]
+        [approach, if self.map().tilts().is_some() { tilt } else { 0.0 }]
     }
 
-    /// The map.
+    /// The map of teeth at their nominal places.
     pub fn map(&self) -> &ContactMap {
-        &self.map
+        self.map.map()
+    }
+
+    /// Error of the approach by pitch errors as offsets, beside the contact of the same gears, options and request with
+    /// these errors; `None` without any.
+    ///
+    /// # Errors
+    /// [`GearboxError::Map`] where the contact cannot be solved.
+    pub fn pitch_error(
+        &self,
+        pair: &GearPair,
+        gears: &Arc<[ElasticGear; 2]>,
+        options: &StaticOptions,
+        request: &MapRequest,
+    ) -> Result<Option<OffsetError>, GearboxError> {
+        let about = request.about();
+        let at = |cycles: f64| MappedPhase::new((pair, gears, options), cycles, (&self.projection, &about));
+        self.map.error(request.mean_force, at).map_err(|e| GearboxError::Map(Box::new(e)))
     }
 }
 
@@ -130,8 +155,8 @@ impl MappedMesh {
 fn refuse(pair: &GearPair, options: &StaticOptions, request: &MapRequest) -> Result<(), GearboxError> {
     let what = if options.contact.friction > 0.0 {
         "friction"
-    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_teeth()) {
-        "pitch errors or flanks by tooth: the contact comes back after whole turns, not after a mesh cycle"
+    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_flanks()) {
+        "flanks by tooth: the contact comes back after whole turns, not after a mesh cycle"
     } else if request.stands.is_empty() || !(request.mean_force > 0.0 && request.mean_force.is_finite()) {
         "a mesh without load: nothing says what forces occur"
     } else {
@@ -174,7 +199,7 @@ impl MeshElement for MappedMesh {
 
     /// Refuses a place at which the flanks that the map does not have would touch.
     fn check(&mut self) -> Result<(), GearboxError> {
-        let gap_mm = self.map.first_touch(self.kept.last()) - self.approach;
+        let gap_mm = -self.map.overlap(self.kept.last(), self.approach);
         if gap_mm <= self.backlash {
             return Ok(());
         }
@@ -194,7 +219,7 @@ impl MovingMesh for MappedMesh {
     fn losses(&mut self, rates: &Vector12, _cycles: f64) -> MeshLosses {
         let along = [&self.projection.approach, &self.projection.tilt];
         let own = self.along(rates);
-        let found = self.map.damping(self.kept.last(), &self.contact, own, self.damping_per_length);
+        let found = self.map().damping(self.kept.last(), &self.contact, own, self.damping_per_length);
         let mut all = MeshLosses::default();
         for (i, a) in along.into_iter().enumerate() {
             all.force -= found.force[i] * a;
@@ -208,7 +233,7 @@ impl MovingMesh for MappedMesh {
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
-        Ok([self.approach - self.map.first_touch(self.kept.last()), f64::NEG_INFINITY])
+        Ok([self.map.overlap(self.kept.last(), self.approach), f64::NEG_INFINITY])
     }
 
     fn levers(&self) -> Option<Vec<Vector12>> {
@@ -216,10 +241,10 @@ impl MovingMesh for MappedMesh {
     }
 
     fn reach(&self) -> f64 {
-        let force = self.contact.force / self.map.largest_force();
+        let map = self.map();
+        let force = self.contact.force / map.largest_force();
         // Without contact a tilt does nothing.
-        let tilt = self
-            .map
+        let tilt = map
             .tilts()
             .filter(|_| force > 0.0)
             .map_or(0.0, |[low, high]| (self.tilt - 0.5 * (low + high)).abs() / (0.5 * (high - low)));
@@ -234,7 +259,17 @@ struct MappedPhase<'a> {
     about: &'a Vector12,
 }
 
-impl MappedPhase<'_> {
+impl<'a> MappedPhase<'a> {
+    fn new(
+        (pair, gears, options): (&GearPair, &Arc<[ElasticGear; 2]>, &StaticOptions),
+        cycles: f64,
+        (projection, about): (&'a FlankProjection, &'a Vector12),
+    ) -> Result<Self, GearboxError> {
+        let mut mesh = ExactMesh::new(pair.clone(), Arc::clone(gears), options.clone())?;
+        mesh.go_to(cycles)?;
+        Ok(Self { mesh, projection, about })
+    }
+
     fn displaced(&self, approach: f64, tilt: f64) -> Vector12 {
         let Self { projection, about, .. } = self;
         let rest = [approach - projection.approach.dot(about), tilt - projection.tilt.dot(about)];
@@ -255,10 +290,11 @@ impl PhaseContact for MappedPhase<'_> {
         self.mesh.forget();
         let reply = self.mesh.evaluate(&d)?;
         let per_turn = self.projection.approach[11];
-        let slices = self.mesh.pressed().map(|(position, force, length)| LoadedSlice {
+        let slices = self.mesh.pressed().map(|PressedSlice { position, force, length, pair }| LoadedSlice {
             force,
             length,
             lever: self.projection.lever(&position),
+            pair,
         });
         Ok(ContactSample {
             force: -reply.force[11] / per_turn,

@@ -1,11 +1,14 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
-use dynamics::Speed;
+use dynamics::{Speed, Torque};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh,
+    Drive, MotionOptions, MovingMesh, ReducedBodies,
+    free_coordinates::FreeCoordinates,
+    live_mesh::LiveMesh,
     rolling_supports::RollingSupports,
+    varying_torques::{VaryingTorque, VaryingTorques},
 };
 use crate::{
     Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
@@ -33,15 +36,18 @@ pub struct GearboxMechanism {
     pub(super) damping: DMatrix<f64>,
     /// Gyroscopic matrix at the unit speed of the input.
     pub(super) gyroscopic: DMatrix<f64>,
-    /// Torques of the outputs on the bodies.
+    /// Constant torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
+    /// Torques of the outputs that change with time.
+    pub(super) varying: VaryingTorques,
     /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
     pub(super) momentum: DVector<f64>,
     /// Forces of preloaded bearings on the bodies.
     pub(super) preload: DVector<f64>,
     /// Rolling bearings that follow their laws, beside the springs in their place.
     pub(super) rolling: Option<RollingSupports>,
-    /// Loads of the outputs with the preloads of bearings, and load of the input where a torque drives or balances.
+    /// Constant loads of the outputs with the preloads of bearings, and load of the input where a torque drives or
+    /// balances.
     pub(super) loads: [DVector<f64>; 2],
     /// Torque on the input that is given, or balances the loads by the ratios of the train, N mm about +z; 0 where the
     /// input keeps its speed.
@@ -122,6 +128,7 @@ impl GearboxMechanism {
             damping,
             gyroscopic,
             outputs,
+            varying: VaryingTorques::default(),
             momentum,
             preload,
             rolling: None,
@@ -153,6 +160,43 @@ impl GearboxMechanism {
             let force = guessed_force(&self.meshes, &self.operation);
             self.rolling = Some(RollingSupports::new(structure, &held, force, to_bearings)?);
         }
+        Ok(self)
+    }
+
+    /// The mechanism, with torques over time in place of constant ones: number among the torques of the operation, and
+    /// torque in N mm about +z. The motion starts in equilibrium under what they are then. A balanced drive answers them
+    /// at every instant; a torque on the input that was to balance the loads balances those of the operation.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] for a torque that the operation does not have, [`GearboxError::OutOfRange`] where one is no
+    /// number.
+    pub fn with_torques(mut self, laws: Vec<(usize, Torque)>) -> Result<Self, GearboxError> {
+        let wanted = self.operation.torques.len();
+        let mut all = Vec::new();
+        for (i, law) in laws {
+            let found = i + 1;
+            let own = *self.operation.torques.get(i).ok_or(GearboxError::Count { what: "torques", found, wanted })?;
+            if let Some(value) = law.numbers().find(|x| !x.is_finite()) {
+                return Err(GearboxError::OutOfRange { part: "a torque over time".into(), quantity: "number", value });
+            }
+            let shaft = self.assembly.structure().discs[own.disc].shaft;
+            let at = self.bodies.of_node(self.assembly.disc(own.disc).unwrap_or(0)) + 5;
+            let (disc, ratio) = (self.free.basis.row(at).transpose(), self.train.ratios()[shaft]);
+            self.outputs[at] -= own.torque;
+            self.loads[0].axpy(-own.torque, &disc, 1.0);
+            let mut along = disc.clone();
+            if matches!(self.drive, Drive::Balanced(_)) {
+                self.given += own.torque * ratio;
+                along.axpy(-ratio, &self.push, 1.0);
+            }
+            // A free turn of the train is a coordinate.
+            let ratio = if self.free.turn.is_some() { 0.0 } else { ratio };
+            all.push(VaryingTorque { law, along, disc, at, ratio });
+        }
+        if matches!(self.drive, Drive::Balanced(_)) {
+            self.loads[1] = &self.push * self.given;
+        }
+        self.varying = VaryingTorques::new(all);
         Ok(self)
     }
 

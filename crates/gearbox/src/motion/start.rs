@@ -83,7 +83,8 @@ impl GearboxMechanism {
         let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
         let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
         // What a torque gives to the turn itself is left out.
-        let load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
+        let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
+        self.varying.forces(0.0).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
         let push = self.push.rows(0, n).into_owned();
         let balances = matches!(self.drive, Drive::Balanced(_));
         let mut guessed = stiffness.clone();

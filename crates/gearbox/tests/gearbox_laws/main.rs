@@ -9,6 +9,7 @@ mod motion_branch_mapped;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;
+mod motion_loads;
 mod motion_pair;
 mod overhung;
 mod pairs;

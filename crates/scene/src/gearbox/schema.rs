@@ -173,7 +173,11 @@ table! {
     TORQUE, RawTorque: "a load on a shaft, one for each output", needed ["shaft", "position_mm", "torque_nm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0, up to its length";
-        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m";
+        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m; in motion the mean of a torque that changes with time. Where that is negative it presses the coast flanks: meshes then need both flanks";
+        amplitude_nm: bare(0.0, 1e12), "in motion: amplitude of a harmonic part T cos(2 pi f t + phase), N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in motion in place of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, as at the input";
     }
 }
@@ -277,7 +281,7 @@ table! {
         to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed and balanced); default: speed_rpm. Steps are then turns of the input that are alike. Of a continuation the speed where the branch ends, above or below";
         drive: word(GearboxDrive), "what drives. speed: the input keeps its speed, as of a machine of any inertia; balanced: the common turn of the whole train keeps it, every part is free to vibrate against the others, and the torque of the input is in balance with loads and losses at every instant; torque: a torque acts on the input from that speed on";
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
-        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes pitch errors and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
+        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth and friction and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
