@@ -117,6 +117,12 @@ pub const CHECKS: [CheckKind; 27] = [
     kind("harmonic_residual", "1e-8", "continuations", "largest `residual` of the branch"),
     kind("harmonic_tail", "`tail` of the scene", "continuations", "largest `tail` of the branch"),
     kind(
+        "multiplier_error",
+        "0.02",
+        "continuations of gearboxes",
+        "largest change of a Floquet multiplier by the modes beyond twice `highest_frequency_hz`, at eight motions",
+    ),
+    kind(
         "range_left_out",
         "0.01",
         "continuations",
