@@ -2,11 +2,12 @@
 
 use std::{fmt::Debug, path::PathBuf, time::Instant};
 
-use contact_map::MapWork;
+use answer::Remark;
+use contact_map::{ContactMap, MapWork, OffsetError};
 use geometry::GearPair;
 use scene::{Operation, Scene};
 
-use crate::Progress;
+use crate::{Progress, remark};
 
 /// The scene as far as its gears and contact depend on it: all but the speed.
 pub(crate) fn without_speed(scene: &Scene) -> Scene {
@@ -31,4 +32,11 @@ pub(crate) fn map_teller<'a>(progress: &'a dyn Progress, of: &'a str) -> impl Fn
         let left = began.elapsed().as_secs_f64() * (of_contacts as f64 / contacts.max(1) as f64 - 1.0);
         progress.say(format!("{of}{contacts} of about {of_contacts} contacts, {left:.0} s left"));
     }
+}
+
+/// Says how far pitch errors as offsets of the pairs of a map are off.
+pub(crate) fn pitch_errors_told(error: &OffsetError, map: &ContactMap) -> Remark {
+    let OffsetError { checks, rms_mm, largest_mm } = *error;
+    let percent = 100.0 * rms_mm / map.certificate().deflection_mm;
+    remark::pitch_errors_on_map(checks, 1e3 * rms_mm, 1e3 * largest_mm, percent)
 }

@@ -46,7 +46,7 @@ pub fn remarks(pair: &GearPair) -> Vec<answer::Remark> {
         )
     });
     let mut told: Vec<_> = told.collect();
-    if let Some(ring) = pair.sheet().ring {
+    if let Some(ring) = pair.ring_sheet() {
         if ring.trimming_margin_deg < 0.0 {
             told.push(remark::axial_assembly(-ring.trimming_margin_deg));
         }

@@ -36,6 +36,13 @@ described::described! {
     }
 }
 
+impl IsoFacts {
+    /// With what the summary says of any pair.
+    pub fn of_run(&self, scene: &Scene, pair: &GearPair) -> RunInfo {
+        RunInfo { model: keyed(self), ..RunInfo::of_pair(scene, pair) }
+    }
+}
+
 /// Solves the scene in closed form.
 ///
 /// ```text
@@ -45,13 +52,13 @@ described::described! {
 ///
 /// # Errors
 /// [`AnalysisError::Lumped`] where ISO 6336-1 does not hold.
-pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, RunInfo), AnalysisError> {
+pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, IsoFacts), AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let base_force = loaded.base_force();
     let fail = |source: LumpedError| AnalysisError::from(source).of_part("model \"iso\"").in_file(&scene.file);
     let iso = loaded.iso_stiffness().map_err(fail)?;
     let bodies = bodies(&loaded);
-    let mesh = Mesh { base_force, c_mesh: iso.c_mesh, bodies: bodies.iter().sum() };
+    let mesh = Mesh::new(&loaded, iso.c_mesh, bodies.iter().sum());
     let per_cycle = scene.analysis.positions_per_cycle;
     let positions = (0..u64::from(per_cycle) * u64::from(scene.analysis.cycles))
         .map(|index| {
@@ -62,18 +69,17 @@ pub(crate) fn solve(scene: &Scene, pair: &GearPair) -> Result<(StaticHistory, Ru
         .collect();
 
     let mean_te = mean_transmission_error_um(&iso, base_force, pair.face_width());
-    let model = keyed(&IsoFacts {
+    let facts = IsoFacts {
         iso_c_th_n_per_mm_um: iso.c_theoretical,
         iso_c_single_n_per_mm_um: iso.c_single,
         iso_c_gamma_alpha_n_per_mm_um: iso.c_mesh,
         iso_c_gamma_beta_n_per_mm_um: iso.c_mesh_beta,
         iso_mean_ste_closed_form_um: mean_te,
         axial_bending_ste_um: bodies.map(|c| 1e3 * base_force * c),
-    });
+    };
     let bending = 1e3 * base_force * mesh.bodies;
     let mut remarks = vec![remark::iso_model(bending)];
     remarks.extend(doubts(pair, bending / mean_te));
-    let facts = RunInfo { model, ..RunInfo::of_pair(scene, pair) };
     remarks.extend(iso_root::remark(&loaded));
     Ok((StaticHistory { positions, remarks, ..StaticHistory::default() }, facts))
 }
@@ -97,34 +103,58 @@ pub(crate) fn bodies(loaded: &LoadedPair<'_>) -> [f64; 2] {
     body_compliance(loaded.pair, loaded.young(), loaded.poisson())
 }
 
-/// What deflects under the load.
+/// What deflects under the load, and what all positions have in common.
 #[derive(Debug, Clone, Copy)]
 struct Mesh {
     /// F_bt, N.
     base_force: f64,
-    /// c_gamma_alpha, N/(mm um).
-    c_mesh: f64,
+    /// F_bn, N.
+    normal_force: f64,
+    /// Stiffness of the teeth along the line of action per length of contact line, N/mm^2.
+    teeth_per_length: f64,
     /// Compliance of both bodies along the line of action, mm/N.
     bodies: f64,
+    /// Angle of the pinion (rad) with pair 0 in the middle of its path.
+    middle_angle: f64,
+    /// T, a sin a_wt, mm, and cos b_b.
+    tangents: f64,
+    cos: f64,
+}
+
+impl Mesh {
+    /// Mesh of teeth of mean stiffness `c_mesh`, N/(mm um), on bodies.
+    fn new(loaded: &LoadedPair<'_>, c_mesh: f64, bodies: f64) -> Self {
+        let (pair, base_force) = (loaded.pair, loaded.base_force());
+        let cos = pair.base_helix_angle().cos();
+        Self {
+            base_force,
+            normal_force: base_force / cos,
+            teeth_per_length: 1e3 * c_mesh * pair.face_width() / pair.mean_contact_line_length(),
+            bodies,
+            middle_angle: pair.middle_angle(loaded.side()),
+            tangents: pair.tangent_length(),
+            cos,
+        }
+    }
 }
 
 fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> StaticPosition {
     let (pair, side) = (loaded.pair, loaded.side());
     let sense = loaded.sense.sign() as f64;
     let pinion_angle = (cycle as f64 + phase - 0.5) * pair.pinion.pitch_angle();
-    let turned = pair.middle_angle(side) + sense * pinion_angle;
+    let turned = mesh.middle_angle + sense * pinion_angle;
+    let along = pair.path_coordinates(side, turned);
     let lines = pair.contact_lines(side, turned);
     let length: f64 = lines.iter().map(|line| line.length).sum();
-    let teeth = 1e3 * mesh.c_mesh * pair.face_width() * length / pair.mean_contact_line_length();
-    let (base_force, stiffness) = (mesh.base_force, 1.0 / (1.0 / teeth + mesh.bodies));
-    let normal_force = base_force / pair.base_helix_angle().cos();
+    let (base_force, normal_force) = (mesh.base_force, mesh.normal_force);
+    let stiffness = 1.0 / (1.0 / (mesh.teeth_per_length * length) + mesh.bodies);
 
     let mut wrench = [Wrench::default(); 2];
     let mut pairs = Vec::with_capacity(lines.len());
     let mut sliding_work = 0.0;
     for line in &lines {
         let force = normal_force * line.length / length;
-        push(&mut wrench, loaded, turned, line, force);
+        push(&mut wrench, loaded, (turned, &along), line, force);
         sliding_work += force * pair.mean_sliding(side, turned, line);
         // Pairs are numbered in the sense of rotation, teeth counter-clockwise.
         let number = line.tooth * sense as i64;
@@ -133,7 +163,12 @@ fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> Stat
             pinion_tooth: wrap(line.tooth, pair.pinion.teeth()),
             wheel_tooth: wrap(-line.tooth, pair.wheel.teeth()),
             normal_force: force,
-            max_pressure: pressure(loaded, turned, line, normal_force / length),
+            max_pressure: pressure(
+                mesh,
+                loaded.compliance(),
+                line.z.map(|z| along(line.tooth, z)),
+                normal_force / length,
+            ),
             contact_line_length: line.length,
             geometric_line_length: line.length,
             points_in_contact: 1,
@@ -164,10 +199,16 @@ fn position(loaded: &LoadedPair<'_>, mesh: Mesh, cycle: u64, phase: f64) -> Stat
 }
 
 /// Adds a line's force, at its middle, to both gears.
-fn push(wrench: &mut [Wrench; 2], loaded: &LoadedPair<'_>, turned: f64, line: &ContactLine, force: f64) {
+fn push(
+    wrench: &mut [Wrench; 2],
+    loaded: &LoadedPair<'_>,
+    (turned, along): (f64, &impl Fn(i64, f64) -> f64),
+    line: &ContactLine,
+    force: f64,
+) {
     let (pair, side) = (loaded.pair, loaded.side());
     let z = 0.5 * (line.z[0] + line.z[1]);
-    let roll = pair.path_coordinate(side, turned, line.tooth, z) / pair.pinion.base_radius();
+    let roll = along(line.tooth, z) / pair.pinion.base_radius();
     let flank = pair.pinion.flank_of(side, line.tooth);
     let turn = nalgebra::Rotation3::from_axis_angle(&Vec3::z_axis(), turned);
     let point = turn * flank.point(roll, z);
@@ -185,17 +226,9 @@ fn push(wrench: &mut [Wrench; 2], loaded: &LoadedPair<'_>, turned: f64, line: &C
 /// Hertz pressure at the end of the line where the flanks are more curved, MPa.
 ///
 /// `p0 = sqrt(F' E* / (pi rho_n))`, `rho_n = xi (T - xi) / (T cos b_b)`, `1/E* = sum (1 - nu^2)/E`.
-fn pressure(loaded: &LoadedPair<'_>, turned: f64, line: &ContactLine, line_load: f64) -> f64 {
-    let (pair, compliance) = (loaded.pair, loaded.compliance());
-    let total = pair.tangent_length();
-    let radius = line
-        .z
-        .map(|z| {
-            let xi = pair.path_coordinate(loaded.side(), turned, line.tooth, z);
-            xi * (total - xi) / (total * pair.base_helix_angle().cos())
-        })
-        .into_iter()
-        .fold(f64::INFINITY, f64::min);
+fn pressure(mesh: Mesh, compliance: f64, ends: [f64; 2], line_load: f64) -> f64 {
+    let (total, cos) = (mesh.tangents, mesh.cos);
+    let radius = ends.map(|xi| xi * (total - xi) / (total * cos)).into_iter().fold(f64::INFINITY, f64::min);
     (line_load / (PI * compliance * radius)).sqrt()
 }
 

@@ -28,6 +28,7 @@
 pub mod accuracy;
 pub mod accuracy_chart;
 mod alike;
+pub mod branch;
 mod cache;
 pub mod certificate;
 mod coarse;

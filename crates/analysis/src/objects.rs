@@ -11,14 +11,15 @@ use study::Lyapunov;
 use crate::{
     accuracy::{Accuracy, Bound, Term, TriedRung, TriedSettings, motion::TriedModel},
     accuracy_chart::SpeedUp,
+    branch::{BranchFigures, BranchPoint},
     facts::{MeshFacts, RunInfo},
     gearbox::GearboxResult,
     gears::GeometryFacts,
     iso_model::IsoFacts,
     iso_root::{IsoGearRoot, IsoRootStress},
     lumped::{
-        Attractor, BasinHeadline, BranchPoint, ContinuationHeadline, FrequencyFacts, LumpedCertificate, LumpedHeadline,
-        Meeting, SweepHeadline, SweepPoint,
+        Attractor, BasinHeadline, ContinuationHeadline, FrequencyFacts, LumpedCertificate, LumpedHeadline, Meeting,
+        SweepHeadline, SweepPoint,
     },
     motion,
     motion::{
@@ -95,7 +96,7 @@ pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
         of("lyapunov", Lyapunov::KEYS),
         of("headline, motions that carry on", SweepHeadline::KEYS),
         of("largest, motions that carry on", SweepPoint::KEYS),
-        of("headline, a continuation", ContinuationHeadline::KEYS),
+        ("headline, a continuation", [ContinuationHeadline::KEYS, BranchFigures::KEYS].concat()),
         of("largest, a continuation", BranchPoint::KEYS),
         of("headline, basins", BasinHeadline::KEYS),
         of("attractors", Attractor::KEYS),

@@ -189,18 +189,21 @@ answer::remarks! {
         "the branch ends within its range: {reason}",
         "more `motions`, `most_harmonics` or `phases`, or a larger `tail`, may lead on";
     branch_apart(difference_percent)
-        "a motion integrated in time differs from the branch by {difference_percent:.1} %: near a fold it has jumped, else its steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`)",
+        "a motion integrated in time differs from the branch by {difference_percent:.1} %: near a fold it has jumped, else its steps are too long (`steps_per_mesh_cycle`, `steps_per_resonance`; of a gearbox `steps_per_cycle`)",
         "";
     branch_turns_back()
         "the branch turns back and leaves the range where it began: another one leads on",
-        "begin at the other end (swap `from` and `to`)";
+        "begin at the other end of the range";
     torus_bifurcation()
         "beyond a torus bifurcation the motion has a second frequency: the branch goes on, unstable, and no periodic motion near it is seen in time",
         "";
-    period_doubling(begins_at, period_cycles)
-        "a motion of twice the period begins at {begins_at:.6}: `period_cycles` = {period_cycles} follows it", "";
+    period_doubling(begins_at, key, value)
+        "a motion of twice the period begins at {begins_at:.6}: `{key}` = {value} follows it", "";
 
     // Gearboxes.
+    branch_linear_bearings()
+        "along the branch rolling bearings are springs about their mean equilibrium; motions integrated in time follow the laws of the bearings",
+        "";
     bearing_estimated(bearing, elements)
         "bearing {bearing}: its inside is estimated from bore, outer diameter and static rating: {elements} a row",
         "state `elements` and their sizes where they are known";
@@ -259,6 +262,9 @@ answer::remarks! {
     // Stores and pictures.
     gear_not_loaded(file, reason) "{file}: {reason}; the gear was reduced again", "";
     gear_not_stored(file, reason) "{file}: {reason}; the next run will reduce the gear again", "";
+    pitch_errors_on_map(checks, rms_error_um, largest_error_um, error_percent)
+        "pitch errors act on the map as an offset of each tooth pair: beside exact contact at {checks} places the approach is off by {rms_error_um:.3} um (rms) and {largest_error_um:.3} um (largest), {error_percent:.2} % of the mean deflection",
+        "exact contact has no such error: `model = \"reduced\"`, in a gearbox `mesh = \"exact\"` in [motion]";
     map_not_loaded(file, reason) "{file}: {reason}; the contact was mapped again", "";
     map_not_stored(file, reason) "{file}: {reason}; the next run will map the contact again", "";
     no_view(reason) "the report has no fields in space: {reason}", "";

@@ -121,7 +121,7 @@ impl SharedModels<'_> {
 
     /// A scene that nothing is shared of.
     fn alone(&self, scene: &Scene, wanted: Wanted<'_>) -> Result<(Scene, StaticHistory), AnalysisError> {
-        let analysis = StaticAnalysis::new(scene).with_cache(self.cache()).with_shared(self);
+        let analysis = StaticAnalysis::new(scene).with_cache(self.cache()).with_shared(self).without_facts();
         let StaticResult { scene, history, .. } = analysis.solve_into(&mut NoObserver, &mut WhileWanted(wanted))?;
         Ok((scene, history))
     }

@@ -52,6 +52,7 @@ pub(crate) struct CycleAnalysis<'a> {
     cache: &'a dyn GearCache,
     shared: Option<&'a SharedModels<'a>>,
     slices_stand: bool,
+    tells_facts: bool,
 }
 
 impl std::fmt::Debug for CycleAnalysis<'_> {
@@ -63,7 +64,7 @@ impl std::fmt::Debug for CycleAnalysis<'_> {
 impl<'a> CycleAnalysis<'a> {
     /// Analysis of a scene, its meshes read or made as it says.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false }
+        Self { scene, meshes: None, cache: &NoCache, shared: None, slices_stand: false, tells_facts: true }
     }
 
     /// With meshes of pinion and wheel that the caller holds, in place of those of the scene.
@@ -90,6 +91,13 @@ impl<'a> CycleAnalysis<'a> {
     #[must_use]
     pub(crate) fn with_slices_of_scene(self) -> Self {
         Self { slices_stand: true, ..self }
+    }
+
+    /// Positions and remarks alone: of a model in closed form nothing is found out that only files tell, which takes
+    /// longer than its positions.
+    #[must_use]
+    pub fn without_facts(self) -> Self {
+        Self { tells_facts: false, ..self }
     }
 
     /// Slices over the face width that it takes; `None` for a model without slices.
@@ -141,6 +149,7 @@ impl<'a> CycleAnalysis<'a> {
             history.remarks.extend(gears::remarks(&pair));
             history.remarks.extend(unlikely);
             history.remarks.extend(pair_rating::remarks(scene, &history));
+            let facts = if self.tells_facts { facts.of_run(scene, &pair) } else { RunInfo::default() };
             return Ok(StaticResult { scene: self.scene.clone(), pair, history, facts, model: None });
         }
         let shared = self.shared.filter(|_| scene.analysis.model == Model::Reduced);

@@ -32,7 +32,7 @@ pub use check::{Check, Checks, FailedCheck};
 pub use columnar::parquet_bytes;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
-pub use numbers::Numbers;
+pub use numbers::{Numbers, json};
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};
 pub use table::{Column, Table, Values};
 pub use unit::unit_of;

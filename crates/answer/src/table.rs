@@ -1,8 +1,11 @@
 //! Rows of an answer, column by column.
 
-use std::{borrow::Cow, collections::BTreeSet};
+use std::{borrow::Cow, collections::BTreeSet, convert::Infallible};
 
 use crate::{TableError, csv, unit_of};
+
+/// Bytes of text from which on a block of lines is handed out.
+const BLOCK: usize = 1 << 16;
 
 /// Numbers or texts of a column, one a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -170,8 +173,26 @@ impl Table {
     /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
     /// bits.
     pub fn csv(&self) -> String {
+        let mut text = String::new();
+        // Taking a text in memory cannot fail.
+        let _ = self.csv_in_blocks(|block| {
+            text.push_str(block);
+            Ok::<_, Infallible>(())
+        });
+        text
+    }
+
+    /// The text of [`Self::csv`], some lines at a time.
+    ///
+    /// # Errors
+    /// The first that `take` has; nothing is handed out after it.
+    pub fn csv_in_blocks<E>(&self, mut take: impl FnMut(&str) -> Result<(), E>) -> Result<(), E> {
         let mut text = self.names().map(csv::quoted).collect::<Vec<_>>().join(",") + "\n";
         for row in 0..self.rows() {
+            if text.len() >= BLOCK {
+                take(&text)?;
+                text.clear();
+            }
             for (k, column) in self.columns.iter().enumerate() {
                 if k > 0 {
                     text.push(',');
@@ -183,6 +204,6 @@ impl Table {
             }
             text.push('\n');
         }
-        text
+        take(&text)
     }
 }

@@ -22,6 +22,26 @@ fn numbers_read_back_to_the_bit_from_commas() {
     assert_eq!(lines.next(), None);
 }
 
+/// A long file comes in blocks of whole lines, and is their sum; one that cannot be taken ends it.
+#[test]
+fn blocks_of_lines_are_the_file() {
+    let long = Table::new("long").numbers("a", "a", (0..40_000).map(|k| 0.1 * f64::from(k)));
+    let mut blocks = Vec::new();
+    long.csv_in_blocks(|block| {
+        blocks.push(block.to_owned());
+        Ok::<_, ()>(())
+    })
+    .unwrap();
+    assert!(blocks.len() > 4 && blocks.iter().all(|block| block.ends_with('\n') && block.len() < 100_000));
+    assert_eq!(blocks.concat(), long.csv());
+    let mut taken = 0;
+    let refused = long.csv_in_blocks(|_| {
+        taken += 1;
+        if taken < 3 { Ok(()) } else { Err("full") }
+    });
+    assert_eq!((refused, taken), (Err("full"), 3));
+}
+
 #[test]
 fn numbers_and_texts_read_back_to_the_bit_from_parquet() {
     let table = table();

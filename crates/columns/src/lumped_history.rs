@@ -148,7 +148,7 @@ columns!(LumpedRows, WRENCH, |_, _| true, {
 
 /// Friction's part of a component of the wrench.
 fn friction(row: &LumpedRow, at: At, component: usize) -> f64 {
-    or_none(row.friction_wrench.map(|w| w[at.gear][component]))
+    or_none(row.friction_wrench.as_ref().map(|w| w[at.gear][component]))
 }
 
 columns!(LumpedRows, FRICTION, |l, _| l.is_rigid(), {

@@ -20,7 +20,7 @@ impl PhaseContact for Spring {
 
     fn sample(&mut self, approach: f64, _: f64) -> Result<ContactSample, Infallible> {
         let force = self.stiffness * (approach - self.gap).max(0.0);
-        let slices = vec![LoadedSlice { force, length: 10.0, lever: 0.0 }];
+        let slices = vec![LoadedSlice { force, length: 10.0, lever: 0.0, pair: 0 }];
         let stiffness = if force > 0.0 { self.stiffness } else { 0.0 };
         Ok(ContactSample { force, stiffness, slices })
     }

@@ -13,6 +13,7 @@ use crate::{
     damping_table::DampingTable,
     load_axis::LoadAxis,
     map::{MapCertificate, Wanted},
+    pair_shares::PairShares,
     spline::Axis,
 };
 
@@ -227,10 +228,12 @@ fn assemble(plan: &MapPlan, columns: &Columns, size: MapSize) -> ContactMap {
     let shares: Vec<f64> = (0..phases)
         .flat_map(|i| columns[&(i * step)][tilts / 2].iter().flat_map(|node| node.shares.iter().copied()))
         .collect();
+    let nodes: Vec<_> = (0..phases).map(|i| &columns[&(i * step)]).collect();
     ContactMap {
         phases,
         loads,
         tilts,
+        pairs: PairShares::new(&nodes, |parts| coefficients(parts, &[axes[1], axes[2]])),
         force: plan.largest_force,
         tilt: plan.tilt.unwrap_or([0.0, 1.0]),
         approach: of(&|node: &Node| node.approach),
@@ -349,7 +352,7 @@ where
 }
 
 /// Van der Corput's sequence: places that fill 0 .. 1 evenly, whatever their number.
-fn halton(mut i: usize, base: usize) -> f64 {
+pub(crate) fn halton(mut i: usize, base: usize) -> f64 {
     let (mut sum, mut part) = (0.0, 1.0);
     while i > 0 {
         part /= base as f64;

@@ -11,6 +11,8 @@ pub(crate) struct Node {
     pub lengths: [f64; 3],
     /// e at evenly spaced sigma, 0 to 1.
     pub shares: Vec<f64>,
+    /// Pairs of teeth that carry, and their parts of the force.
+    pub parts: Vec<(i64, f64)>,
 }
 
 /// Forces this near to the one that is wanted (relative) are made into it by the tangent: what that leaves is the
@@ -110,5 +112,13 @@ fn node(approach: f64, slices: &[LoadedSlice], shares: usize) -> Node {
         let w = sigma / (1.0 - sigma) * force / lengths[0];
         slices.iter().map(|s| (w * s.length).min(s.force)).sum::<f64>() / (force * sigma)
     };
-    Node { approach, lengths, shares: (0..=shares).map(share).collect() }
+    let mut parts: Vec<(i64, f64)> = Vec::new();
+    for slice in slices {
+        let part = slice.force / force;
+        match parts.iter_mut().find(|own| own.0 == slice.pair) {
+            Some(own) => own.1 += part,
+            None => parts.push((slice.pair, part)),
+        }
+    }
+    Node { approach, lengths, shares: (0..=shares).map(share).collect(), parts }
 }

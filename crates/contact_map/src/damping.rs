@@ -19,11 +19,6 @@ pub struct MapDamping {
 }
 
 impl ContactMap {
-    /// Length of the loaded contact lines, mm.
-    pub fn loaded_length(&self, place: &CutPlace, contact: &MapContact) -> f64 {
-        contact.load.map_or(0.0, |load| self.lengths(place, load[0])[0][0].max(0.0))
-    }
-
     /// Damping of `per_length` (N s/mm^2) at rates of approach (mm/s) and tilt (rad/s).
     pub fn damping(&self, place: &CutPlace, contact: &MapContact, rates: [f64; 2], per_length: f64) -> MapDamping {
         let Some([load, by_approach]) = contact.load else { return MapDamping::default() };

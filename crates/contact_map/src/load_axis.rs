@@ -74,6 +74,13 @@ impl LoadCurve {
         }
     }
 
+    /// Coefficients of the splines in an interval.
+    #[inline]
+    pub fn in_cell(&self, cell: usize) -> [f64; 4] {
+        let k = &self.coefficients[cell..cell + 4];
+        [k[0], k[1], k[2], k[3]]
+    }
+
     /// Coefficients of an interval's cubic in the place from its beginning, lowest power first.
     #[inline]
     fn cubic(&self, cell: usize) -> [f64; 4] {

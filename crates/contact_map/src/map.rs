@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     damping_table::DampingTable,
     load_axis::{LoadAxis, LoadCurve},
+    pair_shares::{PairPlace, PairShares},
     spline::{Axis, Splines},
 };
 
@@ -29,6 +30,7 @@ pub struct ContactMap {
     /// Coefficients of X, phase by phase, tilt by tilt, mm.
     pub(crate) approach: Vec<f64>,
     pub(crate) damping: DampingTable,
+    pub(crate) pairs: PairShares,
     pub(crate) certificate: MapCertificate,
 }
 
@@ -89,12 +91,14 @@ pub struct CutPlace {
     pub at: [f64; 2],
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
-    curve: LoadCurve,
+    pub(crate) curve: LoadCurve,
     /// Slope of the curve over tilt and its second derivative, per unit of the spacing, where the map has a tilt.
-    by_tilt: Option<Box<[LoadCurve; 2]>>,
+    pub(crate) by_tilt: Option<Box<[LoadCurve; 2]>>,
     pub(crate) length: LoadCurve,
     /// L_1 and L_2, where the map has a tilt.
     pub(crate) levers: Option<Box<[LoadCurve; 2]>>,
+    /// Pairs of teeth that carry, where these are asked for one by one.
+    pub(crate) pairs: Vec<PairPlace>,
 }
 
 impl Default for CutPlace {
@@ -107,6 +111,7 @@ impl Default for CutPlace {
             by_tilt: None,
             length: LoadCurve::default(),
             levers: None,
+            pairs: Vec::new(),
         }
     }
 }
@@ -135,7 +140,7 @@ impl ContactMap {
         (self.tilts > 0).then_some(self.tilt)
     }
 
-    fn per_tilt(&self) -> f64 {
+    pub(crate) fn per_tilt(&self) -> f64 {
         self.tilts as f64 / (self.tilt[1] - self.tilt[0])
     }
 
@@ -186,6 +191,14 @@ impl ContactMap {
         }
     }
 
+    /// Slope of the curve over the phase, per unit of the spacing.
+    pub(crate) fn by_phase(&self, place: &CutPlace) -> LoadCurve {
+        let mut by_phase = LoadCurve::default();
+        let weights = [&place.phase.slopes, &place.tilt.values];
+        self.sum(&mut by_phase, &self.approach, [&place.phase, &place.tilt], weights);
+        by_phase
+    }
+
     /// Approach (mm) under a force (N) at a phase (mesh cycles) and tilt (rad).
     pub fn approach(&self, phase: f64, tilt: f64, force: f64) -> f64 {
         self.place(phase, tilt).curve.value(self.load_axis().place(force))[0]
@@ -227,10 +240,7 @@ impl ContactMap {
             contact.energy = force * approach - curve.integral(load);
         }
         if wanted.phase_rate {
-            let mut by_phase = LoadCurve::default();
-            let weights = [&place.phase.slopes, &place.tilt.values];
-            self.sum(&mut by_phase, &self.approach, [&place.phase, &place.tilt], weights);
-            contact.phase_rate = -(self.phases as f64) * integral(&by_phase);
+            contact.phase_rate = -(self.phases as f64) * integral(&self.by_phase(place));
         }
         if let Some(by_tilt) = &place.by_tilt {
             let per_tilt = self.per_tilt();

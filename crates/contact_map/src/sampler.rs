@@ -35,4 +35,6 @@ pub struct LoadedSlice {
     pub length: f64,
     /// Lever about the axis of the tilt, mm: approach of the slice per tilt.
     pub lever: f64,
+    /// Number of its pair of teeth: at a phase one cycle later pair m + 1 stands where pair m stands now.
+    pub pair: i64,
 }

@@ -34,6 +34,12 @@ pub struct Splines {
     pub curvatures: [f64; 4],
 }
 
+impl Default for Splines {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
 impl Axis {
     /// Number of places with a value of their own.
     pub fn places(self) -> usize {
@@ -116,6 +122,41 @@ impl Axis {
     }
 }
 
+/// Pole of the filter that turns values at places into coefficients of cubic splines, sqrt(3) - 2.
+const POLE: f64 = -0.267_949_192_431_122_7;
+/// Places after which the filter has forgotten: POLE to this power is below round-off.
+const FORGOTTEN: usize = 32;
+
+/// Coefficients of splines over the places of a period from rows of values, as those of [`Axis::interpolation`], for
+/// periods so long that a matrix would cost too much.
+///
+/// ```text
+/// c_i + 4 c_(i+1) + c_(i+2) = 6 f_i:   a_i = f_i + p a_(i-1),   b_i = p (b_(i+1) - a_i),   c_(i+1) = 6 b_i
+/// ```
+/// Source: Unser, IEEE Signal Processing Magazine 16(6), 1999, p. 22, box 2.
+pub(crate) fn periodic_coefficients(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let n = rows.len();
+    let Some(first) = rows.first() else { return Vec::new() };
+    let (mut last, mut filtered) = (vec![0.0; first.len()], rows.to_vec());
+    // Both ways begin before the period, and have forgotten how when they enter it.
+    for i in 0..FORGOTTEN + n {
+        let at = (i + (n - 1) * FORGOTTEN) % n;
+        last.iter_mut().zip(&rows[at]).for_each(|(a, f)| *a = f + POLE * *a);
+        if i >= FORGOTTEN {
+            filtered[at].clone_from(&last);
+        }
+    }
+    let mut all = filtered.clone();
+    last.fill(0.0);
+    for i in (0..n + FORGOTTEN).rev() {
+        last.iter_mut().zip(&filtered[i % n]).for_each(|(b, a)| *b = POLE * (*b - a));
+        if i < n {
+            all[i].iter_mut().zip(&last).for_each(|(c, b)| *c = 6.0 * b);
+        }
+    }
+    (0..n + 3).map(|c| all[(c + n - 1) % n].clone()).collect()
+}
+
 impl Splines {
     /// None at all.
     pub(crate) const NONE: Self = Self { first: 0, count: 0, values: [0.0; 4], slopes: [0.0; 4], curvatures: [0.0; 4] };
@@ -123,7 +164,7 @@ impl Splines {
 
 /// The four cubic B-splines of an interval at `s`, 0 .. 1.
 #[inline]
-fn splines(s: f64) -> Splines {
+pub(crate) fn splines(s: f64) -> Splines {
     let r = 1.0 - s;
     let middle = |s: f64| (4.0 + s * s * (3.0 * s - 6.0)) / 6.0;
     let slope = |s: f64| s * (1.5 * s - 2.0);

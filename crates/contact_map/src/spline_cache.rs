@@ -1,6 +1,6 @@
 //! Places of a map that are asked for more than once.
 
-use crate::{ContactMap, CutPlace};
+use crate::{CutPlace, OffsetMap};
 
 /// The last two places at which a map was asked: a step begins at one and ends at the other.
 #[derive(Debug, Clone, Default)]
@@ -12,8 +12,8 @@ pub struct SplineCache {
 
 impl SplineCache {
     /// The place at a phase (mesh cycles) and a tilt (rad).
-    pub fn at(&mut self, map: &ContactMap, phase: f64, tilt: f64) -> &CutPlace {
-        let wanted = [phase, if map.tilts().is_some() { tilt } else { 0.0 }];
+    pub fn at(&mut self, map: &OffsetMap, phase: f64, tilt: f64) -> &CutPlace {
+        let wanted = [phase, if map.map().tilts().is_some() { tilt } else { 0.0 }];
         if self.both[self.last].at != wanted {
             self.last = 1 - self.last;
             let place = &mut self.both[self.last];

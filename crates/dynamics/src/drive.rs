@@ -119,6 +119,32 @@ impl Torque {
         }
     }
 
+    /// The torque times a factor.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        match self {
+            Self::Constant(value) => Self::Constant(factor * value),
+            Self::Harmonic { mean, amplitude, frequency_hz, phase } => {
+                Self::Harmonic { mean: factor * mean, amplitude: factor * amplitude, frequency_hz, phase }
+            }
+            Self::Table { times, values } => {
+                Self::Table { times, values: values.into_iter().map(|value| factor * value).collect() }
+            }
+        }
+    }
+
+    /// All numbers of it.
+    pub fn numbers(&self) -> impl Iterator<Item = f64> {
+        let (single, lists): (Vec<f64>, [&[f64]; 2]) = match self {
+            Self::Constant(value) => (vec![*value], [&[]; 2]),
+            Self::Harmonic { mean, amplitude, frequency_hz, phase } => {
+                (vec![*mean, *amplitude, *frequency_hz, *phase], [&[]; 2])
+            }
+            Self::Table { times, values } => (Vec::new(), [times, values]),
+        };
+        single.into_iter().chain(lists.concat())
+    }
+
     /// Torque, N mm.
     pub fn at(&self, t: f64) -> f64 {
         match self {

@@ -42,5 +42,5 @@ pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;
 pub use modes::{Modes, natural_modes};
 pub use ordering::Ordering;
-pub use stress::{StressOperator, max_principal, min_principal, nodal_stress, von_mises};
+pub use stress::{StressOperator, max_principal, min_principal, nodal_stress, nodal_stresses, von_mises};
 pub use symmetric::SymmetricMatrix;

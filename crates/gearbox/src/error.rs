@@ -4,6 +4,7 @@ use fem::FemError;
 use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
+use periodic::PeriodicError;
 use reduction::ReductionError;
 
 use crate::rolling_bearing::RollingBearingError;
@@ -160,6 +161,26 @@ pub enum GearboxError {
         /// Cycles that the motion may wait.
         most: u64,
     },
+    /// A gearbox without branches of periodic motions over the speed.
+    #[error("no branch of periodic motions over the speed is known of a gearbox {what}")]
+    NoBranch {
+        /// What it has.
+        what: &'static str,
+    },
+    /// A branch of motions whose period is too long.
+    #[error(
+        "all meshes come back together after {} cycles of the fastest one, and a branch has up to {most} with its harmonics",
+        period.map_or("more than 100000".into(), |p| p.to_string())
+    )]
+    LongPeriod {
+        /// Cycles of the fastest mesh after which all meshes come back; `None`: too many to be looked for.
+        period: Option<u64>,
+        /// Cycles that a branch can have.
+        most: u64,
+    },
+    /// The branch of periodic motions.
+    #[error("the branch over the speed, 1/min: {0}")]
+    Branch(Box<PeriodicError<GearboxError>>),
     /// A value is not a finite number, or below 0 where it must not be.
     #[error("{part}: {quantity} = {value} must be a number of 0 or more")]
     OutOfRange {
@@ -323,6 +344,10 @@ impl GearboxError {
                 MotionError::Mechanism { source, .. } => source.is_without_result(),
                 _ => true,
             },
+            Self::Branch(source) => match &**source {
+                PeriodicError::Mechanism { source, .. } => source.is_without_result(),
+                _ => true,
+            },
             Self::AtMesh { source, .. } => source.is_without_result(),
             Self::Contact(source) => {
                 matches!(
@@ -387,6 +412,15 @@ impl GearboxError {
             Self::OffShaft { .. } => "positions count from the shaft's own beginning, its sections one after the other",
             Self::OtherMeshes { .. } => "begin the motion anew",
             Self::NoCommonPeriod { .. } => "raise `warm_up_cycles` in [motion], or take `run = \"span\"`",
+            Self::NoBranch { .. } => "take the mesh as \"mapped\" or \"spring\" and `drive = \"speed\"`",
+            Self::LongPeriod { .. } => {
+                "take fewer `harmonics` and `most_harmonics`, or numbers of teeth with a shorter common period; a run-up has \
+                 any (`run = \"span\"` with `to_speed_rpm`)"
+            }
+            Self::Branch(source) => match &**source {
+                PeriodicError::Mechanism { source, .. } => return source.hint(),
+                _ => "begin at another speed, or take more damping or `most_harmonics`",
+            },
             Self::OutOfRange { .. } => {
                 "inside are mm, N, t, s: 1 MN/m is 1000 N/mm, 1 kg is 0.001 t, 1 kg m^2 is 1000 t mm^2"
             }

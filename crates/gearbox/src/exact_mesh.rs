@@ -36,6 +36,18 @@ pub struct ExactMesh {
     modal: Option<ModalContact>,
 }
 
+/// A slice that carries load.
+pub(crate) struct PressedSlice {
+    /// Place, mm.
+    pub position: nalgebra::Vector3<f64>,
+    /// Normal force, N.
+    pub force: f64,
+    /// Length, mm.
+    pub length: f64,
+    /// Number of its pair of teeth, in the order in which pairs come.
+    pub pair: i64,
+}
+
 /// Overlap over that of the last evaluation up to which the search is narrow.
 const REACH: f64 = 1.25;
 
@@ -129,10 +141,17 @@ impl ExactMesh {
         self.within = None;
     }
 
-    /// Place (mm), normal force (N) and length (mm) of the slices that carried load in the last evaluation.
-    pub(crate) fn pressed(&self) -> impl Iterator<Item = (nalgebra::Vector3<f64>, f64, f64)> {
+    /// Slices that carried load in the last evaluation.
+    pub(crate) fn pressed(&self) -> impl Iterator<Item = PressedSlice> {
+        let (set, window) = (self.contact.contact_set(), self.window.window());
+        let sign = self.options.contact.sense.sign();
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| (row.position, f, slice.length))
+        rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| PressedSlice {
+            position: row.position,
+            force,
+            length: slice.length,
+            pair: -sign * (window.first() + set.pair_of(row.patches.0) as i64),
+        })
     }
 
     fn failed(&self, source: contact::ContactError) -> GearboxError {

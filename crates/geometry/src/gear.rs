@@ -128,7 +128,20 @@ impl Gear {
 
     /// Whether teeth differ from each other, by a pitch error or by what was measured on them.
     pub fn has_own_teeth(&self) -> bool {
-        self.modifications.has_pitch_errors() || self.fields.iter().any(|f| f.fields.len() > 1)
+        self.modifications.has_pitch_errors() || self.has_own_flanks()
+    }
+
+    /// Whether flanks of teeth have forms of their own.
+    pub fn has_own_flanks(&self) -> bool {
+        self.fields.iter().any(|f| f.fields.len() > 1)
+    }
+
+    /// The gear with all teeth at their nominal places.
+    #[must_use]
+    pub fn without_pitch_errors(&self) -> Self {
+        let mut own = self.clone();
+        own.modifications.pitch_errors.clear();
+        own
     }
 
     fn fields_on(&self, side: Side) -> &FlankFields {

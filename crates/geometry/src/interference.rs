@@ -32,13 +32,17 @@ impl GearPair {
         let start = (inside * contact[1]).atan2(inside * (contact[0] - a));
         let centre_line = a_wt - touch + own.profile().base_half_angle();
         let outline = Outline::new(own);
+        let (own_sign, own_tip, mate_tip) = (own.sign(), own.tip_radius(), mate.tip_radius());
         // From a little before the tip touches until the corner is well past the line of centres.
         let to_centres = (start.rem_euclid(2.0 * PI) - PI).abs();
         let depth = |k: u32| {
             let turn = inside * to_centres * (2.5 * f64::from(k) / f64::from(SAMPLES) - 0.25);
             let (s, c) = (start + turn).sin_cos();
-            let (x, y) = (a + mate.tip_radius() * c, mate.tip_radius() * s);
-            let (radius, own_sign) = (own.sign() * x.hypot(y), own.sign());
+            let (x, y) = (a + mate_tip * c, mate_tip * s);
+            let radius = own_sign * x.hypot(y);
+            if radius > own_tip {
+                return 0.0;
+            }
             let angle = (own_sign * y).atan2(own_sign * x) + turn * rb_mate / rb;
             let off = (angle - centre_line + PI).rem_euclid(2.0 * PI) - PI;
             if off.abs() >= outline.widest_from(radius) {
@@ -52,7 +56,7 @@ impl GearPair {
 }
 
 /// Places on a fillet, ends included.
-const PLACES: usize = 17;
+const PLACES: usize = 65;
 
 /// How wide a tooth is at most: radii (mm, signed) of places on its fillet, from the root land on, and the largest half angle
 /// (rad) from each of them to the tip.

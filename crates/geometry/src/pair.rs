@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::error::Undercut;
 use crate::internal_mesh::InternalMesh;
 use crate::roots::bisect;
-use crate::{Gear, GearData, GeometryError, Side};
+use crate::{Gear, GearData, GeometryError, Sense, Side};
 
 /// Depth over the module from which on a tip in a fillet is more than rounded data.
 const INTERFERENCE_MODULES: f64 = 1e-3;
@@ -142,6 +142,28 @@ impl GearPair {
             return Err(GeometryError::NoContact { overlap_mm: self.path_length() });
         }
         Ok(())
+    }
+
+    /// The pair with all teeth at their nominal places.
+    #[must_use]
+    pub fn without_pitch_errors(&self) -> Self {
+        let (pinion, wheel) = (self.pinion.without_pitch_errors(), self.wheel.without_pitch_errors());
+        Self { pinion, wheel, ..self.clone() }
+    }
+
+    /// How much nearer pitch errors bring the flanks of both gears on a side, mm along the normal: tooth by tooth in the
+    /// order in which they come, an empty list for a gear without errors.
+    ///
+    /// ```text
+    /// e(m) = e_1[m mod z_1] + e_2[-m mod z_2],   e_g[i] = -h(tooth -s i)
+    /// ```
+    /// m: pairs of teeth as they come, 0 the pair of tooth 0 of both gears; h: [`Gear::pitch_depth`]; s = +1 where the
+    /// pinion turns counter-clockwise, -1 clockwise.
+    pub fn pitch_approaches(&self, side: Side, sense: Sense) -> [Vec<f64>; 2] {
+        [&self.pinion, &self.wheel].map(|gear| {
+            let teeth = i64::from(if gear.modifications().has_pitch_errors() { gear.teeth() } else { 0 });
+            (0..teeth).map(|i| -gear.pitch_depth(side, -sense.sign() * i)).collect()
+        })
     }
 
     /// Whether the wheel is a ring.
@@ -366,9 +388,15 @@ impl GearPair {
     ///
     /// xi = r_b1 [s (theta_1 + 2 pi k / z1 + k_1 z) + sigma_1 + a_wt]
     pub fn path_coordinate(&self, side: Side, pinion_angle: f64, tooth: i64, z: f64) -> f64 {
+        self.path_coordinates(side, pinion_angle)(tooth, z)
+    }
+
+    /// [`Self::path_coordinate`] of any tooth and height, with its constants found once.
+    pub fn path_coordinates(&self, side: Side, pinion_angle: f64) -> impl Fn(i64, f64) -> f64 {
         let p = &self.pinion;
-        let turn = pinion_angle + tooth as f64 * p.pitch_angle() + p.twist() * z;
-        p.base_radius() * (side.sign() * turn + p.profile().base_half_angle() + self.working_pressure_angle())
+        let (pitch, twist, base, sign) = (p.pitch_angle(), p.twist(), p.base_radius(), side.sign());
+        let (half, a_wt) = (p.profile().base_half_angle(), self.working_pressure_angle());
+        move |tooth, z| base * (sign * (pinion_angle + tooth as f64 * pitch + twist * z) + half + a_wt)
     }
 
     /// Pinion angle (rad) at which pinion tooth 0 stands, in the middle of the common face, in the middle of the path of

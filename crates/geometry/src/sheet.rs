@@ -284,7 +284,8 @@ impl GearPair {
         }
     }
 
-    fn ring_sheet(&self) -> Option<RingSheet> {
+    /// What a drawing of a ring asks for beside what all gears have; `None` of external pairs.
+    pub fn ring_sheet(&self) -> Option<RingSheet> {
         let (ring, cutter) = (&self.wheel, self.wheel.profile().cutter()?);
         let degrees = |margin: f64| margin.is_finite().then(|| margin.to_degrees());
         let tangents = self.tangent_length();

@@ -5,10 +5,15 @@ use std::sync::OnceLock;
 use crate::element::QuadratureRule;
 use crate::{ElementKind, Mesh};
 
+/// Points that are judged at a time.
+const POINTS: usize = 4;
+
 /// Gradients of the shape functions where an element is judged, one list a kind.
 struct Samples {
     /// dN/d(xi) at the integration points of the stiffness, then at the corners.
     gradients: Vec<Vec<[f64; 3]>>,
+    /// The same for some points at a time, node by node: points beside each other. The last point fills what is left.
+    side_by_side: Vec<Vec<[[f64; POINTS]; 3]>>,
     /// Each corner with its three neighbours, in the order that gives a positive volume.
     corners: Vec<(usize, [usize; 3])>,
     /// Scaled Jacobian of a cube, of a regular tetrahedron, of a right prism over a regular triangle.
@@ -25,7 +30,7 @@ impl Samples {
     fn new(kind: ElementKind) -> Self {
         let at = &kind.reference_nodes()[..kind.corner_count()];
         let points = kind.quadrature(QuadratureRule::Stiffness).iter().map(|q| q.xi).chain(at.iter().copied());
-        let gradients = points
+        let gradients: Vec<Vec<[f64; 3]>> = points
             .map(|xi| {
                 let mut dn = vec![[0.0; 3]; kind.node_count()];
                 kind.shape_gradient(xi, &mut dn);
@@ -51,7 +56,13 @@ impl Samples {
             6 => 0.75_f64.sqrt(),
             _ => 0.5_f64.sqrt(),
         };
-        Self { gradients, corners, ideal }
+        let beside = |points: &[Vec<[f64; 3]>]| {
+            let at = |k: usize| &points[k.min(points.len() - 1)];
+            let of_node = |n: usize| [0, 1, 2].map(|i| std::array::from_fn(|k| at(k)[n][i]));
+            (0..kind.node_count()).map(of_node).collect()
+        };
+        let side_by_side = gradients.chunks(POINTS).map(beside).collect();
+        Self { gradients, side_by_side, corners, ideal }
     }
 }
 
@@ -88,7 +99,35 @@ pub(crate) fn positions<'a>(mesh: &Mesh, element: &[u32], into: &'a mut [[f64; 3
 
 /// Least det J over integration points and corners, mm^3; an element where it is not above 0 is inverted.
 pub(crate) fn min_det_j(kind: ElementKind, positions: &[[f64; 3]]) -> f64 {
-    samples(kind).gradients.iter().map(|dn| det_j(dn, positions)).fold(f64::INFINITY, f64::min)
+    pulp::Arch::new().dispatch(LeastDetJ { gradients: &samples(kind).side_by_side, positions })
+}
+
+/// Least det J of points side by side.
+struct LeastDetJ<'a> {
+    gradients: &'a [Vec<[[f64; POINTS]; 3]>],
+    positions: &'a [[f64; 3]],
+}
+
+impl pulp::NullaryFnOnce for LeastDetJ<'_> {
+    type Output = f64;
+
+    // Compiled for each set of instructions that there may be; the processor's own is chosen as the program runs.
+    #[inline(always)]
+    fn call(self) -> f64 {
+        let mut least = f64::INFINITY;
+        for some in self.gradients {
+            let mut j = [[[0.0; POINTS]; 3]; 3];
+            for (g, x) in some.iter().zip(self.positions) {
+                for (row, gi) in j.iter_mut().zip(g) {
+                    for (entries, xk) in row.iter_mut().zip(x) {
+                        (0..POINTS).for_each(|p| entries[p] += gi[p] * xk);
+                    }
+                }
+            }
+            least = (0..POINTS).map(|p| det(&j.map(|row| row.map(|entries| entries[p])))).fold(least, f64::min);
+        }
+        least
+    }
 }
 
 /// Scaled Jacobian of the corners: 1 for the ideal shape, 0 for a flat one, negative for an inverted one.

@@ -6,34 +6,68 @@ use integrate::Forces;
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    FourierSeries, PeriodicError, PeriodicFamily,
+    Floquet, FourierSeries, PeriodicError, PeriodicFamily,
+    equations::{Balance, PeriodicEquations},
     product::{SeriesTransform, Wave},
     series::Basis,
 };
 
-/// Forces and tangents over a period, and what is left of the equations of motion. Theory (69).
-///
-/// ```text
-/// R(c) = w^2 M c'' - P f(t, q, w q'),   w = 2 pi / T
-/// ```
-/// f is evaluated at N equal phases and projected (P) onto the harmonics (alternating frequency and time; Cameron and
-/// Griffin, J. Appl. Mech. 56, 1989). Rows are multiplied by the scale of their coordinate, and unknowns divided by it,
-/// so that all are energies.
-#[derive(Debug, Clone)]
-pub(crate) struct Balance {
-    /// n x (2 H + 1), scaled.
-    pub residual: DMatrix<f64>,
-    /// Size of the terms that balance.
-    pub size: f64,
-    /// Bound of the motion that the harmonics leave out, over the vibration.
-    pub tail: f64,
-    /// -df/dq and -df/dv at each phase; empty where they were not asked for.
-    pub stiffness: Vec<DMatrix<f64>>,
-    pub damping: Vec<DMatrix<f64>>,
+impl<S: PeriodicFamily> PeriodicEquations for S {
+    type Error = S::Error;
+
+    fn set_parameter(&mut self, value: f64) -> Result<(), S::Error> {
+        PeriodicFamily::set_parameter(self, value)
+    }
+
+    fn period(&self) -> f64 {
+        PeriodicFamily::period(self)
+    }
+
+    fn scale(&self) -> DVector<f64> {
+        PeriodicFamily::scale(self)
+    }
+
+    fn free_direction(&self) -> Option<DVector<f64>> {
+        PeriodicFamily::free_direction(self)
+    }
+
+    fn balance(
+        &mut self,
+        parameter: f64,
+        motion: &FourierSeries,
+        basis: &Basis,
+        tangents: bool,
+    ) -> Result<Balance, PeriodicError<S::Error>> {
+        balance(self, parameter, motion, basis, tangents)
+    }
+
+    fn jacobian(&self, basis: &Basis, at: &Balance) -> DMatrix<f64> {
+        jacobian(self, basis, at)
+    }
+
+    fn frequency_slope(&self) -> Option<f64> {
+        PeriodicFamily::frequency_slope(self)
+    }
+
+    fn frequency_derivative(
+        &mut self,
+        _: f64,
+        motion: &FourierSeries,
+        basis: &Basis,
+        at: &Balance,
+    ) -> Result<DMatrix<f64>, PeriodicError<S::Error>> {
+        Ok(frequency_derivative(self, motion, basis, at))
+    }
+
+    fn floquet(&self, _: &Basis, at: &Balance) -> Option<Floquet> {
+        let free = PeriodicFamily::free_direction(self);
+        let period = PeriodicFamily::period(self);
+        Floquet::of(self.mass(), &at.stiffness, &at.damping, period, free.as_ref())
+    }
 }
 
 /// Evaluates the equations at a motion.
-pub(crate) fn balance<S: PeriodicFamily>(
+fn balance<S: PeriodicFamily>(
     system: &mut S,
     parameter: f64,
     motion: &FourierSeries,
@@ -66,19 +100,25 @@ pub(crate) fn balance<S: PeriodicFamily>(
         }
     }
     let inertia = system.mass() * accelerations(motion.coefficients(), frequency);
-    let mut residual = &inertia - basis.projection().tr_mul(&forces).transpose();
+    let projected = basis.projection().tr_mul(&forces).transpose();
+    let mut residual = &inertia - &projected;
     let scale = system.scale();
     let per_sample = (count as f64).sqrt();
     // In time, what is left holds all harmonics that the samples show; those of the equations are taken away.
     let beyond = basis.values() * (&inertia - &residual).transpose() - &forces;
-    let tail = neglected(system, motion, beyond.transpose(), frequency) / per_sample;
+    let tail = system.mass().clone().cholesky().map_or(f64::INFINITY, |mass| {
+        let added = mass.solve(&beyond.transpose()) / (frequency * (motion.harmonics() + 1) as f64).powi(2);
+        let mut scaled = added;
+        scale_rows(&mut scaled, &scale.map(|s| 1.0 / s));
+        over_vibration(scaled.norm() / per_sample, motion, &scale)
+    });
     scale_rows(&mut residual, &scale);
     let norm = |mut terms: DMatrix<f64>| {
         scale_rows(&mut terms, &scale);
         terms.norm()
     };
     let size = norm(inertia) + norm(forces.transpose()) / per_sample;
-    Ok(Balance { residual, size, tail, stiffness, damping })
+    Ok(Balance { residual, size, tail, forces: projected, stiffness, damping })
 }
 
 /// dR/dw at fixed harmonics, scaled, where forces know the frequency by the velocities alone:
@@ -88,7 +128,7 @@ pub(crate) fn balance<S: PeriodicFamily>(
 /// ```
 /// Gyroscopic forces, which grow with the speed as well, are left out: they are small beside these, and the derivative
 /// only leads the steps.
-pub(crate) fn frequency_derivative<S: PeriodicFamily>(
+fn frequency_derivative<S: PeriodicFamily>(
     system: &S,
     motion: &FourierSeries,
     basis: &Basis,
@@ -107,30 +147,40 @@ pub(crate) fn frequency_derivative<S: PeriodicFamily>(
     all
 }
 
-/// Bound of the motion that harmonics above H would add, over the vibration: forces beyond them over the inertia at the
-/// first that is left out. Summed over the samples.
-fn neglected<S: PeriodicFamily>(system: &S, motion: &FourierSeries, beyond: DMatrix<f64>, frequency: f64) -> f64 {
-    let scale = system.scale().map(|s| 1.0 / s);
-    let Some(mass) = system.mass().clone().cholesky() else { return f64::INFINITY };
-    let mut added = mass.solve(&beyond) / (frequency * (motion.harmonics() + 1) as f64).powi(2);
-    scale_rows(&mut added, &scale);
+/// Motion that is `added`, root mean square in time and in units of the scale, over that of the vibration.
+pub(crate) fn over_vibration(added: f64, motion: &FourierSeries, scale: &DVector<f64>) -> f64 {
     let mut vibration = motion.coefficients().clone();
     vibration.column_mut(0).fill(0.0);
-    scale_rows(&mut vibration, &scale);
+    scale_rows(&mut vibration, &scale.map(|s| 1.0 / s));
     let size = vibration.norm() / 2f64.sqrt();
-    if size > 0.0 { added.norm() / size } else { 0.0 }
+    if size > 0.0 { added / size } else { 0.0 }
 }
 
 /// dR/dc, scaled: (harmonic, coordinate) by (harmonic, coordinate), harmonics outermost.
-pub(crate) fn jacobian<S: PeriodicFamily>(system: &S, basis: &Basis, at: &Balance) -> DMatrix<f64> {
+fn jacobian<S: PeriodicFamily>(system: &S, basis: &Basis, at: &Balance) -> DMatrix<f64> {
     let (n, scale) = (system.mass().nrows(), system.scale());
     let frequency = TAU / system.period();
+    let mut all = force_slopes(basis, at, frequency, [&scale, &scale]);
+    for i in 0..n {
+        for j in 0..n {
+            let scaled = scale[i] * scale[j];
+            for k in 0..2 * basis.harmonics() + 1 {
+                all[(k * n + i, k * n + j)] -= scaled * (frequency * order(k)).powi(2) * system.mass()[(i, j)];
+            }
+        }
+    }
+    all
+}
+
+/// -d(P f)/dc of the forces alone, rows and columns multiplied by `scales`.
+pub(crate) fn force_slopes(basis: &Basis, at: &Balance, frequency: f64, scales: [&DVector<f64>; 2]) -> DMatrix<f64> {
+    let n = scales[0].len();
     let columns = 2 * basis.harmonics() + 1;
     let mut all = DMatrix::zeros(n * columns, n * columns);
     let mut transform = SeriesTransform::new(basis.samples());
     for i in 0..n {
         for j in 0..n {
-            let scaled = scale[i] * scale[j];
+            let scaled = scales[0][i] * scales[1][j];
             if let Some(stiffness) = transform.of(&at.stiffness, (i, j), scaled) {
                 for l in 0..columns {
                     for k in 0..columns {
@@ -145,9 +195,6 @@ pub(crate) fn jacobian<S: PeriodicFamily>(system: &S, basis: &Basis, at: &Balanc
                         all[(k * n + i, l * n + j)] += rate * damping.projected(k, wave);
                     }
                 }
-            }
-            for k in 0..columns {
-                all[(k * n + i, k * n + j)] -= scaled * (frequency * order(k)).powi(2) * system.mass()[(i, j)];
             }
         }
     }
@@ -167,6 +214,6 @@ fn accelerations(coefficients: &DMatrix<f64>, frequency: f64) -> DMatrix<f64> {
     all
 }
 
-fn scale_rows(matrix: &mut DMatrix<f64>, scale: &DVector<f64>) {
+pub(crate) fn scale_rows(matrix: &mut DMatrix<f64>, scale: &DVector<f64>) {
     matrix.row_iter_mut().zip(scale.iter()).for_each(|(mut row, s)| row *= *s);
 }

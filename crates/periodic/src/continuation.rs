@@ -3,11 +3,12 @@
 use nalgebra::DVector;
 
 use crate::{
-    BalanceOptions, Floquet, FourierSeries, Loss, PeriodicError, PeriodicFamily, PeriodicMotion,
-    balance::Balance,
+    BalanceOptions, Floquet, FourierSeries, Loss, PeriodicError, PeriodicMotion,
     dense::solved,
+    equations::{Balance, PeriodicEquations},
     series::Basis,
     solution::{Condition, Equations, Point, Solved, unknowns},
+    turns::listed,
 };
 
 /// Options of a branch.
@@ -30,6 +31,8 @@ pub struct Bifurcation {
     pub loss: Loss,
     /// The motion there.
     pub motion: PeriodicMotion,
+    /// Number (from 0) of the motion of the branch before it.
+    pub after: usize,
 }
 
 /// A branch of periodic motions.
@@ -65,7 +68,7 @@ pub struct Tracer<'a, S> {
     iterations: usize,
 }
 
-/// A motion with what was found on the way.
+/// A motion whose stability is not judged, with what was found on the way.
 struct Solution {
     motion: PeriodicMotion,
     x: DVector<f64>,
@@ -79,7 +82,14 @@ struct Place {
     tangent: DVector<f64>,
 }
 
-impl<'a, S: PeriodicFamily> Tracer<'a, S> {
+impl Place {
+    /// Change of the parameter along the branch: 0 at a fold.
+    fn slope(&self) -> f64 {
+        self.tangent[self.tangent.len() - 1]
+    }
+}
+
+impl<'a, S: PeriodicEquations> Tracer<'a, S> {
     /// Tracer for a system; `unit`: what counts as a large change of its parameter, > 0.
     ///
     /// # Errors
@@ -145,9 +155,7 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
                 continue;
             }
             let period = self.system.period();
-            let free = self.system.free_direction();
-            let floquet = Floquet::of(self.system.mass(), &balance.stiffness, &balance.damping, period, free.as_ref())
-                .ok_or(PeriodicError::Singular { parameter })?;
+            let floquet = Floquet { multipliers: Vec::new() };
             let residual = balance.residual.norm() / balance.size.max(f64::MIN_POSITIVE);
             let x = unknowns(&Point { parameter, series: series.clone() }, &scale, self.unit);
             let motion =
@@ -169,10 +177,22 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
     }
 
     fn place(&mut self, x: &DVector<f64>, normal: DVector<f64>) -> Result<Place, PeriodicError<S::Error>> {
+        let (mut place, balance) = self.unjudged(x, normal)?;
+        let singular = PeriodicError::Singular { parameter: place.motion.parameter };
+        place.motion.floquet = self.system.floquet(&self.basis, &balance).ok_or(singular)?;
+        Ok(place)
+    }
+
+    /// A place without the multipliers of its motion, which can cost more than all else.
+    fn unjudged(
+        &mut self,
+        x: &DVector<f64>,
+        normal: DVector<f64>,
+    ) -> Result<(Place, Balance), PeriodicError<S::Error>> {
         let found = self.corrected(x, normal.clone())?;
         let tangent = self.tangent(&found, &widened(&normal, found.x.len()))?;
-        let Solution { motion, x, .. } = found;
-        Ok(Place { motion, x, tangent })
+        let Solution { motion, x, balance } = found;
+        Ok((Place { motion, x, tangent }, balance))
     }
 
     /// The branch through a motion near `start`, from one end of the range to where it leaves it. `seen` gets each
@@ -192,7 +212,13 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
         let motions = vec![here.motion.clone()];
         let mut branch = Branch { motions, bifurcations: Vec::new(), iterations: 0, broken: None };
         let shortest = SHORTEST * options.longest_step;
-        while branch.motions.len() < options.most && seen(&here.motion).is_continue() {
+        let (mut told, mut passed) = (0, Vec::new());
+        while branch.motions.len() < options.most {
+            // A step that is tried anew begins at the same motion.
+            if told < branch.motions.len() && seen(&here.motion).is_break() {
+                break;
+            }
+            told = branch.motions.len();
             let guess = &here.x + &here.tangent * step;
             let next = match self.place(&guess, here.tangent.clone()) {
                 Ok(next) if widened(&here.tangent, next.x.len()).dot(&next.tangent) > 0.5 => next,
@@ -210,8 +236,8 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
                     continue;
                 }
             };
-            if let Some(bifurcation) = self.between(&here, &next, step)? {
-                branch.bifurcations.push(bifurcation);
+            if let Some((loss, motion)) = self.between(&here, &next, step)? {
+                passed.push(Bifurcation { loss, motion, after: branch.motions.len() - 1 });
             }
             let growth = WANTED / next.motion.iterations.max(1) as f64;
             step = (step * growth.clamp(CHANGE[0], CHANGE[1])).min(options.longest_step);
@@ -228,6 +254,7 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
             }
         }
         branch.iterations = self.iterations;
+        branch.bifurcations = listed(&branch.motions, passed, self.unit);
         Ok(branch)
     }
 
@@ -237,14 +264,13 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
         here: &Place,
         next: &Place,
         step: f64,
-    ) -> Result<Option<Bifurcation>, PeriodicError<S::Error>> {
-        let slope = |place: &Place| place.tangent[place.tangent.len() - 1];
-        let folds = slope(here) * slope(next) < 0.0;
+    ) -> Result<Option<(Loss, PeriodicMotion)>, PeriodicError<S::Error>> {
+        let folds = here.slope() * next.slope() < 0.0;
         let changes = here.motion.floquet.is_stable() != next.motion.floquet.is_stable();
         if !folds && !changes {
             return Ok(None);
         }
-        let measure = |place: &Place| if folds { slope(place) } else { place.motion.floquet.largest() - 1.0 };
+        let measure = |place: &Place| if folds { place.slope() } else { place.motion.floquet.largest() - 1.0 };
         let (mut a, mut b) = ((0.0, measure(here)), (step, measure(next)));
         let mut found: Option<Place> = None;
         for turn in 0..REFINEMENTS {
@@ -253,7 +279,14 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
             }
             // False position, every third time the middle: a measure with a kink would stay on one side.
             let at = if turn % 3 == 2 { 0.5 * (a.0 + b.0) } else { a.0 - a.1 * (b.0 - a.0) / (b.1 - a.1) };
-            let Ok(place) = self.place(&(&here.x + &here.tangent * at), here.tangent.clone()) else { break };
+            let x = &here.x + &here.tangent * at;
+            // The multipliers of a fold are those of the motion that is found in the end.
+            let place = if folds {
+                self.unjudged(&x, here.tangent.clone()).map(|(place, _)| place)
+            } else {
+                self.place(&x, here.tangent.clone())
+            };
+            let Ok(place) = place else { break };
             let value = measure(&place);
             if value * a.1 > 0.0 {
                 a = (at, value)
@@ -265,16 +298,19 @@ impl<'a, S: PeriodicFamily> Tracer<'a, S> {
                 break;
             }
         }
+        if let (true, Some(place)) = (folds, &mut found) {
+            *place = self.place(&place.x, here.tangent.clone())?;
+        }
         let loss = match &found {
             _ if folds => Loss::Fold,
             Some(place) => place.motion.floquet.loss(),
             None => next.motion.floquet.loss(),
         };
-        Ok(Some(Bifurcation { loss, motion: found.map_or_else(|| next.motion.clone(), |place| place.motion) }))
+        Ok(Some((loss, found.map_or_else(|| next.motion.clone(), |place| place.motion))))
     }
 
     fn unknowns(&self) -> usize {
-        self.system.mass().nrows() * (2 * self.basis.harmonics() + 1) + 1
+        self.system.scale().len() * (2 * self.basis.harmonics() + 1) + 1
     }
 }
 

@@ -7,21 +7,31 @@
 //! solutions of equations: all of a branch, stable or not, around its folds.
 
 mod balance;
+mod condensed;
 mod continuation;
 mod dense;
+mod equations;
 mod error;
 mod family;
 mod free_direction;
+mod linear_machine;
+mod modal_flow;
+mod plan;
 mod product;
 mod series;
 mod shooting;
 mod solution;
 mod stability;
+mod turns;
 
+pub use condensed::{Condensed, CondensedFamily, PeriodicMotionOf};
 pub use continuation::{Bifurcation, Branch, BranchOptions, Tracer};
+pub use equations::PeriodicEquations;
 pub use error::PeriodicError;
 pub use family::PeriodicFamily;
 pub use free_direction::FreeDirection;
+pub use linear_machine::LinearMachine;
+pub use plan::BranchPlan;
 pub use series::FourierSeries;
 pub use shooting::Shooting;
 pub use solution::{BalanceOptions, PeriodicMotion};

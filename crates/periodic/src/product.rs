@@ -49,11 +49,17 @@ impl SeriesTransform {
         if matrices.iter().all(|m| m[entry] == 0.0) {
             return None;
         }
-        self.samples.iter_mut().zip(matrices).for_each(|(s, m)| *s = factor * m[entry]);
+        let sums = self.sums(matrices.iter().map(|m| factor * m[entry]))?;
+        Some(WaveSums { sums, count: self.samples.len() as f64 })
+    }
+
+    /// sum of s exp(-i m tau) over all samples s, m = 0 .. N/2.
+    pub fn sums(&mut self, samples: impl Iterator<Item = f64>) -> Option<Vec<Complex<f64>>> {
+        self.samples.iter_mut().zip(samples).for_each(|(own, s)| *own = s);
         let mut sums = self.plan.make_output_vec();
         // Both lists have the lengths that the plan itself gave.
         self.plan.process(&mut self.samples, &mut sums).ok()?;
-        Some(WaveSums { sums, count: self.samples.len() as f64 })
+        Some(sums)
     }
 }
 

@@ -65,6 +65,11 @@ impl FourierSeries {
         self.sum(phase, |k, cos, sin| [-(k as f64) * sin, k as f64 * cos])
     }
 
+    /// d^2 q/dtau^2 at a phase; acceleration is that times (2 pi over the period)^2.
+    pub fn acceleration(&self, phase: f64) -> DVector<f64> {
+        self.sum(phase, |k, cos, sin| [cos, sin].map(|x| -((k * k) as f64) * x))
+    }
+
     fn sum(&self, phase: f64, of: impl Fn(usize, f64, f64) -> [f64; 2]) -> DVector<f64> {
         let mut sum = self.coefficients.column(0) * of(0, 1.0, 0.0)[0];
         for k in 1..=self.harmonics() {
@@ -103,7 +108,7 @@ impl FourierSeries {
 
 /// Values of 1, cos k tau, sin k tau at equal phases.
 #[derive(Debug, Clone)]
-pub(crate) struct Basis {
+pub struct Basis {
     /// N x (2 H + 1): it times coefficients, one column a coordinate, are samples.
     values: DMatrix<f64>,
     /// d/dtau of them.

@@ -3,9 +3,9 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::{
-    Floquet, FourierSeries, PeriodicError, PeriodicFamily,
-    balance::{Balance, balance, frequency_derivative, jacobian},
+    Floquet, FourierSeries, PeriodicError,
     dense::solved,
+    equations::{Balance, PeriodicEquations},
     series::Basis,
 };
 
@@ -53,7 +53,8 @@ pub struct PeriodicMotion {
     pub floquet: Floquet,
     /// What is left of the equations, over the terms that balance.
     pub residual: f64,
-    /// Bound of the motion that the harmonics leave out, over the vibration.
+    /// Motion that the harmonics leave out, over the vibration: by the inertia alone, which bounds it where no resonance lies
+    /// beyond them, or of [`crate::Condensed`] by the machine itself.
     pub tail: f64,
     /// Newton steps.
     pub iterations: usize,
@@ -116,13 +117,13 @@ pub(crate) struct Equations<'a, S> {
 /// Steps of the parameter for its derivative, over its scale.
 const DIFFERENCE: f64 = 1e-6;
 
-impl<S: PeriodicFamily> Equations<'_, S> {
+impl<S: PeriodicEquations> Equations<'_, S> {
     /// Balance at unknowns.
     pub fn at(&mut self, x: &DVector<f64>, tangents: bool) -> Result<(Point, Balance), PeriodicError<S::Error>> {
         let scale = self.system.scale();
         let point = point_of(x, &scale, self.unit);
         self.set(point.parameter)?;
-        let balance = balance(self.system, point.parameter, &point.series, self.basis, tangents)?;
+        let balance = self.system.balance(point.parameter, &point.series, self.basis, tangents)?;
         Ok((point, balance))
     }
 
@@ -139,14 +140,17 @@ impl<S: PeriodicFamily> Equations<'_, S> {
         at: &Balance,
         normal: &DVector<f64>,
     ) -> Result<DMatrix<f64>, PeriodicError<S::Error>> {
-        let inner = jacobian(self.system, self.basis, at);
+        let inner = self.system.jacobian(self.basis, at);
         let m = inner.nrows();
         let free = self.free();
         let size = m + 1 + usize::from(free.is_some());
         let mut all = DMatrix::zeros(size, size);
         all.view_mut((0, 0), (m, m)).copy_from(&inner);
         let slope = match self.system.frequency_slope() {
-            Some(slope) => frequency_derivative(self.system, &point.series, self.basis, at) * (slope * self.unit),
+            Some(slope) => {
+                let derivative = self.system.frequency_derivative(point.parameter, &point.series, self.basis, at)?;
+                derivative * (slope * self.unit)
+            }
             None => {
                 let mut beside = x.clone();
                 beside[m] += DIFFERENCE;

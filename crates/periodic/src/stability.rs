@@ -77,6 +77,21 @@ pub enum Loss {
     Torus,
 }
 
+/// Disturbances of n coordinates, a column each: of every coordinate, and of every velocity in units of the driving
+/// frequency, so that both halves are of one size.
+pub(crate) fn unit_disturbances(n: usize, period: f64) -> DMatrix<f64> {
+    DMatrix::from_fn(2 * n, 2 * n, |i, j| if i == j { [1.0, TAU / period][i / n] } else { 0.0 })
+}
+
+/// Multipliers of what [`unit_disturbances`] have become after a period; `None` where they are no numbers.
+pub(crate) fn multipliers(mut state: DMatrix<f64>, period: f64) -> Option<Floquet> {
+    let n = state.nrows() / 2;
+    state.rows_mut(n, n).scale_mut(period / TAU);
+    let mut multipliers: Vec<Complex<f64>> = integrate::eigenvalues(state)?.iter().copied().collect();
+    multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
+    Some(Floquet { multipliers })
+}
+
 impl Floquet {
     /// Stability from -df/dq and -df/dv at equal phases of a period of T s. A direction `free` along which nothing
     /// resists, ever, is left out: a turn of the whole stays what it is, and says nothing of the motion.
@@ -92,22 +107,16 @@ impl Floquet {
         let of = |m: &DMatrix<f64>| across.tr_mul(m) * &across;
         let (mass, n, count) = (of(mass), across.ncols(), stiffness.len());
         let [stiffness, damping] = [stiffness, damping].map(|all| all.iter().map(of).collect::<Vec<_>>());
-        let (places, mut rates) = (DMatrix::identity(n, 2 * n), DMatrix::zeros(n, 2 * n));
-        // Velocities are counted in units of the driving frequency, so that both halves are of one size.
-        let unit = TAU / period;
-        rates.view_mut((0, n), (n, n)).fill_diagonal(unit);
-        let mut flow = TangentFlow { places, rates };
+        let whole = unit_disturbances(n, period);
+        let mut flow = TangentFlow { places: whole.rows(0, n).into_owned(), rates: whole.rows(n, n).into_owned() };
         let state = |i: usize| [&stiffness[i % count], &damping[i % count]];
         for i in 0..count {
             flow.step(&mass, state(i), state(i + 1), period / count as f64)?;
         }
-        let TangentFlow { places, rates } = flow;
-        let mut monodromy = DMatrix::zeros(2 * n, 2 * n);
-        monodromy.rows_mut(0, n).copy_from(&places);
-        monodromy.rows_mut(n, n).copy_from(&(rates / unit));
-        let mut multipliers: Vec<Complex<f64>> = integrate::eigenvalues(monodromy)?.iter().copied().collect();
-        multipliers.sort_by(|a, b| b.norm().total_cmp(&a.norm()).then(b.im.total_cmp(&a.im)));
-        Some(Self { multipliers })
+        let mut state = whole;
+        state.rows_mut(0, n).copy_from(&flow.places);
+        state.rows_mut(n, n).copy_from(&flow.rates);
+        multipliers(state, period)
     }
 
     /// Largest size of a multiplier; below 1 the motion is stable.

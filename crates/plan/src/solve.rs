@@ -83,6 +83,7 @@ pub(crate) fn numbers(
             let bounded = file.accuracy.of(Quantity::NaturalFrequency).is_some();
             file.vibration = file.vibration.filter(|_| wants[0] || bounded);
             file.motion = file.motion.filter(|_| wants[1]);
+            file.branch = file.branch.filter(|_| wants[2]);
             let context = Context::<Gearbox>::new(observer).with_models(models);
             let result = solve(&*file, context).and_then(Ending::finished).map_err(said)?;
             result.verdict(&file).map_err(said)?;
@@ -91,11 +92,11 @@ pub(crate) fn numbers(
     }
 }
 
-/// Whether numbers of a vibration are wanted of a gearbox, and whether those of a motion are: rows are of the motion.
-fn wanted_in_time(outputs: &[PlanOutput]) -> [bool; 2] {
+/// Whether numbers of a vibration are wanted of a gearbox, those of a motion, and those of a branch: rows are of the motion.
+fn wanted_in_time(outputs: &[PlanOutput]) -> [bool; 3] {
     let of = |output: &PlanOutput| match output {
         PlanOutput::Headline(key) => GearboxResult::is_in_time(key.split('.').next().unwrap_or(key)),
-        PlanOutput::Column { .. } => [false, true],
+        PlanOutput::Column { .. } => [false, true, false],
     };
-    outputs.iter().map(of).fold([false; 2], |all, own| [all[0] | own[0], all[1] | own[1]])
+    outputs.iter().map(of).fold([false; 3], |all, own| std::array::from_fn(|i| all[i] | own[i]))
 }

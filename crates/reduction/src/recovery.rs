@@ -42,10 +42,7 @@ impl GearReducer {
         let n = window.reduced.coordinates();
         u.iter().try_for_each(|u| check_length(window, u))?;
         let columns = |of: &[&[f64]]| Mat::from_fn(n, of.len(), |i, j| of[j][i]);
-        let forces = || -> Result<Mat<f64>, ReductionError> {
-            let all = u.iter().map(|u| self.forces(window, u)).collect::<Result<Vec<_>, _>>()?;
-            Ok(Mat::from_fn(n, all.len(), |i, j| all[j][i]))
-        };
+        let forces = || window.reduced.forces_of(columns(u).as_ref()).ok_or_else(|| singular(window));
         match self.method()? {
             Method::Cyclic(cyclic) => cyclic.expand(forces()?.as_ref(), window.shift, nodes),
             Method::General(general, turn) => {
@@ -195,9 +192,12 @@ impl GearReducer {
     /// Forces that hold a window's coordinates at `u`, N.
     fn forces(&self, window: &Window, u: &[f64]) -> Result<Vec<f64>, ReductionError> {
         check_length(window, u)?;
-        let first = window.reduced.teeth.first().copied().unwrap_or(0);
-        window.reduced.forces(u).ok_or(ReductionError::NotPositiveDefinite { first })
+        window.reduced.forces(u).ok_or_else(|| singular(window))
     }
+}
+
+fn singular(window: &Window) -> ReductionError {
+    ReductionError::NotPositiveDefinite { first: window.reduced.teeth.first().copied().unwrap_or(0) }
 }
 
 fn check_length(window: &Window, u: &[f64]) -> Result<(), ReductionError> {

@@ -50,13 +50,17 @@ impl ReducedGear {
     /// Forces K^ u (N) that hold the coordinates at u (mm); one step of refinement makes up for the round-off of the
     /// inverse.
     pub(crate) fn forces(&self, u: &[f64]) -> Option<Vec<f64>> {
+        let f = self.forces_of(MatRef::from_column_major_slice(u, u.len(), 1))?;
+        Some(f.col_as_slice(0).to_vec())
+    }
+
+    /// [`Self::forces`] of several u, column by column: the matrices are gone through once for all.
+    pub(crate) fn forces_of(&self, u: MatRef<'_, f64>) -> Option<Mat<f64>> {
         let stiffness = self.stiffness()?;
-        let column = |x: &[f64]| MatRef::from_column_major_slice(x, x.len(), 1).to_owned();
-        let u = column(u);
-        let mut f = dense::product(stiffness.as_ref(), u.as_ref());
+        let mut f = dense::product(stiffness.as_ref(), u);
         let left = u - dense::product(self.compliance.as_ref(), f.as_ref());
         f += dense::product(stiffness.as_ref(), left.as_ref());
-        Some(f.col_as_slice(0).to_vec())
+        Some(f)
     }
 
     /// Strain energy u' K^ u / 2, N mm; NaN where there is no K^ or `u` is of another window.

@@ -110,7 +110,7 @@ pub fn write_rows(answer: &Answer, results: &ResultDirectory) -> Result<(), Repo
 fn write_tables(answer: &Answer, with_parquet: bool, results: &ResultDirectory) -> Result<(), ReportError> {
     for table in &answer.tables {
         if !table.is_written {
-            results.write(&format!("{}.csv", table.name), table.csv().as_bytes())?;
+            results.write_csv(table)?;
         }
         if with_parquet {
             results.write(&format!("{}.parquet", table.name), &parquet_bytes(table)?)?;

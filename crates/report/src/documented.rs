@@ -21,6 +21,7 @@ use study::{Campbell, Work};
 use crate::{
     accuracy_chart,
     answer_files::{Object, Summary},
+    branch_files::{self, ShownBranch},
     compare, contact_files, gearbox_files, optimum_files,
     pair_files::{key_rows, rows},
     plan_files, study_files,
@@ -42,7 +43,7 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
     ]);
     let (of_gearbox, _) = gearbox_files::documented(gearbox);
     let of_gearbox = of_gearbox.into_iter().map(|table| match &*table.name {
-        name @ ("campbell" | "motion") => (format!("{name}, a gearbox"), table),
+        name @ ("campbell" | "motion" | "branch" | "bifurcations" | "in_time") => (format!("{name}, a gearbox"), table),
         name => (name.to_owned(), table),
     });
     let named = [
@@ -66,9 +67,10 @@ pub fn documented_objects(gearbox: &Gearbox) -> Vec<(&'static str, Vec<Key>)> {
         ("phases", Phase::KEYS),
     ];
     let (_, of_gearbox) = gearbox_files::documented(gearbox);
-    let own = common.into_iter().chain(of_gearbox).chain(plan_files::OBJECTS).chain(optimum_files::OBJECTS);
+    let own = common.into_iter().chain(plan_files::OBJECTS).chain(optimum_files::OBJECTS);
     let own = own.chain(study_files::OBJECTS).chain([accuracy_chart::OBJECT, compare::OBJECT]);
-    analysis::objects().into_iter().chain(own.map(|(name, keys)| (name, keys.to_vec()))).collect()
+    let own = own.map(|(name, keys)| (name, keys.to_vec()));
+    analysis::objects().into_iter().chain(own).chain(of_gearbox).collect()
 }
 
 fn of_motions() -> Vec<Table> {
@@ -97,12 +99,12 @@ fn of_motions() -> Vec<Table> {
         rows::resonance(&[]),
         key_rows::sweep(&options, &[]),
         key_rows::bifurcation(&options, &[]),
-        key_rows::branch("<key>", &[]),
-        key_rows::turns("<key>", &[]),
-        key_rows::in_time("<key>", &[]),
         key_rows::basins(&[]),
         key_rows::attractors(&[]),
     ]
+    .into_iter()
+    .chain(branch_files::tables(&ShownBranch::of_pair("<key>", &[], &[], &[])))
+    .collect()
 }
 
 /// A diagram of so many frequencies and orders, without speeds.

@@ -7,6 +7,7 @@
 //! | [`page`] | pages that need nothing beside themselves |
 //! | [`contact_files`] | contact lines and contact pattern |
 //! | [`accuracy_chart`] | table and picture of accuracy against cost |
+//! | `branch_files` | branches of periodic motions: of a pair, and of each mesh of a gearbox |
 //! | [`pair_files`] | the answer of every run of a pair |
 //! | [`measured_files`] | a measured gear: files for a scene, deviations, waves, pictures |
 //! | [`motion_files`] | spectra, passages over speed, Campbell diagrams |
@@ -22,6 +23,7 @@
 
 pub mod accuracy_chart;
 mod answer_files;
+mod branch_files;
 pub mod charts;
 pub mod compare;
 pub mod contact_files;

@@ -15,17 +15,17 @@ use super::{
 impl Source<'_> {
     /// The number of `key`, or `default`, within `low..=high`.
     pub fn number(&self, key: &str, value: &Number, default: f64, low: f64, high: f64) -> Result<f64, SceneError> {
-        self.within(key, value, default, [low, high], (self.meaning)(key))
+        self.within(key, value, default, [low, high], || (self.meaning)(key))
     }
 
-    /// The number of a key that means `about`, or `default`, within `low..=high`.
-    fn within(
+    /// The number of a key, or `default`, within `low..=high`; `about` says what the key means, to a complaint alone.
+    fn within<'a>(
         &self,
         key: &str,
         value: &Number,
         default: f64,
         [low, high]: [f64; 2],
-        about: Option<&str>,
+        about: impl FnOnce() -> Option<&'a str>,
     ) -> Result<f64, SceneError> {
         let Some(value) = value else { return Ok(default) };
         let number = *value.get_ref();
@@ -33,7 +33,7 @@ impl Source<'_> {
             return Ok(number);
         }
         let advice = hints::of_number(key, number, [low, high]);
-        Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), about))
+        Err(self.out_of_range(key, value, (format!("{low} .. {high}"), advice), about()))
     }
 
     /// The whole number of `key`, or `default`, within `low..=high`.
@@ -57,7 +57,7 @@ impl Source<'_> {
     pub(crate) fn number_up_to(&self, table: &Table, key: &str, value: &Number, end: f64) -> Result<f64, SceneError> {
         let (low, high, default) = table.number(key);
         let finite = |x: f64| if x.is_finite() { x } else { end.copysign(x) };
-        let about = table.about(key).or((self.meaning)(key));
+        let about = || table.about(key).or_else(|| (self.meaning)(key));
         self.within(key, value, default.unwrap_or(0.0), [finite(low), finite(high)], about)
     }
 

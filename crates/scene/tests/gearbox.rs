@@ -358,3 +358,30 @@ fn modes_of_gears_belong_to_a_vibration() {
         assert!(error.to_string().contains(says) && error.hint().is_some(), "{says}: {error}");
     }
 }
+
+/// A load over time is read as that of a pair, and told where it has no meaning.
+#[test]
+fn loads_over_time_act_in_motion() {
+    let load = "torque_nm = 740.0\n";
+    let with = |more: &str| format!("{load}{more}\n");
+    let read = |more: &str| {
+        let found = Gearbox::parse(&text().replacen(load, &with(more), 1), &folder().join("two_stages.toml"));
+        found.unwrap_or_else(|e| panic!("{e}")).torques[0].over_time.clone().expect(more)
+    };
+    let table = read("table_s_nm = [[0.0, 740.0], [0.1, -20.0]]");
+    assert_eq!(table.table(), Some([vec![0.0, 0.1], vec![740e3, -20e3]]));
+    let harmonic = read("amplitude_nm = 10.0\nfrequency_hz = 50.0\nphase_deg = 90.0");
+    assert_eq!(harmonic.harmonic(), Some([1e4, 50.0, std::f64::consts::FRAC_PI_2]));
+    let table = with("table_s_nm = [[0.0, 740.0], [0.1, -20.0]]");
+    let alone = refused(load, &with("phase_deg = 10.0"));
+    assert!(alone.to_string().contains("makes no harmonic torque"), "{alone}");
+    let back = refused(load, &with("table_s_nm = [[0.0, 740.0], [0.0, 20.0]]"));
+    assert!(back.to_string().contains("goes back to 0 s"), "{back}");
+    let file = folder().join("two_stages.toml");
+    let (rest, _) = text().split_once("[motion]").map(|(a, b)| (a.to_owned(), b.to_owned())).unwrap();
+    let at_rest = Gearbox::parse(&rest.replacen(load, &table, 1), &file).expect_err("no motion");
+    assert!(at_rest.to_string().contains("`table_s_nm` acts in motion alone"), "{at_rest}");
+    let settled = format!("{}[motion]\nspeed_rpm = 1000.0\nrun = \"steady\"\n", rest.replacen(load, &table, 1));
+    let settled = Gearbox::parse(&settled, &file).expect_err("it settles");
+    assert!(settled.to_string().contains("its period is none of the meshes"), "{settled}");
+}

@@ -105,6 +105,11 @@ const VIBRATION: &str = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 4000.0\nspeeds 
 const RUN_UP: &str =
     "[motion]\nspeed_rpm = 1000.0\nto_speed_rpm = 1500.0\nmesh = \"spring\"\ncycles = 6\nsteps_per_cycle = 20\n";
 
+/// Both meshes come back after 23 cycles of the faster one.
+const BRANCH: &str = "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1010.0\nmesh = \"spring\"\n\
+                      steps_per_cycle = 20\nwarm_up_cycles = 46\nperiodic_tolerance = 1e-2\n[motion.continuation]\n\
+                      harmonics = 4\nmost_harmonics = 4\ntail = 0.1\nphases = 64\nlongest_step = 1.0\ntime_points = 1\n";
+
 /// Two stages on three shafts, with one bearing by its type: at rest, and what `tasks` ask.
 fn gearbox(name: &'static str, tasks: &str) -> SmallDocument {
     let shaft = |name: &str, y: f64, length: f64, diameter: f64| {
@@ -166,6 +171,7 @@ fn other_than_scenes() -> Vec<SmallDocument> {
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     vec![
         gearbox("gearbox", &format!("{VIBRATION}{RUN_UP}")),
+        gearbox("gearbox_branch", BRANCH),
         gearbox("gearbox_modes", &format!("{VIBRATION}[modes]\ncount = 4\n")),
         SmallDocument {
             name: "plan",

@@ -17,7 +17,7 @@ fn two_stages() -> Scratch {
 }
 
 /// Column of a file with commas.
-fn column(csv: &str, name: &str) -> Vec<f64> {
+pub fn column(csv: &str, name: &str) -> Vec<f64> {
     let mut lines = csv.lines();
     let at = lines.next().unwrap().split(',').position(|n| n == name).unwrap_or_else(|| panic!("no column {name}"));
     lines.map(|line| line.split(',').nth(at).unwrap().parse().unwrap()).collect()
@@ -135,6 +135,73 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     assert!(run.code == Some(2) && run.stderr.contains("a result where a torque drives"), "{}", run.stderr);
 }
 
+/// The branch over the speed of the shipped box: a row a motion, folds with an unstable part between them, motions in time that
+/// stay on it; tables, page and summary say the same. The page is made again to the same bytes.
+#[test]
+fn a_branch_over_the_speed_is_written() {
+    let file = repository().join("scenes/gearbox/resonance_curve.toml").display().to_string();
+    let scratch = Scratch::new();
+    let run = scratch.ale_gear(["run", &file, "--no-cache", "--out", "o"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let branch = &told["branch"];
+    let rows = scratch.read("o/branch.csv");
+    let [speed, stable, errors] = ["input_rpm", "stable", "mesh_1_peak_to_peak_dte_um"].map(|name| column(&rows, name));
+    assert_eq!(branch["motions"].as_u64(), Some(speed.len() as u64));
+    assert_eq!(branch["unstable"].as_u64().unwrap() as usize, stable.iter().filter(|s| **s == 0.0).count());
+    let folds: Vec<f64> = branch["folds"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
+    let turns = scratch.read("o/bifurcations.csv");
+    let listed =
+        turns.lines().filter(|l| l.starts_with("fold,")).map(|l| l.split(',').nth(1).unwrap().parse().unwrap());
+    assert_eq!(listed.collect::<Vec<f64>>(), folds);
+    assert!(folds.len() >= 2 && branch["unstable"].as_u64() > Some(2), "{branch}");
+    let largest = errors.iter().copied().fold(0.0, f64::max);
+    assert_eq!(told["headline"]["branch_peak_to_peak_dte_um"][0].as_f64(), Some(largest));
+    assert_eq!(branch["meshes"][0]["largest"]["peak_to_peak_dte_um"].as_f64(), Some(largest));
+    assert_eq!(told["headline"]["branch_folds"].as_f64(), Some(folds.len() as f64));
+    let in_time = scratch.read("o/in_time.csv");
+    let [found, wanted] =
+        ["mesh_1_peak_to_peak_dte_um", "mesh_1_branch_peak_to_peak_dte_um"].map(|name| column(&in_time, name));
+    assert!(found.len() == 4 && found.iter().zip(&wanted).all(|(a, b)| (a / b - 1.0).abs() < 0.02), "{in_time}");
+    for check in ["harmonic_residual", "harmonic_tail", "range_left_out", "multiplier_error", "map_use"] {
+        assert!(told["certificate_checks"][check]["value"].is_f64(), "{check}: {}", told["certificate_checks"]);
+    }
+    assert!(run.stdout.contains("Periodic motions over the speed"), "{}", run.stdout);
+    let page = scratch.read("o/report.html");
+    assert!(page.contains("Largest Floquet multiplier") && page.contains("Periodic motions, mesh stage"));
+    let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
+    assert_eq!(again.code, Some(0), "{}", again.stderr);
+    assert!(scratch.read("again.html") == page, "the page made again has other bytes");
+    // What has no branch is told by the words of the file.
+    let wrong = [
+        ("motion.mesh=exact", "the exact contact has no continuation"),
+        ("motion.cycles=5", "`cycles` belongs to a motion that writes rows"),
+        ("motion.run=span", "[motion.continuation] belongs to a branch"),
+        ("motion.to_speed_rpm=16000", "ends where it begins"),
+        ("motion.continuation.most_harmonics=3", "below `harmonics`"),
+        ("motion.drive=torque", "no period"),
+        ("motion.drive=balanced", "keeps its speed"),
+    ];
+    for (word, said) in wrong {
+        let run = scratch.ale_gear(["run", &file, "--set", word, "--out", "w"]);
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{word}: {}", run.stderr);
+    }
+}
+
+/// Two meshes of 17 and 19 teeth on the middle shaft come back after thousands of cycles: there is no branch.
+#[test]
+fn a_branch_of_a_long_period_is_refused() {
+    let scratch = two_stages();
+    let text = scratch.read("two_stages.toml");
+    let (before, _) = text.split_once("[motion]").unwrap();
+    let (before, _) = before.split_once("[vibration]").unwrap_or((before, ""));
+    let motion = "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1100.0\nmesh = \"spring\"\n";
+    let scratch = scratch.file("long.toml", before.to_owned() + motion);
+    let run = scratch.ale_gear(["run", "long.toml", "--out", "o"]);
+    assert_eq!(run.code, Some(2), "{}", run.stderr);
+    assert!(run.stderr.contains("cycles") && run.stderr.contains("hint"), "{}", run.stderr);
+}
+
 /// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,
 /// run up; a housing out of CalculiX, driven by a torque on maps; an overhung pinion, settled by steps as short as need be.
 #[test]
@@ -153,6 +220,8 @@ fn every_key_is_in_a_scene_that_runs() {
         "accurate.toml",
         "elastic_gears.toml",
         "elastic_pair.toml",
+        "reversal.toml",
+        "resonance_curve.toml",
     ];
     let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
     let has = |key: &str| {

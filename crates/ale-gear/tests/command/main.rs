@@ -5,6 +5,8 @@ mod command_line;
 mod faults;
 mod folders;
 mod gearbox;
+mod gearbox_loads;
+mod gearbox_pitch_errors;
 mod gearbox_resume;
 mod messages;
 mod mistakes;

@@ -25,6 +25,7 @@ pub struct StaticAnalysis<'a> {
     meshes: Option<[&'a Mesh; 2]>,
     cache: &'a dyn GearCache,
     shared: Option<&'a SharedModels<'a>>,
+    tells_facts: bool,
 }
 
 impl std::fmt::Debug for StaticAnalysis<'_> {
@@ -36,7 +37,7 @@ impl std::fmt::Debug for StaticAnalysis<'_> {
 impl<'a> StaticAnalysis<'a> {
     /// Analysis of a scene.
     pub fn new(scene: &'a Scene) -> Self {
-        Self { scene, meshes: None, cache: &NoCache, shared: None }
+        Self { scene, meshes: None, cache: &NoCache, shared: None, tells_facts: true }
     }
 
     /// With meshes of pinion and wheel that the caller holds, in place of those of the scene. They are checked as files
@@ -64,6 +65,13 @@ impl<'a> StaticAnalysis<'a> {
         Self { shared: Some(models), ..self }
     }
 
+    /// Positions and remarks alone; of a scene that asks for no accuracy, bounds are left out and of `iso` all that only
+    /// files tell.
+    #[must_use]
+    pub(crate) fn without_facts(self) -> Self {
+        Self { tells_facts: false, ..self }
+    }
+
     /// Solves it, telling nobody.
     ///
     /// # Errors
@@ -87,6 +95,9 @@ impl<'a> StaticAnalysis<'a> {
         if self.scene.accuracy.is_none() {
             let alone = CycleAnalysis::new(self.scene).with_cache(self.cache).with_meshes(meshes);
             let analysis = self.shared.map_or(alone, |models| alone.with_shared(models));
+            if !self.tells_facts {
+                return analysis.without_facts().solve_into(observer, sink);
+            }
             let mut result = analysis.solve_into(observer, sink)?;
             // The laws of bounds are those of the built-in mesher.
             result.facts.accuracy = if meshes.is_none() { free_estimate(self.scene, &result)? } else { None };

@@ -39,13 +39,24 @@ impl GearboxResult {
         if let Some(motion) = &self.motion {
             let hint = "take more `steps_per_cycle`, or `method = \"energy\"`";
             all.push(Check::new("energy_residual", motion.energy.open_over_vibration, ENERGY, hint));
-            let beyond = motion.reach.iter().copied().fold(0.0, crate::worse);
-            let hint = "take `mesh = \"exact\"`, or let it run with more damping";
+        }
+        let of_motion = self.motion.as_ref().map(|own| (&own.reach, &own.reduction));
+        let of_branch = self.branch.as_ref().map(|own| (&own.reach, &own.reduction));
+        if let Some((reach, reduction)) = of_motion.or(of_branch) {
+            let beyond = reach.iter().copied().fold(0.0, crate::worse);
+            let hint = match &self.motion {
+                Some(_) => "take `mesh = \"exact\"`, or let it run with more damping",
+                None => "give it more damping, or a larger load",
+            };
             all.push(Check::new("map_use", beyond, 1.0, hint));
             let hint = "state a lower or higher `highest_frequency_hz`: modes up to twice that are kept";
-            all.push(Check::new("shaft_frequency_error", motion.reduction.error, FREQUENCIES, hint));
+            all.push(Check::new("shaft_frequency_error", reduction.error, FREQUENCIES, hint));
         }
-        Checks::new(all)
+        let all = Checks::new(all);
+        match &self.branch {
+            Some(branch) => all.and(branch.checks.clone()),
+            None => all,
+        }
     }
 
     /// Whether every check holds, and the result is as exact as was asked.

@@ -6,7 +6,9 @@ use serde_json::{Map, Value, json};
 
 use crate::run_up::RunUpTorque;
 
-use super::{BearingLoad, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult};
+use super::{
+    BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult,
+};
 
 /// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
 #[derive(Clone, Copy)]
@@ -20,6 +22,8 @@ enum Of {
     RunUp(fn(RunUpTorque) -> f64),
     MeshesMoving(fn(&GearboxMotionResult, usize) -> f64),
     BearingsMoving(fn(&GearboxMotionResult, usize) -> f64),
+    Branch(fn(&GearboxBranchResult) -> f64),
+    MeshesOnBranch(fn(&GearboxBranchResult, usize) -> f64),
 }
 
 /// A number of the headline.
@@ -37,7 +41,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 17] = [
+const NUMBERS: [Number; 22] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -116,6 +120,37 @@ const NUMBERS: [Number; 17] = [
         key: Key::new("run_up_load_torque_nm", "f64", "torque of the loads at the input; with `to_speed_rpm`"),
         of: Of::RunUp(|r| 1e-3 * r.load),
     },
+    Number {
+        key: Key::new(
+            "branch_folds",
+            "f64",
+            "number of folds of the branch over the speed; with `run = \"continuation\"`",
+        ),
+        of: Of::Branch(|b| b.figures.folds.len() as f64),
+    },
+    Number {
+        key: Key::new(
+            "branch_unstable",
+            "f64",
+            "number of unstable motions of the branch; with `run = \"continuation\"`",
+        ),
+        of: Of::Branch(|b| b.figures.unstable as f64),
+    },
+    list(
+        "branch_peak_to_peak_dte_um",
+        "largest peak to peak of the dynamic transmission error of each mesh along the branch; with `run = \"continuation\"`",
+        Of::MeshesOnBranch(|b, i| b.largest(i).map_or(f64::NAN, |p| p.peak_to_peak_dte_um)),
+    ),
+    list(
+        "branch_resonance_rpm",
+        "speed of the input at that peak to peak; with `run = \"continuation\"`",
+        Of::MeshesOnBranch(|b, i| b.largest(i).map_or(f64::NAN, |p| p.value)),
+    ),
+    list(
+        "branch_max_normal_force_n",
+        "largest normal force of each mesh along the branch; with `run = \"continuation\"`",
+        Of::MeshesOnBranch(|b, i| b.points.iter().map(|p| p[i].max_normal_force_n).fold(0.0, f64::max)),
+    ),
 ];
 
 impl GearboxResult {
@@ -138,6 +173,8 @@ impl GearboxResult {
                 }
                 Of::RunUp(own) => json!(own(self.motion.as_ref()?.run_up?)),
                 Of::MeshesMoving(own) => self.motion.as_ref().map(|m| meshes.clone().map(|i| own(m, i)).collect())?,
+                Of::Branch(own) => json!(own(self.branch.as_ref()?)),
+                Of::MeshesOnBranch(own) => self.branch.as_ref().map(|b| meshes.clone().map(|i| own(b, i)).collect())?,
                 Of::BearingsMoving(own) => {
                     self.motion.as_ref().map(|m| bearings.clone().map(|i| own(m, i)).collect())?
                 }
@@ -158,6 +195,8 @@ impl GearboxResult {
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
             Of::RunUp(_) => file.motion.as_ref().and_then(|m| m.to_speed_rpm).map(|_| None),
             Of::MeshesMoving(_) => moves.then_some(Some(file.meshes.len())),
+            Of::Branch(_) => file.branch.map(|_| None),
+            Of::MeshesOnBranch(_) => file.branch.map(|_| Some(file.meshes.len())),
             Of::BearingsMoving(_) => moves.then_some(Some(file.bearings.len())),
         };
         NUMBERS.iter().filter_map(|n| Some((n.key.name, count(n.of)?))).collect()
@@ -168,12 +207,13 @@ impl GearboxResult {
         NUMBERS.iter().map(|n| n.key).collect()
     }
 
-    /// Whether a number of the headline, by its key, is one of the vibration, and whether it is one of the motion.
-    pub fn is_in_time(key: &str) -> [bool; 2] {
+    /// Whether a number of the headline, by its key, is one of the vibration, of the motion, or of the branch over the speed.
+    pub fn is_in_time(key: &str) -> [bool; 3] {
         let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
         [
             matches!(of, Some(Of::MeshesVibrating(_) | Of::BearingsVibrating(_))),
             matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_) | Of::RunUp(_))),
+            matches!(of, Some(Of::Branch(_) | Of::MeshesOnBranch(_))),
         ]
     }
 }

@@ -2,15 +2,16 @@
 
 use crate::remark;
 use answer::Remark;
+use contact::Offset;
 use std::sync::Arc;
 
 use dynamics::RigidBody;
 use fem::Wanted;
 use gearbox::{
-    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train,
+    ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train, Vector12,
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
-use ltca::StaticOptions;
+use ltca::{StaticModel, StaticOptions};
 use reduction::{ElasticGear, GearModes};
 use scene::{
     Scene,
@@ -19,11 +20,11 @@ use scene::{
 
 use crate::{
     AnalysisError, GearCache, NoObserver, Progress, SharedModels,
-    contact_maps::{map_teller, map_words},
+    contact_maps::{map_teller, map_words, pitch_errors_told},
     gears,
     inputs::resolved_scene,
     meshes::SceneMesh,
-    motion::body,
+    motion::{QuasiStatic, body},
     options::options,
     reduced_pairs::ReducedPair,
     solution_remarks::{PressedMesh, jam_remark},
@@ -165,6 +166,35 @@ impl ReducedMesh {
         MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
     }
 
+    /// The mesh alone through its own cycle at rest: `torque` (N mm) on the driven gear, axes displaced by `about` in the
+    /// mesh's own axes.
+    pub fn cycle(
+        &self,
+        mesh: &GearMesh,
+        torque: f64,
+        about: &Vector12,
+        positions: u32,
+    ) -> Result<QuasiStatic, AnalysisError> {
+        let options = StaticOptions { torque, ..self.options.clone() }.with_contact(|contact| {
+            contact.both_flanks = false;
+            for (gear, offset) in contact.offsets.iter_mut().enumerate() {
+                let [x, y, z, tilt_x, tilt_y] = std::array::from_fn(|i| about[6 * gear + i]);
+                *offset = Offset {
+                    x: offset.x + x,
+                    y: offset.y + y,
+                    z: offset.z + z,
+                    tilt_x: offset.tilt_x + tilt_x,
+                    tilt_y: offset.tilt_y + tilt_y,
+                };
+            }
+        });
+        let named =
+            |source| GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(GearboxError::from(source)) };
+        let made = StaticModel::new(mesh.pair.clone(), Arc::clone(&self.pair.gears), options);
+        let history = made.and_then(|mut model| model.run(positions as usize, 1, |_, _, _| ())).map_err(named)?;
+        Ok(QuasiStatic::of(&history))
+    }
+
     /// The contact by its map: that of the cache, or a new one; remarks are about files of the cache.
     pub fn map(
         &self,
@@ -179,6 +209,7 @@ impl ReducedMesh {
             if let Some(map) = kept.and_then(|kept| kept.of(key)).and_then(|mut maps| maps.pop())
                 && let Ok(made) = MappedMesh::on(&mesh.pair, &self.options, request, map)
             {
+                remarks.extend(self.pitch_errors(mesh, request, &made)?);
                 return Ok(made);
             }
         }
@@ -186,7 +217,19 @@ impl ReducedMesh {
         let teller = map_teller(progress, &of);
         let made = MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, (request, &teller))?;
         remarks.extend(key.and_then(|key| cache.save_maps(&key, &[made.map()])));
+        remarks.extend(self.pitch_errors(mesh, request, &made)?);
         Ok(made)
+    }
+
+    /// How far pitch errors on a map are off.
+    fn pitch_errors(
+        &self,
+        mesh: &GearMesh,
+        request: &MapRequest,
+        map: &MappedMesh,
+    ) -> Result<Option<Remark>, GearboxError> {
+        let found = map.pitch_error(&mesh.pair, &self.pair.gears, &self.options, request)?;
+        Ok(found.map(|error| pitch_errors_told(&error, map.map()).about(&mesh.name)))
     }
 
     /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.

@@ -10,12 +10,14 @@
 //! | `checks` | what must hold |
 //! | `headline` | the numbers that it is judged by |
 //! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints; what is said of it |
+//! | `branch` | its periodic motions over the speed, stable and unstable |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `clearance` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
 mod accuracy;
 mod bearings;
+mod branch;
 mod checks;
 mod clearance;
 mod headline;
@@ -43,6 +45,7 @@ use crate::{
 };
 use accuracy::solve_accurately;
 pub use bearings::RollingLoad;
+pub use branch::GearboxBranchResult;
 use motion::Span;
 pub use motion::{GearboxMotionResult, Range};
 pub use orders::MotionOrder;

@@ -13,20 +13,20 @@ use gearbox::{
 };
 use integrate::{Follower, MotionError, Periodicity, Row, Settle, Stage, State};
 use nalgebra::DVector;
-use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, MeshModel};
+use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshModel};
 
 use super::{
     inertia,
     meshes::ReducedMesh,
     orders::{MotionOrder, orders},
+    parts::over_time,
     sink::GearboxSink,
 };
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, Progress, run_phase, run_up::RunUpTorque, unless_cancelled,
+    AnalysisError, GearCache, Observer, PhaseWork, Progress, motion::QuasiStatic, run_phase, run_up::RunUpTorque,
+    unless_cancelled,
 };
 
-/// Largest force of a map over the mean at rest.
-const OVERLOAD: f64 = 4.0;
 /// Error with which a map is taken, over that aimed at.
 const WORST: f64 = 10.0;
 /// Phases of a cycle at which the contact is looked at for its mean stiffness.
@@ -123,6 +123,60 @@ pub(super) struct AtRest<'a> {
     pub cache: &'a dyn GearCache,
 }
 
+/// A gearbox that is ready to move, with what its meshes are.
+pub(super) struct Ready {
+    pub mechanism: GearboxMechanism,
+    /// Equilibrium in which it begins.
+    pub start: State,
+    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
+    pub stiffness: Vec<f64>,
+    /// Damping of each mesh along its normal, N s/mm.
+    pub damping: Vec<f64>,
+    /// What was said of files of maps.
+    pub map_remarks: Vec<Remark>,
+}
+
+/// Makes the mechanism of a gearbox with a drive, up to a fastest speed (rad/s) of its input.
+pub(super) fn ready(
+    rest: &AtRest<'_>,
+    asked: &GearboxMotion,
+    (drive, fastest): (Drive, f64),
+    observer: &mut dyn Observer,
+) -> Result<Ready, AnalysisError> {
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
+    let bodies = inertia::gears(rest.file, rest.reduced)?;
+    let structure = inertia::heavy(rest.file, rest.linear, rest.operation, &bodies);
+    let looked = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {
+        let one = |i: usize| Ok((rest.spring(i).map_err(failed)?, rest.cycle(i)?));
+        (0..rest.meshes.len()).map(one).collect::<Result<Vec<(ContactSpring, QuasiStatic)>, AnalysisError>>()
+    });
+    let (springs, cycles): (Vec<_>, Vec<_>) = looked?.into_iter().unzip();
+    let damping: Vec<f64> = cycles.iter().enumerate().map(|(i, own)| rest.damping(i, &bodies, own, asked)).collect();
+    let mut map_remarks = Vec::new();
+    let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
+        let one = |i: usize| {
+            let made = rest.element(i, asked, (&springs[i], &cycles[i], damping[i]), (progress, &mut map_remarks));
+            progress.tick();
+            made.map_err(|source| GearboxError::AtMesh { mesh: rest.meshes[i].name.clone(), source: Box::new(source) })
+        };
+        (0..rest.meshes.len()).map(one).collect::<Result<Vec<_>, _>>()
+    })
+    .map_err(failed)?;
+    let limit = TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest));
+    let options = MotionOptions { drive, modal_damping: asked.modal_damping_ratio, limit };
+    let mut elements = elements.into_iter();
+    let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
+    let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
+        elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
+    });
+    let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
+    let made = made.and_then(|own| own.with_torques(over_time(rest.file, rest.operation)));
+    let mut mechanism = made.map_err(failed)?;
+    let start = mechanism.start(options.modal_damping).map_err(failed)?;
+    let stiffness = springs.iter().map(|s| s.stiffness().mean).collect();
+    Ok(Ready { mechanism, start, stiffness, damping, map_remarks })
+}
+
 /// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
 pub(super) fn run(
     rest: &AtRest<'_>,
@@ -131,45 +185,19 @@ pub(super) fn run(
     (observer, sink): (&mut dyn Observer, &mut dyn GearboxSink),
 ) -> Result<(GearboxMotionResult, Option<u64>), AnalysisError> {
     let failed = |source: GearboxError| AnalysisError::from(source).in_file(&rest.file.file);
-    let bodies = inertia::gears(rest.file, rest.reduced)?;
-    let structure = inertia::heavy(rest.file, rest.linear, rest.operation, &bodies);
-    let springs: Vec<ContactSpring> = run_phase(observer, "look at the meshes", PhaseWork::Unknown, |_| {
-        (0..rest.meshes.len()).map(|i| rest.spring(i)).collect::<Result<_, _>>()
-    })
-    .map_err(failed)?;
-    let damping: Vec<f64> = (0..rest.meshes.len())
-        .map(|i| rest.damping(i, &bodies, springs[i].stiffness().mean, asked.mesh_damping_ratio))
-        .collect();
-    let mut map_remarks = Vec::new();
-    let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
-        let one = |i: usize| {
-            let made = rest.element(i, asked, (&springs[i], damping[i]), (progress, &mut map_remarks));
-            progress.tick();
-            made.map_err(|source| GearboxError::AtMesh { mesh: rest.meshes[i].name.clone(), source: Box::new(source) })
-        };
-        (0..rest.meshes.len()).map(one).collect::<Result<Vec<_>, _>>()
-    })
-    .map_err(failed)?;
     let speed = asked.speed_rpm * TAU / 60.0;
-    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
-    let options = MotionOptions {
-        drive: match asked.drive {
-            GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
-            GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
-        },
-        modal_damping: asked.modal_damping_ratio,
-        limit: TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest)),
+    let drive = match asked.drive {
+        GearboxDrive::Speed => Drive::Speed(rest.nominal(asked)),
+        GearboxDrive::Balanced => Drive::Balanced(rest.nominal(asked)),
+        GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
     };
-    let mut elements = elements.into_iter();
-    let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
-    let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
-        elements.next().ok_or(GearboxError::NotDriven { shaft: mesh.name.clone() })
-    });
-    let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
-    let mut mechanism = made.map_err(failed)?;
-    let start = mechanism.start(options.modal_damping).map_err(failed)?;
-    let run_up = match options.drive {
-        Drive::Speed(speed) => RunUpTorque::new(speed, (mechanism.driven_inertia(), 1.0), rest.load_at_input()),
+    let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
+    let Ready { mut mechanism, start, stiffness, damping, map_remarks } =
+        ready(rest, asked, (drive, fastest), observer)?;
+    let run_up = match drive {
+        Drive::Speed(speed) | Drive::Balanced(speed) => {
+            RunUpTorque::new(speed, (mechanism.driven_inertia(), 1.0), rest.load_at_input())
+        }
         Drive::Torque { .. } => None,
     };
     let plan = rest.plan(asked);
@@ -204,7 +232,7 @@ pub(super) fn run(
         orders: orders(&rows)?,
         rows,
         mesh_frequencies: frequencies,
-        stiffness: springs.iter().map(|s| s.stiffness().mean).collect(),
+        stiffness,
         damping,
         step: plan.step,
         steps: [done.steps, done.divided],
@@ -303,7 +331,7 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
 
 impl AtRest<'_> {
     /// How its motion is integrated.
-    fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
+    pub(super) fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
         // A ramp has its longest steps where it is slowest.
         let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
         MotionPlan {
@@ -344,20 +372,61 @@ impl AtRest<'_> {
         let stands = self.stands(mesh);
         let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
         let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
-        let mut exact = self.reduced[mesh].exact(&self.meshes[mesh]).map_err(named)?;
-        ContactSpring::of(&mut exact, &about, PHASES).map_err(named)
+        let own = &self.meshes[mesh];
+        let alike = GearMesh { pair: own.pair.without_pitch_errors(), ..own.clone() };
+        let mut exact = self.reduced[mesh].exact(&alike).map_err(named)?;
+        if alike.pair == own.pair {
+            return ContactSpring::of(&mut exact, &about, PHASES).map_err(named);
+        }
+        let force =
+            self.positions.iter().map(|p| p.meshes[mesh].normal_force).sum::<f64>() / stands.len().max(1) as f64;
+        ContactSpring::under(&mut exact, &about, force, PHASES).map_err(named)
     }
 
-    /// Damping along the normal, N s/mm: the ratio of both gears turning against each other.
+    /// Mean torque of a mesh on its driven gear, N mm without sign.
+    fn torque(&self, mesh: usize) -> f64 {
+        let driven = self.reduced[mesh].options.driven();
+        let all = self.positions.iter().map(|p| p.meshes[mesh].moment[driven][2]);
+        (all.sum::<f64>() / self.positions.len().max(1) as f64).abs()
+    }
+
+    /// A mesh through its own cycle at rest, under its mean torque and with its axes where they stand on average.
+    fn cycle(&self, mesh: usize) -> Result<QuasiStatic, AnalysisError> {
+        let about = self.stands(mesh).iter().sum::<Vector12>() / self.positions.len().max(1) as f64;
+        self.reduced[mesh].cycle(&self.meshes[mesh], self.torque(mesh), &about, self.file.positions_per_cycle)
+    }
+
+    /// Damping along the normal, N s/mm: of the contact lines, or the ratio of both gears turning against each other.
     ///
     /// ```text
     /// c = 2 zeta sqrt(k m_e),   1/m_e = cos^2 b_b (r_b1^2/J_1 + r_b2^2/J_2)
     /// ```
-    fn damping(&self, mesh: usize, bodies: &[RigidBody], stiffness: f64, ratio: f64) -> f64 {
+    /// J of a gear with all that is on its shaft where that is held, and infinite where a held shaft keeps the speed of the
+    /// input.
+    fn damping(&self, mesh: usize, bodies: &[RigidBody], cycle: &QuasiStatic, asked: &GearboxMotion) -> f64 {
+        let ratio = match asked.mesh_damping {
+            GearboxDamping::Ratio(ratio) => ratio,
+            GearboxDamping::PerLength(per_length) => return per_length * cycle.line_length,
+        };
+        let inertia = |gear: usize| {
+            let (file, shaft) = (self.file, self.file.gears[gear].shaft);
+            if !file.shafts[shaft].held {
+                return bodies[gear].polar_inertia;
+            }
+            if asked.drive == GearboxDrive::Speed && shaft == file.input.shaft {
+                return f64::INFINITY;
+            }
+            let gears = file.gears.iter().zip(bodies).filter(|(own, _)| own.shaft == shaft);
+            let machines = file.torques.iter().filter(|own| own.shaft == shaft).map(|own| own.inertia);
+            let input = if shaft == file.input.shaft { file.input.inertia } else { 0.0 };
+            gears.map(|(_, body)| body.polar_inertia).sum::<f64>() + machines.sum::<f64>() + input
+        };
         let pair = &self.meshes[mesh].pair;
-        let own = self.file.meshes[mesh].gears.map(|g| bodies[g].polar_inertia);
         let lever = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
-        let mobility: f64 = (0..2).map(|g| lever[g] * lever[g] / own[g]).sum();
+        let turns = |i: usize| lever[i] * lever[i] / inertia(self.file.meshes[mesh].gears[i]);
+        let mobility = turns(0) + turns(1);
+        // Of the base circle, and along the normal.
+        let stiffness = cycle.stiffness / pair.base_helix_angle().cos().powi(2);
         if mobility.is_finite() { 2.0 * ratio * (stiffness / mobility).sqrt() } else { 0.0 }
     }
 
@@ -365,12 +434,12 @@ impl AtRest<'_> {
         &self,
         mesh: usize,
         asked: &GearboxMotion,
-        (spring, damping): (&ContactSpring, f64),
+        (spring, cycle, damping): (&ContactSpring, &QuasiStatic, f64),
         (progress, remarks): (&dyn Progress, &mut Vec<Remark>),
     ) -> Result<Box<dyn MovingMesh>, GearboxError> {
         let (own, meshing): (&GearMesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
-        // Shared over the mean length of the contact lines under the mean force.
-        let over = |damping: f64, length: f64| if length > 0.0 { damping / length } else { 0.0 };
+        // Shared over the mean length of the contact lines.
+        let per_length = if cycle.line_length > 0.0 { damping / cycle.line_length } else { 0.0 };
         let alike = || {
             let wrong = [&own.pair.pinion, &own.pair.wheel].iter().any(|g| g.has_own_teeth());
             let what =
@@ -378,22 +447,25 @@ impl AtRest<'_> {
             if wrong { Err(GearboxError::Unmapped { what }) } else { Ok(()) }
         };
         Ok(match asked.mesh {
-            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, over(damping, spring.length))?),
+            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, per_length)?),
             MeshModel::Spring => {
                 alike()?;
                 Box::new(spring.mesh(own, meshing)?.with_damping(damping))
             }
             MeshModel::Mapped => {
+                let held = |gear: usize| self.file.shafts[self.file.gears[gear].shaft].held;
+                let driven = [&own.pair.pinion, &own.pair.wheel][self.reduced[mesh].options.driven()];
+                let lever = driven.base_radius() * own.pair.base_helix_angle().cos();
                 let request = MapRequest {
                     stands: self.stands(mesh),
-                    mean_force: spring.force,
-                    overload: OVERLOAD,
+                    tilts: !self.file.meshes[mesh].gears.into_iter().all(held),
+                    mean_force: self.torque(mesh) / lever,
+                    overload: asked.map_overload,
                     tolerance: asked.map_tolerance,
                     worst: (WORST * asked.map_tolerance).min(0.5),
                 };
                 let map = self.reduced[mesh].map(own, &request, (self.cache, progress, remarks))?;
-                let length = map.mean_loaded_length(spring.force, PHASES);
-                Box::new(map.with_damping(over(damping, length)))
+                Box::new(map.with_damping(per_length))
             }
         })
     }

@@ -4,12 +4,13 @@ use fem::{
     Material,
     beam::{BeamPiece, BeamSection},
 };
-use gearbox::{Disc, GearboxError, Operation, Shaft, Structure, Torque, Train};
+use gearbox::{Disc, GearboxError, Operation, Shaft, Structure, Torque, Train, motion::TorqueOverTime};
 use geometry::Sense;
 use nalgebra::DMatrix;
 use scene::gearbox::Gearbox;
 
 use super::bearings::bearings;
+use crate::motion::torque;
 
 /// All parts. Discs are the gears, the input and the torques, in this order.
 pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
@@ -44,6 +45,16 @@ pub(super) fn input(file: &Gearbox) -> (usize, Sense, Vec<f64>) {
     let mut keys: Vec<f64> = file.gears.iter().map(|g| g.key).collect();
     keys.resize(file.gears.len() + 1 + file.torques.len(), 0.0);
     (file.gears.len(), sense, keys)
+}
+
+/// Torques that change with time: number among those of the operation, and law, N mm about +z.
+pub(super) fn over_time(file: &Gearbox, operation: &Operation) -> Vec<(usize, TorqueOverTime)> {
+    let all = file.torques.iter().zip(&operation.torques).enumerate();
+    let law = |(i, (own, about)): (usize, (&scene::gearbox::GearboxTorque, &Torque))| {
+        let stated = own.over_time.as_ref()?;
+        Some((i, torque(stated, own.torque).scaled(about.torque.signum())))
+    };
+    all.filter_map(law).collect()
 }
 
 /// Loads against the rotation of their shafts.

@@ -6,7 +6,7 @@ use geometry::{GearPair, Side};
 use scene::gearbox::Gearbox;
 
 use super::{
-    GearboxMotionResult, RollingLoad, VibrationResult,
+    GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
     bearings::rolling_load,
     clearance::clearance_remarks,
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
@@ -42,6 +42,8 @@ pub struct GearboxResult {
     pub remarks: Vec<Remark>,
     /// In motion, where the file asks for it.
     pub motion: Option<GearboxMotionResult>,
+    /// Periodic motions over the speed, where the file asks for them.
+    pub branch: Option<GearboxBranchResult>,
     /// How exact its numbers at rest are, where the file asks for an accuracy.
     pub accuracy: Option<Accuracy>,
 }
@@ -181,6 +183,7 @@ pub(super) fn result(
         vibration,
         remarks,
         motion: None,
+        branch: None,
         accuracy: None,
     }
 }

@@ -6,7 +6,7 @@ use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
 use scene::{Scene, gearbox::Gearbox};
 
 use super::{
-    GearboxResult, GearboxSink, loads,
+    GearboxResult, GearboxSink, branch, loads,
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, result,
@@ -102,8 +102,8 @@ pub(super) fn solve(
         remarks.extend(own.jammed(i, &meshes[i], &positions));
     }
     // A vibration has springs in place of rolling elements, about where these stand; a motion begins with them.
-    let linear = match (&file.vibration, &file.motion) {
-        (None, None) => structure.clone(),
+    let linear = match (&file.vibration, &file.motion, &file.branch) {
+        (None, None, None) => structure.clone(),
         _ => {
             let held = |own: &gearbox::Structure| own.check_held(&operation.held, (&meshes, &train), operation.input);
             structure.about(&positions).and_then(|own| held(&own).map(|()| own)).map_err(failed)?
@@ -138,8 +138,10 @@ pub(super) fn solve(
     remarks.extend(
         moved.as_ref().zip(file.motion.as_ref()).map(|(moved, asked)| moved.remarks(file, asked)).into_iter().flatten(),
     );
+    let branch = file.branch.as_ref().map(|asked| branch::branch(&rest, asked, observer)).transpose()?;
+    remarks.extend(branch.iter().flat_map(|own| own.remarks.iter().cloned()));
     let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), remarks);
-    Ok((GearboxResult { motion: moved, ..result }, stopped))
+    Ok((GearboxResult { motion: moved, branch, ..result }, stopped))
 }
 
 /// The train of a gearbox, and the scenes of its meshes as they run: driver, rotation and slices are known.

@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     AnalysisError, GearCache, MapKey, Observer, PhaseWork,
-    contact_maps::{map_teller, map_words},
+    contact_maps::{map_teller, map_words, pitch_errors_told},
     error::in_scene,
     failure::Failure,
     inputs::motion_of,
@@ -75,7 +75,9 @@ impl ElasticPair {
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |progress| {
                     mapped(system, (&request, &map_teller(progress, "")), (cache, key.as_ref()), &mut remarks)
                 });
-                let made = made.map_err(in_scene(scene))?;
+                let mut made = made.map_err(in_scene(scene))?;
+                let off = made.pitch_error(lag).map_err(in_scene(scene))?;
+                remarks.extend(off.zip(made.maps().next()).map(|(error, map)| pitch_errors_told(&error, map)));
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
                 (PairContact::Mapped(Box::new(made)), contacts)
             }

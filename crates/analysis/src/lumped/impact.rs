@@ -114,7 +114,7 @@ impl LumpedMechanism for Formulas<ImpactMechanism> {
             overlap: Some(row.overlap.map(finite_or_zero)),
             largest_pair_force: Some(pair_forces().fold(0.0, f64::max)),
             wrench: row.wrench,
-            friction_wrench: Some(row.friction),
+            friction_wrench: Some(Box::new(row.friction)),
             ..LumpedRow::default()
         })
     }

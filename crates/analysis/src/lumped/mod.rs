@@ -44,9 +44,7 @@ mod sweep;
 
 pub use analysis::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink, is_lumped};
 pub use basins::{Attractor, BasinAnalysis, BasinHeadline, BasinResult, BasinStart};
-pub use branch::{
-    BranchPoint, BranchTurn, ContinuationAnalysis, ContinuationHeadline, ContinuationResult, LossName, TimePoint,
-};
+pub use branch::{ContinuationAnalysis, ContinuationHeadline, ContinuationResult};
 pub use campbell::LumpedCampbell;
 pub(crate) use campbell::{FrequencyFacts, Meeting};
 pub use headline::{LumpedCertificate, LumpedHeadline};

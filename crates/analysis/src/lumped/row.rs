@@ -45,7 +45,7 @@ pub struct LumpedRow {
     /// Forces x, y, z (N) and moments about x, y, z (N mm) of the mesh on pinion and wheel, about their own centres.
     pub wrench: [[f64; 6]; 2],
     /// The part of them that is friction.
-    pub friction_wrench: Option<[[f64; 6]; 2]>,
+    pub friction_wrench: Option<Box<[[f64; 6]; 2]>>,
     /// Coordinates of the gears, mm and rad, in the order of [`gear_coordinates`].
     pub displacement: Vec<f64>,
     /// Their rates, mm/s and rad/s.
@@ -69,7 +69,7 @@ impl LumpedRow {
             self.largest_pair_force,
         ];
         let pairs = [self.speeds, self.compression, self.overlap];
-        let wrenches = self.wrench.iter().chain(self.friction_wrench.iter().flatten()).flatten();
+        let wrenches = self.wrench.iter().chain(self.friction_wrench.iter().flat_map(|both| &**both)).flatten();
         let mut all = (plain.iter().chain(known.iter().flatten()))
             .chain(pairs.iter().flatten().flatten())
             .chain(wrenches)

@@ -28,7 +28,7 @@ const MACHINE: f64 = 1e7;
 
 /// What is unlikely in a gearbox file, with the unit that may have been meant.
 pub fn gearbox_remarks(file: &Gearbox) -> Vec<Remark> {
-    let moves = file.vibration.is_some() || file.motion.is_some();
+    let moves = file.vibration.is_some() || file.motion.is_some() || file.branch.is_some();
     let shafts = file.shafts.iter().flat_map(|shaft| {
         let density = moves.then(|| density(shaft)).flatten();
         [young(shaft), density].into_iter().flatten()
@@ -60,7 +60,8 @@ fn young(shaft: &GearboxShaft) -> Option<Remark> {
 fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let density = 1e12 * shaft.density;
     let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
-    (!usual(density)).then(|| {
+    // A held shaft may leave all inertia to its gears.
+    (!usual(density) && !shaft.held).then(|| {
         let other = meant("density_kg_m3", density, usual);
         remark::unlikely_shaft_density(shaft.name.as_str(), density, other)
     })

@@ -1,7 +1,8 @@
 //! Periodic motions along a key: what the branch says must be what motions in time do.
 
+use analysis::branch::LossName;
 use analysis::lumped::{
-    ContinuationAnalysis, ContinuationResult, KeySweep, LossName, LumpedAnalysis, LumpedQuantity, SweepOptions,
+    ContinuationAnalysis, ContinuationResult, KeySweep, LumpedAnalysis, LumpedQuantity, SweepOptions,
 };
 use scene::{Scene, SceneBuilder, SweepWay, plan::SectionEvery};
 
@@ -78,7 +79,7 @@ fn a_map_folds_where_the_contact_does() {
     );
     // Where it jumps up, and where it jumps down; between phases at which contact begins, a branch may waver there.
     let jumps = |found: &ContinuationResult| {
-        let folds = &found.headline.folds;
+        let folds = &found.headline.figures.folds;
         assert!(folds.len() >= 2, "{folds:?} {:?}", values(found));
         [folds[0], folds.iter().copied().fold(f64::INFINITY, f64::min)]
     };
@@ -89,8 +90,8 @@ fn a_map_folds_where_the_contact_does() {
     let off = (a.peak_to_peak_dte_um / b.peak_to_peak_dte_um - 1.0).abs();
     assert!(off < 1e-2, "largest {b:?}, on the map {a:?}");
     for found in [&mapped, &reduced] {
-        assert!(found.headline.unstable > 0 && found.headline.parting > 0, "{:?}", found.headline);
-        let difference = found.headline.difference_in_time.unwrap();
+        assert!(found.headline.figures.unstable > 0 && found.headline.figures.parting > 0, "{:?}", found.headline);
+        let difference = found.headline.figures.difference_in_time.unwrap();
         assert!(difference < 1e-2, "in time {:?}", found.in_time);
     }
 }

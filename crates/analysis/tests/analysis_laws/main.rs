@@ -17,6 +17,7 @@ mod lumped_course;
 mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;
+mod moving_pairs;
 mod nominal_load;
 mod overhung;
 mod rating;

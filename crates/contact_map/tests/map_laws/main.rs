@@ -1,5 +1,6 @@
 //! What must hold of a map of the contact, shown with a contact that is known in closed form.
 
+mod pairs;
 mod synthetic;
 
 use std::convert::Infallible;

@@ -50,9 +50,9 @@ impl Mechanism for MappedPair {
         for (side, kept) in self.sides.iter().zip(&mut self.kept) {
             let contact = side.contact(kept, phase, q, wanted);
             let rates = side.motion(v);
-            let damping = side.map.damping(kept.last(), &contact, rates, self.system.damping_per_length());
+            let damping = side.map.map().damping(kept.last(), &contact, rates, self.system.damping_per_length());
             let along = [&side.approach, &side.tilt];
-            let used = if side.map.tilts().is_some() { 2 } else { 1 };
+            let used = if side.map.map().tilts().is_some() { 2 } else { 1 };
             out.conservative.axpy(-contact.force, &side.approach, 1.0);
             out.conservative.axpy(contact.moment, &side.tilt, 1.0);
             if let Some((i, per_turn)) = self.phase_of_driver {
@@ -97,9 +97,9 @@ impl Mechanism for MappedPair {
             let [approach, tilt] = side.motion(q);
             let force = side.map.force(kept.at(&side.map, phase, tilt), approach);
             let excess = &mut self.excess;
-            excess.force = excess.force.max(force / side.map.largest_force());
+            excess.force = excess.force.max(force / side.map.map().largest_force());
             // Without contact a tilt does nothing.
-            if let Some([low, high]) = side.map.tilts().filter(|_| force > 0.0) {
+            if let Some([low, high]) = side.map.map().tilts().filter(|_| force > 0.0) {
                 let from_middle = (tilt - 0.5 * (low + high)).abs();
                 excess.tilt = excess.tilt.max(from_middle / (0.5 * (high - low)));
             }
@@ -116,7 +116,7 @@ impl Mechanism for MappedPair {
         let phase = self.phase(t, q);
         for ((side, kept), value) in self.sides.iter().zip(&mut self.kept).zip(out) {
             let [approach, tilt] = side.motion(q);
-            *value = approach - side.map.first_touch(kept.at(&side.map, phase, tilt));
+            *value = side.map.overlap(kept.at(&side.map, phase, tilt), approach);
         }
         Ok(())
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use contact_map::{ContactMap, MapError, MapPlan, MapWatch};
+use contact_map::{ContactMap, MapError, MapPlan, MapWatch, OffsetError, OffsetMap, PairOffsets};
 use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::{MapExcess, MappedPair, MappedSide, Projection, SplineCache, sampler::SidePhase};
@@ -31,31 +31,17 @@ impl MappedPair {
     ///
     /// # Errors
     /// [`PairMotionError::Unmapped`] where a map cannot hold what the contact depends on: normal modes of the gears,
-    /// friction, pitch errors, root stress; [`PairMotionError::Map`] where none is good enough; those of the start.
+    /// friction, flanks by tooth, root stress; [`PairMotionError::Map`] where none is good enough; those of the start.
     pub fn new(mut system: PairMechanism, request: &MapRequest, watch: MapWatch<'_>) -> Result<Self, PairMotionError> {
         refuse(&system)?;
-        let pair = system.pair().clone();
-        // A load that swings would not let the pair stand: the map is made about its mean.
-        let swinging = system.hold_mean_load();
-        let load = system.load_on_lag(0.0).abs();
-        if load <= 0.0 {
-            return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
-        }
-        // A map knows no speed: gears that stand still are looked at as they turn slowly.
-        let speed = system.nominal().speed;
-        if system.time_of_cycles(1.0).is_none() {
-            system.set_speed(Speed::Constant(1.0));
-        }
-        let stands = stands(&mut system, request.lag)?;
-        system.set_speed(speed);
-        system.set_load(swinging);
-        let about = stands.iter().sum::<Displacement>() / stands.len() as f64;
+        // Teeth at their nominal places: pitch errors are offsets of their pairs.
+        let pair = system.pair().without_pitch_errors();
+        let Stands { force, all: stands, about } = Stands::of(&mut system, request.lag)?;
         let mut maps = Vec::new();
         for side in system.sides() {
             let projection = Projection::new(&pair, side.flank_side());
             let tilts = has_tilt(&system, &projection);
-            // Force along the normal of a force on the base circle.
-            let force = load / pair.base_helix_angle().cos();
+            let alike = side.with_flanks_of(&pair).map_err(|source| PairMotionError::contact(0.0, source))?;
             let plan = MapPlan {
                 mean_force: force,
                 largest_force: request.overload * force,
@@ -65,7 +51,7 @@ impl MappedPair {
                 worst: request.worst,
             };
             let at = |phase: f64| {
-                let side = side.copy_at(&pair, phase)?;
+                let side = alike.copy_at(&pair, phase)?;
                 Ok(SidePhase { pair: &pair, side, cycles: phase, projection: &projection, about: &about })
             };
             let made = ContactMap::build(&plan, watch, at)
@@ -73,6 +59,23 @@ impl MappedPair {
             maps.push((projection, Arc::new(made)));
         }
         Ok(Self::of(system, maps))
+    }
+
+    /// Error of the approach of the driving flanks by pitch errors as offsets, beside the contact of the teeth with these
+    /// errors; `None` without any. `lag`: about that of the driven gear under the load, mm.
+    ///
+    /// # Errors
+    /// [`PairMotionError::Map`] where the contact cannot be solved; those of the start.
+    pub fn pitch_error(&mut self, lag: f64) -> Result<Option<OffsetError>, PairMotionError> {
+        let Some(own) = self.sides.first().filter(|own| own.map.offsets().is_some()) else { return Ok(None) };
+        let Stands { force, about, .. } = Stands::of(&mut self.system, lag)?;
+        let Some(side) = self.system.sides().next() else { return Ok(None) };
+        let pair = self.system.pair();
+        let at = |cycles: f64| {
+            let side = side.copy_at(pair, cycles)?;
+            Ok(SidePhase { pair, side, cycles, projection: &own.projection, about: &about })
+        };
+        own.map.error(force, at).map_err(|e: MapError<StaticError>| PairMotionError::Map { source: Box::new(e) })
     }
 
     /// Whether a pair has as many sides, and tilts where these have, as some maps.
@@ -105,7 +108,7 @@ impl MappedPair {
             return Err(PairMotionError::Unmapped { what: "a driver that is driven in another way" });
         }
         let system = self.system.with_drive(drive).map_err(|source| PairMotionError::contact(0.0, source))?;
-        Ok(Self::of(system, self.sides.iter().map(|side| (side.projection, Arc::clone(&side.map))).collect()))
+        Ok(Self::of(system, self.sides.iter().map(|side| (side.projection, side.map.shared())).collect()))
     }
 
     /// The pair at its start on its maps, under the mean of its load.
@@ -136,10 +139,12 @@ impl MappedPair {
         let loading = map.transpose() * drive_balance(&system);
         let [bearing, damping] = system.bearings();
         let on_coordinates = |m: &SMatrix<f64, 12, 12>| &loading * m * &map;
+        let offsets = system.sides().map(|side| PairOffsets::new(side.pitch_approaches(system.pair())));
         let sides: Vec<MappedSide> = maps
             .into_iter()
-            .map(|(projection, made)| MappedSide {
-                map: made,
+            .zip(offsets)
+            .map(|((projection, made), offsets)| MappedSide {
+                map: OffsetMap::new(made, offsets),
                 approach: map.tr_mul(&projection.approach),
                 tilt: map.tr_mul(&projection.tilt),
                 damped: [&projection.approach, &projection.tilt].map(|f| &loading * f),
@@ -184,12 +189,43 @@ fn refuse(system: &PairMechanism) -> Result<(), PairMotionError> {
         "normal modes of the gears: the contact then depends on their amplitudes"
     } else if system.options().statics.contact.friction > 0.0 {
         "friction: it turns round with the sliding"
-    } else if system.has_own_teeth() {
-        "pitch errors or flanks by tooth: the contact then comes back after whole turns, not after a mesh cycle"
+    } else if system.has_own_flanks() {
+        "flanks by tooth: the contact then comes back after whole turns, not after a mesh cycle"
     } else {
         return Ok(());
     };
     Err(PairMotionError::Unmapped { what })
+}
+
+/// Where a pair stands under its mean load.
+struct Stands {
+    /// Force along the normal, N.
+    force: f64,
+    /// Displacements at phases of a mesh cycle, and their mean.
+    all: Vec<Displacement>,
+    about: Displacement,
+}
+
+impl Stands {
+    fn of(system: &mut PairMechanism, lag: f64) -> Result<Self, PairMotionError> {
+        // A load that swings would not let the pair stand: the map is made about its mean.
+        let swinging = system.hold_mean_load();
+        let load = system.load_on_lag(0.0).abs();
+        if load <= 0.0 {
+            return Err(PairMotionError::Unmapped { what: "a pair without load: nothing says what forces occur" });
+        }
+        // A map knows no speed: gears that stand still are looked at as they turn slowly.
+        let speed = system.nominal().speed;
+        if system.time_of_cycles(1.0).is_none() {
+            system.set_speed(Speed::Constant(1.0));
+        }
+        let all = stands(system, lag)?;
+        system.set_speed(speed);
+        system.set_load(swinging);
+        let about = all.iter().sum::<Displacement>() / all.len() as f64;
+        // Force along the normal of a force on the base circle.
+        Ok(Self { force: load / system.pair().base_helix_angle().cos(), all, about })
+    }
 }
 
 /// Displacements of the pair at rest under its load, at phases of a mesh cycle.

@@ -1,14 +1,13 @@
-//! The pair with a map in place of its contact. Theory (75).
+//! The pair with a map in place of its contact. Theory (75), pitch errors: (74a).
 
 mod balance;
 mod make;
 mod sampler;
 
 use contact::FlankProjection as Projection;
-use contact_map::{ContactMap, MapContact, SplineCache, Wanted};
+use contact_map::{ContactMap, MapContact, OffsetMap, SplineCache, Wanted};
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
 use crate::{COORDINATES, Displacement, PairMechanism};
 
@@ -61,7 +60,7 @@ impl MapExcess {
 /// The flanks on one side.
 #[derive(Debug, Clone)]
 struct MappedSide {
-    map: Arc<ContactMap>,
+    map: OffsetMap,
     projection: Projection,
     /// T' a and T' b.
     approach: DVector<f64>,
@@ -78,7 +77,7 @@ impl MappedSide {
     fn motion(&self, q: &DVector<f64>) -> [f64; 2] {
         // A product of nalgebra takes longer to call than so few coordinates to sum.
         let along = |of: &DVector<f64>| of.iter().zip(q).map(|(a, x)| a * x).sum();
-        [along(&self.approach), if self.map.tilts().is_some() { along(&self.tilt) } else { 0.0 }]
+        [along(&self.approach), if self.map.map().tilts().is_some() { along(&self.tilt) } else { 0.0 }]
     }
 
     /// Contact with the gears displaced: several states of a step are at one phase, and share what belongs to it.
@@ -113,7 +112,7 @@ impl MappedPair {
 
     /// The maps of the driving flanks and, where these may touch, of the coast flanks.
     pub fn maps(&self) -> impl Iterator<Item = &ContactMap> {
-        self.sides.iter().map(|side| &*side.map)
+        self.sides.iter().map(|side| side.map.map())
     }
 
     /// Mesh cycles a second of the nominal motion at a time (s).
@@ -147,7 +146,7 @@ impl MappedPair {
             let [approach, tilt] = side.motion(q);
             let place = side.map.place(phase, tilt);
             let contact = side.map.contact(&place, approach, Wanted::default());
-            let damping = side.map.damping(&place, &contact, side.motion(v), self.system.damping_per_length());
+            let damping = side.map.map().damping(&place, &contact, side.motion(v), self.system.damping_per_length());
             let force = contact.force + damping.force[0];
             let moment = contact.moment - damping.force[1];
             *out = MappedInstant {

@@ -41,10 +41,11 @@ impl PhaseContact for SidePhase<'_> {
         let force = self.side.evaluate(self.pair, self.cycles, &at, true)?;
         let turn = 2 * COORDINATES - 1;
         let per_turn = self.projection.approach[turn];
-        let slices = self.side.pressed().map(|(position, force, length)| LoadedSlice {
+        let slices = self.side.pressed().map(|(position, force, length, pair)| LoadedSlice {
             force,
             length,
             lever: self.projection.lever(&position),
+            pair,
         });
         Ok(ContactSample {
             force: -force.normal[turn] / per_turn,

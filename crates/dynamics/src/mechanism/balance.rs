@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector, SMatrix};
 
 use super::PairMechanism;
 use crate::{
-    COORDINATES, Displacement, NominalState,
+    COORDINATES, Displacement, NominalState, PairBodies,
     elastic_displacement::ElasticDisplacement,
     modal::{ModalBalance, expansion},
 };
@@ -27,21 +27,21 @@ impl Mechanism for PairMechanism {
         let mut normal = Displacement::zeros();
         let mut other = self.external(t, &nominal);
         out.supplied += other.dot(&rate);
-        let mut stiffness = self.bearing[0];
-        let mut damping = self.bearing[1];
-        out.dissipated += rate.dot(&(self.bearing[1] * rate));
+        let mut stiffness = self.bodies.bearing[0];
+        let mut damping = self.bodies.bearing[1];
+        out.dissipated += rate.dot(&(self.bodies.bearing[1] * rate));
         let mut modal = self.modal.as_ref().map(|modal| ModalBalance::new(modal, &at.q, &moving.q));
         for (side, force) in self.flanks.with_forces(&contacts) {
             normal += force.normal;
             other += force.friction;
-            let placed = side.placed(&self.pair, cycles, &d);
+            let placed = side.placed(&self.bodies.pair, cycles, &d);
             let matrix = out.tangents.then_some(&mut damping);
             let (damped, power) = side.damping(&placed, &rate, self.damping, matrix);
             other += damped;
             out.dissipated += power;
             // Friction goes against the sliding of the turn, and takes its power there. What it does to the deviations,
             // of either sign, comes from the turn as well.
-            let taken = -force.friction.dot(&self.turning(&nominal, v));
+            let taken = -force.friction.dot(&self.rolling(&nominal, v));
             out.dissipated += taken;
             out.supplied += taken + force.friction.dot(&rate);
             match &mut modal {
@@ -50,25 +50,25 @@ impl Mechanism for PairMechanism {
             }
         }
         if out.tangents && modal.is_none() {
-            let Self { pair, flanks, damping: per_length, .. } = self;
+            let Self { bodies: PairBodies { pair, .. }, flanks, damping: per_length, .. } = self;
             for side in std::iter::once(&mut flanks.driving).chain(flanks.coast.as_mut()) {
                 let placed = side.placed(pair, cycles, &d);
                 stiffness += side.held_damping(&placed, &rate, *per_length).unwrap_or_else(SMatrix::zeros);
             }
         }
         let gyroscopic = self.gyroscopic(&nominal);
-        other -= self.bearing[1] * rate;
+        other -= self.bodies.bearing[1] * rate;
         other -= gyroscopic * rate;
         damping += gyroscopic;
-        let driver = COORDINATES * (2 - self.options.statics.driven()) - 1;
+        let driver = COORDINATES * (2 - self.bodies.options.statics.driven()) - 1;
         let balancing = self.balancing_torque(&other);
         other[driver] += balancing;
         out.supplied += balancing * rate[driver];
-        let mut conservative = normal - self.bearing[0] * d;
+        let mut conservative = normal - self.bodies.bearing[0] * d;
         match modal {
             None if out.tangents => {
-                self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
-                self.coordinates.add_matrix(&damping, 1.0, &mut out.damping);
+                self.bodies.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
+                self.bodies.coordinates.add_matrix(&damping, 1.0, &mut out.damping);
             }
             None => {}
             Some(mut modal) => {
@@ -78,22 +78,22 @@ impl Mechanism for PairMechanism {
                 conservative -= coupling.tr_mul(&modal.conservative);
                 other -= coupling.tr_mul(&modal.other);
                 for (f, all) in [(&modal.conservative, &mut out.conservative), (&modal.other, &mut out.other)] {
-                    let mut rows = all.rows_mut(self.coordinates.count(), f.len());
+                    let mut rows = all.rows_mut(self.bodies.coordinates.count(), f.len());
                     rows += f;
                 }
                 if out.tangents {
-                    let y = expansion(self.coordinates.map(), &coupling);
+                    let y = expansion(self.bodies.coordinates.map(), &coupling);
                     modal.add_rigid(&stiffness, &damping);
                     out.stiffness += y.tr_mul(&modal.stiffness) * &y;
                     out.damping += y.tr_mul(&modal.damping) * &y;
                 }
             }
         }
-        self.coordinates.add_force(&conservative, &mut out.conservative);
-        self.coordinates.add_force(&other, &mut out.other);
+        self.bodies.coordinates.add_force(&conservative, &mut out.conservative);
+        self.bodies.coordinates.add_force(&other, &mut out.other);
         if out.rates {
             // A ten-thousandth of a mesh cycle either way; at rest nothing changes.
-            let way = 1e-4 * self.pair.pinion.pitch_angle();
+            let way = 1e-4 * self.bodies.pair.pinion.pitch_angle();
             let [speed, growth] = [nominal.velocity[0].abs(), nominal.acceleration[0].abs()];
             let step = (way / speed).min((2.0 * way / growth).sqrt());
             out.parametric = if !step.is_finite() {
@@ -114,7 +114,7 @@ impl Mechanism for PairMechanism {
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
         let at = self.elastic_displacement(t, q);
         let cycles = self.cycles(t);
-        Ok(self.flanks.energy_of(&self.pair, cycles, &at)? + self.bearing_and_modal_energy(&at))
+        Ok(self.flanks.energy_of(&self.bodies.pair, cycles, &at)? + self.bearing_and_modal_energy(&at))
     }
 
     fn events(&self) -> usize {
@@ -126,16 +126,16 @@ impl Mechanism for PairMechanism {
         let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
-        let overlaps = self.flanks.overlaps_of(&self.pair, cycles, &at);
+        let overlaps = self.flanks.overlaps_of(&self.bodies.pair, cycles, &at);
         out.iter_mut().zip(overlaps).for_each(|(value, overlap)| *value = overlap);
         Ok(())
     }
 
     fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-        let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
+        let (at, rate) = (self.elastic_displacement(t, q), self.bodies.coordinates.displacement(v));
         let (cycles, turned) = (self.cycles(t), self.turned_cycles(t, &at.d));
-        self.flanks.check_passage(&self.pair, cycles, &at.d)?;
-        self.flanks.follow_of(&self.pair, cycles, &at, turned)?;
+        self.flanks.check_passage(&self.bodies.pair, cycles, &at.d)?;
+        self.flanks.follow_of(&self.bodies.pair, cycles, &at, turned)?;
         self.update_extremes(t, &at, &rate, turned)
     }
 
@@ -151,13 +151,10 @@ impl Mechanism for PairMechanism {
 
 impl PairMechanism {
     /// Velocities of both gears that turn in the ratio of their teeth, at the driver's own speed.
-    fn turning(&self, nominal: &NominalState, v: &DVector<f64>) -> Displacement {
-        let mut all = Displacement::zeros();
-        for (g, velocity) in nominal.velocity.iter().enumerate() {
-            all[COORDINATES * (g + 1) - 1] = *velocity;
-        }
-        if let Some(i) = self.coordinates.driver_turn() {
-            all.axpy(v[i], &self.coordinates.map().column(i), 1.0);
+    fn rolling(&self, nominal: &NominalState, v: &DVector<f64>) -> Displacement {
+        let mut all = PairBodies::turning(nominal);
+        if let Some(i) = self.coordinates().driver_turn() {
+            all.axpy(v[i], &self.coordinates().map().column(i), 1.0);
         }
         all
     }
@@ -165,6 +162,6 @@ impl PairMechanism {
     /// Energy of bearings and modes, N mm.
     fn bearing_and_modal_energy(&self, at: &ElasticDisplacement) -> f64 {
         let modes = self.modal.as_ref().map_or(0.0, |modal| at.q.dot(&modal.squares.component_mul(&at.q)));
-        0.5 * (at.d.dot(&(self.bearing[0] * at.d)) + modes)
+        0.5 * (at.d.dot(&(self.bodies.bearing[0] * at.d)) + modes)
     }
 }

@@ -3,12 +3,11 @@
 use std::sync::Arc;
 
 use geometry::GearPair;
-use nalgebra::{DMatrix, SMatrix};
+use nalgebra::DMatrix;
 
 use super::PairMechanism;
 use crate::{
-    Bearing, COORDINATES, Coordinates, Drive, Extremes, GearVibration, MeshDamping, MotionOptions, Nominal, Speed,
-    equivalent_mass::equivalent_mass_of, mesh_flanks::MeshFlanks, modal::Modal,
+    Drive, Extremes, GearVibration, MeshDamping, MotionOptions, PairBodies, mesh_flanks::MeshFlanks, modal::Modal,
 };
 use ltca::StaticError;
 use reduction::ElasticGear;
@@ -28,7 +27,7 @@ impl PairMechanism {
     ) -> Result<Self, StaticError> {
         let cycles = options.start_cycles;
         let flanks = MeshFlanks::new(&pair, driving.into(), coast, &options.statics, cycles)?;
-        Ok(Self::of(pair, flanks, options, means))
+        Ok(Self::of(PairBodies::new(pair, options), flanks, means))
     }
 
     /// The pair at its start with another drive; gears and tables are shared.
@@ -38,7 +37,7 @@ impl PairMechanism {
     pub fn with_drive(&self, drive: Drive) -> Result<Self, StaticError> {
         let options = MotionOptions { drive, ..self.options.clone() };
         let flanks = self.flanks.copy_at_start(&self.pair)?;
-        let mut other = Self::of(self.pair.clone(), flanks, options, self.means);
+        let mut other = Self::of(PairBodies::new(self.pair.clone(), options), flanks, self.means);
         if let Some(modal) = self.modal.clone() {
             other.add_modes(modal);
         }
@@ -73,7 +72,7 @@ impl PairMechanism {
 
     fn add_modes(&mut self, modal: Modal) {
         let (n, m) = (self.coordinates.count(), modal.count());
-        let mut rigid = self.coordinates.mass(&self.options.bodies);
+        let mut rigid = self.bodies.mass_matrix();
         self.coordinates.add_matrix(&modal.shared_inertia(), -1.0, &mut rigid);
         self.mass = DMatrix::identity(n + m, n + m);
         self.mass.view_mut((0, 0), (n, n)).copy_from(&rigid);
@@ -83,38 +82,13 @@ impl PairMechanism {
         self.roots = None;
     }
 
-    fn of(pair: GearPair, flanks: MeshFlanks, options: MotionOptions, means: [f64; 2]) -> Self {
-        let mut free = options.free;
-        let driver = 1 - options.statics.driven();
-        let (speed, by_torque) = match &options.drive {
-            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
-            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
-        };
-        free[driver][COORDINATES - 1] = by_torque;
-        let mut coordinates = Coordinates::new(&pair, &options.statics, free);
-        if matches!(options.drive, Drive::Balanced(_)) {
-            coordinates = coordinates.sharing_the_lag(&pair, &options.statics, &options.bodies);
-        }
-        let mass = coordinates.mass(&options.bodies);
-        let nominal = Nominal { speed, start: options.start_cycles };
-        let both = |part: fn(&Bearing) -> nalgebra::Matrix6<f64>| {
-            let mut all = SMatrix::<f64, 12, 12>::zeros();
-            for (g, b) in options.bearings.iter().enumerate() {
-                all.fixed_view_mut::<6, 6>(6 * g, 6 * g).copy_from(&part(b));
-            }
-            all
-        };
-        let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
-        let damping = per_length(&pair, &options, means);
-        let roots = options.statics.root_stress.then(|| flanks.driving.root_fillets(&pair));
+    fn of(bodies: PairBodies, flanks: MeshFlanks, means: [f64; 2]) -> Self {
+        let damping = per_length(&bodies, means);
+        let roots = bodies.options.statics.root_stress.then(|| flanks.driving.root_fillets(&bodies.pair));
         Self {
-            pair,
-            options,
-            coordinates,
-            mass,
-            nominal,
+            mass: bodies.mass_matrix(),
+            bodies,
             flanks,
-            bearing,
             damping,
             means,
             modal: None,
@@ -127,13 +101,13 @@ impl PairMechanism {
 
 /// Mesh damping per length of contact line, N s/mm^2. `means`: mesh stiffness (N/mm on the base circle) and length of
 /// contact lines (mm).
-pub(super) fn per_length(pair: &GearPair, options: &MotionOptions, means: [f64; 2]) -> f64 {
-    match options.damping {
+pub(super) fn per_length(bodies: &PairBodies, means: [f64; 2]) -> f64 {
+    match bodies.options.damping {
         MeshDamping::PerLength(c) => c,
         MeshDamping::Ratio(zeta) => {
             // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
-            let cos = pair.base_helix_angle().cos();
-            2.0 * zeta * (means[0] * equivalent_mass_of(pair, options)).sqrt() / (means[1] * cos * cos)
+            let cos = bodies.pair.base_helix_angle().cos();
+            2.0 * zeta * (means[0] * bodies.equivalent_mass()).sqrt() / (means[1] * cos * cos)
         }
     }
 }

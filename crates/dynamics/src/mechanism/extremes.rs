@@ -14,8 +14,8 @@ impl PairMechanism {
         turned: f64,
     ) -> Result<(), StaticError> {
         let (cycles, d) = (self.cycles(t), &at.d);
-        let placed = self.flanks.driving.placed(&self.pair, cycles, d);
-        self.flanks.driving.check_neighbours(&self.pair, turned, &placed.poses)?;
+        let placed = self.flanks.driving.placed(&self.bodies.pair, cycles, d);
+        self.flanks.driving.check_neighbours(&self.bodies.pair, turned, &placed.poses)?;
         let touches = |side: &MeshSide| side.contact().solver().forces().iter().any(|f| *f > 0.0);
         let mut least = f64::INFINITY;
         if touches(&self.flanks.driving) {
@@ -24,7 +24,7 @@ impl PairMechanism {
             least = smallest;
         } else {
             self.extremes.steps_apart += 1;
-            let gap = -self.flanks.driving.overlap(&self.pair, cycles, at);
+            let gap = -self.flanks.driving.overlap(&self.bodies.pair, cycles, at);
             if self.modal.is_some() {
                 self.flanks.forget_last();
             }
@@ -33,8 +33,8 @@ impl PairMechanism {
         if let Some(side) = &mut self.flanks.coast
             && touches(side)
         {
-            let placed = side.placed(&self.pair, cycles, d);
-            side.check_neighbours(&self.pair, turned, &placed.poses)?;
+            let placed = side.placed(&self.bodies.pair, cycles, d);
+            side.check_neighbours(&self.bodies.pair, turned, &placed.poses)?;
             least = least.min(side.normal_forces(&placed, rate, self.damping)[1]);
             self.extremes.steps_on_coast += 1;
         }

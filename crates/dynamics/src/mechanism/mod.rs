@@ -2,20 +2,19 @@
 
 mod balance;
 mod build;
-mod external;
 mod extremes;
 mod memory;
 mod observe;
 
-use geometry::GearPair;
-use nalgebra::{DMatrix, DVector, SMatrix};
+use std::ops::Deref;
+
+use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    COORDINATES, Coordinates, Displacement, Extremes, FlankStates, MeshDamping, MeshResonance, MotionOptions, Nominal,
-    NominalState, Speed, ToothChanges, Torque,
+    COORDINATES, Extremes, FlankStates, MeshDamping, MeshResonance, PairBodies, Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
-    equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
+    equivalent_mass::equivalent_mass,
     mesh_flanks::MeshFlanks,
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
@@ -23,24 +22,19 @@ use super::{
 use build::per_length;
 use ltca::{RootStress, StaticError};
 
-/// A pair of gears as an integrator sees it.
+/// A pair of gears as an integrator sees it: bodies with elastic flanks between them.
 ///
 /// ```text
 /// M q'' = T' [w(d) + w_f(d) + w_d(d, d') - K_b d - C_b d' + gyroscopic + load + drive - M a_nominal],   d = T q
 /// V = strain energy of teeth and bodies + d' K_b d / 2
 /// ```
-/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w.
-/// Coordinates are deviations from the nominal motion, in which rigid gears turn in the ratio of their teeth. With
+/// w normal contact forces on both gears and w_f, w_d friction and mesh damping; all elasticity is quasi-static in w. With
 /// [`PairMechanism::with_modes`] coordinates of normal modes of both gears come behind the rigid ones.
 #[derive(Debug)]
 pub struct PairMechanism {
-    pair: GearPair,
-    options: MotionOptions,
-    coordinates: Coordinates,
+    bodies: PairBodies,
     mass: DMatrix<f64>,
-    nominal: Nominal,
     flanks: MeshFlanks,
-    bearing: [SMatrix<f64, 12, 12>; 2],
     /// Mesh damping per length of contact line, N s/mm^2.
     damping: f64,
     /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
@@ -62,6 +56,15 @@ pub struct MechanismState {
     pub extremes: Extremes,
     /// Work that the load took from the driven gear in its nominal motion so far, N mm: what goes through the pair.
     pub throughput: f64,
+}
+
+/// What its bodies alone answer, the pair answers.
+impl Deref for PairMechanism {
+    type Target = PairBodies;
+
+    fn deref(&self) -> &PairBodies {
+        &self.bodies
+    }
 }
 
 impl PairMechanism {
@@ -86,15 +89,15 @@ impl PairMechanism {
         self.flanks.changes()
     }
 
-    /// Options of the motion.
-    pub fn options(&self) -> &MotionOptions {
-        &self.options
+    /// Mean stiffness of the mesh, N/mm on the base circle.
+    pub(crate) fn mean_stiffness(&self) -> f64 {
+        self.means[0]
     }
 
     /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
     /// tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
-        (self.means[0] / equivalent_mass_of(&self.pair, &self.options)).sqrt() / std::f64::consts::TAU
+        (self.means[0] / self.equivalent_mass()).sqrt() / std::f64::consts::TAU
     }
 
     /// Frequencies of [`Self::mesh_resonance_hz`] with both gears free, and with the driver's angle prescribed, Hz: the
@@ -112,22 +115,6 @@ impl PairMechanism {
         let damping =
             self.damping * self.means[1] * cos * cos / (2.0 * (self.means[0] * self.equivalent_mass()).sqrt());
         MeshResonance { hz: self.mesh_resonance_hz(), damping }
-    }
-
-    /// Inertias of pinion and wheel on their base circles, J / r_b^2, t.
-    pub fn base_circle_masses(&self) -> [f64; 2] {
-        masses_on_base_circles(&self.pair, &self.options.bodies)
-    }
-
-    /// Inertia that vibrates on the mesh, t: of both gears, or of the driven one alone where the driver's angle is
-    /// prescribed.
-    pub fn equivalent_mass(&self) -> f64 {
-        equivalent_mass_of(&self.pair, &self.options)
-    }
-
-    /// Free coordinates.
-    pub fn coordinates(&self) -> &Coordinates {
-        &self.coordinates
     }
 
     /// Number of all coordinates: free rigid ones, then normal modes of pinion and wheel.
@@ -175,29 +162,14 @@ impl PairMechanism {
         Some(all)
     }
 
-    /// Nominal motion.
-    pub fn nominal(&self) -> &Nominal {
-        &self.nominal
-    }
-
-    /// The pair.
-    pub fn pair(&self) -> &GearPair {
-        &self.pair
-    }
-
     /// Whether normal modes are among the coordinates.
     pub(crate) fn has_modes(&self) -> bool {
         self.modal.is_some()
     }
 
-    /// Whether the teeth of a gear differ from each other.
-    pub(crate) fn has_own_teeth(&self) -> bool {
-        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_teeth())
-    }
-
-    /// Stiffness and damping of the bearings on the twelve coordinates.
-    pub(crate) fn bearings(&self) -> [SMatrix<f64, 12, 12>; 2] {
-        self.bearing
+    /// Whether flanks of teeth of a gear have forms of their own.
+    pub(crate) fn has_own_flanks(&self) -> bool {
+        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_flanks())
     }
 
     /// Driving flanks, and coast flanks where these may touch.
@@ -205,34 +177,25 @@ impl PairMechanism {
         self.flanks.sides()
     }
 
-    /// Gyroscopic matrix with the pinion at 1 rad/s.
-    pub(crate) fn gyroscopic_at_unit_speed(&self) -> SMatrix<f64, 12, 12> {
-        let ratio = f64::from(self.pair.pinion.teeth()) / f64::from(self.pair.wheel.teeth());
-        let nominal = self.nominal_state(0.0);
-        self.gyroscopic(&NominalState { velocity: [1.0, -ratio], ..nominal })
-    }
-
     /// Puts the mean of the load in its place; gives the load.
     pub(crate) fn hold_mean_load(&mut self) -> Torque {
-        // Of a table the scene's torque is what scales are taken from.
-        let mean = self.options.load.mean().unwrap_or(self.options.statics.torque);
-        std::mem::replace(&mut self.options.load, Torque::Constant(mean))
+        self.bodies.hold_mean_load()
     }
 
     /// Puts a load on the driven gear, N mm against its turn.
     pub fn set_load(&mut self, load: Torque) {
-        self.options.load = load;
+        self.bodies.options.load = load;
     }
 
     /// Gives the driver another speed, rad/s.
     pub fn set_speed(&mut self, speed: Speed) {
-        self.nominal.speed = speed;
+        self.bodies.nominal.speed = speed;
     }
 
     /// Damps the mesh otherwise; a ratio refers to the means that the pair was made with.
     pub fn set_damping(&mut self, damping: MeshDamping) {
-        self.options.damping = damping;
-        self.damping = per_length(&self.pair, &self.options, self.means);
+        self.bodies.options.damping = damping;
+        self.damping = per_length(&self.bodies, self.means);
     }
 
     /// The pair at its start under the mean of its load.
@@ -250,43 +213,19 @@ impl PairMechanism {
         self.damping
     }
 
-    /// Time (s) at which the nominal motion has turned so many mesh cycles since the start.
-    pub(crate) fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
-        self.nominal.time_at(&self.pair, &self.options.statics, cycles)
-    }
-
-    /// Mesh cycles a second at time `t` (s), of the nominal motion.
-    pub(crate) fn cycles_per_second(&self, t: f64) -> f64 {
-        self.nominal.cycles_per_second(&self.pair, &self.options.statics, t)
-    }
-
-    pub(crate) fn cycles(&self, t: f64) -> f64 {
-        self.nominal.cycles(&self.pair, &self.options.statics, t)
-    }
-
-    pub(crate) fn nominal_state(&self, t: f64) -> NominalState {
-        self.nominal.at(&self.pair, &self.options.statics, t)
-    }
-
-    /// Mesh cycles that the gears have turned, a driver's own deviation from its nominal turn included.
-    fn turned_cycles(&self, t: f64, d: &Displacement) -> f64 {
-        let contact = &self.options.statics;
-        if self.coordinates.driver_turn().is_none() {
-            return self.cycles(t);
-        }
-        let driver = 1 - contact.driven();
-        let gear = [&self.pair.pinion, &self.pair.wheel][driver];
-        // The wheel turns against the pinion's sense.
-        let sense = contact.contact.sense.sign() as f64 * [1.0, -1.0][driver];
-        self.cycles(t) + sense * d[COORDINATES * (driver + 1) - 1] / gear.pitch_angle()
-    }
-
     /// L D of the modes at time `t`; no rows without modes.
     fn coupling(&self, t: f64) -> DMatrix<f64> {
         match &self.modal {
             None => DMatrix::zeros(0, 2 * COORDINATES),
             Some(modal) => modal.coupling(self.flanks.driving.angles(&self.pair, self.cycles(t))),
         }
+    }
+
+    /// Coordinates with all modes at rest, p = L D d.
+    pub(crate) fn stiffened(&self, t: f64, mut q: DVector<f64>) -> DVector<f64> {
+        let (d, rigid) = (self.coordinates().displacement(&q), self.coordinates().count());
+        q.rows_mut(rigid, self.count() - rigid).copy_from(&(self.coupling(t) * d));
+        q
     }
 
     /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.
@@ -302,6 +241,6 @@ impl PairMechanism {
     /// Contact of both sides.
     fn contact(&mut self, t: f64, at: &ElasticDisplacement, tangents: bool) -> Result<SideContacts, StaticError> {
         let cycles = self.cycles(t);
-        self.flanks.contact(&self.pair, cycles, at, tangents)
+        self.flanks.contact(&self.bodies.pair, cycles, at, tangents)
     }
 }

@@ -17,16 +17,16 @@ impl PairMechanism {
     /// # Errors
     /// [`StaticError`].
     pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<Instant, StaticError> {
-        let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
+        let (at, rate) = (self.elastic_displacement(t, q), self.bodies.coordinates.displacement(v));
         let d = at.d;
         let SideContacts { driving, coast, .. } = self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
-        let placed = self.flanks.driving.placed(&self.pair, cycles, &d);
+        let placed = self.flanks.driving.placed(&self.bodies.pair, cycles, &d);
         let mut losses = driving.friction + self.flanks.driving.damping(&placed, &rate, self.damping, None).0;
         let mut normal = driving.normal;
         let mut normal_forces = [self.flanks.driving.normal_forces(&placed, &rate, self.damping)[0], 0.0];
         if let (Some(side), Some(force)) = (&self.flanks.coast, &coast) {
-            let placed = side.placed(&self.pair, cycles, &d);
+            let placed = side.placed(&self.bodies.pair, cycles, &d);
             losses += force.friction + side.damping(&placed, &rate, self.damping, None).0;
             normal += force.normal;
             normal_forces[1] = side.normal_forces(&placed, &rate, self.damping)[0];
@@ -41,21 +41,21 @@ impl PairMechanism {
         let of_turn = |g: usize| COORDINATES * (g + 1) - 1;
         let speeds = [0, 1].map(|g| nominal.velocity[g] + rate[of_turn(g)]);
         let (pair_forces, first_pair) = (contact.force().pair_forces.clone(), window.first());
-        let contact_line_length = contact.line_length(&self.pair, &placed.poses);
+        let contact_line_length = contact.line_length(&self.bodies.pair, &placed.poses);
         let root_stress = match &self.roots {
-            Some(roots) => self.flanks.driving.root_stress(&self.pair, &placed.poses, roots)?,
+            Some(roots) => self.flanks.driving.root_stress(&self.bodies.pair, &placed.poses, roots)?,
             None => Default::default(),
         };
         Ok(Instant {
             time: t,
             cycles: self.turned_cycles(t, &d),
             speeds,
-            transmission_error: q[self.coordinates.lag()],
-            transmission_error_rate: v[self.coordinates.lag()],
+            transmission_error: q[self.bodies.coordinates.lag()],
+            transmission_error_rate: v[self.bodies.coordinates.lag()],
             displacement: d,
             drive_torque: self.drive_torque(t, &nominal, &(mesh - shared), &losses),
-            load_torque: self.options.load.at(t),
-            bearing: -(self.bearing[0] * d + self.bearing[1] * rate),
+            load_torque: self.bodies.options.load.at(t),
+            bearing: -(self.bodies.bearing[0] * d + self.bodies.bearing[1] * rate),
             pair_forces,
             first_pair,
             normal_forces,

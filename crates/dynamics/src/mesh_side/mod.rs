@@ -93,6 +93,17 @@ impl MeshSide {
         Ok(copy_at_start)
     }
 
+    /// A copy of the side at its start with the micro-geometry of another pair; gears are shared.
+    pub fn with_flanks_of(&self, pair: &GearPair) -> Result<Self, StaticError> {
+        let set = ContactSet::new(pair, &self.gears, self.home.0.window(), &self.options.contact)?;
+        Self { home: (self.home.0, set), ..self.copy_at_start(pair)? }.copy_at_start(pair)
+    }
+
+    /// How much nearer pitch errors bring the flanks of this side, mm, tooth by tooth of both gears as they come.
+    pub fn pitch_approaches(&self, pair: &GearPair) -> [Vec<f64>; 2] {
+        pair.pitch_approaches(self.options.side(), self.options.contact.sense)
+    }
+
     /// The reduced gears of these flanks.
     pub fn gears(&self) -> &[ElasticGear; 2] {
         &self.gears
@@ -129,10 +140,16 @@ impl MeshSide {
         self.contact.overlap(poses)
     }
 
-    /// Place (mm), normal force (N) and length (mm) of the slices that carried load in the last evaluation.
-    pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, f64)> {
+    /// Place (mm), normal force (N), length (mm) and number of the pair of teeth, in the order in which pairs come, of the
+    /// slices that carried load in the last evaluation.
+    pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, f64, i64)> {
+        let (set, window) = (self.contact.contact_set(), self.window.window());
+        let sign = self.options.contact.sense.sign();
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        rows.filter(|(_, f)| **f > 0.0).map(|((row, slice), &f)| (row.position, f, slice.length))
+        rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &f)| {
+            let pair = -sign * (window.first() + set.pair_of(row.patches.0) as i64);
+            (row.position, f, slice.length, pair)
+        })
     }
 
     /// Forgets forces and places of the last solution: what comes then depends on the state alone.

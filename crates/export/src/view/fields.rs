@@ -122,12 +122,12 @@ fn all_fields(
     positions: &[&RecordedGear],
     gear: &ElasticGear,
 ) -> Result<Vec<[Vec<f64>; 2]>, ExportError> {
-    let mut moved = Vec::with_capacity(positions.len());
-    // Neighbours in one window go through its factor together.
+    let mut all = Vec::with_capacity(positions.len());
+    // Neighbours in one window go through its factor, and through the elements, together.
     for group in positions.chunk_by(|a, b| shared_window(a, b)).flat_map(|g| g.chunks(AT_A_TIME)) {
-        moved.extend(displacements(piece, group, gear)?);
+        all.extend(fields(piece, &displacements(piece, group, gear)?, gear)?);
     }
-    moved.par_iter().map(|moved| field(piece, moved, gear)).collect()
+    Ok(all)
 }
 
 /// Whether two positions have loaded windows with the same matrices.
@@ -161,16 +161,24 @@ fn displacements(
     }
 }
 
-fn field(piece: &Piece, moved: &[[f64; 3]], gear: &ElasticGear) -> Result<[Vec<f64>; 2], ExportError> {
+/// Fields of displacements of the piece's nodes.
+fn fields(piece: &Piece, moved: &[Vec<[f64; 3]>], gear: &ElasticGear) -> Result<Vec<[Vec<f64>; 2]>, ExportError> {
     let elements = match gear {
         ElasticGear::Reduced(r) => r.elements(),
         ElasticGear::Full(f) => &f.elements,
     };
-    let stress = fem::nodal_stress(&piece.mesh, gear.material(), elements, moved)?;
-    let displacement = piece.points.iter().flat_map(|&n| moved[n as usize].map(|u| 1e3 * u)).collect();
-    let root = piece.points.iter().zip(&piece.at_root);
-    let stress = root.map(|(&n, at_root)| if *at_root { fem::max_principal(&stress[n as usize]) } else { f64::NAN });
-    Ok([displacement, stress.collect()])
+    let mut at_root = vec![false; piece.mesh.nodes.len()];
+    piece.points.iter().zip(&piece.at_root).for_each(|(&n, root)| at_root[n as usize] = *root);
+    let all: Vec<&[[f64; 3]]> = moved.iter().map(Vec::as_slice).collect();
+    let stresses = fem::nodal_stresses(&piece.mesh, gear.material(), elements, &all, |node| at_root[node as usize])?;
+    let of_one = |(moved, stress): (&Vec<[f64; 3]>, &Vec<[f64; 6]>)| {
+        let displacement = piece.points.iter().flat_map(|&n| moved[n as usize].map(|u| 1e3 * u)).collect();
+        let root = |&n: &u32| {
+            if at_root[n as usize] { fem::max_principal(&stress[n as usize]) } else { f64::NAN }
+        };
+        [displacement, piece.points.iter().map(root).collect()]
+    };
+    Ok(moved.par_iter().zip(&stresses).map(of_one).collect())
 }
 
 /// Pressure at the points, MPa, where nodes have one.

@@ -30,7 +30,7 @@ pub use record::ViewRecorder;
 use record::bands;
 
 /// Positions of a mesh cycle at most.
-const FRAMES: usize = 32;
+const FRAMES: usize = 16;
 /// Digits of places on the flanks and of pressures.
 const DIGITS: usize = 5;
 /// Digits of angles: a millionth of a turn is less than a pixel.

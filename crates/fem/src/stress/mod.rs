@@ -19,6 +19,9 @@ use crate::{DofMap, ElementOptions, FemError, Material, assembly::check_blocks};
 use element::ElementStress;
 use patch::Patches;
 
+/// Stress at nodes in their order, MPa.
+type NodalStress = Vec<[f64; 6]>;
+
 /// Stress at every node (MPa) from the displacement of every node (mm).
 ///
 /// Nodes of no element get zero. The same bits for any number of threads.
@@ -32,34 +35,56 @@ pub fn nodal_stress(
     options: &ElementOptions,
     displacement: &[[f64; 3]],
 ) -> Result<Vec<[f64; 6]>, FemError> {
+    let all = nodal_stresses(mesh, material, options, &[displacement], |_| true)?;
+    Ok(all.into_iter().next().unwrap_or_default())
+}
+
+/// [`nodal_stress`] of several displacements at the nodes that are `wanted`; the others have zero. What belongs to the
+/// shape of an element is found once for all displacements, and elements without a wanted node are passed over.
+///
+/// # Errors
+/// As [`nodal_stress`], of the elements about wanted nodes.
+pub fn nodal_stresses(
+    mesh: &Mesh,
+    material: &Material,
+    options: &ElementOptions,
+    displacements: &[&[[f64; 3]]],
+    wanted: impl Fn(u32) -> bool + Sync,
+) -> Result<Vec<Vec<[f64; 6]>>, FemError> {
     check_blocks(mesh)?;
-    if displacement.len() != mesh.nodes.len() {
-        return Err(FemError::Shape { what: "displacements", expected: mesh.nodes.len(), found: displacement.len() });
+    if let Some(wrong) = displacements.iter().find(|u| u.len() != mesh.nodes.len()) {
+        return Err(FemError::Shape { what: "displacements", expected: mesh.nodes.len(), found: wrong.len() });
     }
-    let mut sum = vec![([0.0; 6], 0u32); mesh.nodes.len()];
+    let mut sums = vec![vec![[0.0; 6]; mesh.nodes.len()]; displacements.len()];
+    let mut counts = vec![0u32; mesh.nodes.len()];
     for block in &mesh.blocks {
         let kernel = ElementStress::new(block.kind, material, options);
-        let nodes = block.kind.node_count();
-        let stresses: Vec<Result<Vec<[f64; 6]>, FemError>> = block
-            .connectivity
-            .par_chunks(nodes)
-            .zip(&block.tags)
-            .map(|(element, &tag)| {
-                let at =
-                    |list: &[[f64; 3]]| -> Vec<[f64; 3]> { element.iter().map(|&node| list[node as usize]).collect() };
-                let prepared = kernel.prepare(&at(&mesh.nodes), tag)?;
-                Ok(kernel.at_nodes(&prepared, &at(displacement)))
-            })
-            .collect();
-        for (element, stress) in block.elements().zip(stresses) {
-            for (&node, stress) in element.iter().zip(stress?) {
-                let (total, count) = &mut sum[node as usize];
-                (0..6).for_each(|k| total[k] += stress[k]);
-                *count += 1;
+        let of_element = |(element, &tag): (&[u32], &u64)| {
+            if !element.iter().any(|&node| wanted(node)) {
+                return Ok(None);
+            }
+            let at = |list: &[[f64; 3]]| -> Vec<[f64; 3]> { element.iter().map(|&node| list[node as usize]).collect() };
+            let prepared = kernel.prepare(&at(&mesh.nodes), tag)?;
+            Ok(Some(displacements.iter().map(|u| kernel.at_nodes(&prepared, &at(u))).collect::<Vec<_>>()))
+        };
+        let stresses: Vec<Result<Option<Vec<NodalStress>>, FemError>> =
+            block.connectivity.par_chunks(block.kind.node_count()).zip(&block.tags).map(of_element).collect();
+        for (element, stresses) in block.elements().zip(stresses) {
+            let Some(stresses) = stresses? else { continue };
+            for (i, &node) in element.iter().enumerate().filter(|(_, node)| wanted(**node)) {
+                for (sum, stress) in sums.iter_mut().zip(&stresses) {
+                    (0..6).for_each(|k| sum[node as usize][k] += stress[i][k]);
+                }
+                counts[node as usize] += 1;
             }
         }
     }
-    Ok(sum.into_iter().map(|(total, count)| total.map(|s| s / f64::from(count.max(1)))).collect())
+    for sum in &mut sums {
+        for (total, count) in sum.iter_mut().zip(&counts) {
+            *total = total.map(|s| s / f64::from((*count).max(1)));
+        }
+    }
+    Ok(sums)
 }
 
 /// Von Mises equivalent stress, MPa.

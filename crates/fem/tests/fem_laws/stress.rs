@@ -4,7 +4,7 @@ use crate::common::{largest, nodes_where, on_threads, shaken};
 use faer::Mat;
 use fem::{
     BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, assemble_stiffness, max_principal,
-    nodal_stress, von_mises,
+    nodal_stress, nodal_stresses, von_mises,
 };
 use mesh::{ElementKind, Mesh};
 
@@ -51,6 +51,29 @@ fn hex8_in_pure_bending_has_the_stress_of_a_beam() {
     for (x, s) in mesh.nodes.iter().zip(&stress).filter(|(x, _)| (x[0] - 4.0).abs() < 1.5 && x[1].abs() > 0.1) {
         let wanted = STEEL.young_mpa() * 1e-3 * x[1];
         assert!((s[0] / wanted - 1.0).abs() < 0.02, "at {x:?}: {} for {wanted}", s[0]);
+    }
+}
+
+/// Several fields at once have the bits of each by itself, at the nodes that are wanted; the others have none.
+#[test]
+fn several_fields_have_the_stress_of_each() {
+    for kind in ElementKind::ALL {
+        let mesh = Mesh::block(kind, [3, 2, 2], shaken(0.1));
+        let field =
+            |k: f64| -> Vec<[f64; 3]> { mesh.nodes.iter().map(|&x| bending(x).map(|u| k * u + u * u)).collect() };
+        let fields = [field(1.0), field(-0.3)];
+        let all: Vec<&[[f64; 3]]> = fields.iter().map(Vec::as_slice).collect();
+        let wanted = |node: u32| mesh.nodes[node as usize][0] > 1.5;
+        let options = ElementOptions::default();
+        let found = nodal_stresses(&mesh, &STEEL, &options, &all, wanted).unwrap();
+        assert_eq!(found.len(), 2);
+        for (field, found) in fields.iter().zip(&found) {
+            let alone = nodal_stress(&mesh, &STEEL, &options, field).unwrap();
+            for (node, (alone, found)) in (0..).zip(alone.iter().zip(found)) {
+                let expected = if wanted(node) { *alone } else { [0.0; 6] };
+                assert_eq!(expected, *found, "{} at node {node}", kind.name());
+            }
+        }
     }
 }
 

@@ -7,12 +7,12 @@ use super::GearboxMechanism;
 use crate::GearboxError;
 
 impl GearboxMechanism {
-    /// Forces of the shafts, bearings, loads and drive; `acceleration` is that of a given turn.
+    /// Forces of the shafts, bearings, loads and drive at a time; `acceleration` is that of a given turn.
     fn bodies_and_loads(
         &self,
         q: &DVector<f64>,
         v: &DVector<f64>,
-        [speed, acceleration]: [f64; 2],
+        [t, speed, acceleration]: [f64; 3],
         out: &mut Forces,
     ) -> Result<(), GearboxError> {
         out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
@@ -30,6 +30,10 @@ impl GearboxMechanism {
         for load in &self.loads {
             out.other += load;
             out.supplied += load.dot(v);
+        }
+        for (torque, along) in self.varying.forces(t) {
+            out.other.axpy(torque, along, 1.0);
+            out.supplied += torque * along.dot(v);
         }
         if acceleration != 0.0 {
             out.other.axpy(-acceleration, &self.momentum, 1.0);
@@ -72,7 +76,12 @@ impl GearboxMechanism {
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
         let energy_rate = live.element().energy_rate();
-        let to_gears = &live.to_gears;
+        let answer = self.balance_of(mesh, &(losses.friction + losses.force));
+        if answer != 0.0 {
+            out.other.axpy(answer, &self.push, 1.0);
+            out.supplied += answer * self.push.dot(v);
+        }
+        let to_gears = &self.live[mesh].to_gears;
         out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
@@ -84,14 +93,14 @@ impl GearboxMechanism {
             None => {
                 // What the input pushes uneven teeth through with, and against friction.
                 out.supplied -= losses.along_cycles * passing;
-                if out.rates {
-                    out.parametric += energy_rate * passing;
-                }
             }
         }
         if out.tangents {
             out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears));
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
+        }
+        if out.rates && turn.is_none() {
+            out.parametric += self.live[mesh].energy_change(&self.meshes[mesh])? * passing;
         }
         Ok(())
     }
@@ -106,7 +115,7 @@ impl Mechanism for GearboxMechanism {
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         let input = self.input(t, q, v);
-        self.bodies_and_loads(q, v, [input[1], self.acceleration(t)], out)?;
+        self.bodies_and_loads(q, v, [t, input[1], self.acceleration(t)], out)?;
         (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
     }
 
@@ -157,6 +166,7 @@ impl Mechanism for GearboxMechanism {
             self.reach[i] = self.reach[i].max(reach);
             self.live[i].accept(&self.meshes[i])?;
         }
+        self.varying.accept(t, angle, q);
         Ok(())
     }
 

@@ -4,10 +4,14 @@ use contact::FlankProjection;
 use lumped::Fourier;
 
 use super::{SpringMesh, TiltingSpring, tilting_spring::TiltingCoefficients};
-use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, Meshing, Vector12};
+use crate::{ExactMesh, GearMesh, GearboxError, MeshElement, Meshing, Vector12, even_mesh::guessed_stiffness};
 
 /// Orders of a series over `n` samples that are kept: beyond them teeth that come and go would ring.
 const SAMPLES_PER_ORDER: usize = 4;
+
+/// Relative difference from a mean force that is wanted, and steps to it.
+const NEAR: f64 = 1e-3;
+const STEPS: usize = 20;
 
 /// Force, tilting moment and their stiffness over the phase of a mesh, from its exact contact.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +43,7 @@ impl ContactSpring {
             let (force, own) = sample(mesh, &projection, about)?;
             all.iter_mut().zip(own).for_each(|(list, x)| list.push(x));
             sum += force;
-            length += mesh.pressed().map(|(_, _, length)| length).sum::<f64>();
+            length += mesh.pressed().map(|slice| slice.length).sum::<f64>();
         }
         let series = |quantity, values: &[f64]| {
             let found = Fourier::of_samples(quantity, values, samples / SAMPLES_PER_ORDER);
@@ -55,6 +59,28 @@ impl ContactSpring {
         };
         let [force, length] = [sum, length].map(|x| x / samples as f64);
         Ok(Self { projection, coefficients, force, length })
+    }
+
+    /// The contact about a displacement that is moved along the normal until the mean force (N) is a given one: of teeth at
+    /// their nominal places, about where those with pitch errors are.
+    ///
+    /// # Errors
+    /// As [`ContactSpring::of`].
+    pub fn under(mesh: &mut ExactMesh, about: &Vector12, force: f64, samples: usize) -> Result<Self, GearboxError> {
+        let projection = FlankProjection::new(mesh.pair(), mesh.options().side());
+        let apart = force / guessed_stiffness(mesh.pair());
+        let (mut about, mut left) = (*about, STEPS);
+        loop {
+            let found = Self::of(mesh, &about, samples);
+            left -= 1;
+            let further = match &found {
+                Ok(own) if left == 0 || (own.force - force).abs() <= NEAR * force => return found,
+                Ok(own) => (force - own.force) / own.stiffness().mean,
+                Err(GearboxError::Unmapped { .. }) if left > 0 => apart,
+                Err(_) => return found,
+            };
+            about += projection.displacement(further, 0.0);
+        }
     }
 
     /// Stiffness along the normal, N/mm, over the phase, 2 pi a mesh cycle.

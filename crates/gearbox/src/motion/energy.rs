@@ -42,7 +42,8 @@ impl GearboxMechanism {
     /// input at given speed: E = E_z + Omega m . v + Omega^2 r' M r/2,   W_in = W_z + [Omega m . v + Omega^2 r' M r/2]_0 - sum T_j theta_j
     /// ```
     /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them, the work -Omega' m . v of an
-    /// acceleration in it; m = B' M r. Torques are constant: their work is that of the turns.
+    /// acceleration in it; m = B' M r. Work of constant torques is that of the turns. That of torques over time is summed
+    /// up step by step where the speed is given; under a torque it is what the ledger has beside constant ones.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.
@@ -65,8 +66,13 @@ impl GearboxMechanism {
             open_over_vibration: ledger.open_over_vibration(),
         };
         let mut began = ledger.initial;
+        if !self.varying.is_empty() {
+            let constant = of_loads + energy.input_work;
+            energy.output_work +=
+                if self.free.turn.is_some() { ledger.supplied - constant } else { self.varying.work() };
+        }
         if self.free.turn.is_none() {
-            let inertia = self.free.rigid.dot(&(&self.bodies.mass * &self.free.rigid));
+            let inertia = self.train_inertia();
             let of = |s: &State| self.input(s.time, &s.q, &s.v);
             let along = |s: &State| {
                 let [_, omega] = of(s);
@@ -75,7 +81,7 @@ impl GearboxMechanism {
             let nominal = self.outputs.dot(&self.free.rigid) * (of(state)[0] - of(start)[0]);
             let shift = along(state) - along(start);
             energy.output_work += nominal;
-            energy.input_work = ledger.parametric + ledger.supplied - of_loads + shift - nominal;
+            energy.input_work = ledger.parametric + ledger.supplied - of_loads + shift - nominal - self.varying.work();
             energy.kinetic += along(state);
             energy.gained += shift;
             began += along(start);

@@ -11,7 +11,12 @@ use crate::{Assembly, Operation, Train};
 /// y = B z + r psi,   theta of shaft i = ratio_i psi + deviation
 /// ```
 /// psi: turn of the input, given with time or a coordinate of its own; r turns all shafts by their ratios. All other
-/// coordinates are deviations from that, so that they keep their digits however far the shafts have turned.
+/// coordinates are deviations from that, so that they keep their digits however far the shafts have turned. The input has
+/// none of its own; where its torque balances, all are such that they have no momentum along r:
+///
+/// ```text
+/// b := b - r (r' M b)/(r' M r)
+/// ```
 #[derive(Debug, Clone)]
 pub(super) struct FreeCoordinates {
     /// B, with a column r where the input's turn is free.
@@ -62,13 +67,23 @@ impl FreeCoordinates {
             columns.push(rigid.clone());
             turns.push(true);
         }
-        let basis = DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]);
         // All coordinates that a column moves turn by one ratio.
         let ratio = |j: usize| {
             let moved = columns[j].iter().zip(rigid.iter()).find(|(x, _)| **x != 0.0);
             moved.map_or(0.0, |(_, r)| if Some(j) == turn { 0.0 } else { *r })
         };
         let turning = DVector::from_fn(columns.len(), |j, _| ratio(j));
+        if matches!(drive, Drive::Balanced(_)) {
+            let heavy = &bodies.mass * &rigid;
+            let inertia = heavy.dot(&rigid);
+            for column in &mut columns {
+                let along = heavy.dot(column);
+                if along != 0.0 {
+                    column.axpy(-along / inertia, &rigid, 1.0);
+                }
+            }
+        }
+        let basis = DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]);
         Self { basis, rigid, input, turning, turn, turns }
     }
 

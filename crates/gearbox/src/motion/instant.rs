@@ -4,7 +4,7 @@ use integrate::State;
 use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
-use super::{GearboxMechanism, rolling_supports::BesideSprings};
+use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
 use crate::{BearingState, GearboxError};
 
 /// A mesh at an instant.
@@ -46,10 +46,11 @@ impl GearboxMechanism {
     pub fn instant(&mut self, state: &State) -> Result<GearboxInstant, GearboxError> {
         let State { time, q, v, a, .. } = state;
         let input = self.input(*time, q, v);
-        let mut meshes = Vec::new();
+        let (mut meshes, mut answered) = (Vec::new(), 0.0);
         let mut on_bodies = DVector::zeros(self.bodies.size());
         for i in 0..self.live.len() {
-            let own = self.mesh_instant(i, input, q, v)?;
+            let (own, answer) = self.mesh_instant(i, input, q, v)?;
+            answered += answer;
             let at = self.live[i].gears;
             (0..12).for_each(|k| on_bodies[at[k / 6] + k % 6] += own.wrench[k]);
             meshes.push(own);
@@ -57,7 +58,11 @@ impl GearboxMechanism {
         let (y, rates) = (self.free.deviations(q), self.free.deviations(v));
         let input_torque = match self.free.turn {
             Some(i) => self.loads[1][i],
-            None => self.reaction([q, v, a], self.acceleration(*time), &on_bodies),
+            None if matches!(self.drive, Drive::Balanced(_)) => {
+                let of_loads = self.given + self.varying.balance(*time);
+                of_loads + answered + self.acceleration(*time) * self.train_inertia()
+            }
+            None => self.reaction(*time, [q, v, a], &on_bodies),
         };
         let speed_of = |torque: &crate::Torque| {
             let shaft = self.assembly.structure().discs[torque.disc].shaft;
@@ -75,18 +80,20 @@ impl GearboxMechanism {
         })
     }
 
+    /// A mesh, and the torque by which an input that balances answers its losses.
     fn mesh_instant(
         &mut self,
         mesh: usize,
         [angle, speed]: [f64; 2],
         q: &DVector<f64>,
         v: &DVector<f64>,
-    ) -> Result<MeshInstant, GearboxError> {
+    ) -> Result<(MeshInstant, f64), GearboxError> {
         let cycles = self.cycles(mesh, angle);
         let rates = self.displacements(mesh, v);
         let (d, live) = self.ask(mesh, angle, q)?;
         let passing = live.cycles_per_turn * speed;
         let losses = live.element().losses(&rates, passing);
+        let answer = self.balance_of(mesh, &(losses.friction + losses.force));
         let live = &mut self.live[mesh];
         let turn = live.turn;
         let reply = live.reply(&self.meshes[mesh], cycles, &d, false)?;
@@ -94,14 +101,14 @@ impl GearboxMechanism {
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
         let transmission_error = meshing.side().sign() * (r1 * d[5] + r2 * d[11]);
-        Ok(MeshInstant { cycles, transmission_error, normal_force, wrench: wrench.into() })
+        Ok((MeshInstant { cycles, transmission_error, normal_force, wrench: wrench.into() }, answer))
     }
 
     /// Torque that keeps the input at its speed: what its coordinate leaves over. Dampers of modes do not brake the turn
     /// of the whole train, so that what they do to the other turns is held here.
-    fn reaction(&self, z: [&DVector<f64>; 3], of_turn: f64, on_bodies: &DVector<f64>) -> f64 {
+    fn reaction(&self, t: f64, z: [&DVector<f64>; 3], on_bodies: &DVector<f64>) -> f64 {
         let [y, rate, mut acceleration] = z.map(|x| self.free.deviations(x));
-        acceleration.axpy(of_turn, &self.free.rigid, 1.0);
+        acceleration.axpy(self.acceleration(t), &self.free.rigid, 1.0);
         let shaft = self.assembly.structure().discs[self.operation.input].shaft;
         let held = self.operation.held.contains(&shaft);
         let own = |i: &usize| {
@@ -117,6 +124,7 @@ impl GearboxMechanism {
             of(&self.bodies.mass, &acceleration) + of(&self.bodies.damping, &rate) + of(&self.bodies.stiffness, &y)
                 - on_bodies[i]
                 - self.outputs[i]
+                - self.varying.on_body(t, i)
         };
         let modal = self.free.turning.dot(&(&self.damping * z[1]));
         (0..self.bodies.size()).filter(own).map(row).sum::<f64>() - modal

@@ -1,7 +1,7 @@
 //! A mesh at its place between two bodies.
 
 use dynamics::FlankStates;
-use nalgebra::{DMatrix, Dyn, OMatrix, SMatrix, U12};
+use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use super::MovingMesh;
 use crate::{GearMesh, GearboxError, MeshForces, Vector12, static_gearbox::at_mesh};
@@ -15,6 +15,8 @@ pub(super) struct LiveMesh {
     /// First reduced coordinates of both gears, and the turn from the mesh's axes to the common ones.
     pub gears: [usize; 2],
     pub turn: SMatrix<f64, 12, 12>,
+    /// What a turn of the whole train by a radian of the input displaces the gears by, own axes.
+    pub by_train: Vector12,
     /// Mesh cycles a radian of the input.
     pub cycles_per_turn: f64,
     last: Option<Last>,
@@ -32,12 +34,13 @@ impl LiveMesh {
     pub fn new(
         element: Box<dyn MovingMesh>,
         basis: &DMatrix<f64>,
-        gears: [usize; 2],
+        (gears, rigid): ([usize; 2], &DVector<f64>),
         turn: SMatrix<f64, 12, 12>,
         cycles_per_turn: f64,
     ) -> Self {
         let at_gears = OMatrix::<f64, U12, Dyn>::from_fn(basis.ncols(), |i, j| basis[(gears[i / 6] + i % 6, j)]);
-        Self { element, to_gears: turn.transpose() * at_gears, gears, turn, cycles_per_turn, last: None }
+        let by_train = turn.transpose() * Vector12::from_fn(|i, _| rigid[gears[i / 6] + i % 6]);
+        Self { element, to_gears: turn.transpose() * at_gears, gears, turn, by_train, cycles_per_turn, last: None }
     }
 
     /// Forces at a place, with any tangent unless `tangents` asks for it; the same place once more costs nothing.
@@ -59,6 +62,13 @@ impl LiveMesh {
             }
         };
         Ok(&self.last.insert(last).reply)
+    }
+
+    /// How its energy follows the mesh cycles where it was asked last ([`MovingMesh::energy_change`]); its last answer is
+    /// lost.
+    pub fn energy_change(&mut self, mesh: &GearMesh) -> Result<f64, GearboxError> {
+        self.last = None;
+        self.element.energy_change().map_err(|source| at_mesh(mesh, source))
     }
 
     /// Energy at a place off the path of the motion; its last answer is lost.

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use contact::FlankProjection;
 use contact_map::{
-    ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, MapWatch, PhaseContact, SplineCache, Wanted,
+    ContactMap, ContactSample, LoadedSlice, MapContact, MapPlan, MapWatch, OffsetError, OffsetMap, PairOffsets,
+    PhaseContact, SplineCache, Wanted,
 };
 use geometry::GearPair;
 use ltca::StaticOptions;
@@ -12,13 +13,17 @@ use nalgebra::SMatrix;
 use reduction::ElasticGear;
 
 use super::{MeshLosses, MovingMesh};
-use crate::{ExactMesh, GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
+use crate::{
+    ExactMesh, GearboxError, MeshElement, MeshForces, Vector12, exact_mesh::PressedSlice, mesh_element::finite_cycles,
+};
 
 /// What a map of a mesh must hold, and how well.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapRequest {
     /// Displacements of the gears in the mesh's own axes at rest, one entry a position: the map is made about their mean.
     pub stands: Vec<Vector12>,
+    /// Whether the gears can tilt against each other: between held shafts a map needs no tilt.
+    pub tilts: bool,
     /// Sum of the normal forces there, N.
     pub mean_force: f64,
     /// Largest force over that.
@@ -30,11 +35,18 @@ pub struct MapRequest {
     pub worst: f64,
 }
 
+impl MapRequest {
+    /// Mean displacements at rest.
+    fn about(&self) -> Vector12 {
+        self.stands.iter().sum::<Vector12>() / self.stands.len() as f64
+    }
+}
+
 /// The driving flanks of a mesh by a table of their exact contact: forces, moments and energy over phase, approach and
-/// tilt in the plane of action.
+/// tilt in the plane of action. Pitch errors are offsets of the pairs of teeth ([`OffsetMap`]).
 #[derive(Debug, Clone)]
 pub struct MappedMesh {
-    map: Arc<ContactMap>,
+    map: OffsetMap,
     projection: FlankProjection,
     kept: SplineCache,
     /// N s/mm a mm of contact line.
@@ -61,20 +73,17 @@ impl MappedMesh {
     ) -> Result<Self, GearboxError> {
         refuse(pair, options, request)?;
         let projection = FlankProjection::new(pair, options.side());
-        let about = request.stands.iter().sum::<Vector12>() / request.stands.len() as f64;
+        let about = request.about();
+        let alike = pair.without_pitch_errors();
         let plan = MapPlan {
             mean_force: request.mean_force,
             largest_force: request.overload * request.mean_force,
-            tilt: Some(tilt_range(&request.stands, &projection, pair)),
+            tilt: request.tilts.then(|| tilt_range(&request.stands, &projection, pair)),
             width: pair.face_width(),
             tolerance: request.tolerance,
             worst: request.worst,
         };
-        let at = |phase: f64| {
-            let mut mesh = ExactMesh::new(pair.clone(), Arc::clone(gears), options.clone())?;
-            mesh.go_to(phase)?;
-            Ok(MappedPhase { mesh, projection: &projection, about: &about })
-        };
+        let at = |phase: f64| MappedPhase::new((&alike, gears, options), phase, (&projection, &about));
         let map = ContactMap::build(&plan, watch, at).map_err(|e| GearboxError::Map(Box::new(e)))?;
         Self::on(pair, options, request, map)
     }
@@ -82,7 +91,7 @@ impl MappedMesh {
     /// The mesh on a map that [`MappedMesh::new`] made of the same gears, options and request.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for a map without tilts.
+    /// [`GearboxError::Unmapped`] as [`MappedMesh::new`], and for a map with tilts where none are asked for, or without.
     pub fn on(
         pair: &GearPair,
         options: &StaticOptions,
@@ -90,11 +99,12 @@ impl MappedMesh {
         map: ContactMap,
     ) -> Result<Self, GearboxError> {
         refuse(pair, options, request)?;
-        if map.tilts().is_none() {
+        if map.tilts().is_some() != request.tilts {
             return Err(GearboxError::Unmapped { what: "a mesh that this map was not made for" });
         }
+        let offsets = PairOffsets::new(pair.pitch_approaches(options.side(), options.contact.sense));
         Ok(Self {
-            map: Arc::new(map),
+            map: OffsetMap::new(Arc::new(map), offsets),
             projection: FlankProjection::new(pair, options.side()),
             kept: SplineCache::default(),
             damping_per_length: 0.0,
@@ -112,21 +122,32 @@ impl MappedMesh {
         Self { damping_per_length: per_length, ..self }
     }
 
-    /// The map.
-    pub fn map(&self) -> &ContactMap {
-        &self.map
+    /// Approach (mm) and tilt (rad) of displacements, or their rates; no tilt where the map has none.
+    fn along(&self, displacements: &Vector12) -> [f64; 2] {
+        let [approach, tilt] = [&self.projection.approach, &self.projection.tilt].map(|a| a.dot(displacements));
+        [approach, if self.map().tilts().is_some() { tilt } else { 0.0 }]
     }
 
-    /// Mean over a cycle of the loaded length of contact lines, mm, under a force (N) and the mean tilt.
-    pub fn mean_loaded_length(&self, force: f64, phases: usize) -> f64 {
-        let tilt = self.map.tilts().map_or(0.0, |[low, high]| 0.5 * (low + high));
-        let at = |i: usize| {
-            let phase = i as f64 / phases as f64;
-            let place = self.map.place(phase, tilt);
-            let contact = self.map.contact(&place, self.map.approach(phase, tilt, force), Wanted::default());
-            self.map.loaded_length(&place, &contact)
-        };
-        (0..phases).map(at).sum::<f64>() / phases.max(1) as f64
+    /// The map of teeth at their nominal places.
+    pub fn map(&self) -> &ContactMap {
+        self.map.map()
+    }
+
+    /// Error of the approach by pitch errors as offsets, beside the contact of the same gears, options and request with
+    /// these errors; `None` without any.
+    ///
+    /// # Errors
+    /// [`GearboxError::Map`] where the contact cannot be solved.
+    pub fn pitch_error(
+        &self,
+        pair: &GearPair,
+        gears: &Arc<[ElasticGear; 2]>,
+        options: &StaticOptions,
+        request: &MapRequest,
+    ) -> Result<Option<OffsetError>, GearboxError> {
+        let about = request.about();
+        let at = |cycles: f64| MappedPhase::new((pair, gears, options), cycles, (&self.projection, &about));
+        self.map.error(request.mean_force, at).map_err(|e| GearboxError::Map(Box::new(e)))
     }
 }
 
@@ -134,8 +155,8 @@ impl MappedMesh {
 fn refuse(pair: &GearPair, options: &StaticOptions, request: &MapRequest) -> Result<(), GearboxError> {
     let what = if options.contact.friction > 0.0 {
         "friction"
-    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_teeth()) {
-        "pitch errors or flanks by tooth: the contact comes back after whole turns, not after a mesh cycle"
+    } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_flanks()) {
+        "flanks by tooth: the contact comes back after whole turns, not after a mesh cycle"
     } else if request.stands.is_empty() || !(request.mean_force > 0.0 && request.mean_force.is_finite()) {
         "a mesh without load: nothing says what forces occur"
     } else {
@@ -160,9 +181,9 @@ impl MeshElement for MappedMesh {
     }
 
     fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
+        [self.approach, self.tilt] = self.along(displacements);
         let Self { map, projection, kept, .. } = self;
         let along = [&projection.approach, &projection.tilt];
-        [self.approach, self.tilt] = along.map(|a| a.dot(displacements));
         let wanted = Wanted { energy: true, phase_rate: true };
         self.contact = map.contact(kept.at(map, self.cycles, self.tilt), self.approach, wanted);
         let contact = &self.contact;
@@ -178,7 +199,7 @@ impl MeshElement for MappedMesh {
 
     /// Refuses a place at which the flanks that the map does not have would touch.
     fn check(&mut self) -> Result<(), GearboxError> {
-        let gap_mm = self.map.first_touch(self.kept.last()) - self.approach;
+        let gap_mm = -self.map.overlap(self.kept.last(), self.approach);
         if gap_mm <= self.backlash {
             return Ok(());
         }
@@ -197,8 +218,8 @@ impl MovingMesh for MappedMesh {
 
     fn losses(&mut self, rates: &Vector12, _cycles: f64) -> MeshLosses {
         let along = [&self.projection.approach, &self.projection.tilt];
-        let own = along.map(|a| a.dot(rates));
-        let found = self.map.damping(self.kept.last(), &self.contact, own, self.damping_per_length);
+        let own = self.along(rates);
+        let found = self.map().damping(self.kept.last(), &self.contact, own, self.damping_per_length);
         let mut all = MeshLosses::default();
         for (i, a) in along.into_iter().enumerate() {
             all.force -= found.force[i] * a;
@@ -212,14 +233,18 @@ impl MovingMesh for MappedMesh {
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
-        Ok([self.approach - self.map.first_touch(self.kept.last()), f64::NEG_INFINITY])
+        Ok([self.map.overlap(self.kept.last(), self.approach), f64::NEG_INFINITY])
+    }
+
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        Some(vec![self.projection.approach, self.projection.tilt])
     }
 
     fn reach(&self) -> f64 {
-        let force = self.contact.force / self.map.largest_force();
+        let map = self.map();
+        let force = self.contact.force / map.largest_force();
         // Without contact a tilt does nothing.
-        let tilt = self
-            .map
+        let tilt = map
             .tilts()
             .filter(|_| force > 0.0)
             .map_or(0.0, |[low, high]| (self.tilt - 0.5 * (low + high)).abs() / (0.5 * (high - low)));
@@ -234,7 +259,17 @@ struct MappedPhase<'a> {
     about: &'a Vector12,
 }
 
-impl MappedPhase<'_> {
+impl<'a> MappedPhase<'a> {
+    fn new(
+        (pair, gears, options): (&GearPair, &Arc<[ElasticGear; 2]>, &StaticOptions),
+        cycles: f64,
+        (projection, about): (&'a FlankProjection, &'a Vector12),
+    ) -> Result<Self, GearboxError> {
+        let mut mesh = ExactMesh::new(pair.clone(), Arc::clone(gears), options.clone())?;
+        mesh.go_to(cycles)?;
+        Ok(Self { mesh, projection, about })
+    }
+
     fn displaced(&self, approach: f64, tilt: f64) -> Vector12 {
         let Self { projection, about, .. } = self;
         let rest = [approach - projection.approach.dot(about), tilt - projection.tilt.dot(about)];
@@ -255,10 +290,11 @@ impl PhaseContact for MappedPhase<'_> {
         self.mesh.forget();
         let reply = self.mesh.evaluate(&d)?;
         let per_turn = self.projection.approach[11];
-        let slices = self.mesh.pressed().map(|(position, force, length)| LoadedSlice {
+        let slices = self.mesh.pressed().map(|PressedSlice { position, force, length, pair }| LoadedSlice {
             force,
             length,
             lever: self.projection.lever(&position),
+            pair,
         });
         Ok(ContactSample {
             force: -reply.force[11] / per_turn,

@@ -1,11 +1,14 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
-use dynamics::Speed;
+use dynamics::{Speed, Torque};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    Drive, MotionOptions, MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates, live_mesh::LiveMesh,
+    Drive, MotionOptions, MovingMesh, ReducedBodies,
+    free_coordinates::FreeCoordinates,
+    live_mesh::LiveMesh,
     rolling_supports::RollingSupports,
+    varying_torques::{VaryingTorque, VaryingTorques},
 };
 use crate::{
     Assembly, GearMesh, GearboxError, Meshing, Operation, Structure, Train, Vector12,
@@ -33,16 +36,24 @@ pub struct GearboxMechanism {
     pub(super) damping: DMatrix<f64>,
     /// Gyroscopic matrix at the unit speed of the input.
     pub(super) gyroscopic: DMatrix<f64>,
-    /// Torques of the outputs on the bodies.
+    /// Constant torques of the outputs on the bodies.
     pub(super) outputs: DVector<f64>,
+    /// Torques of the outputs that change with time.
+    pub(super) varying: VaryingTorques,
     /// m = B' M r: what an acceleration of the nominal turn loads the deviations by.
     pub(super) momentum: DVector<f64>,
     /// Forces of preloaded bearings on the bodies.
     pub(super) preload: DVector<f64>,
     /// Rolling bearings that follow their laws, beside the springs in their place.
     pub(super) rolling: Option<RollingSupports>,
-    /// Loads of the outputs with the preloads of bearings, and load of the input where a torque drives.
+    /// Constant loads of the outputs with the preloads of bearings, and load of the input where a torque drives or
+    /// balances.
     pub(super) loads: [DVector<f64>; 2],
+    /// Torque on the input that is given, or balances the loads by the ratios of the train, N mm about +z; 0 where the
+    /// input keeps its speed.
+    pub(super) given: f64,
+    /// What a unit torque on the input does to the coordinates.
+    pub(super) push: DVector<f64>,
     /// Most that each mesh has been used of what it holds, at the ends of steps.
     pub(super) reach: Vec<f64>,
     /// Mesh cycles with the input at its start.
@@ -80,11 +91,13 @@ impl GearboxMechanism {
         }
         let given = match options.drive {
             Drive::Speed(_) => 0.0,
+            Drive::Balanced(_) => balancing,
             Drive::Torque { torque, .. } => torque.map_or(balancing, |amount| operation.sense.sign() as f64 * amount),
         };
         let momentum = free.basis.tr_mul(&(&bodies.mass * &free.rigid));
         let preload = bodies.preload(&assembly);
-        let loads = [free.basis.tr_mul(&(&outputs + &preload)), free.basis.tr_mul(&free.input) * given];
+        let push = free.basis.tr_mul(&free.input);
+        let loads = [free.basis.tr_mul(&(&outputs + &preload)), &push * given];
         let deviations = free.of_deviations();
         let (start_cycles, further) = (train.cycles(0.0), train.cycles(1.0));
         let mut live = Vec::new();
@@ -93,6 +106,7 @@ impl GearboxMechanism {
             element.begin_at(start_cycles[i]).map_err(|source| at_mesh(mesh, source))?;
             let gears = mesh.discs.map(|d| bodies.of_node(assembly.disc(d).unwrap_or(0)));
             let rate = further[i] - start_cycles[i];
+            let gears = (gears, &free.rigid);
             live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), rate));
         }
         let spin = bodies.skew(&assembly.gyroscopic(train.ratios())?);
@@ -114,10 +128,13 @@ impl GearboxMechanism {
             damping,
             gyroscopic,
             outputs,
+            varying: VaryingTorques::default(),
             momentum,
             preload,
             rolling: None,
             loads,
+            given,
+            push,
             reach,
             start_cycles,
         })
@@ -146,6 +163,43 @@ impl GearboxMechanism {
         Ok(self)
     }
 
+    /// The mechanism, with torques over time in place of constant ones: number among the torques of the operation, and
+    /// torque in N mm about +z. The motion starts in equilibrium under what they are then. A balanced drive answers them
+    /// at every instant; a torque on the input that was to balance the loads balances those of the operation.
+    ///
+    /// # Errors
+    /// [`GearboxError::Count`] for a torque that the operation does not have, [`GearboxError::OutOfRange`] where one is no
+    /// number.
+    pub fn with_torques(mut self, laws: Vec<(usize, Torque)>) -> Result<Self, GearboxError> {
+        let wanted = self.operation.torques.len();
+        let mut all = Vec::new();
+        for (i, law) in laws {
+            let found = i + 1;
+            let own = *self.operation.torques.get(i).ok_or(GearboxError::Count { what: "torques", found, wanted })?;
+            if let Some(value) = law.numbers().find(|x| !x.is_finite()) {
+                return Err(GearboxError::OutOfRange { part: "a torque over time".into(), quantity: "number", value });
+            }
+            let shaft = self.assembly.structure().discs[own.disc].shaft;
+            let at = self.bodies.of_node(self.assembly.disc(own.disc).unwrap_or(0)) + 5;
+            let (disc, ratio) = (self.free.basis.row(at).transpose(), self.train.ratios()[shaft]);
+            self.outputs[at] -= own.torque;
+            self.loads[0].axpy(-own.torque, &disc, 1.0);
+            let mut along = disc.clone();
+            if matches!(self.drive, Drive::Balanced(_)) {
+                self.given += own.torque * ratio;
+                along.axpy(-ratio, &self.push, 1.0);
+            }
+            // A free turn of the train is a coordinate.
+            let ratio = if self.free.turn.is_some() { 0.0 } else { ratio };
+            all.push(VaryingTorque { law, along, disc, at, ratio });
+        }
+        if matches!(self.drive, Drive::Balanced(_)) {
+            self.loads[1] = &self.push * self.given;
+        }
+        self.varying = VaryingTorques::new(all);
+        Ok(self)
+    }
+
     /// Matrices and parts.
     pub fn assembly(&self) -> &Assembly {
         &self.assembly
@@ -171,6 +225,11 @@ impl GearboxMechanism {
         let own = |i: usize, turn: f64| if self.bodies.shaft(i) == input { 0.0 } else { turn };
         let driven = DVector::from_fn(self.bodies.size(), |i, _| own(i, self.free.rigid[i]));
         driven.dot(&(&self.bodies.mass * &driven))
+    }
+
+    /// Inertia of the whole train, t mm^2 at the input.
+    pub(super) fn train_inertia(&self) -> f64 {
+        self.free.rigid.dot(&(&self.bodies.mass * &self.free.rigid))
     }
 
     /// Number of coordinates.
@@ -203,8 +262,18 @@ impl GearboxMechanism {
     /// Given acceleration of the input, rad/s^2 about +z; 0 where a torque drives.
     pub(super) fn acceleration(&self, t: f64) -> f64 {
         match self.drive {
-            Drive::Speed(speed) => self.operation.sense.sign() as f64 * speed.acceleration(t),
+            Drive::Speed(speed) | Drive::Balanced(speed) => self.operation.sense.sign() as f64 * speed.acceleration(t),
             Drive::Torque { .. } => 0.0,
+        }
+    }
+
+    /// Torque of an input that balances losses (forces on both gears of a mesh, own axes), N mm about +z: no force is left
+    /// along the turn of the whole train. 0 with another drive. Theory (92a).
+    pub(super) fn balance_of(&self, mesh: usize, losses: &Vector12) -> f64 {
+        match self.drive {
+            // No torque is -0.
+            Drive::Balanced(_) => 0.0 - self.live[mesh].by_train.dot(losses),
+            _ => 0.0,
         }
     }
 
@@ -237,8 +306,9 @@ impl GearboxMechanism {
 /// Checks that speed, damping and bearings have a meaning in motion.
 fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), GearboxError> {
     let (torque, [speed, last, duration]) = match options.drive {
-        Drive::Speed(Speed::Constant(speed)) => (0.0, [speed; 3]),
-        Drive::Speed(Speed::Ramp { from, to, duration, .. }) => (0.0, [from, to, duration.recip()]),
+        Drive::Speed(Speed::Constant(speed)) | Drive::Balanced(Speed::Constant(speed)) => (0.0, [speed; 3]),
+        Drive::Speed(Speed::Ramp { from, to, duration, .. })
+        | Drive::Balanced(Speed::Ramp { from, to, duration, .. }) => (0.0, [from, to, duration.recip()]),
         Drive::Torque { start, torque } => (torque.unwrap_or(0.0), [start; 3]),
     };
     let values = [

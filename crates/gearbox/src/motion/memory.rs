@@ -4,7 +4,7 @@ use dynamics::FlankStates;
 use integrate::Resumable;
 use serde::{Deserialize, Serialize};
 
-use super::GearboxMechanism;
+use super::{GearboxMechanism, TorqueMemory};
 use crate::{GearboxError, static_gearbox::at_mesh};
 
 /// What a mesh in motion is beside its displacements.
@@ -16,19 +16,31 @@ pub struct MeshMemory {
     pub windows: Option<FlankStates>,
 }
 
-impl Resumable for GearboxMechanism {
-    type Memory = Vec<MeshMemory>;
+/// What a gearbox in motion is beside its coordinates and velocities.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GearboxMemory {
+    /// Meshes in their order.
+    pub meshes: Vec<MeshMemory>,
+    /// Torques that change with time.
+    pub torques: TorqueMemory,
+}
 
-    fn memory(&self) -> Vec<MeshMemory> {
+impl Resumable for GearboxMechanism {
+    type Memory = GearboxMemory;
+
+    fn memory(&self) -> GearboxMemory {
         let all = self.live.iter().zip(&self.reach);
-        all.map(|(live, &reach)| MeshMemory { reach, windows: live.windows() }).collect()
+        let meshes = all.map(|(live, &reach)| MeshMemory { reach, windows: live.windows() }).collect();
+        GearboxMemory { meshes, torques: self.varying.memory() }
     }
 
-    fn restore(&mut self, memory: &Vec<MeshMemory>) -> Result<(), GearboxError> {
-        if memory.len() != self.live.len() {
-            return Err(GearboxError::OtherMeshes { checkpoint: memory.len(), motion: self.live.len() });
+    fn restore(&mut self, memory: &GearboxMemory) -> Result<(), GearboxError> {
+        let (found, wanted) = (memory.meshes.len(), self.live.len());
+        if found != wanted {
+            return Err(GearboxError::OtherMeshes { checkpoint: found, motion: wanted });
         }
-        for (i, MeshMemory { reach, windows }) in memory.iter().enumerate() {
+        self.varying.restore(&memory.torques);
+        for (i, MeshMemory { reach, windows }) in memory.meshes.iter().enumerate() {
             self.reach[i] = *reach;
             if let Some(windows) = windows {
                 self.live[i].restore(windows).map_err(|source| at_mesh(&self.meshes[i], source))?;

@@ -5,13 +5,16 @@
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
+//! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
+//! | `branch`, `speed_family` | periodic motions over the speed, stable and unstable |
 //! | `instant`, `energy` | what is read off |
 
 mod balance;
+mod branch;
 mod contact_spring;
 mod energy;
 mod free_coordinates;
@@ -30,17 +33,20 @@ mod plan;
 mod reduced_bodies;
 mod rolling_supports;
 mod run;
+mod speed_family;
 mod spring_mesh;
 mod start;
 mod tilting_spring;
+mod varying_torques;
 
+pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
-pub use dynamics::Speed;
+pub use dynamics::{Speed, Torque as TorqueOverTime};
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use mapped_mesh::{MapRequest, MappedMesh};
 pub use mechanism::GearboxMechanism;
-pub use memory::MeshMemory;
+pub use memory::{GearboxMemory, MeshMemory};
 pub use moving_exact::MovingExactMesh;
 pub use moving_mesh::{MeshLosses, MovingMesh};
 pub use options::{Drive, MotionOptions};
@@ -50,3 +56,4 @@ pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
 pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
 pub use spring_mesh::SpringMesh;
 pub use tilting_spring::TiltingSpring;
+pub use varying_torques::TorqueMemory;

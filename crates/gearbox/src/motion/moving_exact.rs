@@ -11,6 +11,9 @@ use reduction::ElasticGear;
 use super::{MeshLosses, MovingMesh};
 use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
 
+/// Mesh cycles either way over which the change of the energy is taken, as of a pair alone.
+const EITHER_WAY: f64 = 1e-4;
+
 /// The flanks of a pair as it moves alone ([`MeshFlanks`]): friction, a damper on each loaded slice, and the coast flanks
 /// where these may touch.
 ///
@@ -116,6 +119,15 @@ impl MovingMesh for MovingExactMesh {
 
     fn energy_rate(&self) -> f64 {
         self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.forces.normal))
+    }
+
+    fn energy_change(&mut self) -> Result<f64, GearboxError> {
+        let Some(Answer { displacements, .. }) = self.at.take() else { return Ok(0.0) };
+        let mut at = |cycles: f64| {
+            self.flanks.forces(&self.pair, cycles, &displacements, false)?;
+            Ok::<_, GearboxError>(self.flanks.strain_energy())
+        };
+        Ok((at(self.cycles + EITHER_WAY)? - at(self.cycles - EITHER_WAY)?) / (2.0 * EITHER_WAY))
     }
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {

@@ -40,6 +40,15 @@ pub trait MovingMesh: MeshElement {
     /// dV/dc: how it follows the mesh cycles with displacements held, N mm a cycle.
     fn energy_rate(&self) -> f64;
 
+    /// The same, with what the stiffness changes by on the way, which is in no force of the flanks: what the energy
+    /// follows to the second order of the deflections. Where the mesh stands afterwards is open.
+    ///
+    /// # Errors
+    /// As of [`MeshElement::evaluate`].
+    fn energy_change(&mut self) -> Result<f64, GearboxError> {
+        Ok(self.energy_rate())
+    }
+
     /// Friction and dampers of the flanks that touch, with the gears moving at `rates` beside their nominal motion (mm/s,
     /// rad/s) and the mesh going on by `cycles` a second.
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses;
@@ -77,6 +86,12 @@ pub trait MovingMesh: MeshElement {
     /// Forgets what it remembers of earlier places, so that answers depend on the place alone to the last bit. Nothing to
     /// do for a mesh that is a pure function of it.
     fn forget(&mut self) {}
+
+    /// The combinations of displacements that all forces of this mesh depend on and act along, as rows of 12 each;
+    /// `None` for a mesh that depends on more than it can name.
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        None
+    }
 
     /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
     /// such bounds.

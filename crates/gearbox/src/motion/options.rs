@@ -8,6 +8,9 @@ pub enum Drive {
     /// Prescribed speed of the input, rad/s, constant or from one to another: the inertia of the input coupling counts
     /// as infinite.
     Speed(Speed),
+    /// Prescribed speed of the turn of the whole train, rad/s at the input: deviations have no momentum along it, and the
+    /// torque of the input balances loads and losses at every instant. Theory (92a).
+    Balanced(Speed),
     /// A torque on the input, which starts at a speed.
     Torque {
         /// Speed at the start, rad/s.
@@ -38,7 +41,7 @@ impl Drive {
     /// Speed of the input by time where it is given, else that of the start.
     pub(super) fn nominal(&self) -> Speed {
         match *self {
-            Self::Speed(speed) => speed,
+            Self::Speed(speed) | Self::Balanced(speed) => speed,
             Self::Torque { start, .. } => Speed::Constant(start),
         }
     }

@@ -7,11 +7,13 @@ use integrate::{
 };
 use nalgebra::DVector;
 
-use super::{Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, MeshMemory, MotionPlan, periodic_state::Settling};
+use super::{
+    Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, periodic_state::Settling,
+};
 use crate::GearboxError;
 
 /// A state of a gearbox's motion to go on from.
-pub type GearboxCheckpoint = Checkpoint<Vec<MeshMemory>>;
+pub type GearboxCheckpoint = Checkpoint<GearboxMemory>;
 
 /// A gearbox's motion under way.
 pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, GearboxTimes>;
@@ -33,7 +35,7 @@ impl GearboxTimes {
     }
 
     fn is_ramp(&self) -> bool {
-        matches!(self.drive, Drive::Speed(Speed::Ramp { .. }))
+        matches!(self.drive.nominal(), Speed::Ramp { .. })
     }
 
     fn steps(&self) -> u64 {
@@ -44,7 +46,7 @@ impl GearboxTimes {
     /// where it never turns so far.
     fn time_of(&self, step: u64) -> Option<f64> {
         // Times are counted from the start: sums of steps would drift.
-        let Drive::Speed(ramp @ Speed::Ramp { start: begin, duration, .. }) = self.drive else {
+        let ramp @ Speed::Ramp { start: begin, duration, .. } = self.drive.nominal() else {
             return Some(self.start + self.plan.step * step as f64);
         };
         ramp.time_at(ramp.angle(begin + duration) * (step as f64 / self.steps().max(1) as f64))
@@ -131,7 +133,11 @@ impl GearboxMechanism {
     ) -> Result<GearboxCourse<'_>, GearboxError> {
         let times = GearboxTimes { plan: *plan, start: start.time, scale: self.scale(start), drive: self.drive };
         Ok(match from {
-            None => Course::new(self, times, start.clone()),
+            None => {
+                let [angle, _] = self.input(start.time, &start.q, &start.v);
+                self.varying.begin(start.time, angle, &start.q);
+                Course::new(self, times, start.clone())
+            }
             Some(from) => Course::resume(self, times, from)?,
         })
     }

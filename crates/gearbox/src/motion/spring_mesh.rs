@@ -165,6 +165,10 @@ impl MovingMesh for SpringMesh {
         all
     }
 
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        Some(self.flanks().map(|s| s.lever).collect())
+    }
+
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
         Ok(self.sides.each_ref().map(|s| s.as_ref().map_or(f64::NEG_INFINITY, |s| s.at.compression)))
     }

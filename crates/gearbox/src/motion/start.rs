@@ -4,9 +4,9 @@ use fem::natural_modes;
 use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
-use super::GearboxMechanism;
+use super::{Drive, GearboxMechanism};
 use crate::{
-    GearboxError,
+    GearboxError, Vector12,
     equilibrium::{Left, Norms, equilibrium},
     even_mesh::{guessed_lever, guessed_stiffness},
 };
@@ -27,6 +27,9 @@ impl GearboxMechanism {
     /// [`GearboxError`] where there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
         let z = self.standing(0.0, None)?;
+        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
+        self.forget();
+        let z = self.standing(0.0, Some(&z))?;
         if modal_damping > 0.0 {
             let k = self.tangent(&z)?;
             let modes = natural_modes(&k, &self.mass)?;
@@ -53,6 +56,7 @@ impl GearboxMechanism {
         if let Some(i) = self.free.turn {
             v[i] = speed;
         }
+        self.forget();
         Ok(State::new(0.0, z, v))
     }
 
@@ -78,7 +82,11 @@ impl GearboxMechanism {
         let n = count - usize::from(self.free.turn.is_some());
         let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
         let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
-        let load = self.loads[0].rows(0, n).into_owned();
+        // What a torque gives to the turn itself is left out.
+        let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
+        self.varying.forces(0.0).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
+        let push = self.push.rows(0, n).into_owned();
+        let balances = matches!(self.drive, Drive::Balanced(_));
         let mut guessed = stiffness.clone();
         for (i, (mesh, meshing)) in self.meshes.iter().zip(self.train.meshing()).enumerate() {
             let lever = self.live[i].to_gears.tr_mul(&guessed_lever(mesh, meshing)?);
@@ -103,6 +111,10 @@ impl GearboxMechanism {
                 let own = live.to_gears.columns(0, n);
                 left.residual -= own.tr_mul(&reply.force);
                 left.tangent -= own.tr_mul(&(reply.tangent * own));
+                if balances {
+                    let losses = live.element().losses(&Vector12::zeros(), 0.0);
+                    left.residual.axpy(-self.balance_of(i, &losses.friction), &push, 1.0);
+                }
             }
             Ok(left)
         })?;

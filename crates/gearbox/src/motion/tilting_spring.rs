@@ -157,6 +157,11 @@ impl MovingMesh for TiltingSpring {
         Ok([self.at.delta, coast])
     }
 
+    fn levers(&self) -> Option<Vec<Vector12>> {
+        let own = [self.projection.approach, self.projection.tilt];
+        Some(own.into_iter().chain(self.coast.levers().into_iter().flatten()).collect())
+    }
+
     fn reach(&self) -> f64 {
         let change = (self.at.pressed() / self.at.stiffness[0] - 1.0).abs() / MOST;
         // Without contact a tilt does nothing.

@@ -1,7 +1,7 @@
 //! Laws of motion with the exact contact of the teeth, and with maps of it.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::{f64::consts::TAU, sync::Arc, time::Instant};
 
 use contact::{
     FlankProjection, Misalignment,
@@ -15,7 +15,7 @@ use gearbox::{
         MotionPlan, MovingExactMesh, MovingMesh, Speed,
     },
 };
-use geometry::Sense;
+use geometry::{GearModifications, GearPair, Sense};
 use integrate::Scheme;
 use ltca::StaticOptions;
 use nalgebra::Vector3;
@@ -39,7 +39,10 @@ struct Box1 {
 
 impl Box1 {
     fn new() -> Self {
-        let gears = pair([23, 31], 12.0);
+        Self::of(pair([23, 31], 12.0))
+    }
+
+    fn of(gears: GearPair) -> Self {
         let mut structure = single(&gears, 0.3);
         for (i, outer) in [66.0, 90.0].into_iter().enumerate() {
             let d = &structure.discs[i];
@@ -64,15 +67,19 @@ impl Box1 {
         Self { structure, meshes, operation, gears, options, stands, cycles, mean_force }
     }
 
-    fn map(&self) -> MappedMesh {
-        let request = MapRequest {
+    fn request(&self) -> MapRequest {
+        MapRequest {
+            tilts: true,
             stands: self.stands.clone(),
             mean_force: self.mean_force,
             overload: 3.0,
             tolerance: 2e-3,
             worst: 2e-2,
-        };
-        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, (&request, &|_| {})).unwrap()
+        }
+    }
+
+    fn map(&self) -> MappedMesh {
+        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, (&self.request(), &|_| {})).unwrap()
     }
 
     /// The contact in motion, its dampers 1 N s/mm along the normal of lines as long as under the mean force.
@@ -112,9 +119,11 @@ impl Box1 {
             shoots: false,
         };
         let mut rows = Vec::new();
+        let began = Instant::now();
         let done = mechanism.run(&start, &plan, |instant| {
             rows.push(instant.clone());
         });
+        println!("{:.0} us a step", 1e6 * began.elapsed().as_secs_f64() / steps as f64);
         (rows, done.unwrap())
     }
 }
@@ -148,6 +157,90 @@ fn a_mapped_mesh_moves_as_the_contact_that_it_was_made_from() {
     let off = off.fold(0.0, f64::max);
     println!("map off by {told:.2e} of {deflection:.2e} mm, motions by {off:.2e} mm");
     assert!(off < 0.03 * deflection, "{off:.2e} mm, deflection {deflection:.2e} mm, error of the map {told:.2e} mm");
+}
+
+/// Pitch errors of both gears, mm: some -1 to 1 of an amount, different for every tooth.
+fn with_pitch_errors(gears: &GearPair, amount: f64) -> GearPair {
+    let wrong = |gear: &geometry::Gear, phase: f64| {
+        let error = |i: u32| amount * (phase + 2.4 * f64::from(i * i)).sin();
+        let pitch_errors = (0..gear.teeth()).map(error).collect();
+        gear.clone().with_modifications(GearModifications { pitch_errors, ..GearModifications::default() }).unwrap()
+    };
+    GearPair::new(wrong(&gears.pinion, 0.3), wrong(&gears.wheel, 1.1), Some(gears.centre_distance())).unwrap()
+}
+
+/// Forces on a map with pitch errors are the slope of its energy, by displacements and by the phase, and its tangent is
+/// theirs: where all pairs touch, where some have parted, and beyond the largest force.
+#[test]
+fn a_map_with_pitch_errors_has_one_energy() {
+    let box1 = Box1::of(with_pitch_errors(&pair([23, 31], 12.0), 6e-3));
+    let mut map = box1.map();
+    let about = box1.stands.iter().sum::<Vector12>() / 8.0;
+    let projection = FlankProjection::new(&box1.meshes[0].pair, box1.options.side());
+    let deflection = map.map().certificate().deflection_mm;
+    let mut ask = |cycles: f64, d: &Vector12| {
+        map.go_to(cycles).unwrap();
+        let reply = map.evaluate(d).unwrap();
+        (reply, map.energy(), map.energy_rate())
+    };
+    for (cycles, further) in [(0.3, 0.0), (17.45, 0.6), (17.95, 0.3), (101.2, 0.4), (-5.6, 5.0)] {
+        let mut at = about + projection.displacement(further * deflection, 0.0) - projection.displacement(0.0, 0.0);
+        (at[3], at[10]) = (at[3] + 2e-5, at[10] - 1e-5);
+        let (reply, _, rate) = ask(cycles, &at);
+        assert!(reply.normal_force > 10.0, "{cycles}: {} N", reply.normal_force);
+        let h = 1e-5;
+        let by_phase = (ask(cycles + h, &at).1 - ask(cycles - h, &at).1) / (2.0 * h);
+        let size = rate.abs().max(1e-2 * reply.normal_force * deflection);
+        assert!((by_phase - rate).abs() < 1e-4 * size, "{cycles}: {by_phase} beside {rate} N mm a cycle");
+        for i in 0..12 {
+            let h = 1e-7;
+            let moved = |sign: f64| {
+                let mut d = at;
+                d[i] += sign * h;
+                d
+            };
+            let [(up, above, _), (down, below, _)] = [ask(cycles, &moved(1.0)), ask(cycles, &moved(-1.0))];
+            let slope = (above - below) / (2.0 * h);
+            let off = (slope + reply.force[i]).abs() / reply.force.fixed_rows::<3>(i / 3 * 3).norm();
+            assert!(off < 1e-5, "{cycles}, {i}: dV/dd {slope} beside force {}", reply.force[i]);
+            let wanted = reply.tangent.column(i);
+            let off = ((up.force - down.force) / (2.0 * h) - wanted).norm() / wanted.norm();
+            assert!(off < 1e-4, "{cycles}, {i}: tangent off by {off:.1e}");
+        }
+    }
+}
+
+/// A map with pitch errors of all teeth moves as the contact of these teeth, to the error that is told of it; pairs of
+/// teeth come and go over more than a turn of the pinion.
+#[test]
+fn a_map_with_pitch_errors_moves_as_the_contact_of_these_teeth() {
+    // Beside a deflection of 9 um: pairs that all touch, and pairs that part.
+    for (amount, allowed) in [(2e-3, 0.02), (5e-3, 0.06)] {
+        let box1 = Box1::of(with_pitch_errors(&pair([23, 31], 12.0), amount));
+        let map = box1.map();
+        let deflection = map.map().certificate().deflection_mm;
+        let own = &box1.meshes[0].pair;
+        let told = map.pitch_error(own, &box1.gears, &box1.options, &box1.request()).unwrap().unwrap();
+        let (of_map, run) = box1.run(Box::new(map.with_damping(1.0 / box1.spring().length)), 40.0);
+        assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
+        let (of_contact, _) = box1.run(Box::new(box1.moving()), 40.0);
+        let te = |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>();
+        let (a, b) = (te(&of_map), te(&of_contact));
+        let size = |x: &[f64]| {
+            let mean = x.iter().sum::<f64>() / x.len() as f64;
+            (x.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / x.len() as f64).sqrt()
+        };
+        let off: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a - b).collect();
+        let (rms, most) = (size(&off), off.iter().fold(0.0, |m: f64, e| m.max(e.abs())));
+        println!(
+            "errors up to {amount} mm: told rms {:.1e}, largest {:.1e}; motions off by rms {rms:.1e}, largest {most:.1e} of a ripple of {:.1e} mm; deflection {deflection:.1e} mm",
+            told.rms_mm,
+            told.largest_mm,
+            size(&b)
+        );
+        assert!(rms < allowed * size(&b), "rms {rms:.1e} of a ripple of {:.1e} mm", size(&b));
+        assert!(rms < 3.0 * told.rms_mm && told.rms_mm < allowed * deflection, "rms {rms:.1e} mm, told {told:?}");
+    }
 }
 
 /// Both gears turned as one about the axis of a misaligned wheel stay as they are to each other: forces do no work, with

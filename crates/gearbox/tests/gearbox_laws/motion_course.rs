@@ -269,7 +269,7 @@ fn flanks_taken_up_again_go_the_same_way() {
         kept
     };
     let whole = follow(None);
-    let windows: Vec<_> = whole.states.iter().map(|(_, state)| state.memory[0].windows.unwrap()).collect();
+    let windows: Vec<_> = whole.states.iter().map(|(_, state)| state.memory.meshes[0].windows.unwrap()).collect();
     assert!(windows.len() == 2 && windows[0].driving.first != windows[1].driving.first, "{windows:?}");
     for (rows, state) in &whole.states {
         let back = serde_json::from_str(&serde_json::to_string(state).unwrap()).unwrap();
@@ -287,7 +287,7 @@ fn a_checkpoint_of_another_gearbox_is_refused() {
     course.run_cycle::<GearboxError>(None).unwrap();
     let state = course.checkpoint().unwrap();
     let mut meshes = state.clone();
-    meshes.memory.push(MeshMemory { reach: 0.0, windows: None });
+    meshes.memory.meshes.push(MeshMemory { reach: 0.0, windows: None });
     let mut coordinates = state;
     coordinates.state = start.clone();
     coordinates.state.q = coordinates.state.q.push(0.0);

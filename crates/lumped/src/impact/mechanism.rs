@@ -4,7 +4,9 @@ use std::convert::Infallible;
 
 use ale::Station;
 use contact::Pose;
-use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Nominal, NominalState, Speed, Torque};
+use dynamics::{
+    COORDINATES, Coordinates, Displacement, Drive, MeshDamping, MotionOptions, NominalState, PairBodies, Speed, Torque,
+};
 use geometry::GearPair;
 use integrate::{Forces, Mechanism};
 use ltca::StaticOptions;
@@ -13,7 +15,7 @@ use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 use super::{
     ImpactOptions,
     flanks::{FlankSide, NominalPose},
-    forces::{FlankForce, Square},
+    forces::FlankForce,
 };
 use crate::LumpedError;
 
@@ -30,15 +32,10 @@ use crate::LumpedError;
 /// which then slides along, to a thousandth of the largest force.
 #[derive(Debug)]
 pub struct ImpactMechanism {
-    pair: GearPair,
     options: ImpactOptions,
-    /// Driver and sense, as the coordinates of pair motion want them.
-    running: StaticOptions,
-    coordinates: Coordinates,
+    bodies: PairBodies,
     mass: DMatrix<f64>,
-    nominal: Nominal,
     sides: [FlankSide; 2],
-    bearing: [Square; 2],
     share: f64,
 }
 
@@ -49,28 +46,24 @@ impl ImpactMechanism {
     /// [`LumpedError`] when an option has no meaning.
     pub fn new(pair: GearPair, options: ImpactOptions) -> Result<Self, LumpedError> {
         options.check()?;
-        let running = StaticOptions::new(0.0, &pair).with_contact(|c| {
+        let statics = StaticOptions::new(0.0, &pair).with_contact(|c| {
             c.driver = options.driver;
             c.sense = options.sense
         });
-        let (speed, by_torque) = match &options.drive {
-            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
-            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
+        let sides = [statics.side(), statics.side().opposite()].map(|s| FlankSide::new(&pair, s, options.slices));
+        let of_bodies = MotionOptions {
+            statics,
+            bodies: options.bodies,
+            bearings: options.bearings,
+            free: options.free,
+            drive: options.drive.clone(),
+            load: options.load.clone(),
+            damping: MeshDamping::PerLength(0.0),
+            start_cycles: options.start_cycles,
         };
-        let mut free = options.free;
-        free[1 - running.driven()][COORDINATES - 1] = by_torque;
-        let coordinates = Coordinates::new(&pair, &running, free);
-        let mass = coordinates.mass(&options.bodies);
-        let nominal = Nominal { speed, start: options.start_cycles };
-        let sides = [running.side(), running.side().opposite()].map(|s| FlankSide::new(&pair, s, options.slices));
-        let mut bearing = [Square::zeros(); 2];
-        for (g, b) in options.bearings.iter().enumerate() {
-            let at = COORDINATES * g;
-            bearing[0].fixed_view_mut::<6, 6>(at, at).copy_from(&b.stiffness);
-            bearing[1].fixed_view_mut::<6, 6>(at, at).copy_from(&b.damping);
-        }
+        let bodies = PairBodies::new(pair, of_bodies);
         let share = 1.0 / options.slices as f64;
-        Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
+        Ok(Self { mass: bodies.mass_matrix(), options, bodies, sides, share })
     }
 
     /// The pair with another start, in mesh cycles, whole and part.
@@ -78,7 +71,7 @@ impl ImpactMechanism {
     /// # Errors
     /// As of [`Self::new`].
     pub fn beginning_at(&self, cycles: f64) -> Result<Self, LumpedError> {
-        Self::new(self.pair.clone(), ImpactOptions { start_cycles: cycles, ..self.options.clone() })
+        Self::new(self.pair().clone(), ImpactOptions { start_cycles: cycles, ..self.options.clone() })
     }
 
     /// The pair at its start, nominal motion stopped, under the mean of its load.
@@ -92,47 +85,42 @@ impl ImpactMechanism {
         };
         // A table has no mean: the torque that it begins with.
         let load = Torque::Constant(self.options.load.mean().unwrap_or_else(|| self.options.load.at(0.0)));
-        Self::new(self.pair.clone(), ImpactOptions { drive, load, ..self.options.clone() })
+        Self::new(self.pair().clone(), ImpactOptions { drive, load, ..self.options.clone() })
     }
 
     /// The pair.
     pub fn pair(&self) -> &GearPair {
-        &self.pair
+        self.bodies.pair()
     }
 
     /// Free coordinates.
     pub fn coordinates(&self) -> &Coordinates {
-        &self.coordinates
+        self.bodies.coordinates()
     }
 
     /// Nominal motion at a time, s.
     pub fn moment(&self, t: f64) -> NominalState {
-        self.nominal.at(&self.pair, &self.running, t)
+        self.bodies.nominal_state(t)
     }
 
     /// Mesh cycles at a time, s.
     pub fn cycles(&self, t: f64) -> f64 {
-        self.nominal.cycles(&self.pair, &self.running, t)
+        self.bodies.cycles(t)
     }
 
     fn standing(&self, t: f64) -> NominalPose {
         let station = Station::at_cycles(self.cycles(t));
-        let sign = self.running.contact.sense.sign();
-        let side = self.running.side();
-        let pinion_angle =
-            self.pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * self.pair.pinion.pitch_angle();
-        NominalPose {
-            pinion_angle,
-            shift: -sign * station.cycle,
-            wheel_angle: self.pair.wheel_angle(side, pinion_angle),
-        }
+        let (pair, statics) = (self.pair(), &self.bodies.options().statics);
+        let (sign, side) = (statics.contact.sense.sign(), statics.side());
+        let pinion_angle = pair.middle_angle(side) + sign as f64 * (station.phase - 0.5) * pair.pinion.pitch_angle();
+        NominalPose { pinion_angle, shift: -sign * station.cycle, wheel_angle: pair.wheel_angle(side, pinion_angle) }
     }
 
     fn poses(&self, at: &NominalPose, d: &Displacement) -> [Pose; 2] {
-        let angles = at.frame_angles(&self.pair);
+        let (pair, angles) = (self.pair(), at.frame_angles(self.pair()));
         [0, 1].map(|g| {
             let i = COORDINATES * g;
-            let [x, z] = [[0.0, 0.0], [self.pair.centre_distance(), self.pair.mid_face_offset()]][g];
+            let [x, z] = [[0.0, 0.0], [pair.centre_distance(), pair.mid_face_offset()]][g];
             let place = Vector3::new(x + d[i], d[i + 1], z + d[i + 2]);
             let tilt = UnitQuaternion::from_scaled_axis(Vector3::new(d[i + 3], d[i + 4], 0.0));
             let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angles[g] + d[i + 5]);
@@ -146,9 +134,10 @@ impl ImpactMechanism {
         let at = self.standing(t);
         let poses = self.poses(&at, d);
         let moment = self.moment(t);
-        let nominal = turning(&moment);
+        let nominal = PairBodies::turning(&moment);
         let velocity = rate + nominal;
-        let Self { pair, options, sides, share, .. } = self;
+        let Self { bodies, options, sides, share, .. } = self;
+        let pair = bodies.pair();
         let whole = pair.face_width() / pair.base_helix_angle().cos();
         sides.each_mut().map(|side| {
             let mut sum = FlankForce::none();
@@ -165,45 +154,14 @@ impl ImpactMechanism {
     /// Lag (mm on the base circle) at which two pairs over their whole width would carry the load at t = 0; below zero
     /// when the load drives.
     pub(super) fn guessed_lag(&self) -> f64 {
-        let driven = self.running.driven();
-        let radius = [&self.pair.pinion, &self.pair.wheel][driven].base_radius();
-        let cos = self.pair.base_helix_angle().cos();
+        let pair = self.pair();
+        let radius = [&pair.pinion, &pair.wheel][self.bodies.options().statics.driven()].base_radius();
+        let cos = pair.base_helix_angle().cos();
         let force = self.options.load.at(0.0) / (radius * cos);
         let overlap = (0.5 * force.abs() / self.options.law.stiffness).powf(self.options.law.exponent.recip()) / cos;
         // The coast flanks begin where the backlash ends.
-        if force < 0.0 { -overlap - self.pair.backlash() } else { overlap }
+        if force < 0.0 { -overlap - pair.backlash() } else { overlap }
     }
-
-    /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
-    fn external(&self, t: f64, moment: &NominalState) -> Displacement {
-        let driven = self.running.driven();
-        let turn = |g: usize| COORDINATES * (g + 1) - 1;
-        let mut f = Displacement::zeros();
-        f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
-        if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += moment.running_sense(1 - driven) * torque.at(t);
-        }
-        for (g, body) in self.options.bodies.iter().enumerate() {
-            f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
-        }
-        f
-    }
-
-    fn gyroscopic(&self, moment: &NominalState) -> Square {
-        let mut g = Square::zeros();
-        for (i, body) in self.options.bodies.iter().enumerate() {
-            let at = COORDINATES * i + 3;
-            g.fixed_view_mut::<3, 3>(at, at).copy_from(&body.gyroscopic(moment.velocity[i]));
-        }
-        g
-    }
-}
-
-/// Velocities of both gears in the nominal motion.
-fn turning(moment: &NominalState) -> Displacement {
-    let mut all = Displacement::zeros();
-    (all[COORDINATES - 1], all[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
-    all
 }
 
 impl Mechanism for ImpactMechanism {
@@ -214,35 +172,36 @@ impl Mechanism for ImpactMechanism {
     }
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
-        let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
+        let (d, rate) = (self.coordinates().displacement(q), self.coordinates().displacement(v));
         let moment = self.moment(t);
         let [driving, coast] = self.flank_forces(t, &d, &rate);
-        let external = self.external(t, &moment);
-        let gyroscopic = self.gyroscopic(&moment);
+        let external = self.bodies.external(t, &moment);
+        let gyroscopic = self.bodies.gyroscopic(&moment);
+        let bearing = self.bodies.bearings();
         let flanks = driving.damping + driving.friction + coast.damping + coast.friction;
-        let lossy = flanks - self.bearing[1] * rate;
+        let lossy = flanks - bearing[1] * rate;
         // Dampers and friction go against the whole motion of the flanks; what they take of the nominal part of it the
         // drive replaces.
-        let replaced = -flanks.dot(&turning(&moment));
+        let replaced = -flanks.dot(&PairBodies::turning(&moment));
         out.supplied = external.dot(&rate) + replaced;
         out.dissipated = replaced - lossy.dot(&rate);
         out.parametric = driving.parametric + coast.parametric;
-        let conservative = driving.elastic + coast.elastic - self.bearing[0] * d;
-        self.coordinates.add_force(&conservative, &mut out.conservative);
-        self.coordinates.add_force(&(external + lossy - gyroscopic * rate), &mut out.other);
+        let conservative = driving.elastic + coast.elastic - bearing[0] * d;
+        self.coordinates().add_force(&conservative, &mut out.conservative);
+        self.coordinates().add_force(&(external + lossy - gyroscopic * rate), &mut out.other);
         if out.tangents {
-            let stiffness = driving.stiffness + coast.stiffness + self.bearing[0];
-            let rates = driving.rates + coast.rates + self.bearing[1] + gyroscopic;
-            self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
-            self.coordinates.add_matrix(&rates, 1.0, &mut out.damping);
+            let stiffness = driving.stiffness + coast.stiffness + bearing[0];
+            let rates = driving.rates + coast.rates + bearing[1] + gyroscopic;
+            self.coordinates().add_matrix(&stiffness, 1.0, &mut out.stiffness);
+            self.coordinates().add_matrix(&rates, 1.0, &mut out.damping);
         }
         Ok(())
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
-        let d = self.coordinates.displacement(q);
+        let d = self.coordinates().displacement(q);
         let flanks: f64 = self.flank_forces(t, &d, &Displacement::zeros()).iter().map(|f| f.potential).sum();
-        Ok(flanks + 0.5 * d.dot(&(self.bearing[0] * d)))
+        Ok(flanks + 0.5 * d.dot(&(self.bodies.bearings()[0] * d)))
     }
 
     fn events(&self) -> usize {
@@ -251,10 +210,10 @@ impl Mechanism for ImpactMechanism {
 
     /// Deepest overlap of the driving and of the coast flanks, mm: positive in contact.
     fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
-        let d = self.coordinates.displacement(q);
+        let d = self.coordinates().displacement(q);
         for (force, value) in self.flank_forces(t, &d, &Displacement::zeros()).iter().zip(out) {
             // Teeth so far apart that no slice faces another are a whole module away.
-            *value = force.overlap.max(-self.pair.pinion.data().normal_module);
+            *value = force.overlap.max(-self.pair().pinion.data().normal_module);
         }
         Ok(())
     }

@@ -27,6 +27,9 @@ const SHEAR_ORDERS: u32 = 2000;
 pub fn body_compliance(pair: &GearPair, young: [f64; 2], poisson: [f64; 2]) -> [f64; 2] {
     let path = pair.transverse_contact_ratio() * pair.transverse_base_pitch();
     let tan = pair.base_helix_angle().tan();
+    if tan == 0.0 {
+        return [0.0; 2];
+    }
     let gears = [&pair.pinion, &pair.wheel];
     [0, 1].map(|i| {
         let (gear, radius) = (gears[i], pair.working_radii()[i]);
@@ -53,15 +56,56 @@ pub(crate) fn axial_compliance(gear: &Gear, radius: f64, half_arc: f64, young: f
     let shear = SHEAR * young * width / (2.0 * (1.0 + poisson));
     let plate = Plate { inner: 0.5 * gear.data().bore_diameter / edge, poisson };
     let lever = radius / edge - 1.0;
-    // Load of order n over the load of a point, squared: it spreads the force and averages the deflection.
-    let spread = |n: u32| match f64::from(n) * half_arc {
-        0.0 => 1.0,
-        x => (x.sin() / x).powi(2),
-    };
-    let share = |n: u32| if n == 0 { 0.5 / PI } else { spread(n) / PI };
-    let bending: f64 = (0..=BENDING_ORDERS).map(|n| share(n) * plate.deflection(n, lever)).sum();
-    let sheared: f64 = (0..=SHEAR_ORDERS).map(|n| share(n) * plate.sheared(n)).sum();
+    let share = |n: u32, spread: f64| if n == 0 { 0.5 / PI } else { spread / PI };
+    let (mut bending, mut sheared) = (0.0, 0.0);
+    let mut orders = Orders::new(half_arc, plate.inner);
+    for n in 0..=SHEAR_ORDERS {
+        let (spread, stiffened) = orders.next();
+        if n <= BENDING_ORDERS {
+            bending += share(n, spread) * plate.deflection(n, lever);
+        }
+        sheared += share(n, spread) * plate.sheared(n, stiffened);
+    }
     bending * edge * edge / rigidity + sheared / shear
+}
+
+/// What each order n = 0, 1, .. has of the one before it: sines by addition of angles, powers by products. Round-off
+/// grows as n, the series falls as n^3.
+struct Orders {
+    /// n.
+    order: f64,
+    half_arc: f64,
+    /// Sine and cosine of the half arc, and of n times it.
+    step: [f64; 2],
+    at: [f64; 2],
+    /// Inner radius squared, and its power n.
+    square: f64,
+    power: f64,
+}
+
+impl Orders {
+    fn new(half_arc: f64, inner: f64) -> Self {
+        let (sin, cos) = half_arc.sin_cos();
+        Self { order: 0.0, half_arc, step: [sin, cos], at: [0.0, 1.0], square: inner * inner, power: 1.0 }
+    }
+
+    /// Of the next order, from 0 on: load over the load of a point, squared, for the arc spreads the force and averages
+    /// the deflection; and n times the deflection at the edge by shear alone, under a line load of amplitude 1 and a
+    /// shear stiffness of 1, of no meaning for n = 0.
+    ///
+    /// ```text
+    /// [sin(n phi) / (n phi)]^2,   (1 - a^2n) / (1 + a^2n)
+    /// ```
+    fn next(&mut self) -> (f64, f64) {
+        let ([s, c], [sin, cos]) = (self.at, self.step);
+        let x = self.order * self.half_arc;
+        let spread = if x == 0.0 { 1.0 } else { (s / x) * (s / x) };
+        let stiffened = (1.0 - self.power) / (1.0 + self.power);
+        self.order += 1.0;
+        self.at = [s * cos + c * sin, c * cos - s * sin];
+        self.power *= self.square;
+        (spread, stiffened)
+    }
 }
 
 /// Ring-shaped plate, clamped at radius `inner` and free at radius 1; rigidity 1.
@@ -110,8 +154,7 @@ impl Plate {
     fn solutions(&self, n: u32, r: f64) -> [Edge; 4] {
         let ln = r.ln();
         let power = |p: i32, at: f64| {
-            let (s, p) = (r / at, f64::from(p));
-            let w = s.powf(p);
+            let (w, p) = ((r / at).powi(p), f64::from(p));
             [w, p * w / r, p * (p - 1.0) * w / (r * r), p * (p - 1.0) * (p - 2.0) * w / r.powi(3)]
         };
         let a = self.inner;
@@ -139,14 +182,10 @@ impl Plate {
             }
         })
     }
-
-    /// Deflection at the edge by shear alone, under a line load of amplitude 1 and a shear stiffness of 1.
-    fn sheared(&self, n: u32) -> f64 {
-        if n == 0 {
-            return -self.inner.ln();
-        }
-        let (order, inner) = (f64::from(n), self.inner.powf(2.0 * f64::from(n)));
-        (1.0 - inner) / (1.0 + inner) / order
+    /// Deflection of order n at the edge by shear alone, under a line load of amplitude 1 and a shear stiffness of 1;
+    /// `stiffened` is n times it, of no meaning for n = 0.
+    fn sheared(&self, n: u32, stiffened: f64) -> f64 {
+        if n == 0 { -self.inner.ln() } else { stiffened / f64::from(n) }
     }
 }
 
@@ -178,7 +217,23 @@ mod tests {
         let e = 0.5 * l;
         let strip = l.powi(3) / 3.0 + l * l * e + l * e * e;
         assert!((plate.deflection(0, e) / strip - 1.0).abs() < 3e-3);
-        assert!((plate.sheared(0) / l - 1.0).abs() < 1e-3);
+        assert!((plate.sheared(0, 0.0) / l - 1.0).abs() < 1e-3);
+    }
+
+    /// Sines and powers that follow from each other are those of each order by itself, to the last of them.
+    #[test]
+    fn orders_follow_from_each_other() {
+        let (arc, inner) = (0.37, 0.99f64);
+        let mut orders = Orders::new(arc, inner);
+        orders.next();
+        for n in 1..=SHEAR_ORDERS {
+            let ((spread, stiffened), x) = (orders.next(), f64::from(n) * arc);
+            // Of what a point would give, which is 1.
+            assert!((spread - (x.sin() / x).powi(2)).abs() < 1e-15, "order {n}: {spread}");
+            let power = inner.powf(2.0 * f64::from(n));
+            let exact = (1.0 - power) / (1.0 + power);
+            assert!((stiffened / exact - 1.0).abs() < 1e-12, "order {n}: {stiffened}, not {exact}");
+        }
     }
 
     /// Order 1 under its own load with a clamp at a point would be a tilt: for a small bore it grows without bound,

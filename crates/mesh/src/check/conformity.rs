@@ -40,10 +40,14 @@ pub(super) fn check(mesh: &Mesh, table: &FaceTable, findings: &mut Vec<Finding>)
     report(&crossed(&triangles), "pairs of triangles meet pairs with the other diagonal: tetrahedra not joined");
 }
 
+/// Nodes of a face at most.
+const MOST_NODES: usize = 9;
+
 /// Faces of two elements whose middle nodes differ.
 fn of_other_nodes(mesh: &Mesh, table: &FaceTable) -> Vec<FaceOwner> {
     let sorted = |face: &Face| {
-        let mut nodes = face.nodes().to_vec();
+        let mut nodes = [u32::MAX; MOST_NODES];
+        nodes.iter_mut().zip(face.nodes()).for_each(|(own, node)| *own = *node);
         nodes.sort_unstable();
         nodes
     };

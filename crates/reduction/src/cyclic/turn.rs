@@ -83,7 +83,8 @@ fn node_images(nodes: &[[f64; 3]], pitch: f64, tolerance: f64) -> Option<Vec<u32
         .iter()
         .map(|&[x, y, z]| {
             let image = [cos * x - sin * y, sin * x + cos * y, z];
-            let near = (0..27).find_map(|s: i64| {
+            // Mostly it is in the cell itself, the middle one of those about it.
+            let near = std::iter::once(13).chain(0..27).find_map(|s: i64| {
                 let around = grid.get(&key(image, [s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1]))?;
                 around.iter().copied().find(|&j| {
                     let q = nodes[j as usize];

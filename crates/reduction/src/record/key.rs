@@ -65,8 +65,7 @@ fn mesh(hasher: &mut Hasher, gear: &MeshedGear) {
         hasher.update(b"clockwise");
     }
     number(hasher, mesh.nodes.len() as u64);
-    let nodes: Vec<u8> = mesh.nodes.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
-    hasher.update(&nodes);
+    update(hasher, mesh.nodes.as_flattened(), |x| x.to_le_bytes());
     for block in &mesh.blocks {
         number(hasher, block.kind.gmsh_type() as u64);
         numbers(hasher, &block.connectivity);
@@ -98,6 +97,14 @@ fn number(hasher: &mut Hasher, value: u64) {
 /// A list with its length before it, so that two lists never run into each other.
 fn numbers(hasher: &mut Hasher, values: &[u32]) {
     number(hasher, values.len() as u64);
-    let bytes: Vec<u8> = values.iter().flat_map(|v| v.to_le_bytes()).collect();
-    hasher.update(&bytes);
+    update(hasher, values, |v| v.to_le_bytes());
+}
+
+/// Bytes of values, so many at a time that they stay near.
+fn update<T: Copy, const N: usize>(hasher: &mut Hasher, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
+    let mut near = [[0; N]; 512];
+    for part in values.chunks(near.len()) {
+        near.iter_mut().zip(part).for_each(|(to, value)| *to = bytes(*value));
+        hasher.update(near[..part.len()].as_flattened());
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use faer::{Mat, MatRef};
+use faer::Mat;
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord, write::checksum};
@@ -77,13 +77,13 @@ impl<'a> Cursor<'a> {
     fn list(&mut self) -> Result<Vec<u32>, RecordError> {
         let count = self.count()?;
         let bytes = self.take(4 * count)?;
-        Ok(bytes.chunks_exact(4).map(|c| u32::from_le_bytes(part(c, 0))).collect())
+        Ok(bytes.as_chunks().0.iter().map(|c| u32::from_le_bytes(*c)).collect())
     }
 
     fn values(&mut self, count: usize) -> Result<Vec<f64>, RecordError> {
         let size = count.checked_mul(8).ok_or_else(|| self.wrong("a list longer than the file"))?;
         let bytes = self.take(size)?;
-        Ok(bytes.chunks_exact(8).map(|c| f64::from_le_bytes(part(c, 0))).collect())
+        Ok(bytes.as_chunks().0.iter().map(|c| f64::from_le_bytes(*c)).collect())
     }
 
     /// A matrix that must have so many rows and columns.
@@ -93,8 +93,9 @@ impl<'a> Cursor<'a> {
             return Err(self.wrong("a matrix of another size than its nodes"));
         }
         let count = rows.checked_mul(columns).ok_or_else(|| self.wrong("a list longer than the file"))?;
-        let values = self.values(count)?;
-        Ok(MatRef::from_column_major_slice(&values, rows, columns).to_owned())
+        let size = count.checked_mul(8).ok_or_else(|| self.wrong("a list longer than the file"))?;
+        let (values, _) = self.take(size)?.as_chunks();
+        Ok(Mat::from_fn(rows, columns, |i, j| f64::from_le_bytes(values[j * rows + i])))
     }
 
     fn side(&mut self) -> Result<Side, RecordError> {

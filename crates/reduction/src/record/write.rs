@@ -86,7 +86,7 @@ fn list(bytes: &mut Vec<u8>, values: &[u32]) {
 fn matrix(bytes: &mut Vec<u8>, m: &Mat<f64>) {
     put(bytes, m.nrows());
     put(bytes, m.ncols());
-    for column in m.col_iter() {
-        column.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+    for j in 0..m.ncols() {
+        bytes.extend(m.col_as_slice(j).iter().flat_map(|v| v.to_le_bytes()));
     }
 }

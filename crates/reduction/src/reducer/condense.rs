@@ -67,6 +67,14 @@ impl Condensed {
     }
 }
 
+/// A gear whose method is ready, and the window that is to be reduced first.
+struct Ready {
+    gear: MeshedGear,
+    coordinates: Coordinates,
+    first: Opened,
+    method: Method,
+}
+
 /// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is; `watch` hears
 /// what is begun and may lose interest.
 pub(super) fn condense<E: From<ReductionError>>(
@@ -76,6 +84,37 @@ pub(super) fn condense<E: From<ReductionError>>(
     (general, watch): (bool, ReductionWatch<'_>),
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
+    let ready = ready(gear, material, options, (general, watch), coordinates)?;
+    let Ready { gear, coordinates, first, method } = ready;
+    let compliance = match &method {
+        Method::Cyclic(cyclic) => cyclic.compliance(),
+        Method::General(factor, _) => {
+            (watch.tell)(ReductionStage::Compliance);
+            let seen = if coordinates.are_nodes() { Seen::Last } else { Seen::Loads(&first.loads) };
+            factor.compliance(seen, watch.wanted)?
+        }
+    };
+    Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
+}
+
+/// The method of a gear that was condensed to its flank nodes before, without its compliance, which is known.
+pub(super) fn method_again(
+    gear: MeshedGear,
+    material: &Material,
+    options: &ReductionOptions,
+    general: bool,
+) -> Result<Method, ReductionError> {
+    let nodes = |_: &MeshedGear| Ok::<_, ReductionError>(Coordinates::FlankNodes);
+    Ok(ready(gear, material, options, (general, ReductionWatch::IDLE), nodes)?.method)
+}
+
+fn ready<E: From<ReductionError>>(
+    gear: MeshedGear,
+    material: &Material,
+    options: &ReductionOptions,
+    (general, watch): (bool, ReductionWatch<'_>),
+    coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
+) -> Result<Ready, E> {
     let mut turn = PitchTurn::of_gear(&gear);
     // The means of a bore join all sectors.
     let general = general || gear.bore_coupling() == BoreCoupling::Distributing;
@@ -89,10 +128,8 @@ pub(super) fn condense<E: From<ReductionError>>(
         let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, nodes, watch.wanted)?;
         if let Some(cyclic) = cyclic {
             unless_unwanted(watch.wanted).map_err(ReductionError::from)?;
-            let compliance = cyclic.compliance();
             let method = Method::Cyclic(Box::new(cyclic));
-            let gear = copies.unwrap_or(gear);
-            return Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)));
+            return Ok(Ready { gear: copies.unwrap_or(gear), coordinates, first, method });
         }
     }
     let gear = if gear.is_periodic_sector() {
@@ -104,14 +141,11 @@ pub(super) fn condense<E: From<ReductionError>>(
     };
     let coordinates = coordinates(&gear)?;
     let first = Opened::new(&gear, &coordinates, options)?;
-    let (last, seen) =
-        if coordinates.are_nodes() { (&first.nodes[..], Seen::Last) } else { (&[][..], Seen::Loads(&first.loads)) };
+    let last = if coordinates.are_nodes() { &first.nodes[..] } else { &[] };
     (watch.tell)(ReductionStage::Factor { free_count: 3 * (gear.mesh().nodes.len() - gear.held_nodes().len()) });
     let factor = GeneralGear::new(&gear, material, &options.elements, last, watch.wanted)?;
-    (watch.tell)(ReductionStage::Compliance);
-    let compliance = factor.compliance(seen, watch.wanted)?;
     let method = Method::General(Box::new(factor), turn);
-    Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
+    Ok(Ready { gear, coordinates, first, method })
 }
 
 /// A window before it is reduced.

@@ -14,7 +14,7 @@ use mesh::{Face, MeshedGear};
 
 use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load::Coordinates};
 use asked::Asked;
-use condense::{Condensed, condense};
+use condense::{Condensed, condense, method_again};
 
 pub use options::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 
@@ -140,8 +140,7 @@ impl GearReducer {
         let again = || {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
-            let nodes = |_: &MeshedGear| Ok::<_, ReductionError>(Coordinates::FlankNodes);
-            Ok(condense(gear, &self.material, &self.options, (general, ReductionWatch::IDLE), nodes)?.1)
+            method_again(gear, &self.material, &self.options, general)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }

@@ -95,7 +95,7 @@ pub fn colour(k: usize) -> String {
 /// JSON for the script, to be put into a page as it is: nothing in it can end the element that holds it.
 pub fn embedded(class: &str, data: &impl Serialize) -> String {
     // Numbers, and texts of this program: JSON refuses none of them.
-    let json = serde_json::to_string(data).unwrap_or_default().replace('<', "\\u003c");
+    let json = answer::json(data).unwrap_or_default().replace('<', "\\u003c");
     format!("<script type=\"application/json\" class=\"{class}\">{json}</script>")
 }
 

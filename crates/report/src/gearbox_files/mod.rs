@@ -1,5 +1,6 @@
 //! The answer about a gearbox: positions, shaft lines, line loads, vibration, rows in time, headline numbers, page.
 
+mod branch;
 mod motion;
 mod page;
 mod space;
@@ -11,16 +12,17 @@ mod vibration_rows;
 use analysis::gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult};
 use answer::{Answer, Cost, Table};
 use columns::gearbox as rows;
+use described::Key;
 use scene::gearbox::Gearbox;
 use serde_json::json;
 use study::Campbell;
 
-use crate::{ReportError, Written, answer_files::Object, write_result};
+use crate::{ReportError, Written, branch_files, write_result};
 use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
-/// `motion_orders`.
+/// `motion_orders`; of a branch over the speed `branch`, `bifurcations`, `in_time`.
 pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Answer {
     let mut tables = vec![
         rows::positions(file, &result.positions),
@@ -43,6 +45,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
             tables.push(vibration_rows::motion_orders(file, &own.orders));
         }
     }
+    tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
     Answer {
         kind: "gearbox",
         name: file.name.clone(),
@@ -57,7 +60,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
 }
 
 /// Tables of a gearbox without rows, and objects of its summary with their keys, for `docs/outputs.md`.
-pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<Object>) {
+pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<Key>)>) {
     let line = |name: &str| ExcitationLine { name: name.to_owned(), order: 1.0 };
     let (frequencies, orders) = (vec![Vec::new()], vec![1.0, 1.0]);
     let none = VibrationResult {
@@ -75,7 +78,7 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<Object>) {
         orders: Vec::new(),
         rms: Vec::new(),
     };
-    let tables = vec![
+    let mut tables = vec![
         rows::positions(file, &[]),
         rows::shafts(file, &[]),
         rows::line_loads(&[], &[]),
@@ -88,7 +91,9 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<Object>) {
         rows::motion(file, &[]),
         vibration_rows::motion_orders(file, &[]),
     ];
-    (tables, summary::OBJECTS.iter().chain(&motion::OBJECTS).copied().collect())
+    tables.extend(branch_files::tables(&branch::without_rows(file)));
+    let objects = summary::OBJECTS.iter().chain(&motion::OBJECTS).map(|(name, keys)| (*name, keys.to_vec()));
+    (tables, objects.chain(branch::objects()).collect())
 }
 
 /// Writes all files of a gearbox, `summary.json` last: where it is, everything is. What comes back is the closing table.

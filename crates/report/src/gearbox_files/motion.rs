@@ -7,7 +7,7 @@ use analysis::{
     motion::RPM,
 };
 use described::Key;
-use gearbox::motion::GearboxInstant;
+use gearbox::motion::{GearboxInstant, ReductionCertificate};
 use scene::gearbox::Gearbox;
 use serde::Serialize;
 
@@ -112,7 +112,7 @@ described::described! {
 
     /// Reduction of the shafts.
     #[derive(Serialize)]
-    struct ShaftReductionSummary {
+    pub(super) struct ShaftReductionSummary {
         /// degrees of freedom of all nodes
         dof: usize,
         /// degrees of freedom that are kept
@@ -161,7 +161,6 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
         BearingMotion { name: &b.name, min_radial_force_n: force.least, max_radial_force_n: force.largest }
     });
     let energy = &motion.energy;
-    let reduction = &motion.reduction;
     Some(MotionSummary {
         rows: motion.rows.len(),
         step_s: motion.step,
@@ -184,15 +183,20 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
             relative_residual: energy.relative_residual,
             open_over_vibration: energy.open_over_vibration,
         },
-        reduction: ShaftReductionSummary {
-            dof: reduction.coordinates[0],
-            dof_kept: reduction.coordinates[1],
-            kept_modes: reduction.modes,
-            highest_frequency_hz: reduction.limit / TAU,
-            frequencies_compared: reduction.compared,
-            frequency_error: reduction.error,
-        },
+        reduction: reduction_summary(&motion.reduction),
     })
+}
+
+/// How well the shafts were reduced.
+pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReductionSummary {
+    ShaftReductionSummary {
+        dof: reduction.coordinates[0],
+        dof_kept: reduction.coordinates[1],
+        kept_modes: reduction.modes,
+        highest_frequency_hz: reduction.limit / TAU,
+        frequencies_compared: reduction.compared,
+        frequency_error: reduction.error,
+    }
 }
 
 /// Meshes and bearings in motion, charts over time, and over speed of a run-up.

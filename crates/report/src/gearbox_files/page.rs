@@ -8,7 +8,7 @@ use gearbox::{GearboxPosition, ShaftLine, line_load};
 use minijinja::context;
 use scene::gearbox::Gearbox;
 
-use super::{motion, norm, space::BoxInSpace, vibration};
+use super::{branch, motion, norm, space::BoxInSpace, vibration};
 use crate::{
     ReportError,
     charts::{Curve, embedded, line_chart},
@@ -48,6 +48,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
         vibration::parts(file, asked, swings).into_iter().for_each(|part| page.push(part));
     }
     motion::parts(file, result).into_iter().for_each(|part| page.push(part));
+    branch::parts(file, result).into_iter().for_each(|part| page.push(part));
     page.push(Page::trust(answer).note(
         "Not in it: what the meshes of the gears, round shafts, linear bearings and rigid rings leave out. Gears are rigid \
          in their bores and sit on a section of the shaft.",

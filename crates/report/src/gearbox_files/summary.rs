@@ -13,6 +13,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 
 use super::{
+    branch::BranchSummary,
     motion::{MotionSummary, summary},
     swing_words::{bearing_peaks, first_modes, holders, mesh_peaks},
 };
@@ -36,6 +37,9 @@ described::described! {
         accuracy: Option<&'a Accuracy>,
         /// motion; `null` at rest alone
         motion: Option<MotionSummary<'a>>,
+        /// periodic motions over the speed; missing where none are asked for
+        #[serde(skip_serializing_if = "Option::is_none")]
+        branch: Option<BranchSummary<'a>>,
         /// vibration; missing where none is asked for
         #[serde(skip_serializing_if = "Option::is_none")]
         vibration: Option<VibrationSummary<'a>>,
@@ -242,6 +246,7 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
             .collect(),
         positions: result.positions.len(),
         motion: summary(file, result),
+        branch: result.branch.as_ref().map(|own| BranchSummary::new(result, own)),
         vibration: file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own)),
     })
 }

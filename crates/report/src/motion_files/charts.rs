@@ -3,11 +3,11 @@
 use analysis::motion::{CampbellDiagram, MotionSpectrum, RPM, RunUp, RunUpCycle, SweepRow, WaterfallLine};
 use dynamics::Speed;
 use scene::SweepWay;
-use study::{Columns, StudyError, extent};
+use study::{StudyError, extent};
 
 use super::{SPECTRA, spectra};
 use crate::charts::{Curve, FieldMap, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart};
-use answer::Numbers;
+use answer::{Numbers, Table};
 use columns::motion_history::{MESH_PHASE, TIME};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
@@ -25,9 +25,9 @@ const DECADES: f64 = 4.0;
 #[derive(Debug, Clone, Copy)]
 pub struct MotionPictures<'a> {
     /// Rows of the history.
-    pub rows: &'a Columns,
+    pub rows: &'a Table,
     /// Rows of the ledger.
-    pub energy: &'a Columns,
+    pub energy: &'a Table,
     /// Spectra, at constant speed.
     pub spectrum: Option<&'a MotionSpectrum>,
     /// Waterfall of a run-up; else empty.
@@ -48,8 +48,8 @@ pub struct MotionPictures<'a> {
 /// [`StudyError`] for rows without a column that every motion has.
 pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError> {
     let steady = of.ramp.is_none();
-    let first = if steady { of.rows.len().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
-    let time = &of.rows.series(TIME.name)?[first..];
+    let first = if steady { of.rows.rows().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
+    let time = &series(of.rows, TIME.name)?[first..];
     let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
     let unit = 1e3;
     // Of a ramp everything is drawn over the speed that it is made for.
@@ -75,18 +75,22 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
     let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
     let sharing: Vec<Curve> = of
         .rows
-        .names_from("normal_force_pair_")
-        .into_iter()
+        .names()
+        .filter(|n| n.starts_with("normal_force_pair_"))
         .filter(|n| of.rows.find(n).is_some_and(|all| extent(all)[1] > 0.0))
         .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
         .collect();
     let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
-    let energy_time = of.energy.series(TIME.name)?;
+    let energy_time = series(of.energy, TIME.name)?;
     let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
         if steady { ("time [s]", &|t| t) } else { (axis, &place) };
     let residual = Curve {
         label: "residual".into(),
-        points: energy_time.iter().zip(of.energy.series("residual_mj")?).map(|(t, x)| (energy_place(*t), *x)).collect(),
+        points: energy_time
+            .iter()
+            .zip(series(of.energy, "residual_mj")?)
+            .map(|(t, x)| (energy_place(*t), *x))
+            .collect(),
     };
     let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, run_up)| run_up_charts(run_up, &speed_axis(teeth)));
     all.extend([
@@ -104,11 +108,9 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
         line_chart("Tilting moment about y", axis, "moment [N mm]", &moments, false),
     ]);
     for gear in ["pinion", "wheel"] {
-        let names = of.rows.names_from(&format!("{gear}_bearing_force_"));
-        let curves: Vec<Curve> = names
-            .into_iter()
-            .map(|n| curve(n.trim_start_matches(&format!("{gear}_bearing_force_")).trim_end_matches("_n"), n))
-            .collect();
+        let beginning = format!("{gear}_bearing_force_");
+        let names = of.rows.names().filter_map(|name| Some((name, name.strip_prefix(&beginning)?)));
+        let curves: Vec<Curve> = names.map(|(name, axis)| curve(axis.trim_end_matches("_n"), name)).collect();
         all.push(line_chart(&format!("Bearing force of the {gear}"), axis, "force [N]", &curves, false));
     }
     if let Some(spectrum) = of.spectrum {
@@ -118,6 +120,11 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
     all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
     Ok(all.into_iter().flatten().collect())
+}
+
+/// The column of that name.
+fn series<'t>(of: &'t Table, name: &str) -> Result<&'t [f64], StudyError> {
+    of.find(name).ok_or_else(|| StudyError::NoColumn { name: name.to_owned() })
 }
 
 /// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
@@ -162,7 +169,7 @@ fn repeated(
     begin: f64,
     unit: f64,
 ) -> Result<Vec<(f64, f64)>, StudyError> {
-    let phases = of.rows.series(MESH_PHASE.name)?;
+    let phases = series(of.rows, MESH_PHASE.name)?;
     let phases = &phases[phases.len() - time.len()..];
     let n = ste.len();
     let at = |phase: f64| {

@@ -40,8 +40,8 @@ impl Rendered {
         let held = Source { template: template.to_owned(), context: context.clone() };
         // Little is gained by packing numbers harder, and every run waits for it.
         let mut packed = GzEncoder::new(Vec::new(), Compression::fast());
-        let json = serde_json::to_vec(&held).map_err(|e| failed(&e))?;
-        packed.write_all(&json).map_err(|e| failed(&e))?;
+        let json = answer::json(&held).map_err(|e| failed(&e))?;
+        packed.write_all(json.as_bytes()).map_err(|e| failed(&e))?;
         Ok(Self { html: render(template, context)?, source: packed.finish().map_err(|e| failed(&e))? })
     }
 

@@ -1,6 +1,6 @@
-//! Rows of many motions of a reduced-order model as tables: over a key, along a branch, from many starts.
+//! Rows of many motions of a reduced-order model as tables: over a key, from many starts.
 
-use analysis::lumped::{Attractor, BasinStart, BranchPoint, BranchTurn, LossName, SweepOptions, SweepPoint, TimePoint};
+use analysis::lumped::{Attractor, BasinStart, SweepOptions, SweepPoint};
 use answer::Table;
 
 use super::rows::{PERIODICITY, STATUS};
@@ -44,79 +44,6 @@ pub(crate) fn bifurcation(options: &SweepOptions, points: &[SweepPoint]) -> Tabl
         .numbers(options.key.clone(), "value of the key", all().map(|r| r.0.value))
         .numbers("point", "number of the point, from 0", all().map(|r| r.1 as f64))
         .numbers(options.quantity.name.clone(), "value of the section's column", all().map(|r| r.2))
-}
-
-/// Columns of motions along a branch.
-fn of_branch(mut table: Table, key: &'static str, points: &[&BranchPoint]) -> Table {
-    let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&BranchPoint) -> f64| {
-        table.push_numbers(name, meaning, points.iter().map(|p| of(p)));
-    };
-    push(key.into(), "value of the key", &|p| p.value);
-    push("stable".into(), "stability: 1 disturbances fade; 0 they grow, and no run in time shows this motion", &|p| {
-        f64::from(u8::from(p.is_stable))
-    });
-    push(
-        "largest_multiplier".into(),
-        "size of the largest Floquet multiplier, the growth of a disturbance in a period; the free rotation of the gears is left out",
-        &|p| p.largest_multiplier,
-    );
-    push("mean_dte_um".into(), "mean dynamic transmission error of the period", &|p| p.mean_dte_um);
-    push("peak_to_peak_dte_um".into(), "peak to peak of the dynamic transmission error of the period", &|p| {
-        p.peak_to_peak_dte_um
-    });
-    push("rms_dte_um".into(), "root mean square of the dynamic transmission error about its mean", &|p| p.rms_dte_um);
-    for k in 0..5 {
-        push(
-            format!("dte_harmonic_{}_um", k + 1),
-            "amplitude of a mesh harmonic of the dynamic transmission error, 1 to 5",
-            &|p| p.dte_harmonics_um[k],
-        );
-    }
-    push("min_normal_force_n".into(), "smallest normal force on the driving flanks", &|p| p.min_normal_force_n);
-    push("max_normal_force_n".into(), "largest normal force on the driving flanks", &|p| p.max_normal_force_n);
-    push("share_apart".into(), "share of the period in which the driving flanks do not press", &|p| p.share_apart);
-    push("harmonics".into(), "harmonics of the period that the motion is made of", &|p| p.harmonics as f64);
-    push("newton_steps".into(), "Newton steps of the motion", &|p| p.newton_steps as f64);
-    push("residual".into(), "residual of the balance of forces, over the forces", &|p| p.residual);
-    push("tail".into(), "bound of the vibration that further harmonics would add, over the vibration", &|p| p.tail);
-    table
-}
-
-/// `branch`: one row a motion, in the order of the branch.
-pub(crate) fn branch(key: &'static str, points: &[BranchPoint]) -> Table {
-    of_branch(Table::new("branch"), key, &points.iter().collect::<Vec<_>>())
-}
-
-/// `bifurcations`: one row a fold, period doubling or torus bifurcation.
-pub(crate) fn turns(key: &'static str, turns: &[BranchTurn]) -> Table {
-    let name = |loss: LossName| match loss {
-        LossName::Fold => "fold",
-        LossName::PeriodDoubling => "period-doubling",
-        LossName::Torus => "torus",
-    };
-    let kinds = turns.iter().map(|turn| name(turn.loss));
-    let table = Table::new("bifurcations").texts(
-        "bifurcation",
-        "kind of bifurcation: `fold`, `period-doubling` or `torus`",
-        kinds,
-    );
-    of_branch(table, key, &turns.iter().map(|turn| &turn.point).collect::<Vec<_>>())
-}
-
-/// `in_time`: one row a motion that was integrated in time.
-pub(crate) fn in_time(key: &'static str, all: &[TimePoint]) -> Table {
-    Table::new("in_time")
-        .numbers(key, "value of the key", all.iter().map(|p| p.value))
-        .numbers(
-            "peak_to_peak_dte_um",
-            "peak to peak of the dynamic transmission error, integrated in time",
-            all.iter().map(|p| p.peak_to_peak_dte_um),
-        )
-        .numbers(
-            "branch_peak_to_peak_dte_um",
-            "peak to peak of the dynamic transmission error of the motion of the branch",
-            all.iter().map(|p| p.branch_peak_to_peak_dte_um),
-        )
 }
 
 /// `basins`: one row a start; NaN where no motion comes out.

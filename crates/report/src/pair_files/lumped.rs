@@ -4,8 +4,8 @@ use analysis::{
     lumped::{LumpedHeadline, LumpedResult},
     motion::speed,
 };
+use answer::Table;
 use scene::Scene;
-use study::Columns;
 
 use super::{
     common::{Shown, cycles, errors, harmonics, key, pair_answer, pair_page},
@@ -53,11 +53,10 @@ pub(super) fn write_lumped_result(
     ];
     tables.extend(campbell.as_ref().map(rows::lumped_campbell));
     tables.extend(run_up.as_ref().map(rows::cycles));
-    let (all, section) = (history.columns(&layout, &result.rows), history.columns(&layout, result.section()));
     let static_errors: Option<Vec<f64>> = result.static_cycle.as_ref().map(|all| all.iter().map(|p| p.error).collect());
     let pictures = MotionPictures {
-        rows: &all,
-        energy: &energy.columns(&(), &result.energy),
+        rows: &tables[0],
+        energy: &tables[1],
         spectrum: Some(spectrum),
         waterfall: &[],
         ramp: run_up.as_ref().map(|p| (speed(scene), scene.driver_teeth(), p)),
@@ -68,7 +67,7 @@ pub(super) fn write_lumped_result(
     let mut charts = motion_charts(&pictures)?;
     for (name, whose) in PORTRAITS {
         charts.extend(displacement(&pictures, name, whose));
-        charts.extend(portrait(&all, &section, name, whose));
+        charts.extend(portrait(&tables[0], &tables[2], name, whose));
     }
     charts.extend(campbell.as_ref().and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
     let frequencies = Line::number("", h.mesh_resonance_hz, 0, "").value;
@@ -142,7 +141,7 @@ fn lines(h: &LumpedHeadline) -> Vec<Line> {
 }
 
 /// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.
-fn plane(rows: &Columns, name: &str) -> Vec<(f64, f64)> {
+fn plane(rows: &Table, name: &str) -> Vec<(f64, f64)> {
     let of = |unit: &str| rows.find(&format!("{name}_{unit}")).unwrap_or_default();
     let (x, v) = (of("um"), of("rate_um_per_s"));
     x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect()
@@ -159,7 +158,7 @@ fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<Stri
 }
 
 /// Velocity over displacement, and the same once a mesh cycle: phase portrait with its Poincare section.
-fn portrait(rows: &Columns, section: &Columns, name: &str, whose: &str) -> Option<String> {
+fn portrait(rows: &Table, section: &Table, name: &str, whose: &str) -> Option<String> {
     let motion = Curve { label: "motion".into(), points: plane(rows, name) };
     let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
     let title = format!("Phase portrait of {whose}, and its Poincare section");

@@ -55,8 +55,8 @@ pub(super) fn write_motion_result(
     }
     tables.extend(write_patterns(scene, patterns, results)?);
     let pictures = MotionPictures {
-        rows: &history.columns(layout, all),
-        energy: &energy.columns(&(), all.iter().map(|r| &r.energy)),
+        rows: &tables[0],
+        energy: &tables[1],
         spectrum: spectrum.as_ref(),
         waterfall: ramp.as_ref().map_or(&[], |r| &r.waterfall),
         ramp: ramp.as_ref().map(|r| (speed(scene), scene.driver_teeth(), &r.run_up)),
@@ -64,6 +64,7 @@ pub(super) fn write_motion_result(
         per_cycle,
         quasi_static: Some(&result.quasi_static.transmission_error),
     };
+    let charts = motion_charts(&pictures)?;
     let answer = pair_answer(scene, (facts, cost), h, remarks, tables);
     let pattern = Part::new("Contact pattern").figures(pattern_figure(patterns));
     let shown = Shown {
@@ -75,7 +76,7 @@ pub(super) fn write_motion_result(
         ),
         key: keys(h),
         over: if h.ramp.is_some() { "Over speed" } else { "Over time" }.into(),
-        charts: motion_charts(&pictures)?,
+        charts,
         after: vec![pattern],
         headline: lines(h, facts),
         solved: solved(h),

@@ -5,13 +5,10 @@ use std::collections::HashSet;
 use super::Checked;
 use crate::{
     AccuracyScene, Analysis, ContactScene, FieldName, Flanks, Kind, Method, Model, Operation, OutputScene, models,
-    schema::{ANALYSIS, CONTACT, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
+    schema::{ANALYSIS, CONTACT, LEAST_SLICES, RawAnalysis, RawContact, RawOperation, RawOutput, RawScene},
     source::Source,
     table::Choice,
 };
-
-/// Slices of a pair that asks for no more, and of models that do not ask.
-const LEAST_SLICES: u32 = 32;
 
 pub(super) fn operation(s: &Source<'_>, raw: &RawOperation) -> Checked<Operation> {
     Operation::read(s, raw, f64::INFINITY)

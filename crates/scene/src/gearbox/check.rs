@@ -10,14 +10,14 @@ use super::file::{
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::modes::modes;
-use super::motion::{GearboxMotion, motion};
+use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
 use super::schema::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, PairScene, SceneError, Setting, Source, Word, study::setting};
+use crate::{Kind, Method, Model, PairScene, SceneError, Setting, Source, Word, motion::beside_mean, study::setting};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
@@ -64,9 +64,15 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
-    let motion = raw.motion.as_ref().map(|table| motion(s, table)).transpose()?;
+    let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
+    over_time(s, &raw.torque, &torques, moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw)?;
-    without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), motion.as_ref())?;
+    without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
+    let (motion, branch) = match moves {
+        None => (None, None),
+        Some(Asked::Motion(motion)) => (Some(motion), None),
+        Some(Asked::Branch(branch)) => (None, Some(branch)),
+    };
     let name = s.title(&raw.name);
     let (analysis, output) = (&raw.analysis, &raw.output);
     Ok(Gearbox {
@@ -87,6 +93,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         vibration,
         modes,
         motion,
+        branch,
         parquet: row!(s, OUTPUT, output.parquet)?,
     })
 }
@@ -261,5 +268,29 @@ fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) 
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[[torque]]", (&raw.shaft, &raw.position_mm), shafts)?;
     let torque = 1e3 * needed_of(s, (table, "[[torque]]"), &TORQUE, "torque_nm", &raw.torque_nm)?;
-    Ok(GearboxTorque { shaft, position, torque, inertia: 1e3 * row!(s, TORQUE, raw.inertia_kg_m2)? })
+    let over_time = beside_mean(s, [&raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)?;
+    let over_time = Some(over_time).filter(|own| !own.is_none());
+    Ok(GearboxTorque { shaft, position, torque, over_time, inertia: 1e3 * row!(s, TORQUE, raw.inertia_kg_m2)? })
+}
+
+/// Torques that change with time act in motion, and a motion that settles has the periods of its meshes alone.
+fn over_time(
+    s: &Source<'_>,
+    tables: &[Spanned<RawTorque>],
+    torques: &[GearboxTorque],
+    motion: Option<&GearboxMotion>,
+) -> Checked<()> {
+    let Some((table, _)) = tables.iter().zip(torques).find(|(_, own)| own.over_time.is_some()) else { return Ok(()) };
+    let raw = table.get_ref();
+    let numbers = [(&raw.amplitude_nm, "amplitude_nm"), (&raw.frequency_hz, "frequency_hz")];
+    let stated = numbers.into_iter().find_map(|(value, key)| value.as_ref().map(|v| (v.span(), key)));
+    let (span, key) = stated.unwrap_or_else(|| (raw.table_s_nm.as_ref().map_or(0..0, Spanned::span), "table_s_nm"));
+    match motion {
+        None => Err(s.conflict(&span, format!("`{key}` acts in motion alone"), "add [motion], or leave it out")),
+        Some(own) if own.settle.is_some() => {
+            let said = format!("`{key}` in a motion that settles: its period is none of the meshes");
+            Err(s.conflict(&span, said, "take `run = \"span\"`, or leave it out"))
+        }
+        Some(_) => Ok(()),
+    }
 }

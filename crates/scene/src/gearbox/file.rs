@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use super::{GearboxMotion, schema::RollingKind};
-use crate::{AccuracyScene, ModesScene, Scene, Sense};
+use super::{GearboxBranch, GearboxMotion, schema::RollingKind};
+use crate::{AccuracyScene, ModesScene, Scene, Sense, TorqueScene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -42,6 +42,8 @@ pub struct Gearbox {
     pub modes: Option<ModesScene>,
     /// How it runs in time; none: at rest alone.
     pub motion: Option<GearboxMotion>,
+    /// Periodic motions over the speed of the input; none: not asked for.
+    pub branch: Option<GearboxBranch>,
     /// Every table column by column as well, for other programs.
     pub parquet: bool,
 }
@@ -227,14 +229,16 @@ pub struct GearboxInput {
 }
 
 /// A load on a shaft, against its rotation.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearboxTorque {
     /// Shaft.
     pub shaft: usize,
     /// mm from the shaft's z = 0.
     pub position: f64,
-    /// N mm, >= 0.
+    /// N mm, >= 0: at rest, and in motion where it does not change with time.
     pub torque: f64,
+    /// What it is in motion beside that, or in place of it; none: constant.
+    pub over_time: Option<TorqueScene>,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }

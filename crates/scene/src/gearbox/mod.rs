@@ -33,7 +33,7 @@ pub use file::{
     AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRolling, GearboxSection,
     GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
-pub use motion::GearboxMotion;
-pub use of_pair::gearbox_of_pair;
+pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
+pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};
 pub(crate) use schema::GEARBOX;
 pub use schema::{GearboxDrive, MeshModel, RollingKind};

@@ -4,7 +4,7 @@ use integrate::Scheme;
 use toml::Spanned;
 
 use super::{
-    schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawMotion},
+    schema::{GearboxDrive, GearboxRun, MOTION, MeshModel, RawContinuation, RawMotion},
     values::{Checked, given, needed_of, row},
 };
 use crate::{Integration, Source};
@@ -42,23 +42,134 @@ pub struct GearboxMotion {
     pub settle: Option<(f64, u32)>,
     /// Whether the motion that settles is taken to its periodic state by Newton's method.
     pub shoots: bool,
-    /// Damping ratio of the gears turning against each other at a mesh.
-    pub mesh_damping_ratio: f64,
+    /// Damping of the meshes.
+    pub mesh_damping: GearboxDamping,
     /// Damping ratio of every elastic mode.
     pub modal_damping_ratio: f64,
     /// Highest frequency that shafts must show, Hz; none: four times that of the fastest mesh.
     pub highest_frequency_hz: Option<f64>,
     /// Error of maps that is aimed at, over the mean approach.
     pub map_tolerance: f64,
+    /// Largest force of maps over the mean at rest.
+    pub map_overload: f64,
     /// Cycles of the fastest mesh from one checkpoint to the next; 0: none.
     pub checkpoint_every_cycles: u32,
 }
 
-pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
+/// Damping of meshes in motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum GearboxDamping {
+    /// Damping ratio of the gears turning against each other at a mesh.
+    Ratio(f64),
+    /// N s/mm a mm of contact line.
+    PerLength(f64),
+}
+
+/// The branch of periodic motions of a gearbox over the speed of its input.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxBranch {
+    /// The motion at the speed where it begins: drive, meshes, damping, and how motions in time are run.
+    pub motion: GearboxMotion,
+    /// Speed where it ends, 1/min.
+    pub to_speed_rpm: f64,
+    /// Common periods of all meshes after which a motion comes back.
+    pub periods: u32,
+    /// Harmonics of a cycle of the fastest mesh to begin with.
+    pub harmonics: u32,
+    /// The largest number of them.
+    pub most_harmonics: u32,
+    /// Largest share of the vibration that harmonics left out may have.
+    pub tail: f64,
+    /// Least number of phases of a cycle of the fastest mesh at which forces are evaluated.
+    pub phases: u32,
+    /// Longest step, in ranges of the speed and static deflections.
+    pub longest_step: f64,
+    /// Largest number of motions.
+    pub motions: u32,
+    /// Stable motions that are run in time.
+    pub time_points: u32,
+}
+
+/// What a table of motion asks for: a motion in time, or a branch.
+pub(super) enum Asked {
+    Motion(GearboxMotion),
+    Branch(GearboxBranch),
+}
+
+impl Asked {
+    /// The motion in time, or that where the branch begins.
+    pub fn motion(&self) -> &GearboxMotion {
+        match self {
+            Self::Motion(motion) => motion,
+            Self::Branch(branch) => &branch.motion,
+        }
+    }
+}
+
+/// What the table asks for.
+pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked> {
+    let (raw, motion) = (table.get_ref(), motion(s, table)?);
+    if s.choice_of::<GearboxRun>("run", &raw.run)? != GearboxRun::Continuation {
+        return match &raw.continuation {
+            None => Ok(Asked::Motion(motion)),
+            Some(own) => {
+                let said = "[motion.continuation] belongs to a branch over the speed";
+                Err(s.conflict(&own.span(), said, "take `run = \"continuation\"`, or leave the table out"))
+            }
+        };
+    }
+    let at = raw.run.as_ref().map_or(table.span(), Spanned::span);
+    let Some(to_speed_rpm) = motion.to_speed_rpm.filter(|to| *to != motion.speed_rpm) else {
+        let said = "a branch over the speed that ends where it begins";
+        return Err(s.conflict(&at, said, "give `to_speed_rpm`, above or below `speed_rpm`"));
+    };
+    if let (MeshModel::Exact, Some(own)) = (motion.mesh, &raw.mesh) {
+        let said = "the exact contact has no continuation: all displacements of its flanks count";
+        return Err(s.conflict(&own.span(), said, "take `mesh = \"mapped\"` or `mesh = \"spring\"`"));
+    }
+    if let (GearboxDrive::Balanced, Some(own)) = (motion.drive, &raw.drive) {
+        let said = "a branch has an input that keeps its speed";
+        return Err(s.conflict(
+            &own.span(),
+            said,
+            "take `drive = \"speed\"`, with the inertia of the machine in [input]",
+        ));
+    }
+    let of_rows = [
+        ("cycles", raw.cycles.as_ref().map(Spanned::span)),
+        ("steps_per_row", raw.steps_per_row.as_ref().map(Spanned::span)),
+        ("checkpoint_every_cycles", raw.checkpoint_every_cycles.as_ref().map(Spanned::span)),
+    ];
+    if let Some((key, span)) = of_rows.into_iter().find_map(|(key, span)| Some((key, span?))) {
+        let said = format!("`{key}` belongs to a motion that writes rows in time");
+        return Err(s.conflict(&span, said, "leave it out: a branch has a row for each motion"));
+    }
+    let none = RawContinuation::default();
+    let words = raw.continuation.as_ref().map_or(&none, Spanned::get_ref);
+    let branch = GearboxBranch {
+        motion: GearboxMotion { to_speed_rpm: None, shoots: true, ..motion },
+        to_speed_rpm,
+        periods: row!(s, CONTINUATION, words.periods)?,
+        harmonics: row!(s, CONTINUATION, words.harmonics)?,
+        most_harmonics: row!(s, CONTINUATION, words.most_harmonics)?,
+        tail: row!(s, CONTINUATION, words.tail)?,
+        phases: row!(s, CONTINUATION, words.phases)?,
+        longest_step: row!(s, CONTINUATION, words.longest_step)?,
+        motions: row!(s, CONTINUATION, words.motions)?,
+        time_points: row!(s, CONTINUATION, words.time_points)?,
+    };
+    if let (true, Some(own)) = (branch.most_harmonics < branch.harmonics, &words.most_harmonics) {
+        let said = format!("`most_harmonics` = {} is below `harmonics` = {}", branch.most_harmonics, branch.harmonics);
+        return Err(s.conflict(&own.span(), said, "begin with fewer, or allow more"));
+    }
+    Ok(Asked::Branch(branch))
+}
+
+fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> {
     let raw = table.get_ref();
     let drive = s.choice_of("drive", &raw.drive)?;
     let input_torque = given!(s, MOTION, raw.input_torque_nm)?.map(|t| 1e3 * t);
-    if let (GearboxDrive::Speed, Some(own)) = (drive, &raw.input_torque_nm) {
+    if let (GearboxDrive::Speed | GearboxDrive::Balanced, Some(own)) = (drive, &raw.input_torque_nm) {
         let said = "an input of given speed has a torque of its own";
         return Err(s.conflict(
             &own.span(),
@@ -70,6 +181,10 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
     if let (GearboxDrive::Torque, Some(own)) = (drive, &raw.to_speed_rpm) {
         let said = "the speed at the end is a result where a torque drives";
         return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, or leave `to_speed_rpm` out"));
+    }
+    if let (Some(_), Some(own)) = (&raw.mesh_damping_ns_per_mm2, &raw.mesh_damping_ratio) {
+        let said = "the damping of the meshes is given twice";
+        return Err(s.conflict(&own.span(), said, "keep one of `mesh_damping_ratio` and `mesh_damping_ns_per_mm2`"));
     }
     let method = s.choice_of::<Integration>("method", &raw.method)?;
     let radius = given!(s, MOTION, raw.spectral_radius)?;
@@ -100,17 +215,23 @@ pub(super) fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Gear
         stop_at_events: row!(s, MOTION, raw.stop_at_events)?,
         settle,
         shoots: s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Shooting,
-        mesh_damping_ratio: row!(s, MOTION, raw.mesh_damping_ratio)?,
+        mesh_damping: match given!(s, MOTION, raw.mesh_damping_ns_per_mm2)? {
+            Some(per_length) => GearboxDamping::PerLength(per_length),
+            None => GearboxDamping::Ratio(row!(s, MOTION, raw.mesh_damping_ratio)?),
+        },
         modal_damping_ratio: row!(s, MOTION, raw.modal_damping_ratio)?,
         highest_frequency_hz: given!(s, MOTION, raw.highest_frequency_hz)?,
         map_tolerance: row!(s, MOTION, raw.map_tolerance)?,
+        map_overload: row!(s, MOTION, raw.map_overload)?,
         checkpoint_every_cycles: row!(s, MOTION, raw.checkpoint_every_cycles)?,
     })
 }
 
 /// What a motion waits for before its rows.
 fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Checked<Option<(f64, u32)>> {
-    if s.choice_of::<GearboxRun>("run", &raw.run)? == GearboxRun::Span {
+    let run = s.choice_of::<GearboxRun>("run", &raw.run)?;
+    let is_branch = run == GearboxRun::Continuation;
+    if run == GearboxRun::Span {
         let own = [
             raw.periodic_tolerance.as_ref().map(|x| (x.span(), "periodic_tolerance")),
             raw.warm_up_cycles.as_ref().map(|x| (x.span(), "warm_up_cycles")),
@@ -127,7 +248,7 @@ fn settle(s: &Source<'_>, raw: &RawMotion, [per_cycle, per_row]: [u32; 2]) -> Ch
         let said = "under a torque the speed wanders, and a motion without a given speed has no period";
         return Err(s.conflict(&drive.span(), said, "take `run = \"span\"`, or `drive = \"speed\"`"));
     }
-    if let Some(ramp) = &raw.to_speed_rpm {
+    if let (Some(ramp), false) = (&raw.to_speed_rpm, is_branch) {
         let said = "a motion whose speed changes never repeats itself";
         return Err(s.conflict(&ramp.span(), said, "take `run = \"span\"`, or leave `to_speed_rpm` out"));
     }

@@ -2,14 +2,22 @@
 
 use std::fmt::Write;
 
-use crate::{Driver, Scene, SceneError, Sense};
+use crate::{
+    BodyScene, DriveBy, DriveScene, Driver, Model, MotionScene, Run, Scene, SceneError, Sense, TorqueScene,
+    schema::{Integration, LEAST_SLICES},
+};
 
 /// Tables of a scene that say what the pair is and how its flanks press; the others say what is done with it.
 const OF_PAIR: [&str; 5] = ["pinion", "wheel", "pair", "operation", "contact"];
 /// Tables of a gear that hold it, which the shafts do here.
 const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
+/// Density of shafts in motion, kg/m^3: a pair has no inertia but that of its gears.
+const NO_MASS: &str = "density_kg_m3 = 1e-9\n";
+/// Settings of the maps of a pair in motion: largest force over the mean, and error.
+const MAPS: &str = "map_overload = 6.0\nmap_tolerance = 3e-5\n";
 
-/// Text of the gearbox file whose one mesh is the pair of a scene, on two held shafts: at rest the two agree to 1e-9, position by position.
+/// Text of the gearbox file whose one mesh is the pair of a scene, on two held shafts. At rest the two agree to 1e-9,
+/// position by position.
 ///
 /// Shafts are named `pinion` and `wheel`, have the bore of their gear as outer diameter and three face widths as length. The
 /// key of the driver is the one with which position 0 is the beginning of a mesh cycle, as that of a pair is:
@@ -17,12 +25,91 @@ const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
 /// ```text
 /// theta_1 = theta_m - sign(sense) pi/z_1
 /// ```
-/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). What the scene computes, measures and writes (`analysis`, `motion`,
-/// `accuracy`, `output`) is left out, and friction, which a gearbox at rest does not have.
+/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). What the scene computes, measures and writes (`analysis`,
+/// `motion`, `accuracy`, `output`) is left out, and friction, without which the gearbox can be asked for vibration.
 ///
 /// # Errors
 /// [`SceneError`]: gears that cannot be, as [`Scene::gear_pair`] has it.
 pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
+    let mut at_rest = scene.standing_alone();
+    at_rest.contact.friction = 0.0;
+    for gear in [&mut at_rest.pinion, &mut at_rest.wheel] {
+        gear.body = None;
+    }
+    held_shafts(&at_rest, "")
+}
+
+/// The same of a scene in motion, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
+/// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings or with
+/// normal modes, lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
+///
+/// # Errors
+/// As of [`gearbox_of_pair`].
+pub fn gearbox_of_moving_pair(scene: &Scene, steps_per_row: u32) -> Result<Option<String>, SceneError> {
+    let Some(motion) = scene.motion.as_ref().and_then(|motion| moving(scene, motion, steps_per_row)) else {
+        return Ok(None);
+    };
+    Ok(Some(held_shafts(&scene.standing_alone(), NO_MASS)? + &motion))
+}
+
+/// `[motion]` of the gearbox of a pair.
+fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<String> {
+    let mesh = match scene.analysis.model {
+        Model::Reduced => "exact",
+        Model::Mapped => "mapped",
+        _ => return None,
+    };
+    let run = match motion.run {
+        // A map that nearly repeats itself is taken to its periodic state.
+        Run::Steady if scene.analysis.model == Model::Mapped => "shooting",
+        Run::Steady => "steady",
+        Run::Shooting => "shooting",
+        Run::Span if motion.duration_s.is_none() => "span",
+        _ => return None,
+    };
+    let drive = match &scene.drive {
+        Some(DriveScene { by: DriveBy::Torque, torque }) if torque.is_none() => "balanced",
+        Some(DriveScene { by: DriveBy::Torque, .. }) => return None,
+        _ => "speed",
+    };
+    let is_held = |gear: &crate::GearScene| gear.body.as_ref().is_none_or(|body| body.free.is_empty());
+    let steady = scene.load.as_ref().is_none_or(TorqueScene::is_none);
+    if !(scene.gears().into_iter().all(is_held) && steady) {
+        return None;
+    }
+    let per_cycle = motion.steps_per_mesh_cycle * steps_per_row;
+    let mut text = format!(
+        "\n[motion]\nrun = \"{run}\"\nspeed_rpm = {:?}\ndrive = \"{drive}\"\nmesh = \"{mesh}\"\ncycles = {}\n\
+         steps_per_cycle = {per_cycle}\nsteps_per_row = {steps_per_row}\nmethod = \"{}\"\nstop_at_events = {}\n\
+         modal_damping_ratio = 0.0\n",
+        scene.operation.speed_rpm,
+        scene.analysis.cycles,
+        motion.method.word(),
+        motion.stop_at_events
+    );
+    let numbers = [
+        ("spectral_radius", motion.spectral_radius.filter(|_| motion.method == Integration::GeneralisedAlpha)),
+        ("error_tolerance", motion.error_tolerance),
+        ("periodic_tolerance", motion.periodic_tolerance.filter(|_| run != "span")),
+        ("mesh_damping_ratio", motion.mesh_damping_ratio),
+        ("mesh_damping_ns_per_mm2", motion.mesh_damping_ns_per_mm2),
+    ];
+    for (key, value) in numbers {
+        if let Some(value) = value {
+            let _ = writeln!(text, "{key} = {value:?}");
+        }
+    }
+    if let Some(cycles) = motion.warm_up_cycles.filter(|_| run != "span") {
+        let _ = writeln!(text, "warm_up_cycles = {cycles}");
+    }
+    if mesh == "mapped" {
+        text += MAPS;
+    }
+    Some(text)
+}
+
+/// Two held shafts with a mesh, after whose sections `more` stands.
+fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
     let pair = scene.gear_pair()?;
     let driven_by = scene.operation.driver;
     let sense = scene.operation.rotation;
@@ -49,7 +136,7 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
         // Writing into a text does not fail.
         let _ = write!(
             text,
-            "\n[[shaft]]\nname = \"{name}\"\norigin_mm = [{:?}, 0.0, {:?}]\nheld = true\n[[shaft.section]]\nlength_mm = {length:?}\n\
+            "\n[[shaft]]\nname = \"{name}\"\norigin_mm = [{:?}, 0.0, {:?}]\nheld = true\n{more}[[shaft.section]]\nlength_mm = {length:?}\n\
              outer_diameter_mm = {:?}\n",
             apart[i], heights[i], bores[i]
         );
@@ -58,9 +145,10 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
         let name = names[i];
         let _ = write!(
             text,
-            "\n[[gear]]\nname = \"{name}\"\nshaft = \"{name}\"\nposition_mm = {:?}\nkey_deg = {:?}\n",
+            "\n[[gear]]\nname = \"{name}\"\nshaft = \"{name}\"\nposition_mm = {:?}\nkey_deg = {:?}\n{}",
             0.5 * length,
-            keys[i].to_degrees()
+            keys[i].to_degrees(),
+            stated_inertia(&scene.gears()[i].body)
         );
     }
     let (driver, driven) = match driven_by {
@@ -69,19 +157,40 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
     };
     let turns = if driver == 0 { sense } else { sense.opposite() };
     let word = if turns == Sense::Ccw { "ccw" } else { "cw" };
+    let added = scene.gears().map(|gear| gear.body.as_ref().map_or(0.0, |body| body.added_inertia_kg_m2));
+    let machine = |gear: usize| match added[gear] {
+        0.0 => String::new(),
+        inertia => format!("inertia_kg_m2 = {inertia:?}\n"),
+    };
     let _ = write!(
         text,
-        "\n[input]\nshaft = \"{}\"\nposition_mm = 0.0\nrotation = \"{word}\"\n\n\
-         [[torque]]\nshaft = \"{}\"\nposition_mm = 0.0\ntorque_nm = {:?}\n\n\
+        "\n[input]\nshaft = \"{}\"\nposition_mm = 0.0\nrotation = \"{word}\"\n{}\n\
+         [[torque]]\nshaft = \"{}\"\nposition_mm = 0.0\ntorque_nm = {:?}\n{}\n\
          [analysis]\npositions_per_cycle = {}\n\n[[mesh]]\nname = \"pair\"\npinion = \"pinion\"\nwheel = \"wheel\"\n\n",
-        names[driver], names[driven], scene.operation.torque_nm, scene.analysis.positions_per_cycle
+        names[driver],
+        machine(driver),
+        names[driven],
+        scene.operation.torque_nm,
+        machine(driven),
+        scene.analysis.positions_per_cycle
     );
     Ok(text + &mesh_scene(scene))
 }
 
+/// Mass and inertia that a scene states of a gear.
+fn stated_inertia(body: &Option<BodyScene>) -> String {
+    let Some(body) = body else { return String::new() };
+    let all = [
+        ("mass_kg", body.mass_kg),
+        ("transverse_inertia_kg_m2", body.transverse_inertia_kg_m2),
+        ("polar_inertia_kg_m2", body.polar_inertia_kg_m2),
+    ];
+    all.iter().filter_map(|(key, value)| value.map(|x| format!("{key} = {x:?}\n"))).collect()
+}
+
 /// The tables of the pair, below `[mesh.scene]`.
 fn mesh_scene(scene: &Scene) -> String {
-    let whole: toml::Table = toml::from_str(&scene.standing_alone().to_toml()).unwrap_or_default();
+    let whole: toml::Table = toml::from_str(&scene.to_toml()).unwrap_or_default();
     let mut pair: toml::Table = whole.into_iter().filter(|(key, _)| OF_PAIR.contains(&key.as_str())).collect();
     for gear in ["pinion", "wheel"] {
         if let Some(toml::Value::Table(own)) = pair.get_mut(gear) {
@@ -89,7 +198,13 @@ fn mesh_scene(scene: &Scene) -> String {
         }
     }
     if let Some(toml::Value::Table(own)) = pair.get_mut("contact") {
-        own.remove("friction");
+        if scene.contact.friction == 0.0 {
+            own.remove("friction");
+        }
+        // A number that the program has chosen is chosen again.
+        if scene.contact.slices == Some(LEAST_SLICES) && scene.place_of(&["contact.slices"]).is_none() {
+            own.remove("slices");
+        }
     }
     let table = |key: &str, value: toml::Table| toml::Table::from_iter([(key.to_owned(), toml::Value::Table(value))]);
     // A table of tables of numbers and words: there is nothing that TOML could refuse.

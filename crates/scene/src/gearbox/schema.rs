@@ -37,7 +37,7 @@ table! {
         rexs_shaft: text(), "number or name of the shaft in that file; default: the only one";
         young_mpa: bare(1.0, 1e12), "Young's modulus, MPa; default: 206000, or the REXS file's";
         poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
-        density_kg_m3: bare(1.0, 1e5), "density, kg/m^3, for vibration and motion; default: 7850, or the REXS file's";
+        density_kg_m3: bare(1e-9, 1e5), "density, kg/m^3, for vibration and motion; next to nothing where gears have all mass; default: 7850, or the REXS file's";
         held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
     }
 }
@@ -173,7 +173,11 @@ table! {
     TORQUE, RawTorque: "a load on a shaft, one for each output", needed ["shaft", "position_mm", "torque_nm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0, up to its length";
-        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m";
+        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m; in motion the mean of a torque that changes with time. Where that is negative it presses the coast flanks: meshes then need both flanks";
+        amplitude_nm: bare(0.0, 1e12), "in motion: amplitude of a harmonic part T cos(2 pi f t + phase), N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in motion in place of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, as at the input";
     }
 }
@@ -236,6 +240,8 @@ choices! {
     pub enum GearboxDrive {
         /// It keeps its speed.
         Speed = "speed",
+        /// The turn of the whole train keeps its speed.
+        Balanced = "balanced",
         /// A torque acts on it.
         Torque = "torque",
     }
@@ -262,18 +268,20 @@ choices! {
         Steady = "steady",
         /// All cycles of the periodic motion that Newton's method finds on the common period of the meshes.
         Shooting = "shooting",
+        /// Periodic motions along the speed of the input, stable and unstable.
+        Continuation = "continuation",
     }
 }
 
 table! {
     /// `[motion]`
     MOTION, RawMotion: "motion in time from the equilibrium on, after the positions at rest; left out: none", needed ["speed_rpm"]; {
-        run: word(GearboxRun), "what is run. span: from the equilibrium on; steady: from where the motion repeats itself; shooting: as steady, and taken there by Newton's method as soon as it nearly repeats itself, which is faster than to wait where little damps or the common period is short";
-        speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start";
-        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed); default: speed_rpm. Steps are then turns of the input that are alike";
-        drive: word(GearboxDrive), "whether the input keeps its speed, or a torque acts on it from that speed on";
+        run: word(GearboxRun), "what is run. span: from the equilibrium on; steady: from where the motion repeats itself; shooting: as steady, and taken there by Newton's method as soon as it nearly repeats itself, which is faster than to wait where little damps or the common period is short; continuation: no rows in time, but the branch of periodic motions over the speed from `speed_rpm` to `to_speed_rpm`, stable and unstable, through loss of contact and around its folds, of maps or springs and a common period of all meshes that is not too long";
+        speed_rpm: must(1e-3, 1e7), "speed of the input, 1/min: always, or at the start; of a continuation where the branch begins, with the motion that Newton's method finds from the equilibrium";
+        to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed and balanced); default: speed_rpm. Steps are then turns of the input that are alike. Of a continuation the speed where the branch ends, above or below";
+        drive: word(GearboxDrive), "what drives. speed: the input keeps its speed, as of a machine of any inertia; balanced: the common turn of the whole train keeps it, every part is free to vibrate against the others, and the torque of the input is in balance with loads and losses at every instant; torque: a torque acts on the input from that speed on";
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
-        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes pitch errors and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
+        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth and friction and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
@@ -281,13 +289,30 @@ table! {
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
         error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
-        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady, shooting)";
-        warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (steady, shooting)";
-        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6), "difference after a common period of all meshes over the peak to peak that counts as none (steady, shooting; continuation: of motions in time)";
+        warm_up_cycles: whole(1, 100_000_000, 1000), "cycles of the fastest mesh to wait for that at the most (the same)";
+        mesh_damping_ratio: number(0.0, 10.0, 0.05), "damping ratio of both gears of a mesh turning against each other on the mean stiffness of its cycle at rest; the input's gear does not turn where its held shaft keeps the speed. Shared over the contact lines, never a pull";
+        mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
         modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode about the equilibrium, beside that of bearings and meshes";
         highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh. Modes with seats held are kept up to twice that, and more until natural frequencies up to it are off by half a per cent at the most";
         map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at, over the mean approach";
+        map_overload: number(1.0, 1000.0, 4.0), "largest force of maps over the mean at rest";
         checkpoint_every_cycles: whole(0, 1_000_000, 0), "a checkpoint every so many cycles of the fastest mesh; 0: none";
+        continuation: table(CONTINUATION: RawContinuation);
+    }
+}
+
+table! {
+    /// `[motion.continuation]`
+    CONTINUATION, RawContinuation: "accuracy of a branch of periodic motions over the speed, by harmonic balance at the meshes; all keys have defaults"; {
+        periods: whole(1, 16, 1), "common periods of all meshes after which the motion comes back; 2 for what a period doubling leads to";
+        harmonics: whole(1, 500, 12), "harmonics of a cycle of the fastest mesh to begin with; those of the whole period are up to 1000";
+        most_harmonics: whole(1, 500, 96), "the largest number of them";
+        tail: number(1e-9, 0.1, 1e-4), "largest share of the vibration that harmonics left out may have; more are added until it is kept";
+        phases: whole(64, 65_536, 512), "least number of phases of a cycle of the fastest mesh at which forces are evaluated; loss of contact asks for many";
+        longest_step: number(1e-4, 1.0, 0.05), "longest step along the branch, in ranges of the speed and static deflections";
+        motions: whole(2, 100_000, 1000), "largest number of motions";
+        time_points: whole(0, 1000, 4), "stable motions that are run in time as well: until they repeat themselves, as a steady run";
     }
 }
 

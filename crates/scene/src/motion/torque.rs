@@ -33,7 +33,16 @@ pub(crate) fn drive(s: &Source<'_>, raw: &RawDrive, model: Model) -> Checked<Dri
 }
 
 pub(crate) fn load(s: &Source<'_>, raw: &RawLoad) -> Checked<TorqueScene> {
-    torque(s, [&None, &raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)
+    beside_mean(s, [&raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)
+}
+
+/// What a torque is beside its mean: amplitude, frequency and phase, or a table.
+pub(crate) fn beside_mean(
+    s: &Source<'_>,
+    [amplitude, frequency, phase]: [&Number; 3],
+    table: &Rows,
+) -> Checked<TorqueScene> {
+    torque(s, [&None, amplitude, frequency, phase], table)
 }
 
 fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], table: &Rows) -> Checked<TorqueScene> {

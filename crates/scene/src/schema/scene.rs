@@ -73,6 +73,9 @@ table! {
     }
 }
 
+/// Slices of a pair that asks for no more, and of models that do not ask.
+pub(crate) const LEAST_SLICES: u32 = 32;
+
 table! {
     /// `[contact]`
     CONTACT, RawContact => ContactScene Copy: "how flanks press on each other"; {

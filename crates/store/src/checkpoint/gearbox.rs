@@ -31,10 +31,10 @@ impl StoredState for GearboxState {
 
     fn consistent(&self) -> Result<(), &'static str> {
         let crossings = self.motion.counts.crossings.len();
-        if !(self.motion.is_consistent() && crossings == 2 * self.motion.memory.len()) {
+        if !(self.motion.is_consistent() && crossings == 2 * self.motion.memory.meshes.len()) {
             return Err("velocities of other coordinates, or counts of other meshes");
         }
-        let windows = self.motion.memory.iter().filter_map(|mesh| mesh.windows);
+        let windows = self.motion.memory.meshes.iter().filter_map(|mesh| mesh.windows);
         if windows.into_iter().any(|own| own.farthest_tooth() > FARTHEST_TOOTH) {
             return Err("a window beyond all cycles");
         }

@@ -77,6 +77,20 @@ impl ResultDirectory {
         ResultFiles::write(self, name, content)
     }
 
+    /// Writes the file with commas of a table, block by block.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn write_csv(&self, table: &answer::Table) -> Result<(), StoreError> {
+        let name = format!("{}.csv", table.name);
+        debug_assert!(is_ours(&name), "{name} is not in the list of result files: what a killed run leaves would stay");
+        let whole = || {
+            let mut file = fs::File::create(self.path(&name))?;
+            table.csv_in_blocks(|block| file.write_all(block.as_bytes()))
+        };
+        whole().map_err(|cause| StoreError::Write { file: self.wanted.join(&name), cause })
+    }
+
     /// Folder of the files while the result is being written.
     pub fn folder(&self) -> &Path {
         &self.growing

@@ -4,7 +4,6 @@ use integrate::{Course, EvenRows, Row, State, StepControl};
 use nalgebra::DMatrix;
 use periodic::{FourierSeries, PeriodicMotion};
 use scene::{MotionScene, Run};
-use serde::Serialize;
 use study::extent;
 
 use super::{
@@ -17,32 +16,17 @@ use super::{
         run_loop::{LumpedRun, NoRunObserver, RunPlan},
     },
     family::ModelFamily,
-    point::state,
 };
-use crate::{AnalysisError, inputs::motion_of};
+use crate::{
+    AnalysisError,
+    branch::{TimePoint, state},
+    inputs::motion_of,
+};
 
 /// Difference after a period over the peak to peak that is none for a guess.
 const ROUGHLY: f64 = 1e-2;
 /// Harmonics of a motion that has settled.
 const HARMONICS: usize = 12;
-
-/// A motion of the branch, integrated in time from there on; units are in the names.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct TimePoint {
-    /// Value of the key.
-    pub value: f64,
-    /// Peak to peak of the mesh cycles that are looked at.
-    pub peak_to_peak_dte_um: f64,
-    /// Peak to peak of the branch.
-    pub branch_peak_to_peak_dte_um: f64,
-}
-
-impl TimePoint {
-    /// Difference over that of the branch.
-    pub fn difference(&self) -> f64 {
-        (self.peak_to_peak_dte_um / self.branch_peak_to_peak_dte_um - 1.0).abs()
-    }
-}
 
 /// Runs a motion of the branch on, until it repeats itself or for as long as the scene waits for that.
 ///

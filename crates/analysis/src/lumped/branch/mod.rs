@@ -4,8 +4,8 @@
 //! |---|---|
 //! | `analysis` | [`ContinuationAnalysis`]: follows the branch of a scene |
 //! | `family` | a scene's model over the parameter, as the search for periodic motions asks for it |
-//! | `point` | [`BranchPoint`]: what is read off a motion |
-//! | `in_time` | [`TimePoint`]: the same motion integrated in time |
+//! | `point` | what is read off a motion |
+//! | `in_time` | the same motion integrated in time |
 //! | `headline` | what is read off the branch |
 
 mod analysis;
@@ -15,6 +15,4 @@ mod in_time;
 mod point;
 
 pub use analysis::{ContinuationAnalysis, ContinuationResult};
-pub use headline::{BranchTurn, ContinuationHeadline};
-pub use in_time::TimePoint;
-pub use point::{BranchPoint, LossName};
+pub use headline::ContinuationHeadline;

@@ -17,7 +17,7 @@ pub struct QuasiStatic {
 
 impl QuasiStatic {
     /// Of the positions of a mesh cycle.
-    pub(super) fn of(history: &StaticHistory) -> Self {
+    pub(crate) fn of(history: &StaticHistory) -> Self {
         let all = &history.positions;
         let mean = |f: &dyn Fn(&StaticPosition) -> f64| all.iter().map(f).sum::<f64>() / all.len() as f64;
         Self {

@@ -3,7 +3,9 @@
 
 mod rows;
 
-use faer::MatRef;
+use std::borrow::Cow;
+
+use faer::{ColRef, MatRef};
 use nalgebra::Matrix3;
 
 use crate::{
@@ -71,56 +73,134 @@ const REFINEMENTS: usize = 3;
 /// Places of each patch at which a table is held against the matrices, either way.
 const CHECKS: usize = 5;
 
-/// Displacement at a place by unit forces along x, y, z at another one, column by column: `moved` of
-/// [`BulkCompliance::displacements`].
-fn between(support: &Support, moved: &[[f64; 3]]) -> Matrix3<f64> {
-    let mut sum = Matrix3::zeros();
-    for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights) {
-        for axis in 0..3 {
-            let row = moved[3 * node as usize + axis];
-            (0..3).for_each(|k| sum[(axis, k)] += w * row[k]);
-        }
-    }
-    sum
-}
+/// D at the nodes by unit forces along x, y, z at a place, mm/N: of each node the displacements along x by the three
+/// forces, then those along y and along z.
+type NodeBlocks = Vec<[f64; 9]>;
 
 impl BulkCompliance<'_> {
-    /// D by unit forces along x, y, z at a place, row by row, mm/N.
-    fn displacements(&self, support: &Support, out: &mut Vec<[f64; 3]>) {
-        out.clear();
-        out.resize(self.whole.nrows(), [0.0; 3]);
-        for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights).filter(|(_, w)| **w != 0.0) {
-            let columns = [0, 1, 2].map(|k| self.whole.col(3 * node as usize + k));
-            for (i, row) in out.iter_mut().enumerate() {
-                (0..3).for_each(|k| row[k] += w * columns[k][i]);
-            }
-            for (numbers, local) in &self.local {
-                let Ok(own) = numbers.binary_search(&node) else { continue };
-                let columns = [0, 1, 2].map(|k| local.col(3 * own + k));
-                for (at, &number) in numbers.iter().enumerate() {
-                    for axis in 0..3 {
-                        let row = &mut out[3 * number as usize + axis];
-                        (0..3).for_each(|k| row[k] -= w * columns[k][3 * at + axis]);
-                    }
-                }
+    /// D by unit forces along x, y, z at a place.
+    #[inline(always)]
+    fn displacements(&self, support: &Support, columns: &mut [Vec<f64>; 3], out: &mut NodeBlocks) {
+        for (k, column) in columns.iter_mut().enumerate() {
+            column.clear();
+            column.resize(self.whole.nrows(), 0.0);
+            for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights).filter(|(_, w)| **w != 0.0) {
+                self.add_column((node, k), w, column);
             }
         }
+        let [x, y, z] = columns.each_ref().map(|c| c.as_chunks::<3>().0);
+        out.clear();
+        out.extend(x.iter().zip(y).zip(z).map(|((x, y), z)| [x[0], y[0], z[0], x[1], y[1], z[1], x[2], y[2], z[2]]));
     }
 
     /// D a for a unit force, mm/N.
     fn displacement(&self, support: &Support, out: &mut Vec<f64>) {
         out.clear();
         out.resize(self.whole.nrows(), 0.0);
-        load_columns(support, |dof, f| {
-            out.iter_mut().zip(self.whole.col(dof).iter()).for_each(|(o, w)| *o += f * w);
-            for (numbers, local) in &self.local {
-                let Ok(own) = numbers.binary_search(&((dof / 3) as u32)) else { continue };
-                let column = local.col(3 * own + dof % 3);
-                for (k, &number) in numbers.iter().enumerate() {
-                    (0..3).for_each(|b| out[3 * number as usize + b] -= f * column[3 * k + b]);
+        load_columns(support, |dof, f| self.add_column(((dof / 3) as u32, dof % 3), f, out));
+    }
+
+    /// Adds the displacements by a force at a node along an axis.
+    #[inline(always)]
+    fn add_column(&self, (node, axis): (u32, usize), force: f64, out: &mut [f64]) {
+        let column = contiguous(self.whole.col(3 * node as usize + axis));
+        out.iter_mut().zip(&*column).for_each(|(o, w)| *o += force * w);
+        let blocks = out.as_chunks_mut::<3>().0;
+        for (numbers, local) in &self.local {
+            let Ok(own) = numbers.binary_search(&node) else { continue };
+            let column = contiguous(local.col(3 * own + axis));
+            for (&number, [x, y, z]) in numbers.iter().zip(column.as_chunks().0) {
+                let block = &mut blocks[number as usize];
+                *block = [block[0] - force * x, block[1] - force * y, block[2] - force * z];
+            }
+        }
+    }
+}
+
+/// A column as it stands, or copied.
+#[inline(always)]
+fn contiguous(column: ColRef<'_, f64>) -> Cow<'_, [f64]> {
+    match column.try_as_col_major() {
+        Some(column) => Cow::Borrowed(column.as_slice()),
+        None => column.iter().copied().collect(),
+    }
+}
+
+/// Weights of a unit force's nodes, those without weight left out, and its three directions.
+struct Pole {
+    nodes: Vec<(u32, f64)>,
+    directions: [Vec3; DIRECTIONS],
+}
+
+impl Pole {
+    fn of(along: &[Support; DIRECTIONS]) -> Self {
+        let Support { nodes, weights, count, .. } = &along[0];
+        let all = nodes[..*count].iter().copied().zip(*weights);
+        Self { nodes: all.filter(|(_, w)| *w != 0.0).collect(), directions: along.each_ref().map(|s| s.direction) }
+    }
+}
+
+/// T of one gear on its grid points, all directions, mm/N.
+struct Filling<'a> {
+    bulk: &'a BulkCompliance<'a>,
+    supports: &'a [Option<[Support; DIRECTIONS]>],
+    table: &'a mut [f64],
+}
+
+impl pulp::NullaryFnOnce for Filling<'_> {
+    type Output = ();
+
+    // Compiled for each set of instructions that there may be; the processor's own is chosen as the program runs.
+    #[inline(always)]
+    fn call(self) {
+        let Self { bulk, supports, table } = self;
+        let count = supports.len();
+        let poles: Vec<Option<Pole>> = supports.iter().map(|s| s.as_ref().map(Pole::of)).collect();
+        let (mut columns, mut moved): ([Vec<f64>; 3], NodeBlocks) = Default::default();
+        for (q, load) in supports.iter().enumerate() {
+            let Some(load) = load else { continue };
+            bulk.displacements(&load[0], &mut columns, &mut moved);
+            let own = &mut table[..];
+            for (p, pole) in poles.iter().enumerate().skip(q) {
+                let Some(pole) = pole else { continue };
+                let mut between = [0.0; 9];
+                for &(node, w) in &pole.nodes {
+                    let block = &moved[node as usize];
+                    (0..9).for_each(|k| between[k] += w * block[k]);
+                }
+                let between = Matrix3::from_row_slice(&between);
+                for (d, load) in load.iter().enumerate() {
+                    let moved = between * load.load;
+                    for (e, direction) in pole.directions.iter().enumerate() {
+                        own[((DIRECTIONS * d + e) * count + q) * count + p] = direction.dot(&moved);
+                    }
                 }
             }
-        });
+        }
+        mirror(table, count);
+    }
+}
+
+/// Side of the tiles in which a triangle of a table is copied, points.
+const TILE: usize = 32;
+
+/// The other triangle: T_pq = T_qp, of points as filled for p >= q; of one point with itself as the later direction sees
+/// the earlier one.
+fn mirror(table: &mut [f64], count: usize) {
+    let at = |d: usize, q: usize, e: usize, p: usize| ((DIRECTIONS * d + e) * count + q) * count + p;
+    for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+        for first in (0..count).step_by(TILE) {
+            for other in (0..=first).step_by(TILE) {
+                for p in first..count.min(first + TILE) {
+                    for q in other..p.min(other + TILE) {
+                        table[at(e, p, d, q)] = table[at(d, q, e, p)];
+                    }
+                }
+            }
+        }
+        if e < d {
+            (0..count).for_each(|q| table[at(d, q, e, q)] = table[at(e, q, d, q)]);
+        }
     }
 }
 
@@ -166,22 +246,7 @@ impl BulkTable {
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
         let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
-        let mut moved = Vec::new();
-        for (q, load) in supports.iter().enumerate() {
-            let Some(load) = load else { continue };
-            bulk.displacements(&load[0], &mut moved);
-            for (p, opened) in supports.iter().enumerate().skip(q) {
-                let Some(opened) = opened else { continue };
-                let between = between(&opened[0], &moved);
-                for (e, opening) in opened.iter().enumerate() {
-                    for (d, load) in load.iter().enumerate() {
-                        let entry = opening.direction.dot(&(between * load.load));
-                        table[((DIRECTIONS * d + e) * count + q) * count + p] = entry;
-                        table[((DIRECTIONS * e + d) * count + p) * count + q] = entry;
-                    }
-                }
-            }
-        }
+        pulp::Arch::new().dispatch(Filling { bulk, supports: &supports, table: &mut table });
         let mut made = Self { lines, first, table, error: 0.0 };
         made.error = made.measured(bulk);
         made

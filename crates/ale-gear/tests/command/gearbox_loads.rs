@@ -1,0 +1,40 @@
+//! Loads of a gearbox that change with time.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+use crate::{
+    gearbox::column,
+    util::{Scratch, repository},
+};
+
+/// A load that becomes a drive sends torque back through the backlash of both stages: all flanks part, the coast flanks
+/// press, the input brakes, and the energy is accounted for.
+#[test]
+fn a_load_that_reverses_goes_through_the_backlash_of_both_stages() {
+    let file = repository().join("scenes/gearbox/reversal.toml").display().to_string();
+    let scratch = Scratch::new();
+    let run = scratch.ale_gear(["run", &file, "--out", "o", "--no-cache"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let told = &told["motion"];
+    let left = told["energy"]["relative_residual"].as_f64().unwrap();
+    println!("{} {}", told["energy"], told["meshes"]);
+    assert!(left.abs() < 1e-9, "{left}");
+    let rows = scratch.read("o/motion.csv");
+    for mesh in 0..2 {
+        let count = |key: &str| told["meshes"][mesh][key].as_u64().unwrap();
+        let parted = [count("separations"), count("coast_separations")];
+        assert!(parted.iter().all(|n| *n > 0), "mesh {mesh}: {parted:?}");
+        // Both flanks of a pair stand 0.06 mm and more apart.
+        let te = column(&rows, &format!("mesh_{}_dte_um", mesh + 1));
+        let ends = te.iter().fold([f64::MAX, f64::MIN], |[a, b], x| [a.min(*x), b.max(*x)]);
+        assert!(ends[1] - ends[0] > 60.0, "mesh {mesh} goes {ends:?} um");
+    }
+    // At first the input drives, clockwise; at last the load does, by the numbers of teeth.
+    let torque = column(&rows, "input_torque_nm");
+    assert!(torque[0] < 0.0, "{} N m", torque[0]);
+    let last = &torque[torque.len() - 80..];
+    println!("{:?}", torque.iter().step_by(20).map(|t| t.round()).collect::<Vec<_>>());
+    let mean = last.iter().sum::<f64>() / last.len() as f64;
+    let wanted = 400.0 * 17.0 * 19.0 / 53.0 / 47.0;
+    assert!((0.5 * wanted..1.5 * wanted).contains(&mean), "{mean} N m at last, not {wanted}");
+}

@@ -1,0 +1,11 @@
+//! Branches of periodic motions, of pairs and of gearboxes: what is asked, what must hold, what is read off.
+
+mod figures;
+mod plan;
+mod point;
+
+pub use figures::BranchFigures;
+pub(crate) use figures::ReadOff;
+pub(crate) use plan::{BranchWords, checks, stable_ones};
+pub use point::{BranchPoint, BranchTurn, LossName, TimePoint};
+pub(crate) use point::{ROWS, state};

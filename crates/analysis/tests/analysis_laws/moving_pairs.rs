@@ -1,0 +1,140 @@
+//! A pair in motion as the gearbox of two held shafts.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+use std::path::Path;
+
+use analysis::{Context, Ending, NoObserver, lumped::LumpedAnalysis, motion::MotionAnalysis, solve};
+use scene::{
+    Model, Scene, SceneBuilder,
+    gearbox::{Gearbox, gearbox_of_moving_pair},
+};
+
+/// Dynamic transmission error (um) at the rows of a pair, and steps between two of them.
+fn alone(scene: &Scene) -> (Vec<f64>, u32) {
+    if scene.analysis.model == Model::Mapped {
+        let found = LumpedAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+        // The first row is the start.
+        return (found.rows[1..].iter().map(|r| r.transmission_error_um).collect(), found.headline.steps_per_row);
+    }
+    let found = MotionAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
+    let motion = scene.motion.as_ref().unwrap();
+    let cycle_s = 60.0 / (f64::from(scene.driver_teeth()) * scene.operation.speed_rpm);
+    let steps = f64::from(motion.steps_per_resonance) * found.headline.mesh_resonance_hz * cycle_s;
+    let per_row = (steps / f64::from(motion.steps_per_mesh_cycle)).ceil().max(1.0);
+    (found.rows.iter().map(|r| r.dte_um).collect(), per_row as u32)
+}
+
+/// The same of its gearbox, the row at the start left out.
+fn as_gearbox(scene: &Scene, per_row: u32) -> Vec<f64> {
+    let text = gearbox_of_moving_pair(scene, per_row).unwrap().unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let file = Gearbox::parse(&text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished);
+    let moved = found.unwrap_or_else(|e| panic!("{}: {e}", scene.name)).motion.unwrap();
+    moved.rows[1..].iter().map(|row| 1e3 * row.meshes[0].transmission_error).collect()
+}
+
+/// Largest difference of both over the peak to peak.
+fn off(scene: &Scene) -> f64 {
+    let (wanted, per_row) = alone(scene);
+    let found = as_gearbox(scene, per_row);
+    // A settled motion on maps has its start among its rows.
+    let count = found.len().min(wanted.len());
+    assert!(found.len() - count <= 1 && wanted.len() == count, "{}: {} rows", scene.name, found.len());
+    let [low, high] = wanted.iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(*x), h.max(*x)]);
+    found.iter().zip(&wanted).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / (high - low)
+}
+
+/// A small pair in motion, with what is changed of it.
+fn small(changes: impl Fn(SceneBuilder) -> SceneBuilder) -> Scene {
+    let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(300.0);
+    let meshed = ["pinion.mesher", "wheel.mesher"].iter().fold(base, |scene, gear| {
+        let keys = [("order", 1), ("sector_teeth", 1), ("elements_profile", 3), ("elements_thickness", 4)];
+        let all = keys.iter().chain(&[("elements_face", 4), ("elements_rim", 2)]);
+        all.fold(scene, |scene, (key, value)| scene.set(&format!("{gear}.{key}"), *value))
+    });
+    let moving = meshed
+        .set("operation.speed_rpm", 3000.0)
+        .set("contact.slices", 12)
+        .set("analysis.kind", "dynamic")
+        .set("analysis.positions_per_cycle", 8)
+        .set("analysis.cycles", 2)
+        .set("drive.by", "speed")
+        .set("motion.run", "span")
+        .set("motion.method", "newmark")
+        .set("motion.steps_per_mesh_cycle", 32);
+    changes(moving).build().unwrap_or_else(|e| panic!("{e}"))
+}
+
+type Change = fn(SceneBuilder) -> SceneBuilder;
+
+/// Shafts held, a pair in motion is its own gearbox, row by row: with every method, drive, way and side, friction and
+/// dampers. What is left is round-off of places, of which the energy has 1e-14 mm times the force; the discrete gradient
+/// (`energy`) divides that by its path.
+#[test]
+fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
+    let all: [(&str, f64, Change); 15] = [
+        ("newmark", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.0)),
+        ("generalised-alpha", 1e-8, |s| s.set("motion.method", "generalised-alpha")),
+        ("rk4", 1e-8, |s| s.set("motion.method", "rk4")),
+        ("dormand-prince", 1e-8, |s| s.set("motion.method", "dormand-prince")),
+        ("energy", 1e-7, |s| s.set("motion.method", "energy").set("motion.mesh_damping_ns_per_mm2", 0.0)),
+        ("events", 1e-7, |s| s.set("motion.stop_at_events", true).set("motion.method", "energy")),
+        ("shooting", 1e-8, |s| s.set("motion.run", "shooting").set("motion.periodic_tolerance", 1e-11)),
+        ("damper", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.2)),
+        ("balanced", 1e-8, |s| s.set("drive.by", "torque")),
+        ("balanced, friction", 1e-8, |s| s.set("drive.by", "torque").set("contact.friction", 0.05)),
+        ("friction", 1e-8, |s| s.set("contact.friction", 0.05)),
+        ("wheel drives", 2e-8, |s| s.set("operation.driver", "wheel")),
+        ("clockwise", 1e-8, |s| s.set("operation.rotation", "cw")),
+        ("driving flanks", 1e-8, |s| s.set("contact.flanks", "driving")),
+        ("mapped", 1e-8, |s| {
+            let maps = s.set("analysis.model", "mapped").set("contact.flanks", "driving");
+            maps.set("motion.run", "steady").set("motion.periodic_tolerance", 1e-11)
+        }),
+    ];
+    let mut wrong = Vec::new();
+    for (name, bound, change) in all {
+        let found = off(&small(change));
+        println!("{name}: {found:.1e} of the peak to peak, bound {bound:.0e}");
+        wrong.extend((found.is_nan() || found > bound).then_some(name));
+    }
+    assert!(wrong.is_empty(), "off by more: {wrong:?}");
+}
+
+/// So are pairs of the scenes that run from the start on; others that move settle first, and end where they repeat
+/// themselves to what they ask for.
+#[test]
+fn moving_pairs_of_the_scenes_are_gearboxes_of_held_shafts() {
+    let scenes = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/envelope");
+    let all = [
+        ("F06-rotation.toml", 3e-7),
+        ("F20-step-at-impact.toml", 1e-8),
+        ("F23-numerical-damping.toml", 1e-8),
+        ("F24-explicit-limit.toml", 1e-8),
+        ("F30-restart.toml", 1e-8),
+        ("F33-leakage.toml", 1e-7),
+    ];
+    let mut wrong = Vec::new();
+    for (name, bound) in all {
+        let scene = Scene::read(&scenes.join(name)).unwrap_or_else(|e| panic!("{e}"));
+        let found = off(&scene);
+        println!("{name}: {found:.1e} of the peak to peak, bound {bound:.0e}");
+        wrong.extend((found.is_nan() || found > bound).then_some(name));
+    }
+    assert!(wrong.is_empty(), "off by more: {wrong:?}");
+}
+
+/// What held shafts do not have is no gearbox: normal modes, gears on bearings, torques over time.
+#[test]
+fn other_motions_of_pairs_have_no_gearbox() {
+    let all: [Change; 4] = [
+        |s| s.set("analysis.model", "reduced+modes"),
+        |s| s.set("wheel.body.free", vec!["x"]).set("wheel.bearing.stiffness_x_n_per_mm", 1e6),
+        |s| s.set("load.amplitude_nm", 10.0).set("load.frequency_hz", 10.0),
+        |s| s.set("drive.by", "torque").set("drive.torque_nm", 10.0),
+    ];
+    for change in all {
+        assert_eq!(gearbox_of_moving_pair(&small(change), 1).unwrap(), None);
+    }
+}

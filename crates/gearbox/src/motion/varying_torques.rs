@@ -1,0 +1,103 @@
+//! Torques of outputs that change with time, and the work that they do. Theory (93).
+
+use dynamics::Torque;
+use nalgebra::DVector;
+use serde::{Deserialize, Serialize};
+
+/// A torque that acts on a disc by a law over time.
+#[derive(Debug, Clone)]
+pub(super) struct VaryingTorque {
+    /// T(t), N mm about +z.
+    pub law: Torque,
+    /// Generalised force of a unit torque on the coordinates z, with what a balanced drive answers.
+    pub along: DVector<f64>,
+    /// Turn of the disc by the coordinates z.
+    pub disc: DVector<f64>,
+    /// Reduced coordinate of the bodies that it acts on.
+    pub at: usize,
+    /// Turn of its shaft over the given one of the input; 0 where that is among the coordinates.
+    pub ratio: f64,
+}
+
+/// All of them; none for a gearbox whose loads are constant.
+#[derive(Debug, Clone, Default)]
+pub(super) struct VaryingTorques {
+    all: Vec<VaryingTorque>,
+    done: TorqueMemory,
+}
+
+/// Work of torques that change with time, and where their discs stood last.
+///
+/// ```text
+/// W += sum over j of T_j(t + h/2) (theta_j(t + h) - theta_j(t))
+/// ```
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct TorqueMemory {
+    /// W, N mm.
+    pub work: f64,
+    /// Time of the last step's end, s.
+    pub time: f64,
+    /// Angles of the discs there, rad about +z.
+    pub angles: Vec<f64>,
+}
+
+impl VaryingTorques {
+    pub fn new(all: Vec<VaryingTorque>) -> Self {
+        Self { all, done: TorqueMemory::default() }
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.all.is_empty()
+    }
+
+    /// Forces on the coordinates z at a time.
+    pub fn forces(&self, t: f64) -> impl Iterator<Item = (f64, &DVector<f64>)> {
+        self.all.iter().map(move |own| (own.law.at(t), &own.along))
+    }
+
+    /// Torque (N mm about +z) on the input that balances them at a time.
+    pub fn balance(&self, t: f64) -> f64 {
+        self.all.iter().map(|own| -own.ratio * own.law.at(t)).sum()
+    }
+
+    /// Torque (N mm) on a reduced coordinate of the bodies at a time.
+    pub fn on_body(&self, t: f64, coordinate: usize) -> f64 {
+        self.all.iter().filter(|own| own.at == coordinate).map(|own| own.law.at(t)).sum()
+    }
+
+    fn angles(&self, input: f64, q: &DVector<f64>) -> Vec<f64> {
+        self.all.iter().map(|own| own.ratio * input + own.disc.dot(q)).collect()
+    }
+
+    /// A motion begins at a time, with the input at an angle.
+    pub fn begin(&mut self, time: f64, input: f64, q: &DVector<f64>) {
+        self.done = TorqueMemory { work: 0.0, time, angles: self.angles(input, q) };
+    }
+
+    /// A step has ended at a time, with the input at an angle.
+    pub fn accept(&mut self, time: f64, input: f64, q: &DVector<f64>) {
+        if self.all.is_empty() {
+            return;
+        }
+        let (angles, middle) = (self.angles(input, q), 0.5 * (self.done.time + time));
+        let moved = angles.iter().zip(&self.done.angles).map(|(now, before)| now - before);
+        self.done.work += self.all.iter().zip(moved).map(|(own, way)| own.law.at(middle) * way).sum::<f64>();
+        (self.done.time, self.done.angles) = (time, angles);
+    }
+
+    /// Work since the beginning, N mm.
+    pub fn work(&self) -> f64 {
+        self.done.work
+    }
+
+    /// What a checkpoint holds of them.
+    pub fn memory(&self) -> TorqueMemory {
+        self.done.clone()
+    }
+
+    /// Goes on from a checkpoint.
+    pub fn restore(&mut self, memory: &TorqueMemory) {
+        self.done = memory.clone();
+    }
+}
