@@ -103,8 +103,8 @@ pub fn nodal_contact_line(
 }
 
 /// Axial intervals over which a pair of patches touches, from slices. `opened` is the part of a row's gap under load
-/// that is not the undeformed flanks' own ([`LineStation`]); beside it stands the row's roll angle on body 1. `displacements` are those of both gears' boundary
-/// coordinates, mm, requested where no row is near.
+/// that is not the undeformed flanks' own ([`LineStation`]); beside it stands the row's roll angle on body 1.
+/// `displacements` are those of both gears' boundary coordinates, mm, requested where no row is near.
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],

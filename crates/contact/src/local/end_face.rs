@@ -107,7 +107,8 @@ impl FourFaces {
         let distance = Four::new(simd, &self.distance);
         let blunt = Four::new(simd, &self.blunt) * a;
         let s = (distance * distance + blunt * blunt).sqrt();
-        let (value, slope) = self.beside(simd, s);
+        // A band many depths wide comes up only while a solution is sought; beyond its range the exponential is no number.
+        let (value, slope) = self.beside(simd, s.min(of(FAR)));
         let (straight, zero) = (of(STRAIGHT), of(0.0));
         (straight.below(distance, zero, value), straight.below(distance, zero, slope * blunt * blunt / s))
     }
