@@ -124,7 +124,7 @@ impl<S: Simd> Four<S> {
         ]);
         let half = of(0.5) * f * f;
         let low = exponent * of(1.908_214_929_270_587_7e-10) - half;
-        s * (half + (even + odd)) + low + f + exponent * of(6.931_471_803_691_238_2e-1)
+        s * (half + (even + odd)) + low + f + exponent * of(6.931_471_803_691_238e-1)
     }
 
     /// e^x and e^x - 1 for -700 < x < 700, to two ulp.
@@ -134,7 +134,7 @@ impl<S: Simd> Four<S> {
         let of = |x: f64| Self::splat(self.0, x);
         let whole = self * of(std::f64::consts::LOG2_E) + of(TO_WHOLE);
         let k = whole - of(TO_WHOLE);
-        let r = self - k * of(6.931_471_803_691_238_2e-1) - k * of(1.908_214_929_270_587_7e-10);
+        let r = self - k * of(6.931_471_803_691_238e-1) - k * of(1.908_214_929_270_587_7e-10);
         // 1/n!, from n = 13 on down.
         let rest = r.polynomial([
             1.605_904_383_682_161_5e-10,
@@ -142,8 +142,8 @@ impl<S: Simd> Four<S> {
             2.505_210_838_544_172e-8,
             2.755_731_922_398_589e-7,
             2.755_731_922_398_589_3e-6,
-            2.480_158_730_158_730_2e-5,
-            1.984_126_984_126_984_1e-4,
+            2.480_158_730_158_73e-5,
+            1.984_126_984_126_984e-4,
             1.388_888_888_888_889e-3,
             8.333_333_333_333_333e-3,
             4.166_666_666_666_666_4e-2,

@@ -89,9 +89,7 @@ fn factor(mut block: [[f64; LANES]; LANES]) -> Option<([[f64; LANES]; LANES], [f
         let root = block[j][j].sqrt();
         shares[j] = root.recip();
         block[j][j] = root;
-        for i in j + 1..LANES {
-            block[j][i] *= shares[j];
-        }
+        block[j][j + 1..].iter_mut().for_each(|x| *x *= shares[j]);
         for k in j + 1..LANES {
             for i in k..LANES {
                 block[k][i] -= block[j][i] * block[j][k];

@@ -225,8 +225,8 @@ impl FourLaws {
         if self.deviation.iter().any(Option::is_some) {
             let (width, load) = (a.array(), q.array());
             let of_row = |i: usize| {
-                let deviation = self.deviation[i].as_ref();
-                let change = |d: &Box<BandMean>| d.mean_change(d.share(width[i])) - 0.5 * d.change(d.share(width[i])).0;
+                let deviation = self.deviation[i].as_deref();
+                let change = |d: &BandMean| d.mean_change(d.share(width[i])) - 0.5 * d.change(d.share(width[i])).0;
                 deviation.map_or(0.0, |d| load[i] * change(d))
             };
             curved = curved + Four::new(simd, &std::array::from_fn(of_row));

@@ -131,9 +131,8 @@ impl Tile<'_> {
         let [p0, p1, p2] = [rows_at[0] as usize, rows_at[1] as usize, rows_at[2] as usize];
         for c in 0..RUNS {
             let from = columns_at[c] as usize * self.count;
-            let mut columns = self.block[from..from + RUN * self.count].chunks_exact(self.count);
-            for a in 0..RUN {
-                let Some(column) = columns.next() else { continue };
+            let columns = self.block[from..from + RUN * self.count].chunks_exact(self.count);
+            for (a, column) in columns.enumerate() {
                 let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
                 for k in 0..K {
                     let weight = Four::new(simd, &spread[k][c][a]);
