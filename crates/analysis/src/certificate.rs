@@ -38,7 +38,7 @@ const REDUCED: &str = "motions of `reduced` and `reduced+modes`";
 const GEARBOX_IN_MOTION: &str = "motions of gearboxes";
 
 /// All kinds of checks; a test holds their bounds against those of runs.
-pub const CHECKS: [CheckKind; 27] = [
+pub const CHECKS: [CheckKind; 28] = [
     kind("torque_residual", "1e-8", AT_REST, "largest relative difference of contact torque and applied torque"),
     kind(
         "complementarity_residual",
