@@ -138,12 +138,15 @@ fn modes_left_out(found: &Followed) -> Check {
     )
 }
 
+/// Points of every motion and of every bifurcation, mesh by mesh.
+type ReadBranch = (Vec<Vec<BranchPoint>>, Vec<Vec<BranchTurn>>);
+
 /// Of each mesh a point of every motion, up to one that a mesh has no forces for, and of every bifurcation.
 fn read(
     mechanism: &mut GearboxMechanism,
     found: &mut Followed,
     progress: &dyn Progress,
-) -> Result<(Vec<Vec<BranchPoint>>, Vec<Vec<BranchTurn>>), AnalysisError> {
+) -> Result<ReadBranch, AnalysisError> {
     let (cycles, count) = (found.mesh_cycles.clone(), ROWS * found.period_cycles as usize);
     let mut read = |motion: &PeriodicMotion, whole: &FourierSeries| {
         let rows = mechanism.instants((motion.parameter * RPM, motion.period), whole, count)?;
