@@ -229,7 +229,7 @@ pub fn run_up(browser: PathBuf) {
 pub fn without_meshes(browser: PathBuf) {
     let seen = report_of(&browser, "iso", ISO_SCENE);
     assert!(quantities(&seen).is_empty(), "{seen}");
-    assert_eq!(seen["steps"].as_u64(), Some(32));
+    assert_eq!(seen["steps"].as_u64(), Some(16));
 }
 
 /// Runs commands and looks at a page of theirs.
