@@ -44,7 +44,12 @@ impl PairOffsets {
 
     /// Mesh cycles after which the same teeth meet again.
     pub fn period(&self) -> u64 {
-        let [a, b] = [0, 1].map(|g| self.teeth[g].len().max(1) as u64);
+        Self::cycles([0, 1].map(|g| self.teeth[g].len().max(1) as u64))
+    }
+
+    /// Mesh cycles after which teeth meet again that come back after so many cycles on either gear: their least common
+    /// multiple.
+    pub fn cycles([a, b]: [u64; 2]) -> u64 {
         let (mut x, mut y) = (a, b);
         while y > 0 {
             (x, y) = (y, x % y);

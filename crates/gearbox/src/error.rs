@@ -152,7 +152,7 @@ pub enum GearboxError {
     },
     /// A motion that is to settle, and may not wait until it could repeat itself.
     #[error(
-        "all meshes come back together after {} cycles of the fastest one, and the motion may wait for {most}",
+        "all meshes, and teeth that differ, come back together after {} cycles of the fastest one, and the motion may wait for {most}",
         period.map_or("more than 100000".into(), |p| p.to_string())
     )]
     NoCommonPeriod {
@@ -169,7 +169,7 @@ pub enum GearboxError {
     },
     /// A branch of motions whose period is too long.
     #[error(
-        "all meshes come back together after {} cycles of the fastest one, and a branch has up to {most} with its harmonics",
+        "all meshes, and teeth that differ, come back together after {} cycles of the fastest one, and a branch has up to {most} with its harmonics",
         period.map_or("more than 100000".into(), |p| p.to_string())
     )]
     LongPeriod {

@@ -96,6 +96,11 @@ impl LiveMesh {
         self.element.restore_windows(windows)
     }
 
+    /// Its own cycles after which the mesh comes back ([`MovingMesh::period`]).
+    pub fn period(&self) -> u64 {
+        self.element.period()
+    }
+
     /// Forgets what it remembers of earlier places.
     pub fn forget(&mut self) {
         self.last = None;

@@ -208,6 +208,10 @@ impl MeshElement for MappedMesh {
 }
 
 impl MovingMesh for MappedMesh {
+    fn period(&self) -> u64 {
+        self.map.offsets().map_or(1, PairOffsets::period)
+    }
+
     fn energy(&self) -> f64 {
         self.contact.energy
     }

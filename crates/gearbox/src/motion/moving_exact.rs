@@ -3,8 +3,9 @@
 use std::sync::Arc;
 
 use contact::SliceResult;
+use contact_map::PairOffsets;
 use dynamics::{FlankForces, FlankStates, MeshFlanks};
-use geometry::GearPair;
+use geometry::{Gear, GearPair};
 use ltca::StaticOptions;
 use reduction::ElasticGear;
 
@@ -99,6 +100,11 @@ impl MeshElement for MovingExactMesh {
 }
 
 impl MovingMesh for MovingExactMesh {
+    fn period(&self) -> u64 {
+        let of = |gear: &Gear| u64::from(if gear.has_own_teeth() { gear.teeth() } else { 1 });
+        PairOffsets::cycles([&self.pair.pinion, &self.pair.wheel].map(of))
+    }
+
     fn begin_at(&mut self, cycles: f64) -> Result<(), GearboxError> {
         self.at = None;
         Ok(self.flanks.begin_at(&self.pair, finite_cycles(cycles)?)?)

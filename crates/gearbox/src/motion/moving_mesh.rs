@@ -93,6 +93,11 @@ pub trait MovingMesh: MeshElement {
         None
     }
 
+    /// Mesh cycles after which this mesh comes back: 1 where the teeth of both gears are alike.
+    fn period(&self) -> u64 {
+        1
+    }
+
     /// How much of what this mesh holds the last evaluation has used: above 1 it holds no more. 0 for a mesh without
     /// such bounds.
     fn reach(&self) -> f64 {

@@ -1,5 +1,7 @@
 //! Teeth that stand where they should not: pitch errors of both gears as the mesh meets them. Theory (94).
 
+use contact_map::PairOffsets;
+
 use crate::GearboxError;
 
 /// Deviations of the teeth of gear 1 and gear 2, mm along the normal of the flanks that drive: positive where a tooth
@@ -12,7 +14,7 @@ use crate::GearboxError;
 /// weights that add up to 1 and have no corner. Gear 2 turns the other way, so that its teeth come in descending order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PitchErrors {
-    teeth: [Vec<f64>; 2],
+    offsets: PairOffsets,
 }
 
 impl PitchErrors {
@@ -23,7 +25,7 @@ impl PitchErrors {
     pub fn new(teeth: [Vec<f64>; 2]) -> Result<Self, GearboxError> {
         match teeth.iter().flatten().copied().find(|e| !e.is_finite()) {
             Some(value) => Err(GearboxError::OutOfRange { part: "teeth".into(), quantity: "pitch error, mm", value }),
-            None => Ok(Self { teeth }),
+            None => Ok(Self { offsets: PairOffsets::new(teeth) }),
         }
     }
 
@@ -32,16 +34,13 @@ impl PitchErrors {
         // The pair whose middle is behind, and the one whose middle is ahead.
         let behind = (cycles - 0.5).floor();
         let y = cycles - 0.5 - behind;
-        let [a, b] = [self.of_pair(behind), self.of_pair(behind + 1.0)];
+        let [a, b] = [0, 1].map(|k| self.offsets.of(behind as i64 + k));
         let share = y * y * (3.0 - 2.0 * y);
         [a + share * (b - a), 6.0 * y * (1.0 - y) * (b - a)]
     }
 
-    fn of_pair(&self, k: f64) -> f64 {
-        let of = |own: &[f64], k: f64| {
-            let place = k.rem_euclid(own.len().max(1) as f64) as usize;
-            own.get(place).copied().unwrap_or(0.0)
-        };
-        of(&self.teeth[0], k) + of(&self.teeth[1], -k)
+    /// Mesh cycles after which the same teeth meet again.
+    pub fn period(&self) -> u64 {
+        self.offsets.period()
     }
 }

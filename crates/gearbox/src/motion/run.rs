@@ -8,7 +8,8 @@ use integrate::{
 use nalgebra::DVector;
 
 use super::{
-    Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, periodic_state::Settling,
+    Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, live_mesh::LiveMesh,
+    periodic_state::Settling,
 };
 use crate::GearboxError;
 
@@ -168,13 +169,18 @@ impl GearboxMechanism {
         })
     }
 
-    /// Cycles of the fastest mesh after which every mesh has gone through whole cycles; `None` where that takes more than
+    /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of
+    /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than
     /// [`LONGEST`].
     pub(super) fn common_period(&self) -> Option<u64> {
         let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
         // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
         let is_whole = |x: f64| (x - x.round()).abs() < 1e-3 / LONGEST as f64;
-        (1..=LONGEST).find(|&n| self.live.iter().all(|m| is_whole(n as f64 * (m.cycles_per_turn / fastest).abs())))
+        let comes_back = |n: u64, mesh: &LiveMesh| {
+            let cycles = n as f64 * (mesh.cycles_per_turn / fastest).abs();
+            is_whole(cycles) && (cycles.round() as u64).is_multiple_of(mesh.period())
+        };
+        (1..=LONGEST).find(|&n| self.live.iter().all(|mesh| comes_back(n, mesh)))
     }
 }
 

@@ -143,6 +143,10 @@ impl MeshElement for SpringMesh {
 }
 
 impl MovingMesh for SpringMesh {
+    fn period(&self) -> u64 {
+        self.errors.period()
+    }
+
     fn energy(&self) -> f64 {
         self.flanks().map(|s| 0.5 * s.at.force() * s.at.compression).sum()
     }

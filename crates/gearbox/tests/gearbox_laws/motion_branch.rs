@@ -5,7 +5,7 @@ use std::{f64::consts::TAU, ops::ControlFlow, time::Instant};
 
 use gearbox::{
     Disc, GearMesh, GearboxError, Torque,
-    motion::{Drive, GearboxBranch, GearboxMechanism, MotionOptions, MotionPlan, Speed, SpringMesh},
+    motion::{Drive, GearboxBranch, GearboxMechanism, MotionOptions, MotionPlan, PitchErrors, Speed, SpringMesh},
 };
 use geometry::Sense;
 use integrate::{Scheme, Settle, State};
@@ -21,8 +21,9 @@ const RPM: f64 = TAU / 60.0;
 /// Steps of a cycle in time.
 const STEPS: u64 = 160;
 
-/// A pair on stiff shafts in stiff bearings. Its stiffness varies so much that flanks lose contact at resonance.
-fn one_stage(vary: f64) -> GearboxMechanism {
+/// A pair on stiff shafts in stiff bearings, with pitch errors of its `teeth`. Its stiffness may vary so much that flanks lose
+/// contact at resonance.
+pub fn one_stage(vary: f64, teeth: [Vec<f64>; 2]) -> GearboxMechanism {
     let gears = pair([23, 31], 12.0);
     let mut structure = single(&gears, 0.3);
     for (i, (name, origin)) in [("in", [0.0; 3]), ("out", structure.shafts[1].origin)].into_iter().enumerate() {
@@ -42,7 +43,8 @@ fn one_stage(vary: f64) -> GearboxMechanism {
     let stiffness = Fourier { mean: 4e5, cosine: vec![vary], sine: vec![2e4, 1e4] };
     GearboxMechanism::new(structure, meshes, operation, &asked, |_, mesh, meshing| {
         let spring = SpringMesh::new(mesh, meshing, stiffness.clone())?.with_damping(0.5);
-        Ok(Box::new(spring.with_coast_flanks(mesh, meshing)?))
+        let errors = PitchErrors::new(teeth.clone())?;
+        Ok(Box::new(spring.with_coast_flanks(mesh, meshing)?.with_errors(errors)))
     })
     .unwrap()
 }
@@ -109,7 +111,7 @@ fn peak_to_peak(mechanism: &mut GearboxMechanism, motion: &PeriodicMotion, whole
 /// fold and up from below at the other. Between them is a branch that no sweep shows.
 #[test]
 fn sweeps_in_time_jump_at_the_folds() {
-    let mut mechanism = one_stage(1.6e5);
+    let mut mechanism = one_stage(1.6e5, [const { Vec::new() }; 2]);
     let found = branch(&mut mechanism, &plan(15_000.0, 13_800.0));
     for (fold, jump) in folds_and_jumps(&mut mechanism, &found) {
         assert!((jump / fold - 1.0).abs() < 2e-3, "fold at {fold:.2} 1/min, jump in time at {jump:.2}");
@@ -157,7 +159,7 @@ pub fn folds_and_jumps(mechanism: &mut GearboxMechanism, found: &GearboxBranch) 
 /// frequencies are as 2 to 1 as well, in their common period.
 #[test]
 fn motions_of_the_branch_are_those_in_time() {
-    let mut one = one_stage(8e4);
+    let mut one = one_stage(8e4, [const { Vec::new() }; 2]);
     let mut two = two_to_one();
     for (mechanism, from, to, cycles) in
         [(&mut one, 15_900.0, 15_500.0, vec![1]), (&mut two, 1900.0, 2000.0, vec![2, 1])]
@@ -201,7 +203,7 @@ fn two_to_one() -> GearboxMechanism {
 }
 
 /// A gearbox that a torque drives has no branch over its speed, and one whose meshes come back together after hundreds of cycles has
-/// none with these harmonics: both are told.
+/// none with these harmonics, be it for teeth that differ: all are told.
 #[test]
 fn what_has_no_branch_is_refused() {
     let asked = |drive: Drive| {
@@ -213,4 +215,10 @@ fn what_has_no_branch_is_refused() {
     assert!(matches!(torque, GearboxError::NoBranch { .. }) && torque.hint().is_some(), "{torque}");
     let long = asked(Drive::Speed(Speed::Constant(100.0)));
     assert!(matches!(long, GearboxError::LongPeriod { most: 10, .. }) && long.hint().is_some(), "{long}");
+    // Teeth that differ meet again after a turn.
+    let mut own_teeth = one_stage(5e4, [(0..23).map(|i| 1e-4 * f64::from(i % 5)).collect(), Vec::new()]);
+    let rest = own_teeth.start(DAMPING).unwrap();
+    let turn =
+        own_teeth.branch(&rest, (&plan(14000.0, 15000.0), 1), |_| ControlFlow::Continue(())).map(|_| ()).unwrap_err();
+    assert!(matches!(turn, GearboxError::LongPeriod { period: Some(23), most: 10 }), "{turn}");
 }

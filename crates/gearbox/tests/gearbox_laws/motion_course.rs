@@ -88,6 +88,26 @@ fn a_settled_gearbox_comes_back_after_a_common_period() {
     assert!(from_rest > 1e3 * back, "settled from the start: {from_rest:e} beside {back:e}");
 }
 
+/// Where teeth of a gear differ, a motion comes back after a turn of this gear, and not after a mesh cycle.
+#[test]
+fn teeth_that_differ_come_back_after_a_turn() {
+    let teeth = [(0..23).map(|i| 1e-3 * f64::from(i * 7 % 5)).collect(), Vec::new()];
+    let mut mechanism = crate::motion_branch::one_stage(5e4, teeth);
+    let start = mechanism.start(0.05).unwrap();
+    let settle = Some(Settle { tolerance: 1e-7, most: 60 * 23 });
+    let plan = MotionPlan { settle, ..plan(&mechanism, 2 * 23) };
+    let mut rows = Vec::new();
+    let done = mechanism.run(&start, &plan, |instant| rows.push(instant.meshes[0].transmission_error)).unwrap();
+    let found = done.periodicity.unwrap();
+    assert!(found.residual <= 1e-7 && found.period == 23, "{found:?} after {}", done.warm_up);
+    let (per_cycle, turn) = (6, 6 * 23);
+    let ends = rows.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
+    let after = |n: usize| (0..turn).map(|i| (rows[i + n] - rows[i]).abs()).fold(0.0, f64::max) / (ends[1] - ends[0]);
+    let [turned, cycle] = [turn, per_cycle].map(after);
+    println!("after a turn {turned:.1e} of the peak to peak, after a cycle {cycle:.1e}");
+    assert!(turned < 1e-6 && cycle > 0.1, "after a turn {turned:e}, after a cycle {cycle:e}");
+}
+
 /// Newton's method on the period leads to the motion that waiting leads to, long before it where little damps: on a spring,
 /// and on the flanks themselves, whose windows go back to where the period began.
 #[test]
