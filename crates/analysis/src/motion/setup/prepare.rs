@@ -202,7 +202,7 @@ fn settings(
         steps_per_resonance: steps_per_resonance(motion, system),
         tolerance: motion.error_tolerance,
         stop_at_events: motion.stop_at_events,
-        scale: system.scales(&system.coordinates().scales(length, driven.base_radius()), length),
+        scale: system.scales(&system.coordinates().scales(length, driven.base_radius().abs()), length),
     }
 }
 
