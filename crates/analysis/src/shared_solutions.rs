@@ -191,7 +191,7 @@ fn warn(base: &Base, scene: &Scene, history: &mut StaticHistory) -> Result<(), A
     history.remarks.extend(resolution_remarks(scene, &pair, &options));
     history.remarks.extend(jammed_pair(&history.positions, &pair, &options));
     history.remarks.extend(base.body_remarks().iter().cloned());
-    let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
+    let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance().abs());
     history.remarks.extend(deflection_remarks(&history.positions, module, distance));
     Ok(())
 }

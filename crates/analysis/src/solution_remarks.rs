@@ -124,7 +124,7 @@ pub(crate) fn deflection_remarks(positions: &[StaticPosition], module: f64, cent
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
-    let round_off = f64::EPSILON * centre_distance;
+    let round_off = f64::EPSILON * centre_distance.abs();
     if worst(|p| p.strain_energy) > 0.0 && error < FEW_DIGITS * round_off {
         said.push(remark::light_load(error, round_off));
     }

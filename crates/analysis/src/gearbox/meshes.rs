@@ -124,7 +124,7 @@ impl ReducedMesh {
     /// What is said of a mesh whose flanks press on both sides at once.
     pub fn jammed(&self, i: usize, mesh: &GearMesh, positions: &[GearboxPosition]) -> Option<Remark> {
         let contact = &self.options.contact;
-        let lever = mesh.pair.wheel.base_radius() * mesh.pair.base_helix_angle().cos();
+        let lever = mesh.pair.wheel.base_radius().abs() * mesh.pair.base_helix_angle().cos();
         let of = |p: &GearboxPosition| {
             let MeshState { normal_force, moment, .. } = &p.meshes[i];
             PressedMesh { sum: *normal_force, needed: moment[1][2].abs() / lever }

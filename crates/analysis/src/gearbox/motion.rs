@@ -455,7 +455,7 @@ impl AtRest<'_> {
             MeshModel::Mapped => {
                 let held = |gear: usize| self.file.shafts[self.file.gears[gear].shaft].held;
                 let driven = [&own.pair.pinion, &own.pair.wheel][self.reduced[mesh].options.driven()];
-                let lever = driven.base_radius() * own.pair.base_helix_angle().cos();
+                let lever = driven.base_radius().abs() * own.pair.base_helix_angle().cos();
                 let request = MapRequest {
                     stands: self.stands(mesh),
                     tilts: !self.file.meshes[mesh].gears.into_iter().all(held),

@@ -190,9 +190,6 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     if scene.rating.is_some() {
         return unfit("asks for a rating", "a gearbox is not rated: rate the pair alone, under the torque of its mesh");
     }
-    if scene.wheel.is_internal() {
-        return unfit("has an internal gear", "a gearbox has external gears alone: run the pair by itself");
-    }
     let name = mesh_name(raw);
     Ok(GearboxMesh { name, gears: pair, scene })
 }
