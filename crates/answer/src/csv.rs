@@ -54,7 +54,20 @@ mod tests {
             .collect();
         let near = (-330..309).flat_map(|e| ["1e", "2.5e", "9.999999999999999e", "-7e"].map(|s| format!("{s}{e}")));
         all.extend(near.filter_map(|word| word.parse::<f64>().ok()));
-        all.extend([0.0, -0.0, 1.0, -3.0, 150.0, 0.1, 1e12, 1e-4, 1e-5, 999_999_999_999.9, f64::MIN_POSITIVE, f64::MAX]);
+        all.extend([
+            0.0,
+            -0.0,
+            1.0,
+            -3.0,
+            150.0,
+            0.1,
+            1e12,
+            1e-4,
+            1e-5,
+            999_999_999_999.9,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+        ]);
         all.extend([f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
         for value in all {
             let mut text = String::new();

@@ -3,9 +3,9 @@
 use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
-use scene::gearbox::{Gearbox, GearboxGear};
+use scene::gearbox::{Gearbox, GearboxGear, GearboxSection};
 
-/// What stands on a shaft: from and to along z of the common axes, and its radius, mm; of a ring also that of its hole.
+/// What stands on a shaft: from and to along z of the common axes, and its radius, mm; of a ring and of a hollow shaft also that of its hole.
 struct Body<'a> {
     name: &'a str,
     from: f64,
@@ -66,8 +66,10 @@ fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<Remark> {
         end += s.length;
         begin < to && from < end
     });
-    let thick = inside.map(|s| 0.5 * s.outer).fold(0.0, f64::max);
     let room = if exact.is_internal() { exact.tip_radius().abs() } else { exact.root_radius() };
+    // A ring may sit within a hollow part.
+    let around = |s: &&GearboxSection| exact.is_internal() && 0.5 * s.inner >= room;
+    let thick = inside.filter(|s| !around(s)).map(|s| 0.5 * s.outer).fold(0.0, f64::max);
     if thick > room {
         said.push(remark::shaft_thicker_than_root(&*shaft.name, 2.0 * thick, &*gear.name, 2.0 * room));
     }
@@ -80,7 +82,7 @@ fn bodies<'a>(file: &'a Gearbox, shaft: usize, exact: &[Option<&Gear>]) -> Vec<B
     let sections = own.sections.iter().map(|s| {
         let from = at;
         at += s.length;
-        Body { name: &own.name, from, to: at, hole: 0.0, radius: 0.5 * s.outer, gear: None }
+        Body { name: &own.name, from, to: at, hole: 0.5 * s.inner, radius: 0.5 * s.outer, gear: None }
     });
     let mut all: Vec<Body<'a>> = sections.collect();
     for (i, gear) in file.gears.iter().enumerate().filter(|(_, g)| g.shaft == shaft) {

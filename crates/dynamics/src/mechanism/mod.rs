@@ -14,12 +14,12 @@ use serde::{Deserialize, Serialize};
 use super::{
     COORDINATES, Coordinates, Displacement, Extremes, FlankStates, MeshDamping, MeshResonance, MotionOptions, Nominal,
     NominalState, Speed, ToothChanges, Torque,
-    nominal::{running_senses, wheel_turns},
     elastic_displacement::ElasticDisplacement,
     equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
     mesh_flanks::MeshFlanks,
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
+    nominal::{running_senses, wheel_turns},
 };
 use build::per_length;
 use ltca::{RootStress, StaticError};

@@ -133,7 +133,10 @@ fn forces_are_the_slope_of_the_energy() {
         let mut forces = Forces::zeros(n);
         system.forces(0.0, &q, &v, &mut forces).unwrap();
         let (power, booked) = (forces.other.dot(&v), forces.supplied - forces.dissipated);
-        assert!((power - booked).abs() < 1e-11 * (forces.dissipated + forces.supplied.abs()), "{power} beside {booked}");
+        assert!(
+            (power - booked).abs() < 1e-11 * (forces.dissipated + forces.supplied.abs()),
+            "{power} beside {booked}"
+        );
         if friction > 0.0 {
             continue;
         }

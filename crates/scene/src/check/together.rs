@@ -80,7 +80,9 @@ fn internal(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let span = |word: Option<std::ops::Range<usize>>| word.unwrap_or(teeth.clone());
     let refused = |span: std::ops::Range<usize>, what: String, advice: &str| Err(s.conflict(&span, what, advice));
     let model = scene.analysis.model;
-    if scene.is_auto() || !matches!(model, Model::Reduced | Model::ReducedModes | Model::Mapped | Model::Full) {
+    if scene.is_auto()
+        || !matches!(model, Model::Reduced | Model::ReducedModes | Model::Mapped | Model::Full | Model::Iso)
+    {
         let what = format!("the model \"{}\" does not know internal gears", model.word());
         return refused(span(raw.analysis.model.as_ref().map(Spanned::span)), what, "use `model = \"reduced\"`");
     }
