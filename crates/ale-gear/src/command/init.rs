@@ -8,9 +8,10 @@ use std::{
 use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 use files::{write_file, write_new_file};
+use geometry::GeometryError;
 
 use scene::{
-    RexsGearbox, RexsPair, Starter,
+    RexsGearbox, RexsPair, SceneError, Starter,
     gearbox::{Gearbox, gearbox_of_pair},
     read_gearbox, read_pair, read_rexs,
 };
@@ -55,9 +56,9 @@ struct PairArgs {
     /// Title of the case [default: from the teeth]
     #[arg(long)]
     name: Option<String>,
-    /// Numbers of teeth of pinion and wheel [default: 30,30]
-    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1)]
-    teeth: Vec<u32>,
+    /// Numbers of teeth of pinion and wheel, the wheel's negative if internal [default: 30,30]
+    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    teeth: Vec<i32>,
     /// Normal module [default: 3]
     #[arg(long, value_name = "MM")]
     module_mm: Option<f64>,
@@ -331,11 +332,26 @@ fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], Comm
     }
 }
 
-/// The scene as text; what would not run is not written.
+/// The scene as text; what would not run is not written. Tips that an internal pair has to shorten are, where nobody has said
+/// how long they are.
 fn checked(starter: &Starter, shown: &str) -> Result<String, CommandError> {
-    let text = starter.text(shown);
-    Scene::parse(&text, Path::new(shown))?.gear_pair()?;
-    Ok(text)
+    let mut starter = starter.clone();
+    loop {
+        let text = starter.text(shown);
+        let Err(error) = Scene::parse(&text, Path::new(shown))?.gear_pair() else { return Ok(text) };
+        let SceneError::Geometry { source, .. } = &error else { return Err(error.into()) };
+        let shorter = match &**source {
+            GeometryError::Trochoid { pinion_tip_mm, .. } => pinion_tip_mm.map(|tip| (0, tip)),
+            GeometryError::Involute { ring_tip_mm, .. } => ring_tip_mm.map(|tip| (1, tip)),
+            _ => None,
+        };
+        match shorter {
+            Some((gear, tip)) if starter.tip_diameter_mm[gear].is_none() => {
+                starter.tip_diameter_mm[gear] = Some(tip.abs());
+            }
+            _ => return Err(error.into()),
+        }
+    }
 }
 
 /// Asks again, with the last answers in brackets, while no pair comes of the answers.
@@ -367,7 +383,7 @@ fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     };
     let mut s = d.clone();
     answer("Teeth of the pinion", &mut s, |s| &mut s.teeth[0], fits)?;
-    answer("Teeth of the wheel", &mut s, |s| &mut s.teeth[1], fits)?;
+    answer("Teeth of the wheel, negative if internal", &mut s, |s| &mut s.teeth[1], fits)?;
     answer("Normal module, mm", &mut s, |s| &mut s.module_mm, fits)?;
     answer("Helix angle of the pinion, degrees, right hand positive", &mut s, |s| &mut s.helix_deg, fits)?;
     answer("Face width, mm", &mut s, |s| &mut s.face_width_mm, fits)?;
@@ -414,7 +430,7 @@ where
 {
     let before = *place(starter);
     let tried = |word: &str| -> Result<Starter, String> {
-        let whole = std::any::type_name::<T>() == std::any::type_name::<u32>();
+        let whole = std::any::type_name::<T>() == std::any::type_name::<i32>();
         let number = word.trim().parse::<T>().map_err(|_| match word.contains(',') {
             true => format!("`{word}` is not a number: write it with a decimal point"),
             false => format!("`{word}` is no {}number", if whole { "whole " } else { "" }),

@@ -261,7 +261,7 @@ fn coast_flanks_catch_gears_that_part() {
             })))
             .unwrap_or_else(|e| panic!("{e}"));
     }
-    let (ledger, extremes) = (*motion.ledger().unwrap(), motion.system().extremes().clone());
+    let (ledger, extremes) = (*motion.ledger().unwrap(), *motion.system().extremes());
     let (gap, open) = (extremes.largest_gap, ledger.relative_residual());
     println!("largest forces {pressed:.0?} N, gap {gap:.4} mm; open by {open:.1e}");
     assert!(pressed.iter().all(|f| *f > 100.0), "{pressed:?} N");
