@@ -167,7 +167,9 @@ impl<'a> Walk<'a> {
         let angles = mesh.discs.map(|d| self.marks[self.structure.discs[d].shaft] + self.keys[d]);
         let start = if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], direction) };
         let meets = [start, wheel_angle(&mesh.pair, side, start, direction)][to];
-        let timing = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        let apart = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        // Gear 2 may make up for gear 1.
+        let timing = if to == 0 { apart * teeth[0] / teeth[1] } else { apart };
         Ok(Meshing { sense, driver, direction, start, ratio: ratio_1, timing })
     }
 

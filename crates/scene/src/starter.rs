@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::{Driver, Kind, Sense};
+use geometry::GeometryError;
+
+use crate::{Driver, Kind, Scene, SceneError, Sense};
 
 /// What a gear is made of, where it is stated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -95,6 +97,29 @@ impl Default for Starter {
 const THINNING: f64 = 0.015;
 
 impl Starter {
+    /// The pair with tips as short as a ring and its pinion need to pass each other, where nobody has said how long they are.
+    #[must_use]
+    pub fn with_tips_that_pass(&self) -> Self {
+        let mut own = self.clone();
+        while own.teeth[1] < 0 {
+            let file = "pair.toml";
+            let found = Scene::parse(&own.text(file), file.as_ref()).and_then(|scene| scene.gear_pair());
+            let Err(SceneError::Geometry { source, .. }) = found else { break };
+            let shorter = match *source {
+                GeometryError::Trochoid { pinion_tip_mm, .. } => pinion_tip_mm.map(|tip| (0, tip)),
+                GeometryError::Involute { ring_tip_mm, .. } => ring_tip_mm.map(|tip| (1, tip)),
+                _ => None,
+            };
+            match shorter {
+                Some((gear, tip)) if own.tip_diameter_mm[gear].is_none() => {
+                    own.tip_diameter_mm[gear] = Some(tip.abs());
+                }
+                _ => break,
+            }
+        }
+        own
+    }
+
     /// The scene with a word on every line. A line that begins with `# ` and holds `key = value` may be taken in as it
     /// is, one of two that exclude each other.
     pub fn text(&self, file: &str) -> String {

@@ -8,10 +8,9 @@ use std::{
 use clap::ValueEnum;
 use dialoguer::{Confirm, Input, Select};
 use files::{write_file, write_new_file};
-use geometry::GeometryError;
 
 use scene::{
-    RexsGearbox, RexsPair, SceneError, Starter,
+    RexsGearbox, RexsPair, Starter,
     gearbox::{Gearbox, gearbox_of_pair},
     read_gearbox, read_pair, read_rexs,
 };
@@ -178,7 +177,7 @@ impl InitArgs {
     fn checked_pair(&self, of_file: Option<&RexsPair>, shown: &str) -> Result<String, CommandError> {
         let starter = self.pair.over(of_file.map_or_else(Starter::default, |pair| pair.starter.clone()))?;
         let (Some(pair), Some(file)) = (of_file, &self.rexs) else { return checked(&starter, shown) };
-        let text = starter.text(shown);
+        let text = starter.with_tips_that_pass().text(shown);
         match Scene::parse(&text, Path::new(shown)).and_then(|scene| scene.gear_pair()) {
             Ok(_) => Ok(text),
             Err(error) => Err(match pair.blamed(&text, &error).filter(|_| self.pair == PairArgs::default()) {
@@ -332,26 +331,11 @@ fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], Comm
     }
 }
 
-/// The scene as text; what would not run is not written. Tips that an internal pair has to shorten are, where nobody has said
-/// how long they are.
+/// The scene as text; what would not run is not written.
 fn checked(starter: &Starter, shown: &str) -> Result<String, CommandError> {
-    let mut starter = starter.clone();
-    loop {
-        let text = starter.text(shown);
-        let Err(error) = Scene::parse(&text, Path::new(shown))?.gear_pair() else { return Ok(text) };
-        let SceneError::Geometry { source, .. } = &error else { return Err(error.into()) };
-        let shorter = match &**source {
-            GeometryError::Trochoid { pinion_tip_mm, .. } => pinion_tip_mm.map(|tip| (0, tip)),
-            GeometryError::Involute { ring_tip_mm, .. } => ring_tip_mm.map(|tip| (1, tip)),
-            _ => None,
-        };
-        match shorter {
-            Some((gear, tip)) if starter.tip_diameter_mm[gear].is_none() => {
-                starter.tip_diameter_mm[gear] = Some(tip.abs());
-            }
-            _ => return Err(error.into()),
-        }
-    }
+    let text = starter.with_tips_that_pass().text(shown);
+    Scene::parse(&text, Path::new(shown))?.gear_pair()?;
+    Ok(text)
 }
 
 /// Asks again, with the last answers in brackets, while no pair comes of the answers.

@@ -191,7 +191,8 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
         return unfit("asks for a rating", "a gearbox is not rated: rate the pair alone, under the torque of its mesh");
     }
     let name = mesh_name(raw);
-    Ok(GearboxMesh { name, gears: pair, scene })
+    let timing = s.choice_of("timing", &raw.timing)?;
+    Ok(GearboxMesh { name, gears: pair, scene, timing })
 }
 
 /// That every gear meshes, or has a mass at least: of another one nothing would be read.

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::{GearboxBranch, GearboxMotion, schema::RollingKind};
+use super::{
+    GearboxBranch, GearboxMotion,
+    schema::{MeshTiming, RollingKind},
+};
 use crate::{AccuracyScene, ModesScene, Scene, Sense, TorqueScene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -213,6 +216,8 @@ pub struct GearboxMesh {
     /// What shape they are, how they are meshed and how contact is solved: a scene at rest of the model `reduced` with
     /// slices. Its axes and mid-faces are where the shafts have them. Torque, driver and rotation are the gearbox's.
     pub scene: Scene,
+    /// How its gears are set where the train closes a ring.
+    pub timing: MeshTiming,
 }
 
 /// Where the gearbox is driven.

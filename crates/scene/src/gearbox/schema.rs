@@ -155,6 +155,7 @@ table! {
         set: texts(), "keys of that scene that are otherwise here, as after --set";
         pinion: text(), "name of the gear that is the scene's pinion; either may drive";
         wheel: text(), "name of the gear that is the scene's wheel";
+        timing: word(MeshTiming), "how its gears are set on their shafts where the train closes a ring (power splits, planets). touching: against their keys, so that the flanks touch, as gears that are timed at assembly; keyed: as `key_deg` says, so that places of shafts and keys leave gaps or overlaps, which share the load unevenly";
     }
 }
 
@@ -244,6 +245,16 @@ choices! {
         Balanced = "balanced",
         /// A torque acts on it.
         Torque = "torque",
+    }
+}
+
+choices! {
+    /// How the gears of a mesh are set on their shafts where the train closes a ring.
+    pub enum MeshTiming {
+        /// So that the flanks touch, whatever their keys say.
+        Touching = "touching",
+        /// As their keys say.
+        Keyed = "keyed",
     }
 }
 

@@ -79,7 +79,24 @@ pub(super) fn pair_of(
     let mut places = places(&gears);
     let starter = starter(model, &gears, own.as_ref(), (stage, from), &mut places)?;
     let (starter, remarks) = loaded(model, train, &gears, starter);
-    Ok(RexsPair { starter, remarks, places })
+    let mut pair = RexsPair { starter, remarks, places };
+    pair.shorten_tips();
+    Ok(pair)
+}
+
+impl RexsPair {
+    /// Tips of which the file says nothing are as short as they have to be.
+    fn shorten_tips(&mut self) {
+        let shorter = self.starter.with_tips_that_pass();
+        let before = std::mem::replace(&mut self.starter, shorter);
+        for (name, gear) in ["pinion", "ring"].into_iter().zip(0..) {
+            if let (None, Some(tip)) = (before.tip_diameter_mm[gear], self.starter.tip_diameter_mm[gear]) {
+                self.remarks.push(format!(
+                    "the file states no tip diameter of the {name}: tip_diameter_mm = {tip}, as its mating gear asks"
+                ));
+            }
+        }
+    }
 }
 
 /// Where values of the scene come from.
