@@ -20,6 +20,7 @@ mod motion_in_memory;
 mod moving_pairs;
 mod nominal_load;
 mod overhung;
+mod planets;
 mod rating;
 mod remarks;
 mod scale_at_rest;
