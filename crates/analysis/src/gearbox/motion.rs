@@ -18,12 +18,14 @@ use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshM
 use super::{
     inertia,
     meshes::ReducedMesh,
-    orders::{MotionOrder, orders},
+    orders::{MotionOrder, orders, waterfall},
     parts::over_time,
     sink::GearboxSink,
 };
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, Progress, motion::QuasiStatic, run_phase, run_up::RunUpTorque,
+    AnalysisError, GearCache, Observer, PhaseWork, Progress,
+    motion::{QuasiStatic, Waterfall},
+    run_phase, run_up::RunUpTorque,
     unless_cancelled,
 };
 
@@ -66,6 +68,11 @@ pub struct GearboxMotionResult {
     pub reach: Vec<f64>,
     /// Orders of every mesh, stretch by stretch.
     pub orders: Vec<MotionOrder>,
+    /// Spectra of a motion whose speed is led from one to another: transmission error (um) and normal force (N) of each
+    /// mesh, then the force of each bearing (N).
+    pub waterfall: Option<Waterfall>,
+    /// Cycles of the fastest mesh after which all meshes are where they began; `None` where that takes more than 100,000.
+    pub common_period: Option<u64>,
     /// How well the shafts were reduced.
     pub reduction: ReductionCertificate,
     /// Cycles of the fastest mesh before the rows.
@@ -100,6 +107,16 @@ impl GearboxMotionResult {
         let rows = &self.rows[self.rows.len() / 2..];
         let begin = Range { least: f64::INFINITY, largest: f64::NEG_INFINITY };
         rows.iter().map(of).fold(begin, |r, x| Range { least: r.least.min(x), largest: r.largest.max(x) })
+    }
+
+    /// Cycles of the fastest mesh since the first row, row by row, above 0 in the sense in which it goes on.
+    pub fn cycles(&self) -> Vec<f64> {
+        let fastest = (0..self.mesh_frequencies.len())
+            .max_by(|&a, &b| self.mesh_frequencies[a].total_cmp(&self.mesh_frequencies[b]));
+        let of = |row: &GearboxInstant| fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles);
+        let (first, last) = (self.rows.first().map_or(0.0, of), self.rows.last().map_or(0.0, of));
+        let sense = if last < first { -1.0 } else { 1.0 };
+        self.rows.iter().map(|row| sense * (of(row) - first)).collect()
     }
 
     /// Of the radial force of a bearing in that half, N.
@@ -228,8 +245,16 @@ pub(super) fn run(
     let stopped = stopped.then(|| course.cycle());
     let done = GearboxRun::of(course, &start).map_err(failed)?;
     let rows = told.rows;
+    // The last row of a motion may be no whole row behind the one before.
+    let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
+    let even = &rows[..rows.len().min(even as usize + 1)];
     let result = GearboxMotionResult {
-        orders: orders(&rows)?,
+        orders: orders(&rows, asked.waterfall_cycles)?,
+        waterfall: match asked.to_speed_rpm {
+            Some(_) => waterfall(even, asked.waterfall_cycles)?,
+            None => None,
+        },
+        common_period: done.common_period,
         rows,
         mesh_frequencies: frequencies,
         stiffness,

@@ -285,6 +285,7 @@ table! {
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
+        waterfall_cycles: whole(4, 100_000, 16), "cycles of the slowest mesh of one spectrum of the waterfall (to_speed_rpm), and of a point of the orders of the meshes over time or speed";
         method: word(Integration), "method of integration";
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
         error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";
