@@ -17,7 +17,8 @@ impl GearboxMotionResult {
         let torque = self.run_up.and_then(|run_up| run_up.remark("the input", "more `cycles` make it gentler"));
         let cut = self.run_up.and_then(|_| self.coarse_cut(file));
         // A motion that a torque drives has no given speed at which it could come back.
-        let alone = (self.common_period.is_none() && asked.drive != GearboxDrive::Torque).then(remark::no_common_period);
+        let alone =
+            (self.common_period.is_none() && asked.drive != GearboxDrive::Torque).then(remark::no_common_period);
         let own = self.map_remarks.iter().cloned().chain(self.unsettled(asked));
         own.chain(torque).chain(cut).chain(alone).collect()
     }
@@ -41,7 +42,12 @@ impl GearboxMotionResult {
         };
         let (peak, at) = (0..file.meshes.len()).filter_map(largest).min_by_key(|(peak, _)| peak.points)?;
         let of = format!(" of mesh {}", file.meshes[at.mesh].name);
-        coarse_cut(peak, (&of, at.order), at.speed.abs() * 60.0 / TAU, "more `cycles` or fewer `waterfall_cycles` show it better")
+        coarse_cut(
+            peak,
+            (&of, at.order),
+            at.speed.abs() * 60.0 / TAU,
+            "more `cycles` or fewer `waterfall_cycles` show it better",
+        )
     }
 
     /// What a user should hear of a motion that was to settle.

@@ -82,12 +82,14 @@ fn stretches(rows: &[GearboxInstant], cycles: u32) -> Option<Stretches> {
     if !(slowest >= LEAST && slowest.is_finite()) {
         return None;
     }
-    // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so.
-    let length = ((rows.len() as f64 * f64::from(cycles) / slowest).round() as usize).clamp(8, rows.len().max(8));
+    // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so. Orders of the fastest
+    // mesh are in the middle of lines.
+    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (rows.len() - 1) as f64 / fastest);
+    let length = ((whole * per_cycle).round() as usize).clamp(8, rows.len().max(8));
     Some(Stretches {
         length,
         hop: (length / 2).max(1),
-        per_cycle: (rows.len() - 1) as f64 / fastest,
+        per_cycle,
         cycles_per_turn: fastest * TAU / (last.input[0] - first.input[0]).abs(),
     })
 }

@@ -59,7 +59,7 @@ impl GearboxMechanism {
         }
         let (y, rates) = (self.free.deviations(q), self.free.deviations(v));
         let input_torque = match self.free.turn {
-            Some(i) => self.loads[1][i],
+            Some(i) => self.varying.input(*time).unwrap_or(self.loads[1][i]),
             None if matches!(self.drive, Drive::Balanced(_)) => {
                 let of_loads = self.given + self.varying.balance(*time);
                 of_loads + answered + self.acceleration(*time) * self.train_inertia()

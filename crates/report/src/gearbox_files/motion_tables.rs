@@ -64,7 +64,8 @@ pub(super) fn waterfall(file: &Gearbox, of: &Waterfall) -> Table {
             (format!("mesh_{i}_normal_force_n"), "single-sided amplitude of the normal force"),
         ]
     };
-    let bearing = |i: usize| (format!("bearing_{i}_force_n"), "single-sided amplitude of the bearing force, x, y, z together");
+    let bearing =
+        |i: usize| (format!("bearing_{i}_force_n"), "single-sided amplitude of the bearing force, x, y, z together");
     let meshes = (1..=file.meshes.len()).flat_map(mesh);
     let quantities: Vec<_> = meshes.chain((1..=file.bearings.len()).map(bearing)).collect();
     let of_gearbox = WaterfallOf {

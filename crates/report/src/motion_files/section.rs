@@ -36,11 +36,7 @@ fn plane(rows: &Table, name: &str) -> Vec<(f64, f64)> {
 
 /// Velocity over displacement, and the same once a period: phase portrait with its Poincare section. `once`: the period in
 /// words.
-pub(crate) fn portrait(
-    [rows, section]: [&Table; 2],
-    name: &str,
-    [whose, once]: [&str; 2],
-) -> Option<String> {
+pub(crate) fn portrait([rows, section]: [&Table; 2], name: &str, [whose, once]: [&str; 2]) -> Option<String> {
     let motion = Curve { label: "motion".into(), points: plane(rows, name) };
     let once = Curve { label: once.into(), points: plane(section, name) };
     let title = format!("Phase portrait of {whose}, and its Poincare section");

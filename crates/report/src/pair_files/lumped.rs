@@ -4,7 +4,6 @@ use analysis::{
     lumped::{LumpedHeadline, LumpedResult},
     motion::speed,
 };
-use answer::Table;
 use scene::Scene;
 
 use super::{

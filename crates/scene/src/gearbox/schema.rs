@@ -160,10 +160,14 @@ table! {
 
 table! {
     /// `[input]`
-    INPUT, RawInput: "where the turn is given; the torque there is a result", needed ["shaft", "position_mm"]; {
+    INPUT, RawInput: "where the turn is given; the torque there is a result, but in a motion that it drives", needed ["shaft", "position_mm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0, up to its length";
         rotation: word(Sense), "sense, seen from +z. All others follow by the teeth";
+        amplitude_nm: bare(0.0, 1e12), "in a motion that a torque drives: amplitude of a harmonic part T cos(2 pi f t + phase) beside `input_torque_nm`, N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in such a motion in place of the others and of `input_torque_nm`: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, for vibration and motion. It turns with the shaft and does not tilt with it";
     }
 }

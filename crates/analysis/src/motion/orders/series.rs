@@ -2,7 +2,6 @@
 
 use study::StudyError;
 
-use super::{Stretches, Waterfall, waterfall};
 use crate::motion::MotionRow;
 
 /// Quantities of a motion over time, equally many values in each mesh cycle.
@@ -50,16 +49,6 @@ impl MotionSeries {
     /// Whether there is no value.
     pub fn is_empty(&self) -> bool {
         self.dte_um.is_empty()
-    }
-
-    /// Order spectra of the transmission error over stretches of so many mesh cycles, `per_cycle` values in each, of a pair
-    /// whose pinion has so many teeth.
-    ///
-    /// # Errors
-    /// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
-    pub fn waterfall(&self, per_cycle: usize, cycles: usize, pinion_teeth: u32) -> Result<Waterfall, StudyError> {
-        let stretches = Stretches::of_cycles(self.len(), (per_cycle, cycles), pinion_teeth);
-        waterfall(&[vec![&self.dte_um]], (&self.time_s, &self.pinion_speed_rpm), stretches)
     }
 
     /// That `series` are as long as the transmission error, and that a mesh cycle has values.

@@ -143,3 +143,15 @@ pub fn waterfall(
     let starts = (0..).map(|k| k * hop).take_while(|from| from + length <= wanted);
     Ok(Waterfall { order_step: per_cycle / length as f64, lines: starts.map(line).collect::<Result<_, StudyError>>()? })
 }
+
+impl MotionSeries {
+    /// Order spectra of the transmission error over stretches of so many mesh cycles, `per_cycle` values in each, of a pair
+    /// whose pinion has so many teeth.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
+    pub fn waterfall(&self, per_cycle: usize, cycles: usize, pinion_teeth: u32) -> Result<Waterfall, StudyError> {
+        let stretches = Stretches::of_cycles(self.len(), (per_cycle, cycles), pinion_teeth);
+        waterfall(&[vec![&self.dte_um]], (&self.time_s, &self.pinion_speed_rpm), stretches)
+    }
+}
