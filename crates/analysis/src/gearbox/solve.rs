@@ -6,7 +6,9 @@ use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
 use scene::{Scene, gearbox::Gearbox};
 
 use super::{
-    GearboxResult, GearboxSink, branch, loads,
+    GearboxResult, GearboxSink,
+    at_rest::AtRest,
+    branch, loads,
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, result,
@@ -127,7 +129,7 @@ pub(super) fn solve(
         }
     };
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
-    let rest = motion::AtRest {
+    let rest = AtRest {
         file,
         structure: &structure,
         linear: &linear,

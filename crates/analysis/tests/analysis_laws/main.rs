@@ -7,6 +7,7 @@ mod exchanged;
 mod face_load;
 mod gearbox;
 mod gearbox_accuracy;
+mod gearbox_branch;
 mod gearbox_of_pairs;
 mod held_pair;
 mod interest;

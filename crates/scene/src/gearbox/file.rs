@@ -221,7 +221,7 @@ pub struct GearboxMesh {
 }
 
 /// Where the gearbox is driven.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearboxInput {
     /// Shaft.
     pub shaft: usize,
@@ -229,6 +229,8 @@ pub struct GearboxInput {
     pub position: f64,
     /// Sense in which it turns.
     pub rotation: Sense,
+    /// What its torque is beside the mean, or in place of it, in a motion that it drives; none: constant.
+    pub over_time: Option<TorqueScene>,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }

@@ -161,10 +161,14 @@ table! {
 
 table! {
     /// `[input]`
-    INPUT, RawInput: "where the turn is given; the torque there is a result", needed ["shaft", "position_mm"]; {
+    INPUT, RawInput: "where the turn is given; the torque there is a result, but in a motion that it drives", needed ["shaft", "position_mm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0, up to its length";
         rotation: word(Sense), "sense, seen from +z. All others follow by the teeth";
+        amplitude_nm: bare(0.0, 1e12), "in a motion that a torque drives: amplitude of a harmonic part T cos(2 pi f t + phase) beside `input_torque_nm`, N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in such a motion in place of the others and of `input_torque_nm`: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, for vibration and motion. It turns with the shaft and does not tilt with it";
     }
 }
@@ -296,6 +300,7 @@ table! {
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
+        waterfall_cycles: whole(4, 100_000, 16), "cycles of the slowest mesh of one spectrum of the waterfall (to_speed_rpm), and of a point of the orders of the meshes over time or speed";
         method: word(Integration), "method of integration";
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
         error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";
