@@ -105,7 +105,8 @@ pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
     generated_with(scene, whose, exact, &options_of(gear))
 }
 
-fn options_of(gear: &GearScene) -> StructuredOptions {
+/// What the built-in mesher is asked for.
+pub(crate) fn options_of(gear: &GearScene) -> StructuredOptions {
     gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m))
 }
 

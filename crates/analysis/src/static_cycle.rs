@@ -93,7 +93,7 @@ fn attempt(
         }
         None => {
             let ElasticGears { gears, keys, remarks } =
-                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true))?;
+                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true), true)?;
             Ok((GearsOf::Own(Box::new(gears), keys), remarks))
         }
     })?;

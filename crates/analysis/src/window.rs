@@ -23,7 +23,7 @@ pub(crate) fn foreseen_window(
     if options.window.is_some() || scene.analysis.model == Model::Full {
         return None;
     }
-    let deflection = LoadEstimate::of(&LoadedPair::of(scene, pair)).deflection_mm;
+    let deflection = LoadEstimate::deflection_mm(&LoadedPair::of(scene, pair));
     let ForeseenWindow { teeth, pair } = ForeseenWindow::new(pair, options, SURE * deflection)?;
     let (torque, least) = (1e-3 * options.torque, teeth - 1);
     let said = format!(

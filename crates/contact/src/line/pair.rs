@@ -216,7 +216,7 @@ pub fn rigid_gap(
     (0..=32)
         .map(|i| {
             let z = middle + half * (f64::from(i) / 16.0 - 1.0);
-            let xi = pair.path_coordinate(side, theta1, tooth, z);
+            let xi = pair.path_coordinate(options.side(), theta1, tooth, z);
             let u = xi.clamp(start, end) / base_radius;
             let point = poses[0].transform_point(&flank1.point(u, z).into());
             let seen = poses[1].inverse_transform_point(&point).coords;

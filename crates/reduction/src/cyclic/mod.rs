@@ -111,24 +111,33 @@ impl CyclicGear {
 
     /// C (mm/N), in the frame of copy 0.
     pub(crate) fn compliance(&self) -> Mat<f64> {
+        self.columns(self.coordinates.len())
+    }
+
+    /// Columns of C (mm/N) by forces on the first `count` coordinate nodes, in the frame of copy 0.
+    pub(crate) fn columns(&self, count: usize) -> Mat<f64> {
         let blocks = self.blocks();
-        let mut compliance = Mat::zeros(3 * self.coordinates.len(), 3 * self.coordinates.len());
-        for (j, &(from, load)) in self.coordinates.iter().enumerate() {
+        let mut columns = Mat::zeros(3 * self.coordinates.len(), 3 * count);
+        for (j, &(from, load)) in self.coordinates[..count].iter().enumerate() {
             let back = self.turn(from);
             for (i, &(copy, moved)) in self.coordinates.iter().enumerate() {
-                let Some(apart) = self.offset(copy).checked_sub(self.offset(from)) else { continue };
-                let (block, turn) = (&blocks[apart], self.turn(copy));
-                let entry = |a: usize, b: usize| {
-                    (0..3).map(|k| turn[a][k] * (0..3).map(|l| block[(3 * moved + k, 3 * load + l)] * back[b][l]).sum::<f64>()).sum()
+                let (here, there) = (self.offset(copy), self.offset(from));
+                let (block, turn) = (&blocks[here.abs_diff(there)], self.turn(copy));
+                // The same sum for an entry and its mirror image: C is symmetric to the bit.
+                let between = |k: usize, l: usize| match here < there {
+                    true => block[(3 * load + l, 3 * moved + k)],
+                    false => block[(3 * moved + k, 3 * load + l)],
                 };
                 for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
-                    let value: f64 = entry(a, b);
-                    compliance[(3 * i + a, 3 * j + b)] = value;
-                    compliance[(3 * j + b, 3 * i + a)] = value;
+                    let terms = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
+                    let mut sums = [0.0; 2];
+                    terms.clone().for_each(|(k, l)| sums[0] += turn[a][k] * back[b][l] * between(k, l));
+                    terms.for_each(|(l, k)| sums[1] += turn[a][k] * back[b][l] * between(k, l));
+                    columns[(3 * i + a, 3 * j + b)] = 0.5 * (sums[0] + sums[1]);
                 }
             }
         }
-        compliance
+        columns
     }
 
     /// B_d, d = 0 .. w - 1: displacements under the loads of the d-th sector on, in its frame, by unit loads on one in
