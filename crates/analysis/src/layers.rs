@@ -5,7 +5,7 @@ use mesh::{BoreCoupling, Extent, GroupNames, MeshedGear, StructuredOptions, gene
 use reduction::{LayerStack, ReductionOptions};
 use scene::{Method, Model, Scene};
 
-use crate::meshes::{SceneMesh, options_of};
+use crate::meshes::{BUILT_IN, SceneMesh, options_of};
 
 /// Width that tells of the middle of a gear, over the distance from its bore to its tips: a force moves nothing beyond
 /// half of it, and end faces beyond half of it change nothing.
@@ -32,7 +32,7 @@ pub(crate) fn shorter_gear(
         && !scene.output.root_stress
         && !scene.output.vtu;
     let held = gear.bore.held_mm.is_none() && whole.bore_coupling() == BoreCoupling::Kinematic;
-    if !asked || !held || gear.mesh.is_some() || !whole.is_periodic_sector() || options.sides.len() != 1 {
+    if !asked || !held || !mesh.facts.source.starts_with(BUILT_IN) || !whole.is_periodic_sector() || options.sides.len() != 1 {
         return None;
     }
     let (data, made) = (exact.data(), options_of(gear));

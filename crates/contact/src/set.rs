@@ -9,6 +9,7 @@ use reduction::{ElasticGear, LayerStack, Window};
 use crate::{
     Condensed, ContactError, ContactOptions, FullContact, Method, Pose,
     complementarity::{Law, LinearContact},
+    compliance::boundary_forces,
     flank::{Candidates, ContactPoint, FlankPatch, GapSource, contact_points},
     nodal::{ContactRow, LinePoints, Scene, line_points},
     slice::{SliceSet, TableFlanks},
@@ -94,9 +95,12 @@ impl ContactSet {
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        let tabulated = [(&p1, &c1), (&p2, &c2)].map(|(patches, condensed)| match condensed {
+        let tabulated = [(&p1, &c1, &gears[0]), (&p2, &c2, &gears[1])].map(|(patches, condensed, gear)| match condensed {
             Some((condensed, stack)) => TableFlanks::Layers { condensed, stack: *stack, whole: patches },
-            None => TableFlanks::Whole(patches),
+            None => {
+                let cyclic = matches!(gear, ElasticGear::Reduced(r) if r.is_cyclic());
+                TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
+            }
         });
         let slices = slices.map(|s| s.with_tables(tabulated, windows.as_ref(), options).map(Arc::new)).transpose()?;
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
@@ -307,6 +311,13 @@ impl ContactSet {
             return None;
         }
         Some(Condensed::new(rows, compliance).displacements(forces))
+    }
+
+    /// Forces (N) on both gears' boundary coordinates, in the matrices' frames, by forces on rows with the nodes that they
+    /// rest on; `None` where no matrices of flanks are known.
+    pub fn forces_of(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let windows = self.windows.as_ref()?;
+        Some([0, 1].map(|i| boundary_forces(rows, forces, i, windows[i].reduced.coordinates())))
     }
 
     /// S between rows, mm/N, column by column, from the matrices as they are.

@@ -32,7 +32,12 @@ pub struct SliceSet {
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum TableFlanks<'a> {
     /// Flanks of the mesh that is condensed.
-    Whole(&'a [FlankPatch]),
+    Whole {
+        /// One a tooth, or two.
+        patches: &'a [FlankPatch],
+        /// Whether there is one a tooth, and the teeth are all alike.
+        alike: bool,
+    },
     /// A wide gear.
     Layers {
         /// Flanks of the shorter gear that is condensed.
@@ -108,7 +113,11 @@ impl SliceSet {
                     patches,
                 };
                 match flanks[i] {
-                    TableFlanks::Whole(patches) => Ok(BulkTable::new(&bulk(patches), tolerance)),
+                    TableFlanks::Whole { patches, alike } => {
+                        let bulk = bulk(patches);
+                        let whole = BulkTable::new(&bulk, tolerance);
+                        Ok(whole.or_else(|| alike.then(|| BulkTable::of_teeth_alike(&bulk, tolerance)).flatten()))
+                    }
                     TableFlanks::Layers { condensed, stack, whole } => {
                         BulkTable::of_layers(&bulk(condensed), stack, whole, tolerance).map(Some)
                     }

@@ -117,27 +117,46 @@ impl CyclicGear {
     /// Columns of C (mm/N) by forces on the first `count` coordinate nodes, in the frame of copy 0.
     pub(crate) fn columns(&self, count: usize) -> Mat<f64> {
         let blocks = self.blocks();
-        let mut columns = Mat::zeros(3 * self.coordinates.len(), 3 * count);
-        for (j, &(from, load)) in self.coordinates[..count].iter().enumerate() {
-            let back = self.turn(from);
-            for (i, &(copy, moved)) in self.coordinates.iter().enumerate() {
-                let (here, there) = (self.offset(copy), self.offset(from));
-                let (block, turn) = (&blocks[here.abs_diff(there)], self.turn(copy));
-                // The same sum for an entry and its mirror image: C is symmetric to the bit.
-                let between = |k: usize, l: usize| match here < there {
-                    true => block[(3 * load + l, 3 * moved + k)],
-                    false => block[(3 * moved + k, 3 * load + l)],
-                };
-                for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
-                    let terms = (0..3).flat_map(|k| (0..3).map(move |l| (k, l)));
-                    let mut sums = [0.0; 2];
-                    terms.clone().for_each(|(k, l)| sums[0] += turn[a][k] * back[b][l] * between(k, l));
-                    terms.for_each(|(l, k)| sums[1] += turn[a][k] * back[b][l] * between(k, l));
-                    columns[(3 * i + a, 3 * j + b)] = 0.5 * (sums[0] + sums[1]);
+        // Coordinates and loads of each copy.
+        let mut of_copy = vec![Vec::new(); blocks.len()];
+        self.coordinates.iter().enumerate().for_each(|(i, &(copy, load))| of_copy[self.offset(copy)].push((i, load)));
+        let mut columns = Mat::<f64>::zeros(3 * self.coordinates.len(), 3 * count);
+        let counted = |of: &[(usize, usize)]| of.iter().any(|(i, _)| *i < count);
+        for (low, loaded) in of_copy.iter().enumerate() {
+            for (high, moved) in of_copy.iter().enumerate().skip(low).filter(|(_, of)| counted(of) || counted(loaded)) {
+                let block = self.turned(&blocks[high - low], [high, low].map(|j| self.angle(self.first + j as u32)));
+                for &(j, load) in loaded {
+                    for &(i, at) in moved.iter().filter(|(i, _)| high > low || *i >= j) {
+                        for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
+                            let value = block[(3 * at + a, 3 * load + b)];
+                            // C is symmetric to the bit.
+                            if j < count && (i != j || a >= b) {
+                                columns[(3 * i + a, 3 * j + b)] = value;
+                            }
+                            if i < count && (i != j || a >= b) {
+                                columns[(3 * j + b, 3 * i + a)] = value;
+                            }
+                        }
+                    }
                 }
             }
         }
         columns
+    }
+
+    /// A block with its rows and columns turned from the frames of their copies by these angles, rad.
+    fn turned(&self, block: &Mat<f64>, angles: [f64; 2]) -> Mat<f64> {
+        angles.into_iter().fold(block.clone(), |mut block, angle| {
+            let (sin, cos) = angle.sin_cos();
+            for mut column in block.col_iter_mut() {
+                for i in (0..column.nrows()).step_by(3) {
+                    let (x, y) = (column[i], column[i + 1]);
+                    column[i] = cos * x - sin * y;
+                    column[i + 1] = sin * x + cos * y;
+                }
+            }
+            block.transpose().to_owned()
+        })
     }
 
     /// B_d, d = 0 .. w - 1: displacements under the loads of the d-th sector on, in its frame, by unit loads on one in

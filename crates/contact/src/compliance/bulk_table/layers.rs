@@ -90,29 +90,36 @@ impl LayerEntries {
     /// influence beyond its width, and what its end faces do to pairs of points in its middle.
     ///
     /// ```text
-    /// tail: 2 t(0, 2 n)/(1 - r),   r = t(0, 2 n)/t(0, 2 n - 1);   ends: sum over l + m = 2 n of |t(l, m) - t(l + 2 d, m + 2 d)|
+    /// rest: 2 sum over m of |t(0, m)|, m in the last quarter;   ends: 2 sum over l + m = 2 n of |t(l, m) - t(l + 2 d, m + 2 d)|
     /// ```
-    /// End faces d layers nearer on one side and further on the other change more than both in their place do, once d
-    /// is a decay length.
+    /// Influence that falls by half in a quarter of the width has no more beyond it than in its last quarter. End faces
+    /// d layers nearer on one side and further on the other change more than both in their place do, once d is a decay
+    /// length; of a longer one the rest is far too large.
     fn remainder(&self) -> f64 {
         let lines = LINES * self.layers[1];
         let moved = LINES * (self.layers[1] / MOVED).max(1);
         let of = |along: usize| {
             let t = |l: usize, m: usize| self.own(along, [l, m]);
             let whole: f64 = (0..=lines).map(|m| t(lines / 2, m).abs()).sum();
-            let [last, before] = [t(0, lines).abs(), t(0, lines - LINES).abs()];
-            let ratio = (last / before.max(f64::MIN_POSITIVE)).powf(0.5);
-            let tail = if ratio < 1.0 { 2.0 * last / (1.0 - ratio) } else { f64::INFINITY };
-            let tail = if last == 0.0 { 0.0 } else { tail };
+            let rest: f64 = (lines - lines / 4..=lines).map(|m| t(0, m).abs()).sum();
             let pairs = (0..=lines - moved).filter(|l| lines - l + moved <= lines);
             let ends: f64 = pairs.map(|l| (t(l, lines - l) - t(l + moved, lines - l + moved)).abs()).sum();
-            (tail + 2.0 * ends) / whole
+            2.0 * (rest + ends) / whole
         };
         (0..self.profile).map(of).fold(0.0, f64::max)
     }
 }
 
 impl BulkTable {
+    /// Table of a gear whose teeth are all alike, of which `bulk` needs the columns of its first tooth alone; its grid lines
+    /// are those of the mesh's faces. `None` where it is off by more than `tolerance`, relative, or the faces form no
+    /// grid.
+    pub(crate) fn of_teeth_alike(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+        let layers = FlankGridLines::of_faces(bulk.patches.first()?)?.face_cells();
+        let stack = LayerStack { layers, condensed: layers, free_count: 0 };
+        Self::of_layers(bulk, stack, bulk.patches, tolerance).ok()
+    }
+
     /// Table of a wide gear whose `whole` flanks have `stack.layers` layers of elements, from the shorter gear that
     /// `bulk` knows by the columns of its first tooth; its grid lines are those of the mesh's faces.
     ///
@@ -149,7 +156,8 @@ impl BulkTable {
         let mut blocks = vec![0.0; (2 * teeth - 1) * (DIRECTIONS * one.count()).pow(2)];
         pulp::Arch::new().dispatch(Blocks { bulk, supports: &supports, count: one.count(), blocks: &mut blocks });
         let short = entries(stack.condensed, blocks);
-        let (first, remainder) = (first_points(&lines), short.remainder());
+        let remainder = if stack.layers > stack.condensed { short.remainder() } else { 0.0 };
+        let first = first_points(&lines);
         let mut table = Self { lines, first, entries: Entries::Layers(short), error: 0.0 };
         let error = table.measured(bulk, 1).max(remainder);
         // Not a number fails too.

@@ -1,0 +1,108 @@
+//! Wide gears that are condensed by a part of their layers, against the same gears condensed as a whole; windows that are
+//! foreseen from the load.
+#![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
+
+use contact::ContactError;
+use fem::{ElementOptions, Material};
+use geometry::GearData;
+use ltca::{ForeseenWindow, StaticError, StaticModel, StaticOptions, StaticPosition};
+use mesh::Extent;
+use reduction::{ElasticGear, GearReducer, LayerStack, ReductionError, ReductionOptions, ReductionWatch};
+use testing::{Case, default_data, quadratic};
+
+/// Face width, mm, and layers of it: 40 times the normal module.
+const WIDTH: f64 = 120.0;
+const LAYERS: u32 = 24;
+
+/// The default pair at its line load with so many of the layers.
+fn of_layers(layers: u32) -> Case {
+    let width = WIDTH * f64::from(layers) / f64::from(LAYERS);
+    let data = default_data(20.0).map(|d| GearData { face_width: width, ..d });
+    quadratic(data, None, 7500.0 * WIDTH, [2, 2, 2, layers, 2], Extent::Periodic)
+}
+
+fn reducer(condensed: u32, gear: usize, first: u32, options: &StaticOptions, window: usize) -> GearReducer {
+    let stack = LayerStack { layers: LAYERS as usize, condensed: condensed as usize, free_count: 0 };
+    let sides = options.contact.sides();
+    let options = ReductionOptions { sides, window, first, elements: ElementOptions::default() };
+    let watch = ReductionWatch { tell: &|_| (), wanted: &|| true };
+    GearReducer::of_layers(of_layers(condensed).meshes[gear].clone(), Material::STEEL, options, stack, watch).unwrap()
+}
+
+/// The wide pair, each gear known by so many of its layers.
+fn by_layers(whole: &Case, condensed: [u32; 2]) -> Result<StaticModel, StaticError> {
+    let options = options(whole);
+    let first = StaticModel::first_teeth(&whole.pair, &options).unwrap();
+    let window = options.window_teeth(&whole.pair);
+    let gears = [0, 1].map(|i| ElasticGear::Reduced(reducer(condensed[i], i, first[i], &options, window)));
+    StaticModel::new(whole.pair.clone(), gears, options)
+}
+
+fn options(case: &Case) -> StaticOptions {
+    case.slice_options().with_contact(|c| c.slices = 96)
+}
+
+fn positions(mut model: StaticModel) -> Vec<StaticPosition> {
+    model.run(4, 1, |_, _, _| ()).unwrap().positions
+}
+
+/// A pair known by two thirds of its layers stands as the pair that is known as a whole, within the error that it states:
+/// transmission error, force of each pair of teeth, largest pressure.
+#[test]
+fn layers_tell_of_the_whole_gear() {
+    let whole = of_layers(LAYERS);
+    let exact = positions(whole.reduced(options(&whole)));
+    let found = positions(by_layers(&whole, [16, 16]).unwrap());
+    for (a, b) in exact.iter().zip(&found) {
+        let error = b.certificate.bulk_compliance_error;
+        let off = |x: f64, y: f64| (y / x - 1.0).abs();
+        let forces = a.pairs.iter().zip(&b.pairs).map(|(a, b)| (a.normal_force - b.normal_force).abs());
+        let (ste, pressure) = (off(a.transmission_error, b.transmission_error), off(a.max_pressure, b.max_pressure));
+        let force = forces.fold(0.0, f64::max) / a.pairs.iter().map(|p| p.normal_force).sum::<f64>();
+        println!("phase {:.2}: {ste:.1e}, pressure {pressure:.1e}, force {force:.1e}, stated {error:.1e}", a.mesh_phase);
+        assert!(error > 0.0 && error <= 1e-3, "stated {error:e}");
+        assert!(ste < error && pressure < 10.0 * error && force < error, "{ste:e} {pressure:e} {force:e}, stated {error:e}");
+    }
+}
+
+/// Layers that are too few to tell of the others are refused: an error, not a number.
+#[test]
+fn too_few_layers_are_refused() {
+    let refused = by_layers(&of_layers(LAYERS), [16, 4]).unwrap_err();
+    let StaticError::SetUp(ContactError::Layers { error, most }) = &refused else { panic!("{refused}") };
+    println!("{refused}");
+    assert!(error > most && refused.hint().is_some(), "{error:e} of {most:e}");
+}
+
+/// What a part of the layers cannot tell is refused: fields, modes, stress.
+#[test]
+fn layers_have_no_fields() {
+    let case = of_layers(LAYERS);
+    let gear = reducer(4, 0, 0, &options(&case), 2);
+    let window = gear.window(3).unwrap();
+    let none = |error: ReductionError| {
+        assert!(matches!(error, ReductionError::Layers { layers: 24, condensed: 4 }), "{error}");
+        assert!(error.hint().is_some());
+    };
+    none(gear.expand(&window, &vec![0.0; window.reduced.coordinates()]).unwrap_err());
+    none(gear.lowest_elastic_hz().unwrap_err());
+    none(gear.stress_modes(&window, &[0]).unwrap_err());
+    assert!(gear.record().is_none() && window.reduced.stiffness().is_none());
+}
+
+/// A window is foreseen as wide as the run asks for: what touches beside a narrower one is in it.
+#[test]
+fn a_foreseen_window_does_not_starve() {
+    let data = default_data(20.0).map(|d| GearData { face_width: 40.0, ..d });
+    let case = quadratic(data, None, 300e3, [2, 2, 2, 8, 2], Extent::Periodic);
+    let plain = case.slice_options();
+    let least = plain.window_teeth(&case.pair);
+    let starved = case.reduced(plain.clone()).run(4, 1, |_, _, _| ()).unwrap_err();
+    assert!(starved.is_starved(), "{starved}");
+    let foreseen = ForeseenWindow::new(&case.pair, &plain, 6e-3).unwrap();
+    assert_eq!(foreseen.teeth, least + 1);
+    let wide = StaticOptions { window: Some(foreseen.teeth), ..plain.clone() };
+    assert_eq!(case.reduced(wide).run(4, 1, |_, _, _| ()).unwrap().positions.len(), 4);
+    // Under a light load the contact ratio is enough.
+    assert_eq!(ForeseenWindow::new(&case.pair, &plain, 0.0), None);
+}
