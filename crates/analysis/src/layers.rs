@@ -9,11 +9,11 @@ use crate::meshes::{BUILT_IN, SceneMesh, options_of};
 
 /// Width that tells of the middle of a gear, over the distance from its bore to its tips: a force moves nothing beyond
 /// half of it, and end faces beyond half of it change nothing.
-const DEPTHS: f64 = 4.0;
+const DEPTHS: f64 = 4.5;
 /// Layers at least.
 const LEAST: usize = 12;
 /// Times as many layers from which on fewer of them are condensed: below, the whole gear costs about as much.
-const MORE: f64 = 1.3;
+const MORE: f64 = 1.2;
 
 /// The shorter gear that is condensed in the place of a wide one, and what it stands for; `None` where a gear is condensed
 /// as a whole: not made by the built-in mesher, not held along its whole bore, not wide, or fields of it are asked for.
@@ -32,7 +32,12 @@ pub(crate) fn shorter_gear(
         && !scene.output.root_stress
         && !scene.output.vtu;
     let held = gear.bore.held_mm.is_none() && whole.bore_coupling() == BoreCoupling::Kinematic;
-    if !asked || !held || !mesh.facts.source.starts_with(BUILT_IN) || !whole.is_periodic_sector() || options.sides.len() != 1 {
+    if !asked
+        || !held
+        || !mesh.facts.source.starts_with(BUILT_IN)
+        || !whole.is_periodic_sector()
+        || options.sides.len() != 1
+    {
         return None;
     }
     let (data, made) = (exact.data(), options_of(gear));

@@ -95,13 +95,14 @@ impl ContactSet {
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        let tabulated = [(&p1, &c1, &gears[0]), (&p2, &c2, &gears[1])].map(|(patches, condensed, gear)| match condensed {
-            Some((condensed, stack)) => TableFlanks::Layers { condensed, stack: *stack, whole: patches },
-            None => {
-                let cyclic = matches!(gear, ElasticGear::Reduced(r) if r.is_cyclic());
-                TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
-            }
-        });
+        let tabulated =
+            [(&p1, &c1, &gears[0]), (&p2, &c2, &gears[1])].map(|(patches, condensed, gear)| match condensed {
+                Some((condensed, stack)) => TableFlanks::Layers { condensed, stack: *stack, whole: patches },
+                None => {
+                    let cyclic = matches!(gear, ElasticGear::Reduced(r) if r.is_cyclic());
+                    TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
+                }
+            });
         let slices = slices.map(|s| s.with_tables(tabulated, windows.as_ref(), options).map(Arc::new)).transpose()?;
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let own_teeth = geometry.map(Gear::has_own_teeth);

@@ -4,7 +4,10 @@ use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{
-    GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method,
+    GearReducer, ReductionError, Window,
+    cyclic::PitchTurn,
+    general::Seen,
+    reducer::Method,
     stress_modes::{KnownStress, StressRecovery},
 };
 

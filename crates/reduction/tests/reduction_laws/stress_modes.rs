@@ -166,9 +166,8 @@ fn stress_is_linear_in_the_coordinates() {
     }
     // Forces move the coordinates by C f.
     let pressing: Vec<f64> = (0..u.len()).map(|i| (0.7 * i as f64).cos()).collect();
-    let moved: Vec<f64> = (0..u.len())
-        .map(|i| (0..u.len()).map(|j| window.reduced.compliance[(i, j)] * pressing[j]).sum())
-        .collect();
+    let moved: Vec<f64> =
+        (0..u.len()).map(|i| (0..u.len()).map(|j| window.reduced.compliance[(i, j)] * pressing[j]).sum()).collect();
     let [by_force, by_motion] = [modes.stress_under(&pressing).unwrap(), modes.stress(&moved).unwrap()];
     let largest = by_motion.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
     for (a, b) in by_force.iter().flatten().zip(by_motion.iter().flatten()) {
