@@ -165,9 +165,9 @@ fn reduce(
     let sides = if both { 2.0 } else { 1.0 };
     let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), meshes), sides));
     run_phase(observer, "reduce", work, |progress| {
-        let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true))?;
+        let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true), false)?;
         let backwards =
-            || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, (*cache, progress, &|| true));
+            || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, (*cache, progress, &|| true), false);
         Ok(Flanked { driving, coast: both.then(backwards).transpose()? })
     })
 }

@@ -1,6 +1,7 @@
 //! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
 //! taken away. Theory (36).
 
+mod layers;
 mod rows;
 
 use std::borrow::Cow;
@@ -15,6 +16,8 @@ use crate::{
     nodal::Support,
     opening,
 };
+
+use layers::LayerEntries;
 
 pub use rows::TableWork;
 
@@ -43,10 +46,17 @@ pub struct BulkTable {
     lines: Vec<FlankGridLines>,
     /// First point of each patch; the last entry is the number of points.
     first: Vec<usize>,
-    /// T, mm/N, column by column: all points along the normal, then all along the profile, then all along the
-    /// generator.
-    table: Vec<f64>,
+    entries: Entries,
     error: f64,
+}
+
+/// T of a table.
+#[derive(Debug, Clone)]
+enum Entries {
+    /// mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
+    Whole(Vec<f64>),
+    /// By teeth apart, on the shorter gear of a wide one.
+    Layers(LayerEntries),
 }
 
 /// Points and weights of one row in a table: runs of points that follow each other along the profile, three of them for
@@ -140,6 +150,19 @@ impl Pole {
     }
 }
 
+impl Pole {
+    /// Displacement at this place by forces along x, y, z at the other, mm/N.
+    #[inline(always)]
+    fn between(&self, moved: &NodeBlocks) -> Matrix3<f64> {
+        let mut between = [0.0; 9];
+        for &(node, w) in &self.nodes {
+            let block = &moved[node as usize];
+            (0..9).for_each(|k| between[k] += w * block[k]);
+        }
+        Matrix3::from_row_slice(&between)
+    }
+}
+
 /// T of one gear on its grid points, all directions, mm/N.
 struct Filling<'a> {
     bulk: &'a BulkCompliance<'a>,
@@ -163,12 +186,7 @@ impl pulp::NullaryFnOnce for Filling<'_> {
             let own = &mut table[..];
             for (p, pole) in poles.iter().enumerate().skip(q) {
                 let Some(pole) = pole else { continue };
-                let mut between = [0.0; 9];
-                for &(node, w) in &pole.nodes {
-                    let block = &moved[node as usize];
-                    (0..9).for_each(|k| between[k] += w * block[k]);
-                }
-                let between = Matrix3::from_row_slice(&between);
+                let between = pole.between(&moved);
                 for (d, load) in load.iter().enumerate() {
                     let moved = between * load.load;
                     for (e, direction) in pole.directions.iter().enumerate() {
@@ -242,20 +260,20 @@ impl BulkTable {
     }
 
     fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
-        let mut first = vec![0];
-        lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+        let first = first_points(&lines);
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
         let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
         pulp::Arch::new().dispatch(Filling { bulk, supports: &supports, table: &mut table });
-        let mut made = Self { lines, first, table, error: 0.0 };
-        made.error = made.measured(bulk);
+        let mut made = Self { lines, first, entries: Entries::Whole(table), error: 0.0 };
+        made.error = made.measured(bulk, bulk.patches.len());
         made
     }
 
     /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each
-    /// place with itself and with the places checked before it.
-    fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
+    /// place on the first `loaded` patches with itself and with the places checked before it, where these are all, else
+    /// with all places.
+    fn measured(&self, bulk: &BulkCompliance<'_>, loaded: usize) -> f64 {
         let mut places = Vec::new();
         for (patch, flank) in bulk.patches.iter().enumerate() {
             let [low, high] = flank.range();
@@ -265,16 +283,17 @@ impl BulkTable {
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
                 if let (Some(exact), Some(place)) = (supports(flank, at), self.at(flank, patch, at, None)) {
-                    places.push((exact[0], place));
+                    places.push((exact[0], place, patch));
                 }
             }
         }
         let (mut worst, mut largest) = (0.0f64, f64::MIN_POSITIVE);
         let mut u = Vec::new();
-        for (i, (support, place)) in places.iter().enumerate() {
+        for (i, (support, place, _)) in places.iter().enumerate().filter(|(_, (.., patch))| *patch < loaded) {
             bulk.displacement(support, &mut u);
             largest = largest.max(opening(support, &u));
-            for (other, other_place) in &places[..=i] {
+            let seen = if loaded < bulk.patches.len() { &places[..] } else { &places[..=i] };
+            for (other, other_place, _) in seen {
                 worst = worst.max((opening(other, &u) - self.entry(other_place, place)).abs());
             }
         }
@@ -334,9 +353,19 @@ impl BulkTable {
 
     /// S between two places, mm/N.
     pub(crate) fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
-        let column = |q: u32| &self.table[q as usize * self.points()..];
-        second.each().map(|(q, w)| first.each().map(|(p, v)| v * column(q)[p as usize]).sum::<f64>() * w).sum()
+        let at = |q: u32, p: u32| match &self.entries {
+            Entries::Whole(table) => table[q as usize * self.points() + p as usize],
+            Entries::Layers(layers) => layers.at(q as usize, p as usize),
+        };
+        second.each().map(|(q, w)| first.each().map(|(p, v)| v * at(q, p)).sum::<f64>() * w).sum()
     }
+}
+
+/// First point of each patch, and the number of all.
+fn first_points(lines: &[FlankGridLines]) -> Vec<usize> {
+    let mut first = vec![0];
+    lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+    first
 }
 
 impl TablePoint {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{BulkTable, DIRECTIONS, RUN, RUNS, TablePoint};
+use super::{BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint};
 
 /// No point of a table.
 const NOWHERE: Range<usize> = Range { start: usize::MAX, end: 0 };
@@ -165,11 +165,13 @@ impl TableWork {
         // A line of points along a profile has a run for every three of them.
         let runs = table.points().div_ceil(RUN - 1).min(rows * DIRECTIONS * RUNS);
         let most = RUN * runs;
+        // Of a wide gear rows touch a small part, which grows where it must.
+        let kept = if matches!(table.entries, Entries::Layers(_)) { 0 } else { most * most };
         Self {
             used: Vec::with_capacity(runs),
             before: Vec::with_capacity(runs),
             rank: vec![u32::MAX; table.points()],
-            part: Vec::with_capacity(most * most),
+            part: Vec::with_capacity(kept),
             column: Vec::with_capacity(most),
             loaded: Vec::with_capacity(most),
             places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],
@@ -243,10 +245,16 @@ impl TableWork {
         }
         let columns = self.used.iter().flat_map(|&first| first as usize..first as usize + RUN);
         for (q, own) in columns.zip(self.part.chunks_exact_mut(RUN * self.used.len())) {
-            let column = &table.table[q * table.points()..][..table.points()];
             let (own, _) = own.as_chunks_mut::<RUN>();
-            for (&first, run) in self.used.iter().zip(own) {
-                run.copy_from_slice(&column[first as usize..][..RUN]);
+            let runs = self.used.iter().zip(own);
+            match &table.entries {
+                Entries::Whole(all) => {
+                    let column = &all[q * table.points()..][..table.points()];
+                    runs.for_each(|(&first, run)| run.copy_from_slice(&column[first as usize..][..RUN]));
+                }
+                Entries::Layers(layers) => {
+                    runs.for_each(|(&first, run)| run.copy_from_slice(layers.run(q, first as usize)));
+                }
             }
         }
     }
