@@ -268,7 +268,14 @@ fn every_key_is_in_a_scene_that_runs() {
     assert!(keys.len() > 60, "{} keys", keys.len());
     let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
     assert!(left.is_empty(), "in no scene: {left:?}");
-    for name in ["run_up.toml", "in_housing.toml", "overhung_pinion.toml", "elastic_gears.toml", "elastic_pair.toml", "planetary_stage.toml"] {
+    for name in [
+        "run_up.toml",
+        "in_housing.toml",
+        "overhung_pinion.toml",
+        "elastic_gears.toml",
+        "elastic_pair.toml",
+        "planetary_stage.toml",
+    ] {
         // Meshes are beside the folder of the scenes.
         let file = folder.join(name).display().to_string();
         let run = scratch.ale_gear(["run", &file, "--cache", "cache", "--out", name.trim_end_matches(".toml")]);
