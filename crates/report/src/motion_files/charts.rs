@@ -5,15 +5,16 @@ use dynamics::Speed;
 use scene::SweepWay;
 use study::{StudyError, extent};
 
-use super::{SPECTRA, spectra, waterfall::waterfall_chart};
+use super::{
+    SPECTRA, spectra,
+    waterfall::{SHOWN_ORDERS, waterfall_chart},
+};
 use crate::charts::{Curve, campbell_chart, line_chart, stick_chart};
 use answer::Table;
 use columns::motion_history::{MESH_PHASE, TIME};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub const SHOWN_CYCLES: usize = 4;
-/// Orders of spectra that are drawn.
-pub(super) const SHOWN_ORDERS: f64 = 12.0;
 /// Mesh orders whose amplitudes are drawn over speed.
 const SHOWN_CUTS: usize = 4;
 

@@ -3,9 +3,10 @@
 use analysis::motion::{Waterfall, WaterfallLine};
 use answer::{Numbers, Table};
 
-use super::charts::SHOWN_ORDERS;
 use crate::charts::{FieldMap, Overlay, Side, embedded, figure, share};
 
+/// Orders of spectra that are drawn.
+pub(super) const SHOWN_ORDERS: f64 = 12.0;
 /// Columns and rows of a picture at most.
 const CELLS: [usize; 2] = [360, 300];
 /// Decades of a picture's colours.
