@@ -91,10 +91,7 @@ fn compare(section: [u32; 4]) {
             a.mesh_phase
         );
         assert!(error > 0.0 && error <= 5e-3, "stated {error:e}");
-        assert!(
-            ste < error && pressure < error && force < error,
-            "{ste:e} {pressure:e} {force:e}, stated {error:e}"
-        );
+        assert!(ste < error && pressure < error && force < error, "{ste:e} {pressure:e} {force:e}, stated {error:e}");
     }
 }
 
