@@ -134,6 +134,27 @@ fn options(order: u32, counts: [u32; 5], extent: Extent) -> StructuredOptions {
     }
 }
 
+/// 20 teeth in a ring of 52, module 3 mm, at a helix angle in degrees.
+pub fn planet_in_ring(beta_deg: f64) -> [GearData; 2] {
+    let pinion = GearData {
+        teeth: 20,
+        helix_angle: beta_deg.to_radians(),
+        profile_shift: 0.3,
+        bore_diameter: 30.0,
+        face_width: 15.0,
+        ..GearData::default()
+    };
+    let ring = GearData {
+        teeth: 52,
+        profile_shift: -0.1,
+        bore_diameter: -200.0,
+        addendum_coefficient: 0.85,
+        root_radius_coefficient: 0.25,
+        ..pinion.clone()
+    };
+    [pinion, ring.with_usual_shaper(0.0)]
+}
+
 /// The default pair at another helix angle in degrees on whole gears of the built-in mesher, hex8; `counts`: elements
 /// along the profile, the fillet, across the tooth, along the face, in the rim.
 pub fn generated(beta_deg: f64, counts: [u32; 5]) -> Case {

@@ -23,7 +23,7 @@ pub mod waves;
 
 pub use case::{
     Case, default_data, default_pair, generated, mean_and_peak_to_peak, meshes_folder, modified, of_order, of_widths,
-    quadratic, scaled, structured,
+    planet_in_ring, quadratic, scaled, structured,
 };
 pub use programs::{browser, program, python};
 pub use random::Random;

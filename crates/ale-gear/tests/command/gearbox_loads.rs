@@ -6,17 +6,23 @@ use crate::{
     util::{Scratch, repository},
 };
 
-/// An engine whose torque pulses by more than its mean: rows have its torque at every instant, the teeth rattle, the energy is
-/// accounted for. What has no meaning is told with the key.
-#[test]
-fn an_engine_lets_the_teeth_rattle() {
-    let file = repository().join("scenes/gearbox/engine.toml").display().to_string();
+/// A shipped gearbox after its run: its file, the folder with the result `o`, what the summary says of the motion, and the
+/// energy that it leaves over.
+fn moved(name: &str) -> (String, Scratch, serde_json::Value, f64) {
+    let file = repository().join("scenes/gearbox").join(name).display().to_string();
     let scratch = Scratch::new();
     let run = scratch.ale_gear(["run", &file, "--out", "o", "--no-cache"]);
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    let told = &told["motion"];
-    let left = told["energy"]["relative_residual"].as_f64().unwrap();
+    let left = told["motion"]["energy"]["relative_residual"].as_f64().unwrap();
+    (file, scratch, told["motion"].clone(), left)
+}
+
+/// An engine whose torque pulses by more than its mean: rows have its torque at every instant, the teeth rattle, the energy is
+/// accounted for. What has no meaning is told with the key.
+#[test]
+fn an_engine_lets_the_teeth_rattle() {
+    let (file, scratch, told, left) = moved("engine.toml");
     assert!(left.abs() < 1e-9, "{left}");
     let parted = ["separations", "coast_separations"].map(|key| told["meshes"][0][key].as_u64().unwrap());
     println!("energy left {left:e}, contact lost {parted:?} times");
@@ -49,13 +55,7 @@ fn an_engine_lets_the_teeth_rattle() {
 /// press, the input brakes, and the energy is accounted for.
 #[test]
 fn a_load_that_reverses_goes_through_the_backlash_of_both_stages() {
-    let file = repository().join("scenes/gearbox/reversal.toml").display().to_string();
-    let scratch = Scratch::new();
-    let run = scratch.ale_gear(["run", &file, "--out", "o", "--no-cache"]);
-    assert_eq!(run.code, Some(0), "{}", run.stderr);
-    let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
-    let told = &told["motion"];
-    let left = told["energy"]["relative_residual"].as_f64().unwrap();
+    let (_, scratch, told, left) = moved("reversal.toml");
     println!("{} {}", told["energy"], told["meshes"]);
     assert!(left.abs() < 1e-9, "{left}");
     let rows = scratch.read("o/motion.csv");

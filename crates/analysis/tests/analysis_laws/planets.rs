@@ -95,8 +95,8 @@ fn forces(found: &GearboxResult) -> Vec<[[f64; PLANETS]; 2]> {
 }
 
 /// Without edges that press off the line of action T_sun : T_ring = z_sun : z_ring at every angle, and a planet's two forces
-/// are equal; planets share the load evenly in the
-/// mean, each with the course of the one before a third of a mesh cycle later, for 20 teeth of the sun leave a remainder of 2.
+/// are equal. Planets share the load evenly in the mean. Each has the course of the one before a third of a mesh cycle later,
+/// since 20 teeth of the sun over three planets leave a remainder of 2.
 #[test]
 fn planets_share_the_load_one_after_the_other() {
     let found = Stage { pin: 0.0, sun: 6e5 }.solve();

@@ -3,17 +3,18 @@
 
 use std::sync::{Arc, OnceLock};
 
+use crate::one_energy::{forces_are_slopes, is_angle};
 use dynamics::{
     Bearing, Drive, MapRequest, MappedPair, MeshDamping, Motion, MotionOptions, PairMechanism, RigidBody, Speed,
     Torque, instants, quasi_static_start,
 };
-use geometry::{Driver, GearData, Sense};
+use geometry::{Driver, Sense};
 use integrate::{Forces, Mechanism, Scheme};
 use mesh::Extent;
 use nalgebra::{DVector, Matrix6};
 use testing::{
     moving::{MovingPair, at_speed, peak_to_peak, rows, worst},
-    of_order,
+    of_order, planet_in_ring,
 };
 
 const TORQUE: f64 = 300e3;
@@ -21,24 +22,7 @@ const ROWS: usize = 32;
 
 /// 20 teeth in a ring of 52.
 fn ring(driver: Driver, sense: Sense) -> MovingPair {
-    let pinion = GearData {
-        teeth: 20,
-        helix_angle: 15f64.to_radians(),
-        profile_shift: 0.3,
-        bore_diameter: 30.0,
-        face_width: 15.0,
-        thickness_allowance: 0.03,
-        ..GearData::default()
-    };
-    let ring = GearData {
-        teeth: 52,
-        profile_shift: -0.1,
-        bore_diameter: -200.0,
-        addendum_coefficient: 0.85,
-        root_radius_coefficient: 0.25,
-        ..pinion.clone()
-    };
-    let case = of_order(1, [pinion, ring.with_usual_shaper(0.0)], None, TORQUE, [2, 2, 2, 2, 1], Extent::Whole);
+    let case = of_order(1, planet_in_ring(15.0), None, TORQUE, [2, 2, 2, 2, 1], Extent::Whole);
     let contact = case.slice_options().with_contact(|c| {
         c.driver = driver;
         c.sense = sense;
@@ -125,7 +109,6 @@ fn forces_are_the_slope_of_the_energy() {
         });
         let n = system.count();
         let names = system.coordinates().names().to_vec();
-        let is_angle = |name: &str| name.contains("tilt") || name.contains("turn");
         let mut q = DVector::from_fn(n, |i, _| if is_angle(names[i]) { 2e-4 } else { [2e-3, -3e-3, 5e-3][i % 3] });
         q[system.coordinates().driver_turn().unwrap()] = 1e-4;
         q[system.coordinates().lag()] = 0.03;
@@ -140,22 +123,7 @@ fn forces_are_the_slope_of_the_energy() {
         if friction > 0.0 {
             continue;
         }
-        let size = |angle: bool| {
-            let own = (0..n).filter(|&i| is_angle(names[i]) == angle);
-            own.map(|i| forces.conservative[i].abs()).fold(0.0, f64::max)
-        };
-        for (i, name) in names.iter().enumerate() {
-            let h = if is_angle(name) { 2e-8 } else { 1e-6 };
-            let energy = |system: &mut PairMechanism, sign: f64| {
-                let mut there = q.clone();
-                there[i] += sign * h;
-                system.potential(0.0, &there).unwrap()
-            };
-            let slope = (energy(&mut system, 1.0) - energy(&mut system, -1.0)) / (2.0 * h);
-            let off = (slope + forces.conservative[i]) / size(is_angle(name));
-            println!("{name}: force {:.6e}, off the slope of the energy by {off:.1e}", forces.conservative[i]);
-            assert!(off.abs() < 3e-5, "{name}: {} beside a slope of {slope}", forces.conservative[i]);
-        }
+        forces_are_slopes(&mut system, &q, &forces);
     }
 }
 

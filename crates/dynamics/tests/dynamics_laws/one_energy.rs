@@ -58,8 +58,17 @@ fn forces_of_tilted_gears_are_the_slope_of_the_energy() {
     assert_eq!(n, 12);
     let mut forces = Forces::zeros(n);
     system.forces(0.0, &q, &DVector::zeros(n), &mut forces).unwrap();
-    let names = system.coordinates().names().to_vec();
-    let is_angle = |name: &str| name.contains("tilt") || name.contains("turn");
+    forces_are_slopes(&mut system, &q, &forces);
+}
+
+/// Whether a rigid coordinate of this name is an angle.
+pub fn is_angle(name: &str) -> bool {
+    name.contains("tilt") || name.contains("turn")
+}
+
+/// That f = -dV/dq in every coordinate, over the largest force or moment.
+pub fn forces_are_slopes(system: &mut PairMechanism, q: &DVector<f64>, forces: &Forces) {
+    let (n, names) = (q.len(), system.coordinates().names().to_vec());
     // Largest force, and largest moment: those of one gear have one size.
     let sizes = [false, true].map(|angle| {
         let own = (0..n).filter(|&i| is_angle(names[i]) == angle);
@@ -73,7 +82,7 @@ fn forces_of_tilted_gears_are_the_slope_of_the_energy() {
             there[i] += sign * h;
             system.potential(0.0, &there).unwrap()
         };
-        let slope = (energy(&mut system, 1.0) - energy(&mut system, -1.0)) / (2.0 * h);
+        let slope = (energy(system, 1.0) - energy(system, -1.0)) / (2.0 * h);
         let off = (slope + forces.conservative[i]) / sizes[usize::from(is_angle(name))];
         println!("{name}: force {:.6e}, off the slope of the energy by {off:.1e}", forces.conservative[i]);
         assert!(off.abs() < 3e-5, "{name}: {} beside a slope of {slope}", forces.conservative[i]);

@@ -1,34 +1,13 @@
 //! A pinion in a ring at rest: laws, search, reduced gears and full ones.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use geometry::{Driver, Gear, GearData, GearPair};
+use geometry::{Driver, Gear, GearPair};
 use ltca::StaticHistory;
 use mesh::{Extent, GroupNames, MeshedGear, StructuredOptions};
-use testing::{Case, quadratic};
-
-/// 20 teeth in a ring of 52, at a helix angle in degrees.
-fn data(beta_deg: f64) -> [GearData; 2] {
-    let pinion = GearData {
-        teeth: 20,
-        helix_angle: beta_deg.to_radians(),
-        profile_shift: 0.3,
-        bore_diameter: 30.0,
-        face_width: 15.0,
-        ..GearData::default()
-    };
-    let ring = GearData {
-        teeth: 52,
-        profile_shift: -0.1,
-        bore_diameter: -200.0,
-        addendum_coefficient: 0.85,
-        root_radius_coefficient: 0.25,
-        ..pinion.clone()
-    };
-    [pinion, ring.with_usual_shaper(0.0)]
-}
+use testing::{Case, planet_in_ring, quadratic};
 
 fn case(beta_deg: f64, extent: Extent) -> Case {
-    quadratic(data(beta_deg), None, 300e3, [4, 4, 2, 4, 2], extent)
+    quadratic(planet_in_ring(beta_deg), None, 300e3, [4, 4, 2, 4, 2], extent)
 }
 
 fn run(case: &Case, positions: usize) -> StaticHistory {
@@ -39,7 +18,7 @@ fn run(case: &Case, positions: usize) -> StaticHistory {
 #[test]
 fn the_mesher_makes_rings() {
     for beta in [0.0, 25.0] {
-        let [_, ring] = data(beta).map(|d| Gear::new(d).unwrap());
+        let [_, ring] = planet_in_ring(beta).map(|d| Gear::new(d).unwrap());
         let options = StructuredOptions {
             elements_profile: 4,
             elements_face: 4,
