@@ -9,10 +9,10 @@ use faer::{
 
 use super::{
     DenseProblem, DenseSolver,
-    cholesky::{Cholesky, Substitution},
+    cholesky::{Cholesky, Substitution, padded},
     dense::RIGID,
 };
-use crate::ContactError;
+use crate::{ContactError, lanes};
 
 /// Right-hand sides up to which each is solved for by itself.
 const FEW: usize = 2;
@@ -21,26 +21,34 @@ impl DenseSolver {
     /// Factor of S + diag(slopes) on the active rows.
     pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
+        let order = padded(m);
         self.saved = false;
         self.factor.clear();
+        // Most of the active rows follow each other.
+        self.runs.clear();
+        self.runs.extend(self.active.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[0] + run.len()));
         for (a, &j) in self.active.iter().enumerate() {
             // The lower triangle is enough where S is symmetric.
             let from = if self.symmetric { a } else { 0 };
-            self.factor.resize(a * m + from, 0.0);
-            let rows = &self.active[from..];
+            self.factor.resize(a * order + from, 0.0);
             match problem.compliance.col(j).try_as_col_major() {
-                Some(column) => gather(column.as_slice(), rows, &mut self.factor),
-                None => self.factor.extend(rows.iter().map(|&i| problem.compliance[(i, j)])),
+                Some(column) => {
+                    let start = self.active[from];
+                    for run in self.runs.iter().filter(|run| run.end > start) {
+                        self.factor.extend_from_slice(&column.as_slice()[run.start.max(start)..run.end]);
+                    }
+                }
+                None => self.factor.extend(self.active[from..].iter().map(|&i| problem.compliance[(i, j)])),
             }
+            self.factor[a * (order + 1)] += self.slopes[j];
         }
-        for (a, &i) in self.active.iter().enumerate() {
-            self.factor[a * (m + 1)] += self.slopes[i];
-        }
+        self.factor.resize(order * order, 0.0);
+        (m..order).for_each(|a| self.factor[a * (order + 1)] = 1.0);
         if self.symmetric {
-            let factored = self.arch.dispatch(Cholesky { matrix: &mut self.factor, order: m });
+            let factored = lanes::run(self.arch, Cholesky { matrix: &mut self.factor, order });
             factored.then_some(()).ok_or(ContactError::NotPositiveDefinite { points: m })?;
         } else {
-            let matrix = MatMut::from_column_major_slice_mut(&mut self.factor, m, m);
+            let matrix = MatMut::from_column_major_slice_with_stride_mut(&mut self.factor, m, m, order);
             let stack = MemStack::new(&mut self.scratch);
             let [forward, backward] = &mut self.permutation;
             for list in [&mut *forward, &mut *backward] {
@@ -52,13 +60,30 @@ impl DenseSolver {
         Ok(())
     }
 
+    /// Whether there is a factor of as many rows as are active.
+    pub(super) fn is_factored(&self) -> bool {
+        self.factor.len() == padded(self.active.len()).pow(2)
+    }
+
+    /// The factor of the active rows.
+    pub(super) fn factored(factor: &[f64], m: usize) -> MatRef<'_, f64> {
+        MatRef::from_column_major_slice_with_stride(factor, m, m, padded(m))
+    }
+
     /// Solves with the factor for the first `columns` columns of `x`, m rows each.
     pub(super) fn back_substitute(&mut self, m: usize, columns: usize) {
         if self.symmetric && columns <= FEW {
-            let Self { x, factor, arch, .. } = self;
-            return x[..m * columns].chunks_exact_mut(m).for_each(|x| arch.dispatch(Substitution { factor, x }));
+            let Self { x, factor, arch, column, .. } = self;
+            for x in x[..m * columns].chunks_exact_mut(m) {
+                column.clear();
+                column.extend_from_slice(x);
+                column.resize(padded(m), 0.0);
+                lanes::run(*arch, Substitution { factor, x: column });
+                x.copy_from_slice(&column[..m]);
+            }
+            return;
         }
-        let factor = MatRef::from_column_major_slice(&self.factor, m, m);
+        let factor = Self::factored(&self.factor, m);
         if self.symmetric {
             let mut x = MatMut::from_column_major_slice_mut(&mut self.x[..m * columns], m, columns);
             triangular_solve::solve_lower_triangular_in_place(factor, x.as_mut(), Par::Seq);
@@ -74,12 +99,5 @@ impl DenseSolver {
                 lu::solve::solve_in_place(factor, factor, permutation, x, Par::Seq, stack);
             }
         }
-    }
-}
-
-/// The entries of the active rows: most of these follow each other.
-fn gather(column: &[f64], active: &[usize], out: &mut Vec<f64>) {
-    for run in active.chunk_by(|a, b| a + 1 == *b) {
-        out.extend_from_slice(&column[run[0]..][..run.len()]);
     }
 }

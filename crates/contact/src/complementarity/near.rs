@@ -7,8 +7,8 @@
 //! thousandths. Convergence is checked by the conditions of any solution. Where it fails, or where rows become active
 //! or inactive, full Newton steps go on from there.
 
-use super::{Balance, DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
-use crate::ContactError;
+use super::{Balance, DenseProblem, DenseSolver, LocalApproach, TOLERANCE, opening::Opening, pivots::PIVOT_TOLERANCE};
+use crate::{ContactError, lanes};
 
 /// A solution and the factor of its tangent, saved for later.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -77,11 +77,10 @@ impl DenseSolver {
     pub(crate) fn solve_near(
         &mut self,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
         accuracy: f64,
     ) -> Result<(), ContactError> {
-        let m = self.active.len();
-        if self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+        if self.forces.len() != problem.gaps.len() || !self.is_factored() {
             return self.solve(problem, local, |_| 0.0);
         }
         // Local approach and slopes are still those of the last solution.
@@ -95,7 +94,7 @@ impl DenseSolver {
         Ok(())
     }
 
-    fn follow(&mut self, problem: &DenseProblem<'_>, local: Option<&impl Fn(usize, f64) -> (f64, f64)>) {
+    fn follow(&mut self, problem: &DenseProblem<'_>, local: Option<&impl LocalApproach>) {
         if let Some(local) = local {
             self.linearise(local);
         }
@@ -103,33 +102,21 @@ impl DenseSolver {
     }
 
     /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
-    /// that led to a solution, without rows becoming active or inactive. `open` computes what the forces open the rows
-    /// by: the compliance of `problem` may be that of before.
-    pub fn solve_moved(
-        &mut self,
-        problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
-        mut open: impl FnMut(&[f64], &mut [f64]),
-    ) -> bool {
-        let m = self.active.len();
-        if m == 0 || self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+    /// that led to a solution, without rows becoming active or inactive.
+    pub fn solve_moved(&mut self, problem: &DenseProblem<'_>, local: impl LocalApproach) -> bool {
+        if self.active.is_empty() || self.forces.len() != problem.gaps.len() || !self.is_factored() {
             return false;
         }
         self.rotation = 0.0;
-        let follow = |solver: &mut Self, _: usize| {
-            solver.linearise(&local);
-            solver.openings.fill(0.0);
-            open(&solver.forces, &mut solver.openings);
-        };
-        let solved = self.keeps_factor(problem, follow, TOLERANCE);
+        let solved = self.keeps_factor(problem, |solver, _| solver.follow(problem, Some(&local)), TOLERANCE);
         if solved && problem.balance != Balance::Held {
-            self.stiffness = self.refined_stiffness(problem, open);
+            self.stiffness = self.refined_stiffness(problem);
         }
         solved
     }
 
     /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did.
-    fn refined_stiffness(&mut self, problem: &DenseProblem<'_>, mut open: impl FnMut(&[f64], &mut [f64])) -> f64 {
+    fn refined_stiffness(&mut self, problem: &DenseProblem<'_>) -> f64 {
         let n = problem.gaps.len();
         let [mut found, mut opened] = [vec![0.0; n], vec![0.0; n]];
         let mut stiffness = 0.0;
@@ -149,8 +136,10 @@ impl DenseSolver {
             if step > 0 && change * change <= STIFFNESS_ACCURACY * stiffness * stiffness {
                 break;
             }
-            opened.fill(0.0);
-            open(&found, &mut opened);
+            lanes::run(
+                self.arch,
+                Opening { compliance: problem.compliance, active: &self.active, forces: &found, out: &mut opened },
+            );
         }
         stiffness
     }

@@ -146,6 +146,12 @@ impl FirstOrderGap {
         arc * arc * self.curvature(self.touch_at(z)) * self.cos_base_helix
     }
 
+    /// Roll angle of the first flank's nominal contact at mid-face and its change with height (1/mm), exact on parallel
+    /// axes; none on others.
+    pub fn touch(&self) -> Option<[f64; 2]> {
+        (self.tilted == 0.0).then_some([self.touch[0], self.twist])
+    }
+
     fn touch_at(&self, z: f64) -> [f64; 2] {
         let moved = self.twist * z;
         [self.touch[0] + moved, self.touch[1] - self.base_radius[0] * moved / self.base_radius[1]]

@@ -80,9 +80,9 @@ pub fn slice(
 }
 
 impl SliceHint {
-    /// Near the place of a slice.
-    pub fn near(slice: &Slice) -> Self {
-        Self { roll: Some(slice.at[0][0]), ..Self::default() }
+    /// Near a roll angle of body 1.
+    pub fn near(roll: f64) -> Self {
+        Self { roll: Some(roll), ..Self::default() }
     }
 }
 

@@ -20,6 +20,8 @@ pub(crate) struct ProfilePair<'a> {
     single: bool,
     /// Where dips may be, of modified flanks that nearly touch.
     guide: Option<FirstOrderGap>,
+    /// Roll angle at which plain helicoids on parallel axes are nearest at mid-face, and its change with height, 1/mm.
+    touch: Option<[f64; 2]>,
 }
 
 /// Point of least gap, by what bounds it: the zero of the gap's slope, an edge or a kink.
@@ -90,12 +92,14 @@ impl<'a> ProfilePair<'a> {
         let surfaces = patches.map(FlankPatch::surface);
         let single = surfaces.iter().all(|s| s.is_single_arc());
         let rolls = patches.map(|patch| patch.range().map(|[u, _]| u));
+        let guide = FirstOrderGap::new(surfaces, rolls, poses);
         Self {
             patches,
             turn: relative.rotation.to_rotation_matrix().into_inner(),
             shift: relative.translation.vector,
             single,
-            guide: if single { None } else { FirstOrderGap::new(surfaces, rolls, poses) },
+            touch: if single { guide.and_then(|guide| guide.touch()) } else { None },
+            guide: if single { None } else { guide },
         }
     }
 
@@ -264,7 +268,9 @@ impl<'a> ProfilePair<'a> {
     /// end of a profile, if any, comes before it. `Err` where that does not hold.
     fn newton_search(&self, z: f64, near: Option<f64>, reach: f64) -> Result<Option<Found>, ()> {
         let [low, high] = self.rolls(0);
-        let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
+        // On parallel axes the place is known in closed form, and one look sees the gap there.
+        let known = self.touch.map(|[u, twist]| u + twist * z);
+        let mut u = known.or(near).unwrap_or(0.5 * (low + high)).clamp(low, high);
         let (mut below, mut above) = (None::<f64>, None::<f64>);
         let mut before: Option<(f64, f64)> = None;
         let mut found = None;

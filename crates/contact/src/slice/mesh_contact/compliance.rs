@@ -5,22 +5,6 @@ use crate::{BulkTable, ContactSet, TablePoint, nodal::ContactRow, slice::Slice};
 use super::{MeshContact, PoseContact};
 
 impl MeshContact {
-    /// Takes the parts of both tables that the rows stand on; false where there are no tables.
-    pub(super) fn stand_on_tables(&mut self) -> bool {
-        let Self { set, contact: PoseContact { rows, slices, .. }, openings, loads, work, friction, .. } = self;
-        let Some(tables) = set.slices().and_then(|s| s.bulk()) else { return false };
-        loads.clear();
-        for (b, table) in tables.iter().enumerate() {
-            let of = (&rows[..], &slices[..]);
-            places(set, (b, table), of, openings, false);
-            if friction.is_some() {
-                places(set, (b, table), of, loads, true);
-            }
-            work[b].stand_on(table, openings, loads);
-        }
-        true
-    }
-
     /// Computes S between the rows from the tables or matrices of both gears. It serves until modes open gaps by more
     /// than `by_modes` (mm).
     pub(super) fn compliance(&mut self, by_modes: f64) {
@@ -54,14 +38,20 @@ impl MeshContact {
             }
         }
         if symmetric {
-            for j in 0..n {
-                for i in j + 1..n {
-                    compliance[i * n + j] = compliance[j * n + i];
-                }
-            }
+            mirror(compliance, n);
         }
         if let Some(modal) = modal {
             modal.take_from(modal_rows, n, compliance);
+        }
+    }
+}
+
+/// Takes the lower triangle of a matrix (n x n, column by column) for the upper one.
+pub(in crate::slice) fn mirror(matrix: &mut [f64], n: usize) {
+    for j in 1..n {
+        let (before, own) = matrix.split_at_mut(j * n);
+        for (entry, column) in own[..j].iter_mut().zip(before.chunks_exact(n)) {
+            *entry = column[j];
         }
     }
 }
