@@ -82,10 +82,16 @@ pub struct DenseSolver {
     pub(super) factor: Vec<f64>,
     pub(super) x: Vec<f64>,
     pub(super) column: Vec<f64>,
+    /// Forces by a unit turn, and what they open.
+    pub(super) refined: [Vec<f64>; 2],
+    /// Forces on the active rows by a unit turn with the factor at hand; none where they are not known.
+    pub(super) turned: Vec<f64>,
     pub(super) permutation: [Vec<usize>; 2],
     pub(super) scratch: MemBuffer,
     pub(super) arch: pulp::Arch,
     pub(super) symmetric: bool,
+    /// Whether the factor is that of the active rows.
+    pub(super) factored: bool,
     /// Whether the factor is that of a solution that was put away.
     pub(super) saved: bool,
     pub(super) rotation: f64,
@@ -96,6 +102,10 @@ pub struct DenseSolver {
 
 /// Newton steps in which the active set may change as a whole; three to eight do.
 const BLOCK_STEPS: usize = 24;
+
+/// Violation of the conditions below which the factor at hand leads to a solution under a moment: it costs three times
+/// what a step with it does. Tangents of bodies that are held are those of the last forces and want a factor of their own.
+const CLOSE: f64 = 1e-5;
 
 /// Force of a row that enters, over its overlap and its own stiffness: it shares its approach with some neighbours.
 const ENTERS_WITH: f64 = 0.2;
@@ -122,10 +132,13 @@ impl DenseSolver {
             factor: Vec::with_capacity(padded(most).pow(2)),
             x: Vec::with_capacity(RIGID * most),
             column: Vec::with_capacity(padded(most)),
+            refined: [Vec::with_capacity(most), Vec::with_capacity(most)],
+            turned: Vec::with_capacity(most),
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(lu.or(solve)),
             arch: pulp::Arch::new(),
             symmetric: true,
+            factored: false,
             saved: false,
             rotation: 0.0,
             stiffness: 0.0,
@@ -211,13 +224,14 @@ impl DenseSolver {
         local: impl LocalApproach,
         accuracy: f64,
     ) -> Result<(), ContactError> {
-        let n = problem.gaps.len();
+        let (n, turns) = (problem.gaps.len(), problem.balance != Balance::Held);
         for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
             list.clear();
             list.resize(n, 0.0);
         }
         (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
         self.symmetric = problem.symmetric;
+        self.factored = false;
         self.active.clear();
         self.active.extend((0..n).filter(|&i| self.forces[i] > 0.0));
         if self.active.is_empty() {
@@ -225,9 +239,11 @@ impl DenseSolver {
         }
         if self.active.is_empty() {
             self.factor.clear();
+            self.factored = true;
             return Ok(());
         }
         self.linearise(&local);
+        let mut kept = false;
         for _ in 0..BLOCK_STEPS {
             if self.active.is_empty() && problem.balance != Balance::Held {
                 break;
@@ -239,8 +255,27 @@ impl DenseSolver {
                 continue;
             }
             self.residual = self.violation(problem);
-            if self.residual < accuracy.max(TOLERANCE) {
+            let mut solved = self.residual < accuracy.max(TOLERANCE);
+            if solved {
                 self.finish();
+            } else if turns && !kept && self.residual < CLOSE {
+                kept = true;
+                let follow = |solver: &mut Self, step| {
+                    if step > 0 {
+                        solver.follow(problem, Some(&local))
+                    }
+                };
+                solved = self.keeps_factor(problem, follow, accuracy);
+                if !solved {
+                    self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
+                    self.linearise(&local);
+                }
+            }
+            if solved {
+                // The factor has the slopes of some steps before.
+                if turns && accuracy < TOLERANCE {
+                    self.stiffness = self.refined_stiffness(problem);
+                }
                 return Ok(());
             }
         }
@@ -303,6 +338,7 @@ impl DenseSolver {
         self.back_substitute(m, columns);
         self.rotation = 0.0;
         if let Balance::Moment(moment) = problem.balance {
+            self.keep_turned();
             let dot = |x: &[f64]| self.active.iter().zip(x).map(|(&i, x)| problem.torque_levers[i] * x).sum::<f64>();
             let (carried, stiffness) = (dot(&self.x[..m]), dot(&self.x[m..]));
             (self.rotation, self.stiffness) = ((carried - moment) / stiffness, stiffness);
@@ -332,7 +368,7 @@ impl DenseSolver {
     /// Rows that pull leave, rows that overlap enter; whether any did.
     fn change_sides(&mut self, problem: &DenseProblem<'_>) -> bool {
         let scale = self.scale(problem);
-        let Self { forces, active, openings, order, rotation, .. } = self;
+        let Self { forces, active, openings, order, rotation, factored, .. } = self;
         let largest = forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
         order.clear();
         let (mut changed, mut before) = (false, active.iter().peekable());
@@ -355,6 +391,7 @@ impl DenseSolver {
             }
         }
         std::mem::swap(active, order);
+        *factored &= !changed;
         changed
     }
 

@@ -22,28 +22,36 @@ impl DenseSolver {
     pub(super) fn factor(&mut self, problem: &DenseProblem<'_>) -> Result<(), ContactError> {
         let m = self.active.len();
         let order = padded(m);
-        self.saved = false;
-        self.factor.clear();
+        (self.factored, self.saved) = (false, false);
+        self.turned.clear();
         // Most of the active rows follow each other.
         self.runs.clear();
         self.runs.extend(self.active.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[0] + run.len()));
-        for (a, &j) in self.active.iter().enumerate() {
+        self.factor.resize(order * order, 0.0);
+        let (columns, rest) = self.factor.split_at_mut(m * order);
+        for ((a, &j), entries) in self.active.iter().enumerate().zip(columns.chunks_exact_mut(order)) {
             // The lower triangle is enough where S is symmetric.
             let from = if self.symmetric { a } else { 0 };
-            self.factor.resize(a * order + from, 0.0);
+            let (mut own, below) = entries[from..].split_at_mut(m - from);
+            below.fill(0.0);
             match problem.compliance.col(j).try_as_col_major() {
                 Some(column) => {
                     let start = self.active[from];
                     for run in self.runs.iter().filter(|run| run.end > start) {
-                        self.factor.extend_from_slice(&column.as_slice()[run.start.max(start)..run.end]);
+                        let part = &column.as_slice()[run.start.max(start)..run.end];
+                        let (now, after) = own.split_at_mut(part.len());
+                        now.copy_from_slice(part);
+                        own = after;
                     }
                 }
-                None => self.factor.extend(self.active[from..].iter().map(|&i| problem.compliance[(i, j)])),
+                None => own.iter_mut().zip(&self.active[from..]).for_each(|(x, &i)| *x = problem.compliance[(i, j)]),
             }
-            self.factor[a * (order + 1)] += self.slopes[j];
+            entries[a] += self.slopes[j];
         }
-        self.factor.resize(order * order, 0.0);
-        (m..order).for_each(|a| self.factor[a * (order + 1)] = 1.0);
+        for (a, entries) in (m..order).zip(rest.chunks_exact_mut(order)) {
+            entries.fill(0.0);
+            entries[a] = 1.0;
+        }
         if self.symmetric {
             let factored = lanes::run(self.arch, Cholesky { matrix: &mut self.factor, order });
             factored.then_some(()).ok_or(ContactError::NotPositiveDefinite { points: m })?;
@@ -57,12 +65,8 @@ impl DenseSolver {
             }
             lu::factor::lu_in_place(matrix, forward, backward, Par::Seq, stack, Default::default());
         }
+        self.factored = true;
         Ok(())
-    }
-
-    /// Whether there is a factor of as many rows as are active.
-    pub(super) fn is_factored(&self) -> bool {
-        self.factor.len() == padded(self.active.len()).pow(2)
     }
 
     /// The factor of the active rows.

@@ -87,7 +87,16 @@ impl FlankGridLines {
     /// First line of the cell that a coordinate is in, and which part of the cell lies below it.
     fn cell(&self, axis: usize, at: f64) -> (usize, f64) {
         let ends = &self.ends[axis];
-        let cell = ends.partition_point(|&e| e <= at).clamp(1, ends.len() - 1) - 1;
+        // Cells are about equally long: the place tells which it is, or which is next to it.
+        let (last, from) = (ends.len() - 2, ends[0]);
+        let share = (at - from) / (ends[last + 1] - from);
+        let mut cell = ((share * (last + 1) as f64) as usize).min(last);
+        while cell < last && ends[cell + 1] <= at {
+            cell += 1;
+        }
+        while cell > 0 && ends[cell] > at {
+            cell -= 1;
+        }
         let lines = [PROFILE.len() - 1, FACE.len() - 1][axis];
         (cell * lines, ((at - ends[cell]) / (ends[cell + 1] - ends[cell])).clamp(0.0, 1.0))
     }

@@ -220,7 +220,7 @@ mod tests {
                     EndFace { distance: 20.0 - 0.9 * i as f64, lean: -0.3 },
                 ],
             };
-            let arc = if i % 3 == 0 { 0.1 } else { 0.0 };
+            let arc = if i.is_multiple_of(3) { 0.1 } else { 0.0 };
             LocalContact {
                 bodies: [body(distance.max(0.0), arc), body(4.0, 0.0)],
                 radius: 5.0,

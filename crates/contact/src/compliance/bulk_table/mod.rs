@@ -227,6 +227,11 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
     [normal, along, normal.cross(&along)]
 }
 
+/// What of a unit force along `direction` (own frame) is along the three directions at a place of a flank.
+pub(crate) fn parts(flank: &FlankPatch, at: [f64; 2], direction: &Vec3) -> [f64; DIRECTIONS] {
+    directions(flank, at).map(|e| e.dot(direction))
+}
+
 impl BulkTable {
     /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
     /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
@@ -263,7 +268,7 @@ impl BulkTable {
                 let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
-                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(flank, patch, at, None)) {
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(patch, at, [1.0, 0.0, 0.0])) {
                     places.push((exact[0], place));
                 }
             }
@@ -308,17 +313,10 @@ impl BulkTable {
         DIRECTIONS * self.first.last().copied().unwrap_or(0)
     }
 
-    /// Place of a row in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal
-    /// if `None`).
-    pub(crate) fn at(
-        &self,
-        flank: &FlankPatch,
-        patch: usize,
-        at: [f64; 2],
-        direction: Option<&Vec3>,
-    ) -> Option<TablePoint> {
+    /// Place of a row in the table: `at` on patch number `patch`, `parts` what of the unit force is along the three
+    /// directions there ([`parts`]).
+    pub(crate) fn at(&self, patch: usize, at: [f64; 2], parts: [f64; DIRECTIONS]) -> Option<TablePoint> {
         let (runs, weights) = self.lines.get(patch)?.weights(at);
-        let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
         Some(TablePoint {
             runs: runs.map(|first| (self.first[patch] + first) as u32),
             weights,

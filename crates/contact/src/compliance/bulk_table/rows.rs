@@ -8,7 +8,7 @@ use super::{BulkTable, DIRECTIONS, RUN, RUNS, TablePoint};
 use crate::lanes::{self, Four};
 
 /// Loads that a tile of the table is multiplied with in one pass over it.
-const AT_ONCE: usize = 6;
+const AT_ONCE: usize = 4;
 
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
@@ -21,7 +21,7 @@ impl BulkTable {
         work: &mut TableWork,
         out: &mut [f64],
     ) {
-        let TableWork { groups: [of_openings, of_loads], spread, arch } = work;
+        let TableWork { groups: [of_openings, of_loads], arch } = work;
         group(openings, of_openings);
         of_loads.clear();
         let loads = if symmetric { openings } else { loads };
@@ -30,7 +30,7 @@ impl BulkTable {
         }
         let groups = [&of_openings[..], if symmetric { of_openings } else { of_loads }];
         let (count, table) = (self.points() / DIRECTIONS, &self.table[..]);
-        lanes::run(*arch, Interpolation { table, count, places: [openings, loads], groups, symmetric, spread, out });
+        lanes::run(*arch, Interpolation { table, count, places: [openings, loads], groups, symmetric, out });
     }
 }
 
@@ -63,8 +63,6 @@ struct Interpolation<'a> {
     places: [&'a [TablePoint]; 2],
     groups: [&'a [Group]; 2],
     symmetric: bool,
-    /// Weights of the loads of a group along one direction.
-    spread: &'a mut Vec<Spread>,
     out: &'a mut [f64],
 }
 
@@ -73,29 +71,26 @@ impl WithSimd for Interpolation<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { table, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, spread, out } =
-            self;
+        let Self { table, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, out } = self;
         let n = openings.len();
         for (number, group) in of_loads.iter().enumerate() {
+            let first = if symmetric { number } else { 0 };
             for d in (0..DIRECTIONS).filter(|d| group.along[*d]) {
-                spread.clear();
-                spread.extend(loads[group.rows.clone()].iter().map(|load| load.spread(d)));
-                let first = if symmetric { number } else { 0 };
-                for opened in &of_openings[first..] {
-                    for e in (0..DIRECTIONS).filter(|e| opened.along[*e]) {
-                        let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+                let loads = &loads[group.rows.clone()];
+                for e in 0..DIRECTIONS {
+                    let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+                    let columns = group.runs.map(|first| &block[first as usize * count..][..RUN * count]);
+                    for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
                         let rows = &openings[opened.rows.clone()];
-                        let tile = Tile { block, count, runs: [&opened.runs, &group.runs] };
-                        let columns = out[n * group.rows.start..].chunks_mut(n * AT_ONCE);
-                        for (part, columns) in spread.chunks(AT_ONCE).zip(columns) {
-                            let out = &mut columns[opened.rows.start..];
+                        let tile = Tile { columns, count, runs: opened.runs.map(|first| first as usize) };
+                        let entries = out[n * group.rows.start..].chunks_mut(n * AT_ONCE);
+                        for (part, entries) in loads.chunks(AT_ONCE).zip(entries) {
+                            let out = &mut entries[opened.rows.start..];
                             match part {
-                                [_, _, _, _, _, _] => tile.add::<S, 6>(simd, part, (rows, e), (out, n)),
-                                [_, _, _, _, _] => tile.add::<S, 5>(simd, part, (rows, e), (out, n)),
-                                [_, _, _, _] => tile.add::<S, 4>(simd, part, (rows, e), (out, n)),
-                                [_, _, _] => tile.add::<S, 3>(simd, part, (rows, e), (out, n)),
-                                [_, _] => tile.add::<S, 2>(simd, part, (rows, e), (out, n)),
-                                _ => tile.add::<S, 1>(simd, part, (rows, e), (out, n)),
+                                [_, _, _, _] => tile.add::<S, 4>(simd, (part, d), (rows, e), (out, n)),
+                                [_, _, _] => tile.add::<S, 3>(simd, (part, d), (rows, e), (out, n)),
+                                [_, _] => tile.add::<S, 2>(simd, (part, d), (rows, e), (out, n)),
+                                _ => tile.add::<S, 1>(simd, (part, d), (rows, e), (out, n)),
                             }
                         }
                     }
@@ -107,35 +102,34 @@ impl WithSimd for Interpolation<'_> {
 
 /// What the loads of one group do at the points of another, along one direction each.
 struct Tile<'a> {
-    block: &'a [f64],
+    /// Columns of the table at the runs of the loads, four each.
+    columns: [&'a [f64]; RUNS],
     count: usize,
-    /// Runs of openings and loads.
-    runs: [&'a [u32; RUNS]; 2],
+    /// Runs of the openings.
+    runs: [usize; RUNS],
 }
 
 impl Tile<'_> {
-    /// Adds what `K` loads with the weights `spread` open `rows` by along direction `e`: to the first entries of as many
-    /// columns of `out`, `n` apart.
+    /// Adds what `K` loads along direction `d` open `rows` by along direction `e`: to the first entries of as many columns
+    /// of `out`, `n` apart.
     #[inline(always)]
     fn add<S: Simd, const K: usize>(
         &self,
         simd: S,
-        spread: &[Spread],
+        (loads, d): (&[TablePoint], usize),
         (rows, e): (&[TablePoint], usize),
         (out, n): (&mut [f64], usize),
     ) {
-        let Some(spread) = spread.first_chunk::<K>() else { return };
+        let Some(loads) = loads.first_chunk::<K>() else { return };
+        let [p0, p1, p2] = self.runs;
         let zero = Four::splat(simd, 0.0);
+        // All of these stay in registers: four columns at once are as many as there is room for.
         let (mut first, mut second, mut third) = ([zero; K], [zero; K], [zero; K]);
-        let [rows_at, columns_at] = self.runs;
-        let [p0, p1, p2] = [rows_at[0] as usize, rows_at[1] as usize, rows_at[2] as usize];
         for c in 0..RUNS {
-            let from = columns_at[c] as usize * self.count;
-            let columns = self.block[from..from + RUN * self.count].chunks_exact(self.count);
-            for (a, column) in columns.enumerate() {
+            for (a, column) in self.columns[c].chunks_exact(self.count).enumerate().take(RUN) {
                 let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
                 for k in 0..K {
-                    let weight = Four::new(simd, &spread[k][c][a]);
+                    let weight = Four::splat(simd, loads[k].weights[c][a]);
                     first[k] = first[k] + x0 * weight;
                     second[k] = second[k] + x1 * weight;
                     third[k] = third[k] + x2 * weight;
@@ -143,10 +137,11 @@ impl Tile<'_> {
             }
         }
         for (k, column) in out.chunks_mut(n).take(K).enumerate() {
+            let part = loads[k].parts[d];
             for (row, entry) in rows.iter().zip(column) {
                 let [a, b, c] = &row.weights;
                 let ends = Four::new(simd, a) * first[k] + Four::new(simd, b) * second[k];
-                *entry += row.parts[e] * (ends + Four::new(simd, c) * third[k]).sum();
+                *entry += part * row.parts[e] * (ends + Four::new(simd, c) * third[k]).sum();
             }
         }
     }
@@ -158,25 +153,11 @@ fn run<S: Simd>(simd: S, column: &[f64], first: usize) -> Four<S> {
     Four::new(simd, column[first..].first_chunk::<RUN>().unwrap_or(&[0.0; RUN]))
 }
 
-/// Weights of a load along one direction, each four times.
-type Spread = [[[f64; RUN]; RUN]; RUNS];
-
-impl TablePoint {
-    fn spread(&self, d: usize) -> Spread {
-        let mut all = [[[0.0; RUN]; RUN]; RUNS];
-        for (spread, weight) in all.as_flattened_mut().iter_mut().zip(self.weights.as_flattened()) {
-            *spread = [self.parts[d] * weight; RUN];
-        }
-        all
-    }
-}
-
 /// Memory for what is read from a table, used again.
 #[derive(Debug, Default)]
 pub struct TableWork {
     /// Groups of openings, and of loads where these are others.
     groups: [Vec<Group>; 2],
-    spread: Vec<Spread>,
     arch: pulp::Arch,
 }
 
@@ -184,7 +165,7 @@ impl TableWork {
     /// Memory for `rows` rows.
     pub(crate) fn new(rows: usize) -> Self {
         let groups = || Vec::with_capacity(rows);
-        Self { groups: [groups(), groups()], spread: Vec::with_capacity(rows), arch: pulp::Arch::new() }
+        Self { groups: [groups(), groups()], arch: pulp::Arch::new() }
     }
 
     /// Points of the table that the rows of the last call touched.
@@ -192,5 +173,63 @@ impl TableWork {
         let points =
             self.groups.iter().flatten().flat_map(|group| group.runs).flat_map(|first| first..first + RUN as u32);
         points.collect::<std::collections::BTreeSet<u32>>().len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Points of a direction.
+    const COUNT: usize = 40;
+
+    /// A table that no gear has, symmetric as one of a gear is.
+    fn table() -> BulkTable {
+        let at = |i: usize, j: usize| (1.0 + ((i * j) as f64).sin()) / (1.0 + i.abs_diff(j) as f64);
+        let mut table = vec![0.0; (DIRECTIONS * COUNT).pow(2)];
+        for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+            for (q, p) in (0..COUNT).flat_map(|q| (0..COUNT).map(move |p| (q, p))) {
+                table[((DIRECTIONS * d + e) * COUNT + q) * COUNT + p] = at(d * COUNT + q, e * COUNT + p);
+            }
+        }
+        BulkTable { lines: Vec::new(), first: vec![0, COUNT], table, error: 0.0 }
+    }
+
+    /// Rows of a contact line, some of a cell together; `along`: directions that they are loaded along.
+    fn places(along: usize) -> Vec<TablePoint> {
+        let of = |i: usize| {
+            let cell = (i / 5) as u32;
+            let weight = |k: usize| ((i * 12 + k) as f64).cos();
+            TablePoint {
+                runs: [3 * cell, 3 * cell + 10, 3 * cell + 20],
+                weights: std::array::from_fn(|b| std::array::from_fn(|a| weight(RUN * b + a))),
+                parts: std::array::from_fn(|d| if d < along { 0.5 + 0.1 * ((i + d) as f64).sin() } else { 0.0 }),
+            }
+        };
+        (0..17).map(of).collect()
+    }
+
+    /// Tiles give what each entry by itself does, with the same bits in plain instructions and the processor's own.
+    #[test]
+    fn tiles_are_their_entries() {
+        let table = table();
+        for (openings, loads, symmetric) in [(1, 1, true), (3, 3, true), (1, 3, false), (3, 2, false)] {
+            let (openings, loads) = (places(openings), places(loads));
+            let n = openings.len();
+            let read = |arch: pulp::Arch| {
+                let mut out = vec![0.0; n * n];
+                let mut work = TableWork { arch, ..TableWork::new(n) };
+                table.add(&openings, &loads, symmetric, &mut work, &mut out);
+                out
+            };
+            let found = read(pulp::Arch::new());
+            assert_eq!(found, read(pulp::Arch::Scalar), "other bits on another machine");
+            for (j, load) in loads.iter().enumerate() {
+                for (i, opened) in openings.iter().enumerate().skip(if symmetric { j } else { 0 }) {
+                    let (entry, wanted) = (found[j * n + i], table.entry(opened, load));
+                    assert!((entry - wanted).abs() < 1e-12, "{i}, {j}: {entry}, not {wanted}");
+                }
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! Compliance between the rows.
 
-use crate::{BulkTable, ContactSet, TablePoint, nodal::ContactRow, slice::Slice};
+use crate::{BulkTable, ContactSet, TablePoint, compliance::parts, nodal::ContactRow, slice::Slice};
 
 use super::{MeshContact, PoseContact};
 
@@ -23,8 +23,10 @@ impl MeshContact {
             }
             return;
         };
-        compliance.clear();
         compliance.resize(n * n, 0.0);
+        for (j, column) in compliance.chunks_exact_mut(n.max(1)).enumerate() {
+            column[if symmetric { j } else { 0 }..].fill(0.0);
+        }
         for (b, table) in tables.iter().enumerate() {
             let of = (&rows[..], &slices[..]);
             places(set, (b, table), of, openings, false);
@@ -68,7 +70,14 @@ pub(in crate::slice) fn places(
     out.extend(rows.iter().zip(slices).filter_map(|(row, slice)| {
         let patch = [row.patches.0, row.patches.1][b];
         let support = &row.supports[b];
+        let at = slice.at[b];
         let direction = if load { &support.load } else { &support.direction };
-        table.at(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
+        // Into the flank.
+        let parts = if slice.is_along_normals && *direction == support.direction {
+            [-1.0, 0.0, 0.0]
+        } else {
+            parts(&set.patches()[b][patch], at, direction)
+        };
+        table.at(patch, at, parts)
     }));
 }
