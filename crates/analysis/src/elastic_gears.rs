@@ -4,8 +4,10 @@ use answer::Remark;
 use fem::{ElementOptions, Material, Wanted};
 use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
+use mesh::MeshedGear;
 use reduction::{
-    ElasticGear, FullGear, GearReducer, RecordKey, ReductionOptions, ReductionStage, ReductionWatch, record_key,
+    ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage, ReductionWatch,
+    record_key,
 };
 
 use scene::{Model, Scene};
@@ -14,6 +16,7 @@ use crate::{
     AnalysisError, GearCache, Progress,
     error::{in_scene, solver_error},
     estimated_time::estimated_gear_seconds,
+    layers::shorter_gear,
     meshes::SceneMesh,
 };
 
@@ -50,7 +53,8 @@ impl RecordKeys {
 
 /// Both gears, side by side; the progress hears what is begun, and between the steps of the work it is asked whether the
 /// rest of it is still wanted. A gear that takes long is kept as soon as it is made: a run
-/// that is cut short need not make it again.
+/// that is cut short need not make it again. `by_layers`: wide gears may be known by a part of their layers, for contact
+/// alone.
 ///
 /// # Errors
 /// [`AnalysisError`] when a mesh is not what the analysis needs.
@@ -60,13 +64,18 @@ pub fn elastic_gears(
     options: &StaticOptions,
     meshes: &[SceneMesh; 2],
     waiting: (&dyn GearCache, &dyn Progress, Wanted<'_>),
+    by_layers: bool,
 ) -> Result<ElasticGears, AnalysisError> {
     let first = StaticModel::first_teeth(pair, options).map_err(|e| solver_error(scene, e))?;
     let window = options.window_teeth(pair);
     let build = |i: usize| {
         let elements = ElementOptions::default();
         let options = ReductionOptions { sides: options.contact.sides(), window, first: first[i], elements };
-        one(scene, pair, options, meshes, waiting, i)
+        let geometry = [&pair.pinion, &pair.wheel][i];
+        match by_layers.then(|| shorter_gear(scene, geometry, &meshes[i], &options, i)).flatten() {
+            Some(short) => of_layers(scene, short, options, waiting, i),
+            None => one(scene, pair, options, meshes, waiting, i),
+        }
     };
     let (pinion, wheel) = rayon::join(|| build(0), || build(1));
     let ((pinion, first_key, said), (wheel, second_key, also)) = (pinion?, wheel?);
@@ -81,6 +90,27 @@ const LONG_S: f64 = 0.8;
 
 /// A gear, its key, and what is wrong with its file.
 type Built = (ElasticGear, Option<RecordKey>, Option<Remark>);
+
+/// A wide gear by a shorter one of the same layers; it is soon made, and no file knows it.
+fn of_layers(
+    scene: &Scene,
+    (short, stack): (MeshedGear, LayerStack),
+    options: ReductionOptions,
+    (_, progress, wanted): (&dyn GearCache, &dyn Progress, Wanted<'_>),
+    i: usize,
+) -> Result<Built, AnalysisError> {
+    let (name, LayerStack { layers, condensed, .. }) = (NAMES[i], stack);
+    let tell = |stage: ReductionStage| progress.say(format!("{name} {stage} ({condensed} of {layers} layers)"));
+    let watch = ReductionWatch { tell: &tell, wanted };
+    match GearReducer::of_layers(short, material(scene, i)?, options, stack, watch) {
+        Err(error) if error.is_unwanted() => Err(AnalysisError::Cancelled),
+        Err(error) => {
+            let error = AnalysisError::from(error).of_part(name).of_part("built-in mesher");
+            Err(error.in_file(&scene.file))
+        }
+        Ok(gear) => Ok((ElasticGear::Reduced(gear), None, None)),
+    }
+}
 
 fn one(
     scene: &Scene,

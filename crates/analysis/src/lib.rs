@@ -51,6 +51,7 @@ mod inputs;
 mod interest;
 pub mod iso_model;
 pub mod iso_root;
+mod layers;
 mod light_load;
 mod loaded_pair;
 pub mod lumped;

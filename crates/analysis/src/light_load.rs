@@ -27,7 +27,7 @@ pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError>
         return Ok(());
     }
     let stiffness = GUESSED_LINE_STIFFNESS * loaded.effective_modulus() / STEEL_MPA * pair.face_width();
-    let (approach, places) = (force / stiffness, round_off_of_places(pair.centre_distance()));
+    let (approach, places) = (force / stiffness, round_off_of_places(pair.centre_distance().abs()));
     let share = places / approach;
     if share <= GUESS * ROUND_OFF {
         return Ok(());

@@ -18,6 +18,9 @@ use crate::{
     refused::{Blame, Refusal},
 };
 
+/// What the summary says of where a mesh comes from that the built-in mesher made.
+pub(crate) const BUILT_IN: &str = "built-in mesher";
+
 /// The mesh of one gear of a scene.
 #[derive(Debug, Clone)]
 pub struct SceneMesh {
@@ -58,7 +61,7 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
             let mesh = generated_with(scene, whose, exact, &options)?;
             let failed = |source| made_no_gear(whose, source);
             let (found, _) = MeshedGear::find(mesh, exact, &GroupNames::default()).map_err(failed)?;
-            let (gear, facts) = to_compute(scene, gear, found, "built-in mesher".to_owned()).map_err(failed)?;
+            let (gear, facts) = to_compute(scene, gear, found, BUILT_IN.to_owned()).map_err(failed)?;
             Ok(SceneMesh { gear, facts, remarks: Vec::new() })
         }
     }
@@ -105,7 +108,8 @@ pub fn generated(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
     generated_with(scene, whose, exact, &options_of(gear))
 }
 
-fn options_of(gear: &GearScene) -> StructuredOptions {
+/// What the built-in mesher is asked for.
+pub(crate) fn options_of(gear: &GearScene) -> StructuredOptions {
     gear.mesher.map_or_else(StructuredOptions::default, |m| options(&m))
 }
 

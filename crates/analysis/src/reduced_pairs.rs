@@ -95,7 +95,7 @@ impl ReducedPairs {
         }
         let meshes = meshes_of(scene, pair, None)?;
         let ElasticGears { gears, keys, remarks } =
-            elastic_gears(scene, pair, options, &meshes, (cache, progress, wanted))?;
+            elastic_gears(scene, pair, options, &meshes, (cache, progress, wanted), false)?;
         let pair = ReducedPair { meshes, gears: Arc::new(gears), keys, remarks, saved: AtomicBool::new(false) };
         Ok(Arc::clone(made.insert(Arc::new(pair))))
     }

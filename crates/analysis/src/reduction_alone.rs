@@ -66,7 +66,7 @@ pub fn reduce_scene(
     let options = options(scene, &pair);
     let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), &meshes), 1.0));
     let ElasticGears { gears, keys, mut remarks } = run_phase(observer, "reduce", work, |progress| {
-        elastic_gears(scene, &pair, &options, &meshes, (cache, progress, &|| true))
+        elastic_gears(scene, &pair, &options, &meshes, (cache, progress, &|| true), false)
     })?;
     let set_up = || StaticModel::new(pair.clone(), gears, options);
     let model = run_phase(observer, "contact", PhaseWork::Unknown, |_| set_up());

@@ -127,6 +127,8 @@ answer::remarks! {
     not_periodic(mesh_cycles, off, tolerance, why)
         "the motion does not repeat itself: after {mesh_cycles} mesh cycles it is off by {off:.1e} of its peak to peak (asked: {tolerance:.0e}); {why}",
         "";
+    no_common_period()
+        "the meshes do not come back together within 100000 cycles of the fastest: section.csv is not written", "";
     subharmonic(mesh_cycles) "the motion repeats itself after {mesh_cycles} mesh cycles: a subharmonic answer", "";
     work_open(share)
         "energy closes to {share:.1e} of the work that goes through the pair only (asked: 1e-6)",

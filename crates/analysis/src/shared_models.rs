@@ -162,7 +162,7 @@ impl<'a> SharedModels<'a> {
             None => {
                 let meshes = self.scene_meshes(scene, pair)?;
                 let ElasticGears { gears, keys, .. } =
-                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted))?;
+                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted), true)?;
                 let model = StaticModel::new(pair.clone(), gears, options)?;
                 if self.cache.is_on() {
                     keys.save(&*self.cache, model.gears());

@@ -30,7 +30,7 @@ use crate::{
     solution_remarks::{deflection_remarks, jammed_pair},
     static_certificate,
     varied_scene::VariedScene,
-    window::wider_window,
+    window::{foreseen_window, wider_window},
 };
 
 /// Whether it is found out what a user should hear of pair, meshes and bodies at rest, which takes a twentieth of the time
@@ -140,8 +140,10 @@ impl SharedModels<'_> {
         let options = options(&scene, &pair);
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);
+        let meshes = self.scene_meshes(&scene, &pair)?;
+        let foreseen = foreseen_window(&scene, &pair, &meshes, &options).map(|(teeth, _)| teeth);
         let solved = solve_widening(
-            options.window,
+            options.window.or(foreseen),
             |window| {
                 let base = self.base(&scene, &pair, with(window), interest.gears)?;
                 let mut model = base.model.modified(pair.clone(), with(window))?;
@@ -191,7 +193,7 @@ fn warn(base: &Base, scene: &Scene, history: &mut StaticHistory) -> Result<(), A
     history.remarks.extend(resolution_remarks(scene, &pair, &options));
     history.remarks.extend(jammed_pair(&history.positions, &pair, &options));
     history.remarks.extend(base.body_remarks().iter().cloned());
-    let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance());
+    let (module, distance) = (scene.pair.normal_module_mm, pair.centre_distance().abs());
     history.remarks.extend(deflection_remarks(&history.positions, module, distance));
     Ok(())
 }

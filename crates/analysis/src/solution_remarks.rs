@@ -107,7 +107,7 @@ pub(crate) fn jam_remark(all: &[PressedMesh], friction: f64) -> Option<Remark> {
 /// [`jam_remark`] of a pair at rest whose flanks may touch on both sides.
 pub(crate) fn jammed_pair(positions: &[StaticPosition], pair: &GearPair, options: &StaticOptions) -> Option<Remark> {
     let driven = [&pair.pinion, &pair.wheel][options.driven()];
-    let needed = options.torque.abs() / (driven.base_radius() * pair.base_helix_angle().cos());
+    let needed = options.torque.abs() / (driven.base_radius().abs() * pair.base_helix_angle().cos());
     let of = |p: &StaticPosition| PressedMesh { sum: p.pairs.iter().map(|q| q.normal_force).sum(), needed };
     let all: Vec<PressedMesh> = positions.iter().map(of).collect();
     options.contact.both_flanks.then(|| jam_remark(&all, options.contact.friction)).flatten()
@@ -124,7 +124,7 @@ pub(crate) fn deflection_remarks(positions: &[StaticPosition], module: f64, cent
     let worst = |value: fn(&StaticPosition) -> f64| positions.iter().map(value).fold(0.0, f64::max);
     let mut said = Vec::new();
     let error = worst(|p| (p.transmission_error - p.kinematic_transmission_error).abs());
-    let round_off = f64::EPSILON * centre_distance;
+    let round_off = f64::EPSILON * centre_distance.abs();
     if worst(|p| p.strain_energy) > 0.0 && error < FEW_DIGITS * round_off {
         said.push(remark::light_load(error, round_off));
     }

@@ -19,7 +19,7 @@ use crate::{
     run_phase,
     shared_models::{Base, SharedModels},
     unless_cancelled,
-    window::wider_window,
+    window::{foreseen_window, wider_window},
 };
 
 /// A scene as it stands with its pair and its meshes.
@@ -54,9 +54,10 @@ impl CycleInputs<'_> {
     ) -> Result<SolvedStaticCycle, AnalysisError> {
         let Self { scene, pair, meshes, .. } = self;
         let with = |window| StaticOptions { window, ..options.clone() };
-        let mut widened = Vec::new();
+        let (foreseen, said) = foreseen_window(scene, pair, meshes, options).unzip();
+        let mut widened = Vec::from_iter(said);
         let solved = solve_widening(
-            options.window,
+            options.window.or(foreseen),
             |window| attempt(self, observer, sink, &with(window)),
             |window, failure| {
                 let Failure::Static(e) = failure else { return None };
@@ -92,7 +93,7 @@ fn attempt(
         }
         None => {
             let ElasticGears { gears, keys, remarks } =
-                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true))?;
+                elastic_gears(scene, pair, options, meshes, (cache, progress, &|| true), true)?;
             Ok((GearsOf::Own(Box::new(gears), keys), remarks))
         }
     })?;

@@ -125,6 +125,9 @@ pub fn motion(file: &Gearbox, rows: &[GearboxInstant]) -> Table {
         push(name("dte_um"), "dynamic transmission error from the rotations of both gears", &|p| {
             1e3 * p.meshes[i].transmission_error
         });
+        push(name("dte_rate_um_per_s"), "rate of the dynamic transmission error", &|p| {
+            1e3 * p.meshes[i].transmission_error_rate
+        });
         push(name("normal_force_n"), "sum of the normal forces, without damping", &|p| p.meshes[i].normal_force);
     }
     for i in 0..file.bearings.len() {

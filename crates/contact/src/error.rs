@@ -85,6 +85,14 @@ pub enum ContactError {
         /// Error of the contact.
         source: Box<ContactError>,
     },
+    /// A gear known by a part of its layers has no table that is exact enough.
+    #[error("the compliance of a gear condensed by its layers is off by {error:.1e} of itself, {most:.1e} at most")]
+    Layers {
+        /// Error of its table, relative.
+        error: f64,
+        /// Most that is allowed.
+        most: f64,
+    },
     /// A value out of its range.
     #[error("{name} = {value} is out of range: {expected}")]
     OutOfRange {
@@ -121,6 +129,7 @@ impl ContactError {
             Self::NotOnBoundary { .. } => "the flank groups of the mesh must not reach into its clamped bore".into(),
             Self::ModesOnFullGear { .. } => "use `model = \"reduced+modes\"`, or leave out the modes".into(),
             Self::NotSliced => "use `contact.method = \"slice\"`".into(),
+            Self::Layers { .. } => "take the general way (`reduction = \"general\"` in [analysis]), or a finer mesh".into(),
             Self::OutOfRange { name, expected, .. } => format!("give {name} {expected}"),
             Self::Stiffness(_) | Self::MixedGears => return None,
         })

@@ -61,6 +61,8 @@ pub struct ContactOptions {
     pub surface_tolerance: f64,
     /// Rigid displacement of pinion and wheel: misalignment.
     pub offsets: [Offset; 2],
+    /// Turn by which the wheel stands off where the unloaded flanks touch, rad: transmission error counts from there.
+    pub wheel_turn: f64,
 }
 
 impl ContactOptions {
@@ -80,6 +82,7 @@ impl ContactOptions {
             both_flanks: false,
             surface_tolerance: 0.01 * pair.pinion.data().normal_module,
             offsets: [Offset::default(); 2],
+            wheel_turn: 0.0,
         }
     }
 

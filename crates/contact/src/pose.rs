@@ -25,7 +25,7 @@ pub fn gear_pose(pair: &GearPair, options: &ContactOptions, gear: usize, angle: 
 }
 
 /// Wheel angle at which the transmission error is zero, rad: the unmodified flanks touch there, unloaded, axes parallel
-/// through the displaced centres.
+/// through the displaced centres; but for [`ContactOptions::wheel_turn`].
 ///
 /// A gear displaced by z along its axis has its flanks turned by -k z, k the twist of its teeth. The offset of the
 /// mid-faces is no displacement: it moves the end faces alone.
@@ -33,7 +33,7 @@ pub fn reference_angle(pair: &GearPair, options: &ContactOptions, pinion_angle: 
     let [a, b] = [0, 1].map(|i| gear_centre(pair, options, i));
     let [z1, z2] = options.offsets.map(|o| o.z);
     let [t1, t2] = [pair.pinion.twist() * z1, pair.wheel.twist() * z2];
-    pair.wheel_angle_at(options.side(), pinion_angle - t1, [b.x - a.x, b.y - a.y]) + t2
+    pair.wheel_angle_at(options.side(), pinion_angle - t1, [b.x - a.x, b.y - a.y]) + t2 + options.wheel_turn
 }
 
 /// Offsets with which the gears still mesh.

@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use ale::ToothWindow;
 use geometry::{Gear, GearPair, ModifiedFlank, Side};
-use reduction::{ElasticGear, Window};
+use reduction::{ElasticGear, LayerStack, Window};
 
 use crate::{
     Condensed, ContactError, ContactOptions, FullContact, Method, Pose,
     complementarity::{Law, LinearContact},
+    compliance::boundary_forces,
     flank::{Candidates, ContactPoint, FlankPatch, GapSource, contact_points},
     nodal::{ContactRow, LinePoints, Scene, line_points},
-    slice::SliceSet,
+    slice::{SliceSet, TableFlanks},
 };
 
 /// Everything the contact of one window needs, in the frames of the window's matrices.
@@ -77,13 +78,12 @@ impl ContactSet {
     ) -> Result<Self, ContactError> {
         let first_teeth = window.first_teeth();
         let geometry = [&pair.pinion, &pair.wheel];
-        let mut parts = Vec::with_capacity(2);
-        for i in 0..2 {
+        let of = |i: usize| {
             let own = (geometry[i], slice_width(pair, options));
-            parts.push(flanks(&gears[i], own, first_teeth[i], window.count(), options, NAMES[i])?);
-        }
-        let [(p1, s1, f1, w1), (p2, s2, f2, w2)] =
-            <[_; 2]>::try_from(parts).unwrap_or_else(|_| unreachable!("two gears make two parts"));
+            flanks(&gears[i], own, first_teeth[i], window.count(), options, NAMES[i])
+        };
+        let [Flanks { patches: p1, sides: s1, first: f1, window: w1, condensed: c1 }, second] = [of(0)?, of(1)?];
+        let Flanks { patches: p2, sides: s2, first: f2, window: w2, condensed: c2 } = second;
         let slices = (options.method == Method::Slice)
             .then(|| {
                 let named = |p: &[FlankPatch], s: &[Side]| -> Vec<(u32, Side)> {
@@ -95,7 +95,15 @@ impl ContactSet {
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
-        let slices = slices.map(|s| Arc::new(s.with_tables([&p1, &p2], windows.as_ref(), options)));
+        let tabulated =
+            [(&p1, &c1, &gears[0]), (&p2, &c2, &gears[1])].map(|(patches, condensed, gear)| match condensed {
+                Some((condensed, stack)) => TableFlanks::Layers { condensed, stack: *stack, whole: patches },
+                None => {
+                    let cyclic = matches!(gear, ElasticGear::Reduced(r) if r.is_cyclic());
+                    TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
+                }
+            });
+        let slices = slices.map(|s| s.with_tables(tabulated, windows.as_ref(), options).map(Arc::new)).transpose()?;
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let own_teeth = geometry.map(Gear::has_own_teeth);
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
@@ -296,11 +304,21 @@ impl ContactSet {
     }
 
     /// Displacements of both gears' boundary coordinates, mm, in the matrices' frames, under forces (N) on rows with
-    /// the nodes that they rest on; `None` where no matrices of flanks are known.
+    /// the nodes that they rest on; `None` where no matrices of flanks are known, or not of their whole width.
     pub fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
         let [a, b] = self.windows.as_ref()?;
         let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+        if compliance.iter().any(|c| c.ncols() < c.nrows()) {
+            return None;
+        }
         Some(Condensed::new(rows, compliance).displacements(forces))
+    }
+
+    /// Forces (N) on both gears' boundary coordinates, in the matrices' frames, by forces on rows with the nodes that they
+    /// rest on; `None` where no matrices of flanks are known.
+    pub fn forces_of(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
+        let windows = self.windows.as_ref()?;
+        Some([0, 1].map(|i| boundary_forces(rows, forces, i, windows[i].reduced.coordinates())))
     }
 
     /// S between rows, mm/N, column by column, from the matrices as they are.
@@ -333,7 +351,16 @@ impl ContactSet {
     }
 }
 
-type Flanks = (Vec<FlankPatch>, Vec<Side>, u32, Option<Window>);
+/// Flanks of one gear's window.
+struct Flanks {
+    patches: Vec<FlankPatch>,
+    sides: Vec<Side>,
+    /// First tooth in the frame of the matrices.
+    first: u32,
+    window: Option<Window>,
+    /// Of a wide gear the flanks of the one that is condensed in its place; `patches` then have no mesh.
+    condensed: Option<(Vec<FlankPatch>, LayerStack)>,
+}
 
 /// Axial length of a slice, mm; none where points are pressed.
 fn slice_width(pair: &GearPair, options: &ContactOptions) -> Option<f64> {
@@ -367,7 +394,11 @@ fn flanks(
     };
     // The frame of a cyclic gear's matrices is turned against the gear: pitch errors stay with the gear's own teeth.
     let shift = window.as_ref().map_or(0, |w| w.shift);
-    let (mut patches, mut sides) = (Vec::new(), Vec::new());
+    let (mut patches, mut sides, mut condensed) = (Vec::new(), Vec::new(), Vec::new());
+    let stack = match elastic {
+        ElasticGear::Reduced(r) => r.stack(),
+        ElasticGear::Full(_) => None,
+    };
     for &tooth in &teeth {
         for side in options.sides() {
             let (nodes, faces) = flank_mesh(elastic, tooth, side).ok_or_else(|| ContactError::Reduction {
@@ -375,16 +406,22 @@ fn flanks(
                 source: reduction::ReductionError::MissingFlank { tooth, side, available: gear.teeth() },
             })?;
             let number = |node: u32| boundary_number(elastic, window.as_ref(), (tooth, side), node);
-            let flank = geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift));
-            let surface = Box::new(as_contact_sees_it(flank, slice));
-            let patch = FlankPatch::new(i64::from(tooth), surface, nodes, faces, number, options.surface_tolerance)
+            let flank = || geometry.modified_flank_at(side, i64::from(tooth), i64::from(tooth + shift));
+            let surface = || Box::new(as_contact_sees_it(flank(), slice));
+            let patch = FlankPatch::new(i64::from(tooth), surface(), nodes, faces, number, options.surface_tolerance)
                 .map_err(|source| ContactError::Flank { gear: name, source: Box::new(source) })?;
-            patches.push(patch);
+            if stack.is_some() {
+                let ([[low, _], [high, _]], half) = (patch.range(), 0.5 * geometry.data().face_width);
+                patches.push(FlankPatch::rigid(i64::from(tooth), surface(), [[low, -half], [high, half]]));
+                condensed.push(patch);
+            } else {
+                patches.push(patch);
+            }
             sides.push(side);
         }
     }
     let first = teeth.first().copied().unwrap_or(0);
-    Ok((patches, sides, first, window))
+    Ok(Flanks { patches, sides, first, window, condensed: stack.map(|stack| (condensed, stack)) })
 }
 
 /// Nodes and faces that carry the load of a flank: the mesh's own, or those of the grid over it.

@@ -1,6 +1,6 @@
 //! Free rigid coordinates of a pair, and their displacements.
 
-use geometry::GearPair;
+use geometry::{Gear, GearPair};
 use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::body::{COORDINATES, RigidBody};
@@ -36,7 +36,7 @@ impl Coordinates {
         let driven = options.driven();
         let mut columns: Vec<(SVector<f64, 12>, &'static str)> = Vec::new();
         let (mut lag, mut driver_turn) = (0, None);
-        let teeth = [pair.pinion.teeth(), pair.wheel.teeth()].map(f64::from);
+        let teeth = [&pair.pinion, &pair.wheel].map(Gear::signed_teeth);
         let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
         for gear in 0..2 {
             for axis in 0..COORDINATES {

@@ -90,12 +90,12 @@ impl Modal {
         all
     }
 
-    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, the
-    /// pinion in the sense of `sign` and the wheel against it; `None` where one of them has no such turn.
-    pub fn turned_by_a_pitch(&self, sign: f64) -> Option<DMatrix<f64>> {
+    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, each
+    /// in its sense (+1 counter-clockwise); `None` where one of them has no such turn.
+    pub fn turned_by_a_pitch(&self, senses: [f64; 2]) -> Option<DMatrix<f64>> {
         let mut all = DMatrix::zeros(self.count(), self.count());
         let mut at = 0;
-        for (gear, sign) in self.gears.iter().zip([sign, -sign]) {
+        for (gear, sign) in self.gears.iter().zip(senses) {
             let turn = gear.modes.turned_by_a_tooth()?;
             let m = turn.nrows();
             all.view_mut((at, at), (m, m)).copy_from(&if sign > 0.0 { turn } else { turn.transpose() });

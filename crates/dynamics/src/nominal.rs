@@ -25,15 +25,8 @@ pub struct NominalState {
     pub velocity: [f64; 2],
     /// Angular acceleration of both gears about +z, rad/s^2.
     pub acceleration: [f64; 2],
-    /// Sense in which the pinion runs, +1 counter-clockwise.
-    pub sense: f64,
-}
-
-impl NominalState {
-    /// Sense in which a gear runs, +1 counter-clockwise; also where it stands still.
-    pub fn running_sense(&self, gear: usize) -> f64 {
-        if gear == 0 { self.sense } else { -self.sense }
-    }
+    /// Sense in which each gear runs, +1 counter-clockwise; also where it stands still.
+    pub senses: [f64; 2],
 }
 
 impl Nominal {
@@ -55,25 +48,36 @@ impl Nominal {
     /// The moment at time `t` (s).
     pub fn at(&self, pair: &GearPair, options: &StaticOptions, t: f64) -> NominalState {
         let cycles = self.cycles(pair, options, t);
-        let ratio = f64::from(pair.pinion.teeth()) / f64::from(pair.wheel.teeth());
-        let sense = options.contact.sense.sign() as f64;
+        let ratio = wheel_turns(pair);
+        let senses = running_senses(pair, options);
         let of_pinion = match options.contact.driver {
-            Driver::Pinion => sense,
-            Driver::Wheel => sense / ratio,
+            Driver::Pinion => senses[0],
+            Driver::Wheel => senses[1] / ratio,
         };
-        let both = |x: f64| [of_pinion * x, -of_pinion * ratio * x];
+        let both = |x: f64| [of_pinion * x, of_pinion * ratio * x];
         NominalState {
             station: Station::at_cycles(cycles),
             velocity: both(self.speed.at(t)),
             acceleration: both(self.speed.acceleration(t)),
-            sense,
+            senses,
         }
     }
+}
+
+/// Turn of the wheel by one of the pinion, -z_1 / z_2: a ring (z_2 < 0) turns the same way.
+pub(crate) fn wheel_turns(pair: &GearPair) -> f64 {
+    -pair.pinion.signed_teeth() / pair.wheel.signed_teeth()
+}
+
+/// Sense in which pinion and wheel run, +1 counter-clockwise.
+pub(crate) fn running_senses(pair: &GearPair, options: &StaticOptions) -> [f64; 2] {
+    let of_pinion = options.contact.sense.sign() as f64;
+    [of_pinion, of_pinion * wheel_turns(pair).signum()]
 }
 
 fn driver_pitch(pair: &GearPair, options: &StaticOptions) -> f64 {
     match options.contact.driver {
         Driver::Pinion => pair.pinion.pitch_angle(),
-        Driver::Wheel => pair.wheel.pitch_angle(),
+        Driver::Wheel => pair.wheel.pitch_angle().abs(),
     }
 }

@@ -10,9 +10,13 @@ pub(crate) struct Balance {
     pub input_torque: f64,
     /// Force and moment about its origin on each shaft that is held; `None` for the others.
     pub held: Vec<Option<[f64; 6]>>,
-    /// Largest force or moment that is left over on a shaft, over the largest that acts on it.
+    /// Largest force or moment that is left over on a shaft, over the largest that acts on it, or over a thousandth of the
+    /// largest in the gearbox where that is more: a planet whose teeth have parted carries nothing.
     pub body: f64,
 }
+
+/// Share of the largest force in a gearbox below which a shaft idles.
+const IDLE: f64 = 1e-3;
 
 /// Sums of forces and of moments about a shaft's origin, with the largest of each.
 #[derive(Default)]
@@ -32,9 +36,14 @@ impl Sum {
         self.largest[1] = self.largest[1].max(arm.amax()).max(moment.amax());
     }
 
-    fn left(&self) -> f64 {
-        let of = |sum: f64, largest: f64| if largest > 0.0 { sum / largest } else { 0.0 };
-        of(self.force.amax(), self.largest[0]).max(of(self.moment.amax(), self.largest[1]))
+    /// What is left over of forces and moments, relative; `whole`: the largest in the gearbox.
+    fn left(&self, whole: [f64; 2]) -> f64 {
+        let left = [self.force.amax(), self.moment.amax()];
+        let of = |k: usize| {
+            let largest = self.largest[k].max(IDLE * whole[k]);
+            if largest > 0.0 { left[k] / largest } else { 0.0 }
+        };
+        of(0).max(of(1))
     }
 }
 
@@ -55,7 +64,7 @@ pub(crate) fn balances(
         gearbox.seats.of_disc(&gearbox.assembly, gearbox.operation.input).map_or(0.0, |at| reactions[at + 5])
     };
     let about_z = |torque: f64| Vector3::new(0.0, 0.0, torque);
-    let (mut held, mut body) = (Vec::new(), 0.0f64);
+    let (mut held, mut sums) = (Vec::new(), Vec::new());
     for shaft in 0..structure.shafts.len() {
         let mut sum = Sum::default();
         for (mesh, force) in gearbox.meshes.iter().zip(forces) {
@@ -74,8 +83,9 @@ pub(crate) fn balances(
             // What is not balanced but about its axis is what holds it.
             let (f, m) = (-sum.force, -sum.moment);
             held.push(Some([f.x, f.y, f.z, m.x, m.y, 0.0]));
-            let axial = sum.moment.z.abs();
-            body = body.max(if sum.largest[1] > 0.0 { axial / sum.largest[1] } else { 0.0 });
+            sum.force = Vector3::zeros();
+            sum.moment = about_z(sum.moment.z);
+            sums.push(sum);
             continue;
         }
         for (i, state) in bearings.iter().enumerate().filter(|(i, _)| structure.bearings[*i].shaft == shaft) {
@@ -83,8 +93,10 @@ pub(crate) fn balances(
             sum.add(height, state.force.into(), state.moment.into());
         }
         held.push(None);
-        body = body.max(sum.left());
+        sums.push(sum);
     }
+    let whole = [0, 1].map(|k| sums.iter().map(|sum| sum.largest[k]).fold(0.0, f64::max));
+    let body = sums.iter().map(|sum| sum.left(whole)).fold(0.0, f64::max);
     Balance { input_torque, held, body }
 }
 

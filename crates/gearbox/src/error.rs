@@ -284,6 +284,9 @@ pub enum GearboxError {
         /// Last step over the displacements, in the norm of the stiffness.
         step: f64,
     },
+    /// A torque over time on an input whose speed is given.
+    #[error("a torque over time on an input whose speed is given: the torque there is a result")]
+    GivenSpeed,
     /// A bearing that holds a shaft which has to turn.
     #[error("{bearing} has stiffness or damping for the turn about its axis: its shaft could not run")]
     HeldTurn {
@@ -450,6 +453,7 @@ impl GearboxError {
             Self::BeyondBacklash { .. } => {
                 "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
             }
+            Self::GivenSpeed => "let a torque drive the input, or leave the torque over time out",
             Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
             Self::Motion(source) => match &**source {
                 MotionError::Mechanism { source, .. } => return source.hint(),

@@ -1,12 +1,14 @@
 //! Torques of the meshes of a train without rings, from equilibrium alone.
 
+use geometry::Gear;
+
 use crate::{GearMesh, Operation, Structure};
 
 /// Torques (N mm about +z) of each mesh on its gear 1 and its gear 2, friction left out; `None` where meshes close a
 /// ring, whose shares are a matter of stiffness.
 ///
 /// ```text
-/// T_mesh + sum T_loads + sum T_meshes beyond = 0 on every shaft but that of the input,   T_1 / T_2 = z_1 / z_2
+/// T_mesh + sum T_loads + sum T_meshes beyond = 0 on every shaft but that of the input,   T_1 / T_2 = z_1 / z_2 (below zero of a ring)
 /// ```
 pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Operation) -> Option<Vec<[f64; 2]>> {
     let shaft = |disc: usize| Some(structure.discs.get(disc)?.shaft);
@@ -34,9 +36,9 @@ pub fn mesh_torques(structure: &Structure, meshes: &[GearMesh], operation: &Oper
     let mut all = vec![[0.0; 2]; meshes.len()];
     for &(own, by) in order.iter().rev() {
         let Some((mesh, end)) = by else { continue };
-        let teeth = [&meshes[mesh].pair.pinion, &meshes[mesh].pair.wheel].map(|g| f64::from(g.teeth()));
+        let teeth = [&meshes[mesh].pair.pinion, &meshes[mesh].pair.wheel].map(Gear::signed_teeth);
         let torque = 0.0 - on_shaft[own];
-        // Forces on both gears of an external pair have the same sense about their own axes.
+        // Forces on both gears of an external pair have the same sense about their own axes, those of a ring the other.
         let other = torque * teeth[1 - end] / teeth[end];
         all[mesh][end] = torque;
         all[mesh][1 - end] = other;

@@ -204,7 +204,7 @@ pub(crate) fn spread(size: usize, at: [usize; 2], values: &Vector12) -> DVector<
 /// Force of a mesh by the largest torque, N: what bearings are taken to carry where the search begins.
 pub(crate) fn guessed_force(meshes: &[GearMesh], operation: &Operation) -> f64 {
     let torque = operation.torques.iter().map(|t| t.torque.abs()).fold(0.0, f64::max);
-    let radius = meshes.iter().map(|m| m.pair.wheel.base_radius()).fold(0.0, f64::max);
+    let radius = meshes.iter().map(|m| m.pair.wheel.base_radius().abs()).fold(0.0, f64::max);
     // Without a load any force will do.
     if torque > 0.0 && radius > 0.0 { torque / radius } else { 1.0 }
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use geometry::{Driver, GearPair, Sense, Side};
+use geometry::{Driver, Gear, GearPair, Sense, Side};
 
 use crate::{GearboxError, Structure};
 
@@ -24,7 +24,7 @@ pub struct Meshing {
     pub sense: Sense,
     /// Driving gear: the one that is nearer to the input.
     pub driver: Driver,
-    /// Direction from gear 1's axis to gear 2's, rad from +x towards +y.
+    /// Direction from gear 1's axis to the contact, rad from +x towards +y: to gear 2's axis, away from that of a ring.
     pub direction: f64,
     /// Angle of gear 1's tooth 0 with the input at 0, rad from +x.
     pub start: f64,
@@ -50,7 +50,7 @@ impl Train {
     /// Follows the meshes from the shaft of disc `input`, which turns in `sense`.
     ///
     /// ```text
-    /// omega_2 = -omega_1 z_1/z_2,   theta_2 = theta_w(theta_1 - phi) + phi
+    /// omega_2 = -omega_1 z_1/z_2 (z_2 < 0 of a ring),   theta_2 = theta_w(theta_1 - phi) + phi
     /// ```
     /// phi: direction of the mesh, theta_w: angle of the wheel whose flanks touch ([`GearPair::wheel_angle`]). `keys[i]`
     /// is the angle of tooth 0 of disc i against the mark of its shaft, rad; the mark of the input shaft is at 0, and
@@ -158,7 +158,7 @@ impl<'a> Walk<'a> {
     /// Follows mesh i from its gear `from`, whose shaft turns `ratio` times a turn of the input.
     fn follow(&mut self, i: usize, from: usize, ratio: f64) -> Result<Meshing, GearboxError> {
         let (mesh, direction, to) = (&self.meshes[i], self.directions[i], 1 - from);
-        let teeth = [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| f64::from(g.teeth()));
+        let teeth = [&mesh.pair.pinion, &mesh.pair.wheel].map(Gear::signed_teeth);
         let follows = -ratio * teeth[from] / teeth[to];
         let ratio_1 = [ratio, follows][from];
         let sense = if ratio_1 > 0.0 { self.sense } else { self.sense.opposite() };
@@ -167,7 +167,9 @@ impl<'a> Walk<'a> {
         let angles = mesh.discs.map(|d| self.marks[self.structure.discs[d].shaft] + self.keys[d]);
         let start = if from == 0 { angles[0] } else { pinion_angle(&mesh.pair, side, angles[1], direction) };
         let meets = [start, wheel_angle(&mesh.pair, side, start, direction)][to];
-        let timing = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        let apart = self.reach(mesh.discs[to], follows, meets, TAU / teeth[to])?;
+        // Gear 2 may make up for gear 1.
+        let timing = if to == 0 { apart * teeth[0] / teeth[1] } else { apart };
         Ok(Meshing { sense, driver, direction, start, ratio: ratio_1, timing })
     }
 
@@ -205,7 +207,7 @@ impl Meshing {
     }
 }
 
-/// Direction of a mesh's line of centres, where its gears stand as the pair was made to.
+/// Direction from gear 1's axis to the contact, where the gears of a mesh stand as the pair was made to.
 fn direction(structure: &Structure, mesh: &GearMesh) -> Result<f64, GearboxError> {
     structure.has_discs(&mesh.name, mesh.discs)?;
     let centre = |disc: usize| {
@@ -215,7 +217,9 @@ fn direction(structure: &Structure, mesh: &GearMesh) -> Result<f64, GearboxError
     };
     let [a, b] = mesh.discs.map(centre);
     let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
-    let (distance_mm, wanted_mm) = (dx.hypot(dy), mesh.pair.centre_distance());
+    // The axis of a ring is on the other side of the contact.
+    let sign = mesh.pair.centre_distance().signum();
+    let (distance_mm, wanted_mm) = (dx.hypot(dy), mesh.pair.centre_distance().abs());
     if (distance_mm - wanted_mm).abs() > SAME * wanted_mm {
         return Err(GearboxError::Distance { mesh: mesh.name.clone(), distance_mm, wanted_mm });
     }
@@ -224,7 +228,7 @@ fn direction(structure: &Structure, mesh: &GearMesh) -> Result<f64, GearboxError
     if (offset_mm - pair_mm).abs() > SAME * wanted_mm {
         return Err(GearboxError::Beside { mesh: mesh.name.clone(), offset_mm, pair_mm });
     }
-    Ok(dy.atan2(dx))
+    Ok((sign * dy).atan2(sign * dx))
 }
 
 /// Angle of gear 2's tooth 0 where it touches that of gear 1 at `start`, both from +x, rad.

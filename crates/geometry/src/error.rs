@@ -246,8 +246,11 @@ impl GeometryError {
             Self::Mismatch { .. } => "both gears of a pair share module, pressure angle and helix angle".into(),
             Self::CentreDistance { least_mm, .. } => format!("the centre distance must exceed {least_mm:.4} mm"),
             Self::Jammed { nominal_mm, .. } => {
+                // A pinion has more room nearer to the axis of its ring.
+                let [way, raise] = if *nominal_mm < 0.0 { ["lower", " raise"] } else { ["raise", ""] };
+                let fits = nominal_mm.abs();
                 format!(
-                    "raise the centre distance (teeth of full thickness fit at {nominal_mm:.4} mm) or the thickness allowances"
+                    "{way} the centre distance (teeth of full thickness fit at {fits:.4} mm) or{raise} the thickness allowances"
                 )
             }
             Self::TipClearance { .. } => "raise the centre distance or the dedendum, or shorten the tip".into(),

@@ -80,7 +80,7 @@ impl CycleSolver {
         e: Option<&Equilibrium>,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
         let Some(root) = inputs.root else { return Ok(Default::default()) };
-        root.of(&self.windowed(inputs), e.map(|e| e.displacements_on(&self.contact.set)).as_ref())
+        root.of(&self.windowed(inputs), e.map(|e| e.loads_on(&self.contact.set)).as_ref())
     }
 
     /// Refuses the window if a neighbouring pair outside it overlaps at the loaded pose.

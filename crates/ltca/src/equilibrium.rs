@@ -86,6 +86,13 @@ impl Equilibrium {
         self.displacements.clone()
     }
 
+    /// What loads both gears: forces on the boundary coordinates of `set`, the window that the equilibrium was found on,
+    /// N, in the frames of its matrices; of whole gears their displacements, mm.
+    pub fn loads_on(&self, set: &ContactSet) -> [Vec<f64>; 2] {
+        let rows = set.supported_rows(&self.poses, &self.rows, &self.slices, &self.solution.forces);
+        set.forces_of(&rows, &self.solution.forces).unwrap_or_else(|| self.displacements.clone())
+    }
+
     pub(crate) fn warm_start(&self) -> WarmStart {
         contact::warm_start(&self.rows, &self.solution)
     }

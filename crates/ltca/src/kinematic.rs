@@ -1,16 +1,16 @@
 //! The unloaded pair: where modified, misaligned flanks just touch. Theory (32), (33).
 
-use ale::Station;
+use ale::{SlidingWindow, Station};
 use contact::{
     ContactOptions, Method, Pose, Vec3,
     flank::FlankPatch,
-    line::{contact_intervals, covered},
+    line::{contact_intervals, covered, rigid_gap},
     pose::{check_offsets, gear_pose, reference_angle},
 };
 use geometry::{Gear, GearPair, ModifiedFlank};
 
 use crate::{
-    StaticError,
+    StaticError, StaticOptions,
     flank_gap::{DipPlace, FlankGap, STATIONS},
     pose_steps::round_off_of_places,
 };
@@ -277,6 +277,12 @@ impl<'a> Unloaded<'a> {
         Self { pair, options, station, rotation, touch: None }
     }
 
+    /// Least gap of the pair of a running number at the poses of this one, mm.
+    fn gap_of(&self, running: i64, poses: &[Pose; 2]) -> f64 {
+        let [first, second] = self.flanks(running - self.station.middle_pair(self.options.sense));
+        rigid_gap(self.pair, self.options, self.station, running, [&first, &second], poses)
+    }
+
     /// Normal module, mm.
     fn module(&self) -> f64 {
         self.pair.pinion.data().normal_module
@@ -310,6 +316,47 @@ impl<'a> Unloaded<'a> {
             intervals = left.into_iter().chain(right).collect();
         }
         covered(&intervals, [-half, half]) / self.pair.base_helix_angle().cos()
+    }
+}
+
+/// A window of teeth that a load asks for beyond the contact ratio.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ForeseenWindow {
+    /// Teeth that it has.
+    pub teeth: usize,
+    /// Running number of the pair that would touch beside a window of one tooth less.
+    pub pair: i64,
+}
+
+/// Positions of the mesh cycle at which a window is foreseen.
+const FORESEEN: usize = 8;
+
+impl ForeseenWindow {
+    /// The window that holds every pair whose undeformed flanks overlap once the teeth have bent by `deflection` (mm, on
+    /// the base circle of the driven gear) from their nominal position, at so many positions of the mesh cycle. `None`
+    /// where the window of the contact ratio does, or a gear has no more teeth.
+    pub fn new(pair: &GearPair, options: &StaticOptions, deflection: f64) -> Option<Self> {
+        let (teeth, contact) = ([pair.pinion.teeth(), pair.wheel.teeth()], &options.contact);
+        let radius = [&pair.pinion, &pair.wheel][options.driven()].base_radius();
+        let rotation = options.side().sign() * deflection / radius;
+        let mut count = options.window_teeth(pair);
+        let mut found = None;
+        for i in 0..FORESEEN {
+            let station = Station { cycle: 0, phase: i as f64 / FORESEEN as f64 };
+            let bent = Unloaded::turned(pair, contact, station, rotation);
+            let poses = bent.poses();
+            loop {
+                let window = match i {
+                    0 => SlidingWindow::at_start(count, teeth, contact.sense),
+                    _ => SlidingWindow::at(station, count, teeth, contact.sense),
+                };
+                let beside = window.ok()?.window().neighbours();
+                let Some(pair) = beside.into_iter().find(|&running| bent.gap_of(running, &poses) < 0.0) else { break };
+                count += 1;
+                found = Some(Self { teeth: count, pair });
+            }
+        }
+        found
     }
 }
 

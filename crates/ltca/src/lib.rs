@@ -27,7 +27,7 @@ pub use deflection_course::DeflectionCourse;
 pub use equilibrium::{Equilibrium, GUESSED_LINE_STIFFNESS};
 pub use error::StaticError;
 pub use face_load::{envelope as load_envelope, face_load_factor};
-pub use kinematic::kinematic_transmission_error;
+pub use kinematic::{ForeseenWindow, kinematic_transmission_error};
 pub use options::StaticOptions;
 pub use pose_steps::round_off_of_places;
 pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};

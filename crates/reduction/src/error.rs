@@ -86,6 +86,19 @@ pub enum ReductionError {
         "a bore with the coupling `distributing` is held by its means, which a gear with all its freedoms does not know"
     )]
     NotReduced,
+    /// More asked of a gear condensed by its layers than contact reads.
+    #[error(
+        "a gear of {layers} layers along the face is condensed by {condensed} of them, and has no fields, modes or stress of its whole width"
+    )]
+    Layers {
+        /// Layers of the gear.
+        layers: usize,
+        /// Layers of the gear that was condensed.
+        condensed: usize,
+    },
+    /// A gear that does not repeat tooth by tooth.
+    #[error("a gear that is to be condensed by its layers must be one sector, which its copies join")]
+    NoSectorOfLayers,
     /// Normal modes of one gear asked for on the flanks of another.
     #[error("the normal modes belong to another gear, or to another way of reducing it")]
     OtherGear,
@@ -132,6 +145,10 @@ impl ReductionError {
                 Some("hold a larger part of the bore (`held_mm`), or take the coupling `kinematic`".into())
             }
             Self::NotReduced => Some("take `model = \"reduced\"`, or the coupling `kinematic`".into()),
+            Self::Layers { .. } => {
+                Some("take the general way (`reduction = \"general\"` in [analysis]), or a narrower gear".into())
+            }
+            Self::NoSectorOfLayers => None,
             Self::OtherGear => Some("compute the modes with the reducer that they are used with".into()),
             Self::NotPositiveDefinite { .. } => Some("run `ale-gear mesh check` on the mesh".into()),
         }

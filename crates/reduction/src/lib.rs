@@ -23,6 +23,7 @@ mod plane_strain;
 mod record;
 mod recovery;
 mod reducer;
+mod stack;
 mod stress_modes;
 mod window;
 
@@ -34,5 +35,6 @@ pub use local_compliance::LocalCompliance;
 pub use modes::{GearModes, LowestFrequencies, ModeChoice, StandingModes};
 pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
 pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
+pub use stack::LayerStack;
 pub use stress_modes::StressModes;
 pub use window::{ReducedGear, Window};

@@ -4,8 +4,11 @@ use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{
-    GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method,
-    stress_modes::StressRecovery,
+    GearReducer, ReductionError, Window,
+    cyclic::PitchTurn,
+    general::Seen,
+    reducer::Method,
+    stress_modes::{KnownStress, StressRecovery},
 };
 
 impl GearReducer {
@@ -155,14 +158,15 @@ impl GearReducer {
         }
     }
 
-    /// Stress at `nodes` (6 rows a node) for unit coordinates of a window, MPa/mm, in the frame of its matrices.
+    /// Stress at `nodes` (6 rows a node) for unit coordinates of a window or unit forces on them, in the frame of its
+    /// matrices.
     pub(crate) fn stress_of(
         &self,
         window: &Window,
         nodes: &[u32],
         recovery: StressRecovery,
-    ) -> Result<Mat<f64>, ReductionError> {
-        let by_force = match self.method()? {
+    ) -> Result<KnownStress, ReductionError> {
+        Ok(KnownStress::Forces(match self.method()? {
             Method::Cyclic(cyclic) => cyclic.stress(nodes, recovery)?,
             Method::General(general, _) => {
                 let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
@@ -175,13 +179,11 @@ impl GearReducer {
                     }
                 };
                 if self.is_last(window) {
-                    return general.stress(Seen::Last, count, &operator);
+                    return general.stress(Seen::Last, count, &operator).map(KnownStress::Displacements);
                 }
                 general.stress(Seen::Loads(&self.loads(window)?), count, &operator)?
             }
-        };
-        // From stress of unit forces to that of unit displacements: the forces that these take are K^.
-        Ok(fem::dense::product(by_force.as_ref(), self.stiffness_of(window)?.as_ref()))
+        }))
     }
 
     fn stiffness_of<'a>(&self, window: &'a Window) -> Result<&'a Mat<f64>, ReductionError> {

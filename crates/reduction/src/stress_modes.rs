@@ -1,9 +1,12 @@
 //! Stress modes: stress at chosen nodes straight from a window's boundary coordinates. Theory (22a), (22b), (22c).
 
+use std::sync::Arc;
+
 use faer::Mat;
+use fem::dense;
 use mesh::Face;
 
-use crate::{GearReducer, ReductionError, Window};
+use crate::{GearReducer, ReducedGear, ReductionError, Window};
 
 /// How the stress at a node comes from the displacement of the mesh.
 #[derive(Debug, Clone, Copy)]
@@ -34,7 +37,17 @@ pub(crate) enum StressRecovery<'a> {
 #[derive(Debug, Clone)]
 pub struct StressModes {
     nodes: Vec<u32>,
-    modes: Mat<f64>,
+    known: KnownStress,
+    reduced: Arc<ReducedGear>,
+}
+
+/// What the stress at some nodes (6 rows each) is known by.
+#[derive(Debug, Clone)]
+pub(crate) enum KnownStress {
+    /// S, MPa/mm, as read off a factor whose last rows are the window's.
+    Displacements(Mat<f64>),
+    /// S C, MPa/N, by unit forces on the coordinates: S itself takes the inverse of C, which nobody may ask for.
+    Forces(Mat<f64>),
 }
 
 impl StressModes {
@@ -44,27 +57,68 @@ impl StressModes {
     }
 
     /// S, MPa/mm.
-    pub fn matrix(&self) -> &Mat<f64> {
-        &self.modes
+    ///
+    /// # Errors
+    /// [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
+    pub fn matrix(&self) -> Result<Mat<f64>, ReductionError> {
+        match &self.known {
+            KnownStress::Displacements(modes) => Ok(modes.clone()),
+            // From stress of unit forces to that of unit displacements: the forces that these take are K^.
+            KnownStress::Forces(modes) => {
+                let stiffness = self.reduced.stiffness().ok_or_else(|| self.singular())?;
+                Ok(dense::product(modes.as_ref(), stiffness.as_ref()))
+            }
+        }
     }
 
     /// Stress (MPa) at each node from boundary coordinates `u` (mm).
     ///
     /// # Errors
-    /// [`ReductionError::WrongLength`].
+    /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] as for [`GearReducer::expand`].
     pub fn stress(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, ReductionError> {
-        if u.len() != self.modes.ncols() {
-            return Err(ReductionError::WrongLength { given: u.len(), wanted: self.modes.ncols() });
+        self.check_length(u)?;
+        match &self.known {
+            KnownStress::Displacements(modes) => Ok(applied(modes, u)),
+            KnownStress::Forces(modes) => Ok(applied(modes, &self.reduced.forces(u).ok_or_else(|| self.singular())?)),
         }
-        let mut stress = vec![[0.0; 6]; self.nodes.len()];
-        // Column by column, as the matrix lies in memory.
-        for (column, &u) in self.modes.col_iter().zip(u).filter(|(_, u)| **u != 0.0) {
-            for (s, &mode) in stress.as_flattened_mut().iter_mut().zip(column.iter()) {
-                *s += mode * u;
+    }
+
+    /// Stress (MPa) at each node under `forces` on the boundary coordinates (N), which move them by C f.
+    ///
+    /// # Errors
+    /// [`ReductionError::WrongLength`].
+    pub fn stress_under(&self, forces: &[f64]) -> Result<Vec<[f64; 6]>, ReductionError> {
+        self.check_length(forces)?;
+        match &self.known {
+            KnownStress::Forces(modes) => Ok(applied(modes, forces)),
+            KnownStress::Displacements(modes) => {
+                let forces = faer::MatRef::from_column_major_slice(forces, forces.len(), 1);
+                let moved = dense::product(self.reduced.compliance.as_ref(), forces);
+                Ok(applied(modes, moved.col_as_slice(0)))
             }
         }
-        Ok(stress)
     }
+
+    fn check_length(&self, given: &[f64]) -> Result<(), ReductionError> {
+        let (given, wanted) = (given.len(), self.reduced.coordinates());
+        if given == wanted { Ok(()) } else { Err(ReductionError::WrongLength { given, wanted }) }
+    }
+
+    fn singular(&self) -> ReductionError {
+        ReductionError::NotPositiveDefinite { first: self.reduced.teeth.first().copied().unwrap_or(0) }
+    }
+}
+
+/// Stress at nodes, six rows each, of columns that count so many times.
+fn applied(modes: &Mat<f64>, counts: &[f64]) -> Vec<[f64; 6]> {
+    let mut stress = vec![[0.0; 6]; modes.nrows() / 6];
+    // Column by column, as the matrix lies in memory.
+    for (column, &count) in modes.col_iter().zip(counts).filter(|(_, count)| **count != 0.0) {
+        for (s, &mode) in stress.as_flattened_mut().iter_mut().zip(column.iter()) {
+            *s += mode * count;
+        }
+    }
+    stress
 }
 
 impl GearReducer {
@@ -72,14 +126,14 @@ impl GearReducer {
     ///
     /// A cyclic gear has the same modes in all its windows: `S = (D B) [X f + T u_c]` sector by sector, f = K^ u_B.
     /// With one factor of the whole gear they are read off it for the window whose boundary is last in it; other
-    /// windows take solves: S = D B K^-1 R' K^, R the window's freedoms.
+    /// windows take solves: S = D B K^-1 R' K^, R the window's freedoms. Where f comes first, K^ waits until it is
+    /// asked for.
     ///
     /// # Errors
-    /// [`ReductionError::Fem`] when a node does not exist; [`ReductionError::NotPositiveDefinite`] as for
-    /// [`GearReducer::expand`].
+    /// [`ReductionError::Fem`] when a node does not exist.
     pub fn stress_modes(&self, window: &Window, nodes: &[u32]) -> Result<StressModes, ReductionError> {
-        let modes = self.stress_of(window, nodes, StressRecovery::Volume)?;
-        Ok(StressModes { nodes: nodes.to_vec(), modes })
+        let known = self.stress_of(window, nodes, StressRecovery::Volume)?;
+        Ok(StressModes { nodes: nodes.to_vec(), known, reduced: window.reduced.clone() })
     }
 
     /// Stress modes for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the
@@ -93,7 +147,7 @@ impl GearReducer {
         nodes: &[u32],
         faces: &[Vec<Face>],
     ) -> Result<StressModes, ReductionError> {
-        let modes = self.stress_of(window, nodes, StressRecovery::Surface(faces))?;
-        Ok(StressModes { nodes: nodes.to_vec(), modes })
+        let known = self.stress_of(window, nodes, StressRecovery::Surface(faces))?;
+        Ok(StressModes { nodes: nodes.to_vec(), known, reduced: window.reduced.clone() })
     }
 }

@@ -16,7 +16,8 @@ pub struct ReducedGear {
     /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in
     /// turn); coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
-    /// C, mm/N, 3 n x 3 n.
+    /// C, mm/N, 3 n x 3 n; of a gear condensed by its layers ([`crate::LayerStack`]) only the columns of its first
+    /// tooth, which the first nodes are on.
     pub compliance: Mat<f64>,
     stiffness: OnceLock<Option<Mat<f64>>>,
 }
@@ -38,9 +39,12 @@ impl ReducedGear {
 
     /// K^ = C^-1, N/mm, 3 n x 3 n, made when first asked for: contact needs C alone.
     ///
-    /// `None` where C is singular: a grid with more nodes than the mesh can tell apart.
+    /// `None` where C is singular (a grid with more nodes than the mesh can tell apart), or not known as a whole.
     pub fn stiffness(&self) -> Option<&Mat<f64>> {
         let inverse = || {
+            if self.compliance.ncols() < self.compliance.nrows() {
+                return None;
+            }
             let factor = dense::cholesky(self.compliance.as_ref()).ok()?;
             Some(dense::inverse_of_product(factor.as_ref()))
         };

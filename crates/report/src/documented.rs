@@ -3,7 +3,7 @@
 use analysis::{
     accuracy_chart::{Density, ResonanceCurve, ResonancePrecision, WorkPrecision},
     lumped::{LumpedCampbell, LumpedQuantity, SweepOptions},
-    motion::{CampbellDiagram, MotionPrecision, MotionSpectrum, OrderCut, RunUp},
+    motion::{CampbellDiagram, MotionPrecision, MotionSpectrum, OrderCut, RunUp, Waterfall},
     parameter_study::{Findings, Follower},
 };
 use answer::{Checks, Cost, Phase, Remark, Table};
@@ -43,7 +43,9 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
     ]);
     let (of_gearbox, _) = gearbox_files::documented(gearbox);
     let of_gearbox = of_gearbox.into_iter().map(|table| match &*table.name {
-        name @ ("campbell" | "motion" | "branch" | "bifurcations" | "in_time") => (format!("{name}, a gearbox"), table),
+        name @ ("campbell" | "motion" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
+            (format!("{name}, a gearbox"), table)
+        }
         name => (name.to_owned(), table),
     });
     let named = [
@@ -93,7 +95,7 @@ fn of_motions() -> Vec<Table> {
     };
     vec![
         rows::spectrum(&spectrum),
-        rows::waterfall(&[], 1),
+        rows::waterfall(&Waterfall::default()),
         rows::cycles(&RunUp::default()),
         rows::order_cuts(&RunUp { cuts: vec![cut], ..RunUp::default() }),
         rows::resonance(&[]),

@@ -2,7 +2,9 @@
 
 use std::fmt::Write;
 
-use crate::{Driver, Kind, Sense};
+use geometry::GeometryError;
+
+use crate::{Driver, Kind, Scene, SceneError, Sense};
 
 /// What a gear is made of, where it is stated.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -20,8 +22,8 @@ pub struct Steel {
 pub struct Starter {
     /// Title of the case.
     pub name: String,
-    /// Numbers of teeth of pinion and wheel.
-    pub teeth: [u32; 2],
+    /// Numbers of teeth of pinion and wheel, below zero of a ring.
+    pub teeth: [i32; 2],
     /// Normal module, mm.
     pub module_mm: f64,
     /// The pinion's helix angle, degrees, right hand positive.
@@ -95,11 +97,36 @@ impl Default for Starter {
 const THINNING: f64 = 0.015;
 
 impl Starter {
+    /// The pair with tips as short as a ring and its pinion need to pass each other, where nobody has said how long they are.
+    #[must_use]
+    pub fn with_tips_that_pass(&self) -> Self {
+        let mut own = self.clone();
+        while own.teeth[1] < 0 {
+            let file = "pair.toml";
+            let found = Scene::parse(&own.text(file), file.as_ref()).and_then(|scene| scene.gear_pair());
+            let Err(SceneError::Geometry { source, .. }) = found else { break };
+            let shorter = match *source {
+                GeometryError::Trochoid { pinion_tip_mm, .. } => pinion_tip_mm.map(|tip| (0, tip)),
+                GeometryError::Involute { ring_tip_mm, .. } => ring_tip_mm.map(|tip| (1, tip)),
+                _ => None,
+            };
+            match shorter {
+                Some((gear, tip)) if own.tip_diameter_mm[gear].is_none() => {
+                    own.tip_diameter_mm[gear] = Some(tip.abs());
+                }
+                _ => break,
+            }
+        }
+        own
+    }
+
     /// The scene with a word on every line. A line that begins with `# ` and holds `key = value` may be taken in as it
     /// is, one of two that exclude each other.
     pub fn text(&self, file: &str) -> String {
         let name = if self.name.is_empty() {
-            format!("{}-{}x{}", if self.helix_deg == 0.0 { "spur" } else { "helical" }, self.teeth[0], self.teeth[1])
+            let kind = if self.helix_deg == 0.0 { "spur" } else { "helical" };
+            let [pinion, wheel] = self.teeth;
+            if wheel < 0 { format!("{kind}-{pinion}-in-{}", -wheel) } else { format!("{kind}-{pinion}x{wheel}") }
         } else {
             self.name.clone()
         };
@@ -143,6 +170,9 @@ impl Starter {
             );
             let _ = match self.bore_diameter_mm[i] {
                 Some(bore) => writeln!(t, "bore_diameter_mm = {bore:?}"),
+                None if self.teeth[i] < 0 => {
+                    writeln!(t, "# bore_diameter_mm = {:?}         # its outside, which holds it", self.outside(i))
+                }
                 None => writeln!(
                     t,
                     "# bore_diameter_mm = {:?}         # default: 55 % of the reference diameter",
@@ -153,7 +183,8 @@ impl Starter {
                 let _ = writeln!(t, "face_width_mm = {width:?}");
             }
             if let Some(tip) = self.tip_diameter_mm[i] {
-                let _ = writeln!(t, "tip_diameter_mm = {tip:?}");
+                let why = if self.teeth[1] < 0 { "      # short enough to pass the mating gear" } else { "" };
+                let _ = writeln!(t, "tip_diameter_mm = {tip:?}{why}");
             }
             if i == 0 {
                 t.push_str("# mesh = \"pinion.msh\"             # a Gmsh mesh instead of the built-in mesher\n");
@@ -173,6 +204,12 @@ impl Starter {
         for (key, value) in stated.into_iter().filter_map(|(key, value)| Some((key, value?))) {
             let _ = writeln!(t, "{key} = {value:?}");
         }
+    }
+
+    /// Outside of a ring with a rim of four modules, in whole mm.
+    fn outside(&self, i: usize) -> f64 {
+        let reference = f64::from(self.teeth[i].abs()) * self.module_mm / self.helix_deg.to_radians().cos();
+        (reference + 11.0 * self.module_mm).ceil()
     }
 
     /// Half of the reference diameter in whole mm, or as it is where that is too coarse.

@@ -57,8 +57,8 @@ fn what_rings_have_not_is_refused() {
         assert!(words.iter().all(|word| said.contains(word)), "{said}");
     };
     refused(read("52", "", "[wheel.shaper]\nteeth = 20"), &["`shaper` makes internal gears"]);
-    refused(read("-52", "", "[analysis]\nmodel = \"iso\""), &["\"iso\"", "does not know internal gears"]);
-    refused(read("-52", "", "[analysis]\nkind = \"dynamic\""), &["no motion yet"]);
+    refused(read("-52", "", "[accuracy]\nmean_ste = \"1 %\""), &["\"auto\"", "does not know internal gears"]);
+    refused(read("-52", "", "[analysis]\nkind = \"dynamic\"\nmodel = \"impact\""), &["does not know internal gears"]);
     refused(read("-4", "", ""), &["5 .. 2000"]);
     refused(read("-52", "", "helix_angle_deg = -15.0"), &["do not mesh"]);
     refused(read("-24", "", ""), &["tip diameter", "base diameter"]);

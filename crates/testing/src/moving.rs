@@ -83,7 +83,7 @@ impl MovingPair {
     /// Speed of the driver, rad/s.
     pub fn speed(&self, cycles_per_second: f64) -> f64 {
         let gears = [&self.case.pair.pinion, &self.case.pair.wheel];
-        cycles_per_second * gears[1 - self.contact.driven()].pitch_angle()
+        cycles_per_second * gears[1 - self.contact.driven()].pitch_angle().abs()
     }
 
     /// The wheel's turn is free, the driver keeps its speed, damping ratio 0.1.
@@ -97,7 +97,7 @@ impl MovingPair {
 
     /// `rows` a mesh cycle, at least 12 steps in a period of the resonance.
     pub fn settings(&self, system: &PairMechanism, scheme: Scheme, rows: usize) -> MotionSettings {
-        let scale = system.coordinates().scales(self.ste[0], self.case.pair.wheel.base_radius());
+        let scale = system.coordinates().scales(self.ste[0], self.case.pair.wheel.base_radius().abs());
         MotionSettings { scheme, rows, steps_per_resonance: 12, tolerance: None, stop_at_events: false, scale }
     }
 

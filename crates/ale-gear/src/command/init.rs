@@ -55,9 +55,9 @@ struct PairArgs {
     /// Title of the case [default: from the teeth]
     #[arg(long)]
     name: Option<String>,
-    /// Numbers of teeth of pinion and wheel [default: 30,30]
-    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1)]
-    teeth: Vec<u32>,
+    /// Numbers of teeth of pinion and wheel, the wheel's negative if internal [default: 30,30]
+    #[arg(long, value_name = "Z1,Z2", value_delimiter = ',', num_args = 1, allow_hyphen_values = true)]
+    teeth: Vec<i32>,
     /// Normal module [default: 3]
     #[arg(long, value_name = "MM")]
     module_mm: Option<f64>,
@@ -177,7 +177,7 @@ impl InitArgs {
     fn checked_pair(&self, of_file: Option<&RexsPair>, shown: &str) -> Result<String, CommandError> {
         let starter = self.pair.over(of_file.map_or_else(Starter::default, |pair| pair.starter.clone()))?;
         let (Some(pair), Some(file)) = (of_file, &self.rexs) else { return checked(&starter, shown) };
-        let text = starter.text(shown);
+        let text = starter.with_tips_that_pass().text(shown);
         match Scene::parse(&text, Path::new(shown)).and_then(|scene| scene.gear_pair()) {
             Ok(_) => Ok(text),
             Err(error) => Err(match pair.blamed(&text, &error).filter(|_| self.pair == PairArgs::default()) {
@@ -333,7 +333,7 @@ fn two<T: Copy>(flag: &str, given: &[T], default: [T; 2]) -> Result<[T; 2], Comm
 
 /// The scene as text; what would not run is not written.
 fn checked(starter: &Starter, shown: &str) -> Result<String, CommandError> {
-    let text = starter.text(shown);
+    let text = starter.with_tips_that_pass().text(shown);
     Scene::parse(&text, Path::new(shown))?.gear_pair()?;
     Ok(text)
 }
@@ -367,7 +367,7 @@ fn ask(d: &Starter, shown: &str) -> dialoguer::Result<Starter> {
     };
     let mut s = d.clone();
     answer("Teeth of the pinion", &mut s, |s| &mut s.teeth[0], fits)?;
-    answer("Teeth of the wheel", &mut s, |s| &mut s.teeth[1], fits)?;
+    answer("Teeth of the wheel, negative if internal", &mut s, |s| &mut s.teeth[1], fits)?;
     answer("Normal module, mm", &mut s, |s| &mut s.module_mm, fits)?;
     answer("Helix angle of the pinion, degrees, right hand positive", &mut s, |s| &mut s.helix_deg, fits)?;
     answer("Face width, mm", &mut s, |s| &mut s.face_width_mm, fits)?;
@@ -414,7 +414,7 @@ where
 {
     let before = *place(starter);
     let tried = |word: &str| -> Result<Starter, String> {
-        let whole = std::any::type_name::<T>() == std::any::type_name::<u32>();
+        let whole = std::any::type_name::<T>() == std::any::type_name::<i32>();
         let number = word.trim().parse::<T>().map_err(|_| match word.contains(',') {
             true => format!("`{word}` is not a number: write it with a decimal point"),
             false => format!("`{word}` is no {}number", if whole { "whole " } else { "" }),

@@ -142,6 +142,10 @@ fn init_writes_a_scene_that_runs() {
     let dynamic = scratch.command(&["init", "-", "--kind", "dynamic"]);
     fine(&dynamic);
     assert!(dynamic.stdout.contains("kind = \"dynamic\""), "{}", dynamic.stdout);
+    // A ring, whose tips are as short as its pinion needs.
+    fine(&scratch.command(&["init", "ring.toml", "--teeth", "20,-52"]));
+    let ring = std::fs::read_to_string(scratch.path().join("ring.toml")).unwrap();
+    assert!(ring.contains("teeth = -52") && ring.contains("tip_diameter_mm = 160.7"), "{ring}");
     // What would not run is not written.
     let wrong = scratch.command(&["init", "no.toml", "--teeth", "8,9", "--module-mm", "0.001"]);
     assert_eq!(wrong.code, Some(2), "{}", wrong.stdout);

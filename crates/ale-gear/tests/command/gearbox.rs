@@ -111,7 +111,38 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
         (speed / at - 1.0).abs() < 0.01 && (middle / wanted - 1.0).abs() < 0.05,
         "{middle} N at {speed}/min beside {wanted} N"
     );
+    // The waterfall has lines where orders of the faster mesh are, with their amplitudes.
+    let waterfall = scratch.read("o/waterfall.csv");
+    let line = |name: &str, order: f64| -> Vec<f64> {
+        let (orders, values) = (column(&waterfall, "mesh_order"), column(&waterfall, name));
+        (0..values.len()).filter(|i| (orders[*i] - order).abs() < 1e-3).map(|i| values[i]).collect()
+    };
+    for name in ["mesh_1_dte_um", "mesh_2_normal_force_n", "bearing_3_force_n"] {
+        for order in [1.0, 2.0] {
+            let (found, wanted) = (line(name, order), of(&orders, name, 1.0, order));
+            assert!(
+                found.len() == wanted.len() && found.len() > 4,
+                "{} lines, {} stretches",
+                found.len(),
+                wanted.len()
+            );
+            for (found, [speed, wanted]) in found.into_iter().zip(wanted) {
+                assert!((found / wanted - 1.0).abs() < 0.02, "{name}: {found}, not {wanted}, at {speed}/min");
+            }
+        }
+    }
+    // Teeth are 17/53 and 19/47: the meshes come back together after 53 cycles of the first.
+    let section = scratch.read("o/section.csv");
+    assert_eq!(column(&section, "input_speed_rpm").len(), 1 + 220 / 53);
+    for mesh in 1..=2 {
+        let name = format!("mesh_{mesh}_cycles");
+        let (points, every) = (column(&section, &name), [53.0, 19.0][mesh - 1]);
+        assert!(points.iter().enumerate().all(|(k, c)| (c - points[0] - every * k as f64).abs() < 1e-6), "{points:?}");
+    }
+    let (dte, all) = (column(&section, "mesh_2_dte_um"), column(&rows, "mesh_2_dte_um"));
+    assert!((0..dte.len()).all(|k| (dte[k] / all[k * 53 * 40] - 1.0).abs() < 1e-9), "points are not rows");
     let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    assert_eq!(told["motion"]["common_period_cycles"].as_u64(), Some(53));
     let number = |key: &str| told["headline"][key].as_f64().unwrap();
     let duration = 220.0 / (17.0 * 25.0);
     assert!((number("run_up_s") / duration - 1.0).abs() < 1e-9, "{} s, not {duration}", number("run_up_s"));
@@ -123,6 +154,9 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     assert!(run.stdout.contains("its acceleration takes up to"), "{}", run.stdout);
     let page = scratch.read("o/report.html");
     assert!(page.contains("Mesh orders in the transmission error"));
+    for what in ["the DTE of mesh first", "the normal force of mesh second", "the force of bearing"] {
+        assert!(page.contains(&format!("Waterfall of {what}")), "no picture of {what}");
+    }
     let again = scratch.ale_gear(["report", "o", "-o", "again.html"]);
     assert_eq!(again.code, Some(0), "{}", again.stderr);
     assert!(scratch.read("again.html") == page, "the page made again has other bytes");
@@ -221,7 +255,10 @@ fn every_key_is_in_a_scene_that_runs() {
         "elastic_gears.toml",
         "elastic_pair.toml",
         "reversal.toml",
+        "engine.toml",
         "resonance_curve.toml",
+        "planet_in_ring.toml",
+        "planetary_stage.toml",
     ];
     let all: String = boxes.iter().map(|name| scratch.read(name)).collect();
     let has = |key: &str| {
@@ -231,7 +268,14 @@ fn every_key_is_in_a_scene_that_runs() {
     assert!(keys.len() > 60, "{} keys", keys.len());
     let left: Vec<&String> = keys.iter().filter(|key| !has(key.rsplit('.').next().unwrap_or(key))).collect();
     assert!(left.is_empty(), "in no scene: {left:?}");
-    for name in ["run_up.toml", "in_housing.toml", "overhung_pinion.toml", "elastic_gears.toml", "elastic_pair.toml"] {
+    for name in [
+        "run_up.toml",
+        "in_housing.toml",
+        "overhung_pinion.toml",
+        "elastic_gears.toml",
+        "elastic_pair.toml",
+        "planetary_stage.toml",
+    ] {
         // Meshes are beside the folder of the scenes.
         let file = folder.join(name).display().to_string();
         let run = scratch.ale_gear(["run", &file, "--cache", "cache", "--out", name.trim_end_matches(".toml")]);

@@ -6,6 +6,45 @@ use crate::{
     util::{Scratch, repository},
 };
 
+/// An engine whose torque pulses by more than its mean: rows have its torque at every instant, the teeth rattle, the energy is
+/// accounted for. What has no meaning is told with the key.
+#[test]
+fn an_engine_lets_the_teeth_rattle() {
+    let file = repository().join("scenes/gearbox/engine.toml").display().to_string();
+    let scratch = Scratch::new();
+    let run = scratch.ale_gear(["run", &file, "--out", "o", "--no-cache"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
+    let told = &told["motion"];
+    let left = told["energy"]["relative_residual"].as_f64().unwrap();
+    assert!(left.abs() < 1e-9, "{left}");
+    let parted = ["separations", "coast_separations"].map(|key| told["meshes"][0][key].as_u64().unwrap());
+    println!("energy left {left:e}, contact lost {parted:?} times");
+    assert!(parted.iter().all(|n| *n > 0), "{parted:?}");
+    let rows = scratch.read("o/motion.csv");
+    let given = |t: f64| 100.0 * 24.0 / 31.0 + 150.0 * (std::f64::consts::TAU * 50.0 * t).sin();
+    for (t, torque) in column(&rows, "time_s").into_iter().zip(column(&rows, "input_torque_nm")) {
+        assert!((torque - given(t)).abs() < 1e-6, "{torque} N m at {t} s, not {}", given(t));
+    }
+    // Where the speed wanders no row is at the end of a mesh cycle: the section is between them.
+    let section = column(&scratch.read("o/section.csv"), "mesh_1_cycles");
+    let begun = section[0];
+    assert!(section.len() > 40, "{} points", section.len());
+    let off = section.iter().enumerate().map(|(k, c)| (c - begun - k as f64).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-9, "a point is {off} cycles off");
+    let wrong: [(&[&str], &str); 4] = [
+        (&["motion.drive=speed"], "`amplitude_nm` of an input of given speed"),
+        (&["input.table_s_nm=[[0.0, 80.0]]"], "`amplitude_nm` is beside a table"),
+        (&["input.phase_deg=0", "motion.run=steady"], "under a torque the speed wanders"),
+        (&["input.frequency_hz=0"], "frequency_hz"),
+    ];
+    for (keys, said) in wrong {
+        let words: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
+        let run = scratch.command(&[&["run", &file, "--out", "w"], &words[..]].concat());
+        assert!(run.code == Some(2) && run.stderr.contains(said), "{keys:?}: {}", run.stderr);
+    }
+}
+
 /// A load that becomes a drive sends torque back through the backlash of both stages: all flanks part, the coast flanks
 /// press, the input brakes, and the energy is accounted for.
 #[test]

@@ -53,11 +53,11 @@ fn pair(gear_2: &str, of_gear_2: &str, more: &str) -> String {
 #[test]
 fn what_cannot_be_taken_is_told_of_the_rexs_file() {
     let tip = "<attribute id=\"tip_diameter\" unit=\"mm\">1</attribute>";
-    let negative = pair("cylindrical_gear", "", "").replace(">40<", ">-61<");
+    let rings = pair("ring_gear", "", "").replace("id=\"5\" type=\"cylindrical_gear\"", "id=\"5\" type=\"ring_gear\"");
     let json = "{\"model\": {}}".to_owned();
     let cases = [
-        (pair("ring_gear", "", ""), "f.rexs: gear 7 is a ring gear: internal gears", "two external gears"),
-        (negative, "f.rexs: gear 7 has -61 teeth, as ring gears have: internal gears", "two external gears"),
+        (pair("worm", "", ""), "f.rexs: gear 7 is a `worm`", "cylindrical gears"),
+        (rings, "f.rexs: gear 7 is a ring as its mating gear is", "external gear"),
         (pair("cylindrical_gear", "", "25 deg"), "the gears differ in normal pressure angle: 20 and 25", "external"),
         (pair("cylindrical_gear", tip, ""), "f.rexs: gear 7: `tip_diameter`: `tip_diameter_mm` is 1", ""),
         (json, "f.rexs: is JSON", "XML"),

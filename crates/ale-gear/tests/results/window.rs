@@ -19,7 +19,7 @@ fn a_starved_window_grows_with_a_warning() {
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let summary: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     let remarks = summary["remarks"].to_string();
-    assert!(remarks.contains("the window was widened to 4 teeth"), "{remarks}");
+    assert!(remarks.contains("the window was widened to "), "{remarks}");
     assert!(summary["window_teeth"].as_u64().unwrap() > 3, "{}", summary["window_teeth"]);
 }
 

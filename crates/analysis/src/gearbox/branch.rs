@@ -12,7 +12,8 @@ use periodic::{FourierSeries, PeriodicError, PeriodicMotion};
 use scene::gearbox::{GearboxBranch, GearboxMotion};
 use study::extent;
 
-use super::motion::{AtRest, Ready, ready};
+use super::at_rest::AtRest;
+use super::motion::{Ready, ready};
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
     branch::{BranchFigures, BranchPoint, BranchTurn, BranchWords, ROWS, ReadOff, TimePoint, checks, stable_ones},

@@ -3,13 +3,14 @@
 use crate::remark;
 use answer::Remark;
 use geometry::{Gear, GearPair};
-use scene::gearbox::{Gearbox, GearboxGear};
+use scene::gearbox::{Gearbox, GearboxGear, GearboxSection};
 
-/// What stands on a shaft: from and to along z of the common axes, and its radius, mm.
+/// What stands on a shaft: from and to along z of the common axes, and its radius, mm; of a ring and of a hollow shaft also that of its hole.
 struct Body<'a> {
     name: &'a str,
     from: f64,
     to: f64,
+    hole: f64,
     radius: f64,
     /// Of a gear.
     gear: Option<usize>,
@@ -65,9 +66,12 @@ fn on_shaft(file: &Gearbox, gear: &GearboxGear, exact: &Gear) -> Vec<Remark> {
         end += s.length;
         begin < to && from < end
     });
-    let thick = inside.map(|s| 0.5 * s.outer).fold(0.0, f64::max);
-    if thick > exact.root_radius() {
-        said.push(remark::shaft_thicker_than_root(&*shaft.name, 2.0 * thick, &*gear.name, 2.0 * exact.root_radius()));
+    let room = if exact.is_internal() { exact.tip_radius().abs() } else { exact.root_radius() };
+    // A ring may sit within a hollow part.
+    let around = |s: &&GearboxSection| exact.is_internal() && 0.5 * s.inner >= room;
+    let thick = inside.filter(|s| !around(s)).map(|s| 0.5 * s.outer).fold(0.0, f64::max);
+    if thick > room {
+        said.push(remark::shaft_thicker_than_root(&*shaft.name, 2.0 * thick, &*gear.name, 2.0 * room));
     }
     said
 }
@@ -78,14 +82,17 @@ fn bodies<'a>(file: &'a Gearbox, shaft: usize, exact: &[Option<&Gear>]) -> Vec<B
     let sections = own.sections.iter().map(|s| {
         let from = at;
         at += s.length;
-        Body { name: &own.name, from, to: at, radius: 0.5 * s.outer, gear: None }
+        Body { name: &own.name, from, to: at, hole: 0.5 * s.inner, radius: 0.5 * s.outer, gear: None }
     });
     let mut all: Vec<Body<'a>> = sections.collect();
     for (i, gear) in file.gears.iter().enumerate().filter(|(_, g)| g.shaft == shaft) {
         if let Some(exact) = exact[i] {
             let (middle, half) = (own.origin[2] + gear.position, 0.5 * exact.face_width());
             let (from, to) = (middle - half, middle + half);
-            all.push(Body { name: &gear.name, from, to, radius: exact.tip_radius(), gear: Some(i) });
+            let tip = exact.tip_radius().abs();
+            let [hole, radius] =
+                if exact.is_internal() { [tip, 0.5 * exact.data().bore_diameter.abs()] } else { [0.0, tip] };
+            all.push(Body { name: &gear.name, from, to, hole, radius, gear: Some(i) });
         }
     }
     all
@@ -100,15 +107,13 @@ fn between(file: &Gearbox, [a, b]: [usize; 2], [of_a, of_b]: [&[Body<'_>]; 2]) -
         for other in of_b {
             let meet = matches!((one.gear, other.gear), (Some(x), Some(y)) if mesh(x, y));
             let beside = one.from < other.to && other.from < one.to;
-            if beside && !meet && one.radius + other.radius > distance {
+            // By how much they reach into each other; what stands in the hole of a ring reaches through its rim.
+            let through = |ring: &Body<'_>, inner: &Body<'_>| distance + inner.radius - ring.hole;
+            let rings = [through(one, other), through(other, one)];
+            let reach = rings.into_iter().fold(one.radius + other.radius - distance, f64::min);
+            if beside && !meet && reach > 0.0 {
                 let kind = |body: &Body<'_>| if body.gear.is_some() { "gear" } else { "shaft" };
-                return Some(remark::parts_collide(
-                    kind(one),
-                    one.name,
-                    kind(other),
-                    other.name,
-                    one.radius + other.radius - distance,
-                ));
+                return Some(remark::parts_collide(kind(one), one.name, kind(other), other.name, reach));
             }
         }
     }

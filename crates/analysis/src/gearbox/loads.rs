@@ -67,7 +67,7 @@ impl Loaded<'_> {
     /// shaft by shaft.
     ///
     /// ```text
-    /// F_z = -T tan(beta) / r       of a gear: its flanks are the same after a turn along their helix
+    /// F_z = -T tan(beta) / |r|     of a gear: its flanks are the same after a turn along their helix
     /// F_a >= F_r tan(alpha)        of rollers at the contact angle alpha under F_r; balls may stand at a lesser one
     /// ```
     fn thrust(&self, torques: &[[f64; 2]]) -> Result<(), GearboxError> {
@@ -104,14 +104,14 @@ impl Loaded<'_> {
         for ((mesh, meshing), own) in self.meshes.iter().zip(self.train.meshing()).zip(torques) {
             let gears = [&mesh.pair.pinion, &mesh.pair.wheel];
             for end in (0..2).filter(|end| self.structure.discs[mesh.discs[*end]].shaft == shaft) {
-                // From this gear's axis to the mating one's.
+                // From this gear's axis to the contact; of a ring the other way, as its radius is below zero.
                 let (sin, cos) = meshing.direction.sin_cos();
                 let [ex, ey] = if end == 0 { [cos, sin] } else { [-cos, -sin] };
                 let tangential = own[end] / mesh.pair.working_radii()[end];
                 let radial = tangential.abs() * mesh.pair.working_pressure_angle().tan();
                 all[0] -= ey * tangential + ex * radial;
                 all[1] += ex * tangential - ey * radial;
-                all[2] -= own[end] * gears[end].data().helix_angle.tan() / gears[end].reference_radius();
+                all[2] -= own[end] * gears[end].data().helix_angle.tan() / gears[end].reference_radius().abs();
             }
         }
         all

@@ -15,7 +15,7 @@ use ltca::{StaticModel, StaticOptions};
 use reduction::{ElasticGear, GearModes};
 use scene::{
     Scene,
-    gearbox::{Gearbox, GearboxGear, GearboxMesh},
+    gearbox::{Gearbox, GearboxGear, GearboxMesh, MeshTiming},
 };
 
 use crate::{
@@ -47,6 +47,15 @@ pub(super) fn running(file: &Gearbox, train: &Train, slices: bool) -> Vec<Scene>
         (scene.operation.driver, scene.operation.rotation) = (meshing.driver, meshing.sense);
         // Slices follow the flanks that press.
         if slices { resolved_scene(&scene, false) } else { scene }
+    };
+    file.meshes.iter().zip(train.meshing()).map(one).collect()
+}
+
+/// How far the wheel of each mesh stands off where its flanks touch, rad.
+pub(super) fn wheel_turns(file: &Gearbox, train: &Train) -> Vec<f64> {
+    let one = |(own, meshing): (&GearboxMesh, &Meshing)| match own.timing {
+        MeshTiming::Touching => 0.0,
+        MeshTiming::Keyed => 0.0 - meshing.timing,
     };
     file.meshes.iter().zip(train.meshing()).map(one).collect()
 }
@@ -90,12 +99,13 @@ pub(super) struct ReducedMesh {
 }
 
 impl ReducedMesh {
+    /// `wheel_turn`: how far the wheel stands off where the flanks touch, rad.
     pub fn new(
         scene: Scene,
-        mesh: &GearMesh,
+        (mesh, wheel_turn): (&GearMesh, f64),
         (models, progress): (&SharedModels<'_>, &dyn Progress),
     ) -> Result<Self, AnalysisError> {
-        let options = options(&scene, &mesh.pair);
+        let options = options(&scene, &mesh.pair).with_contact(|contact| contact.wheel_turn = wheel_turn);
         let pair = models.pairs.of(&scene, &mesh.pair, &options, (models.cache(), progress, &|| true))?;
         let of_meshes = pair.meshes.iter().flat_map(|m| &m.remarks).chain(&pair.remarks).cloned();
         let remarks = gears::remarks(&mesh.pair).into_iter().chain(of_meshes);
@@ -124,7 +134,7 @@ impl ReducedMesh {
     /// What is said of a mesh whose flanks press on both sides at once.
     pub fn jammed(&self, i: usize, mesh: &GearMesh, positions: &[GearboxPosition]) -> Option<Remark> {
         let contact = &self.options.contact;
-        let lever = mesh.pair.wheel.base_radius() * mesh.pair.base_helix_angle().cos();
+        let lever = mesh.pair.wheel.base_radius().abs() * mesh.pair.base_helix_angle().cos();
         let of = |p: &GearboxPosition| {
             let MeshState { normal_force, moment, .. } = &p.meshes[i];
             PressedMesh { sum: *normal_force, needed: moment[1][2].abs() / lever }
@@ -202,7 +212,9 @@ impl ReducedMesh {
         request: &MapRequest,
         (cache, progress, remarks): (&dyn GearCache, &dyn Progress, &mut Vec<Remark>),
     ) -> Result<MappedMesh, GearboxError> {
-        let key = cache.is_on().then(|| self.pair.map_key(&map_words(&self.scene, &mesh.pair, request))).flatten();
+        let turn = self.options.contact.wheel_turn;
+        let key =
+            cache.is_on().then(|| self.pair.map_key(&map_words(&self.scene, &mesh.pair, &(request, turn)))).flatten();
         if let Some(key) = &key {
             let (kept, said) = cache.load_maps(key);
             remarks.extend(said);

@@ -9,13 +9,15 @@
 //! | `loads` | what equilibrium alone says of teeth and bearings, before any work |
 //! | `checks` | what must hold |
 //! | `headline` | the numbers that it is judged by |
-//! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, and the orders of its meshes; who gets rows and checkpoints; what is said of it |
+//! | `at_rest` | its meshes at rest as a motion begins with them: stiffness, damping, springs and maps |
+//! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, orders of its meshes and waterfall; who gets rows and checkpoints; what is said of it |
 //! | `branch` | its periodic motions over the speed, stable and unstable |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `clearance` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
 
 mod accuracy;
+mod at_rest;
 mod bearings;
 mod branch;
 mod checks;

@@ -3,34 +3,32 @@
 use std::f64::consts::TAU;
 
 use answer::Remark;
-use dynamics::{RigidBody, Speed};
 use gearbox::{
-    GearMesh, GearboxError, GearboxPosition, Meshing, Operation, Structure, Train, Vector12,
+    GearboxError,
     motion::{
         ContactSpring, Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRun,
-        MapRequest, MotionOptions, MotionPlan, MovingMesh, ReductionCertificate,
+        MotionOptions, MotionPlan, ReductionCertificate,
     },
 };
-use integrate::{Follower, MotionError, Periodicity, Row, Settle, Stage, State};
+use integrate::{Follower, MotionError, Periodicity, Row, Stage, State};
 use nalgebra::DVector;
-use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshModel};
+use scene::gearbox::{GearboxDrive, GearboxMotion};
 
 use super::{
+    at_rest::AtRest,
     inertia,
-    meshes::ReducedMesh,
-    orders::{MotionOrder, orders},
-    parts::over_time,
+    orders::{MotionOrder, orders, waterfall},
+    parts::{input_over_time, over_time},
     sink::GearboxSink,
 };
 use crate::{
-    AnalysisError, GearCache, Observer, PhaseWork, Progress, motion::QuasiStatic, run_phase, run_up::RunUpTorque,
+    AnalysisError, Observer, PhaseWork, Progress,
+    motion::{QuasiStatic, Waterfall},
+    run_phase,
+    run_up::RunUpTorque,
     unless_cancelled,
 };
 
-/// Error with which a map is taken, over that aimed at.
-const WORST: f64 = 10.0;
-/// Phases of a cycle at which the contact is looked at for its mean stiffness.
-const PHASES: usize = 32;
 /// Highest frequency of the shafts over that of the fastest mesh, where none is stated.
 const BEYOND: f64 = 4.0;
 
@@ -66,6 +64,11 @@ pub struct GearboxMotionResult {
     pub reach: Vec<f64>,
     /// Orders of every mesh, stretch by stretch.
     pub orders: Vec<MotionOrder>,
+    /// Spectra of a motion whose speed is led from one to another: transmission error (um) and normal force (N) of each
+    /// mesh, then the force of each bearing (N).
+    pub waterfall: Option<Waterfall>,
+    /// Cycles of the fastest mesh after which all meshes are where they began; `None` where that takes more than 100,000.
+    pub common_period: Option<u64>,
     /// How well the shafts were reduced.
     pub reduction: ReductionCertificate,
     /// Cycles of the fastest mesh before the rows.
@@ -102,25 +105,20 @@ impl GearboxMotionResult {
         rows.iter().map(of).fold(begin, |r, x| Range { least: r.least.min(x), largest: r.largest.max(x) })
     }
 
+    /// Cycles of the fastest mesh since the first row, row by row, above 0 in the sense in which it goes on.
+    pub fn cycles(&self) -> Vec<f64> {
+        let fastest = (0..self.mesh_frequencies.len())
+            .max_by(|&a, &b| self.mesh_frequencies[a].total_cmp(&self.mesh_frequencies[b]));
+        let of = |row: &GearboxInstant| fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles);
+        let (first, last) = (self.rows.first().map_or(0.0, of), self.rows.last().map_or(0.0, of));
+        let sense = if last < first { -1.0 } else { 1.0 };
+        self.rows.iter().map(|row| sense * (of(row) - first)).collect()
+    }
+
     /// Of the radial force of a bearing in that half, N.
     pub fn radial_force(&self, bearing: usize) -> Range {
         self.settled(|p| p.bearings[bearing].force[0].hypot(p.bearings[bearing].force[1]))
     }
-}
-
-/// What is known of the gearbox at rest when its motion begins.
-pub(super) struct AtRest<'a> {
-    pub file: &'a Gearbox,
-    pub structure: &'a Structure,
-    /// The structure with springs in place of rolling elements.
-    pub linear: &'a Structure,
-    pub meshes: &'a [GearMesh],
-    pub operation: &'a Operation,
-    pub train: &'a Train,
-    pub reduced: &'a [ReducedMesh],
-    pub positions: &'a [GearboxPosition],
-    /// Keeps maps of the contact between runs.
-    pub cache: &'a dyn GearCache,
 }
 
 /// A gearbox that is ready to move, with what its meshes are.
@@ -171,6 +169,12 @@ pub(super) fn ready(
     });
     let made = made.and_then(|own| own.with_rolling_bearings(rest.structure));
     let made = made.and_then(|own| own.with_torques(over_time(rest.file, rest.operation)));
+    let balancing = -rest.load_at_input() * rest.operation.sense.sign() as f64;
+    let of_input = input_over_time(rest.file, asked.input_torque.unwrap_or(balancing));
+    let made = made.and_then(|own| match of_input {
+        Some(law) => own.with_input_torque(law),
+        None => Ok(own),
+    });
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
     let stiffness = springs.iter().map(|s| s.stiffness().mean).collect();
@@ -228,8 +232,16 @@ pub(super) fn run(
     let stopped = stopped.then(|| course.cycle());
     let done = GearboxRun::of(course, &start).map_err(failed)?;
     let rows = told.rows;
+    // The last row of a motion may be no whole row behind the one before.
+    let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
+    let even = &rows[..rows.len().min(even as usize + 1)];
     let result = GearboxMotionResult {
-        orders: orders(&rows)?,
+        orders: orders(&rows, asked.waterfall_cycles)?,
+        waterfall: match asked.to_speed_rpm {
+            Some(_) => waterfall(even, asked.waterfall_cycles)?,
+            None => None,
+        },
+        common_period: done.common_period,
         rows,
         mesh_frequencies: frequencies,
         stiffness,
@@ -326,153 +338,5 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
 
     fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {
         Ok(self.told.sink.checkpoint(state).map_err(AnalysisError::Sink)?)
-    }
-}
-
-impl AtRest<'_> {
-    /// How its motion is integrated.
-    pub(super) fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
-        // A ramp has its longest steps where it is slowest.
-        let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
-        MotionPlan {
-            scheme: asked.scheme,
-            step: 1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle)),
-            cycles: u64::from(asked.cycles),
-            steps_per_cycle: u64::from(asked.steps_per_cycle),
-            steps_per_row: u64::from(asked.steps_per_row),
-            tolerance: asked.error_tolerance,
-            stop_at_events: asked.stop_at_events,
-            settle: asked.settle.map(|(tolerance, most)| Settle { tolerance, most: u64::from(most) }),
-            shoots: asked.shoots,
-        }
-    }
-
-    /// Given speed of the input: constant, or a ramp over all cycles.
-    fn nominal(&self, asked: &GearboxMotion) -> Speed {
-        let from = asked.speed_rpm * TAU / 60.0;
-        let Some(to_rpm) = asked.to_speed_rpm else { return Speed::Constant(from) };
-        let to = to_rpm * TAU / 60.0;
-        // The mean speed of the smooth step is that of both ends.
-        let turned = f64::from(asked.cycles) / self.fastest(1.0);
-        Speed::Ramp { from, to, start: 0.0, duration: turned / (0.5 * (from + to)) }
-    }
-
-    /// Torque of all loads at the input by the numbers of teeth, N mm.
-    fn load_at_input(&self) -> f64 {
-        let shaft = |disc: usize| self.structure.discs[disc].shaft;
-        self.operation.torques.iter().map(|t| t.torque * self.train.ratios()[shaft(t.disc)]).sum()
-    }
-
-    /// Displacements of a mesh at all positions.
-    fn stands(&self, mesh: usize) -> Vec<Vector12> {
-        self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
-    }
-
-    fn spring(&self, mesh: usize) -> Result<ContactSpring, GearboxError> {
-        let stands = self.stands(mesh);
-        let about = stands.iter().sum::<Vector12>() / stands.len().max(1) as f64;
-        let named = |source| GearboxError::AtMesh { mesh: self.meshes[mesh].name.clone(), source: Box::new(source) };
-        let own = &self.meshes[mesh];
-        let alike = GearMesh { pair: own.pair.without_pitch_errors(), ..own.clone() };
-        let mut exact = self.reduced[mesh].exact(&alike).map_err(named)?;
-        if alike.pair == own.pair {
-            return ContactSpring::of(&mut exact, &about, PHASES).map_err(named);
-        }
-        let force =
-            self.positions.iter().map(|p| p.meshes[mesh].normal_force).sum::<f64>() / stands.len().max(1) as f64;
-        ContactSpring::under(&mut exact, &about, force, PHASES).map_err(named)
-    }
-
-    /// Mean torque of a mesh on its driven gear, N mm without sign.
-    fn torque(&self, mesh: usize) -> f64 {
-        let driven = self.reduced[mesh].options.driven();
-        let all = self.positions.iter().map(|p| p.meshes[mesh].moment[driven][2]);
-        (all.sum::<f64>() / self.positions.len().max(1) as f64).abs()
-    }
-
-    /// A mesh through its own cycle at rest, under its mean torque and with its axes where they stand on average.
-    fn cycle(&self, mesh: usize) -> Result<QuasiStatic, AnalysisError> {
-        let about = self.stands(mesh).iter().sum::<Vector12>() / self.positions.len().max(1) as f64;
-        self.reduced[mesh].cycle(&self.meshes[mesh], self.torque(mesh), &about, self.file.positions_per_cycle)
-    }
-
-    /// Damping along the normal, N s/mm: of the contact lines, or the ratio of both gears turning against each other.
-    ///
-    /// ```text
-    /// c = 2 zeta sqrt(k m_e),   1/m_e = cos^2 b_b (r_b1^2/J_1 + r_b2^2/J_2)
-    /// ```
-    /// J of a gear with all that is on its shaft where that is held, and infinite where a held shaft keeps the speed of the
-    /// input.
-    fn damping(&self, mesh: usize, bodies: &[RigidBody], cycle: &QuasiStatic, asked: &GearboxMotion) -> f64 {
-        let ratio = match asked.mesh_damping {
-            GearboxDamping::Ratio(ratio) => ratio,
-            GearboxDamping::PerLength(per_length) => return per_length * cycle.line_length,
-        };
-        let inertia = |gear: usize| {
-            let (file, shaft) = (self.file, self.file.gears[gear].shaft);
-            if !file.shafts[shaft].held {
-                return bodies[gear].polar_inertia;
-            }
-            if asked.drive == GearboxDrive::Speed && shaft == file.input.shaft {
-                return f64::INFINITY;
-            }
-            let gears = file.gears.iter().zip(bodies).filter(|(own, _)| own.shaft == shaft);
-            let machines = file.torques.iter().filter(|own| own.shaft == shaft).map(|own| own.inertia);
-            let input = if shaft == file.input.shaft { file.input.inertia } else { 0.0 };
-            gears.map(|(_, body)| body.polar_inertia).sum::<f64>() + machines.sum::<f64>() + input
-        };
-        let pair = &self.meshes[mesh].pair;
-        let lever = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
-        let turns = |i: usize| lever[i] * lever[i] / inertia(self.file.meshes[mesh].gears[i]);
-        let mobility = turns(0) + turns(1);
-        // Of the base circle, and along the normal.
-        let stiffness = cycle.stiffness / pair.base_helix_angle().cos().powi(2);
-        if mobility.is_finite() { 2.0 * ratio * (stiffness / mobility).sqrt() } else { 0.0 }
-    }
-
-    fn element(
-        &self,
-        mesh: usize,
-        asked: &GearboxMotion,
-        (spring, cycle, damping): (&ContactSpring, &QuasiStatic, f64),
-        (progress, remarks): (&dyn Progress, &mut Vec<Remark>),
-    ) -> Result<Box<dyn MovingMesh>, GearboxError> {
-        let (own, meshing): (&GearMesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
-        // Shared over the mean length of the contact lines.
-        let per_length = if cycle.line_length > 0.0 { damping / cycle.line_length } else { 0.0 };
-        let alike = || {
-            let wrong = [&own.pair.pinion, &own.pair.wheel].iter().any(|g| g.has_own_teeth());
-            let what =
-                "pitch errors or flanks by tooth: the contact comes back after whole turns, not after a mesh cycle";
-            if wrong { Err(GearboxError::Unmapped { what }) } else { Ok(()) }
-        };
-        Ok(match asked.mesh {
-            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, per_length)?),
-            MeshModel::Spring => {
-                alike()?;
-                Box::new(spring.mesh(own, meshing)?.with_damping(damping))
-            }
-            MeshModel::Mapped => {
-                let held = |gear: usize| self.file.shafts[self.file.gears[gear].shaft].held;
-                let driven = [&own.pair.pinion, &own.pair.wheel][self.reduced[mesh].options.driven()];
-                let lever = driven.base_radius() * own.pair.base_helix_angle().cos();
-                let request = MapRequest {
-                    stands: self.stands(mesh),
-                    tilts: !self.file.meshes[mesh].gears.into_iter().all(held),
-                    mean_force: self.torque(mesh) / lever,
-                    overload: asked.map_overload,
-                    tolerance: asked.map_tolerance,
-                    worst: (WORST * asked.map_tolerance).min(0.5),
-                };
-                let map = self.reduced[mesh].map(own, &request, (self.cache, progress, remarks))?;
-                Box::new(map.with_damping(per_length))
-            }
-        })
-    }
-
-    /// Highest mesh frequency, Hz.
-    fn fastest(&self, speed: f64) -> f64 {
-        let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
-        a.iter().zip(&b).map(|(a, b)| (b - a).abs() * speed).fold(0.0, f64::max)
     }
 }

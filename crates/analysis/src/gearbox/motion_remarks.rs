@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use answer::Remark;
-use scene::gearbox::{Gearbox, GearboxMotion};
+use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion};
 
 use super::{GearboxMotionResult, orders::MotionOrder};
 use crate::{
@@ -16,7 +16,11 @@ impl GearboxMotionResult {
     pub(super) fn remarks(&self, file: &Gearbox, asked: &GearboxMotion) -> Vec<Remark> {
         let torque = self.run_up.and_then(|run_up| run_up.remark("the input", "more `cycles` make it gentler"));
         let cut = self.run_up.and_then(|_| self.coarse_cut(file));
-        self.map_remarks.iter().cloned().chain(self.unsettled(asked)).chain(torque).chain(cut).collect()
+        // A motion that a torque drives has no given speed at which it could come back.
+        let alone =
+            (self.common_period.is_none() && asked.drive != GearboxDrive::Torque).then(remark::no_common_period);
+        let own = self.map_remarks.iter().cloned().chain(self.unsettled(asked));
+        own.chain(torque).chain(cut).chain(alone).collect()
     }
 
     /// The order cut with fewest points across its peak: of each mesh the order with the largest amplitude of its own
@@ -38,7 +42,12 @@ impl GearboxMotionResult {
         };
         let (peak, at) = (0..file.meshes.len()).filter_map(largest).min_by_key(|(peak, _)| peak.points)?;
         let of = format!(" of mesh {}", file.meshes[at.mesh].name);
-        coarse_cut(peak, (&of, at.order), at.speed.abs() * 60.0 / TAU, "more `cycles` show it better")
+        coarse_cut(
+            peak,
+            (&of, at.order),
+            at.speed.abs() * 60.0 / TAU,
+            "more `cycles` or fewer `waterfall_cycles` show it better",
+        )
     }
 
     /// What a user should hear of a motion that was to settle.

@@ -1,12 +1,15 @@
-//! Orders of every mesh along a motion of a gearbox: what a run-up passes through.
+//! Orders of every mesh along a motion of a gearbox, and the waterfall of one whose speed is led from one to another.
+
+use std::f64::consts::TAU;
 
 use gearbox::motion::GearboxInstant;
 use study::{StudyError, order_amplitude};
 
+use crate::motion::{RPM, Stretches, Waterfall, waterfall as order_spectra};
+
 /// Orders of each mesh.
 const ORDERS: usize = 5;
-/// Cycles of the slowest mesh that a stretch is long, and least that there must be.
-const STRETCH: f64 = 16.0;
+/// Cycles of the slowest mesh that a stretch has at the least.
 const LEAST: f64 = 4.0;
 
 /// Amplitudes at one order of one mesh over a stretch of the motion.
@@ -33,27 +36,62 @@ pub struct MotionOrder {
 /// Orders of all meshes, stretch by stretch, each half over the one before; none where the slowest mesh has gone through
 /// fewer than four cycles.
 ///
-/// Stretches are as long as sixteen cycles of the slowest mesh, or as the motion: lines that are less than two over a
+/// Stretches are as long as so many cycles of the slowest mesh, or as the motion: lines that are less than two over a
 /// stretch apart, counted in cycles of the same mesh, are not told from each other.
 ///
 /// # Errors
 /// [`StudyError`] for rows that hold what is no number.
-pub(super) fn orders(rows: &[GearboxInstant]) -> Result<Vec<MotionOrder>, StudyError> {
-    let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return Ok(Vec::new()) };
-    let gone = first.meshes.iter().zip(&last.meshes).map(|(a, b)| (b.cycles - a.cycles).abs());
-    let slowest = gone.fold(f64::INFINITY, f64::min);
-    if !(slowest >= LEAST && slowest.is_finite()) {
-        return Ok(Vec::new());
-    }
-    // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so.
-    let length = ((rows.len() as f64 * STRETCH / slowest).round() as usize).clamp(8, rows.len().max(8));
+pub(super) fn orders(rows: &[GearboxInstant], cycles: u32) -> Result<Vec<MotionOrder>, StudyError> {
+    let Some(Stretches { length, hop, .. }) = stretches(rows, cycles) else { return Ok(Vec::new()) };
     let mut all = Vec::new();
-    let mut from = 0;
-    while from + length <= rows.len() {
+    for from in (0..).map(|k| k * hop).take_while(|from| from + length <= rows.len()) {
         stretch(&rows[from..from + length], &mut all)?;
-        from += (length / 2).max(1);
     }
     Ok(all)
+}
+
+/// Order spectra of every mesh and bearing over the same stretches, of a motion whose rows are evenly spaced along the turn
+/// of its input: transmission error (um) and normal force (N) of each mesh, then the force of each bearing (N). Orders are
+/// those of the fastest mesh.
+///
+/// # Errors
+/// [`StudyError`] for rows that hold what is no number.
+pub(super) fn waterfall(rows: &[GearboxInstant], cycles: u32) -> Result<Option<Waterfall>, StudyError> {
+    let Some(stretches) = stretches(rows, cycles) else { return Ok(None) };
+    let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+    let mut quantities: Vec<Vec<Vec<f64>>> = Vec::new();
+    for mesh in 0..rows[0].meshes.len() {
+        quantities.push(vec![column(&|p| 1e3 * p.meshes[mesh].transmission_error)]);
+        quantities.push(vec![column(&|p| p.meshes[mesh].normal_force)]);
+    }
+    for bearing in 0..rows[0].bearings.len() {
+        quantities.push([0, 1, 2].map(|axis| column(&|p| p.bearings[bearing].force[axis])).to_vec());
+    }
+    let quantities: Vec<Vec<&[f64]>> =
+        quantities.iter().map(|components| components.iter().map(Vec::as_slice).collect()).collect();
+    let (time, speed) = (column(&|p| p.time), column(&|p| p.input[1] / RPM));
+    order_spectra(&quantities, (&time, &speed), stretches).map(Some)
+}
+
+/// Stretches of so many cycles of the slowest mesh, or of the whole motion, each half over the one before; `None` where the
+/// slowest mesh has gone through fewer than four cycles.
+fn stretches(rows: &[GearboxInstant], cycles: u32) -> Option<Stretches> {
+    let (first, last) = (rows.first()?, rows.last()?);
+    let gone = || first.meshes.iter().zip(&last.meshes).map(|(a, b)| (b.cycles - a.cycles).abs());
+    let (slowest, fastest) = (gone().fold(f64::INFINITY, f64::min), gone().fold(0.0, f64::max));
+    if !(slowest >= LEAST && slowest.is_finite()) {
+        return None;
+    }
+    // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so. Orders of the fastest
+    // mesh are in the middle of lines.
+    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (rows.len() - 1) as f64 / fastest);
+    let length = ((whole * per_cycle).round() as usize).clamp(8, rows.len().max(8));
+    Some(Stretches {
+        length,
+        hop: (length / 2).max(1),
+        per_cycle,
+        cycles_per_turn: fastest * TAU / (last.input[0] - first.input[0]).abs(),
+    })
 }
 
 fn stretch(rows: &[GearboxInstant], all: &mut Vec<MotionOrder>) -> Result<(), StudyError> {

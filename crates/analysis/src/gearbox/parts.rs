@@ -57,6 +57,12 @@ pub(super) fn over_time(file: &Gearbox, operation: &Operation) -> Vec<(usize, To
     all.filter_map(law).collect()
 }
 
+/// Torque on the input over time, N mm about +z, beside a mean (N mm in the sense of the input); `None` where it is constant.
+pub(super) fn input_over_time(file: &Gearbox, mean: f64) -> Option<TorqueOverTime> {
+    let stated = file.input.over_time.as_ref()?;
+    Some(torque(stated, mean).scaled(file.input.rotation.sign() as f64))
+}
+
 /// Loads against the rotation of their shafts.
 pub(super) fn operation(file: &Gearbox, train: &Train) -> Operation {
     let (input, sense, keys) = input(file);

@@ -6,7 +6,9 @@ use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
 use scene::{Scene, gearbox::Gearbox};
 
 use super::{
-    GearboxResult, GearboxSink, branch, loads,
+    GearboxResult, GearboxSink,
+    at_rest::AtRest,
+    branch, loads,
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, result,
@@ -65,14 +67,19 @@ pub(super) fn solve(
         remarks.push(said);
     }
     let mut reduced = run_phase(observer, "reduce", PhaseWork::Steps(meshes.len() as u64), |progress| {
-        let one = |(mesh, scene): (&gearbox::GearMesh, Scene)| {
+        let one = |((mesh, scene), turn): ((&gearbox::GearMesh, Scene), f64)| {
             progress.say(mesh.name.clone());
-            let own = ReducedMesh::new(scene, mesh, (models, progress))?;
+            let own = ReducedMesh::new(scene, (mesh, turn), (models, progress))?;
             progress.tick();
             unless_cancelled(progress)?;
             Ok(own)
         };
-        meshes.iter().zip(scenes).map(one).collect::<Result<Vec<_>, AnalysisError>>()
+        meshes
+            .iter()
+            .zip(scenes)
+            .zip(meshes::wheel_turns(file, &train))
+            .map(one)
+            .collect::<Result<Vec<_>, AnalysisError>>()
     })?;
     for (i, own) in reduced.iter().enumerate() {
         remarks.extend(own.remarks.clone());
@@ -122,7 +129,7 @@ pub(super) fn solve(
         }
     };
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
-    let rest = motion::AtRest {
+    let rest = AtRest {
         file,
         structure: &structure,
         linear: &linear,

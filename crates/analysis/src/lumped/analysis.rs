@@ -26,7 +26,7 @@ use crate::{
     facts::{Resolution, RunInfo},
     gears,
     inputs::motion_of,
-    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp},
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall},
     options, plausible,
     refused::Refusal,
     resolution::{resolution, with_slices},
@@ -94,11 +94,6 @@ pub struct LumpedResult {
 }
 
 impl LumpedResult {
-    /// One row a mesh cycle, at its beginning: a stroboscopic (Poincare) section at constant speed.
-    pub fn section(&self) -> impl Iterator<Item = &LumpedRow> {
-        self.rows.iter().step_by(self.headline.rows_per_cycle as usize)
-    }
-
     /// What must hold of it.
     pub fn certificate(&self) -> &Checks {
         &self.facts.certificate
@@ -235,7 +230,7 @@ fn result(
     let static_normal_force = inputs.static_normal_force();
     let run_up = motion.ramp.map(|_| {
         let driver = (motion::speed(scene), scene.driver_teeth());
-        RunUp::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &[])
+        RunUp::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &Waterfall::default())
     });
     let run_up = run_up.transpose()?;
     let beside = HeadlineInputs {

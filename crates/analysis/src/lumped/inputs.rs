@@ -149,6 +149,6 @@ impl LumpedInputs {
             Driver::Pinion => &self.pair.wheel,
             Driver::Wheel => &self.pair.pinion,
         };
-        self.scene.operation.torque() / (driven.base_radius() * self.pair.base_helix_angle().cos())
+        self.scene.operation.torque() / (driven.base_radius().abs() * self.pair.base_helix_angle().cos())
     }
 }

@@ -10,13 +10,13 @@ use study::Window;
 
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
-    MotionSpectrum, NoMotionSink, RunUp, WaterfallLine,
+    MotionSpectrum, NoMotionSink, RunUp, Waterfall,
     checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
     headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand, fastest_hz},
-    unresolved, waterfall,
+    unresolved,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
@@ -88,7 +88,7 @@ pub struct RampResult {
     /// Mesh cycle by mesh cycle.
     pub run_up: RunUp,
     /// Order spectra, stretch by stretch.
-    pub waterfall: Vec<WaterfallLine>,
+    pub waterfall: Waterfall,
     /// Mesh orders through the pair's frequencies.
     pub campbell: CampbellDiagram,
 }
@@ -259,7 +259,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let mesh_hz = mesh_range_hz(scene, motion, Some(&driver_rpm));
     let mut ramp = None;
     if let Some(asked) = motion.ramp {
-        let waterfall = waterfall(&series, per_cycle, asked.waterfall_cycles as usize, scene.pinion.teeth)?;
+        let waterfall = series.waterfall(per_cycle, asked.waterfall_cycles as usize, scene.pinion.teeth)?;
         let (law, force) = (speed(scene), prepared.quasi_static.normal_force);
         let run_up = RunUp::of(&series, per_cycle, (law, teeth), force, &waterfall)?;
         ramp = Some(RampResult { run_up, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });

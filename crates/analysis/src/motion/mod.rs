@@ -41,7 +41,7 @@ pub(crate) use motion_remarks::coarse_steps;
 pub(crate) use motion_remarks::no_backlash;
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
-    RunUpHeadline, WaterfallLine, waterfall,
+    RunUpHeadline, Stretches, Waterfall, WaterfallLine, waterfall,
 };
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
 pub(crate) use resolved::unresolved;

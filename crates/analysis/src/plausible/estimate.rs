@@ -26,12 +26,20 @@ pub struct LoadEstimate {
 }
 
 impl LoadEstimate {
-    /// Estimate of a loaded pair.
-    pub(crate) fn of(loaded: &LoadedPair<'_>) -> Self {
-        let (pair, force, young) = (loaded.pair, loaded.base_force(), loaded.young());
+    /// Mean deflection of the teeth along the line of action, mm.
+    pub(crate) fn deflection_mm(loaded: &LoadedPair<'_>) -> f64 {
+        let (force, young) = (loaded.base_force(), loaded.young());
+        if force <= 0.0 {
+            return 0.0;
+        }
         let mean = 2.0 * young[0] * young[1] / (young[0] + young[1]);
         let stiffness = loaded.iso_stiffness().map_or(MEAN_STIFFNESS * mean / STEEL, |iso| iso.c_mesh);
-        let deflection_mm = if force > 0.0 { 1e-3 * force / (pair.face_width() * stiffness) } else { 0.0 };
+        1e-3 * force / (loaded.pair.face_width() * stiffness)
+    }
+
+    /// Estimate of a loaded pair.
+    pub(crate) fn of(loaded: &LoadedPair<'_>) -> Self {
+        let (pair, deflection_mm) = (loaded.pair, Self::deflection_mm(loaded));
         let points = nominal_pressure(loaded).hertz;
         let pressure_mpa = points.iter().map(|p| p.pressure_mpa).filter(|p| p.is_finite()).fold(0.0, f64::max);
         Self {

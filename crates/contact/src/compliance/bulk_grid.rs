@@ -49,7 +49,19 @@ impl FlankGridLines {
         Self { ends }
     }
 
-    fn lines(&self, axis: usize) -> usize {
+    /// So many equal cells along the face from `low` to `high` (mm), those along the profile as they are.
+    pub fn along_face(&self, cells: usize, [low, high]: [f64; 2]) -> Self {
+        let face = (0..=cells).map(|i| low + (high - low) * i as f64 / cells as f64).collect();
+        Self { ends: [self.ends[0].clone(), face] }
+    }
+
+    /// Cells along the face.
+    pub fn face_cells(&self) -> usize {
+        self.ends[1].len() - 1
+    }
+
+    /// Lines of points along the profile (0) or the face (1).
+    pub fn lines(&self, axis: usize) -> usize {
         [PROFILE.len() - 1, FACE.len() - 1][axis] * (self.ends[axis].len() - 1) + 1
     }
 

@@ -98,6 +98,17 @@ pub(crate) fn load_columns(support: &Support, mut add: impl FnMut(usize, f64)) {
     }
 }
 
+/// Forces (N) on the `count` boundary coordinates of body `b` by forces on rows.
+pub(crate) fn boundary_forces(rows: &[ContactRow], forces: &[f64], b: usize, count: usize) -> Vec<f64> {
+    let mut load = vec![0.0; count];
+    for (row, &f) in rows.iter().zip(forces) {
+        if f != 0.0 {
+            load_columns(&row.supports[b], |dof, w| load[dof] += f * w);
+        }
+    }
+    load
+}
+
 impl LinearContact for Condensed<'_> {
     fn solve(&mut self, active: &[usize], problem: &Problem) -> Result<Equality, ContactError> {
         let n = active.len();
@@ -152,12 +163,7 @@ impl LinearContact for Condensed<'_> {
 
     fn displacements(&self, forces: &[f64]) -> [Vec<f64>; 2] {
         [0, 1].map(|b| {
-            let mut load = vec![0.0; self.compliance[b].nrows()];
-            for (row, &f) in self.rows.iter().zip(forces) {
-                if f != 0.0 {
-                    load_columns(&row.supports[b], |dof, w| load[dof] += f * w);
-                }
-            }
+            let load = boundary_forces(self.rows, forces, b, self.compliance[b].nrows());
             let mut u = vec![0.0; load.len()];
             for (dof, &f) in load.iter().enumerate() {
                 if f != 0.0 {

@@ -8,5 +8,5 @@ mod pressure;
 
 pub use line_length::{contact_intervals, covered};
 pub use loaded_line::{LineStation, loaded_intervals};
-pub use pair::{NeighbourPairs, line_pressure, line_station, nodal_contact_line, slice_line};
+pub use pair::{NeighbourPairs, line_pressure, line_station, nodal_contact_line, rigid_gap, slice_line};
 pub use pressure::nodal_pressures;

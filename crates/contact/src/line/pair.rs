@@ -2,7 +2,7 @@
 //! touch.
 
 use ale::{Station, ToothWindow};
-use geometry::GearPair;
+use geometry::{GearPair, ModifiedFlank};
 
 use crate::{
     ContactOptions, ContactSet, FlankPair, Pose,
@@ -194,16 +194,29 @@ fn outside_gap(neighbours: &NeighbourPairs<'_>, running: i64) -> f64 {
     // Places count in the matrices' frames, which the poses belong to; pitch errors belong to the gears' own teeth.
     let flank1 = pair.pinion.modified_flank_at(side, i64::from(f1) + running - window.first(), running);
     let flank2 = pair.wheel.modified_flank_at(side, i64::from(f2) + last - running, -running);
+    rigid_gap(pair, options, station, running, [&flank1, &flank2], poses)
+}
+
+/// Least gap (mm) over the common face of the pair of a running number, of undeformed smooth `flanks` of pinion and
+/// wheel at `poses`; infinite where they do not face each other.
+pub fn rigid_gap(
+    pair: &GearPair,
+    options: &ContactOptions,
+    station: Station,
+    running: i64,
+    [flank1, flank2]: [&ModifiedFlank; 2],
+    poses: &[Pose; 2],
+) -> f64 {
     let base_radius = pair.pinion.base_radius();
     let [start, end] = pair.path_of_contact();
-    let theta1 = station.pinion_angle(pair, side, options.sense);
+    let theta1 = station.pinion_angle(pair, options.side(), options.sense);
     let tooth = running - station.middle_pair(options.sense);
     let (half, [middle, _]) = (0.5 * pair.face_width(), pair.common_middle());
     let [w_low, w_high] = flank2.nominal().roll_range();
     let relative = poses[1].inverse() * poses[0];
     let (turn, shift) = (relative.rotation.to_rotation_matrix(), relative.translation.vector);
     // The path coordinate is linear in the height.
-    let [path, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(side, theta1, tooth, z));
+    let [path, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(options.side(), theta1, tooth, z));
     (0..=32)
         .map(|i| {
             let z = middle + half * (f64::from(i) / 16.0 - 1.0);

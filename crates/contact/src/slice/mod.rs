@@ -19,4 +19,5 @@ pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use same_slices::SameSlices;
 pub use set::SliceSet;
+pub(crate) use set::TableFlanks;
 pub use tooth_layer::ToothLayer;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use faer::Mat;
 use geometry::{Gear, GearPair, Side};
-use reduction::{ElasticGear, LocalCompliance, Window};
+use reduction::{ElasticGear, LayerStack, LocalCompliance, Window};
 
 use crate::{
     Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, Pose,
@@ -26,6 +26,27 @@ pub struct SliceSet {
     corner_contact: bool,
     /// Bulk compliance of both gears in tables, unless it is to be exact.
     bulk: Option<[BulkTable; 2]>,
+}
+
+/// Flanks of a gear that a table is made of.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum TableFlanks<'a> {
+    /// Flanks of the mesh that is condensed.
+    Whole {
+        /// One a tooth, or two.
+        patches: &'a [FlankPatch],
+        /// Whether there is one a tooth, and the teeth are all alike.
+        alike: bool,
+    },
+    /// A wide gear.
+    Layers {
+        /// Flanks of the shorter gear that is condensed.
+        condensed: &'a [FlankPatch],
+        /// How many of the layers these are.
+        stack: LayerStack,
+        /// Flanks of the wide gear.
+        whole: &'a [FlankPatch],
+    },
 }
 
 /// The half tooth behind one patch.
@@ -57,14 +78,11 @@ impl SliceSet {
         let mut bodies = [Vec::new(), Vec::new()];
         for (i, of_gear) in bodies.iter_mut().enumerate() {
             for &(tooth, side) in flanks[i] {
-                of_gear.push(flank_body(
-                    &gears[i],
-                    geometry[i],
-                    tooth,
-                    side,
-                    |node| number(i, (tooth, side), node),
-                    i,
-                )?);
+                let number = |node| number(i, (tooth, side), node);
+                // Of a gear of layers the first tooth tells all: the half teeth of the others are not asked for.
+                let stacked = matches!(&gears[i], ElasticGear::Reduced(r) if r.stack().is_some());
+                let known = of_gear.first().filter(|_| stacked).map(|first: &FlankBody| Arc::clone(&first.local));
+                of_gear.push(flank_body((&gears[i], geometry[i]), (tooth, side), number, i, known)?);
             }
         }
         let length = width / count as f64 / pair.base_helix_angle().cos();
@@ -72,26 +90,46 @@ impl SliceSet {
     }
 
     /// Set with the bulk compliance of the given windows in tables, if tables are requested and reach the requested
-    /// accuracy.
+    /// accuracy; where a gear is known by a part of its layers, there is no other way.
+    ///
+    /// # Errors
+    /// [`ContactError::Layers`].
     pub(crate) fn with_tables(
         mut self,
-        patches: [&[FlankPatch]; 2],
+        flanks: [TableFlanks<'_>; 2],
         windows: Option<&[Window; 2]>,
         options: &ContactOptions,
-    ) -> Self {
-        if let (Bulk::Table(tolerance), Some(windows)) = (options.bulk, windows) {
+    ) -> Result<Self, ContactError> {
+        let layers = flanks.iter().any(|flanks| matches!(flanks, TableFlanks::Layers { .. }));
+        let tolerance = match options.bulk {
+            Bulk::Table(tolerance) => Some(tolerance),
+            Bulk::Exact => layers.then_some(0.0),
+        };
+        if let (Some(tolerance), Some(windows)) = (tolerance, windows) {
             let table = |i: usize| {
-                let bulk = BulkCompliance {
+                let bulk = |patches| BulkCompliance {
                     whole: windows[i].reduced.compliance.as_ref(),
                     local: self.bodies[i].iter().map(|h| (&h.boundary[..], h.local.compliance.as_ref())).collect(),
-                    patches: patches[i],
+                    patches,
                 };
-                BulkTable::new(&bulk, tolerance)
+                match flanks[i] {
+                    TableFlanks::Whole { patches, alike } => {
+                        let bulk = bulk(patches);
+                        let whole = BulkTable::new(&bulk, tolerance);
+                        Ok(whole.or_else(|| alike.then(|| BulkTable::of_teeth_alike(&bulk, tolerance)).flatten()))
+                    }
+                    TableFlanks::Layers { condensed, stack, whole } => {
+                        BulkTable::of_layers(&bulk(condensed), stack, whole, tolerance).map(Some)
+                    }
+                }
             };
             let (first, second) = rayon::join(|| table(0), || table(1));
-            self.bulk = first.zip(second).map(|(a, b)| [a, b]);
+            self.bulk = first?.zip(second?).map(|(a, b)| [a, b]);
         }
-        self
+        if layers && self.bulk.is_none() {
+            return Err(ContactError::Layers { error: f64::INFINITY, most: tolerance.unwrap_or(0.0) });
+        }
+        Ok(self)
     }
 
     /// Bulk compliance of both gears in tables; `None` where it is exact.
@@ -188,18 +226,20 @@ impl FlankBody {
     }
 }
 
+/// The half tooth behind a flank; with the half tooth `known` of another its layer alone.
 fn flank_body(
-    gear: &ElasticGear,
-    geometry: &Gear,
-    tooth: u32,
-    side: Side,
+    (gear, geometry): (&ElasticGear, &Gear),
+    (tooth, side): (u32, Side),
     number: impl Fn(u32) -> Option<u32>,
     which: usize,
+    known: Option<Arc<LocalCompliance>>,
 ) -> Result<FlankBody, ContactError> {
     let fail = |source| ContactError::Reduction { gear: ["pinion", "wheel"][which], source };
-    let local = match gear {
-        ElasticGear::Reduced(r) => r.local_compliance(geometry, tooth, side).map_err(fail)?,
-        ElasticGear::Full(f) => {
+    let is_known = known.is_some();
+    let local = match (known, gear) {
+        (Some(known), _) => known,
+        (None, ElasticGear::Reduced(r)) => r.local_compliance(geometry, tooth, side).map_err(fail)?,
+        (None, ElasticGear::Full(f)) => {
             Arc::new(LocalCompliance::new(&f.gear, geometry, &f.material, &f.elements, tooth, side).map_err(fail)?)
         }
     };
@@ -207,9 +247,12 @@ fn flank_body(
     let flank = geometry.flank_of(side, i64::from(tooth));
     let (profile, edge_radius) = (local.layer.clone(), geometry.data().tip_edge_radius);
     let layer = ToothLayer::new(flank, material.young_mpa(), material.poisson(), local.overshoot, profile, edge_radius);
-    let known = |&node: &u32| {
+    let numbered = |&node: &u32| {
         number(node).ok_or_else(|| ContactError::NotOnBoundary { patch: format!("tooth {tooth}'s flank"), node })
     };
-    let boundary = local.nodes.iter().map(known).collect::<Result<_, _>>()?;
+    let boundary = match is_known {
+        true => Vec::new(),
+        false => local.nodes.iter().map(numbered).collect::<Result<_, _>>()?,
+    };
     Ok(FlankBody { layer, local, boundary })
 }

@@ -154,9 +154,7 @@ impl MappedPair {
             .collect();
         let statics = &system.options().statics;
         let driver = 1 - statics.driven();
-        let teeth = [&system.pair().pinion, &system.pair().wheel][driver];
-        let sense = statics.contact.sense.sign() as f64 * [1.0, -1.0][driver];
-        let phase_of_driver = system.coordinates().driver_turn().map(|i| (i, sense / teeth.pitch_angle()));
+        let phase_of_driver = system.coordinates().driver_turn().map(|i| (i, system.cycles_per_turn(driver)));
         Self {
             mass: integrate::Mechanism::mass(&system).clone(),
             bearing: unless_zero(map.transpose() * bearing * &map),

@@ -1,5 +1,6 @@
 //! Forces that do not come from the teeth: loads, drives, gyroscopic moments.
 
+use geometry::Gear;
 use nalgebra::{DVector, Matrix3, SMatrix};
 
 use super::PairMechanism;
@@ -9,7 +10,7 @@ impl PairMechanism {
     /// Force of the load torque along the driven gear's lag, N.
     pub(crate) fn load_on_lag(&self, t: f64) -> f64 {
         let driven = self.options.statics.driven();
-        self.options.load.at(t) / [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven]
+        self.options.load.at(t) / [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven].abs()
     }
 
     /// Loads and drive torque as forces on the twelve coordinates, and inertia of a nominal motion that is not steady.
@@ -18,10 +19,10 @@ impl PairMechanism {
         let driven = contact.driven();
         let turn = |g: usize| COORDINATES * (g + 1) - 1;
         let mut f = Displacement::zeros();
-        // The load lets the driven gear lag; its turn is positive when it lags towards the side's sign.
-        f[turn(driven)] += contact.side().sign() * self.options.load.at(t);
+        // Against the driven gear's running sense.
+        f[turn(driven)] -= nominal.senses[driven] * self.options.load.at(t);
         if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += nominal.running_sense(1 - driven) * torque.at(t);
+            f[turn(1 - driven)] += nominal.senses[1 - driven] * torque.at(t);
         }
         for (g, body) in self.options.bodies.iter().enumerate() {
             f[turn(g)] -= body.polar_inertia * nominal.acceleration[g];
@@ -49,7 +50,7 @@ impl PairMechanism {
         }
         let driven = self.options.statics.driven();
         let turn = |g: usize| other[COORDINATES * (g + 1) - 1];
-        let teeth = [self.pair.pinion.teeth(), self.pair.wheel.teeth()].map(f64::from);
+        let teeth = [&self.pair.pinion, &self.pair.wheel].map(Gear::signed_teeth);
         teeth[1 - driven] / teeth[driven] * turn(driven) - turn(1 - driven)
     }
 
@@ -69,7 +70,7 @@ impl PairMechanism {
         losses: &Displacement,
     ) -> f64 {
         let driver = 1 - self.options.statics.driven();
-        let running = nominal.running_sense(driver);
+        let running = nominal.senses[driver];
         match &self.options.drive {
             Drive::Torque { torque, .. } => torque.at(t),
             Drive::Balanced(_) => running * self.balancing_torque(&(self.external(t, nominal) + losses)),

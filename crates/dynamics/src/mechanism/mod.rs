@@ -19,6 +19,7 @@ use super::{
     mesh_flanks::MeshFlanks,
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
+    nominal::{running_senses, wheel_turns},
 };
 use build::per_length;
 use ltca::{RootStress, StaticError};
@@ -157,7 +158,7 @@ impl PairMechanism {
     pub fn motion_size(&self, lag: f64) -> f64 {
         let statics = &self.options.statics;
         let driven = [&self.pair.pinion, &self.pair.wheel][statics.driven()];
-        let deflection = statics.torque.abs() / (driven.base_radius() * self.means[0]);
+        let deflection = statics.torque.abs() / (driven.base_radius().abs() * self.means[0]);
         // Gears without stiffness or load have no deflection.
         if deflection.is_finite() { lag.abs().max(deflection) } else { lag.abs() }
     }
@@ -169,7 +170,7 @@ impl PairMechanism {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);
         if let Some(modal) = &self.modal {
-            let turn = modal.turned_by_a_pitch(self.options.statics.contact.sense.sign() as f64)?;
+            let turn = modal.turned_by_a_pitch(running_senses(&self.pair, &self.options.statics))?;
             all.view_mut((rigid, rigid), (n - rigid, n - rigid)).copy_from(&turn);
         }
         Some(all)
@@ -207,9 +208,8 @@ impl PairMechanism {
 
     /// Gyroscopic matrix with the pinion at 1 rad/s.
     pub(crate) fn gyroscopic_at_unit_speed(&self) -> SMatrix<f64, 12, 12> {
-        let ratio = f64::from(self.pair.pinion.teeth()) / f64::from(self.pair.wheel.teeth());
         let nominal = self.nominal_state(0.0);
-        self.gyroscopic(&NominalState { velocity: [1.0, -ratio], ..nominal })
+        self.gyroscopic(&NominalState { velocity: [1.0, wheel_turns(&self.pair)], ..nominal })
     }
 
     /// Puts the mean of the load in its place; gives the load.
@@ -275,10 +275,13 @@ impl PairMechanism {
             return self.cycles(t);
         }
         let driver = 1 - contact.driven();
-        let gear = [&self.pair.pinion, &self.pair.wheel][driver];
-        // The wheel turns against the pinion's sense.
-        let sense = contact.contact.sense.sign() as f64 * [1.0, -1.0][driver];
-        self.cycles(t) + sense * d[COORDINATES * (driver + 1) - 1] / gear.pitch_angle()
+        self.cycles(t) + self.cycles_per_turn(driver) * d[COORDINATES * (driver + 1) - 1]
+    }
+
+    /// Mesh cycles that pass as a gear turns by a radian about +z.
+    pub(crate) fn cycles_per_turn(&self, gear: usize) -> f64 {
+        let sense = running_senses(&self.pair, &self.options.statics)[gear];
+        sense / [&self.pair.pinion, &self.pair.wheel][gear].pitch_angle().abs()
     }
 
     /// L D of the modes at time `t`; no rows without modes.

@@ -190,10 +190,10 @@ impl MeshSide {
         let (contact, set) = (&self.contact, self.contact.contact_set());
         let forces = contact.solver().forces();
         let rows = set.supported_rows(poses, contact.rows(), contact.slices(), forces);
-        let displacements = (!rows.is_empty()).then(|| set.displacements_under(&rows, forces)).flatten();
+        let loads = (!rows.is_empty()).then(|| set.forces_of(&rows, forces)).flatten();
         let parts =
             WindowedPair { pair, gears: &self.gears, set, window: self.window.window(), options: &self.options };
-        roots.of(&parts, displacements.as_ref())
+        roots.of(&parts, loads.as_ref())
     }
 
     /// Angles of the gears' own frames against the common one in their nominal motion, rad.

@@ -80,7 +80,8 @@ fn is_cheap(gear: &ElasticGear) -> bool {
     match gear {
         ElasticGear::Full(_) => true,
         ElasticGear::Reduced(r) => {
-            !r.is_from_record() || (r.way() == ReductionWay::CyclicSector && r.free_count() <= CHEAP_AGAIN)
+            let known = !r.is_from_record() && r.stack().is_none();
+            known || r.stack().is_none() && (r.way() == ReductionWay::CyclicSector && r.free_count() <= CHEAP_AGAIN)
         }
     }
 }
@@ -198,7 +199,8 @@ fn note(fields: bool) -> String {
          teeth until the wheel is drawn aside."
     } else {
         "The gears from their exact geometry. They came reduced from the cache, without what displacement and stress are recovered from, and \
-         to condense them again would take long: run with `--no-cache` to see these fields."
+         to condense them again would take long: run with `--no-cache` to see these fields. Of a wide gear condensed by \
+         its layers there are none."
     };
     note.into()
 }

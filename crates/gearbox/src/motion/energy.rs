@@ -43,7 +43,8 @@ impl GearboxMechanism {
     /// ```
     /// E_z, W_z: energy of the deviations, and what the integrator's ledger has for them, the work -Omega' m . v of an
     /// acceleration in it; m = B' M r. Work of constant torques is that of the turns. That of torques over time is summed
-    /// up step by step where the speed is given; under a torque it is what the ledger has beside constant ones.
+    /// up step by step where the speed is given and beside a torque over time on the input; under a torque it is what the
+    /// ledger has beside constant ones, and so is that of a torque over time on the input beside those sums.
     ///
     /// # Errors
     /// [`GearboxError`] of a mesh.
@@ -67,9 +68,15 @@ impl GearboxMechanism {
         };
         let mut began = ledger.initial;
         if !self.varying.is_empty() {
-            let constant = of_loads + energy.input_work;
-            energy.output_work +=
-                if self.free.turn.is_some() { ledger.supplied - constant } else { self.varying.work() };
+            let left = ledger.supplied - of_loads - energy.input_work;
+            match (self.free.turn.is_some(), self.varying.input(state.time).is_some()) {
+                (true, false) => energy.output_work += left,
+                (true, true) => {
+                    energy.output_work += self.varying.work();
+                    energy.input_work += left - self.varying.work();
+                }
+                (false, _) => energy.output_work += self.varying.work(),
+            }
         }
         if self.free.turn.is_none() {
             let inertia = self.train_inertia();

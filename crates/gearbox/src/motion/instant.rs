@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use serde::{Deserialize, Serialize};
 
 use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
-use crate::{BearingState, GearboxError};
+use crate::{BearingState, GearboxError, Vector12};
 
 /// A mesh at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,8 @@ pub struct MeshInstant {
     /// Transmission error by the turns of both gears, mm on the transverse line of action
     /// ([`crate::MeshState::transmission_error`]): the dynamic one.
     pub transmission_error: f64,
+    /// Rate of the transmission error, mm/s.
+    pub transmission_error_rate: f64,
     /// Sum of the normal forces, N, elastic part.
     pub normal_force: f64,
     /// Forces (N) and moments (N mm) on gear 1 and gear 2, friction and damping included, common axes.
@@ -57,7 +59,7 @@ impl GearboxMechanism {
         }
         let (y, rates) = (self.free.deviations(q), self.free.deviations(v));
         let input_torque = match self.free.turn {
-            Some(i) => self.loads[1][i],
+            Some(i) => self.varying.input(*time).unwrap_or(self.loads[1][i]),
             None if matches!(self.drive, Drive::Balanced(_)) => {
                 let of_loads = self.given + self.varying.balance(*time);
                 of_loads + answered + self.acceleration(*time) * self.train_inertia()
@@ -100,8 +102,10 @@ impl GearboxMechanism {
         let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + losses.force));
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
-        let transmission_error = meshing.side().sign() * (r1 * d[5] + r2 * d[11]);
-        Ok((MeshInstant { cycles, transmission_error, normal_force, wrench: wrench.into() }, answer))
+        let error = |moved: &Vector12| meshing.side().sign() * (r1 * moved[5] + r2 * moved[11]);
+        let [transmission_error, transmission_error_rate] = [error(&d), error(&rates)];
+        let wrench = wrench.into();
+        Ok((MeshInstant { cycles, transmission_error, transmission_error_rate, normal_force, wrench }, answer))
     }
 
     /// Torque that keeps the input at its speed: what its coordinate leaves over. Dampers of modes do not brake the turn

@@ -196,7 +196,26 @@ impl GearboxMechanism {
         if matches!(self.drive, Drive::Balanced(_)) {
             self.loads[1] = &self.push * self.given;
         }
-        self.varying = VaryingTorques::new(all);
+        self.varying = std::mem::take(&mut self.varying).with_outputs(all);
+        Ok(self)
+    }
+
+    /// The mechanism, with a torque over time (N mm about +z) in place of the constant one on an input that a torque drives.
+    ///
+    /// # Errors
+    /// [`GearboxError::GivenSpeed`] where the speed of the input is given, [`GearboxError::OutOfRange`] for a torque that is
+    /// no number.
+    pub fn with_input_torque(mut self, law: Torque) -> Result<Self, GearboxError> {
+        if self.free.turn.is_none() {
+            return Err(GearboxError::GivenSpeed);
+        }
+        if let Some(value) = law.numbers().find(|x| !x.is_finite()) {
+            return Err(GearboxError::OutOfRange { part: "a torque over time".into(), quantity: "number", value });
+        }
+        self.given = 0.0;
+        self.loads[1].fill(0.0);
+        let along = self.push.clone();
+        self.varying = std::mem::take(&mut self.varying).with_input(law, along);
         Ok(self)
     }
 

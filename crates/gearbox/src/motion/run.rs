@@ -97,6 +97,8 @@ pub struct GearboxRun {
     /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where no common period
     /// of all meshes was compared with another.
     pub periodicity: Option<Periodicity>,
+    /// Cycles of the fastest mesh after which all meshes are where they began ([`GearboxMechanism::common_period`]).
+    pub common_period: Option<u64>,
 }
 
 impl GearboxMechanism {
@@ -170,9 +172,8 @@ impl GearboxMechanism {
     }
 
     /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of
-    /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than
-    /// [`LONGEST`].
-    pub(super) fn common_period(&self) -> Option<u64> {
+    /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than 100,000.
+    pub fn common_period(&self) -> Option<u64> {
         let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
         // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
         let is_whole = |x: f64| (x - x.round()).abs() < 1e-3 / LONGEST as f64;
@@ -198,7 +199,8 @@ impl GearboxRun {
         let (warm_up, found) = (course.cycle() - stage.recorded, stage.periodicity);
         let mechanism = course.into_system();
         let energy = mechanism.energy(start, &state, &ledger)?;
-        let period = mechanism.common_period().unwrap_or(1) as usize;
+        let common_period = mechanism.common_period();
+        let period = common_period.unwrap_or(1) as usize;
         let events = |mesh: usize| [0, 1].map(|side| counts.downs(2 * mesh + side));
         Ok(Self {
             states: [start.clone(), state],
@@ -210,6 +212,7 @@ impl GearboxRun {
             reach: mechanism.reach.clone(),
             warm_up,
             periodicity: found.map(|p| Periodicity { period: p.period * period, ..p }),
+            common_period,
         })
     }
 }

@@ -1,4 +1,4 @@
-//! Torques of outputs that change with time, and the work that they do. Theory (93).
+//! Torques of outputs and of the input that change with time, and the work that outputs do. Theory (93).
 
 use dynamics::Torque;
 use nalgebra::DVector;
@@ -23,6 +23,8 @@ pub(super) struct VaryingTorque {
 #[derive(Debug, Clone, Default)]
 pub(super) struct VaryingTorques {
     all: Vec<VaryingTorque>,
+    /// T(t) on the input, N mm about +z, and the generalised force of a unit of it on the coordinates z.
+    input: Option<(Torque, DVector<f64>)>,
     done: TorqueMemory,
 }
 
@@ -42,18 +44,30 @@ pub struct TorqueMemory {
 }
 
 impl VaryingTorques {
-    pub fn new(all: Vec<VaryingTorque>) -> Self {
-        Self { all, done: TorqueMemory::default() }
+    /// The same with other torques of outputs.
+    pub fn with_outputs(self, all: Vec<VaryingTorque>) -> Self {
+        Self { all, ..self }
+    }
+
+    /// The same with a torque over time on the input, N mm about +z; `along`: what a unit of it does to the coordinates z.
+    pub fn with_input(self, law: Torque, along: DVector<f64>) -> Self {
+        Self { input: Some((law, along)), ..self }
     }
 
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
-        self.all.is_empty()
+        self.all.is_empty() && self.input.is_none()
+    }
+
+    /// Torque on the input at a time, N mm about +z, where it has a law.
+    pub fn input(&self, t: f64) -> Option<f64> {
+        self.input.as_ref().map(|(law, _)| law.at(t))
     }
 
     /// Forces on the coordinates z at a time.
     pub fn forces(&self, t: f64) -> impl Iterator<Item = (f64, &DVector<f64>)> {
-        self.all.iter().map(move |own| (own.law.at(t), &own.along))
+        let of_outputs = self.all.iter().map(move |own| (own.law.at(t), &own.along));
+        of_outputs.chain(self.input.as_ref().map(move |(law, along)| (law.at(t), along)))
     }
 
     /// Torque (N mm about +z) on the input that balances them at a time.
@@ -86,7 +100,7 @@ impl VaryingTorques {
         (self.done.time, self.done.angles) = (time, angles);
     }
 
-    /// Work since the beginning, N mm.
+    /// Work of the outputs since the beginning, N mm.
     pub fn work(&self) -> f64 {
         self.done.work
     }

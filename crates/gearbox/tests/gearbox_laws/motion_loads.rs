@@ -42,11 +42,19 @@ fn plan(mechanism: &GearboxMechanism) -> MotionPlan {
 }
 
 fn run(drive: Drive, sense: Sense, load: Option<&Torque>) -> (Vec<GearboxInstant>, GearboxRun) {
+    driven(drive, sense, [load, None])
+}
+
+/// Motion under a load over time, and under a torque over time on the input.
+fn driven(drive: Drive, sense: Sense, [load, input]: [Option<&Torque>; 2]) -> (Vec<GearboxInstant>, GearboxRun) {
     let mut mechanism = train(drive, sense, 0.004);
     if let Some(load) = load {
         // The output turns as the input does: two meshes.
         let own = load.clone().scaled(-f64::from(sense.sign() as i32));
         mechanism = mechanism.with_torques(vec![(0, own)]).unwrap();
+    }
+    if let Some(input) = input {
+        mechanism = mechanism.with_input_torque(input.clone().scaled(sense.sign() as f64)).unwrap();
     }
     let start = mechanism.start(0.01).unwrap();
     let mut rows = Vec::new();
@@ -85,6 +93,57 @@ fn energy_under_loads_over_time_is_accounted_for() {
             println!("{drive:?}: left {:.1e}, load off by {load:.1e}, input by {input:.1e}", energy.relative_residual);
             assert!(load.abs() < 2e-3 && input.abs() < 2e-3, "off by {load:e} and {input:e}, {said}");
         }
+    }
+}
+
+/// Torque on the input that balances the load, N mm: two stages of 17 to 53 and 19 to 47 teeth.
+fn balancing() -> f64 {
+    let (rows, _) = run(Drive::Torque { start: SPEED, torque: None }, Sense::Cw, None);
+    rows[0].input_torque.abs()
+}
+
+/// A torque on the input that pulses, and one that brakes for a while, beside loads that are constant or change as well: it is
+/// the given one at every instant, its work and that of the load are those of their torques, and nothing is left over.
+#[test]
+fn energy_under_an_input_over_time_is_accounted_for() {
+    let mean = balancing();
+    let own = loads().map(|load| load.scaled(mean / LOAD));
+    let [pulsing, _] = loads();
+    for (torque, load) in own.iter().zip([None, Some(&pulsing)]) {
+        for sense in [Sense::Cw, Sense::Ccw] {
+            let (rows, done) = driven(Drive::Torque { start: SPEED, torque: None }, sense, [load, Some(torque)]);
+            let (energy, sign) = (done.energy, f64::from(sense.sign() as i32));
+            let said = format!("{torque:?}, {load:?}: {energy:?}");
+            assert!(energy.relative_residual.abs() < 1e-9, "{said}");
+            let given = |row: &GearboxInstant| sign * torque.at(row.time);
+            assert!(rows.iter().all(|row| (row.input_torque - given(row)).abs() < 1e-12 * mean), "{said}");
+            let of_input = work(&rows, |row| given(row) * row.input[1]);
+            let constant = Torque::Constant(LOAD);
+            let of_load = work(&rows, |row| -load.unwrap_or(&constant).at(row.time) * sign * row.output_speeds[0]);
+            let size = work(&rows, |row| (given(row) * row.input[1]).abs());
+            let [input, load] = [of_input - energy.input_work, of_load - energy.output_work].map(|off| off / size);
+            println!("left {:.1e}, input off by {input:.1e}, load by {load:.1e}", energy.relative_residual);
+            assert!(load.abs() < 2e-3 && input.abs() < 2e-3, "off by {load:e} and {input:e}, {said}");
+        }
+    }
+}
+
+/// A torque on the input that is the same at all times is the constant one; one on an input whose speed is given is refused.
+#[test]
+fn an_input_over_time_that_does_not_change_is_constant() {
+    let drive = Drive::Torque { start: SPEED, torque: None };
+    let (constant, known) = run(drive, Sense::Ccw, None);
+    let table = Torque::Table { times: vec![0.0, 1.0], values: vec![constant[0].input_torque; 2] };
+    let (rows, done) = driven(drive, Sense::Ccw, [None, Some(&table)]);
+    let off = rows.iter().zip(&constant).map(|(a, b)| (a.input[1] - b.input[1]).abs()).fold(0.0, f64::max);
+    assert!(off < 1e-10 * SPEED, "speeds are {off:e} rad/s apart");
+    for (own, wanted) in [(done.energy.input_work, known.energy.input_work), (done.energy.gained, known.energy.gained)]
+    {
+        assert!((own - wanted).abs() < 1e-8 * known.energy.input_work.abs(), "{own} N mm, constant {wanted} N mm");
+    }
+    for drive in [Drive::Speed(Speed::Constant(SPEED)), Drive::Balanced(Speed::Constant(SPEED))] {
+        let refused = train(drive, Sense::Ccw, 0.0).with_input_torque(table.clone());
+        assert!(refused.is_err_and(|e| e == GearboxError::GivenSpeed && e.hint().is_some()));
     }
 }
 

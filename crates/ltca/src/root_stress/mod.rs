@@ -156,9 +156,10 @@ impl StressMap {
         }
     }
 
+    /// Stress under what [`Equilibrium::loads_on`] has of a gear.
     fn stress(&self, u: &[f64]) -> Result<Vec<[f64; 6]>, ReductionError> {
         match self {
-            Self::Modes(_, modes) => modes.stress(u),
+            Self::Modes(_, modes) => modes.stress_under(u),
             Self::Operator(operator) => {
                 let s = operator.apply(MatRef::from_column_major_slice(u, u.len(), 1))?;
                 let at = |i: usize| [0, 1, 2, 3, 4, 5].map(|k| s[(6 * i + k, 0)]);
@@ -180,18 +181,19 @@ impl RootStress {
     /// Stress in every fillet of both windows, tooth by tooth counter-clockwise, right fillet before left, beside them
     /// the fillets that share a space with the window's outermost teeth.
     ///
-    /// `displacements` are those of an equilibrium; without any the gears are at rest.
+    /// `loads` are those of an equilibrium: forces (N) on the boundary coordinates of reduced gears, displacements (mm) of
+    /// whole ones; without any the gears are at rest.
     pub fn of(
         &self,
         windowed: &WindowedPair,
-        displacements: Option<&[Vec<f64>; 2]>,
+        loads: Option<&[Vec<f64>; 2]>,
     ) -> Result<[Vec<FilletStress>; 2], StaticError> {
         let mut both = [Vec::new(), Vec::new()];
         for (i, result) in both.iter_mut().enumerate() {
             let fail = |source| ContactError::Reduction { gear: NAMES[i], source };
             let roots = self.window(windowed, i).map_err(fail)?;
-            let stress = match displacements {
-                Some(u) => roots.stress(&u[i]).map_err(fail)?,
+            let stress = match loads {
+                Some(loads) => roots.stress(&loads[i]).map_err(fail)?,
                 None => [(); 2].map(|()| vec![[0.0; 6]; roots.nodes.len()]),
             };
             *result = roots.fillets.iter().filter_map(|f| roots.fillet(f, &stress, windowed, i)).collect();

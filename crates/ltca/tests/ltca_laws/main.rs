@@ -25,4 +25,5 @@ mod slices;
 mod starts_alike;
 mod tooth_change;
 mod waves;
+mod wide_gears;
 mod width_and_crowning;

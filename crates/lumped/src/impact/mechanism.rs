@@ -181,7 +181,7 @@ impl ImpactMechanism {
         let mut f = Displacement::zeros();
         f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
         if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += moment.running_sense(1 - driven) * torque.at(t);
+            f[turn(1 - driven)] += moment.senses[1 - driven] * torque.at(t);
         }
         for (g, body) in self.options.bodies.iter().enumerate() {
             f[turn(g)] -= body.polar_inertia * moment.acceleration[g];

@@ -32,7 +32,7 @@ pub fn body_compliance(pair: &GearPair, young: [f64; 2], poisson: [f64; 2]) -> [
     }
     let gears = [&pair.pinion, &pair.wheel];
     [0, 1].map(|i| {
-        let (gear, radius) = (gears[i], pair.working_radii()[i]);
+        let (gear, radius) = (gears[i], pair.working_radii()[i].abs());
         let half_arc = (path + 0.5 * PI * gear.transverse_module()) / (2.0 * radius);
         tan * tan * axial_compliance(gear, radius, half_arc, young[i], poisson[i])
     })
@@ -48,17 +48,18 @@ pub fn body_compliance(pair: &GearPair, young: [f64; 2], poisson: [f64; 2]) -> [
 /// q = F_a / (pi r_f) [1/2 + sum_n sin(n phi)/(n phi) cos(n theta)]
 /// ```
 /// Bending by Kirchhoff's plate and shear are added, order by order; the solutions are powers of r (and logarithms for
-/// n = 0, 1). Teeth do not stiffen the plate. `young` E (MPa), `poisson` nu. Source: S. Timoshenko, S.
+/// n = 0, 1). The body of a ring is clamped outside and loaded inside, where outwards is the other way: q and the lever
+/// change their signs. Teeth do not stiffen the plate. `young` E (MPa), `poisson` nu. Source: S. Timoshenko, S.
 /// Woinowsky-Krieger, Theory of Plates and Shells, 1959, articles 62 and 64 (general solution and edge conditions).
 pub(crate) fn axial_compliance(gear: &Gear, radius: f64, half_arc: f64, young: f64, poisson: f64) -> f64 {
-    let (edge, width) = (gear.root_radius(), gear.face_width());
+    let (edge, width) = (gear.root_radius().abs(), gear.face_width());
     let rigidity = young * width.powi(3) / (12.0 * (1.0 - poisson * poisson));
     let shear = SHEAR * young * width / (2.0 * (1.0 + poisson));
-    let plate = Plate { inner: 0.5 * gear.data().bore_diameter / edge, poisson };
+    let plate = Plate { clamp: 0.5 * gear.data().bore_diameter.abs() / edge, poisson };
     let lever = radius / edge - 1.0;
     let share = |n: u32, spread: f64| if n == 0 { 0.5 / PI } else { spread / PI };
     let (mut bending, mut sheared) = (0.0, 0.0);
-    let mut orders = Orders::new(half_arc, plate.inner);
+    let mut orders = Orders::new(half_arc, plate.narrow());
     for n in 0..=SHEAR_ORDERS {
         let (spread, stiffened) = orders.next();
         if n <= BENDING_ORDERS {
@@ -108,9 +109,9 @@ impl Orders {
     }
 }
 
-/// Ring-shaped plate, clamped at radius `inner` and free at radius 1; rigidity 1.
+/// Ring-shaped plate, clamped at radius `clamp`, inside or outside, and free at radius 1; rigidity 1.
 struct Plate {
-    inner: f64,
+    clamp: f64,
     poisson: f64,
 }
 
@@ -129,13 +130,19 @@ impl Plate {
     /// Deflection at radius 1 + `lever` under a line load of amplitude 1 there, handed on to the edge at radius 1 as
     /// force and moment.
     fn deflection(&self, n: u32, lever: f64) -> f64 {
-        let [w, slope] = self.edge(n, 1.0, -lever);
+        let outwards = if self.clamp < 1.0 { 1.0 } else { -1.0 };
+        let [w, slope] = self.edge(n, outwards, -outwards * lever);
         w + slope * lever
+    }
+
+    /// Radius of the inner edge over that of the outer one.
+    fn narrow(&self) -> f64 {
+        self.clamp.min(self.clamp.recip())
     }
 
     /// Deflection and slope at the edge under the effective shear `force` and the moment `moment` there.
     fn edge(&self, n: u32, force: f64, moment: f64) -> [f64; 2] {
-        let clamped = self.solutions(n, self.inner);
+        let clamped = self.solutions(n, self.clamp);
         let free = self.solutions(n, 1.0);
         let conditions = Matrix4::from_fn(|row, k| match row {
             0 => clamped[k].deflection,
@@ -157,7 +164,7 @@ impl Plate {
             let (w, p) = ((r / at).powi(p), f64::from(p));
             [w, p * w / r, p * (p - 1.0) * w / (r * r), p * (p - 1.0) * (p - 2.0) * w / r.powi(3)]
         };
-        let a = self.inner;
+        let a = self.clamp;
         let order = n as i32;
         // w and its first three derivatives.
         let all = match n {
@@ -185,7 +192,7 @@ impl Plate {
     /// Deflection of order n at the edge by shear alone, under a line load of amplitude 1 and a shear stiffness of 1;
     /// `stiffened` is n times it, of no meaning for n = 0.
     fn sheared(&self, n: u32, stiffened: f64) -> f64 {
-        if n == 0 { -self.inner.ln() } else { stiffened / f64::from(n) }
+        if n == 0 { -self.narrow().ln() } else { stiffened / f64::from(n) }
     }
 }
 
@@ -196,8 +203,8 @@ mod tests {
     /// Deflection by a moment is slope by a force, order by order, also where the rim is thin: Betti.
     #[test]
     fn force_and_moment_are_reciprocal() {
-        for inner in [0.1, 0.55, 0.9] {
-            let plate = Plate { inner, poisson: 0.3 };
+        for inner in [0.1, 0.55, 0.9, 1.1, 1.5] {
+            let plate = Plate { clamp: inner, poisson: 0.3 };
             for n in [0, 1, 2, 3, 7, 20, 60] {
                 // M_r works on the slope with the other sign.
                 let [_, slope] = plate.edge(n, 1.0, 0.0);
@@ -211,13 +218,14 @@ mod tests {
     #[test]
     fn narrow_rings_are_cantilevers() {
         let l = 1e-3;
-        let plate = Plate { inner: 1.0 - l, poisson: 0.3 };
-        let [w, _] = plate.edge(0, 1.0, 0.0);
-        assert!((w / (l.powi(3) / 3.0) - 1.0).abs() < 2e-3, "{w}");
-        let e = 0.5 * l;
-        let strip = l.powi(3) / 3.0 + l * l * e + l * e * e;
-        assert!((plate.deflection(0, e) / strip - 1.0).abs() < 3e-3);
-        assert!((plate.sheared(0, 0.0) / l - 1.0).abs() < 1e-3);
+        for outwards in [1.0, -1.0] {
+            let plate = Plate { clamp: 1.0 - outwards * l, poisson: 0.3 };
+            assert!((plate.deflection(0, 0.0) / (l.powi(3) / 3.0) - 1.0).abs() < 2e-3);
+            let e = 0.5 * l;
+            let strip = l.powi(3) / 3.0 + l * l * e + l * e * e;
+            assert!((plate.deflection(0, outwards * e) / strip - 1.0).abs() < 3e-3);
+            assert!((plate.sheared(0, 0.0) / l - 1.0).abs() < 1e-3);
+        }
     }
 
     /// Sines and powers that follow from each other are those of each order by itself, to the last of them.
@@ -240,7 +248,7 @@ mod tests {
     /// slower than the tilt's logarithm.
     #[test]
     fn small_bores_soften_and_orders_stiffen() {
-        let at = |inner: f64, n: u32| Plate { inner, poisson: 0.3 }.deflection(n, 0.05);
+        let at = |clamp: f64, n: u32| Plate { clamp, poisson: 0.3 }.deflection(n, 0.05);
         assert!(at(0.1, 1) > at(0.3, 1) && at(0.3, 1) > at(0.55, 1) && at(0.55, 1) > at(0.8, 1));
         for n in 2..20 {
             assert!(at(0.55, n) > at(0.55, n + 1) && at(0.55, n + 1) > 0.0, "order {n}");

@@ -14,17 +14,17 @@ use crate::{
 /// Teeth of two gears and where the gears stand to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct MeshGeometry {
-    /// Numbers of teeth of gear 1 and gear 2.
-    pub teeth: [u32; 2],
+    /// Numbers of teeth of gear 1 and gear 2, below zero of a ring.
+    pub teeth: [i32; 2],
     /// Normal module, mm.
     pub normal_module: f64,
     /// Normal pressure angle, rad.
     pub normal_pressure_angle: f64,
-    /// Helix angle of gear 1, rad, right hand positive; gear 2 has the other hand.
+    /// Helix angle of gear 1, rad, right hand positive; gear 2 has the other hand, a ring the same.
     pub helix_angle: f64,
-    /// Distance of the axes, mm.
+    /// Distance of the axes, mm; below zero where gear 2 is a ring.
     pub centre_distance: f64,
-    /// Direction from gear 1's axis to gear 2's, rad from +x towards +y.
+    /// Direction from gear 1's axis to the contact, rad from +x towards +y: to gear 2's axis, away from that of a ring.
     pub direction: f64,
     /// Height of the middle of the common face over the mid-faces of gear 1 and gear 2, mm.
     #[serde(default)]
@@ -60,7 +60,7 @@ impl MeshGeometry {
     pub fn of_pair(pair: &GearPair, side: Side) -> Self {
         let data = pair.pinion.data();
         Self {
-            teeth: [pair.pinion.teeth(), pair.wheel.teeth()],
+            teeth: [&pair.pinion, &pair.wheel].map(|g| g.signed_teeth() as i32),
             normal_module: data.normal_module,
             normal_pressure_angle: data.normal_pressure_angle,
             helix_angle: data.helix_angle,
@@ -84,9 +84,9 @@ impl MeshGeometry {
                 Err(LumpedError::OutOfRange { quantity, value, method, allowed })
             }
         };
-        for z in self.teeth {
-            inside("number of teeth", f64::from(z), 0.5, f64::INFINITY, "1 or more")?;
-        }
+        let teeth = self.teeth.map(f64::from);
+        inside("number of teeth of gear 1", teeth[0], 0.5, f64::INFINITY, "1 or more")?;
+        inside("number of teeth of gear 2", teeth[1].abs(), 0.5, f64::INFINITY, "1 or more, or -1 or less")?;
         positive("normal module, mm", self.normal_module)?;
         inside("normal pressure angle, rad", self.normal_pressure_angle, 0.0, 0.5 * PI, "between 0 and pi/2")?;
         inside("helix angle, rad", self.helix_angle, -0.5 * PI, 0.5 * PI, "between -pi/2 and pi/2")?;
@@ -96,9 +96,10 @@ impl MeshGeometry {
         }
         let (beta, alpha_n, s) = (self.helix_angle, self.normal_pressure_angle, self.side.sign());
         let alpha_t = (alpha_n.tan() / beta.cos()).atan();
-        let base_radii = self.teeth.map(|z| 0.5 * self.normal_module * f64::from(z) / beta.cos() * alpha_t.cos());
+        let base_radii = teeth.map(|z| 0.5 * self.normal_module * z / beta.cos() * alpha_t.cos());
         let least = base_radii[0] + base_radii[1];
-        inside("centre distance, mm", self.centre_distance, least, f64::INFINITY, "above the sum of the base radii")?;
+        let apart = least.signum() * self.centre_distance;
+        inside("centre distance, mm", apart, least.abs(), f64::INFINITY, "above the sum of the base radii")?;
         let working = (least / self.centre_distance).acos();
         let base_helix = (beta.sin() * alpha_n.cos()).asin();
         let normal_at = |angle: f64| {

@@ -165,13 +165,19 @@ fn lumping_keeps_mass_centre_and_inertia_about_the_axis() {
 }
 
 /// The line of action is what the true flanks say: the gap at the pitch point changes with each displacement of either
-/// gear by -h; in the middle of the common face, wherever the wheel's mid-face is.
+/// gear by -h; in the middle of the common face, wherever the wheel's mid-face is; also of a ring.
 #[test]
 fn mesh_line_is_the_slope_of_the_true_gap() {
     let runs = [(Side::Left, 1.0), (Side::Right, 1.0), (Side::Left, -1.0), (Side::Right, -1.0)];
-    for ((side, hand), offset) in runs.into_iter().flat_map(|run| [0.0, 13.0].map(|offset| (run, offset))) {
+    let all = runs.into_iter().flat_map(|run| [(0.0, false), (13.0, false), (0.0, true)].map(|more| (run, more)));
+    for ((side, hand), (offset, ring)) in all {
         let data = GearData { helix_angle: hand * 25f64.to_radians(), thickness_allowance: 0.0, ..GearData::default() };
-        let wheel = GearData { helix_angle: -data.helix_angle, teeth: 41, profile_shift: 0.2, ..data.clone() };
+        let wheel = if ring {
+            let own = GearData { teeth: 71, addendum_coefficient: 0.85, bore_diameter: -280.0, ..data.clone() };
+            own.with_usual_shaper(0.0)
+        } else {
+            GearData { helix_angle: -data.helix_angle, teeth: 41, profile_shift: 0.2, ..data.clone() }
+        };
         let pair = GearPair::new(Gear::new(data).unwrap(), Gear::new(wheel).unwrap(), None).unwrap();
         let pair = pair.with_mid_face_offset(offset).unwrap();
         let line = MeshGeometry::of_pair(&pair, side).line().unwrap();
@@ -206,7 +212,7 @@ fn mesh_line_is_the_slope_of_the_true_gap() {
                 };
                 let slope = (moved(h) - moved(-h)) / (2.0 * h);
                 let expected = -line.levers[g][axis];
-                let scale = if axis < 3 { 1.0 } else { line.base_radii[g] };
+                let scale = if axis < 3 { 1.0 } else { line.base_radii[g].abs() };
                 assert!(
                     (slope - expected).abs() < 1e-5 * scale,
                     "{side:?}, hand {hand}, offset {offset}, gear {g}, axis {axis}: {slope}, not {expected}"

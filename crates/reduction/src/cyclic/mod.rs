@@ -1,17 +1,17 @@
 //! One sector instead of a gear.
 //!
 //! All teeth of a sound gear are the same, in frames turned by 2 pi / z. One sector is condensed once ([`sector`]); the
-//! sectors outside the window are equal super-elements and are joined by doubling ([`chain`]); the window's sectors
-//! close the ring:
+//! others are equal super-elements, joined by doubling ([`chain`]), and close the ring about it:
 //!
 //! ```text
-//!   c_0   c_1        c_w                         K_ring u_c = H_w f          (cuts of the ring)
-//!    |--1--|-- ... --|                           C = diag(A) + H_w' K_ring^-1 H_w
-//!    |               |
-//!    +---- chain ----+    z - w sectors          u = X f + T u_c in every sector
+//!   c_0   c_1                     K_ring u_c = H f                    (two cuts, f on the sector between them)
+//!    |--0--|                      u_c of the other sectors            (down the joins of the chain)
+//!    |     |                      B_d = delta_d0 A + H' u_c(d)        (of the loads d sectors on)
+//!    +chain+    z - 1 sectors     u = X f + T u_c in every sector
 //! ```
-//! The result is the condensation of the whole gear to round-off, at the cost of one sector. Nothing is approximated:
-//! cuts are eliminated as any other freedom is.
+//! Loads on any sector are loads on the first one, turned: the compliance of a window of teeth is made of the blocks
+//! B_d = B_-d', which one tooth's loads tell. The result is the condensation of the whole gear to round-off, at the
+//! cost of one sector. Nothing is approximated: cuts are eliminated as any other freedom is.
 
 mod chain;
 mod placement;
@@ -21,12 +21,14 @@ mod sector_mesh;
 mod turn;
 mod vibration;
 
-use faer::{Mat, MatMut, MatRef};
+use std::collections::BTreeMap;
+
+use faer::{Mat, MatRef};
 use fem::{ElementOptions, Material, Wanted, dense, unless_unwanted};
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
-use chain::Chain;
+use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;
 pub(crate) use sector_mesh::SectorMesh;
@@ -45,9 +47,9 @@ pub(crate) struct CyclicGear {
     /// First copy of the window and their number w.
     first: u32,
     count: u32,
-    /// The sectors outside of the window, if there are any.
-    chain: Option<Chain>,
-    /// L of K_ring = L L'.
+    /// All sectors but one.
+    chain: Chain,
+    /// L of K_ring = L L', 2c x 2c: the cuts of that one.
     ring: Mat<f64>,
 }
 
@@ -55,7 +57,7 @@ impl CyclicGear {
     /// Condenses the sector and closes the ring; `loads` are on nodes of the larger mesh, those on single nodes if
     /// `keep`.
     ///
-    /// `None` when a load lies on a cut or reaches over one: then the sector is not one for these loads.
+    /// `None` when a load lies on a cut or reaches over one, or the sector is alone: then it is not one for these loads.
     pub(crate) fn new(
         part: SectorMesh,
         material: &Material,
@@ -65,12 +67,12 @@ impl CyclicGear {
         wanted: Wanted<'_>,
     ) -> Result<Option<Self>, ReductionError> {
         let Some(Placed { coordinates, own }) = placed(&part, loads) else { return Ok(None) };
+        let Some(others) = part.teeth.checked_sub(1).filter(|&others| others > 0) else { return Ok(None) };
         let (first, count) = arc(coordinates.iter().map(|c| c.0), part.teeth);
         let sector = Sector::new(&part, material, elements, &own, keep, wanted)?;
-        let rest = (part.teeth - count) as usize;
-        let chain = (rest > 0).then(|| Chain::new(&sector.stiffness, rest, wanted)).transpose()?;
+        let chain = Chain::new(&sector.stiffness, others as usize, wanted)?;
         unless_unwanted(wanted)?;
-        let ring = ring(&sector, chain.as_ref(), count as usize)?;
+        let ring = ring(&sector, &chain)?;
         let (material, elements) = (*material, *elements);
         Ok(Some(Self { part, sector, material, elements, coordinates, first, count, chain, ring }))
     }
@@ -109,43 +111,68 @@ impl CyclicGear {
 
     /// C (mm/N), in the frame of copy 0.
     pub(crate) fn compliance(&self) -> Mat<f64> {
-        let mut through = self.forces_on_cuts(None);
-        dense::solve_lower(self.ring.as_ref(), through.as_mut());
-        let mut compliance = dense::gram(through.as_ref());
-        for copy in (0..self.count).map(|j| (self.first + j) % self.part.teeth) {
-            let own = self.own_turned(copy);
-            let here: Vec<(usize, usize)> = (0..self.coordinates.len())
-                .filter(|&i| self.coordinates[i].0 == copy)
-                .map(|i| (3 * i, 3 * self.coordinates[i].1))
-                .collect();
-            for &(j, from_j) in &here {
-                for &(i, from_i) in &here {
-                    for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
-                        compliance[(i + a, j + b)] += own[(from_i + a, from_j + b)];
+        self.columns(self.coordinates.len())
+    }
+
+    /// Columns of C (mm/N) by forces on the first `count` coordinate nodes, in the frame of copy 0.
+    pub(crate) fn columns(&self, count: usize) -> Mat<f64> {
+        let blocks = self.blocks();
+        // Coordinates and loads of each copy.
+        let mut of_copy = vec![Vec::new(); blocks.len()];
+        self.coordinates.iter().enumerate().for_each(|(i, &(copy, load))| of_copy[self.offset(copy)].push((i, load)));
+        let mut columns = Mat::<f64>::zeros(3 * self.coordinates.len(), 3 * count);
+        let counted = |of: &[(usize, usize)]| of.iter().any(|(i, _)| *i < count);
+        for (low, loaded) in of_copy.iter().enumerate() {
+            for (high, moved) in of_copy.iter().enumerate().skip(low).filter(|(_, of)| counted(of) || counted(loaded)) {
+                let block = self.turned(&blocks[high - low], [high, low].map(|j| self.angle(self.first + j as u32)));
+                for &(j, load) in loaded {
+                    for &(i, at) in moved.iter().filter(|(i, _)| high > low || *i >= j) {
+                        for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
+                            let value = block[(3 * at + a, 3 * load + b)];
+                            // C is symmetric to the bit.
+                            if j < count && (i != j || a >= b) {
+                                columns[(3 * i + a, 3 * j + b)] = value;
+                            }
+                            if i < count && (i != j || a >= b) {
+                                columns[(3 * j + b, 3 * i + a)] = value;
+                            }
+                        }
                     }
                 }
             }
         }
-        let n = compliance.nrows();
-        Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)]))
+        columns
     }
 
-    /// A with every 3 x 3 block turned from the frame of a copy into that of copy 0.
-    fn own_turned(&self, copy: u32) -> Mat<f64> {
-        let (sin, cos) = self.angle(copy).sin_cos();
-        let mut own = self.sector.own.clone();
-        for _ in 0..2 {
-            for column in own.col_iter_mut() {
-                let mut column = column;
+    /// A block with its rows and columns turned from the frames of their copies by these angles, rad.
+    fn turned(&self, block: &Mat<f64>, angles: [f64; 2]) -> Mat<f64> {
+        angles.into_iter().fold(block.clone(), |mut block, angle| {
+            let (sin, cos) = angle.sin_cos();
+            for mut column in block.col_iter_mut() {
                 for i in (0..column.nrows()).step_by(3) {
                     let (x, y) = (column[i], column[i + 1]);
                     column[i] = cos * x - sin * y;
                     column[i + 1] = sin * x + cos * y;
                 }
             }
-            own = own.transpose().to_owned();
-        }
-        own
+            block.transpose().to_owned()
+        })
+    }
+
+    /// B_d, d = 0 .. w - 1: displacements under the loads of the d-th sector on, in its frame, by unit loads on one in
+    /// its own, mm/N, 3m x 3m each. B_0 is symmetric to the bit.
+    fn blocks(&self) -> Vec<Mat<f64>> {
+        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
+        let ends = self.ends_about(unit.as_ref(), 0..self.count);
+        let block = |(&d, ends): (&u32, &Mat<f64>)| {
+            let through = dense::product(self.sector.transfer.transpose(), ends.as_ref());
+            if d > 0 {
+                return through;
+            }
+            let all = through + &self.sector.own;
+            Mat::from_fn(all.nrows(), all.ncols(), |i, j| 0.5 * (all[(i, j)] + all[(j, i)]))
+        };
+        ends.iter().map(block).collect()
     }
 
     /// Turn from the frame of a copy into that of copy 0.
@@ -158,46 +185,68 @@ impl CyclicGear {
         self.part.way * (std::f64::consts::TAU * f64::from(copy % self.part.teeth) / f64::from(self.part.teeth))
     }
 
-    /// Rows of the ring's matrix at which the left cut of the window's j-th sector starts (j = w: its last cut).
-    fn cut_row(&self, j: usize) -> usize {
-        let closed = if self.chain.is_none() { self.count as usize } else { usize::MAX };
-        self.sector.cut * (j % closed)
-    }
-
     /// Sectors from the window's first to a copy.
     fn offset(&self, copy: u32) -> usize {
         let z = self.part.teeth;
         ((copy % z + z - self.first) % z) as usize
     }
 
-    /// H_w f for forces f on the coordinates (3n x k, N); without any, H_w itself.
-    fn forces_on_cuts(&self, forces: Option<MatRef<'_, f64>>) -> Mat<f64> {
-        let (c, ring) = (self.sector.cut, self.ring.nrows());
-        let mut on_cuts = Mat::zeros(ring, forces.map_or(3 * self.coordinates.len(), |f| f.ncols()));
-        let add = |mut target: MatMut<'_, f64>, j: usize, ends: MatRef<'_, f64>| {
-            let mut left = target.as_mut().subrows_mut(self.cut_row(j), c);
-            left += ends.subrows(0, c);
-            let mut right = target.as_mut().subrows_mut(self.cut_row(j + 1), c);
-            right += ends.subrows(c, c);
+    /// Displacements of both cuts (2c x k, mm) of the sectors so many (below z) on from one whose loads take `forces`
+    /// (3m x k, N), each in its own frame.
+    fn ends_about(&self, forces: MatRef<'_, f64>, offsets: impl Iterator<Item = u32>) -> BTreeMap<u32, Mat<f64>> {
+        let c = self.sector.cut;
+        let mut own = dense::product(self.sector.transfer.as_ref(), forces);
+        dense::solve_lower(self.ring.as_ref(), own.as_mut());
+        dense::solve_lower_transposed(self.ring.as_ref(), own.as_mut());
+        let mut offsets: Vec<u32> = offsets.collect();
+        offsets.sort_unstable();
+        offsets.dedup();
+        // Cut i of the chain is cut i + 1 of the gear; its last one is the sector's left one.
+        let cuts: Vec<usize> = offsets.iter().filter(|&&d| d > 0).flat_map(|&d| [d as usize - 1, d as usize]).collect();
+        let inner = match cuts.is_empty() {
+            true => BTreeMap::new(),
+            false => self.chain.cuts(stacked(own.get(c.., ..), own.get(..c, ..)).as_ref(), &cuts),
         };
-        match forces {
-            Some(f) => {
-                for j in 0..self.count {
-                    let ends =
-                        dense::product(self.sector.transfer.as_ref(), self.forces_in(self.first + j, f).as_ref());
-                    add(on_cuts.as_mut(), j as usize, ends.as_ref());
-                }
-            }
-            None => {
-                for (i, &(copy, load)) in self.coordinates.iter().enumerate() {
-                    let turn = self.turn(copy);
-                    let columns = self.sector.transfer.subcols(3 * load, 3);
-                    let ends = Mat::from_fn(2 * c, 3, |row, a| (0..3).map(|b| columns[(row, b)] * turn[a][b]).sum());
-                    add(on_cuts.as_mut().subcols_mut(3 * i, 3), self.offset(copy), ends.as_ref());
-                }
-            }
+        let at = |cut: usize| inner.get(&cut).map_or(own.get(..c, ..), |found| found.as_ref());
+        let ends = |d: u32| match d {
+            0 => own.clone(),
+            d => stacked(at(d as usize - 1), at(d as usize)),
+        };
+        offsets.into_iter().map(|d| (d, ends(d))).collect()
+    }
+
+    /// The copies with loads.
+    fn loaded(&self) -> impl Iterator<Item = u32> + Clone {
+        let (first, z) = (self.first, self.part.teeth);
+        (0..self.count).map(move |j| (first + j) % z)
+    }
+
+    /// Sectors from copy `from` to copy `to`.
+    fn apart(&self, from: u32, to: u32) -> u32 {
+        let z = self.part.teeth;
+        (to % z + z - from % z) % z
+    }
+
+    /// Displacements of both cuts (2c x k, mm) of some copies, each in its own frame, under forces on the coordinates
+    /// (N, 3n x k).
+    fn ends_of(&self, copies: &[u32], forces: MatRef<'_, f64>) -> Vec<Mat<f64>> {
+        let (k, m) = (forces.ncols(), self.sector.loads());
+        let mut own = Mat::<f64>::zeros(m, k * self.count as usize);
+        for (j, copy) in self.loaded().enumerate() {
+            own.as_mut().subcols_mut(j * k, k).copy_from(self.forces_in(copy, forces));
         }
-        on_cuts
+        let offsets = copies.iter().flat_map(|&to| self.loaded().map(move |from| self.apart(from, to)));
+        let found = self.ends_about(own.as_ref(), offsets);
+        let sum = |&to: &u32| {
+            let mut ends = Mat::<f64>::zeros(2 * self.sector.cut, k);
+            for (j, from) in self.loaded().enumerate() {
+                if let Some(all) = found.get(&self.apart(from, to)) {
+                    ends += all.subcols(j * k, k);
+                }
+            }
+            ends
+        };
+        copies.iter().map(sum).collect()
     }
 
     /// Forces on a copy's loads in its own frame, 3m x k, of forces on the coordinates.
@@ -214,30 +263,16 @@ impl CyclicGear {
         }
         own
     }
-
-    /// Displacements of the ring's cuts under forces on the coordinates; without any, under unit forces.
-    fn ring_cuts(&self, forces: Option<MatRef<'_, f64>>) -> Mat<f64> {
-        let mut cuts = self.forces_on_cuts(forces);
-        dense::solve_lower(self.ring.as_ref(), cuts.as_mut());
-        dense::solve_lower_transposed(self.ring.as_ref(), cuts.as_mut());
-        cuts
-    }
 }
 
-/// L of the stiffness of the ring's cuts, loads free.
-fn ring(sector: &Sector, chain: Option<&Chain>, count: usize) -> Result<Mat<f64>, ReductionError> {
+/// L of the stiffness of one sector's cuts in the ring, loads free.
+fn ring(sector: &Sector, chain: &Chain) -> Result<Mat<f64>, ReductionError> {
     let c = sector.cut;
-    let cuts = if chain.is_some() { count + 1 } else { count };
-    let mut stiffness = Mat::<f64>::zeros(cuts * c, cuts * c);
-    let mut add = |element: &Mat<f64>, at: [usize; 2]| {
-        for (a, b) in (0..2).flat_map(|a| (0..2).map(move |b| (a, b))) {
-            let mut block = stiffness.as_mut().submatrix_mut(at[a] * c, at[b] * c, c, c);
-            block += element.as_ref().submatrix(a * c, b * c, c, c);
-        }
-    };
-    (0..count).for_each(|j| add(&sector.stiffness, [j, (j + 1) % cuts]));
-    if let Some(chain) = chain {
-        add(&chain.stiffness, [count, 0]);
+    let mut stiffness = sector.stiffness.clone();
+    // The chain goes from the right cut to the left one.
+    for (a, b) in (0..2).flat_map(|a| (0..2).map(move |b| (a, b))) {
+        let mut block = stiffness.as_mut().submatrix_mut(a * c, b * c, c, c);
+        block += chain.stiffness.as_ref().submatrix((1 - a) * c, (1 - b) * c, c, c);
     }
     Ok(dense::cholesky(stiffness.as_ref())?)
 }

@@ -8,7 +8,7 @@ use mesh::{Face, Origin};
 
 use super::{
     CyclicGear,
-    chain::{congruent, stacked},
+    chain::{Chain, congruent, stacked},
 };
 use crate::{ReductionError, load::Load, stress_modes::StressRecovery};
 
@@ -16,32 +16,11 @@ use crate::{ReductionError, load::Load, stress_modes::StressRecovery};
 type Share = (u32, u32, f64);
 
 impl CyclicGear {
-    /// Displacements of both cuts of some copies, 2c x k each, from those of the ring's cuts.
-    fn ends_of(&self, copies: &[u32], ring: MatRef<'_, f64>) -> Vec<Mat<f64>> {
-        let (c, w) = (self.sector.cut, self.count as usize);
-        let cut = |j: usize| ring.subrows(self.cut_row(j), c);
-        // Cut i of the chain is cut w + i of the gear; its last one is the ring's first.
-        let mut wanted: Vec<usize> = copies.iter().map(|&k| self.offset(k)).filter(|&j| j >= w).collect();
-        wanted = wanted.iter().flat_map(|j| [j - w, j - w + 1]).collect();
-        let inner: BTreeMap<usize, Mat<f64>> = match &self.chain {
-            Some(chain) if !wanted.is_empty() => chain.cuts(stacked(cut(w), cut(0)).as_ref(), &wanted),
-            _ => BTreeMap::new(),
-        };
-        let ends = copies.iter().map(|&k| self.offset(k)).map(|j| {
-            if j < w {
-                return stacked(cut(j), cut(j + 1));
-            }
-            let at = |i: usize| inner.get(&i).map_or(ring.subrows(0, c), |m| m.as_ref());
-            stacked(at(j - w), at(j - w + 1))
-        });
-        ends.collect()
-    }
-
     /// Displacement of all free freedoms of the sector in some copies, each in its own frame, for forces on the
     /// coordinates (N, n x k): column k j + i is that of copy j under the i-th forces.
     fn fields(&self, copies: &[u32], forces: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
         let k = forces.ncols();
-        let ends = self.ends_of(copies, self.ring_cuts(Some(forces)).as_ref());
+        let ends = self.ends_of(copies, forces);
         let loads: Vec<Mat<f64>> = copies.iter().map(|&copy| self.forces_in(copy, forces)).collect();
         let parallel_map =
             |rows: usize, of: &[Mat<f64>]| Mat::from_fn(rows, copies.len() * k, |i, j| of[j / k][(i, j % k)]);
@@ -141,15 +120,20 @@ impl CyclicGear {
             Some(faces) => StressOperator::on_surface(mesh, &self.material, dofs, faces, &own)?,
         };
         let [by_load, by_cut] = self.sector.stress(&operator)?;
-        let unit = Mat::<f64>::identity(3 * self.coordinates.len(), 3 * self.coordinates.len());
-        let ring = self.ring_cuts(None);
-        let mut stress = Mat::<f64>::zeros(6 * nodes.len(), unit.ncols());
+        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
+        let offsets = copies.iter().flat_map(|&to| self.loaded().map(move |from| self.apart(from, to)));
+        let ends = self.ends_about(unit.as_ref(), offsets);
+        // Of a sector by loads so many sectors behind it, all in their own frames.
+        let local: BTreeMap<u32, Mat<f64>> = ends
+            .into_iter()
+            .map(|(d, ends)| {
+                let through = dense::product(by_cut.as_ref(), ends.as_ref());
+                (d, if d == 0 { through + &by_load } else { through })
+            })
+            .collect();
+        let mut stress = Mat::<f64>::zeros(6 * nodes.len(), 3 * self.coordinates.len());
         for &copy in &copies {
-            let ends = &self.ends_of(&[copy], ring.as_ref())[0];
-            let mut local = dense::product(by_cut.as_ref(), ends.as_ref());
-            if self.offset(copy) < self.count as usize {
-                local += dense::product(by_load.as_ref(), self.forces_in(copy, unit.as_ref()).as_ref());
-            }
+            let local = self.turned_loads(copy, &local);
             let turn = tensor_turn(self.angle(copy));
             for (i, part) in parts.iter().enumerate() {
                 for &(_, node, share) in part.iter().filter(|p| p.0 == copy) {
@@ -164,6 +148,22 @@ impl CyclicGear {
             }
         }
         Ok(stress)
+    }
+
+    /// What unit forces on the coordinates do in a copy, in its frame, from what unit loads so many sectors behind it do.
+    fn turned_loads(&self, copy: u32, local: &BTreeMap<u32, Mat<f64>>) -> Mat<f64> {
+        let rows = local.values().next().map_or(0, Mat::nrows);
+        let mut of = Mat::zeros(rows, 3 * self.coordinates.len());
+        for (i, &(from, load)) in self.coordinates.iter().enumerate() {
+            let Some(own) = local.get(&self.apart(from, copy)) else { continue };
+            let turn = self.turn(from);
+            for (a, turn) in turn.iter().enumerate() {
+                for row in 0..rows {
+                    of[(row, 3 * i + a)] = (0..3).map(|b| own[(row, 3 * load + b)] * turn[b]).sum();
+                }
+            }
+        }
+        of
     }
 
     /// Shares of which the nodal mean at each node is made.
@@ -211,21 +211,23 @@ impl CyclicGear {
     /// M^ (t) of the coordinates, whose stiffness is `stiffness`, in the frame of copy 0.
     pub(crate) fn mass(&self, stiffness: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
         let own = self.sector.mass(&self.material)?;
-        let forces = stiffness.as_ref();
-        let ring = self.ring_cuts(Some(forces));
+        let (forces, z) = (stiffness.as_ref(), self.part.teeth);
+        let mut copies: Vec<u32> = self.loaded().collect();
+        // The sectors beside the window, whose cuts are the ends of the row of all others.
+        copies.extend([(self.first + self.count) % z, (self.first + z - 1) % z]);
+        let ends = self.ends_of(&copies, forces);
         let mut mass = Mat::<f64>::zeros(forces.nrows(), forces.ncols());
-        for j in 0..self.count {
-            let copy = (self.first + j) % self.part.teeth;
-            let ends = &self.ends_of(&[copy], ring.as_ref())[0];
+        for (copy, ends) in self.loaded().zip(&ends) {
             let basis = self.sector.basis(self.forces_in(copy, forces).as_ref(), ends.as_ref());
             mass += congruent(&own, &basis);
         }
-        if let Some(chain) = &self.chain {
-            let c = self.sector.cut;
+        let (rest, w, c) = ((z - self.count) as usize, self.count as usize, self.sector.cut);
+        if rest > 0 {
+            let chain = Chain::new(&self.sector.stiffness, rest, &|| true)?;
             let unit = Mat::<f64>::identity(2 * c, 2 * c);
             let unloaded = Mat::<f64>::zeros(self.sector.loads(), 2 * c);
             let free = congruent(&own, &self.sector.basis(unloaded.as_ref(), unit.as_ref()));
-            let ends = stacked(ring.subrows(self.cut_row(self.count as usize), c), ring.subrows(self.cut_row(0), c));
+            let ends = stacked(ends[w].get(..c, ..), ends[w + 1].get(c.., ..));
             mass += congruent(&chain.mass(&free), &ends);
         }
         Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])))

@@ -76,18 +76,21 @@ struct Ready {
 }
 
 /// Condenses a gear to its coordinates; `general`: by one factor of the whole gear, whatever the gear is; `watch` hears
-/// what is begun and may lose interest.
+/// what is begun and may lose interest. `first_tooth`: of the window's compliance the columns of its first tooth alone.
 pub(super) fn condense<E: From<ReductionError>>(
     gear: MeshedGear,
     material: &Material,
     options: &ReductionOptions,
     (general, watch): (bool, ReductionWatch<'_>),
+    first_tooth: bool,
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
     let ready = ready(gear, material, options, (general, watch), coordinates)?;
     let Ready { gear, coordinates, first, method } = ready;
     let compliance = match &method {
+        Method::Cyclic(cyclic) if first_tooth => cyclic.columns(first.of_first_tooth(&gear, &coordinates, options)?),
         Method::Cyclic(cyclic) => cyclic.compliance(),
+        Method::General(..) if first_tooth => return Err(ReductionError::NoSectorOfLayers.into()),
         Method::General(factor, _) => {
             (watch.tell)(ReductionStage::Compliance);
             let seen = if coordinates.are_nodes() { Seen::Last } else { Seen::Loads(&first.loads) };
@@ -168,6 +171,17 @@ impl Opened {
         let nodes = coordinates.nodes(gear, &teeth, &options.sides)?;
         let loads = coordinates.loads(gear, &teeth, &options.sides)?;
         Ok(Self { teeth, nodes, loads })
+    }
+
+    /// Number of the boundary nodes on the first tooth, which come before all others.
+    fn of_first_tooth(
+        &self,
+        gear: &MeshedGear,
+        coordinates: &Coordinates,
+        options: &ReductionOptions,
+    ) -> Result<usize, ReductionError> {
+        let own = coordinates.nodes(gear, &self.teeth[..self.teeth.len().min(1)], &options.sides)?;
+        if self.nodes.starts_with(&own) { Ok(own.len()) } else { Err(ReductionError::NoSectorOfLayers) }
     }
 
     /// The window with its compliance.

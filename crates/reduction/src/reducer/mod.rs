@@ -12,7 +12,7 @@ use fem::{DofMap, ElementOptions, Material};
 use geometry::Side;
 use mesh::{Face, MeshedGear};
 
-use crate::{FlankGrid, FlankGrids, ModeChoice, ReducedGear, ReductionError, load::Coordinates};
+use crate::{FlankGrid, FlankGrids, LayerStack, ModeChoice, ReducedGear, ReductionError, load::Coordinates};
 use asked::Asked;
 use condense::{Condensed, condense, method_again};
 
@@ -46,6 +46,8 @@ pub struct GearReducer {
     method: OnceLock<Result<Method, ReductionError>>,
     pub(crate) base: Arc<ReducedGear>,
     asked: Asked,
+    /// Of a wide gear, of which `gear` has a part of the layers.
+    stack: Option<LayerStack>,
 }
 
 impl GearReducer {
@@ -105,8 +107,31 @@ impl GearReducer {
         way: (bool, ReductionWatch<'_>),
         coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
     ) -> Result<Self, E> {
-        let (condensed, method) = condense(gear, &material, &options, way, coordinates)?;
+        let (condensed, method) = condense(gear, &material, &options, way, false, coordinates)?;
         Ok(Self::assembled(material, options, condensed, OnceLock::from(Ok(method))))
+    }
+
+    /// Reduces the first window of a wide gear by a shorter one of the same layers, `gear`: of its compliance the
+    /// columns that the first tooth's flank has, which tell those of all others. One sector, one side.
+    ///
+    /// # Errors
+    /// [`ReductionError::NoSectorOfLayers`]; else as [`GearReducer::new`].
+    pub fn of_layers(
+        gear: MeshedGear,
+        material: Material,
+        options: ReductionOptions,
+        stack: LayerStack,
+        watch: ReductionWatch<'_>,
+    ) -> Result<Self, ReductionError> {
+        let nodes = |_: &MeshedGear| Ok::<_, ReductionError>(Coordinates::FlankNodes);
+        let (condensed, _) = condense(gear, &material, &options, (false, watch), true, nodes)?;
+        let method = Err(ReductionError::Layers { layers: stack.layers, condensed: stack.condensed });
+        Ok(Self { stack: Some(stack), ..Self::assembled(material, options, condensed, OnceLock::from(method)) })
+    }
+
+    /// The layers of which this gear knows a part; `None` for a gear that is known as a whole.
+    pub fn stack(&self) -> Option<LayerStack> {
+        self.stack
     }
 
     /// A reducer that nothing was asked of.
@@ -118,8 +143,8 @@ impl GearReducer {
     ) -> Self {
         let Condensed { gear, coordinates, summary, base } = condensed;
         let dofs = DofMap::new(gear.mesh().nodes.len(), gear.held_nodes());
-        let (given, asked) = Default::default();
-        Self { gear, given, material, options, dofs, coordinates, summary, method, base, asked }
+        let (given, asked, stack) = Default::default();
+        Self { stack, gear, given, material, options, dofs, coordinates, summary, method, base, asked }
     }
 
     /// Lowest frequency of the gear with its bore held and its flanks free, Hz; infinite for one that has no freedom.
@@ -167,7 +192,7 @@ impl GearReducer {
 
     /// Number of free degrees of freedom of the gear, all its sectors counted.
     pub fn free_count(&self) -> usize {
-        self.summary.free_count
+        self.stack.map_or(self.summary.free_count, |stack| stack.free_count)
     }
 
     /// Which way the gear was condensed.

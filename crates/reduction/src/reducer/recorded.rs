@@ -47,10 +47,10 @@ impl GearReducer {
     }
 
     /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far.
-    /// `None` when a record has it all already, and for a gear reduced to grids.
+    /// `None` when a record has it all already, and for a gear reduced to grids or by its layers.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);
-        self.coordinates.are_nodes().then(record).flatten()
+        (self.coordinates.are_nodes() && self.stack().is_none()).then(record).flatten()
     }
 
     /// Whether the gear came from a record.

@@ -141,8 +141,9 @@ fn both_ways_make_the_same_modes() {
         // Repeated until the other way is the shorter one.
         let many: Vec<u32> = few.iter().cycle().take(window.reduced.coordinates()).copied().collect();
         let [by_rows, by_columns] = [few, &many].map(|n| gear.stress_modes(&window, n).unwrap());
-        let largest = by_rows.matrix().norm_max();
-        let off = (by_rows.matrix() - by_columns.matrix().subrows(0, 48)).norm_max() / largest;
+        let [by_rows, by_columns] = [by_rows, by_columns].map(|modes| modes.matrix().unwrap());
+        let largest = by_rows.norm_max();
+        let off = (&by_rows - by_columns.subrows(0, 48)).norm_max() / largest;
         println!("window from tooth {first}: {off:.1e} of the largest mode");
         assert!(off < 1e-10, "window from tooth {first}: {off:e}");
     }
@@ -162,6 +163,15 @@ fn stress_is_linear_in_the_coordinates() {
     let largest = a.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
     for ((a, b), c) in a.iter().flatten().zip(b.iter().flatten()).zip(c.iter().flatten()) {
         assert!((2.0 * a - b - c).abs() < 1e-11 * largest, "{a} {b} {c}");
+    }
+    // Forces move the coordinates by C f.
+    let pressing: Vec<f64> = (0..u.len()).map(|i| (0.7 * i as f64).cos()).collect();
+    let moved: Vec<f64> =
+        (0..u.len()).map(|i| (0..u.len()).map(|j| window.reduced.compliance[(i, j)] * pressing[j]).sum()).collect();
+    let [by_force, by_motion] = [modes.stress_under(&pressing).unwrap(), modes.stress(&moved).unwrap()];
+    let largest = by_motion.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
+    for (a, b) in by_force.iter().flatten().zip(by_motion.iter().flatten()) {
+        assert!((a - b).abs() < 1e-9 * largest, "{a} {b}");
     }
     assert!(matches!(modes.stress(&u[1..]), Err(ReductionError::WrongLength { .. })));
     assert!(gear.stress_modes(&window, &[u32::MAX]).is_err(), "a node that does not exist");

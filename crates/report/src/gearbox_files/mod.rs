@@ -2,6 +2,8 @@
 
 mod branch;
 mod motion;
+mod motion_charts;
+mod motion_tables;
 mod page;
 mod space;
 mod summary;
@@ -9,7 +11,10 @@ mod swing_words;
 mod vibration;
 mod vibration_rows;
 
-use analysis::gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult};
+use analysis::{
+    gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult},
+    motion::Waterfall,
+};
 use answer::{Answer, Cost, Table};
 use columns::gearbox as rows;
 use described::Key;
@@ -21,9 +26,12 @@ use crate::{ReportError, Written, branch_files, write_result};
 use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
-/// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion` and, where it is long enough to tell orders,
-/// `motion_orders`; of a branch over the speed `branch`, `bifurcations`, `in_time`.
-pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Answer {
+/// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion`, `section` where it comes back to where its meshes
+/// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`; of a branch over the speed `branch`, `bifurcations`, `in_time`.
+///
+/// # Errors
+/// [`ReportError::Study`] for rows that hold what is no number.
+pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Result<Answer, ReportError> {
     let mut tables = vec![
         rows::positions(file, &result.positions),
         rows::shafts(file, &result.positions),
@@ -40,13 +48,16 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         ]);
     }
     if let Some(own) = &result.motion {
-        tables.push(rows::motion(file, &own.rows));
+        let rows = rows::motion(file, &own.rows);
+        let section = motion_tables::section(own, &rows)?;
+        tables.extend([rows].into_iter().chain(section));
         if !own.orders.is_empty() {
-            tables.push(vibration_rows::motion_orders(file, &own.orders));
+            tables.push(motion_tables::orders(file, &own.orders));
         }
+        tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
     }
     tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
-    Answer {
+    Ok(Answer {
         kind: "gearbox",
         name: file.name.clone(),
         inputs: json!({ "gearbox": file.file }),
@@ -56,7 +67,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Ans
         remarks: result.remarks.clone(),
         info: summary::info(file, result),
         cost,
-    }
+    })
 }
 
 /// Tables of a gearbox without rows, and objects of its summary with their keys, for `docs/outputs.md`.
@@ -89,7 +100,8 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         vibration_rows::rms(file, &none),
         vibration_rows::bearing_forces(file, &none),
         rows::motion(file, &[]),
-        vibration_rows::motion_orders(file, &[]),
+        motion_tables::orders(file, &[]),
+        motion_tables::waterfall(file, &Waterfall::default()),
     ];
     tables.extend(branch_files::tables(&branch::without_rows(file)));
     let objects = summary::OBJECTS.iter().chain(&motion::OBJECTS).map(|(name, keys)| (*name, keys.to_vec()));
@@ -106,7 +118,7 @@ pub fn write_gearbox(
     cost: Cost,
     results: &ResultDirectory,
 ) -> Result<Written, ReportError> {
-    let answer = gearbox_answer(file, result, cost);
+    let answer = gearbox_answer(file, result, cost)?;
     if let Some(swings) = &result.vibration {
         results.write("bearing_forces.uff", vibration_rows::universal(file, swings).as_bytes())?;
     }

@@ -2,24 +2,15 @@
 
 use std::f64::consts::TAU;
 
-use analysis::{
-    gearbox::{GearboxMotionResult, GearboxResult, MotionOrder},
-    motion::RPM,
-};
+use analysis::gearbox::{GearboxMotionResult, GearboxResult};
+use answer::Answer;
 use described::Key;
-use gearbox::motion::{GearboxInstant, ReductionCertificate};
+use gearbox::motion::ReductionCertificate;
 use scene::gearbox::Gearbox;
 use serde::Serialize;
 
-use crate::{
-    charts::{Curve, line_chart},
-    page::{Cell, Grid, Part},
-};
-
-/// Orders of a mesh that are drawn over the speed.
-const DRAWN: usize = 3;
-/// Change of the speed over its largest from which on a motion is a run-up.
-const RUN_UP: f64 = 0.02;
+use super::motion_charts::{is_run_up, motion_charts};
+use crate::page::{Cell, Grid, Part};
 
 described::described! {
     /// A gearbox in motion, as `summary.json` has it.
@@ -39,6 +30,8 @@ described::described! {
         period_cycles: Option<usize>,
         /// largest difference of a coordinate or velocity after that period, over its peak to peak
         periodicity: Option<f64>,
+        /// cycles of the fastest mesh after which all meshes are where they began; `null` beyond 100,000
+        common_period_cycles: Option<u64>,
         /// meshes, in the order of the file
         meshes: Vec<MeshMotion<'a>>,
         /// bearings, in the order of the file
@@ -169,6 +162,7 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
         warm_up_cycles: motion.warm_up_cycles,
         period_cycles: motion.periodicity.map(|p| p.period),
         periodicity: motion.periodicity.map(|p| p.residual),
+        common_period_cycles: motion.common_period,
         meshes: (0..file.meshes.len()).map(mesh).collect(),
         bearings: bearings.collect(),
         energy: EnergySummary {
@@ -200,11 +194,11 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 }
 
 /// Meshes and bearings in motion, charts over time, and over speed of a run-up.
-pub(super) fn parts(file: &Gearbox, result: &GearboxResult) -> Vec<Part> {
+pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Vec<Part> {
     let Some(motion) = &result.motion else { return Vec::new() };
     let words = "Least and largest forces are of the second half.";
     let words = if is_run_up(motion) {
-        format!("Orders over the speed are those of stretches of sixteen cycles of the slowest mesh. {words}")
+        format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
     } else {
         words.to_owned()
     };
@@ -225,78 +219,28 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult) -> Vec<Part> {
         let force = motion.radial_force(i);
         vec![Cell::text(&b.name), Cell::number(force.least, 1), Cell::number(force.largest, 1)]
     });
-    let mut charts: Vec<String> = over_time(file, motion).into_iter().flatten().collect();
-    if is_run_up(motion) {
-        charts.extend(over_speed(file, motion).into_iter().flatten());
-    }
     let reduction = &motion.reduction;
     let note = format!(
-        "{} steps; {} of {} coordinates of the shafts, frequencies up to {:.0} Hz.",
+        "{} steps; {} of {} coordinates of the shafts, frequencies up to {:.0} Hz. {}",
         motion.steps[0],
         reduction.coordinates[1],
         reduction.coordinates[0],
-        reduction.limit / TAU
+        reduction.limit / TAU,
+        together(motion)
     );
     let radial = Grid::new(["bearing", "least radial N", "largest N"]).rows(bearings);
     vec![
         Part::new("In motion").closing().words(words).grid(Grid::new(head).rows(meshes)).note(note),
-        Part::more().grid(radial).figures(charts),
+        Part::more().grid(radial).figures(motion_charts(file, motion, answer)),
     ]
 }
 
-fn is_run_up(motion: &GearboxMotionResult) -> bool {
-    let speeds = || motion.rows.iter().map(|p| p.input[1].abs());
-    let [least, largest] = speeds().fold([f64::INFINITY, 0.0], |[l, h], x| [l.min(x), h.max(x)]);
-    !motion.orders.is_empty() && largest - least > RUN_UP * largest
-}
-
-fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 4] {
-    let curve = |label: &str, of: &dyn Fn(&GearboxInstant) -> f64| Curve {
-        label: label.to_owned(),
-        points: motion.rows.iter().map(|p| (p.time, of(p))).collect(),
+/// After how long all meshes come back together.
+fn together(motion: &GearboxMotionResult) -> String {
+    let Some(period) = motion.common_period else {
+        return "The meshes do not come back together within 100,000 cycles of the fastest.".to_owned();
     };
-    let of_meshes = |of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Vec<Curve> {
-        file.meshes.iter().enumerate().map(|(i, mesh)| curve(&mesh.name, &|p| of(p, i))).collect()
-    };
-    let radial = |p: &GearboxInstant, i: usize| p.bearings[i].force[0].hypot(p.bearings[i].force[1]);
-    let bearings: Vec<Curve> =
-        file.bearings.iter().enumerate().map(|(i, b)| curve(&b.name, &|p| radial(p, i))).collect();
-    let time = "time [s]";
-    [
-        line_chart(
-            "Dynamic transmission error",
-            time,
-            "DTE [um]",
-            &of_meshes(&|p, i| 1e3 * p.meshes[i].transmission_error),
-            false,
-        ),
-        line_chart("Normal force of the meshes", time, "force [N]", &of_meshes(&|p, i| p.meshes[i].normal_force), true),
-        line_chart("Radial force of the bearings", time, "force [N]", &bearings, true),
-        line_chart("Torque on the input", time, "torque [N m]", &[curve("input", &|p| 1e-3 * p.input_torque)], false),
-    ]
-}
-
-/// Orders of every mesh: its own transmission error and the force of the bearing that has most of it.
-fn over_speed(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 2] {
-    let curves = |of: &dyn Fn(&MotionOrder) -> f64| -> Vec<Curve> {
-        let each = (0..file.meshes.len()).flat_map(|mesh| (1..=DRAWN).map(move |order| (mesh, order)));
-        let one = |(mesh, order): (usize, usize)| {
-            let own = motion.orders.iter().filter(|o| o.mesh == mesh && o.order == order);
-            let points: Vec<(f64, f64)> = own.map(|o| (o.speed.abs() / RPM, of(o))).collect();
-            Curve { label: format!("{}, order {order}", file.meshes[mesh].name), points }
-        };
-        each.map(one).filter(|curve| !curve.points.is_empty()).collect()
-    };
-    let largest = |o: &MotionOrder| o.bearing_forces.iter().copied().fold(0.0, f64::max);
-    let speed = "speed of the input [1/min]";
-    [
-        line_chart(
-            "Mesh orders in the transmission error",
-            speed,
-            "amplitude [um]",
-            &curves(&|o| 1e3 * o.transmission_errors[o.mesh]),
-            true,
-        ),
-        line_chart("Mesh orders at the bearing that has most of them", speed, "amplitude [N]", &curves(&largest), true),
-    ]
+    let gone = motion.cycles().last().copied().unwrap_or(0.0).floor();
+    let few = if gone < period as f64 { "; a section needs as many rows" } else { "" };
+    format!("All meshes come back together after {period} cycles of the fastest, of {gone} here{few}.")
 }

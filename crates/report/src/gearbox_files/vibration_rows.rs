@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox::{MotionOrder, OrderForces, VibrationResult},
+    gearbox::{OrderForces, VibrationResult},
     motion::RPM,
 };
 use answer::Table;
@@ -103,7 +103,7 @@ const COMPONENTS: [(&str, &str); 6] = [
 ];
 
 /// Which order of which mesh a row tells of: speed (rad/s), mesh from 0, order, frequency (Hz).
-fn which(table: Table, rows: impl Iterator<Item = (f64, usize, usize, f64)> + Clone) -> Table {
+pub(super) fn which(table: Table, rows: impl Iterator<Item = (f64, usize, usize, f64)> + Clone) -> Table {
     table
         .numbers("input_rpm", "speed of the input", rows.clone().map(|r| r.0 / RPM))
         .numbers("exciting_mesh", "number of the mesh that excites", rows.clone().map(|r| (r.1 + 1) as f64))
@@ -174,36 +174,6 @@ pub(super) fn rms(file: &Gearbox, swings: &VibrationResult) -> Table {
         let meaning = "root mean square of the force on the housing, x, y, z and all orders of all meshes together";
         let forces = swings.rms.iter().map(|own| own.bearing_forces[i]);
         table.push_numbers(format!("bearing_{}_housing_force_rms_n", i + 1), meaning, forces);
-    }
-    table
-}
-
-/// `motion_orders`: what every order of every mesh does along a motion, one row an order over a stretch.
-pub(super) fn motion_orders(file: &Gearbox, orders: &[MotionOrder]) -> Table {
-    let table = Table::new("motion_orders").numbers("time_s", "middle of the interval", orders.iter().map(|o| o.time));
-    let rows = orders.iter().map(|o| (o.speed.abs(), o.mesh, o.order, o.frequency));
-    let mut table = which(table, rows);
-    for i in 0..file.meshes.len() {
-        let errors = orders.iter().map(|o| 1e3 * o.transmission_errors[i]);
-        table.push_numbers(
-            format!("mesh_{}_dte_um", i + 1),
-            "amplitude (peak) of the order in the dynamic transmission error",
-            errors,
-        );
-        let forces = orders.iter().map(|o| o.mesh_forces[i]);
-        table.push_numbers(
-            format!("mesh_{}_normal_force_n", i + 1),
-            "amplitude (peak) of the order in the normal force",
-            forces,
-        );
-    }
-    for i in 0..file.bearings.len() {
-        let forces = orders.iter().map(|o| o.bearing_forces[i]);
-        table.push_numbers(
-            format!("bearing_{}_force_n", i + 1),
-            "amplitude (peak) of the order in the bearing force, x, y, z together",
-            forces,
-        );
     }
     table
 }

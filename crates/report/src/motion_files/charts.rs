@@ -1,25 +1,21 @@
 //! Charts of a motion and of a sweep.
 
-use analysis::motion::{CampbellDiagram, MotionSpectrum, RPM, RunUp, RunUpCycle, SweepRow, WaterfallLine};
+use analysis::motion::{CampbellDiagram, MotionSpectrum, RPM, RunUp, RunUpCycle, SweepRow, Waterfall};
 use dynamics::Speed;
 use scene::SweepWay;
 use study::{StudyError, extent};
 
-use super::{SPECTRA, spectra};
-use crate::charts::{Curve, FieldMap, Overlay, Side, campbell_chart, embedded, figure, line_chart, share, stick_chart};
-use answer::{Numbers, Table};
+use super::{SPECTRA, spectra, waterfall::waterfall_chart};
+use crate::charts::{Curve, campbell_chart, line_chart, stick_chart};
+use answer::Table;
 use columns::motion_history::{MESH_PHASE, TIME};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub const SHOWN_CYCLES: usize = 4;
-/// Orders of the spectrum that are drawn.
-const SHOWN_ORDERS: f64 = 12.0;
+/// Orders of spectra that are drawn.
+pub(super) const SHOWN_ORDERS: f64 = 12.0;
 /// Mesh orders whose amplitudes are drawn over speed.
 const SHOWN_CUTS: usize = 4;
-/// Columns and rows of the waterfall at most.
-const CELLS: [usize; 2] = [360, 300];
-/// Decades of the waterfall's colours.
-const DECADES: f64 = 4.0;
 
 /// What the charts of a motion are drawn from.
 #[derive(Debug, Clone, Copy)]
@@ -30,8 +26,8 @@ pub struct MotionPictures<'a> {
     pub energy: &'a Table,
     /// Spectra, at constant speed.
     pub spectrum: Option<&'a MotionSpectrum>,
-    /// Waterfall of a run-up; else empty.
-    pub waterfall: &'a [WaterfallLine],
+    /// Waterfall of a run-up.
+    pub waterfall: Option<&'a Waterfall>,
     /// A run-up or run-down: speed of the driver over time, its teeth, and what was found over speed.
     pub ramp: Option<(Speed, u32, &'a RunUp)>,
     /// Mesh orders beside the frequencies that they may meet.
@@ -116,7 +112,8 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
     if let Some(spectrum) = of.spectrum {
         all.extend([0, 1].map(|i| spectrum_chart(spectrum, i)));
     }
-    all.push(waterfall_chart(of.waterfall, of.per_cycle));
+    let dte = ["the DTE", "um"];
+    all.push(of.waterfall.and_then(|own| waterfall_chart(own, 0, dte, "pinion speed [1/min]")));
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
     all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
     Ok(all.into_iter().flatten().collect())
@@ -239,39 +236,4 @@ pub fn sweep_charts(of: &SweepPictures<'_>) -> Vec<String> {
     .into_iter()
     .flatten()
     .collect()
-}
-
-/// Amplitudes of the DTE over order and time, colours by decades.
-fn waterfall_chart(lines: &[WaterfallLine], per_cycle: usize) -> Option<String> {
-    let (first, last) = (lines.first()?, lines.last()?);
-    let bins = (first.amplitudes.len() - 1).max(1);
-    let per_bin = 0.5 * per_cycle as f64 / bins as f64;
-    let shown = ((SHOWN_ORDERS / per_bin).floor() as usize).clamp(1, bins);
-    let largest = lines.iter().flat_map(|l| &l.amplitudes[1..=shown]).fold(0.0, |m: f64, a| m.max(*a));
-    let (across, along) = (shown.div_ceil(CELLS[0]).max(1), lines.len().div_ceil(CELLS[1]).max(1));
-    let columns: Vec<usize> = (1..=shown).step_by(across).collect();
-    let rows: Vec<&[WaterfallLine]> = lines.chunks(along).collect();
-    let cell = |block: &[WaterfallLine], from: usize| {
-        let to = (from + across).min(shown + 1);
-        let value = block.iter().flat_map(|l| &l.amplitudes[from..to]).fold(0.0, |m: f64, a| m.max(*a));
-        share(value, largest, Some(DECADES))
-    };
-    let order = |k: usize| per_bin * (k as f64 - 0.5);
-    let end = last.time.max(first.time + 1e-9);
-    let mean = |block: &[WaterfallLine]| block.iter().map(|l| l.speed_rpm).sum::<f64>() / block.len() as f64;
-    let map = FieldMap {
-        title: format!("Waterfall of the DTE, colours over {DECADES:.0} decades up to {largest:.3} um"),
-        sides: [
-            Side { label: "mesh order", edges: columns.iter().map(|&k| order(k)).chain([order(shown + 1)]).collect() },
-            Side { label: "time [s]", edges: rows.iter().map(|block| block[0].time).chain([end]).collect() },
-        ],
-        quantity: "DTE amplitude [um]",
-        least: 0.0,
-        largest,
-        decades: Some(DECADES),
-        beside: Some(("pinion speed [1/min]", Numbers(rows.iter().map(|block| mean(block)).collect(), 6))),
-        shares: rows.iter().flat_map(|block| columns.iter().map(|&from| cell(block, from))).collect(),
-        over: Overlay::default(),
-    };
-    Some(figure(&map.picture()?, &[embedded("map", &map)]))
 }

@@ -4,7 +4,6 @@ use analysis::{
     lumped::{LumpedHeadline, LumpedResult},
     motion::speed,
 };
-use answer::Table;
 use scene::Scene;
 
 use super::{
@@ -13,8 +12,8 @@ use super::{
 };
 use crate::{
     Cost, ReportError, Written,
-    charts::{Curve, campbell_chart, dot_chart, line_chart},
-    motion_files::{MotionPictures, SHOWN_CYCLES, motion_charts},
+    charts::{Curve, campbell_chart, line_chart},
+    motion_files::{MotionPictures, SHOWN_CYCLES, motion_charts, portrait, section},
     page::Line,
     tables::fixed,
     write_result,
@@ -48,9 +47,10 @@ pub(super) fn write_lumped_result(
     let mut tables = vec![
         history.table("history", &layout, &result.rows),
         energy.table("energy", &(), &result.energy),
-        history.table("section", &layout, result.section()),
         rows::spectrum(spectrum),
     ];
+    let places: Vec<f64> = (0..result.rows.len()).map(|i| i as f64 / h.rows_per_cycle as f64).collect();
+    tables.insert(2, section(&tables[0], &places, 1.0)?);
     tables.extend(campbell.as_ref().map(rows::lumped_campbell));
     tables.extend(run_up.as_ref().map(rows::cycles));
     let static_errors: Option<Vec<f64>> = result.static_cycle.as_ref().map(|all| all.iter().map(|p| p.error).collect());
@@ -58,7 +58,7 @@ pub(super) fn write_lumped_result(
         rows: &tables[0],
         energy: &tables[1],
         spectrum: Some(spectrum),
-        waterfall: &[],
+        waterfall: None,
         ramp: run_up.as_ref().map(|p| (speed(scene), scene.driver_teeth(), p)),
         campbell: None,
         per_cycle: h.rows_per_cycle as usize,
@@ -67,7 +67,7 @@ pub(super) fn write_lumped_result(
     let mut charts = motion_charts(&pictures)?;
     for (name, whose) in PORTRAITS {
         charts.extend(displacement(&pictures, name, whose));
-        charts.extend(portrait(&tables[0], &tables[2], name, whose));
+        charts.extend(portrait([&tables[0], &tables[2]], name, [whose, "once a mesh cycle"]));
     }
     charts.extend(campbell.as_ref().and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
     let frequencies = Line::number("", h.mesh_resonance_hz, 0, "").value;
@@ -140,13 +140,6 @@ fn lines(h: &LumpedHeadline) -> Vec<Line> {
     all
 }
 
-/// Displacement (um) with its velocity (mm/s), row by row; nothing where the model has none of that name.
-fn plane(rows: &Table, name: &str) -> Vec<(f64, f64)> {
-    let of = |unit: &str| rows.find(&format!("{name}_{unit}")).unwrap_or_default();
-    let (x, v) = (of("um"), of("rate_um_per_s"));
-    x.iter().zip(v).map(|(x, v)| (*x, 1e-3 * v)).collect()
-}
-
 /// Displacement over time, the last mesh cycles.
 fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<String> {
     let (time, x) = (of.rows.find("time_s")?, of.rows.find(&format!("{name}_um"))?);
@@ -155,12 +148,4 @@ fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<Stri
     let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
     let curve = Curve { label: name.replace('_', " "), points };
     line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
-}
-
-/// Velocity over displacement, and the same once a mesh cycle: phase portrait with its Poincare section.
-fn portrait(rows: &Table, section: &Table, name: &str, whose: &str) -> Option<String> {
-    let motion = Curve { label: "motion".into(), points: plane(rows, name) };
-    let once = Curve { label: "once a mesh cycle".into(), points: plane(section, name) };
-    let title = format!("Phase portrait of {whose}, and its Poincare section");
-    dot_chart(&title, "displacement [um]", "velocity [mm/s]", &[motion, once])
 }

@@ -47,7 +47,7 @@ pub(super) fn write_motion_result(
     tables.extend(spectrum.as_ref().map(rows::spectrum));
     if let Some(ramp) = ramp {
         tables.extend([
-            rows::waterfall(&ramp.waterfall, per_cycle),
+            rows::waterfall(&ramp.waterfall),
             rows::cycles(&ramp.run_up),
             rows::order_cuts(&ramp.run_up),
             rows::campbell(&ramp.campbell),
@@ -58,7 +58,7 @@ pub(super) fn write_motion_result(
         rows: &tables[0],
         energy: &tables[1],
         spectrum: spectrum.as_ref(),
-        waterfall: ramp.as_ref().map_or(&[], |r| &r.waterfall),
+        waterfall: ramp.as_ref().map(|r| &r.waterfall),
         ramp: ramp.as_ref().map(|r| (speed(scene), scene.driver_teeth(), &r.run_up)),
         campbell: ramp.as_ref().map(|r| &r.campbell),
         per_cycle,

@@ -2,12 +2,12 @@
 
 use analysis::{
     lumped::LumpedCampbell,
-    motion::{CampbellDiagram, MotionSpectrum, RunUp, SWEEP_ORDERS, SweepRow, WaterfallLine},
+    motion::{CampbellDiagram, MotionSpectrum, RunUp, SWEEP_ORDERS, SweepRow, Waterfall},
 };
 use answer::Table;
 use study::Campbell;
 
-use crate::motion_files::{SPECTRA, spectra};
+use crate::motion_files::{self, SPECTRA, WaterfallOf, spectra};
 
 /// Meaning of the column `periodicity` of all sweeps.
 pub(super) const PERIODICITY: &str =
@@ -31,26 +31,14 @@ pub(crate) fn spectrum(of: &MotionSpectrum) -> Table {
 }
 
 /// `waterfall`: spectra of a ramp, stretch by stretch.
-pub(crate) fn waterfall(lines: &[WaterfallLine], per_cycle: usize) -> Table {
-    let all: Vec<(&WaterfallLine, f64, f64)> = lines
-        .iter()
-        .flat_map(|line| {
-            // So many bins to half of the rows in a cycle.
-            let bins = line.amplitudes.len().saturating_sub(1).max(1) as f64;
-            let order = move |k: usize| k as f64 / bins * 0.5 * per_cycle as f64;
-            line.amplitudes.iter().enumerate().map(move |(k, amplitude)| (line, order(k), *amplitude))
-        })
-        .collect();
-    Table::new("waterfall")
-        .numbers("time_s", "middle of the interval", all.iter().map(|r| r.0.time))
-        .numbers("pinion_speed_rpm", "mean speed of the pinion over the interval", all.iter().map(|r| r.0.speed_rpm))
-        .numbers("mesh_order", "order of the mesh frequency", all.iter().map(|r| r.1))
-        .numbers(
-            "frequency_hz",
-            "frequency of the order at the mean speed",
-            all.iter().map(|r| r.1 * r.0.mesh_frequency_hz),
-        )
-        .numbers("dte_um", "single-sided amplitude of the dynamic transmission error", all.iter().map(|r| r.2))
+pub(crate) fn waterfall(of: &Waterfall) -> Table {
+    let dte = ("dte_um".to_owned(), "single-sided amplitude of the dynamic transmission error");
+    let of_pair = WaterfallOf {
+        speed: ["pinion_speed_rpm", "mean speed of the pinion over the interval"],
+        order: "order of the mesh frequency",
+        quantities: &[dte],
+    };
+    motion_files::waterfall(of, of_pair)
 }
 
 /// `cycles`: one row a mesh cycle of a ramp.

@@ -74,17 +74,15 @@ fn accuracy(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     Ok(())
 }
 
-/// What internal pairs have: everything at rest that a mesh answers, without bounds and without friction.
+/// What internal pairs have: what a mesh answers, at rest and in motion, without bounds.
 fn internal(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
     let teeth = raw.wheel.teeth.as_ref().map_or(0..0, Spanned::span);
     let span = |word: Option<std::ops::Range<usize>>| word.unwrap_or(teeth.clone());
     let refused = |span: std::ops::Range<usize>, what: String, advice: &str| Err(s.conflict(&span, what, advice));
-    if scene.analysis.kind == Kind::Dynamic {
-        let what = "a pair with an internal gear has no motion yet: its equilibrium alone is computed".to_owned();
-        return refused(span(raw.analysis.kind.as_ref().map(Spanned::span)), what, "use `kind = \"static\"`");
-    }
     let model = scene.analysis.model;
-    if scene.is_auto() || (model != Model::Reduced && model != Model::Full) {
+    if scene.is_auto()
+        || !matches!(model, Model::Reduced | Model::ReducedModes | Model::Mapped | Model::Full | Model::Iso)
+    {
         let what = format!("the model \"{}\" does not know internal gears", model.word());
         return refused(span(raw.analysis.model.as_ref().map(Spanned::span)), what, "use `model = \"reduced\"`");
     }

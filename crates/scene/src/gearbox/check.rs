@@ -13,11 +13,16 @@ use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
-use super::schema::{MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
+use super::schema::{GearboxDrive, MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
-use crate::{Kind, Method, Model, PairScene, SceneError, Setting, Source, Word, motion::beside_mean, study::setting};
+use crate::{
+    Kind, Method, Model, PairScene, SceneError, Setting, Source, Word,
+    motion::beside_mean,
+    spanned::{Number, Rows},
+    study::setting,
+};
 
 /// Keys that a mesh sets otherwise at the most; a scene has a third of them.
 const SETTINGS: usize = 1000;
@@ -65,7 +70,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
-    over_time(s, &raw.torque, &torques, moves.as_ref().map(Asked::motion))?;
+    over_time(s, &raw, table.get_ref(), moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw)?;
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
     let (motion, branch) = match moves {
@@ -190,11 +195,9 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     if scene.rating.is_some() {
         return unfit("asks for a rating", "a gearbox is not rated: rate the pair alone, under the torque of its mesh");
     }
-    if scene.wheel.is_internal() {
-        return unfit("has an internal gear", "a gearbox has external gears alone: run the pair by itself");
-    }
     let name = mesh_name(raw);
-    Ok(GearboxMesh { name, gears: pair, scene })
+    let timing = s.choice_of("timing", &raw.timing)?;
+    Ok(GearboxMesh { name, gears: pair, scene, timing })
 }
 
 /// That every gear meshes, or has a mass at least: of another one nothing would be read.
@@ -261,7 +264,9 @@ fn input(s: &Source<'_>, table: &Spanned<RawInput>, shafts: &[(String, f64)]) ->
     let raw = table.get_ref();
     let (shaft, position) = place(s, table, "[input]", (&raw.shaft, &raw.position_mm), shafts)?;
     let rotation = s.choice_of("rotation", &raw.rotation)?;
-    Ok(GearboxInput { shaft, position, rotation, inertia: 1e3 * row!(s, INPUT, raw.inertia_kg_m2)? })
+    let over_time = beside_mean(s, [&raw.amplitude_nm, &raw.frequency_hz, &raw.phase_deg], &raw.table_s_nm)?;
+    let over_time = Some(over_time).filter(|own| !own.is_none());
+    Ok(GearboxInput { shaft, position, rotation, over_time, inertia: 1e3 * row!(s, INPUT, raw.inertia_kg_m2)? })
 }
 
 fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) -> Checked<GearboxTorque> {
@@ -273,24 +278,39 @@ fn torque(s: &Source<'_>, table: &Spanned<RawTorque>, shafts: &[(String, f64)]) 
     Ok(GearboxTorque { shaft, position, torque, over_time, inertia: 1e3 * row!(s, TORQUE, raw.inertia_kg_m2)? })
 }
 
-/// Torques that change with time act in motion, and a motion that settles has the periods of its meshes alone.
-fn over_time(
-    s: &Source<'_>,
-    tables: &[Spanned<RawTorque>],
-    torques: &[GearboxTorque],
-    motion: Option<&GearboxMotion>,
-) -> Checked<()> {
-    let Some((table, _)) = tables.iter().zip(torques).find(|(_, own)| own.over_time.is_some()) else { return Ok(()) };
-    let raw = table.get_ref();
-    let numbers = [(&raw.amplitude_nm, "amplitude_nm"), (&raw.frequency_hz, "frequency_hz")];
+type Span = std::ops::Range<usize>;
+
+/// First of the keys by which a torque changes with time, with its place; `None` where it is constant.
+fn varies((amplitude, frequency): (&Number, &Number), table: &Rows) -> Option<(Span, &'static str)> {
+    let numbers = [(amplitude, "amplitude_nm"), (frequency, "frequency_hz")];
     let stated = numbers.into_iter().find_map(|(value, key)| value.as_ref().map(|v| (v.span(), key)));
-    let (span, key) = stated.unwrap_or_else(|| (raw.table_s_nm.as_ref().map_or(0..0, Spanned::span), "table_s_nm"));
-    match motion {
-        None => Err(s.conflict(&span, format!("`{key}` acts in motion alone"), "add [motion], or leave it out")),
-        Some(own) if own.settle.is_some() => {
-            let said = format!("`{key}` in a motion that settles: its period is none of the meshes");
-            Err(s.conflict(&span, said, "take `run = \"span\"`, or leave it out"))
-        }
-        Some(_) => Ok(()),
+    stated.or_else(|| Some((table.as_ref()?.span(), "table_s_nm")))
+}
+
+/// Torques that change with time act in motion, that of the input in one that it drives, and a motion that settles has the
+/// periods of its meshes alone.
+fn over_time(s: &Source<'_>, raw: &RawGearbox, input: &RawInput, motion: Option<&GearboxMotion>) -> Checked<()> {
+    let of_input = varies((&input.amplitude_nm, &input.frequency_hz), &input.table_s_nm);
+    let of_torque = |own: &Spanned<RawTorque>| {
+        let own = own.get_ref();
+        varies((&own.amplitude_nm, &own.frequency_hz), &own.table_s_nm)
+    };
+    let Some((span, key)) = of_input.clone().or_else(|| raw.torque.iter().find_map(of_torque)) else { return Ok(()) };
+    let Some(motion) = motion else {
+        return Err(s.conflict(&span, format!("`{key}` acts in motion alone"), "add [motion], or leave it out"));
+    };
+    if of_input.is_some() && motion.drive != GearboxDrive::Torque {
+        let said = format!("`{key}` of an input of given speed: its torque is a result");
+        return Err(s.conflict(&span, said, "take `drive = \"torque\"` in [motion], or leave it out"));
     }
+    if let (Some(own), Some(motion), Some(_)) = (&input.table_s_nm, &raw.motion, motion.input_torque) {
+        let at = motion.get_ref().input_torque_nm.as_ref().map_or(own.span(), Spanned::span);
+        let said = "`input_torque_nm` is beside a table in [input] that already gives it";
+        return Err(s.conflict(&at, said, "keep one of them"));
+    }
+    if motion.settle.is_some() {
+        let said = format!("`{key}` in a motion that settles: its period is none of the meshes");
+        return Err(s.conflict(&span, said, "take `run = \"span\"`, or leave it out"));
+    }
+    Ok(())
 }

@@ -2,7 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::{GearboxBranch, GearboxMotion, schema::RollingKind};
+use super::{
+    GearboxBranch, GearboxMotion,
+    schema::{MeshTiming, RollingKind},
+};
 use crate::{AccuracyScene, ModesScene, Scene, Sense, TorqueScene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
@@ -213,10 +216,12 @@ pub struct GearboxMesh {
     /// What shape they are, how they are meshed and how contact is solved: a scene at rest of the model `reduced` with
     /// slices. Its axes and mid-faces are where the shafts have them. Torque, driver and rotation are the gearbox's.
     pub scene: Scene,
+    /// How its gears are set where the train closes a ring.
+    pub timing: MeshTiming,
 }
 
 /// Where the gearbox is driven.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearboxInput {
     /// Shaft.
     pub shaft: usize,
@@ -224,6 +229,8 @@ pub struct GearboxInput {
     pub position: f64,
     /// Sense in which it turns.
     pub rotation: Sense,
+    /// What its torque is beside the mean, or in place of it, in a motion that it drives; none: constant.
+    pub over_time: Option<TorqueScene>,
     /// Inertia of the machine there about its axis, t mm^2.
     pub inertia: f64,
 }

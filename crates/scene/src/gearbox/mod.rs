@@ -36,4 +36,4 @@ pub use file::{
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
 pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};
 pub(crate) use schema::GEARBOX;
-pub use schema::{GearboxDrive, MeshModel, RollingKind};
+pub use schema::{GearboxDrive, MeshModel, MeshTiming, RollingKind};

@@ -31,6 +31,8 @@ pub struct GearboxMotion {
     pub steps_per_cycle: u32,
     /// Steps a row.
     pub steps_per_row: u32,
+    /// Cycles of the slowest mesh of one spectrum of the waterfall.
+    pub waterfall_cycles: u32,
     /// Method of integration.
     pub scheme: Scheme,
     /// Local error of a step over the displacements at rest; none: steps of equal length.
@@ -138,6 +140,7 @@ pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked
     let of_rows = [
         ("cycles", raw.cycles.as_ref().map(Spanned::span)),
         ("steps_per_row", raw.steps_per_row.as_ref().map(Spanned::span)),
+        ("waterfall_cycles", raw.waterfall_cycles.as_ref().map(Spanned::span)),
         ("checkpoint_every_cycles", raw.checkpoint_every_cycles.as_ref().map(Spanned::span)),
     ];
     if let Some((key, span)) = of_rows.into_iter().find_map(|(key, span)| Some((key, span?))) {
@@ -210,6 +213,7 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         cycles,
         steps_per_cycle,
         steps_per_row,
+        waterfall_cycles: row!(s, MOTION, raw.waterfall_cycles)?,
         scheme: method.scheme(radius),
         error_tolerance: given!(s, MOTION, raw.error_tolerance)?,
         stop_at_events: row!(s, MOTION, raw.stop_at_events)?,

@@ -19,7 +19,7 @@ const MAPS: &str = "map_overload = 6.0\nmap_tolerance = 3e-5\n";
 /// Text of the gearbox file whose one mesh is the pair of a scene, on two held shafts. At rest the two agree to 1e-9,
 /// position by position.
 ///
-/// Shafts are named `pinion` and `wheel`, have the bore of their gear as outer diameter and three face widths as length. The
+/// Shafts are named `pinion` and `wheel`, have the bore of their gear as outer diameter (that of a ring as inner one) and three face widths as length. The
 /// key of the driver is the one with which position 0 is the beginning of a mesh cycle, as that of a pair is:
 ///
 /// ```text
@@ -123,7 +123,11 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
     let length = 3.0 * widths[0].max(widths[1]);
     let heights = [0.0, pair.mid_face_offset()];
     let apart = [0.0, pair.centre_distance()];
-    let bores = [scene.pinion.bore_diameter_mm, scene.wheel.bore_diameter_mm];
+    let diameters = scene.gears().map(|gear| {
+        let bore = gear.bore_diameter_mm.abs();
+        // A ring sits within its shaft.
+        if gear.is_internal() { format!("{:?}\ninner_diameter_mm = {bore:?}", 1.1 * bore) } else { format!("{bore:?}") }
+    });
     let mut text = format!(
         "# Gearbox of one pair on two held shafts: it computes what the pair alone does.\n\
          # To let a shaft deflect, take `held = true` out of it, state its sections, and add its bearings:\n\
@@ -137,8 +141,8 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         let _ = write!(
             text,
             "\n[[shaft]]\nname = \"{name}\"\norigin_mm = [{:?}, 0.0, {:?}]\nheld = true\n{more}[[shaft.section]]\nlength_mm = {length:?}\n\
-             outer_diameter_mm = {:?}\n",
-            apart[i], heights[i], bores[i]
+             outer_diameter_mm = {}\n",
+            apart[i], heights[i], diameters[i]
         );
     }
     for i in 0..2 {
@@ -155,7 +159,8 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         Driver::Pinion => (0, 1),
         Driver::Wheel => (1, 0),
     };
-    let turns = if driver == 0 { sense } else { sense.opposite() };
+    // A ring turns as its pinion does.
+    let turns = if driver == 0 || pair.is_internal() { sense } else { sense.opposite() };
     let word = if turns == Sense::Ccw { "ccw" } else { "cw" };
     let added = scene.gears().map(|gear| gear.body.as_ref().map_or(0.0, |body| body.added_inertia_kg_m2));
     let machine = |gear: usize| match added[gear] {

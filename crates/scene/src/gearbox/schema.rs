@@ -155,15 +155,20 @@ table! {
         set: texts(), "keys of that scene that are otherwise here, as after --set";
         pinion: text(), "name of the gear that is the scene's pinion; either may drive";
         wheel: text(), "name of the gear that is the scene's wheel";
+        timing: word(MeshTiming), "how its gears are set on their shafts where the train closes a ring (power splits, planets). touching: against their keys, so that the flanks touch, as gears that are timed at assembly; keyed: as `key_deg` says, so that places of shafts and keys leave gaps or overlaps, which share the load unevenly";
     }
 }
 
 table! {
     /// `[input]`
-    INPUT, RawInput: "where the turn is given; the torque there is a result", needed ["shaft", "position_mm"]; {
+    INPUT, RawInput: "where the turn is given; the torque there is a result, but in a motion that it drives", needed ["shaft", "position_mm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it is, mm from the shaft's z = 0, up to its length";
         rotation: word(Sense), "sense, seen from +z. All others follow by the teeth";
+        amplitude_nm: bare(0.0, 1e12), "in a motion that a torque drives: amplitude of a harmonic part T cos(2 pi f t + phase) beside `input_torque_nm`, N m";
+        frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
+        phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
+        table_s_nm: rows(2), "in such a motion in place of the others and of `input_torque_nm`: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, for vibration and motion. It turns with the shaft and does not tilt with it";
     }
 }
@@ -248,6 +253,16 @@ choices! {
 }
 
 choices! {
+    /// How the gears of a mesh are set on their shafts where the train closes a ring.
+    pub enum MeshTiming {
+        /// So that the flanks touch, whatever their keys say.
+        Touching = "touching",
+        /// As their keys say.
+        Keyed = "keyed",
+    }
+}
+
+choices! {
     /// What stands for the meshes.
     pub enum MeshModel {
         /// A map of the exact contact.
@@ -285,6 +300,7 @@ table! {
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
+        waterfall_cycles: whole(4, 100_000, 16), "cycles of the slowest mesh of one spectrum of the waterfall (to_speed_rpm), and of a point of the orders of the meshes over time or speed";
         method: word(Integration), "method of integration";
         spectral_radius: bare(0.0, 1.0), "of generalised-alpha: damping of the highest frequencies; default: 0.9";
         error_tolerance: bare(1e-12, 0.1), "local error of a step over the displacements at rest; default: steps of equal length. Steps are as short as that needs, and end at the rows";

@@ -54,13 +54,11 @@ pub enum RexsError {
         /// Counted from 1.
         asked: usize,
     },
-    /// A gear with teeth inside.
-    #[error("{part} {why}: internal gears cannot be run")]
-    Internal {
+    /// Two rings in one stage.
+    #[error("{part} is a ring as its mating gear is")]
+    Rings {
         /// Kind and number of the component.
         part: String,
-        /// What says so.
-        why: String,
     },
     /// A part that the file says something of that cannot be taken as it is.
     #[error("{part} {what}")]
@@ -156,7 +154,7 @@ impl RexsError {
             Self::Stage { found, .. } => format!("give `--stage` 1 to {found}"),
             Self::Case { found: 0, .. } => "leave `--load-case` out: the file has no load spectrum".into(),
             Self::Case { found, .. } => format!("give `--load-case` 1 to {found}"),
-            Self::Internal { .. } => "give `--stage` of a stage of two external gears".into(),
+            Self::Rings { .. } => "a ring meshes with an external gear: give `--stage` of another stage".into(),
             Self::Unfit { hint, .. } => hint.clone(),
             Self::Gear { .. } | Self::Missing { .. } => "export the whole model, gears and flanks with it".into(),
             Self::Value { .. } | Self::Vector { .. } => "export with the units of the standard's data base".into(),

@@ -9,14 +9,15 @@ use super::{
 /// A gear as a scene takes it.
 pub(super) struct GearData<'m, 'a> {
     pub part: Part<'m, 'a>,
-    pub teeth: u32,
+    /// Below zero of a ring.
+    pub teeth: i32,
     /// mm.
     pub module: f64,
     /// Degrees.
     pub helix: f64,
     /// mm.
     pub width: f64,
-    /// Tip diameter and bore, mm.
+    /// Tip diameter and bore, mm; the bore of a ring is its outside.
     pub tip: Option<f64>,
     pub bore: Option<f64>,
     /// Normal pressure angle, degrees.
@@ -31,9 +32,10 @@ pub(super) struct GearData<'m, 'a> {
 }
 
 impl<'m, 'a> GearData<'m, 'a> {
-    /// Data of an external cylindrical gear.
+    /// Data of a cylindrical gear or a ring.
     pub(super) fn of(model: &'m Model<'a>, part: Part<'m, 'a>) -> Result<Self, RexsError> {
-        let teeth = external_teeth(&part)?;
+        let teeth = teeth(&part)?;
+        let bore = if teeth < 0 { "outer_diameter" } else { "inner_diameter" };
         let module = part.needed("normal_module", "mm")?;
         let flanks = flanks(model, part.id);
         let same = |attribute, unit| alike(&part, &flanks, attribute, unit);
@@ -48,8 +50,9 @@ impl<'m, 'a> GearData<'m, 'a> {
             // Spur gears may leave it out.
             helix: part.number("helix_angle_reference_diameter", "deg")?.unwrap_or(0.0),
             width: part.needed("face_width", "mm")?,
-            tip: part.number("tip_diameter", "mm")?,
-            bore: part.number("inner_diameter", "mm")?.filter(|d| *d != 0.0),
+            // Programs write diameters of rings with the standard's sign or without.
+            tip: part.number("tip_diameter", "mm")?.map(f64::abs),
+            bore: part.number(bore, "mm")?.filter(|d| *d != 0.0).map(f64::abs),
             thinning: thinning(&part, &flanks, (module, angle, shift))?,
             angle,
             shift,
@@ -60,24 +63,21 @@ impl<'m, 'a> GearData<'m, 'a> {
     }
 }
 
-/// Teeth of a gear, which has to be an external cylindrical one.
-pub(super) fn external_teeth(part: &Part<'_, '_>) -> Result<u32, RexsError> {
-    let internal = |why: String| Err(RexsError::Internal { part: part.named(), why });
+/// Teeth of a cylindrical gear, below zero of a ring: a `ring_gear`, or one whose number is below zero as the standard of
+/// gear geometry has it.
+fn teeth(part: &Part<'_, '_>) -> Result<i32, RexsError> {
     let value = part.needed("number_of_teeth", "")?;
-    match part.component() {
-        "ring_gear" => return internal("is a ring gear".into()),
-        "cylindrical_gear" => {}
+    let signed = match part.component() {
+        "ring_gear" => -value.abs(),
+        "cylindrical_gear" => value,
         other => {
             let what = format!("is a `{other}`");
-            let hint = "only pairs of external cylindrical gears can be run".into();
+            let hint = "only pairs of cylindrical gears can be run".into();
             return Err(RexsError::Unfit { part: part.named(), what, hint });
         }
-    }
-    if value < 0.0 {
-        return internal(format!("has {value} teeth, as ring gears have"));
-    }
-    let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
-    if whole { Ok(value as u32) } else { Err(RexsError::Teeth { part: part.named(), value }) }
+    };
+    let whole = signed.fract() == 0.0 && (1.0..=f64::from(i32::MAX)).contains(&signed.abs());
+    if whole { Ok(signed as i32) } else { Err(RexsError::Teeth { part: part.named(), value }) }
 }
 
 /// Left and right flank of a gear, as far as the file has them.

@@ -10,7 +10,8 @@ const GEARS: [u32; 2] = [2, 3];
 const FLANKS: [u32; 2] = [4, 5];
 
 /// The pair as a `cylindrical_stage` with two gears and their flanks, the axes along x, the wheel beside the pinion along
-/// z, each gear where its mid-face is. Numbers read back to the same bits.
+/// z, each gear where its mid-face is. A ring is a `ring_gear` whose number of teeth and centre distance are below zero, as
+/// ISO 21771 has them, and whose diameters are without sign. Numbers read back to the same bits.
 pub fn rexs_of(pair: &GearPair) -> String {
     let mut t = String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     let version = env!("CARGO_PKG_VERSION");
@@ -22,13 +23,14 @@ pub fn rexs_of(pair: &GearPair) -> String {
         t,
         "  <relation id=\"1\" type=\"stage\"><ref id=\"{stage}\" role=\"stage\" hint=\"cylindrical_stage\"/>\
          <ref id=\"{pinion}\" role=\"gear_1\" hint=\"cylindrical_gear\"/>\
-         <ref id=\"{wheel}\" role=\"gear_2\" hint=\"cylindrical_gear\"/></relation>"
+         <ref id=\"{wheel}\" role=\"gear_2\" hint=\"{}\"/></relation>",
+        kind(&pair.wheel)
     );
-    for i in 0..2 {
-        let (gear, flank, id) = (GEARS[i], FLANKS[i], 2 + i);
+    for (i, own) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
+        let (gear, flank, id, kind) = (GEARS[i], FLANKS[i], 2 + i, kind(own));
         let _ = writeln!(
             t,
-            "  <relation id=\"{id}\" type=\"flank\"><ref id=\"{gear}\" role=\"gear\" hint=\"cylindrical_gear\"/>\
+            "  <relation id=\"{id}\" type=\"flank\"><ref id=\"{gear}\" role=\"gear\" hint=\"{kind}\"/>\
              <ref id=\"{flank}\" role=\"left\" hint=\"cylindrical_gear_flank\"/>\
              <ref id=\"{flank}\" role=\"right\" hint=\"cylindrical_gear_flank\"/></relation>"
         );
@@ -49,16 +51,21 @@ pub fn rexs_of(pair: &GearPair) -> String {
     t
 }
 
+/// Type of the component of a gear.
+fn kind(gear: &Gear) -> &'static str {
+    if gear.is_internal() { "ring_gear" } else { "cylindrical_gear" }
+}
+
 fn component(t: &mut String, gear: &Gear, i: usize, [beside, along]: [f64; 2]) {
     let data = gear.data();
     let vector = |x: f64, z: f64| format!("<array><c>{x}</c><c>0</c><c>{z}</c></array>");
     let of_gear: [(&str, &str, String); 8] = [
-        ("number_of_teeth", "none", gear.teeth().to_string()),
+        ("number_of_teeth", "none", gear.signed_teeth().to_string()),
         ("normal_module", "mm", data.normal_module.to_string()),
         ("face_width", "mm", data.face_width.to_string()),
         ("helix_angle_reference_diameter", "deg", data.helix_angle.to_degrees().to_string()),
-        ("tip_diameter", "mm", (2.0 * gear.tip_radius()).to_string()),
-        ("root_diameter", "mm", (2.0 * gear.root_radius()).to_string()),
+        ("tip_diameter", "mm", (2.0 * gear.tip_radius().abs()).to_string()),
+        ("root_diameter", "mm", (2.0 * gear.root_radius().abs()).to_string()),
         ("u_axis_vector", "mm", vector(1.0, 0.0)),
         ("support_vector", "mm", vector(along, beside)),
     ];
@@ -66,7 +73,7 @@ fn component(t: &mut String, gear: &Gear, i: usize, [beside, along]: [f64; 2]) {
         ("normal_pressure_angle", "deg", data.normal_pressure_angle.to_degrees().to_string()),
         ("addendum_modification_coefficient", "none", data.profile_shift.to_string()),
     ];
-    let lists = [(GEARS[i], "cylindrical_gear", &of_gear[..]), (FLANKS[i], "cylindrical_gear_flank", &of_flank[..])];
+    let lists = [(GEARS[i], kind(gear), &of_gear[..]), (FLANKS[i], "cylindrical_gear_flank", &of_flank[..])];
     for (id, kind, attributes) in lists {
         let _ = writeln!(t, "  <component id=\"{id}\" type=\"{kind}\">");
         for (name, unit, value) in attributes {
@@ -102,6 +109,23 @@ mod tests {
         let tips = [&pair.pinion, &pair.wheel].map(|gear| Some(2.0 * gear.tip_radius()));
         assert_eq!(read.tip_diameter_mm, tips);
         assert_eq!((read.own_face_width_mm, read.mid_face_offset_mm), ([None, None], None));
+    }
+
+    /// A ring comes back as a ring.
+    #[test]
+    fn a_ring_comes_back() {
+        let data = GearData { teeth: 20, bore_diameter: 20.0, ..GearData::default() };
+        let ring = GearData { teeth: 52, addendum_coefficient: 0.85, bore_diameter: -200.0, ..data.clone() };
+        let gears = [Gear::new(data).unwrap(), Gear::new(ring.with_usual_shaper(0.0)).unwrap()];
+        let [pinion, wheel] = gears;
+        let pair = GearPair::new(pinion, wheel, None).unwrap();
+        let read = read_pair(&rexs_of(&pair), 1, 1, &Starter::default()).unwrap().starter;
+        assert_eq!(read.teeth, [20, -52]);
+        assert_eq!(read.centre_distance_mm, Some(-pair.centre_distance()));
+        assert_eq!(read.tip_diameter_mm[1], Some(-2.0 * pair.wheel.tip_radius()));
+        let text = read.text("a.toml");
+        let scene = crate::Scene::parse(&text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        assert!((scene.gear_pair().unwrap().centre_distance() - pair.centre_distance()).abs() < 1e-9);
     }
 
     /// Faces of two widths and at two heights come back as well.

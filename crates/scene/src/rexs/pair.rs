@@ -70,12 +70,33 @@ pub(super) fn pair_of(
         let part = reference(relation, role).and_then(|id| model.part("gear", id));
         GearData::of(model, part.ok_or(RexsError::Gear { stage, role })?)
     };
-    let gears = [of("gear_1")?, of("gear_2")?];
+    let mut gears = [of("gear_1")?, of("gear_2")?];
+    // The wheel alone may be a ring.
+    if gears[0].teeth < 0 {
+        gears.reverse();
+    }
     let own = reference(relation, "stage").and_then(|id| model.part("stage", id));
     let mut places = places(&gears);
     let starter = starter(model, &gears, own.as_ref(), (stage, from), &mut places)?;
     let (starter, remarks) = loaded(model, train, &gears, starter);
-    Ok(RexsPair { starter, remarks, places })
+    let mut pair = RexsPair { starter, remarks, places };
+    pair.shorten_tips();
+    Ok(pair)
+}
+
+impl RexsPair {
+    /// Tips of which the file says nothing are as short as they have to be.
+    fn shorten_tips(&mut self) {
+        let shorter = self.starter.with_tips_that_pass();
+        let before = std::mem::replace(&mut self.starter, shorter);
+        for (name, gear) in ["pinion", "ring"].into_iter().zip(0..) {
+            if let (None, Some(tip)) = (before.tip_diameter_mm[gear], self.starter.tip_diameter_mm[gear]) {
+                self.remarks.push(format!(
+                    "the file states no tip diameter of the {name}: tip_diameter_mm = {tip}, as its mating gear asks"
+                ));
+            }
+        }
+    }
 }
 
 /// Where values of the scene come from.
@@ -91,7 +112,7 @@ fn places(gears: &[GearData<'_, '_>; 2]) -> Vec<(String, String)> {
         add("helix_angle_deg", &named, "helix_angle_reference_diameter");
         add("face_width_mm", &named, "face_width");
         add("tip_diameter_mm", &named, "tip_diameter");
-        add("bore_diameter_mm", &named, "inner_diameter");
+        add("bore_diameter_mm", &named, if gear.teeth < 0 { "outer_diameter" } else { "inner_diameter" });
         add("thickness_allowance_mm", &named, "tooth thickness allowance");
         add("profile_shift", &flank, "addendum_modification_coefficient");
         add("material.young_mpa", &named, "elastic_modulus of its material");
@@ -113,8 +134,15 @@ fn starter(
     places: &mut Vec<(String, String)>,
 ) -> Result<Starter, RexsError> {
     let [pinion, wheel] = gears;
+    if pinion.teeth < 0 {
+        return Err(RexsError::Rings { part: pinion.part.named() });
+    }
     alike("normal module", pinion.module, wheel.module)?;
-    alike("helix angle of opposite hand", pinion.helix, 0.0 - wheel.helix)?;
+    if wheel.teeth < 0 {
+        alike("helix angle of the same hand", pinion.helix, wheel.helix)?;
+    } else {
+        alike("helix angle of opposite hand", pinion.helix, 0.0 - wheel.helix)?;
+    }
     if let (Some(first), Some(second)) = (pinion.angle, wheel.angle) {
         alike("normal pressure angle", first, second)?;
     }
@@ -167,7 +195,7 @@ const DIGITS: f64 = 1e-2;
 fn centre_distance(own: Option<&Part<'_, '_>>, placed: Option<f64>) -> Result<Option<(f64, String)>, RexsError> {
     let stated = match own {
         Some(part) => {
-            part.number("center_distance", "mm")?.map(|a| (a, format!("{}: `center_distance`", part.named())))
+            part.number("center_distance", "mm")?.map(|a| (a.abs(), format!("{}: `center_distance`", part.named())))
         }
         None => None,
     };
@@ -325,6 +353,29 @@ mod tests {
         assert_eq!((found.own_face_width_mm, found.mid_face_offset_mm), ([Some(50.0), Some(48.0)], Some(7.0)));
     }
 
+    /// The stage with a ring of 96 teeth in place of its second gear.
+    fn ring() -> String {
+        let gear = MODEL.replace(">51<", ">96<").replace(">-21<", ">21<").replace("<c>-190</c>", "<c>-165</c>");
+        gear.replace("id=\"7\" type=\"cylindrical_gear\"", "id=\"7\" type=\"ring_gear\"")
+    }
+
+    /// A ring is the wheel, wherever the stage names it, and however its teeth are counted.
+    #[test]
+    fn a_ring_becomes_the_wheel() {
+        let plain = ring();
+        let negative = plain.replace("ring_gear", "cylindrical_gear").replace(">96<", ">-96<");
+        let swapped = plain.replace("role=\"gear_1\"", "role=\"one\"").replace("role=\"gear_2\"", "role=\"gear_1\"");
+        let swapped = swapped.replace("role=\"one\"", "role=\"gear_2\"");
+        for text in [plain, negative, swapped] {
+            let found = read_pair(&text, 1, 1, &Starter::default()).unwrap().starter;
+            assert_eq!((found.teeth, found.helix_deg, found.centre_distance_mm), ([27, -96], 21.0, Some(165.0)));
+            assert_eq!(found.profile_shift, [0.23, 0.0]);
+            let text = found.text("a.toml");
+            let scene = crate::Scene::parse(&text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+            assert!(scene.gear_pair().unwrap().is_internal());
+        }
+    }
+
     /// Each fault is told with its place and a hint; a file cut off anywhere ends in a message.
     #[test]
     fn what_is_wrong_is_told() {
@@ -340,8 +391,12 @@ mod tests {
         assert_eq!(said(&inch, 1), "gear 5: `normal_module` is 4.5 inch, wanted is a number in mm");
         let broken = MODEL.replacen(">27<", ">27.9<", 1);
         assert_eq!(said(&broken, 1), "gear 5: `number_of_teeth` is 27.9, wanted is a whole number above 0");
-        let negative = MODEL.replacen(">51<", ">-51<", 1);
-        assert_eq!(said(&negative, 1), "gear 7 has -51 teeth, as ring gears have: internal gears cannot be run");
+        let rings = ring().replacen(">27<", ">-27<", 1);
+        assert_eq!(said(&rings, 1), "gear 7 is a ring as its mating gear is");
+        assert_eq!(
+            said(&ring().replacen(">21<", ">-21<", 1), 1),
+            "the gears differ in helix angle of the same hand: -21 and 21"
+        );
         for value in ["NaN", "inf", "1e999"] {
             let attributes =
                 [(">27<", "gear 5: `number_of_teeth`"), (">0.23<", "flank 48: `addendum_modification_coefficient`")];

@@ -179,14 +179,20 @@ fn link<'a>(
     relation: roxmltree::Node<'a, 'a>,
     gears: &BTreeMap<&'a str, usize>,
 ) -> Option<Link<'a>> {
-    let ids = [reference(relation, "gear_1")?, reference(relation, "gear_2")?];
-    let shafts = [*gears.get(ids[0])?, *gears.get(ids[1])?];
+    let mut ids = [reference(relation, "gear_1")?, reference(relation, "gear_2")?];
     let teeth = ids.map(|id| {
         let gear = model.part("gear", id)?;
         let value = gear.number("number_of_teeth", "").ok().flatten().filter(|z| *z != 0.0)?;
         Some(if gear.component() == "ring_gear" { -value.abs() } else { value })
     });
-    let ratio = -teeth[0]? / teeth[1]?;
+    let mut teeth = [teeth[0]?, teeth[1]?];
+    // A ring is the second of its pair.
+    if teeth[0] < 0.0 {
+        ids.reverse();
+        teeth.reverse();
+    }
+    let shafts = [*gears.get(ids[0])?, *gears.get(ids[1])?];
+    let ratio = -teeth[0] / teeth[1];
     Some(Link { stage: reference(relation, "stage"), gears: ids, shafts, ratio })
 }
 

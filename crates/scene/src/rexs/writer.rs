@@ -185,9 +185,10 @@ impl<'a> Writer<'_, 'a> {
         Ok(scenes)
     }
 
-    /// The bore of a gear that states none is that of its shaft, where this leaves it a rim of one module.
+    /// The bore of a gear that states none is that of its shaft, where this leaves it a rim of one module; a ring has its own
+    /// default.
     fn seat(&self, starter: &mut Starter, i: usize, (id, shaft): (&str, usize)) -> Result<(), RexsError> {
-        if starter.bore_diameter_mm[i].is_some() {
+        if starter.bore_diameter_mm[i].is_some() || starter.teeth[i] < 0 {
             return Ok(());
         }
         let Some(part) = self.model.part("gear", id) else { return Ok(()) };

@@ -8,4 +8,4 @@ mod spectrum;
 pub use campbell::{CampbellDiagram, CriticalSpeed};
 pub use run_up::{OrderCut, PeakOverSpeed, RunUp, RunUpCycle, RunUpHeadline};
 pub use series::MotionSeries;
-pub use spectrum::{MotionSpectrum, WaterfallLine, waterfall};
+pub use spectrum::{MotionSpectrum, Stretches, Waterfall, WaterfallLine, waterfall};

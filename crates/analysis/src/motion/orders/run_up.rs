@@ -5,7 +5,7 @@ use dynamics::Speed;
 use serde::Serialize;
 use study::{StudyError, cycle_statistics};
 
-use super::{MotionSeries, WaterfallLine};
+use super::{MotionSeries, Waterfall};
 use crate::{
     motion::RPM,
     run_up::{coarse_cut, cut_peak},
@@ -111,7 +111,7 @@ impl RunUp {
         per_cycle: usize,
         (law, teeth): (Speed, u32),
         static_force: f64,
-        waterfall: &[WaterfallLine],
+        waterfall: &Waterfall,
     ) -> Result<Self, StudyError> {
         let MotionSeries { time_s: time, dte_um: dte, normal_force_n: driving, .. } = series;
         series.check(&[time, driving], per_cycle)?;
@@ -136,15 +136,11 @@ impl RunUp {
             })
         };
         let cycles = (0..dte.len() / per_cycle).map(one).collect::<Result<_, StudyError>>()?;
-        let cuts = waterfall.iter().map(|line| {
-            // So many bins to half of the rows in a cycle.
-            let bins = 2 * line.amplitudes.len().saturating_sub(1) / per_cycle;
-            OrderCut {
-                time_s: line.time,
-                driver_speed_rpm: 60.0 * line.mesh_frequency_hz / teeth,
-                mesh_frequency_hz: line.mesh_frequency_hz,
-                amplitudes_um: (1..=ORDERS).filter_map(|n| line.amplitudes.get(n * bins).copied()).collect(),
-            }
+        let cuts = waterfall.lines.iter().map(|line| OrderCut {
+            time_s: line.time,
+            driver_speed_rpm: 60.0 * line.mesh_frequency_hz / teeth,
+            mesh_frequency_hz: line.mesh_frequency_hz,
+            amplitudes_um: (1..=ORDERS).filter_map(|n| line.first_at(n, waterfall.order_step)).collect(),
         });
         Ok(Self { cycles, cuts: cuts.collect() })
     }
@@ -197,7 +193,6 @@ impl RunUp {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::motion::orders::waterfall;
 
     /// Series of a pair of 30 teeth that runs up from 1000 to 3000/min in a second: order 1 has its largest amplitude,
     /// 3 um, at 2000/min, order 2 is 0.5 um everywhere.
@@ -227,7 +222,7 @@ mod tests {
     #[test]
     fn the_largest_of_a_ramp_is_found_where_it_is() {
         let (series, law) = series();
-        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let lines = series.waterfall(16, 8, 30).unwrap();
         let run_up = RunUp::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
         let h = run_up.headline().unwrap();
         let near = |l: &PeakOverSpeed, value: f64| {
@@ -249,7 +244,7 @@ mod tests {
     #[test]
     fn every_cycle_has_speed_and_frequency() {
         let (series, law) = series();
-        let lines = waterfall(&series, 16, 8, 30).unwrap();
+        let lines = series.waterfall(16, 8, 30).unwrap();
         let run_up = RunUp::of(&series, 16, (law, 30), 1000.0, &lines).unwrap();
         let cycles = run_up.cycles.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz));
         let both = cycles.chain(run_up.cuts.iter().map(|c| (c.driver_speed_rpm, c.mesh_frequency_hz)));

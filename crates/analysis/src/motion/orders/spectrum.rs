@@ -51,48 +51,107 @@ fn amplitudes(samples: &[f64], window: Window) -> Result<Vec<f64>, StudyError> {
     Ok(of.amplitudes)
 }
 
+/// Order spectra of a motion whose speed changes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Waterfall {
+    /// Mesh orders from one line of a spectrum to the next.
+    pub order_step: f64,
+    /// Spectra, stretch by stretch.
+    pub lines: Vec<WaterfallLine>,
+}
+
 /// One spectrum of a waterfall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct WaterfallLine {
-    /// Middle of its stretch, s.
+    /// Middle of the stretch, s.
     pub time: f64,
-    /// Mean speed of the pinion, 1/min.
+    /// Mean speed of what the record has the speed of, 1/min.
     pub speed_rpm: f64,
     /// Mean mesh frequency, Hz.
     pub mesh_frequency_hz: f64,
-    /// Amplitudes of the DTE, um, at multiples of 1/cycles of the mesh order.
-    pub amplitudes: Vec<f64>,
+    /// Amplitudes, quantity by quantity, at multiples of the order step from 0 on.
+    pub amplitudes: Vec<Vec<f64>>,
 }
 
-/// Order spectra of the DTE over stretches of `stretch` mesh cycles, each half over the one before, with a window of
-/// Hann.
+impl WaterfallLine {
+    /// Amplitude of the first quantity at a mesh order, where the spectrum reaches so far.
+    pub fn first_at(&self, order: usize, order_step: f64) -> Option<f64> {
+        self.amplitudes.first()?.get((order as f64 / order_step).round() as usize).copied()
+    }
+}
+
+/// Stretches of a record of which each has a spectrum, in values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretches {
+    /// Length of a stretch.
+    pub length: usize,
+    /// From the beginning of a stretch to that of the next.
+    pub hop: usize,
+    /// Values in a mesh cycle.
+    pub per_cycle: f64,
+    /// Mesh cycles a turn of what the record has the speed of.
+    pub cycles_per_turn: f64,
+}
+
+impl Stretches {
+    /// Stretches of so many whole mesh cycles in a record of `values`, each half over the one before.
+    pub fn of_cycles(values: usize, (per_cycle, cycles): (usize, usize), teeth: u32) -> Self {
+        let length = per_cycle * cycles.max(1).min((values / per_cycle.max(1)).max(1));
+        let hop = (length / 2 / per_cycle.max(1)).max(1) * per_cycle;
+        Self { length, hop, per_cycle: per_cycle as f64, cycles_per_turn: f64::from(teeth) }
+    }
+}
+
+/// Order spectra with a window of Hann over stretches of a record, whose values are evenly spaced in each mesh cycle or all
+/// along the turn, so that orders stay in their bins as the speed changes.
 ///
-/// Values are evenly spaced in time within each mesh cycle, `per_cycle` in all of them, so orders stay in their bins as
-/// the speed changes.
+/// A quantity is a list of components, whose amplitudes are those of a vector: the length of all. `at`: times (s) and
+/// speeds (1/min) of the values.
 ///
 /// # Errors
-/// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
+/// [`StudyError`] for a record that contains a value that is not a number, for lists of different lengths, and for stretches
+/// without values.
 pub fn waterfall(
-    series: &MotionSeries,
-    per_cycle: usize,
-    stretch: usize,
-    pinion_teeth: u32,
-) -> Result<Vec<WaterfallLine>, StudyError> {
-    let MotionSeries { dte_um: dte, time_s: time, pinion_speed_rpm: speed, .. } = series;
-    series.check(&[time, speed], per_cycle)?;
-    let length = per_cycle * stretch.max(1).min((dte.len() / per_cycle).max(1));
-    let mut lines = Vec::new();
-    let mut from = 0;
-    while from + length <= dte.len() {
+    quantities: &[Vec<&[f64]>],
+    (time, speed): (&[f64], &[f64]),
+    stretches: Stretches,
+) -> Result<Waterfall, StudyError> {
+    let Stretches { length, hop, per_cycle, cycles_per_turn } = stretches;
+    let wanted = time.len();
+    let lists = quantities.iter().flatten().map(|list| list.len()).chain([speed.len()]);
+    if let Some(found) = lists.into_iter().find(|found| *found != wanted) {
+        return Err(StudyError::Lengths { found, wanted });
+    }
+    if length == 0 || hop == 0 {
+        return Err(StudyError::NotPositive { quantity: "values in a mesh cycle", value: per_cycle });
+    }
+    let line = |from: usize| {
         let part = from..from + length;
         let speed_rpm = speed[part.clone()].iter().sum::<f64>().abs() / length as f64;
-        lines.push(WaterfallLine {
+        let of_quantity = |components: &Vec<&[f64]>| {
+            let mut all = components.iter().map(|own| amplitudes(&own[part.clone()], Window::Hann));
+            let first = all.next().unwrap_or_else(|| Ok(Vec::new()))?;
+            all.try_fold(first, |sum, own| Ok(sum.iter().zip(own?).map(|(a, b)| a.hypot(b)).collect()))
+        };
+        Ok(WaterfallLine {
             time: 0.5 * (time[from] + time[from + length - 1]),
             speed_rpm,
-            mesh_frequency_hz: speed_rpm * f64::from(pinion_teeth) / 60.0,
-            amplitudes: amplitudes(&dte[part], Window::Hann)?,
-        });
-        from += (length / 2 / per_cycle).max(1) * per_cycle;
+            mesh_frequency_hz: speed_rpm * cycles_per_turn / 60.0,
+            amplitudes: quantities.iter().map(of_quantity).collect::<Result<_, _>>()?,
+        })
+    };
+    let starts = (0..).map(|k| k * hop).take_while(|from| from + length <= wanted);
+    Ok(Waterfall { order_step: per_cycle / length as f64, lines: starts.map(line).collect::<Result<_, StudyError>>()? })
+}
+
+impl MotionSeries {
+    /// Order spectra of the transmission error over stretches of so many mesh cycles, `per_cycle` values in each, of a pair
+    /// whose pinion has so many teeth.
+    ///
+    /// # Errors
+    /// [`StudyError`] for a record that contains a value that is not a number, and for series of different lengths.
+    pub fn waterfall(&self, per_cycle: usize, cycles: usize, pinion_teeth: u32) -> Result<Waterfall, StudyError> {
+        let stretches = Stretches::of_cycles(self.len(), (per_cycle, cycles), pinion_teeth);
+        waterfall(&[vec![&self.dte_um]], (&self.time_s, &self.pinion_speed_rpm), stretches)
     }
-    Ok(lines)
 }

@@ -165,9 +165,9 @@ fn reduce(
     let sides = if both { 2.0 } else { 1.0 };
     let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), meshes), sides));
     run_phase(observer, "reduce", work, |progress| {
-        let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true))?;
+        let driving = elastic_gears(scene, pair, contact, meshes, (*cache, progress, &|| true), false)?;
         let backwards =
-            || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, (*cache, progress, &|| true));
+            || elastic_gears(scene, pair, &contact.driven_backwards(), meshes, (*cache, progress, &|| true), false);
         Ok(Flanked { driving, coast: both.then(backwards).transpose()? })
     })
 }
@@ -202,7 +202,7 @@ fn settings(
         steps_per_resonance: steps_per_resonance(motion, system),
         tolerance: motion.error_tolerance,
         stop_at_events: motion.stop_at_events,
-        scale: system.scales(&system.coordinates().scales(length, driven.base_radius()), length),
+        scale: system.scales(&system.coordinates().scales(length, driven.base_radius().abs()), length),
     }
 }
 

@@ -1,6 +1,7 @@
 //! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
 //! taken away. Theory (36).
 
+mod layers;
 mod rows;
 
 use std::borrow::Cow;
@@ -15,6 +16,8 @@ use crate::{
     nodal::Support,
     opening,
 };
+
+use layers::LayerEntries;
 
 pub use rows::TableWork;
 
@@ -43,10 +46,18 @@ pub struct BulkTable {
     lines: Vec<FlankGridLines>,
     /// First point of each patch; the last entry is the number of points.
     first: Vec<usize>,
-    /// T, mm/N, in blocks: openings along the normal, then along the profile, then along the generator by loads along the
-    /// normal, and so on; each block column by column. Contact without friction reads the first block alone.
-    table: Vec<f64>,
+    entries: Entries,
     error: f64,
+}
+
+/// T of a table.
+#[derive(Debug, Clone)]
+enum Entries {
+    /// mm/N, in blocks: openings along the normal, then along the profile, then along the generator by loads along the
+    /// normal, and so on; each block column by column. Contact without friction reads the first block alone.
+    Whole(Vec<f64>),
+    /// By teeth apart, on the shorter gear of a wide one.
+    Layers(LayerEntries),
 }
 
 /// Points and weights of one row in a table: three runs of points that follow each other along the profile.
@@ -140,6 +151,19 @@ impl Pole {
     }
 }
 
+impl Pole {
+    /// Displacement at this place by forces along x, y, z at the other, mm/N.
+    #[inline(always)]
+    fn between(&self, moved: &NodeBlocks) -> Matrix3<f64> {
+        let mut between = [0.0; 9];
+        for &(node, w) in &self.nodes {
+            let block = &moved[node as usize];
+            (0..9).for_each(|k| between[k] += w * block[k]);
+        }
+        Matrix3::from_row_slice(&between)
+    }
+}
+
 /// T of one gear on its grid points, all directions, mm/N.
 struct Filling<'a> {
     bulk: &'a BulkCompliance<'a>,
@@ -163,12 +187,7 @@ impl pulp::NullaryFnOnce for Filling<'_> {
             let own = &mut table[..];
             for (p, pole) in poles.iter().enumerate().skip(q) {
                 let Some(pole) = pole else { continue };
-                let mut between = [0.0; 9];
-                for &(node, w) in &pole.nodes {
-                    let block = &moved[node as usize];
-                    (0..9).for_each(|k| between[k] += w * block[k]);
-                }
-                let between = Matrix3::from_row_slice(&between);
+                let between = pole.between(&moved);
                 for (d, load) in load.iter().enumerate() {
                     let moved = between * load.load;
                     for (e, direction) in pole.directions.iter().enumerate() {
@@ -246,20 +265,20 @@ impl BulkTable {
     }
 
     fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
-        let mut first = vec![0];
-        lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+        let first = first_points(&lines);
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
         let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
         pulp::Arch::new().dispatch(Filling { bulk, supports: &supports, table: &mut table });
-        let mut made = Self { lines, first, table, error: 0.0 };
-        made.error = made.measured(bulk);
+        let mut made = Self { lines, first, entries: Entries::Whole(table), error: 0.0 };
+        made.error = made.measured(bulk, bulk.patches.len());
         made
     }
 
     /// Largest difference to A D A' between the grid points, relative to the largest self-compliance there: of each
-    /// place with itself and with the places checked before it.
-    fn measured(&self, bulk: &BulkCompliance<'_>) -> f64 {
+    /// place on the first `loaded` patches with itself and with the places checked before it, where these are all, else
+    /// with all places.
+    fn measured(&self, bulk: &BulkCompliance<'_>, loaded: usize) -> f64 {
         let mut places = Vec::new();
         for (patch, flank) in bulk.patches.iter().enumerate() {
             let [low, high] = flank.range();
@@ -269,16 +288,17 @@ impl BulkTable {
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
                 if let (Some(exact), Some(place)) = (supports(flank, at), self.at(patch, at, [1.0, 0.0, 0.0])) {
-                    places.push((exact[0], place));
+                    places.push((exact[0], place, patch));
                 }
             }
         }
         let (mut worst, mut largest) = (0.0f64, f64::MIN_POSITIVE);
         let mut u = Vec::new();
-        for (i, (support, place)) in places.iter().enumerate() {
+        for (i, (support, place, _)) in places.iter().enumerate().filter(|(_, (.., patch))| *patch < loaded) {
             bulk.displacement(support, &mut u);
             largest = largest.max(opening(support, &u));
-            for (other, other_place) in &places[..=i] {
+            let seen = if loaded < bulk.patches.len() { &places[..] } else { &places[..=i] };
+            for (other, other_place, _) in seen {
                 worst = worst.max((opening(other, &u) - self.entry(other_place, place)).abs());
             }
         }
@@ -327,9 +347,12 @@ impl BulkTable {
     /// S between two places, mm/N.
     pub(crate) fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
         let count = self.points() / DIRECTIONS;
+        let at = |[d, q]: [usize; 2], [e, p]: [usize; 2]| match &self.entries {
+            Entries::Whole(table) => table[((DIRECTIONS * d + e) * count + q) * count + p],
+            Entries::Layers(layers) => layers.at(d * count + q, e * count + p),
+        };
         let between = |e: usize, d: usize| {
-            let block = &self.table[(DIRECTIONS * d + e) * count * count..];
-            let opening = |q: usize| first.each().map(|(p, w)| w * block[q * count + p]).sum::<f64>();
+            let opening = |q: usize| first.each().map(|(p, w)| w * at([d, q], [e, p])).sum::<f64>();
             second.each().map(|(q, w)| w * opening(q)).sum::<f64>()
         };
         (0..DIRECTIONS * DIRECTIONS)
@@ -338,6 +361,13 @@ impl BulkTable {
             .map(|(e, d, part)| part * between(e, d))
             .sum()
     }
+}
+
+/// First point of each patch, and the number of all.
+fn first_points(lines: &[FlankGridLines]) -> Vec<usize> {
+    let mut first = vec![0];
+    lines.iter().for_each(|l| first.push(first.last().map_or(0, |f| f + l.count())));
+    first
 }
 
 impl TablePoint {

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use super::{BulkTable, DIRECTIONS, RUN, RUNS, TablePoint};
+use super::{BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint};
 use crate::lanes::{self, Four};
 
 /// Loads that a tile of the table is multiplied with in one pass over it.
@@ -29,8 +29,8 @@ impl BulkTable {
             group(loads, of_loads);
         }
         let groups = [&of_openings[..], if symmetric { of_openings } else { of_loads }];
-        let (count, table) = (self.points() / DIRECTIONS, &self.table[..]);
-        lanes::run(*arch, Interpolation { table, count, places: [openings, loads], groups, symmetric, out });
+        let (count, entries) = (self.points() / DIRECTIONS, &self.entries);
+        lanes::run(*arch, Interpolation { entries, count, places: [openings, loads], groups, symmetric, out });
     }
 }
 
@@ -56,7 +56,7 @@ fn group(places: &[TablePoint], out: &mut Vec<Group>) {
 
 /// S = W T W' from the tiles of the table that groups of rows stand on, read where they are.
 struct Interpolation<'a> {
-    table: &'a [f64],
+    entries: &'a Entries,
     /// Points along one direction.
     count: usize,
     /// Openings and loads.
@@ -71,18 +71,35 @@ impl WithSimd for Interpolation<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { table, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, out } = self;
+        let Self { entries, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, out } = self;
         let n = openings.len();
         for (number, group) in of_loads.iter().enumerate() {
             let first = if symmetric { number } else { 0 };
             for d in (0..DIRECTIONS).filter(|d| group.along[*d]) {
                 let loads = &loads[group.rows.clone()];
                 for e in 0..DIRECTIONS {
-                    let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
-                    let columns = group.runs.map(|first| &block[first as usize * count..][..RUN * count]);
+                    let columns = match entries {
+                        Entries::Whole(table) => {
+                            let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+                            Some(group.runs.map(|first| &block[first as usize * count..][..RUN * count]))
+                        }
+                        Entries::Layers(_) => None,
+                    };
                     for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
                         let rows = &openings[opened.rows.clone()];
-                        let tile = Tile { columns, count, runs: opened.runs.map(|first| first as usize) };
+                        let own;
+                        let runs = opened.runs.map(|first| first as usize);
+                        let tile = match (&columns, entries) {
+                            (Some(columns), _) => Tile { columns: *columns, count, runs },
+                            (None, Entries::Layers(layers)) => {
+                                own = layers.tile(
+                                    group.runs.map(|first| d * count + first as usize),
+                                    runs.map(|first| e * count + first),
+                                );
+                                Tile::of(&own)
+                            }
+                            (None, Entries::Whole(_)) => continue,
+                        };
                         let entries = out[n * group.rows.start..].chunks_mut(n * AT_ONCE);
                         for (part, entries) in loads.chunks(AT_ONCE).zip(entries) {
                             let out = &mut entries[opened.rows.start..];
@@ -100,6 +117,9 @@ impl WithSimd for Interpolation<'_> {
     }
 }
 
+/// T between the points of two cells, column by column.
+pub(super) type TilePoints = [[f64; RUNS * RUN]; RUNS * RUN];
+
 /// What the loads of one group do at the points of another, along one direction each.
 struct Tile<'a> {
     /// Columns of the table at the runs of the loads, four each.
@@ -109,7 +129,13 @@ struct Tile<'a> {
     runs: [usize; RUNS],
 }
 
-impl Tile<'_> {
+impl<'a> Tile<'a> {
+    /// A tile that stands by itself.
+    fn of(points: &'a TilePoints) -> Self {
+        let columns = [0, 1, 2].map(|c| points[RUN * c..RUN * (c + 1)].as_flattened());
+        Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
+    }
+
     /// Adds what `K` loads along direction `d` open `rows` by along direction `e`: to the first entries of as many columns
     /// of `out`, `n` apart.
     #[inline(always)]
@@ -192,7 +218,7 @@ mod tests {
                 table[((DIRECTIONS * d + e) * COUNT + q) * COUNT + p] = at(d * COUNT + q, e * COUNT + p);
             }
         }
-        BulkTable { lines: Vec::new(), first: vec![0, COUNT], table, error: 0.0 }
+        BulkTable { lines: Vec::new(), first: vec![0, COUNT], entries: Entries::Whole(table), error: 0.0 }
     }
 
     /// Rows of a contact line, some of a cell together; `along`: directions that they are loaded along.

@@ -1,0 +1,117 @@
+//! Charts of a gearbox in motion: over time, over speed, sections, waterfalls.
+
+use analysis::{
+    gearbox::{GearboxMotionResult, MotionOrder},
+    motion::{RPM, Waterfall},
+};
+use answer::Answer;
+use gearbox::motion::GearboxInstant;
+use scene::gearbox::Gearbox;
+
+use crate::{
+    charts::{Curve, line_chart},
+    motion_files::{portrait, waterfall_chart},
+};
+
+/// Orders of a mesh that are drawn over the speed.
+const DRAWN: usize = 3;
+/// Change of the speed over its largest from which on a motion is a run-up.
+const RUN_UP: f64 = 0.02;
+
+/// All charts; `answer` has the tables.
+pub(super) fn motion_charts(file: &Gearbox, motion: &GearboxMotionResult, answer: &Answer) -> Vec<String> {
+    let mut all: Vec<String> = over_time(file, motion).into_iter().flatten().collect();
+    if is_run_up(motion) {
+        all.extend(over_speed(file, motion).into_iter().flatten());
+        all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
+        return all;
+    }
+    let table = |name: &str| answer.tables.iter().find(|table| table.name == name);
+    if let Some((rows, section)) = table("motion").zip(table("section")) {
+        let one = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
+            let whose = format!("the transmission error of mesh {}", mesh.name);
+            portrait([rows, section], &format!("mesh_{}_dte", i + 1), [&whose, "once a common period"])
+        };
+        all.extend(file.meshes.iter().enumerate().filter_map(one));
+    }
+    all
+}
+
+/// Waterfalls of every mesh, and of the bearing with the largest line.
+fn waterfalls(file: &Gearbox, of: &Waterfall) -> Vec<String> {
+    let speed = "speed of the input [1/min]";
+    let mesh = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
+        let dte = format!("the DTE of mesh {}", mesh.name);
+        let force = format!("the normal force of mesh {}", mesh.name);
+        [waterfall_chart(of, 2 * i, [&dte, "um"], speed), waterfall_chart(of, 2 * i + 1, [&force, "N"], speed)]
+    };
+    let place = |bearing: usize| 2 * file.meshes.len() + bearing;
+    let largest = |bearing: usize| {
+        let lines = of.lines.iter().flat_map(|line| &line.amplitudes[place(bearing)][1..]);
+        lines.fold(0.0, |m: f64, a| m.max(*a))
+    };
+    let strongest = (0..file.bearings.len()).max_by(|&a, &b| largest(a).total_cmp(&largest(b)));
+    let bearing = strongest.and_then(|i| {
+        let whose = format!("the force of bearing {}", file.bearings[i].name);
+        waterfall_chart(of, place(i), [&whose, "N"], speed)
+    });
+    file.meshes.iter().enumerate().flat_map(mesh).chain([bearing]).flatten().collect()
+}
+
+/// Whether the speed changes so much that what is seen of orders is seen over it.
+pub(super) fn is_run_up(motion: &GearboxMotionResult) -> bool {
+    let speeds = || motion.rows.iter().map(|p| p.input[1].abs());
+    let [least, largest] = speeds().fold([f64::INFINITY, 0.0], |[l, h], x| [l.min(x), h.max(x)]);
+    !motion.orders.is_empty() && largest - least > RUN_UP * largest
+}
+
+fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 4] {
+    let curve = |label: &str, of: &dyn Fn(&GearboxInstant) -> f64| Curve {
+        label: label.to_owned(),
+        points: motion.rows.iter().map(|p| (p.time, of(p))).collect(),
+    };
+    let of_meshes = |of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Vec<Curve> {
+        file.meshes.iter().enumerate().map(|(i, mesh)| curve(&mesh.name, &|p| of(p, i))).collect()
+    };
+    let radial = |p: &GearboxInstant, i: usize| p.bearings[i].force[0].hypot(p.bearings[i].force[1]);
+    let bearings: Vec<Curve> =
+        file.bearings.iter().enumerate().map(|(i, b)| curve(&b.name, &|p| radial(p, i))).collect();
+    let time = "time [s]";
+    [
+        line_chart(
+            "Dynamic transmission error",
+            time,
+            "DTE [um]",
+            &of_meshes(&|p, i| 1e3 * p.meshes[i].transmission_error),
+            false,
+        ),
+        line_chart("Normal force of the meshes", time, "force [N]", &of_meshes(&|p, i| p.meshes[i].normal_force), true),
+        line_chart("Radial force of the bearings", time, "force [N]", &bearings, true),
+        line_chart("Torque on the input", time, "torque [N m]", &[curve("input", &|p| 1e-3 * p.input_torque)], false),
+    ]
+}
+
+/// Orders of every mesh: its own transmission error and the force of the bearing that has most of it.
+fn over_speed(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 2] {
+    let curves = |of: &dyn Fn(&MotionOrder) -> f64| -> Vec<Curve> {
+        let each = (0..file.meshes.len()).flat_map(|mesh| (1..=DRAWN).map(move |order| (mesh, order)));
+        let one = |(mesh, order): (usize, usize)| {
+            let own = motion.orders.iter().filter(|o| o.mesh == mesh && o.order == order);
+            let points: Vec<(f64, f64)> = own.map(|o| (o.speed.abs() / RPM, of(o))).collect();
+            Curve { label: format!("{}, order {order}", file.meshes[mesh].name), points }
+        };
+        each.map(one).filter(|curve| !curve.points.is_empty()).collect()
+    };
+    let largest = |o: &MotionOrder| o.bearing_forces.iter().copied().fold(0.0, f64::max);
+    let speed = "speed of the input [1/min]";
+    [
+        line_chart(
+            "Mesh orders in the transmission error",
+            speed,
+            "amplitude [um]",
+            &curves(&|o| 1e3 * o.transmission_errors[o.mesh]),
+            true,
+        ),
+        line_chart("Mesh orders at the bearing that has most of them", speed, "amplitude [N]", &curves(&largest), true),
+    ]
+}

@@ -1,0 +1,77 @@
+//! Tables of a gearbox in motion beside its rows: section, orders, waterfall.
+
+use analysis::{
+    gearbox::{GearboxMotionResult, MotionOrder},
+    motion::Waterfall,
+};
+use answer::Table;
+use scene::gearbox::Gearbox;
+use study::StudyError;
+
+use super::vibration_rows::which;
+use crate::motion_files::{self, WaterfallOf};
+
+/// `section`: the rows once a common period of all meshes, at its start; `None` where the motion does not last one, the
+/// meshes have none, or the input does not turn one way alone.
+///
+/// # Errors
+/// [`StudyError`] for rows that hold what is no number.
+pub(super) fn section(motion: &GearboxMotionResult, rows: &Table) -> Result<Option<Table>, StudyError> {
+    let places = motion.cycles();
+    let Some(period) = motion.common_period.map(|p| p as f64) else { return Ok(None) };
+    let lasts = places.last().is_some_and(|last| *last > (1.0 - 1e-9) * period);
+    if !lasts || places.windows(2).any(|w| w[1] <= w[0]) {
+        return Ok(None);
+    }
+    motion_files::section(rows, &places, period).map(Some)
+}
+
+/// `motion_orders`: what every order of every mesh does along a motion, one row an order over a stretch.
+pub(super) fn orders(file: &Gearbox, orders: &[MotionOrder]) -> Table {
+    let table = Table::new("motion_orders").numbers("time_s", "middle of the interval", orders.iter().map(|o| o.time));
+    let rows = orders.iter().map(|o| (o.speed.abs(), o.mesh, o.order, o.frequency));
+    let mut table = which(table, rows);
+    for i in 0..file.meshes.len() {
+        let errors = orders.iter().map(|o| 1e3 * o.transmission_errors[i]);
+        table.push_numbers(
+            format!("mesh_{}_dte_um", i + 1),
+            "amplitude (peak) of the order in the dynamic transmission error",
+            errors,
+        );
+        let forces = orders.iter().map(|o| o.mesh_forces[i]);
+        table.push_numbers(
+            format!("mesh_{}_normal_force_n", i + 1),
+            "amplitude (peak) of the order in the normal force",
+            forces,
+        );
+    }
+    for i in 0..file.bearings.len() {
+        let forces = orders.iter().map(|o| o.bearing_forces[i]);
+        table.push_numbers(
+            format!("bearing_{}_force_n", i + 1),
+            "amplitude (peak) of the order in the bearing force, x, y, z together",
+            forces,
+        );
+    }
+    table
+}
+
+/// `waterfall`: spectra of a motion whose speed is led from one to another.
+pub(super) fn waterfall(file: &Gearbox, of: &Waterfall) -> Table {
+    let mesh = |i: usize| {
+        [
+            (format!("mesh_{i}_dte_um"), "single-sided amplitude of the dynamic transmission error"),
+            (format!("mesh_{i}_normal_force_n"), "single-sided amplitude of the normal force"),
+        ]
+    };
+    let bearing =
+        |i: usize| (format!("bearing_{i}_force_n"), "single-sided amplitude of the bearing force, x, y, z together");
+    let meshes = (1..=file.meshes.len()).flat_map(mesh);
+    let quantities: Vec<_> = meshes.chain((1..=file.bearings.len()).map(bearing)).collect();
+    let of_gearbox = WaterfallOf {
+        speed: ["input_rpm", "mean speed of the input over the interval"],
+        order: "order of the frequency of the fastest mesh",
+        quantities: &quantities,
+    };
+    motion_files::waterfall(of, of_gearbox)
+}
