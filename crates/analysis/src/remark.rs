@@ -84,6 +84,9 @@ answer::remarks! {
     large_backlash(backlash_mm, backlash_modules)
         "the backlash is {backlash_mm} mm, {backlash_modules} modules: are `centre_distance_mm` and `thickness_allowance_mm` in mm?",
         "";
+    ring_shift_of_other_sign(profile_shift, backlash_mm, profile_shift_that_fits)
+        "with `profile_shift` {profile_shift} of the ring the backlash is {backlash_mm} mm; {profile_shift_that_fits} fits the centre distance: ISO 21771 has minus the sign of conventions with z_2 > 0",
+        "";
     speed_in_rad_per_s(speed_rpm, speed_if_rad_per_s_rpm)
         "`speed_rpm` is {speed_rpm}; {speed_rpm} rad/s are {speed_if_rad_per_s_rpm} 1/min, was that meant?", "";
 

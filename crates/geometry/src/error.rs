@@ -91,6 +91,8 @@ pub enum GeometryError {
         backlash_mm: f64,
         /// Centre distance at which unthinned teeth of these profile shifts have no backlash, mm.
         nominal_mm: f64,
+        /// Profile shift of the ring with the other sign, where the distance asks for it.
+        ring_shift: Option<f64>,
     },
     /// A tip reaches the other gear's root circle.
     #[error("the {gear}'s tip runs into its mate's root circle: clearance {clearance_mm:.4} mm")]
@@ -245,6 +247,9 @@ impl GeometryError {
             }
             Self::Mismatch { .. } => "both gears of a pair share module, pressure angle and helix angle".into(),
             Self::CentreDistance { least_mm, .. } => format!("the centre distance must exceed {least_mm:.4} mm"),
+            Self::Jammed { ring_shift: Some(x), .. } => format!(
+                "the centre distance fits a ring of profile shift {x}: ISO 21771 has minus the sign of conventions with z_2 > 0"
+            ),
             Self::Jammed { nominal_mm, .. } => {
                 // A pinion has more room nearer to the axis of its ring.
                 let [way, raise] = if *nominal_mm < 0.0 { ["lower", " raise"] } else { ["raise", ""] };

@@ -111,6 +111,7 @@ impl GearPair {
             return Err(GeometryError::Jammed {
                 backlash_mm: self.backlash(),
                 nominal_mm: nominal_centre_distance(&self.pinion, &self.wheel),
+                ring_shift: self.ring_shift_of_other_sign(),
             });
         }
         for (gear, tip, mate) in [("pinion", &self.pinion, &self.wheel), ("wheel", &self.wheel, &self.pinion)] {
@@ -169,6 +170,14 @@ impl GearPair {
     /// Whether the wheel is a ring.
     pub fn is_internal(&self) -> bool {
         self.wheel.is_internal()
+    }
+
+    /// Profile shift coefficient of the ring with the other sign, where teeth of full thickness fit the centre distance with it ten times better than with its own, which is off by more than m_n/20: conventions with z_2 > 0 have minus ISO 21771's. `None` of other pairs and of external ones.
+    pub fn ring_shift_of_other_sign(&self) -> Option<f64> {
+        let [x1, x2] = [&self.pinion, &self.wheel].map(|gear| gear.data().profile_shift);
+        let off = |x2: f64| (self.centre_distance - distance_of_shifts(&self.pinion, &self.wheel, x1 + x2)).abs();
+        let [own, other] = [off(x2), off(-x2)];
+        (self.is_internal() && own > 0.05 * self.pinion.data().normal_module && other < 0.1 * own).then_some(-x2)
     }
 
     fn internal_mesh(&self) -> Option<InternalMesh> {
@@ -437,12 +446,15 @@ impl GearPair {
     }
 }
 
-/// inv a_wt = inv a_t + 2 (x1 + x2) tan a_n / (z1 + z2); a = (r_1 + r_2) cos a_t / cos a_wt.
 fn nominal_centre_distance(pinion: &Gear, wheel: &Gear) -> f64 {
+    distance_of_shifts(pinion, wheel, pinion.data().profile_shift + wheel.data().profile_shift)
+}
+
+/// inv a_wt = inv a_t + 2 x tan a_n / (z1 + z2); a = (r_1 + r_2) cos a_t / cos a_wt; x: sum of the profile shifts.
+fn distance_of_shifts(pinion: &Gear, wheel: &Gear, shifts: f64) -> f64 {
     let alpha_t = pinion.transverse_pressure_angle();
-    let (x1, x2) = (pinion.data().profile_shift, wheel.data().profile_shift);
     let teeth = pinion.signed_teeth() + wheel.signed_teeth();
-    let target = crate::involute(alpha_t) + 2.0 * (x1 + x2) * pinion.data().normal_pressure_angle.tan() / teeth;
-    let a_wt = if x1 + x2 == 0.0 { alpha_t } else { bisect(0.0, 1.4, |a| target.max(0.0) - crate::involute(a)) };
+    let target = crate::involute(alpha_t) + 2.0 * shifts * pinion.data().normal_pressure_angle.tan() / teeth;
+    let a_wt = if shifts == 0.0 { alpha_t } else { bisect(0.0, 1.4, |a| target.max(0.0) - crate::involute(a)) };
     (pinion.base_radius() + wheel.base_radius()) / a_wt.cos()
 }

@@ -41,7 +41,8 @@ pub fn remarks(scene: &Scene, pair: &GearPair) -> Vec<Remark> {
         let own = [material(of, gear), density(dynamic, of, gear), bore(name, gear, exact), thinning(name, gear)];
         own.into_iter().flatten().chain(flanks(module, name, exact)).collect::<Vec<_>>()
     });
-    let of_pair = [doubtful(scene, pair), helix(&scene.pinion), width(&scene.pair), backlash(module, pair)];
+    let of_pair =
+        [doubtful(scene, pair), helix(&scene.pinion), width(&scene.pair), backlash(module, pair), ring_shift(pair)];
     let mut all: Vec<Remark> = Vec::new();
     let speed = if dynamic { speed(&scene.operation) } else { None };
     for said in of_pair.into_iter().chain([speed]).flatten().chain(of_gears) {
@@ -124,6 +125,11 @@ fn width(pair: &PairScene) -> Option<Remark> {
 fn backlash(module: f64, pair: &GearPair) -> Option<Remark> {
     let backlash = pair.backlash();
     (backlash > LOOSE * module).then(|| remark::large_backlash(backlash, backlash / module))
+}
+
+fn ring_shift(pair: &GearPair) -> Option<Remark> {
+    let other = pair.ring_shift_of_other_sign()?;
+    Some(remark::ring_shift_of_other_sign(-other, pair.backlash(), other))
 }
 
 /// A speed in rad/s is the digits of a round number of turns a minute.

@@ -97,6 +97,39 @@ fn pair_of([pinion, wheel]: [GearData; 2], distance: Option<f64>) -> Result<Gear
     GearPair::new(Gear::new(pinion)?, Gear::new(wheel)?, distance)
 }
 
+/// A ring with minus its profile shift at the distance of the right one is told with the shift that was meant, whether it jams or is loose; the right pair is not.
+#[test]
+fn a_shift_of_the_other_convention_is_told() {
+    let mut r = Random(45);
+    let mut seen = [0; 2];
+    for _ in 0..10_000 {
+        let data = random(&mut r);
+        let (shift, module) = (data[1].profile_shift, data[0].normal_module);
+        let Ok(meant) = pair_of(data.clone(), None) else { continue };
+        let distance = meant.centre_distance();
+        assert_eq!(meant.ring_shift_of_other_sign(), None);
+        let [pinion, ring] = data;
+        let written = [pinion, GearData { profile_shift: -shift, ..ring }];
+        let apart = pair_of(written.clone(), None).map(|other| (other.centre_distance() - distance).abs() / module);
+        if !apart.is_ok_and(|apart| apart > 0.1) {
+            continue;
+        }
+        match pair_of(written, Some(distance)) {
+            Err(GeometryError::Jammed { ring_shift, .. }) => {
+                assert_eq!(ring_shift, Some(shift));
+                seen[0] += 1;
+            }
+            Ok(loose) => {
+                assert_eq!(loose.ring_shift_of_other_sign(), Some(shift));
+                seen[1] += 1;
+            }
+            // Teeth of another shift may run into each other.
+            Err(_) => {}
+        }
+    }
+    assert!(seen.into_iter().all(|count| count > 100), "{seen:?}");
+}
+
 fn turned(v: Vec3, angle: f64) -> Vec3 {
     let (s, c) = angle.sin_cos();
     Vec3::new(v.x * c - v.y * s, v.x * s + v.y * c, v.z)

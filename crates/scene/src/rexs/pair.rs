@@ -81,6 +81,12 @@ pub(super) fn pair_of(
     let (starter, remarks) = loaded(model, train, &gears, starter);
     let mut pair = RexsPair { starter, remarks, places };
     pair.shorten_tips();
+    let ring_shift = pair.starter.profile_shift[1];
+    if pair.starter.teeth[1] < 0 && ring_shift != 0.0 {
+        pair.remarks.push(format!(
+            "profile_shift = {ring_shift} of the ring is read with ISO 21771's sign; programs that count z_2 > 0 write minus that"
+        ));
+    }
     Ok(pair)
 }
 
@@ -374,6 +380,16 @@ mod tests {
             let scene = crate::Scene::parse(&text, "a.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
             assert!(scene.gear_pair().unwrap().is_internal());
         }
+        let flank = |id, shift| {
+            format!(
+                "<component id=\"{id}\" type=\"cylindrical_gear_flank\"><attribute id=\"addendum_modification_coefficient\" unit=\"\">{shift}</attribute></component></components>"
+            )
+        };
+        let relation = "<relation id=\"3\" type=\"flank\"><ref id=\"7\" role=\"gear\"/><ref id=\"49\" role=\"left\"/></relation></relations>";
+        let shifted = ring().replace("</relations>", relation).replace("</components>", &flank(49, -0.1));
+        let found = read_pair(&shifted, 1, 1, &Starter::default()).unwrap();
+        assert_eq!(found.starter.profile_shift, [0.23, -0.1]);
+        assert!(found.remarks.iter().any(|said| said.contains("ISO 21771's sign")), "{:?}", found.remarks);
     }
 
     /// Each fault is told with its place and a hint; a file cut off anywhere ends in a message.
