@@ -78,6 +78,7 @@ mod shared_solutions;
 mod sink;
 mod solution_remarks;
 mod solved;
+mod solved_mesh;
 mod static_certificate;
 mod static_cycle;
 mod statics;

@@ -1,24 +1,18 @@
 //! Whether a pair at rest will hold: the standard's rating of a scene that asks for it.
 
-use contact::Site;
 use geometry::{FlankTolerances, Gear, GearPair};
 use ltca::StaticHistory;
 use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
 use rating::{
     ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LocalScuffing, Lubrication,
-    LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, PressedPlace, RatingError,
-    RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, SpectrumRating, StandardRating,
-    local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating, standard_rating,
+    LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatingError, RatingInput, Rolling,
+    RootFactors, ScuffingInput, ScuffingRating, SolvedContact, SpectrumRating, StandardRating, local_bending_safety,
+    local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating, standard_rating,
 };
 use scene::{LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
-use crate::{
-    AnalysisError,
-    error::place_in,
-    loaded_pair::LoadedPair,
-    results::{PressurePlace, base_radius_mm, face_load_factor, root_stress_headline},
-};
+use crate::{AnalysisError, error::place_in, loaded_pair::LoadedPair, results::PressurePlace, solved_mesh::SolvedMesh};
 
 /// The coarsest ISO 1328-1 class whose relief counts in K_V.
 const RELIEF_CLASS: u32 = 5;
@@ -84,25 +78,6 @@ struct Oiled {
     loss: Option<MeshLoss>,
 }
 
-/// Places of the solved contact, all positions together.
-fn pressed(scene: &Scene, history: &StaticHistory) -> Vec<PressedPlace> {
-    let base = [0, 1].map(|gear| base_radius_mm(scene, gear));
-    let pairs = history.positions.iter().flat_map(|p| &p.pairs);
-    let of_pair = |pair: &ltca::PairResult| {
-        let all: f64 = pair.slices.iter().map(|s| s.line_load).sum();
-        let share = if all > 0.0 { pair.normal_force / all } else { 0.0 };
-        let place = move |s: &contact::SliceResult| PressedPlace {
-            radii: [0, 1].map(|gear| base[gear] * s.roll[gear].abs()),
-            force: share * s.line_load,
-            line_load: s.line_load,
-            pressure: s.pressure,
-            is_edge: matches!(s.site, Site::PinionTipEdge | Site::WheelTipEdge),
-        };
-        pair.slices.iter().map(place).collect::<Vec<_>>()
-    };
-    pairs.flat_map(of_pair).collect()
-}
-
 described::described! {
     /// Safeties from the stresses of the solved contact; units are in the names, pairs are pinion and wheel.
     #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -126,13 +101,12 @@ described::described! {
 
 impl LocalRating {
     /// Local rating of a solved pair with slices; `None` of others.
-    fn of(scene: &Scene, standard: &StandardRating, history: &StaticHistory) -> Option<Self> {
-        let contact_stress_at = PressurePlace::of(scene, history)?;
-        let pressure = history.positions.iter().map(|p| p.max_pressure).fold(0.0, f64::max);
+    fn of(standard: &StandardRating, solved: &SolvedMesh) -> Option<Self> {
+        let (pressure, contact_stress_at) = solved.hardest?;
         let load_factor = standard.application_factor * standard.dynamic_factor;
         let helix = standard.helix_angle_factor;
         let gears = standard.gears();
-        let tension = root_stress_headline(history).map(|root| root.largest_tensions().map(|(stress, _)| stress));
+        let tension = solved.root_tensions;
         Some(Self {
             load_factor,
             contact_stress_mpa: helix * pressure * load_factor.sqrt(),
@@ -153,14 +127,18 @@ impl RatingHeadline {
         scene.rating.as_ref()?;
         let pair = scene.gear_pair().ok()?;
         // What the formulas refuse was refused before the work.
-        Self::of_pair(scene, &pair, history).ok()?
+        Self::of_solved(scene, &pair, &SolvedMesh::of(scene, history)).ok()?
     }
 
-    fn of_pair(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Option<Self>, AnalysisError> {
+    /// Headline of a mesh under the torque and at the speed of its scene; `None` likewise.
+    pub(crate) fn of_solved(
+        scene: &Scene,
+        pair: &GearPair,
+        solved: &SolvedMesh,
+    ) -> Result<Option<Self>, AnalysisError> {
         let Some(rating) = &scene.rating else { return Ok(None) };
-        let solved = || face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history);
-        let Some(face_load) = rating.face_load_factor.or_else(solved) else { return Ok(None) };
-        let (standard, spectrum, oiled) = rated(scene, rating, pair, face_load, Some(history))?;
+        let Some(face_load) = rating.face_load_factor.or(solved.face_load_factor) else { return Ok(None) };
+        let (standard, spectrum, oiled) = rated(scene, rating, pair, face_load, Some(solved))?;
         let gears = standard.gears();
         let least = |of: fn(&rating::GearRating) -> f64| {
             let [pinion, wheel] = gears.map(of);
@@ -174,7 +152,7 @@ impl RatingHeadline {
             least_bending_safety: bending.0,
             least_bending_safety_of: bending.1,
             bending_utilisation: 1.0 / bending.0,
-            local: LocalRating::of(scene, &standard, history),
+            local: LocalRating::of(&standard, solved),
             least_scuffing_safety: oiled.scuffing.map(|s| {
                 let local = oiled.local.as_ref().map_or(f64::INFINITY, |(local, _)| local.safety);
                 s.least_safety().min(local)
@@ -193,25 +171,32 @@ impl RatingHeadline {
 
 /// What a user should hear of the rating of a solved pair.
 pub(crate) fn remarks(scene: &Scene, history: &StaticHistory) -> Vec<answer::Remark> {
-    let Some(headline) = RatingHeadline::of(scene, history) else { return Vec::new() };
-    let outside = headline.standard.outside.iter();
-    let mut all: Vec<answer::Remark> =
-        outside.map(|o| crate::remark::rating_outside(o.quantity, o.value, o.clause, o.range)).collect();
-    for (name, gear) in NAMES.into_iter().zip(headline.standard.gears()) {
-        let safeties = [("pitting", gear.pitting_safety), ("tooth root breakage", gear.bending_safety)];
-        let low = safeties.into_iter().filter(|(_, safety)| *safety < 1.0);
-        all.extend(low.map(|(failure, safety)| crate::remark::rating_fails(name, failure, safety)));
+    RatingHeadline::of(scene, history).iter().flat_map(RatingHeadline::remarks).collect()
+}
+
+impl RatingHeadline {
+    /// What a user should hear of it.
+    pub(crate) fn remarks(&self) -> Vec<answer::Remark> {
+        let headline = self;
+        let outside = headline.standard.outside.iter();
+        let mut all: Vec<answer::Remark> =
+            outside.map(|o| crate::remark::rating_outside(o.quantity, o.value, o.clause, o.range)).collect();
+        for (name, gear) in NAMES.into_iter().zip(headline.standard.gears()) {
+            let safeties = [("pitting", gear.pitting_safety), ("tooth root breakage", gear.bending_safety)];
+            let low = safeties.into_iter().filter(|(_, safety)| *safety < 1.0);
+            all.extend(low.map(|(failure, safety)| crate::remark::rating_fails(name, failure, safety)));
+        }
+        let of_pair =
+            [("scuffing", headline.least_scuffing_safety), ("micropitting", headline.micropitting.map(|m| m.safety))];
+        let low = of_pair.into_iter().filter_map(|(failure, safety)| Some((failure, safety.filter(|s| *s < 1.0)?)));
+        all.extend(low.map(|(failure, safety)| crate::remark::rating_fails("pair", failure, safety)));
+        for (name, damage) in NAMES.into_iter().zip(headline.spectrum.iter().flat_map(|s| [s.pinion, s.wheel])) {
+            let sums = [("pitting", damage.pitting_damage), ("tooth root breakage", damage.bending_damage)];
+            let high = sums.into_iter().filter(|(_, sum)| *sum > 1.0);
+            all.extend(high.map(|(failure, sum)| crate::remark::spectrum_fails(name, failure, sum)));
+        }
+        all
     }
-    let of_pair =
-        [("scuffing", headline.least_scuffing_safety), ("micropitting", headline.micropitting.map(|m| m.safety))];
-    let low = of_pair.into_iter().filter_map(|(failure, safety)| Some((failure, safety.filter(|s| *s < 1.0)?)));
-    all.extend(low.map(|(failure, safety)| crate::remark::rating_fails("pair", failure, safety)));
-    for (name, damage) in NAMES.into_iter().zip(headline.spectrum.iter().flat_map(|s| [s.pinion, s.wheel])) {
-        let sums = [("pitting", damage.pitting_damage), ("tooth root breakage", damage.bending_damage)];
-        let high = sums.into_iter().filter(|(_, sum)| *sum > 1.0);
-        all.extend(high.map(|(failure, sum)| crate::remark::spectrum_fails(name, failure, sum)));
-    }
-    all
 }
 
 /// Refuses a scene whose rating has no value, before any work.
@@ -233,7 +218,7 @@ fn rated(
     rating: &RatingScene,
     pair: &GearPair,
     face_load: f64,
-    history: Option<&StaticHistory>,
+    solved: Option<&SolvedMesh>,
 ) -> Result<Rated, AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let gears = [&pair.pinion, &pair.wheel];
@@ -295,7 +280,7 @@ fn rated(
     let nominal = [scene.operation.torque_nm, scene.operation.speed_rpm];
     let spectrum = rating.spectrum.as_ref().map(|file| spectrum_rating(&input, file.values(), nominal)).transpose()?;
     let standard = standard_rating(&input)?;
-    let oiled = oiled(scene, rating, &loaded, (&input, &standard), history)?;
+    let oiled = oiled(scene, rating, &loaded, (&input, &standard), solved)?;
     Ok((standard, spectrum, oiled))
 }
 
@@ -305,7 +290,7 @@ fn oiled(
     rating: &RatingScene,
     loaded: &LoadedPair<'_>,
     (pair, standard): (&RatingInput<'_>, &StandardRating),
-    history: Option<&StaticHistory>,
+    solved: Option<&SolvedMesh>,
 ) -> Result<Oiled, RatingError> {
     let Some(oil_temperature_c) = rating.oil_temperature_c else { return Ok(Oiled::default()) };
     let input = ScuffingInput {
@@ -335,13 +320,12 @@ fn oiled(
         permissible_film(pair.lubricant, material, permissible)?;
         input.thermal_contact()?;
     }
-    let Some(history) = history else { return Ok(Oiled { scuffing, ..Oiled::default() }) };
+    let Some(solved) = solved else { return Ok(Oiled { scuffing, ..Oiled::default() }) };
     let rolling = Rolling::new(&pair.geometry, pair.pinion_speed_rpm);
     let turning = scene.pinion_speed().abs() * [1.0, 1.0 / pair.geometry.ratio()][input.driver];
-    let count = history.positions.len();
-    let driven: f64 = history.positions.iter().map(|p| p.wrench[input.driver].moment[2].abs()).sum();
-    let power_w = 1e-3 * turning * driven / count.max(1) as f64;
-    let solved = SolvedContact::new(input.lubrication.clone(), rolling, pressed(scene, history), count, power_w);
+    let power_w = 1e-3 * turning * solved.moments[input.driver] / solved.positions.max(1) as f64;
+    let places = solved.pressed.clone();
+    let solved = SolvedContact::new(input.lubrication.clone(), rolling, places, solved.positions, power_w);
     let local = if rating.scuffing { solved.scuffing(&input)? } else { None };
     let micropitting = if rating.micropitting { solved.micropitting(&input, material, permissible)? } else { None };
     Ok(Oiled { scuffing, local, micropitting, loss: solved.loss() })

@@ -93,6 +93,8 @@ answer::remarks! {
     // Standards.
     rating_outside(quantity, value, clause, range)
         "the rating is outside of its standard: {quantity} is {value:.3}, {clause} covers {range}", "";
+    rating_unloaded()
+        "the mesh carries no torque, or does not turn: it is not rated", "";
     rating_fails(gear, failure, safety)
         "the {gear} does not hold: its safety against {failure} is {safety:.3}", "";
     spectrum_fails(gear, failure, damage)
@@ -222,6 +224,12 @@ answer::remarks! {
     bearing_pressure(bearing, pressure_mpa, element, limit_mpa)
         "bearing {bearing}: {pressure_mpa:.0} MPa on a {element}, beyond the {limit_mpa:.0} MPa of the static rating (ISO 76): steel no longer stays elastic",
         "";
+    bearing_life_outside(bearing, load_over_rating)
+        "bearing {bearing}: its equivalent load is {load_over_rating:.2} of its dynamic rating; formulas of lives hold up to 0.5 (ISO 281)",
+        "";
+    bearing_film_outside(bearing)
+        "bearing {bearing}: the oil is thinner than a tenth of what its speed asks for, where ISO 281 has no modified life",
+        "take a thicker oil, or look at the basic life";
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
         "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
         "say `seat_mm = {better_seat_mm:.3}`";

@@ -4,12 +4,14 @@ use crate::remark;
 use gearbox::{
     Bearing, GearboxError, GearboxPosition,
     rolling_bearing::{
-        AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, RollerGeometry, RollerProfile, RollingBearing,
-        RollingBearingError, RollingElements, RollingState, Row,
+        AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, LifeModification, RollerGeometry, RollerProfile,
+        RollingBearing, RollingBearingError, RollingElements, RollingState, Row,
     },
 };
-use nalgebra::Matrix6;
-use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat};
+use nalgebra::{Matrix6, Vector5};
+use scene::gearbox::{
+    AxialPlay, BearingOil, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat,
+};
 
 /// Pressures from which on balls and rollers leave dents (ISO 76), MPa.
 const BALLS_DENT: f64 = 4200.0;
@@ -18,6 +20,9 @@ const ROLLERS_DENT: f64 = 4000.0;
 /// Tilts that catalogues let deep groove balls and rollers have at most, 10 and 4 minutes, rad.
 const BALLS_TILT: f64 = 2.9e-3;
 const ROLLERS_TILT: f64 = 1.2e-3;
+
+/// Equivalent load over the dynamic rating up to which formulas of lives hold (ISO 281).
+const HALF: f64 = 0.5;
 
 /// A rolling bearing over all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -36,6 +41,58 @@ pub struct RollingLoad {
     pub pressure: f64,
     /// Fewest and most rolling elements that carry.
     pub loaded: [usize; 2],
+    /// How long it lasts, where its dynamic rating and a speed are known and it is loaded.
+    pub life: Option<BearingLife>,
+}
+
+/// Life of a rolling bearing at 90 % reliability.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingLife {
+    /// L_10r, millions of turns of the shaft.
+    pub million_turns: f64,
+    /// P_ref: radial load of the same life, N.
+    pub equivalent_load: f64,
+    /// P_ref over C.
+    pub over_rating: f64,
+    /// Life, h.
+    pub hours: f64,
+    /// What oil and dirt make of it, where they are known and ISO 281 covers them.
+    pub modification: Option<LifeModification>,
+}
+
+impl BearingLife {
+    /// The modified life where there is one, else the basic one, h.
+    pub fn rated_hours(&self) -> f64 {
+        self.hours * self.modification.map_or(1.0, |own| own.factor)
+    }
+}
+
+/// Life at the mean of 1/L over some states (Miner), at a speed of the shaft, 1/min; `None` without rating or load.
+fn life(
+    own: &GearboxRolling,
+    law: &RollingBearing,
+    states: &[&RollingState],
+    (speed_rpm, oil): (f64, Option<BearingOil>),
+) -> Option<BearingLife> {
+    let rating = own.dynamic_rating?;
+    let damage = |s: &&RollingState| law.damage(&Vector5::from_fn(|k, _| s.displacement[k]), rating);
+    let used = states.iter().map(damage).sum::<f64>() / states.len().max(1) as f64;
+    if used.is_nan() || used <= 0.0 {
+        return None;
+    }
+    let exponent = if has_balls(own.kind) { 3.0 } else { 10.0 / 3.0 };
+    let equivalent_load = rating * used.powf(1.0 / exponent);
+    let modification = oil.and_then(|oil| {
+        let dirt = (oil.contamination_factor, equivalent_load);
+        LifeModification::new(law.elements(), own.rows.len(), (speed_rpm, oil.viscosity), dirt)
+    });
+    Some(BearingLife {
+        million_turns: 1.0 / used,
+        equivalent_load,
+        over_rating: equivalent_load / rating,
+        hours: 1e6 / used / (60.0 * speed_rpm),
+        modification,
+    })
 }
 
 /// All bearings.
@@ -99,12 +156,12 @@ fn has_balls(kind: RollingKind) -> bool {
     matches!(kind, RollingKind::DeepGrooveBall | RollingKind::AngularContactBall)
 }
 
-/// What is read off a rolling bearing; `None` for others.
+/// What is read off a rolling bearing; `None` for others. `turns`: speed of its shaft (1/min, above 0) and oil that its life is told for.
 pub(super) fn rolling_load(
     own: &GearboxBearing,
     bearing: &Bearing,
     positions: &[GearboxPosition],
-    i: usize,
+    (i, turns): (usize, Option<(f64, Option<BearingOil>)>),
 ) -> Option<RollingLoad> {
     let (rolling, law) = (own.rolling.as_ref()?, bearing.law.as_ref()?);
     let states: Vec<&RollingState> = positions.iter().filter_map(|p| p.rolling.get(i)?.as_ref()).collect();
@@ -120,11 +177,16 @@ pub(super) fn rolling_load(
         element_force: most(&|s| s.element_force),
         pressure: most(&|s| s.pressure),
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
+        life: turns.and_then(|turns| life(rolling, law, &states, turns)),
     })
 }
 
 /// What the user should hear of a rolling bearing.
-pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
+pub(super) fn remarks(
+    name: &str,
+    [is_held, asks_oil]: [bool; 2],
+    (tilt, load): (f64, &RollingLoad),
+) -> Vec<answer::Remark> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {
@@ -151,6 +213,11 @@ pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoa
         let (tilt, most) = (1e3 * tilt, 1e3 * most);
         said.push(remark::bearing_tilts(name, tilt, what, most));
     }
+    said.extend(load.life.iter().flat_map(|life| {
+        let high = (life.over_rating > HALF).then(|| remark::bearing_life_outside(name, life.over_rating));
+        let thin = (asks_oil && life.modification.is_none()).then(|| remark::bearing_film_outside(name));
+        high.into_iter().chain(thin)
+    }));
     if load.pressure > dent {
         let pressure = load.pressure;
         said.push(remark::bearing_pressure(name, pressure, what, dent));

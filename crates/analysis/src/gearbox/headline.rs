@@ -1,13 +1,14 @@
 //! The numbers that a gearbox is judged, varied and compared by.
 
 use described::Key;
-use scene::gearbox::Gearbox;
+use scene::gearbox::{Gearbox, GearboxBearing};
 use serde_json::{Map, Value, json};
 
-use crate::run_up::RunUpTorque;
+use crate::{pair_rating::RatingHeadline, run_up::RunUpTorque};
 
 use super::{
-    BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, VibrationResult,
+    BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult,
+    VibrationResult,
 };
 
 /// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
@@ -17,6 +18,8 @@ enum Of {
     Meshes(fn(&MeshResult) -> Option<f64>),
     Outputs(fn(&OutputResult) -> f64),
     Bearings(fn(&BearingLoad) -> f64),
+    MeshesRated(fn(&RatingHeadline) -> Option<f64>),
+    BearingsRated(fn(&BearingLife) -> f64),
     MeshesVibrating(fn(&VibrationResult, usize) -> f64),
     BearingsVibrating(fn(&VibrationResult, usize) -> f64),
     RunUp(fn(RunUpTorque) -> f64),
@@ -41,7 +44,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 22] = [
+const NUMBERS: [Number; 29] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -73,6 +76,41 @@ const NUMBERS: [Number; 22] = [
         "mean_bearing_force_n",
         "size of the mean force of each bearing",
         Of::Bearings(|b| b.force[0].hypot(b.force[1]).hypot(b.force[2])),
+    ),
+    list(
+        "least_pitting_safety",
+        "smaller S_H of both gears of each mesh; with `[rating]`, `null` of a mesh without one",
+        Of::MeshesRated(|r| Some(r.least_pitting_safety)),
+    ),
+    list(
+        "least_bending_safety",
+        "smaller S_F of both gears of each mesh; with `[rating]`",
+        Of::MeshesRated(|r| Some(r.least_bending_safety)),
+    ),
+    list(
+        "pitting_utilisation",
+        "1 over the smaller S_H of each mesh, for goals and limits of `ale-gear optimise`; with `[rating]`",
+        Of::MeshesRated(|r| Some(r.pitting_utilisation)),
+    ),
+    list(
+        "bending_utilisation",
+        "1 over the smaller S_F of each mesh; with `[rating]`",
+        Of::MeshesRated(|r| Some(r.bending_utilisation)),
+    ),
+    list(
+        "least_scuffing_safety",
+        "least safety against scuffing of each mesh; with `[rating]`, `null` of a mesh without `scuffing`",
+        Of::MeshesRated(|r| r.least_scuffing_safety),
+    ),
+    list(
+        "bearing_life_h",
+        "modified life of each bearing, the basic one without `viscosity_mm2_per_s`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
+        Of::BearingsRated(BearingLife::rated_hours),
+    ),
+    list(
+        "bearing_load_over_rating",
+        "equivalent load of each bearing over its dynamic rating; with `[rating]`",
+        Of::BearingsRated(|l| l.over_rating),
     ),
     list(
         "largest_dynamic_force_rms_n",
@@ -165,6 +203,15 @@ impl GearboxResult {
                 Of::Meshes(own) => self.meshes.iter().map(own).collect(),
                 Of::Outputs(own) => self.outputs.iter().map(own).collect(),
                 Of::Bearings(own) => self.bearings.iter().map(own).collect(),
+                Of::MeshesRated(own) => {
+                    let rated = self.meshes.iter().any(|m| m.rating.is_some());
+                    rated.then(|| self.meshes.iter().map(|m| m.rating.as_ref().and_then(own)).collect())?
+                }
+                Of::BearingsRated(own) => {
+                    let life = |b: &BearingLoad| b.rolling.and_then(|r| r.life);
+                    let rated = self.bearings.iter().any(|b| life(b).is_some());
+                    rated.then(|| self.bearings.iter().map(|b| life(b).as_ref().map(own)).collect())?
+                }
                 Of::MeshesVibrating(own) => {
                     self.vibration.as_ref().map(|s| meshes.clone().map(|i| own(s, i)).collect())?
                 }
@@ -191,6 +238,13 @@ impl GearboxResult {
             Of::Meshes(_) => Some(Some(file.meshes.len())),
             Of::Outputs(_) => Some(Some(file.torques.len())),
             Of::Bearings(_) => Some(Some(file.bearings.len())),
+            Of::MeshesRated(_) => {
+                file.meshes.iter().any(|m| m.scene.rating.is_some()).then_some(Some(file.meshes.len()))
+            }
+            Of::BearingsRated(_) => {
+                let rated = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some());
+                file.bearings.iter().any(rated).then_some(Some(file.bearings.len()))
+            }
             Of::MeshesVibrating(_) => vibrates.then_some(Some(file.meshes.len())),
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
             Of::RunUp(_) => file.motion.as_ref().and_then(|m| m.to_speed_rpm).map(|_| None),

@@ -39,6 +39,7 @@ impl Loaded<'_> {
             let mut scene = scene.clone();
             if let Some(all) = &torques {
                 let driven = usize::from(scene.operation.driver == Driver::Pinion);
+                super::rating::check((self.file, self.train), (i, mesh), &scene, all[i][driven].abs())?;
                 scene.operation.torque_nm = 1e-3 * all[i][driven].abs();
                 if let Some(found) = beyond(&scene, &mesh.pair) {
                     let hint = match self.in_n_m().filter(|_| found.in_n_mm) {

@@ -12,6 +12,7 @@
 //! | `at_rest` | its meshes at rest as a motion begins with them: stiffness, damping, springs and maps |
 //! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, orders of its meshes and waterfall; who gets rows and checkpoints; what is said of it |
 //! | `branch` | its periodic motions over the speed, stable and unstable |
+//! | `rating` | whether its meshes will hold |
 //! | `result` | what is read off all positions, and what is said of large deflections |
 //! | `clearance` | what is said of parts that have no room |
 //! | `inertia`, `vibration`, `swings` | how it swings about that: masses, the search, and what it finds |
@@ -31,6 +32,7 @@ mod motion;
 mod motion_remarks;
 mod orders;
 mod parts;
+mod rating;
 mod result;
 mod sink;
 mod solve;
@@ -46,7 +48,7 @@ use crate::{
     context::{Context, Ending, Question},
 };
 use accuracy::solve_accurately;
-pub use bearings::RollingLoad;
+pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
 use motion::Span;
 pub use motion::{GearboxMotionResult, Range};

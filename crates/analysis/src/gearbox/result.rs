@@ -12,7 +12,10 @@ use super::{
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
 };
-use crate::{accuracy::Accuracy, plausible::effective_modulus, solution_remarks::large_error, waves::waves_on};
+use crate::{
+    accuracy::Accuracy, pair_rating::RatingHeadline, plausible::effective_modulus, solution_remarks::large_error,
+    waves::waves_on,
+};
 
 /// Transmission error, in modules, from which on it is said to be large: shafts and bearings that give way are part of it.
 const LARGE: f64 = 0.2;
@@ -67,6 +70,8 @@ pub struct MeshResult {
     pub face_load_factor: Option<f64>,
     /// Largest pressure, MPa.
     pub max_pressure: f64,
+    /// Rating of its pair; `None` where it is not asked for, or where the mesh carries nothing.
+    pub rating: Option<RatingHeadline>,
     /// The largest transmission error over the module, and the largest pressure over E*.
     pub over_limits: [f64; 2],
     /// Turn by which gear 2 is set where the train closes a ring, rad.
@@ -110,7 +115,7 @@ fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<Remark> {
 
 pub(super) fn result(
     (file, structure): (&Gearbox, &Structure),
-    meshes: Vec<GearMesh>,
+    (meshes, ratings): (Vec<GearMesh>, Vec<Option<RatingHeadline>>),
     train: &Train,
     reduced: &[ReducedMesh],
     (positions, vibration): (Vec<GearboxPosition>, Option<VibrationResult>),
@@ -136,9 +141,15 @@ pub(super) fn result(
             misalignment,
             face_load_factor,
             max_pressure,
+            rating: ratings.get(i).cloned().flatten(),
             timing: train.meshing()[i].timing,
             gear_angles: train.meshing()[i].gear_angles(&meshes[i].pair),
         }
+    };
+    let turns = |i: usize| {
+        let asked = file.rating?;
+        let speed = asked.speed_rpm * train.ratios()[file.bearings[i].shaft].abs();
+        (speed > 0.0).then_some((speed, asked.oil))
     };
     let bearing = |i: usize| {
         let own = || all.iter().map(move |p| &p.bearings[i]);
@@ -147,7 +158,7 @@ pub(super) fn result(
             force: mean_force(all, i),
             moment: std::array::from_fn(|k| mean(own().map(|b| b.moment[k]))),
             tilt: own().map(|b| b.displacement[3].hypot(b.displacement[4])).fold(0.0, f64::max),
-            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, i),
+            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, (i, turns(i))),
         }
     };
     let output = |i: usize| {
@@ -161,7 +172,9 @@ pub(super) fn result(
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
     for (own, load) in file.bearings.iter().zip(&bearings) {
         let is_held = file.shafts[own.shaft].held;
-        remarks.extend(load.rolling.iter().flat_map(|r| super::bearings::remarks(&own.name, is_held, (load.tilt, r))));
+        let asks_oil = file.rating.is_some_and(|asked| asked.oil.is_some());
+        let told = |r| super::bearings::remarks(&own.name, [is_held, asks_oil], (load.tilt, r));
+        remarks.extend(load.rolling.iter().flat_map(told));
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
     for (i, pair) in pairs.iter().enumerate() {

@@ -11,7 +11,7 @@ use super::{
     branch, loads,
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
-    parts, result,
+    parts, rating, result,
     vibration::{self, Parts},
 };
 use crate::{
@@ -147,7 +147,10 @@ pub(super) fn solve(
     );
     let branch = file.branch.as_ref().map(|asked| branch::branch(&rest, asked, observer)).transpose()?;
     remarks.extend(branch.iter().flat_map(|own| own.remarks.iter().cloned()));
-    let result = result::result((file, &structure), meshes, &train, &reduced, (positions, vibration), remarks);
+    let (ratings, said) = rating::ratings((file, &train), &meshes, &reduced, &positions)?;
+    remarks.extend(said);
+    let result =
+        result::result((file, &structure), (meshes, ratings), &train, &reduced, (positions, vibration), remarks);
     Ok((GearboxResult { motion: moved, branch, ..result }, stopped))
 }
 

@@ -1,8 +1,15 @@
-//! Ratings of whole pairs against printed ones.
+//! Ratings of whole pairs against printed ones, and of gearboxes against their pairs.
+#![allow(clippy::print_stdout, reason = "the figure is what the test is for")]
 
-use analysis::{StaticAnalysis, pair_rating::RatingHeadline, results::static_headline};
+use analysis::{
+    Context, Ending, NoObserver, StaticAnalysis, pair_rating::RatingHeadline, results::static_headline, solve,
+};
 use rating::GearRating;
-use scene::{Scene, SceneBuilder};
+use scene::{
+    Scene, SceneBuilder,
+    gearbox::{Gearbox, gearbox_of_pair},
+};
+use serde_json::Value;
 
 fn rated(builder: SceneBuilder) -> (RatingHeadline, Vec<String>) {
     rated_scene(&builder.build().unwrap_or_else(|e| panic!("{e}")))
@@ -318,4 +325,69 @@ fn a_spectrum_of_the_nominal_load_is_the_nominal_load() {
     let damage = rating.spectrum.unwrap();
     let life = rating.standard.pinion.pitting_life_h;
     assert!((damage.pinion.pitting_damage * life / 500.0 - 1.0).abs() < 1e-9, "half of 1000 h");
+}
+
+/// A pair as a gearbox of two held shafts has its own rating, standard and local, whichever gear drives: each number to 1e-9, what comes from the load of every slice to 1e-3, since the slices of a gearbox's mesh are those of all its pairs of teeth. Root stresses are the pair's alone.
+#[test]
+fn a_gearbox_of_held_shafts_rates_as_its_pair() {
+    for driver in ["pinion", "wheel"] {
+        let pair = Scene::builder().pinion(23, 20.0).wheel(37).normal_module_mm(2.0).face_width_mm(20.0);
+        let pair = pair
+            .torque_nm(200.0)
+            .set("operation.driver", driver)
+            .set("operation.speed_rpm", 1000.0)
+            .set("contact.slices", 12)
+            .set("analysis.positions_per_cycle", 4)
+            .set("rating.life_h", 20_000.0)
+            .set("rating.application_factor", 1.25)
+            .set("rating.tolerance_class", 6)
+            .set("rating.lubricant", "mineral VG 220")
+            .set("rating.oil_temperature_c", 70.0)
+            .set("rating.pinion.flank_roughness_ra_um", 0.5)
+            .set("rating.wheel.flank_roughness_ra_um", 0.5)
+            .set("rating.lubrication", "dip")
+            .set("rating.scuffing", true)
+            .set("rating.structural_factor", 1.0);
+        let mesher = [("order", 1), ("elements_profile", 3), ("elements_face", 4), ("elements_fillet", 2)];
+        let coarse = mesher.into_iter().fold(pair, |pair, (key, count)| {
+            pair.set(&format!("pinion.mesher.{key}"), count).set(&format!("wheel.mesher.{key}"), count)
+        });
+        let scene = gears(coarse, "18CrNiMo7-6", 4.0, 16.0).build().unwrap_or_else(|e| panic!("{e}"));
+        let (alone, _) = rated_scene(&scene);
+        let text = gearbox_of_pair(&scene).unwrap();
+        let file = Gearbox::parse(&text, "held.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
+        let found = found.unwrap_or_else(|e| panic!("{e}"));
+        let own = found.meshes[0].rating.clone().unwrap();
+        assert!(own.local.is_some() && own.local_scuffing.is_some() && own.mesh_loss.is_some());
+        assert_eq!(found.headline()["least_pitting_safety"][0], own.least_pitting_safety);
+        let [own, wanted] = [own, alone].map(|r| serde_json::to_value(r).unwrap());
+        let mut worst = (0.0, String::new());
+        compare("rating", &own, &wanted, &mut worst);
+        println!("{driver} drives: {} is {:.1e} off at the most", worst.1, worst.0);
+    }
+}
+
+/// Every number of one object beside that of another.
+fn compare(name: &str, own: &Value, wanted: &Value, worst: &mut (f64, String)) {
+    // Teeth and angles of a place are the pair's own count.
+    let left_out = ["wheel_diameter_mm", "pinion_tooth", "wheel_tooth", "pinion_angle_deg"];
+    match (own, wanted) {
+        (Value::Object(a), Value::Object(b)) => {
+            for (key, wanted) in b.iter().filter(|(key, _)| !left_out.contains(&key.as_str())) {
+                compare(&format!("{name}.{key}"), a.get(key).unwrap_or(&Value::Null), wanted, worst);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) => a.iter().zip(b).for_each(|(a, b)| compare(name, a, b, worst)),
+        (Value::Number(a), Value::Number(b)) => {
+            let (a, b) = (a.as_f64().unwrap(), b.as_f64().unwrap());
+            let off = (a - b).abs() / b.abs().max(1e-12);
+            let by_slices = ["local_scuffing", "mesh_loss"].iter().any(|part| name.contains(part));
+            assert!(off < if by_slices { 1e-3 } else { 1e-9 }, "{name}: {a} beside {b}");
+            if off > worst.0 {
+                *worst = (off, name.to_owned());
+            }
+        }
+        _ => assert_eq!(own, wanted, "{name}"),
+    }
 }

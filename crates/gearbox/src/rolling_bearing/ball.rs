@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use nalgebra::{Matrix2, Matrix2x3, Matrix3x5, Vector2, Vector3, Vector5};
+use nalgebra::{Matrix2, Matrix2x3, Matrix2x5, Matrix3x5, Vector2, Vector3, Vector5};
 
 use super::{BallGeometry, PointContact, RollingBearingError, RollingReply, Row};
 
@@ -17,6 +17,28 @@ pub(super) struct BallRow {
     stiffness: f64,
     /// Radial clearance taken off the distance of the grooves' centres, and what is missing along the axis, mm.
     gap: [f64; 2],
+}
+
+/// Where the grooves of a row are before anything moves: distance of their centres, and the inner one's radius, height, and place beside the outer one, mm.
+struct Grooves {
+    rest: f64,
+    radius: f64,
+    height: f64,
+    start: Vector2<f64>,
+}
+
+/// A ball at some displacements of the inner ring.
+struct Ball {
+    /// What these displace in its radial plane.
+    moves: Matrix2x5<f64>,
+    /// v+, mm.
+    v: Vector2<f64>,
+    /// 1 for the parts of v that count.
+    sides: Vector2<f64>,
+    /// delta, mm.
+    approach: f64,
+    /// Q, N.
+    force: f64,
 }
 
 impl BallRow {
@@ -49,28 +71,13 @@ impl BallRow {
     /// along the groove freely. v+: v without what is below 0: where the inner ring has left the ball, and behind the
     /// bottom of an angular contact groove, which has no shoulder there. |v+| is convex in (u, theta), and so is V.
     pub fn add(&self, d: &Vector5<f64>, reply: &mut RollingReply) {
-        let (rest, g) = (self.geometry.groove_distance(), &self.geometry);
-        let (sin, cos) = g.contact_angle.sin_cos();
-        let behind = (g.conformity[0] - 0.5) * g.diameter;
-        let radius = 0.5 * g.pitch_diameter + behind * cos;
-        let height = self.row.position + self.row.thrust * behind * sin;
-        let start = Vector2::new(rest * cos - self.gap[0], rest * sin - self.gap[1]);
-        // Deep grooves have two sides, angular contact grooves one.
-        let is_deep = g.contact_angle == 0.0;
-        for j in 0..g.elements {
-            let (y, x) = (TAU * j as f64 / g.elements as f64).sin_cos();
-            let lever = moves(&Vector3::new(radius * x, radius * y, height));
-            let plane = Matrix2x3::new(x, y, 0.0, 0.0, 0.0, self.row.thrust);
-            let moves = plane * lever;
-            let v = start + moves * d;
-            let sides = Vector2::new(v.x > 0.0, is_deep || v.y > 0.0).map(|is| f64::from(u8::from(is)));
-            let v = v.component_mul(&sides);
-            let length = v.norm();
-            let approach = length - rest;
+        let grooves = self.grooves();
+        for j in 0..self.geometry.elements {
+            let Ball { moves, v, sides, approach, force } = self.ball(&grooves, j, d);
             // Also nothing where the place is no number: the solver then says that there is no equilibrium.
             if approach > 0.0 {
+                let length = v.norm();
                 let n = v / length;
-                let force = self.stiffness * approach * approach.sqrt();
                 let along = n * n.transpose();
                 let tangent = 1.5 * self.stiffness * approach.sqrt() * along
                     + force / length * (Matrix2::from_diagonal(&sides) - along);
@@ -81,6 +88,41 @@ impl BallRow {
                 reply.count(force, pressure);
             }
         }
+    }
+
+    /// Forces of all balls at displacements of the inner ring, N.
+    pub fn forces(&self, d: &Vector5<f64>) -> impl Iterator<Item = f64> {
+        let grooves = self.grooves();
+        (0..self.geometry.elements).map(move |j| self.ball(&grooves, j, d).force)
+    }
+
+    fn grooves(&self) -> Grooves {
+        let (rest, g) = (self.geometry.groove_distance(), &self.geometry);
+        let (sin, cos) = g.contact_angle.sin_cos();
+        let behind = (g.conformity[0] - 0.5) * g.diameter;
+        Grooves {
+            rest,
+            radius: 0.5 * g.pitch_diameter + behind * cos,
+            height: self.row.position + self.row.thrust * behind * sin,
+            start: Vector2::new(rest * cos - self.gap[0], rest * sin - self.gap[1]),
+        }
+    }
+
+    /// Ball j at displacements of the inner ring.
+    fn ball(&self, grooves: &Grooves, j: usize, d: &Vector5<f64>) -> Ball {
+        let (g, Grooves { rest, radius, height, start }) = (&self.geometry, grooves);
+        // Deep grooves have two sides, angular contact grooves one.
+        let is_deep = g.contact_angle == 0.0;
+        let (y, x) = (TAU * j as f64 / g.elements as f64).sin_cos();
+        let lever = moves(&Vector3::new(radius * x, radius * y, *height));
+        let plane = Matrix2x3::new(x, y, 0.0, 0.0, 0.0, self.row.thrust);
+        let moves = plane * lever;
+        let v = start + moves * d;
+        let sides = Vector2::new(v.x > 0.0, is_deep || v.y > 0.0).map(|is| f64::from(u8::from(is)));
+        let v = v.component_mul(&sides);
+        let approach = v.norm() - rest;
+        let force = if approach > 0.0 { self.stiffness * approach * approach.sqrt() } else { 0.0 };
+        Ball { moves, v, sides, approach, force }
     }
 
     /// Stiffness with every ball pressed by a force (N), at a contact angle of no less than `least` either way.

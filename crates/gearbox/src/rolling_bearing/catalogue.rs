@@ -36,8 +36,6 @@ const CYLINDERS: f64 = 0.55;
 const CONES: f64 = 0.47;
 /// Diameter of balls over the height from bore to outer diameter: least and largest.
 const BALLS: [f64; 2] = [0.15, 0.95];
-/// Pressure at which a ball bearing has its static load rating, MPa.
-const STATIC_PRESSURE: f64 = 4200.0;
 const HALVINGS: usize = 100;
 
 impl Catalogue {
@@ -89,11 +87,7 @@ impl Catalogue {
             Filling::Eccentric => 1.0 + FILLED / (2.0 * (d / pitch_diameter).asin()),
             Filling::Around => PI * pitch_diameter / (CAGED * d),
         };
-        let rating = |d: f64, count: f64| {
-            let force = |c: super::PointContact| c.force(STATIC_PRESSURE);
-            let least = of(d, 3).contacts().map_or(0.0, |[i, o]| force(i).min(force(o)));
-            self.rows as f64 * count * least * contact_angle.cos() / 5.0
-        };
+        let rating = |d: f64, count: f64| of(d, 3).static_rating(count, self.rows);
         let ends = BALLS.map(|share| share * self.height());
         of(ends[1], 3).check()?;
         let wanted = self.static_rating;
@@ -128,8 +122,7 @@ impl Catalogue {
         let room = (PI * pitch_diameter / (pitch * diameter)).round();
         let elements = room.clamp(3.0, MOST_ELEMENTS as f64) as usize;
         let of = |length: f64| RollerGeometry { elements, diameter, length, pitch_diameter, contact_angle, profile };
-        let cos = contact_angle.cos();
-        let a_mm = 44.0 * (1.0 - of(1.0).gamma()) * self.rows as f64 * elements as f64 * diameter * cos;
+        let a_mm = of(1.0).static_rating_per_length(self.rows);
         let length = self.static_rating / a_mm;
         let [least, most] = [0.3 * diameter, 8.0 * diameter];
         if !(least..=most).contains(&length) {

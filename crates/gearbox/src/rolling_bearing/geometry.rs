@@ -72,6 +72,8 @@ pub enum AxialSetting {
     Preload(f64),
 }
 
+/// Pressure at which a ball bearing has its static load rating, MPa.
+const STATIC_PRESSURE: f64 = 4200.0;
 /// Rolling elements of a row at the most.
 pub(super) const MOST_ELEMENTS: usize = 500;
 
@@ -121,6 +123,18 @@ impl BallGeometry {
         (self.conformity[0] + self.conformity[1] - 1.0) * self.diameter
     }
 
+    /// C_0 with a number of balls that need not be whole, N.
+    ///
+    /// ```text
+    /// C_0 = i Z Q cos(alpha)/5,   Q: force of a ball at 4200 MPa on either ring
+    /// ```
+    /// ISO 76, f_0 Z D_w^2 cos(alpha), by its own definition: the table of f_0 comes out of it.
+    pub(super) fn static_rating(&self, count: f64, rows: usize) -> f64 {
+        let force = |c: PointContact| c.force(STATIC_PRESSURE);
+        let least = self.contacts().map_or(0.0, |[i, o]| force(i).min(force(o)));
+        rows as f64 * count * least * self.contact_angle.cos() / 5.0
+    }
+
     /// Contact with the inner and the outer ring; `None` where it is none at a point.
     ///
     /// ```text
@@ -135,6 +149,24 @@ impl BallGeometry {
     }
 }
 
+impl RollingElements {
+    /// C_0 of a bearing of so many rows: its basic static radial load rating after ISO 76, N; 0 of balls without a point of contact.
+    pub fn static_rating(&self, rows: usize) -> f64 {
+        match self {
+            Self::Balls(own) => own.static_rating(own.elements as f64, rows),
+            Self::Rollers(own) => own.static_rating_per_length(rows) * own.length,
+        }
+    }
+
+    /// Diameter of the circle of their centres, mm.
+    pub fn pitch_diameter(&self) -> f64 {
+        match self {
+            Self::Balls(own) => own.pitch_diameter,
+            Self::Rollers(own) => own.pitch_diameter,
+        }
+    }
+}
+
 impl RollerGeometry {
     pub(super) fn check(&self) -> Result<(), RollingBearingError> {
         room(self.elements, self.diameter, self.pitch_diameter)?;
@@ -142,6 +174,11 @@ impl RollerGeometry {
         within("length of the rollers, mm", self.length, [1e-3, 1e5], "0.001 to 100000")?;
         let slender = self.length / self.diameter;
         within("length over diameter of the rollers", slender, [0.1, 50.0], "0.1 to 50")
+    }
+
+    /// C_0 over the length of the rollers, N/mm: 44 (1 - gamma) i Z D cos(alpha). Source: ISO 76.
+    pub(super) fn static_rating_per_length(&self, rows: usize) -> f64 {
+        44.0 * (1.0 - self.gamma()) * rows as f64 * self.elements as f64 * self.diameter * self.contact_angle.cos()
     }
 
     /// gamma = D cos(alpha)/d_pw.

@@ -3,8 +3,11 @@
 use nalgebra::{Matrix6, Vector5};
 
 use super::{
-    AxialSeat, AxialSetting, RollingBearingError, RollingElements, RollingReply, Row, ball::BallRow, reply::with_turn,
-    roller::RollerRow,
+    AxialSeat, AxialSetting, RollingBearingError, RollingElements, RollingReply, Row,
+    ball::BallRow,
+    life::{BallCapacity, LaminaCapacity},
+    reply::with_turn,
+    roller::{LAMINAE, RollerRow},
 };
 
 /// One row.
@@ -103,11 +106,45 @@ impl RollingBearing {
 
     /// Force and tangent at displacements of the inner ring against the seat of the outer one.
     pub fn evaluate(&self, displacements: &Vector5<f64>) -> RollingReply {
+        self.settled(displacements).1
+    }
+
+    /// Displacements of the inner ring against the outer one, which may float, and the reply there.
+    fn settled(&self, displacements: &Vector5<f64>) -> (Vector5<f64>, RollingReply) {
         self.seat.reply(displacements, |place| {
             let mut reply = RollingReply::nothing();
             self.rows.iter().for_each(|row| row.add(place, &mut reply));
             reply
         })
+    }
+
+    /// Share of the basic reference rating life that a million turns of the inner ring under a load that stands still take, at displacements of the inner ring against the seat of the outer one: 1/L_10r, 0 without load. `dynamic_rating`: C of the whole bearing, N, ISO 281.
+    ///
+    /// ```text
+    /// balls:   L_10r^(-10/9) = sum over the rows of (Q_ei/Q_ci)^(10/3) + (Q_ee/Q_ce)^(10/3)
+    /// rollers: L_10r^(-9/8)  = sum over rows and laminae k of (q_kei/q_ci)^(9/2) + (q_kee/q_ce)^(9/2)
+    /// ```
+    /// Source: ISO/TS 16281, 5.3 and 6.3; formulas and symbols: theory (101b).
+    pub fn damage(&self, displacements: &Vector5<f64>, dynamic_rating: f64) -> f64 {
+        let (place, rows) = (self.settled(displacements).0, self.rows.len());
+        match &self.elements {
+            RollingElements::Balls(balls) => {
+                let capacity = BallCapacity::new(balls, rows, dynamic_rating);
+                let of = |row: &LoadedRow| match row {
+                    LoadedRow::Balls(row) => capacity.used(row.forces(&place)),
+                    LoadedRow::Rollers(_) => 0.0,
+                };
+                self.rows.iter().map(of).sum::<f64>().powf(9.0 / 10.0)
+            }
+            RollingElements::Rollers(rollers) => {
+                let capacity = LaminaCapacity::new(rollers, rows, dynamic_rating);
+                let of = |row: &LoadedRow| match row {
+                    LoadedRow::Rollers(row) => (0..LAMINAE).map(|k| capacity.used(k, row.forces(k, &place))).sum(),
+                    LoadedRow::Balls(_) => 0.0,
+                };
+                self.rows.iter().map(of).sum::<f64>().powf(8.0 / 9.0)
+            }
+        }
     }
 
     /// Stiffness of its size before anything is known of its load: all elements pressed evenly by their share of a

@@ -8,6 +8,7 @@
 //! | `ball`, `roller` | one row of balls, of rollers: energy, force and tangent |
 //! | `reply` | force, moment and tangent of a bearing |
 //! | `law` | all rows together: [`RollingBearing`] |
+//! | `life` | how long it lasts |
 //! | `seat` | which thrust its seat takes: rings that float |
 //! | `state` | what is told of it, and the linear bearing that stands for it |
 //! | `error` | what is refused |
@@ -20,6 +21,7 @@ mod error;
 mod geometry;
 mod hertz;
 mod law;
+mod life;
 mod reply;
 mod roller;
 mod seat;
@@ -30,6 +32,7 @@ pub use error::RollingBearingError;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
 pub use law::RollingBearing;
+pub use life::LifeModification;
 pub use reply::RollingReply;
 pub use seat::AxialSeat;
 pub use state::RollingState;

@@ -7,7 +7,7 @@ use nalgebra::{Vector3, Vector5};
 use super::{RollerGeometry, RollerProfile, RollingBearingError, RollingReply, Row, STEEL, ball::moves};
 
 /// Laminae of a roller; ISO/TS 16281 asks for 30 at the least.
-const LAMINAE: usize = 41;
+pub(super) const LAMINAE: usize = 41;
 /// c of a contact of L mm with both rings, q = c L^(8/9) delta^(10/9): N/mm^2. ISO/TS 16281.
 const LINE: f64 = 35_948.0;
 
@@ -48,9 +48,8 @@ impl RollerRow {
         let g = &self.geometry;
         for j in 0..g.elements {
             let (mut force, mut largest) = (0.0, 0.0f64);
-            for (k, gap) in self.gaps.iter().enumerate() {
-                let lever = self.lever(j, k);
-                let approach = lever.dot(d) - gap;
+            for k in 0..LAMINAE {
+                let (lever, approach) = self.approach(j, k, d);
                 if approach > 0.0 {
                     let root = self.stiffness * approach.powf(1.0 / 9.0);
                     let own = root * approach;
@@ -65,6 +64,18 @@ impl RollerRow {
                 reply.count(force, self.pressure(largest * LAMINAE as f64 / g.length));
             }
         }
+    }
+
+    /// Forces of lamina k of all rollers at displacements of the inner ring, N; k below [`LAMINAE`].
+    pub fn forces(&self, k: usize, d: &Vector5<f64>) -> impl Iterator<Item = f64> {
+        let of = move |j| self.stiffness * self.approach(j, k, d).1.max(0.0).powf(10.0 / 9.0);
+        (0..self.geometry.elements).map(of)
+    }
+
+    /// Approach of the rings at lamina k of roller j, mm, and what the coordinates of the inner ring press it by.
+    fn approach(&self, j: usize, k: usize, d: &Vector5<f64>) -> (Vector5<f64>, f64) {
+        let lever = self.lever(j, k);
+        (lever, lever.dot(d) - self.gaps[k])
     }
 
     /// Stiffness with every roller pressed evenly by a force, N.

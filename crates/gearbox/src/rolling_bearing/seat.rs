@@ -28,12 +28,12 @@ const DOUBLINGS: usize = 64;
 const STEPS: usize = 100;
 
 impl AxialSeat {
-    /// Reply of a bearing in this seat, from that of its rows alone.
+    /// Reply of a bearing in this seat, from that of its rows alone, and the displacements of the inner ring against the outer one.
     pub(super) fn reply(
         self,
         displacements: &Vector5<f64>,
         rows: impl Fn(&Vector5<f64>) -> RollingReply,
-    ) -> RollingReply {
+    ) -> (Vector5<f64>, RollingReply) {
         let held = rows(displacements);
         let is_held = match self {
             Self::Held => true,
@@ -42,17 +42,17 @@ impl AxialSeat {
             Self::Shoulder(way) => held.force[Z] * way <= 0.0,
         };
         if is_held {
-            return held;
+            return (*displacements, held);
         }
-        let at = |z: f64| {
+        let place = |z: f64| {
             let mut place = *displacements;
             place[Z] = z;
-            rows(&place)
+            place
         };
-        let mut free = floating(displacements[Z], held, at);
+        let (z, mut free) = floating(displacements[Z], held, |z| rows(&place(z)));
         free.force[Z] = 0.0;
         free.stiffness = without_thrust(&free.stiffness);
-        free
+        (place(z), free)
     }
 
     /// A stiffness that a floating ring leaves.
@@ -61,13 +61,13 @@ impl AxialSeat {
     }
 }
 
-/// The reply where the thrust vanishes, by Newton's steps between two places on either side of it.
-fn floating(from: f64, held: RollingReply, at: impl Fn(f64) -> RollingReply) -> RollingReply {
+/// The place where the thrust vanishes and the reply there, by Newton's steps between two places on either side of it.
+fn floating(from: f64, held: RollingReply, at: impl Fn(f64) -> RollingReply) -> (f64, RollingReply) {
     let newton = |reply: &RollingReply| reply.force[Z] / reply.stiffness[(Z, Z)];
     // A force along z pushes the shaft, and with it the ring's own place, towards the equilibrium.
     let (mut near, mut step) = ((from, held), newton(&held));
     if !step.is_finite() {
-        return held;
+        return near;
     }
     let mut far = None;
     for _ in 0..DOUBLINGS {
@@ -80,7 +80,7 @@ fn floating(from: f64, held: RollingReply, at: impl Fn(f64) -> RollingReply) -> 
         near = (place, reply);
         step *= 2.0;
     }
-    let Some(mut far) = far else { return near.1 };
+    let Some(mut far) = far else { return near };
     let mut halve = false;
     for _ in 0..STEPS {
         let best = if near.1.force[Z].abs() <= far.1.force[Z].abs() { near } else { far };
@@ -90,7 +90,7 @@ fn floating(from: f64, held: RollingReply, at: impl Fn(f64) -> RollingReply) -> 
         let place = if is_between && !halve { tried } else { middle };
         let is_fine = step.abs() <= 4.0 * f64::EPSILON * best.0.abs().max(from.abs());
         if is_fine || place == near.0 || place == far.0 {
-            return best.1;
+            return best;
         }
         let width = (far.0 - near.0).abs();
         let reply = at(place);
@@ -98,7 +98,7 @@ fn floating(from: f64, held: RollingReply, at: impl Fn(f64) -> RollingReply) -> 
         // Newton's steps may come from one side alone.
         halve = (far.0 - near.0).abs() > 0.5 * width;
     }
-    if near.1.force[Z].abs() <= far.1.force[Z].abs() { near.1 } else { far.1 }
+    if near.1.force[Z].abs() <= far.1.force[Z].abs() { near } else { far }
 }
 
 /// Schur's complement of the coordinate along the axis.

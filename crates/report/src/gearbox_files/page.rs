@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use analysis::gearbox::GearboxResult;
+use analysis::gearbox::{BearingLife, BearingLoad, GearboxResult};
 use answer::Answer;
 use gearbox::{GearboxPosition, ShaftLine, line_load};
 use minijinja::context;
@@ -14,6 +14,7 @@ use crate::{
     charts::{Curve, embedded, line_chart},
     how_exact::how_exact,
     page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, render},
+    pair_files::rating,
 };
 
 /// The page of an answer about a gearbox.
@@ -39,6 +40,8 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(Part::more().with(Content::Html(render("gearbox_view.html", view)?)));
     page.push(meshes(result));
     page.push(pairs(file, result));
+    let rated = result.meshes.iter().filter_map(|m| Some((m.name.as_str(), m.rating.as_ref()?)));
+    rated.flat_map(|(name, own)| rating::parts(own, Some(name))).for_each(|part| page.push(part));
     page.push(shafts(file, result));
     page.push(bearings(file, result));
     page.push(outputs(result));
@@ -118,6 +121,10 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     if rolls {
         head.extend(["element N", "Hertz MPa", "loaded", "k_x, k_y, k_z N/um"]);
     }
+    let lasts = result.bearings.iter().any(|b| life(b).is_some());
+    if lasts {
+        head.extend(["P/C", "L10 h", "L10 modified h"]);
+    }
     let rows = result.bearings.iter().enumerate().map(|(i, b)| {
         let mut row = vec![
             Cell::text(&b.name),
@@ -138,10 +145,28 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
                 Cell::count(stiffness.unwrap_or_else(|| "-".to_owned())),
             ]);
         }
+        if lasts {
+            let own = life(b);
+            let modified = own.and_then(|own| own.modification.map(|_| own.rated_hours()));
+            row.extend([
+                Cell::number(own.map(|own| own.over_rating), 3),
+                Cell::number(own.map(|own| own.hours), 0),
+                Cell::number(modified, 0),
+            ]);
+        }
         row
     });
-    let note = "Mean forces on the shafts, common axes.";
+    let note = if lasts {
+        "Mean forces on the shafts, common axes. Lives after ISO/TS 16281 from the force of every rolling element, at 90 % \
+         reliability; P: radial load of the same life, C: dynamic rating. Modified: with oil and dirt, ISO 281."
+    } else {
+        "Mean forces on the shafts, common axes."
+    };
     Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
+}
+
+fn life(bearing: &BearingLoad) -> Option<BearingLife> {
+    bearing.rolling.and_then(|rolling| rolling.life)
 }
 
 fn outputs(result: &GearboxResult) -> Part {

@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use analysis::accuracy::Accuracy;
 use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, VibrationResult};
+use analysis::pair_rating::RatingHeadline;
 use answer::keyed;
 use described::Key;
 use gearbox::rolling_bearing::RollingElements;
@@ -83,6 +84,9 @@ described::described! {
         face_load_factor: Option<f64>,
         /// largest contact pressure
         max_pressure_mpa: f64,
+        /// ratings of the pair under the torque and at the speed that it has here; missing without `[rating]`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        rating: Option<&'a RatingHeadline>,
         /// angle by which the wheel has to be set against its key where the train closes a ring, so that all flanks touch; 0 otherwise
         timing_deg: f64,
     }
@@ -128,6 +132,34 @@ described::described! {
         max_hertz_pressure_mpa: f64,
         /// mean tangent stiffness, which vibration and motion have: five rows for x, y, z and the rotations about x and y, in N/mm, N/rad and N, N mm/rad
         stiffness_n_mm_rad: [[f64; 5]; 5],
+        /// life at 90 % reliability; missing without `dynamic_rating_kn`, and without load
+        #[serde(skip_serializing_if = "Option::is_none")]
+        life: Option<LifeSummary>,
+    }
+
+    /// Life of a rolling bearing at 90 % reliability.
+    #[derive(Serialize)]
+    struct LifeSummary {
+        /// L_10r, basic reference rating life of ISO/TS 16281, millions of turns of the shaft
+        basic_life_million_turns: f64,
+        /// L_10r at the speed of the shaft
+        basic_life_h: f64,
+        /// P_ref: radial load that has the same life by the catalogue's formula
+        equivalent_load_n: f64,
+        /// P_ref over the dynamic rating C
+        load_over_rating: f64,
+        /// life with oil and dirt, a_ISO L_10r; missing without `viscosity_mm2_per_s`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        modified_life_h: Option<f64>,
+        /// a_ISO of ISO 281
+        #[serde(skip_serializing_if = "Option::is_none")]
+        life_modification_factor: Option<f64>,
+        /// kappa: viscosity of the oil over the one that the speed asks for
+        #[serde(skip_serializing_if = "Option::is_none")]
+        viscosity_ratio: Option<f64>,
+        /// C_u: load below which raceways do not tire under the best conditions
+        #[serde(skip_serializing_if = "Option::is_none")]
+        fatigue_limit_n: Option<f64>,
     }
 
     /// An output over all positions.
@@ -218,12 +250,13 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 11] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 12] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),
     ("bearings, a gearbox", BearingSummary::KEYS),
     ("rolling", RollingSummary::KEYS),
+    ("life", LifeSummary::KEYS),
     ("outputs, a gearbox", OutputSummary::KEYS),
     ("vibration", VibrationSummary::KEYS),
     ("modes, vibration", ModeSummary::KEYS),
@@ -278,6 +311,16 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
         max_element_force_n: load.element_force,
         max_hertz_pressure_mpa: load.pressure,
         stiffness_n_mm_rad: load.stiffness,
+        life: load.life.map(|life| LifeSummary {
+            basic_life_million_turns: life.million_turns,
+            basic_life_h: life.hours,
+            equivalent_load_n: life.equivalent_load,
+            load_over_rating: life.over_rating,
+            modified_life_h: life.modification.map(|_| life.rated_hours()),
+            life_modification_factor: life.modification.map(|own| own.factor),
+            viscosity_ratio: life.modification.map(|own| own.viscosity_ratio),
+            fatigue_limit_n: life.modification.map(|own| own.fatigue_limit),
+        }),
     }
 }
 
@@ -335,6 +378,7 @@ fn mesh<'a>(m: &'a MeshResult, pair: &GearPair) -> MeshSummary<'a> {
         misalignment_across_um: 1e3 * m.misalignment[1],
         face_load_factor: m.face_load_factor,
         max_pressure_mpa: m.max_pressure,
+        rating: m.rating.as_ref(),
         timing_deg: m.timing.to_degrees(),
     }
 }

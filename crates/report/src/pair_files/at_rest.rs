@@ -54,7 +54,7 @@ pub fn write_static_result(
     }
     let answer = pair_answer(scene, (facts, cost), &headline, &history.remarks, tables);
     let mut after = after(&headline, facts, pattern);
-    after.extend(headline.rating.iter().flat_map(rating::parts));
+    after.extend(headline.rating.iter().flat_map(|rating| rating::parts(rating, None)));
     let shown = Shown {
         subtitle: format!(", {} positions a mesh cycle, {} cycle(s)", headline.samples_per_cycle, headline.cycles),
         key: [

@@ -20,7 +20,7 @@ pub(crate) mod key_rows;
 mod key_sweep;
 mod lumped;
 mod motion;
-mod rating;
+pub(crate) mod rating;
 pub(crate) mod rows;
 
 pub use at_rest::{static_charts, write_static_result, write_static_rows};

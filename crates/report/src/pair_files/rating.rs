@@ -15,13 +15,14 @@ pub(super) fn safeties(rating: &RatingHeadline) -> [[String; 2]; 2] {
     ]
 }
 
-/// The part `Will it hold?`: safeties in the closing table, then all factors in the order of the standard.
-pub(super) fn parts(rating: &RatingHeadline) -> [Part; 2] {
+/// The part `Will it hold?`, of a mesh with its name: safeties in the closing table, then all factors in the order of the standard.
+pub(crate) fn parts(rating: &RatingHeadline, mesh: Option<&str>) -> [Part; 2] {
     let r = &rating.standard;
     let least = |value: f64, of: &str| Line::number("  the smaller one", value, 2, format!("({of})"));
     let both = |of: fn(&GearRating) -> f64| r.gears().map(|g| crate::tables::fixed(of(g), 2)).join(", ");
+    let of = mesh.map_or_else(String::new, |name| format!("{name}: "));
     let mut lines = vec![
-        Line::text("safety against pitting S_H", both(|g| g.pitting_safety), "(pinion, wheel)"),
+        Line::text(format!("{of}safety against pitting S_H"), both(|g| g.pitting_safety), "(pinion, wheel)"),
         least(rating.least_pitting_safety, rating.least_pitting_safety_of),
         Line::text("safety against root breakage S_F", both(|g| g.bending_safety), "(pinion, wheel)"),
         least(rating.least_bending_safety, rating.least_bending_safety_of),
@@ -45,7 +46,8 @@ pub(super) fn parts(rating: &RatingHeadline) -> [Part; 2] {
         lines.push(Line::text("safety of the spectrum, breakage", pair(both(|d| d.bending_safety)), "(pinion, wheel)"));
     }
     lines.extend(oiled(rating));
-    let safeties = Part::new("Will it hold?").closing().lines(lines);
+    let title = mesh.map_or_else(|| "Will it hold?".to_owned(), |name| format!("Will it hold? {name}"));
+    let safeties = Part::new(title).closing().lines(lines);
     let note = "Pitting after ISO 6336-2, tooth root breakage after ISO 6336-3, load factors after ISO 6336-1, method B unless stated; K_Hbeta is that of the solved load distribution unless stated. A life ends where the safety is 1; a safety below the one that your application asks for is not enough.";
     let sheet = Part::more().lines(load(r)).with(Content::Grid(sheet(r))).note(note);
     [safeties, sheet]

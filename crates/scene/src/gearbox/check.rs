@@ -13,6 +13,7 @@ use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
+use super::rating::rating;
 use super::schema::{GearboxDrive, MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
@@ -68,6 +69,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     in_mesh(s, &raw.gear, &gears, &meshes)?;
     let parts = [meshes.len(), bearings.len()];
     let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
+    let rating = rating(s, &raw, (&meshes, &bearings))?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
     over_time(s, &raw, table.get_ref(), moves.as_ref().map(Asked::motion))?;
@@ -95,6 +97,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         cycles: row!(s, ANALYSIS, analysis.cycles)?,
         shaft_elements: row!(s, ANALYSIS, analysis.shaft_elements)?,
         accuracy: accuracy(s, &raw)?,
+        rating,
         vibration,
         modes,
         motion,
@@ -191,9 +194,6 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     }
     if scene.contact.method != Method::Slice {
         return unfit("has contact by points", "a gearbox takes `method = \"slice\"` in [contact]");
-    }
-    if scene.rating.is_some() {
-        return unfit("asks for a rating", "a gearbox is not rated: rate the pair alone, under the torque of its mesh");
     }
     let name = mesh_name(raw);
     let timing = s.choice_of("timing", &raw.timing)?;

@@ -39,6 +39,8 @@ pub struct Gearbox {
     pub shaft_elements: u32,
     /// How exact its headline numbers at rest are to be.
     pub accuracy: AccuracyScene,
+    /// Speed and oil of ratings, where they are asked for.
+    pub rating: Option<GearboxRating>,
     /// Vibration about where it stands, where it is asked for.
     pub vibration: Option<GearboxVibration>,
     /// Normal modes of the gears in that vibration; none: gears are rigid beside their teeth. Damping is the vibration's.
@@ -93,6 +95,24 @@ pub struct GearboxShaft {
     pub held: bool,
 }
 
+/// Operation that meshes and bearings are rated for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GearboxRating {
+    /// Speed of the input, 1/min, above 0.
+    pub speed_rpm: f64,
+    /// Oil in the bearings; none: basic lives alone.
+    pub oil: Option<BearingOil>,
+}
+
+/// Oil in the bearings at their temperature.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BearingOil {
+    /// Kinematic viscosity, mm^2/s.
+    pub viscosity: f64,
+    /// e_C of ISO 281.
+    pub contamination_factor: f64,
+}
+
 /// A length of shaft of one section.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct GearboxSection {
@@ -142,6 +162,8 @@ pub struct GearboxRolling {
     pub rows: Vec<[f64; 2]>,
     /// Thrust that its seat takes.
     pub seat: ThrustSeat,
+    /// C of the whole bearing, N, ISO 281; none: its life is not told.
+    pub dynamic_rating: Option<f64>,
 }
 
 /// Thrust of the shaft that the seat of a bearing takes.

@@ -6,6 +6,7 @@
 //! | `read` | from a file to that |
 //! | `vibration`, `modes`, `motion` | how it swings, with which modes of its gears, and how it runs in time |
 //! | `accuracy` | how exact its numbers are to be |
+//! | `rating` | whether it will hold, at which speed |
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
 //! | `of_pair` | the gearbox that a pair is the short form of |
@@ -22,6 +23,7 @@ mod motion;
 mod of_pair;
 mod pair_setting;
 mod parts;
+mod rating;
 mod read;
 mod rolling;
 mod schema;
@@ -30,8 +32,8 @@ mod values;
 mod vibration;
 
 pub use file::{
-    AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRolling, GearboxSection,
-    GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
+    AxialPlay, BearingOil, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRating,
+    GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
 pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};

@@ -8,7 +8,7 @@ use crate::{
 };
 
 /// Tables of a scene that say what the pair is and how its flanks press; the others say what is done with it.
-const OF_PAIR: [&str; 5] = ["pinion", "wheel", "pair", "operation", "contact"];
+const OF_PAIR: [&str; 6] = ["pinion", "wheel", "pair", "operation", "contact", "rating"];
 /// Tables of a gear that hold it, which the shafts do here.
 const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
 /// Density of shafts in motion, kg/m^3: a pair has no inertia but that of its gears.
@@ -25,7 +25,7 @@ const MAPS: &str = "map_overload = 6.0\nmap_tolerance = 3e-5\n";
 /// ```text
 /// theta_1 = theta_m - sign(sense) pi/z_1
 /// ```
-/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). What the scene computes, measures and writes (`analysis`,
+/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). A rating stays, at the speed of the scene. What the scene computes, measures and writes (`analysis`,
 /// `motion`, `accuracy`, `output`) is left out, and friction, without which the gearbox can be asked for vibration.
 ///
 /// # Errors
@@ -167,16 +167,18 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         0.0 => String::new(),
         inertia => format!("inertia_kg_m2 = {inertia:?}\n"),
     };
+    let rated = scene.rating.as_ref().map(|_| format!("[rating]\nspeed_rpm = {:?}\n\n", scene.operation.speed_rpm));
     let _ = write!(
         text,
         "\n[input]\nshaft = \"{}\"\nposition_mm = 0.0\nrotation = \"{word}\"\n{}\n\
          [[torque]]\nshaft = \"{}\"\nposition_mm = 0.0\ntorque_nm = {:?}\n{}\n\
-         [analysis]\npositions_per_cycle = {}\n\n[[mesh]]\nname = \"pair\"\npinion = \"pinion\"\nwheel = \"wheel\"\n\n",
+         {}[analysis]\npositions_per_cycle = {}\n\n[[mesh]]\nname = \"pair\"\npinion = \"pinion\"\nwheel = \"wheel\"\n\n",
         names[driver],
         machine(driver),
         names[driven],
         scene.operation.torque_nm,
         machine(driven),
+        rated.unwrap_or_default(),
         scene.analysis.positions_per_cycle
     );
     Ok(text + &mesh_scene(scene))

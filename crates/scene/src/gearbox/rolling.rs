@@ -7,7 +7,7 @@ use toml::Spanned;
 use super::{
     file::{AxialPlay, GearboxRolling, RollingSize, ThrustSeat},
     schema::{Arrangement, BEARING, RawBearing, RollerProfile, RollingKind, Thrust},
-    values::{Checked, missing, needed_number, needed_of, row},
+    values::{Checked, given, missing, needed_number, needed_of, row},
 };
 use crate::{Number, Source};
 
@@ -19,6 +19,7 @@ pub(super) const TYPED: &[(&str, Place)] = &[
     ("bore_mm", |r| r.bore_mm.as_ref().map(Spanned::span)),
     ("outer_diameter_mm", |r| r.outer_diameter_mm.as_ref().map(Spanned::span)),
     ("static_rating_kn", |r| r.static_rating_kn.as_ref().map(Spanned::span)),
+    ("dynamic_rating_kn", |r| r.dynamic_rating_kn.as_ref().map(Spanned::span)),
     ("elements", |r| r.elements.as_ref().map(Spanned::span)),
     ("element_diameter_mm", |r| r.element_diameter_mm.as_ref().map(Spanned::span)),
     ("element_length_mm", |r| r.element_length_mm.as_ref().map(Spanned::span)),
@@ -108,6 +109,7 @@ pub(super) fn rolling(s: &Source<'_>, table: &Spanned<RawBearing>, word: &Spanne
         axial: axial(s, raw)?,
         rows: rows(s, table, kind)?,
         seat: seat(s, raw, kind)?,
+        dynamic_rating: given!(s, BEARING, raw.dynamic_rating_kn)?.map(|x| 1e3 * x),
     })
 }
 

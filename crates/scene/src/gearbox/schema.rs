@@ -19,6 +19,7 @@ table! {
         torque: list(TORQUE: RawTorque);
         housing: table(HOUSING: RawHousing);
         accuracy: table(GEARBOX_ACCURACY: RawGearboxAccuracy);
+        rating: table(GEARBOX_RATING: RawGearboxRating);
         analysis: always(ANALYSIS: RawAnalysis);
         vibration: table(VIBRATION: RawVibration);
         modes: table(GEARBOX_MODES: RawGearboxModes);
@@ -115,6 +116,7 @@ table! {
         bore_mm: bare(1e-2, 1e5), "bore, mm. With outer diameter and static rating in place of what rolls, which is then estimated";
         outer_diameter_mm: bare(1e-2, 1e5), "outer diameter, mm, of a bearing that is estimated";
         static_rating_kn: bare(1e-6, 1e9), "C_0 of the whole bearing, kN, ISO 76";
+        dynamic_rating_kn: bare(1e-6, 1e9), "C of the whole bearing, kN, ISO 281: its life is then told; needs `[rating]` of the gearbox";
         elements: bare_whole(3, 500), "rolling elements of one row";
         element_diameter_mm: bare(1e-2, 1e5), "their diameter, mm; of tapered rollers in the middle";
         element_length_mm: bare(1e-2, 1e5), "of rollers: the length that presses, mm";
@@ -195,6 +197,15 @@ table! {
         matrix: text(), "name of the DMIG matrix in that file; default: the first one";
         nodes: wholes(), "with a file: node of each bearing's seat, in the order of the bearings";
         turn_nodes: wholes(), "nodes whose directions 1 to 3 are the turns, in CalculiX those after `ROT NODE`; default: directions 4 to 6 of nodes";
+    }
+}
+
+table! {
+    /// `[rating]`
+    GEARBOX_RATING, RawGearboxRating: "load capacity at rest: of every mesh whose scene has `[rating]`, under the torque and at the speed that it has here, and the life of every bearing with `dynamic_rating_kn` after ISO/TS 16281", needed ["speed_rpm"]; {
+        speed_rpm: must(1e-3, 1e6), "speed of the input, 1/min";
+        viscosity_mm2_per_s: bare(1e-3, 1e6), "kinematic viscosity of the oil in the bearings at their temperature, mm^2/s: modified lives of ISO 281 beside the basic ones. Needs `contamination_factor`";
+        contamination_factor: bare(1e-3, 1.0), "e_C of ISO 281, what dirt leaves of the fatigue limit: 1 extreme cleanliness, 0.8 .. 0.6 filtered and sealed for life, 0.6 .. 0.5 sealed, 0.5 .. 0.3 slight dirt. Needs `viscosity_mm2_per_s`";
     }
 }
 
