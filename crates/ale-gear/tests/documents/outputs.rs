@@ -113,6 +113,8 @@ fn every_kind() -> Scratch {
     run(&["run", &stages, "--out", "out-gearbox"]);
     let rolling = repository().join("scenes/gearbox/rolling_bearings.toml").display().to_string();
     run(&["run", &rolling, "--set", "motion.to_speed_rpm=1600", "--out", "out-rolling"]);
+    let rated = repository().join("scenes/gearbox/rated.toml").display().to_string();
+    run(&["run", &rated, "--out", "out-rated-gearbox"]);
     let accurate = repository().join("scenes/gearbox/accurate.toml").display().to_string();
     run(&["run", &accurate, "--out", "out-accurate"]);
     let elastic = repository().join("scenes/gearbox/elastic_gears.toml").display().to_string();

@@ -5,13 +5,11 @@ use gearbox::{
     Bearing, GearboxError, GearboxPosition,
     rolling_bearing::{
         AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, LifeModification, RollerGeometry, RollerProfile,
-        RollingBearing, RollingBearingError, RollingElements, RollingState, Row,
+        RollingBearing, RollingBearingError, RollingElements, RollingFriction, RollingState, Row,
     },
 };
 use nalgebra::{Matrix6, Vector5};
-use scene::gearbox::{
-    AxialPlay, BearingOil, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat,
-};
+use scene::gearbox::{AxialPlay, Gearbox, GearboxBearing, GearboxRolling, RollingKind, RollingSize, ThrustSeat};
 
 /// Pressures from which on balls and rollers leave dents (ISO 76), MPa.
 const BALLS_DENT: f64 = 4200.0;
@@ -43,6 +41,8 @@ pub struct RollingLoad {
     pub loaded: [usize; 2],
     /// How long it lasts, where its dynamic rating and a speed are known and it is loaded.
     pub life: Option<BearingLife>,
+    /// Power that it loses, W, where speed and viscosity are known.
+    pub loss_w: Option<f64>,
 }
 
 /// Life of a rolling bearing at 90 % reliability.
@@ -67,12 +67,23 @@ impl BearingLife {
     }
 }
 
-/// Life at the mean of 1/L over some states (Miner), at a speed of the shaft, 1/min; `None` without rating or load.
+/// How the shaft of a bearing turns, and in which oil.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BearingTurns {
+    /// Speed, 1/min, above 0.
+    pub speed_rpm: f64,
+    /// Kinematic viscosity, mm^2/s.
+    pub viscosity: Option<f64>,
+    /// e_C.
+    pub contamination_factor: Option<f64>,
+}
+
+/// Life at the mean of 1/L over some states (Miner), at the speed of the shaft; `None` without rating or load.
 fn life(
     own: &GearboxRolling,
     law: &RollingBearing,
     states: &[&RollingState],
-    (speed_rpm, oil): (f64, Option<BearingOil>),
+    turns: &BearingTurns,
 ) -> Option<BearingLife> {
     let rating = own.dynamic_rating?;
     let damage = |s: &&RollingState| law.damage(&Vector5::from_fn(|k, _| s.displacement[k]), rating);
@@ -82,9 +93,9 @@ fn life(
     }
     let exponent = if has_balls(own.kind) { 3.0 } else { 10.0 / 3.0 };
     let equivalent_load = rating * used.powf(1.0 / exponent);
-    let modification = oil.and_then(|oil| {
-        let dirt = (oil.contamination_factor, equivalent_load);
-        LifeModification::new(law.elements(), own.rows.len(), (speed_rpm, oil.viscosity), dirt)
+    let speed_rpm = turns.speed_rpm;
+    let modification = turns.viscosity.zip(turns.contamination_factor).and_then(|(viscosity, dirt)| {
+        LifeModification::new(law.elements(), own.rows.len(), (speed_rpm, viscosity), (dirt, equivalent_load))
     });
     Some(BearingLife {
         million_turns: 1.0 / used,
@@ -156,12 +167,12 @@ fn has_balls(kind: RollingKind) -> bool {
     matches!(kind, RollingKind::DeepGrooveBall | RollingKind::AngularContactBall)
 }
 
-/// What is read off a rolling bearing; `None` for others. `turns`: speed of its shaft (1/min, above 0) and oil that its life is told for.
+/// What is read off a rolling bearing; `None` for others. `turns`: what its life and its loss are told for.
 pub(super) fn rolling_load(
     own: &GearboxBearing,
     bearing: &Bearing,
     positions: &[GearboxPosition],
-    (i, turns): (usize, Option<(f64, Option<BearingOil>)>),
+    (i, turns): (usize, Option<BearingTurns>),
 ) -> Option<RollingLoad> {
     let (rolling, law) = (own.rolling.as_ref()?, bearing.law.as_ref()?);
     let states: Vec<&RollingState> = positions.iter().filter_map(|p| p.rolling.get(i)?.as_ref()).collect();
@@ -177,7 +188,15 @@ pub(super) fn rolling_load(
         element_force: most(&|s| s.element_force),
         pressure: most(&|s| s.pressure),
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
-        life: turns.and_then(|turns| life(rolling, law, &states, turns)),
+        life: turns.as_ref().and_then(|turns| life(rolling, law, &states, turns)),
+        loss_w: turns.and_then(|turns| {
+            let (speed, viscosity) = (turns.speed_rpm, turns.viscosity?);
+            let lost = |s: &&RollingState| {
+                let forces = [s.force[0].hypot(s.force[1]), s.force[2].abs()];
+                RollingFriction::new(law.elements(), rolling.rows.len(), forces, (speed, viscosity)).power_w(speed)
+            };
+            Some(share * states.iter().map(lost).sum::<f64>())
+        }),
     })
 }
 

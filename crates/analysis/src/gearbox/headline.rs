@@ -1,14 +1,14 @@
 //! The numbers that a gearbox is judged, varied and compared by.
 
 use described::Key;
-use scene::gearbox::{Gearbox, GearboxBearing};
+use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
 use serde_json::{Map, Value, json};
 
 use crate::{pair_rating::RatingHeadline, run_up::RunUpTorque};
 
 use super::{
     BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult,
-    VibrationResult,
+    RollingLoad, VibrationResult,
 };
 
 /// What a number is of, and how it is read off; of meshes and bearings by their place in the file.
@@ -20,6 +20,8 @@ enum Of {
     Bearings(fn(&BearingLoad) -> f64),
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
     BearingsRated(fn(&BearingLife) -> f64),
+    BearingsLosing(fn(&RollingLoad) -> Option<f64>),
+    Efficient,
     MeshesVibrating(fn(&VibrationResult, usize) -> f64),
     BearingsVibrating(fn(&VibrationResult, usize) -> f64),
     RunUp(fn(RunUpTorque) -> f64),
@@ -44,7 +46,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 29] = [
+const NUMBERS: [Number; 32] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -102,6 +104,24 @@ const NUMBERS: [Number; 29] = [
         "least safety against scuffing of each mesh; with `[rating]`, `null` of a mesh without `scuffing`",
         Of::MeshesRated(|r| r.least_scuffing_safety),
     ),
+    list(
+        "mesh_loss_w",
+        "power that the teeth of each mesh lose by sliding in their oil; with `[rating]`, `null` of a mesh without `oil_temperature_c`",
+        Of::MeshesRated(|r| r.mesh_loss.map(|loss| loss.mesh_loss_w)),
+    ),
+    list(
+        "bearing_loss_w",
+        "power that each bearing loses in an oil bath; with `viscosity_mm2_per_s`, `null` of a bearing of a stiffness",
+        Of::BearingsLosing(|r| r.loss_w),
+    ),
+    Number {
+        key: Key::new(
+            "efficiency",
+            "f64",
+            "output power over input power by the losses of meshes and rolling bearings; where every loaded mesh has one",
+        ),
+        of: Of::Efficient,
+    },
     list(
         "bearing_life_h",
         "modified life of each bearing, the basic one without `viscosity_mm2_per_s`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
@@ -207,6 +227,12 @@ impl GearboxResult {
                     let rated = self.meshes.iter().any(|m| m.rating.is_some());
                     rated.then(|| self.meshes.iter().map(|m| m.rating.as_ref().and_then(own)).collect())?
                 }
+                Of::Efficient => json!(self.efficiency()?),
+                Of::BearingsLosing(own) => {
+                    let loss = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
+                    let known = self.bearings.iter().any(|b| loss(b).is_some());
+                    known.then(|| self.bearings.iter().map(loss).collect())?
+                }
                 Of::BearingsRated(own) => {
                     let life = |b: &BearingLoad| b.rolling.and_then(|r| r.life);
                     let rated = self.bearings.iter().any(|b| life(b).is_some());
@@ -240,6 +266,13 @@ impl GearboxResult {
             Of::Bearings(_) => Some(Some(file.bearings.len())),
             Of::MeshesRated(_) => {
                 file.meshes.iter().any(|m| m.scene.rating.is_some()).then_some(Some(file.meshes.len()))
+            }
+            Of::Efficient => {
+                let oiled = |m: &GearboxMesh| m.scene.rating.as_ref().is_some_and(|r| r.oil_temperature_c.is_some());
+                file.meshes.iter().all(oiled).then_some(None)
+            }
+            Of::BearingsLosing(_) => {
+                file.rating.is_some_and(|r| r.viscosity.is_some()).then_some(Some(file.bearings.len()))
             }
             Of::BearingsRated(_) => {
                 let rated = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some());

@@ -7,7 +7,7 @@ use scene::gearbox::Gearbox;
 
 use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
-    bearings::rolling_load,
+    bearings::{BearingTurns, rolling_load},
     clearance::clearance_remarks,
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
@@ -49,6 +49,21 @@ pub struct GearboxResult {
     pub branch: Option<GearboxBranchResult>,
     /// How exact its numbers at rest are, where the file asks for an accuracy.
     pub accuracy: Option<Accuracy>,
+    /// Power at the input at the speed of ratings, W; 0 without one.
+    pub input_power_w: f64,
+}
+
+impl GearboxResult {
+    /// Output power over input power by the losses of meshes and rolling bearings; `None` where a loaded mesh has no loss, and without speed or load. Bearings that are springs lose nothing.
+    pub fn efficiency(&self) -> Option<f64> {
+        let loss = |mesh: &MeshResult| match &mesh.rating {
+            Some(rating) => rating.mesh_loss.map(|loss| loss.mesh_loss_w),
+            None => (mesh.normal_force == 0.0).then_some(0.0),
+        };
+        let meshes = self.meshes.iter().map(loss).sum::<Option<f64>>()?;
+        let bearings: f64 = self.bearings.iter().filter_map(|b| b.rolling?.loss_w).sum();
+        (self.input_power_w > 0.0).then(|| 1.0 - (meshes + bearings) / self.input_power_w)
+    }
 }
 
 /// A mesh over all positions.
@@ -104,6 +119,11 @@ pub struct OutputResult {
     pub peak_to_peak: f64,
 }
 
+/// Power of a torque (N mm) at a speed (1/min), W without sign.
+fn power_w(torque: f64, speed_rpm: f64) -> f64 {
+    1e-3 * torque.abs() * speed_rpm * std::f64::consts::TAU / 60.0
+}
+
 /// Transmission errors that are too large for linear elasticity.
 fn deflections(meshes: &[MeshResult], pairs: &[GearPair]) -> Vec<Remark> {
     let one = |(mesh, pair): (&MeshResult, &GearPair)| {
@@ -149,7 +169,8 @@ pub(super) fn result(
     let turns = |i: usize| {
         let asked = file.rating?;
         let speed = asked.speed_rpm * train.ratios()[file.bearings[i].shaft].abs();
-        (speed > 0.0).then_some((speed, asked.oil))
+        let scene::gearbox::GearboxRating { viscosity, contamination_factor, .. } = asked;
+        (speed > 0.0).then_some(BearingTurns { speed_rpm: speed, viscosity, contamination_factor })
     };
     let bearing = |i: usize| {
         let own = || all.iter().map(move |p| &p.bearings[i]);
@@ -172,7 +193,7 @@ pub(super) fn result(
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
     for (own, load) in file.bearings.iter().zip(&bearings) {
         let is_held = file.shafts[own.shaft].held;
-        let asks_oil = file.rating.is_some_and(|asked| asked.oil.is_some());
+        let asks_oil = file.rating.is_some_and(|asked| asked.contamination_factor.is_some());
         let told = |r| super::bearings::remarks(&own.name, [is_held, asks_oil], (load.tilt, r));
         remarks.extend(load.rolling.iter().flat_map(told));
     }
@@ -184,12 +205,13 @@ pub(super) fn result(
         let said = waves_on(pair, side, widest, effective_modulus(&reduced[i].scene));
         remarks.extend(said.into_iter().map(|said| said.about(&of_meshes[i].name)));
     }
+    let input_torque = mean(all.iter().map(|p| p.input_torque));
     GearboxResult {
         ratios: train.ratios().to_vec(),
         meshes: of_meshes,
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
-        input_torque: mean(all.iter().map(|p| p.input_torque)),
+        input_torque,
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
         pairs,
         positions,
@@ -198,5 +220,6 @@ pub(super) fn result(
         motion: None,
         branch: None,
         accuracy: None,
+        input_power_w: file.rating.map_or(0.0, |asked| power_w(input_torque, asked.speed_rpm)),
     }
 }

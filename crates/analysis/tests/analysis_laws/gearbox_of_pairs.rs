@@ -48,6 +48,10 @@ const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
 /// At rest by slices, which is what a gearbox takes.
 const AT_REST: &str = "[contact]\nslices = 12\n[analysis]\nkind = \"static\"\npositions_per_cycle = 3\n";
 
+/// Elements of the gears that the program meshes.
+const COARSE: &str =
+    "order = 1\nelements_profile = 4\nelements_fillet = 2\nelements_thickness = 2\nelements_face = 8\nelements_rim = 2";
+
 fn scenes() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes")
 }
@@ -119,21 +123,38 @@ fn every_pair_of_the_scenes_is_a_gearbox_of_held_shafts() {
     println!("{} pairs; largest difference {:.1e}: {} of {}", seen.len(), worst.1, worst.0, worst.2);
 }
 
-/// The pair of a scene, at rest.
+/// The pair of a scene, at rest; gears that the program meshes are coarse: how finely makes no difference to the law.
 fn pair_at_rest(path: &Path) -> String {
     let text = std::fs::read_to_string(path).unwrap();
-    let mut is_pair = true;
+    let (mut is_pair, mut is_mesher) = (true, false);
     let mut all = Vec::new();
+    // Gears whose mesh is a file, or that are coarse already.
+    let mut gear = String::new();
+    let mut meshed = std::collections::BTreeSet::new();
     for line in text.lines() {
         if let Some(table) = line.strip_prefix('[') {
-            let mut names = table.trim_end_matches(']').split('.');
-            is_pair = PAIR.contains(&names.next().unwrap()) && !names.any(|name| HOLDS.contains(&name));
+            let names: Vec<&str> = table.split(']').next().unwrap().split('.').collect();
+            is_pair = PAIR.contains(&names[0]) && !names[1..].iter().any(|name| HOLDS.contains(name));
+            is_mesher = names[1..] == ["mesher"];
+            gear = names[0].to_owned();
+            if is_mesher {
+                meshed.insert(gear.clone());
+                all.push(format!("{line}\n{COARSE}"));
+                continue;
+            }
         }
         match line.strip_prefix("mesh = \"") {
-            Some(mesh) => all.push(format!("mesh = \"{}/{mesh}", path.parent().unwrap().display())),
+            Some(mesh) => {
+                meshed.insert(gear.clone());
+                all.push(format!("mesh = \"{}/{mesh}", path.parent().unwrap().display()));
+            }
+            None if is_mesher && (line.starts_with("order") || line.starts_with("elements_")) => (),
             None if is_pair => all.push(line.to_owned()),
             None => (),
         }
+    }
+    for gear in ["pinion", "wheel"].into_iter().filter(|gear| !meshed.contains(*gear)) {
+        all.push(format!("[{gear}.mesher]\n{COARSE}"));
     }
     all.join("\n") + "\n" + AT_REST
 }

@@ -360,7 +360,11 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         let found = found.unwrap_or_else(|e| panic!("{e}"));
         let own = found.meshes[0].rating.clone().unwrap();
         assert!(own.local.is_some() && own.local_scuffing.is_some() && own.mesh_loss.is_some());
-        assert_eq!(found.headline()["least_pitting_safety"][0], own.least_pitting_safety);
+        let headline = found.headline();
+        assert_eq!(headline["least_pitting_safety"][0], own.least_pitting_safety);
+        // Held shafts lose nothing in bearings.
+        let efficiency = headline["efficiency"].as_f64().unwrap();
+        assert!((efficiency - own.mesh_loss.unwrap().efficiency).abs() < 1e-9, "{efficiency}");
         let [own, wanted] = [own, alone].map(|r| serde_json::to_value(r).unwrap());
         let mut worst = (0.0, String::new());
         compare("rating", &own, &wanted, &mut worst);

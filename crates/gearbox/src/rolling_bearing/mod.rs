@@ -9,6 +9,7 @@
 //! | `reply` | force, moment and tangent of a bearing |
 //! | `law` | all rows together: [`RollingBearing`] |
 //! | `life` | how long it lasts |
+//! | `friction` | how much power it loses |
 //! | `seat` | which thrust its seat takes: rings that float |
 //! | `state` | what is told of it, and the linear bearing that stands for it |
 //! | `error` | what is refused |
@@ -18,6 +19,7 @@
 mod ball;
 mod catalogue;
 mod error;
+mod friction;
 mod geometry;
 mod hertz;
 mod law;
@@ -29,6 +31,7 @@ mod state;
 
 pub use catalogue::{Catalogue, Filling};
 pub use error::RollingBearingError;
+pub use friction::RollingFriction;
 pub use geometry::{AxialSetting, BallGeometry, RollerGeometry, RollerProfile, RollingElements, Row};
 pub use hertz::PointContact;
 pub use law::RollingBearing;

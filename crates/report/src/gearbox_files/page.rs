@@ -121,6 +121,10 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     if rolls {
         head.extend(["element N", "Hertz MPa", "loaded", "k_x, k_y, k_z N/um"]);
     }
+    let loses = result.bearings.iter().any(|b| loss(b).is_some());
+    if loses {
+        head.push("loss W");
+    }
     let lasts = result.bearings.iter().any(|b| life(b).is_some());
     if lasts {
         head.extend(["P/C", "L10 h", "L10 modified h"]);
@@ -145,6 +149,9 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
                 Cell::count(stiffness.unwrap_or_else(|| "-".to_owned())),
             ]);
         }
+        if loses {
+            row.push(Cell::number(loss(b), 1));
+        }
         if lasts {
             let own = life(b);
             let modified = own.and_then(|own| own.modification.map(|_| own.rated_hours()));
@@ -165,6 +172,10 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
 }
 
+fn loss(bearing: &BearingLoad) -> Option<f64> {
+    bearing.rolling.and_then(|rolling| rolling.loss_w)
+}
+
 fn life(bearing: &BearingLoad) -> Option<BearingLife> {
     bearing.rolling.and_then(|rolling| rolling.life)
 }
@@ -175,7 +186,10 @@ fn outputs(result: &GearboxResult) -> Part {
         let range = format!("urad, {} urad peak to peak", crate::tables::fixed(1e6 * o.peak_to_peak, 2));
         Line::number(format!("output {} lags by", i + 1), 1e6 * o.mean, 1, range)
     });
-    Part::new("Input and outputs").closing().lines(std::iter::once(input).chain(outputs))
+    let efficiency = result
+        .efficiency()
+        .map(|own| Line::number("efficiency", 100.0 * own, 3, "% (sliding teeth, rolling bearings)"));
+    Part::new("Input and outputs").closing().lines(std::iter::once(input).chain(outputs).chain(efficiency))
 }
 
 /// Turn about its axis of one end of a shaft against the other, at most over all nodes, rad.

@@ -132,6 +132,9 @@ described::described! {
         max_hertz_pressure_mpa: f64,
         /// mean tangent stiffness, which vibration and motion have: five rows for x, y, z and the rotations about x and y, in N/mm, N/rad and N, N mm/rad
         stiffness_n_mm_rad: [[f64; 5]; 5],
+        /// power that the bearing loses in an oil bath; missing without `viscosity_mm2_per_s`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        loss_w: Option<f64>,
         /// life at 90 % reliability; missing without `dynamic_rating_kn`, and without load
         #[serde(skip_serializing_if = "Option::is_none")]
         life: Option<LifeSummary>,
@@ -311,6 +314,7 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
         max_element_force_n: load.element_force,
         max_hertz_pressure_mpa: load.pressure,
         stiffness_n_mm_rad: load.stiffness,
+        loss_w: load.loss_w,
         life: load.life.map(|life| LifeSummary {
             basic_life_million_turns: life.million_turns,
             basic_life_h: life.hours,

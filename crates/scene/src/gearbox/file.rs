@@ -100,17 +100,10 @@ pub struct GearboxShaft {
 pub struct GearboxRating {
     /// Speed of the input, 1/min, above 0.
     pub speed_rpm: f64,
-    /// Oil in the bearings; none: basic lives alone.
-    pub oil: Option<BearingOil>,
-}
-
-/// Oil in the bearings at their temperature.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct BearingOil {
-    /// Kinematic viscosity, mm^2/s.
-    pub viscosity: f64,
-    /// e_C of ISO 281.
-    pub contamination_factor: f64,
+    /// Kinematic viscosity of the oil in the bearings at their temperature, mm^2/s; none: neither losses nor modified lives.
+    pub viscosity: Option<f64>,
+    /// e_C of ISO 281; none: basic lives alone.
+    pub contamination_factor: Option<f64>,
 }
 
 /// A length of shaft of one section.

@@ -32,8 +32,8 @@ mod values;
 mod vibration;
 
 pub use file::{
-    AxialPlay, BearingOil, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRating,
-    GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
+    AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRating, GearboxRolling,
+    GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
 pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};

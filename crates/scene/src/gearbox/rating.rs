@@ -1,13 +1,11 @@
 //! The table of ratings of a gearbox file, and that nobody asks for one in vain.
 
-use toml::Spanned;
-
 use super::{
-    file::{BearingOil, GearboxBearing, GearboxMesh, GearboxRating},
-    schema::{GEARBOX_RATING, RawGearbox, RawGearboxRating},
+    file::{GearboxBearing, GearboxMesh, GearboxRating},
+    schema::{GEARBOX_RATING, RawGearbox},
     values::{Checked, given, needed_of, row},
 };
-use crate::{Number, Source};
+use crate::Source;
 
 /// What is rated, and at which speed; nothing where there is no table and nobody needs it.
 pub(super) fn rating(
@@ -30,37 +28,29 @@ pub(super) fn rating(
             None => Ok(None),
         };
     };
-    if rated_mesh.is_none() && rated_bearing.is_none() {
+    let own = table.get_ref();
+    let viscosity = given!(s, GEARBOX_RATING, own.viscosity_mm2_per_s)?;
+    let contamination_factor = given!(s, GEARBOX_RATING, own.contamination_factor)?;
+    let rolls = bearings.iter().any(|own| own.rolling.is_some());
+    if let (Some(number), false) = (&own.viscosity_mm2_per_s, rolls) {
+        let advice = "give one its `type`, or leave it out";
+        return Err(s.conflict(&number.span(), "oil of bearings, none of which has rolling elements", advice));
+    }
+    if let Some(number) = &own.contamination_factor {
+        if rated_bearing.is_none() {
+            let advice = "give one its `dynamic_rating_kn`, or leave it out";
+            return Err(s.conflict(&number.span(), "dirt in bearings, none of which has a rating", advice));
+        }
+        if viscosity.is_none() {
+            let said = "a modified life also wants `viscosity_mm2_per_s`";
+            return Err(s.conflict(&number.span(), said, "give both, or leave `contamination_factor` out"));
+        }
+    }
+    if rated_mesh.is_none() && rated_bearing.is_none() && viscosity.is_none() {
         let advice =
             "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn`; or leave it out";
         return Err(s.conflict(&table.span(), "[rating] rates nothing", advice));
     }
-    let speed_rpm = speed(s, table)?;
-    let own = table.get_ref();
-    let oil = oil(s, own)?;
-    if let (Some(number), None) = (&own.viscosity_mm2_per_s, rated_bearing) {
-        let advice = "give one its `dynamic_rating_kn`, or leave it out";
-        return Err(s.conflict(&number.span(), "oil of bearings, none of which has a rating", advice));
-    }
-    Ok(Some(GearboxRating { speed_rpm, oil }))
-}
-
-fn speed(s: &Source<'_>, table: &Spanned<RawGearboxRating>) -> Checked<f64> {
-    needed_of(s, (table, "[rating]"), &GEARBOX_RATING, "speed_rpm", &table.get_ref().speed_rpm)
-}
-
-/// Viscosity and dirt go together.
-fn oil(s: &Source<'_>, raw: &RawGearboxRating) -> Checked<Option<BearingOil>> {
-    let viscosity = given!(s, GEARBOX_RATING, raw.viscosity_mm2_per_s)?;
-    let contamination = given!(s, GEARBOX_RATING, raw.contamination_factor)?;
-    let alone = |number: &Number, other: &str| {
-        let at = number.as_ref().map_or(0..0, Spanned::span);
-        Err(s.conflict(&at, format!("a modified life also wants `{other}`"), "give both, or leave both out"))
-    };
-    match (viscosity, contamination) {
-        (Some(viscosity), Some(contamination_factor)) => Ok(Some(BearingOil { viscosity, contamination_factor })),
-        (Some(_), None) => alone(&raw.viscosity_mm2_per_s, "contamination_factor"),
-        (None, Some(_)) => alone(&raw.contamination_factor, "viscosity_mm2_per_s"),
-        (None, None) => Ok(None),
-    }
+    let speed_rpm = needed_of(s, (table, "[rating]"), &GEARBOX_RATING, "speed_rpm", &own.speed_rpm)?;
+    Ok(Some(GearboxRating { speed_rpm, viscosity, contamination_factor }))
 }

@@ -202,10 +202,10 @@ table! {
 
 table! {
     /// `[rating]`
-    GEARBOX_RATING, RawGearboxRating: "load capacity at rest: of every mesh whose scene has `[rating]`, under the torque and at the speed that it has here, and the life of every bearing with `dynamic_rating_kn` after ISO/TS 16281", needed ["speed_rpm"]; {
+    GEARBOX_RATING, RawGearboxRating: "load capacity at rest: of every mesh whose scene has `[rating]`, under the torque and at the speed that it has here, the life of every bearing with `dynamic_rating_kn` after ISO/TS 16281, and what meshes and bearings lose", needed ["speed_rpm"]; {
         speed_rpm: must(1e-3, 1e6), "speed of the input, 1/min";
-        viscosity_mm2_per_s: bare(1e-3, 1e6), "kinematic viscosity of the oil in the bearings at their temperature, mm^2/s: modified lives of ISO 281 beside the basic ones. Needs `contamination_factor`";
-        contamination_factor: bare(1e-3, 1.0), "e_C of ISO 281, what dirt leaves of the fatigue limit: 1 extreme cleanliness, 0.8 .. 0.6 filtered and sealed for life, 0.6 .. 0.5 sealed, 0.5 .. 0.3 slight dirt. Needs `viscosity_mm2_per_s`";
+        viscosity_mm2_per_s: bare(1e-3, 1e6), "kinematic viscosity of the oil in the bearings at their temperature, mm^2/s: what rolling bearings lose, and with `contamination_factor` how long they last";
+        contamination_factor: bare(1e-3, 1.0), "e_C of ISO 281, what dirt leaves of the fatigue limit: modified lives beside the basic ones. 1 extreme cleanliness, 0.8 .. 0.6 filtered and sealed for life, 0.6 .. 0.5 sealed, 0.5 .. 0.3 slight dirt. Needs `viscosity_mm2_per_s`";
     }
 }
 
