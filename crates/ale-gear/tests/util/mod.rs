@@ -163,7 +163,8 @@ pub fn scenes() -> Vec<PathBuf> {
 
 /// Sectors of five teeth: a chart of them takes a second or two a point.
 pub fn five_teeth() -> String {
-    let mesher = |gear: &str| format!("[{gear}.mesher]\nsector_teeth = 5\n");
+    let elements = "order = 1\nelements_profile = 4\nelements_fillet = 3\nelements_thickness = 3\nelements_face = 6\nelements_rim = 3\n";
+    let mesher = |gear: &str| format!("[{gear}.mesher]\n{elements}sector_teeth = 5\n");
     let scene = ISO_SCENE.replace("model = \"iso\"", "positions_per_cycle = 8");
     format!("name = \"small\"\n{scene}{}{}", mesher("pinion"), mesher("wheel"))
 }
