@@ -4,6 +4,7 @@ mod elastic;
 mod exact;
 mod forced;
 mod motion;
+mod motion_bores;
 mod motion_branch;
 mod motion_branch_mapped;
 mod motion_contact;
