@@ -72,6 +72,11 @@ fn ring(pair: SceneBuilder) -> SceneBuilder {
     teeth.set("pinion.profile_shift", 0.3).set("wheel.profile_shift", -0.1)
 }
 
+/// The same with normal modes of both gears.
+fn modes(pair: SceneBuilder) -> SceneBuilder {
+    pair.set("analysis.model", "reduced+modes")
+}
+
 type Change = fn(SceneBuilder) -> SceneBuilder;
 
 /// Shafts held, a pair in motion is its own gearbox, row by row: with every method, drive, way and side, friction and
@@ -79,7 +84,7 @@ type Change = fn(SceneBuilder) -> SceneBuilder;
 /// divides by its path what round-off of places makes of the energy.
 #[test]
 fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
-    let all: [(&str, f64, Change); 17] = [
+    let all: [(&str, f64, Change); 19] = [
         ("newmark", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.0)),
         ("generalised-alpha", 1e-8, |s| s.set("motion.method", "generalised-alpha")),
         ("rk4", 1e-8, |s| s.set("motion.method", "rk4")),
@@ -96,6 +101,11 @@ fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
         ("driving flanks", 1e-8, |s| s.set("contact.flanks", "driving")),
         ("ring", 1e-8, ring),
         ("ring drives", 1e-7, |s| ring(s).set("operation.driver", "wheel")),
+        ("modes", 1e-8, |s| modes(s).set("modes.count", 8)),
+        ("modes with mass of the flanks, friction", 1e-8, |s| {
+            let heavy = modes(s).set("modes.boundary", "consistent").set("modes.fixed_modes", 1);
+            heavy.set("contact.friction", 0.05).set("motion.method", "generalised-alpha")
+        }),
         ("mapped", 1e-8, |s| {
             let maps = s.set("analysis.model", "mapped").set("contact.flanks", "driving");
             maps.set("motion.run", "steady").set("motion.periodic_tolerance", 1e-11)
@@ -133,11 +143,10 @@ fn moving_pairs_of_the_scenes_are_gearboxes_of_held_shafts() {
     assert!(wrong.is_empty(), "off by more: {wrong:?}");
 }
 
-/// What held shafts do not have is no gearbox: normal modes, gears on bearings, torques over time.
+/// What held shafts do not have is no gearbox: gears on bearings, torques over time.
 #[test]
 fn other_motions_of_pairs_have_no_gearbox() {
-    let all: [Change; 4] = [
-        |s| s.set("analysis.model", "reduced+modes"),
+    let all: [Change; 3] = [
         |s| s.set("wheel.body.free", vec!["x"]).set("wheel.bearing.stiffness_x_n_per_mm", 1e6),
         |s| s.set("load.amplitude_nm", 10.0).set("load.frequency_hz", 10.0),
         |s| s.set("drive.by", "torque").set("drive.torque_nm", 10.0),
