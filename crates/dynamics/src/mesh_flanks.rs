@@ -221,7 +221,10 @@ impl MeshFlanks {
             dissipated += power;
             // Modes let slices answer each other: those slopes are left out, as of a pair.
             let is_rigid = side.contact().modal().is_none();
-            if slopes && is_rigid && let Some(held) = side.held_damping(&placed, rate, per_length) {
+            if slopes
+                && is_rigid
+                && let Some(held) = side.held_damping(&placed, rate, per_length)
+            {
                 slope += held;
             }
         }

@@ -11,7 +11,7 @@ use gearbox::{
 use integrate::Settle;
 use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshModel};
 
-use super::{meshes::ReducedMesh, vibration::GearModesOfDiscs};
+use super::{meshes::ReducedMesh, swings::GearModesOfDiscs};
 use crate::{AnalysisError, GearCache, Progress, motion::QuasiStatic};
 
 /// Error with which a map is taken, over that aimed at.

@@ -9,8 +9,10 @@ use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxGear};
 use study::Campbell;
 
-use super::vibration::GearModesOfDiscs;
 use crate::remark::{self, Remark};
+
+/// Elastic modes of the gear on every disc; `None` where it is in no mesh, and nothing where none are kept.
+pub(super) type GearModesOfDiscs = Vec<Option<Arc<GearModes>>>;
 
 /// Vibration of a gearbox about where it stands, order by order of its meshes.
 #[derive(Debug, Clone)]

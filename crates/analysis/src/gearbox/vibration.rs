@@ -14,7 +14,7 @@ use study::campbell;
 use super::{
     inertia,
     meshes::ReducedMesh,
-    swings::{OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
+    swings::{GearModesOfDiscs, OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
 };
 use crate::{
     AnalysisError, Observer, PhaseWork,
@@ -30,9 +30,6 @@ pub(super) struct Parts<'a> {
     pub train: &'a Train,
     pub operation: &'a Operation,
 }
-
-/// Elastic modes of the gear on every disc; `None` where it is in no mesh, and nothing where none are kept.
-pub(super) type GearModesOfDiscs = Vec<Option<Arc<GearModes>>>;
 
 /// Speeds of the Campbell diagram at the most: between them modes are straight.
 const DRAWN: u32 = 21;

@@ -4,6 +4,7 @@ use ale::solve_widening;
 use answer::Remark;
 use dynamics::PairMechanism;
 use geometry::GearPair;
+use integrate::Periodicity;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
 
@@ -15,7 +16,7 @@ use super::{
     headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand, fastest_hz},
-    unresolved,
+    unresolved, window,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,

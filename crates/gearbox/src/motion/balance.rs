@@ -2,7 +2,7 @@
 
 use dynamics::ModalForce;
 use integrate::{Forces, Mechanism};
-use nalgebra::DVector;
+use nalgebra::{DMatrix, DVector};
 
 use super::{GearboxMechanism, gear_modes::with_modes};
 use crate::GearboxError;

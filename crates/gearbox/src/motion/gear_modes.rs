@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use dynamics::GearVibration;
 use integrate::Forces;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Dyn, OMatrix, U12};
 use reduction::GearModes;
 
 use super::{MovingMesh, ReducedBodies, free_coordinates::FreeCoordinates};
@@ -21,12 +21,9 @@ const SAME: f64 = 1e-9;
 
 /// A gear whose modes move.
 #[derive(Debug, Clone)]
-pub(super) struct MovingGear {
-    /// Its modes.
-    pub modes: Arc<GearModes>,
-    /// Its disc, and the disc's shaft.
-    pub disc: usize,
-    pub shaft: usize,
+struct MovingGear {
+    modes: Arc<GearModes>,
+    disc: usize,
     /// Angle of its own frame from the common axes with the input at its start, rad, and turns of it a turn of the input.
     angle: f64,
     ratio: f64,
@@ -76,7 +73,8 @@ impl MovingGears {
             let angles = element.gear_angles(cycles[i]).map(|own| own + direction);
             let mut both = Vec::new();
             let mut sizes = element.mode_sizes();
-            for ((disc, GearVibration { modes, damping_ratio }), angle) in mesh.discs.into_iter().zip(kept).zip(angles) {
+            for ((disc, GearVibration { modes, damping_ratio }), angle) in mesh.discs.into_iter().zip(kept).zip(angles)
+            {
                 let rest = sizes.split_off(modes.count().min(sizes.len()));
                 let own = std::mem::replace(&mut sizes, rest);
                 match all.gears.iter().position(|gear| gear.disc == disc) {
@@ -86,8 +84,8 @@ impl MovingGears {
                         body.check(&discs[disc].name, discs[disc].inertia())?;
                         let squares = DVector::from_column_slice(modes.squares());
                         let dampers = squares.map(|s| 2.0 * damping_ratio * s.sqrt());
-                        let (shaft, ratio) = (discs[disc].shaft, train.ratios()[discs[disc].shaft]);
-                        all.gears.push(MovingGear { modes, disc, shaft, angle, ratio, sizes: own, squares, dampers });
+                        let ratio = train.ratios()[discs[disc].shaft];
+                        all.gears.push(MovingGear { modes, disc, angle, ratio, sizes: own, squares, dampers });
                         both.push((all.gears.len() - 1, None));
                     }
                 }
@@ -128,9 +126,9 @@ impl MovingGears {
         self
     }
 
-    /// Gears, in the order of their coordinates.
-    pub fn gears(&self) -> &[MovingGear] {
-        &self.gears
+    /// Disc and modes of each gear, in the order of their coordinates.
+    pub fn modes(&self) -> impl Iterator<Item = (usize, &GearModes)> {
+        self.gears.iter().map(|gear| (gear.disc, &*gear.modes))
     }
 
     /// Whether no gear has modes.
@@ -175,13 +173,7 @@ impl MovingGears {
 
     /// Adds what modes do by themselves with the input at `angle` (rad) and `speed` (rad/s); `turn`: number of the coordinate
     /// of the input's turn where it is free.
-    pub fn add(
-        &self,
-        [angle, speed]: [f64; 2],
-        [z, v]: [&DVector<f64>; 2],
-        turn: Option<usize>,
-        out: &mut Forces,
-    ) {
+    pub fn add(&self, [angle, speed]: [f64; 2], [z, v]: [&DVector<f64>; 2], turn: Option<usize>, out: &mut Forces) {
         for (g, gear) in self.gears.iter().enumerate() {
             let map = self.map(g, angle);
             let (q, rate) = (&map * z, &map * v);
@@ -284,9 +276,13 @@ impl MovingGears {
 }
 
 /// Stiffness K of displacements and amplitudes of a mesh for the coordinates z: Y' K Y, Y the rows of both.
-pub(super) fn with_modes(to_gears: &DMatrix<f64>, map: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> DMatrix<f64> {
-    let mut all = DMatrix::zeros(to_gears.nrows() + map.nrows(), map.ncols());
-    all.rows_mut(0, to_gears.nrows()).copy_from(to_gears);
-    all.rows_mut(to_gears.nrows(), map.nrows()).copy_from(map);
+pub(super) fn with_modes(
+    to_gears: &OMatrix<f64, U12, Dyn>,
+    map: &DMatrix<f64>,
+    stiffness: &DMatrix<f64>,
+) -> DMatrix<f64> {
+    let mut all = DMatrix::zeros(12 + map.nrows(), map.ncols());
+    all.rows_mut(0, 12).copy_from(to_gears);
+    all.rows_mut(12, map.nrows()).copy_from(map);
     all.tr_mul(&(stiffness * &all))
 }

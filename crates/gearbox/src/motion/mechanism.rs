@@ -89,7 +89,7 @@ impl GearboxMechanism {
             all.push(elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?);
         }
         let gears = MovingGears::new(&assembly, (&meshes, &train), &all)?;
-        let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.gears());
+        let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.modes());
         let free = FreeCoordinates::new(&assembly, &bodies, &train, &operation, &options.drive);
         let gears = gears.placed(&assembly, &bodies, &free);
         let mut outputs = DVector::zeros(bodies.size());

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use fem::{Condensation, Modes, natural_modes};
 use nalgebra::{DMatrix, DVector};
+use reduction::GearModes;
 
-use super::gear_modes::MovingGear;
 use crate::{Assembly, GearboxError, whirl::told_from_round_off};
 
 /// Modes of shafts with their seats held are kept up to so many times the frequency that is asked for, at first: the usual
@@ -143,19 +143,26 @@ impl ReducedBodies {
 
     /// The bodies with the modes of gears as coordinates P behind all others: unit mass, and what they share of the inertia
     /// of their discs taken off there. Theory (93b).
-    pub(super) fn with_gears(mut self, assembly: &Assembly, gears: &[MovingGear]) -> Self {
-        for gear in gears {
-            let (n, m) = (self.size(), gear.modes.count());
-            let disc = self.of_node(assembly.disc(gear.disc).unwrap_or(0));
+    ///
+    /// `gears`: disc and modes of each.
+    pub(super) fn with_gears<'a>(
+        mut self,
+        assembly: &Assembly,
+        gears: impl Iterator<Item = (usize, &'a GearModes)>,
+    ) -> Self {
+        for (disc, modes) in gears {
+            let (n, m) = (self.size(), modes.count());
+            let shaft = assembly.structure().discs[disc].shaft;
+            let disc = self.of_node(assembly.disc(disc).unwrap_or(0));
             let mut block = self.mass.fixed_view_mut::<6, 6>(disc, disc);
-            block -= gear.modes.shared_inertia();
+            block -= modes.shared_inertia();
             for matrix in [&mut self.mass, &mut self.stiffness, &mut self.damping] {
                 matrix.resize_mut(n + m, n + m, 0.0);
             }
             (n..n + m).for_each(|i| self.mass[(i, i)] = 1.0);
             self.basis.resize_horizontally_mut(n + m, 0.0);
-            self.modes.extend(std::iter::repeat_n(gear.shaft, m));
-            self.gears.push((n..n + m, gear.modes.coupling().iter().map(|own| own[5]).collect()));
+            self.modes.extend(std::iter::repeat_n(shaft, m));
+            self.gears.push((n..n + m, modes.coupling().iter().map(|own| own[5]).collect()));
         }
         self
     }

@@ -67,7 +67,12 @@ impl GearboxMechanism {
     pub fn scale(&self, state: &State) -> DVector<f64> {
         let modes: Vec<usize> = self.gears.sizes(0.0).map(|(i, _)| i).collect();
         let of = |turns: bool| {
-            let own = state.q.iter().zip(&self.free.turns).enumerate().filter(|(i, (_, t))| **t == turns && !modes.contains(i));
+            let own = state
+                .q
+                .iter()
+                .zip(&self.free.turns)
+                .enumerate()
+                .filter(|(i, (_, t))| **t == turns && !modes.contains(i));
             own.map(|(_, (x, _))| x.abs()).fold(0.0, f64::max)
         };
         let sizes = [of(false).max(1e-6), of(true).max(1e-9)];

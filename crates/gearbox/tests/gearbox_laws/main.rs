@@ -6,7 +6,6 @@ mod forced;
 mod motion;
 mod motion_bores;
 mod motion_branch;
-mod motion_branch_lumped;
 mod motion_branch_mapped;
 mod motion_contact;
 mod motion_course;

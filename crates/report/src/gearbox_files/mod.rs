@@ -55,7 +55,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
             tables.push(motion_tables::orders(file, &own.orders));
         }
         tables.extend(own.spectrum.as_ref().map(|own| motion_tables::spectrum(file, own)));
-            tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
+        tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
     }
     tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
     Ok(Answer {

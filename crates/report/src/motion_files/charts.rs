@@ -5,10 +5,7 @@ use dynamics::Speed;
 use scene::SweepWay;
 use study::{StudyError, extent};
 
-use super::{
-    spectrum::spectrum_chart,
-    waterfall::waterfall_chart,
-};
+use super::{spectrum::spectrum_chart, waterfall::waterfall_chart};
 use crate::charts::{Curve, campbell_chart, line_chart};
 use answer::Table;
 use columns::motion_history::{MESH_PHASE, TIME};
