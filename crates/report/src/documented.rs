@@ -43,7 +43,7 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
     ]);
     let (of_gearbox, _) = gearbox_files::documented(gearbox);
     let of_gearbox = of_gearbox.into_iter().map(|table| match &*table.name {
-        name @ ("campbell" | "motion" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
+        name @ ("campbell" | "motion" | "spectrum" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
             (format!("{name}, a gearbox"), table)
         }
         name => (name.to_owned(), table),

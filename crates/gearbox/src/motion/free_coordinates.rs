@@ -65,7 +65,7 @@ impl FreeCoordinates {
             turns.push(true);
         }
         let is_of_gear = |i: usize| bodies.by_turn(i).is_some();
-        let mut first_of_gears = 0;
+        let mut first_of_gears = columns.len();
         for i in (0..n).filter(|i| (is_of_gear(*i) || !held(bodies.shaft(*i))) && *i != input_turn) {
             if !is_of_gear(i) {
                 first_of_gears = columns.len() + 1;
