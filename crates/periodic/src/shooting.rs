@@ -36,8 +36,6 @@ pub struct Shooting<'a> {
     pub frequency: f64,
     /// A direction that nothing holds: where a motion is along it says nothing of it.
     pub free: Option<&'a FreeDirection>,
-    /// What takes the coordinates at the end of a period back to those of its start, where frames have turned on; orthogonal.
-    pub back: Option<&'a DMatrix<f64>>,
 }
 
 /// One period from a state on, in units of the coordinates' sizes and of velocities that belong to them.
@@ -136,14 +134,6 @@ impl Shooting<'_> {
         })?;
         if let Some(failure) = failure {
             return Err(failure);
-        }
-        if let Some(back) = self.back {
-            for part in [&mut state.q, &mut state.v, &mut state.a, &mut state.averaged] {
-                *part = back * &*part;
-            }
-            for part in [&mut flow.places, &mut flow.rates] {
-                *part = back * &*part;
-            }
         }
         // What a free turn has become says nothing of the motion.
         let mut rest =

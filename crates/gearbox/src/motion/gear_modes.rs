@@ -260,19 +260,6 @@ impl MovingGears {
             gear.sizes.iter().enumerate().map(move |(j, size)| (first + j, length / size))
         })
     }
-
-    /// Turn of the coordinates z of a motion that repeats itself as gears turn on by so many teeth (`teeth_of`: of a disc,
-    /// above 0 counter-clockwise), n x n: what it takes back. `None` where modes of a gear do not turn into each other.
-    pub fn back(&self, n: usize, teeth_of: impl Fn(usize) -> i64) -> Option<DMatrix<f64>> {
-        let mut all = DMatrix::identity(n, n);
-        for (gear, first) in self.gears.iter().zip(&self.first) {
-            let (teeth, one) = (teeth_of(gear.disc), gear.modes.turned_by_a_tooth()?);
-            let turn = one.pow(u32::try_from(teeth.unsigned_abs()).unwrap_or(u32::MAX));
-            let back = if teeth > 0 { turn.transpose() } else { turn };
-            all.view_mut((*first, *first), back.shape()).copy_from(&back);
-        }
-        Some(all)
-    }
 }
 
 /// Stiffness K of displacements and amplitudes of a mesh for the coordinates z: Y' K Y, Y the rows of both.

@@ -10,8 +10,8 @@ use super::{GearboxMechanism, MotionPlan};
 use crate::GearboxError;
 
 impl GearboxMechanism {
-    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, or the search
-    /// leads out of what the meshes hold. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
+    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, the search leads out of
+    /// what the meshes hold, or modes of gears move, whose frames turn on in a period. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
     ///
     /// # Errors
     /// [`GearboxError`] where the mechanism cannot be put back.
@@ -21,9 +21,9 @@ impl GearboxMechanism {
         plan: &MotionPlan,
         scale: &DVector<f64>,
     ) -> Result<Option<State>, GearboxError> {
-        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none()) else { return Ok(None) };
-        // Amplitudes of modes are in frames that turn on with the teeth: where these are not alike they come back after turns.
-        let Some(back) = self.gears.back(self.count(), |disc| self.teeth(disc, cycles)) else { return Ok(None) };
+        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none() && self.gears.is_empty()) else {
+            return Ok(None);
+        };
         let memory = self.memory();
         let search = Shooting {
             period: plan.step * plan.steps_per_cycle.saturating_mul(cycles) as f64,
@@ -31,7 +31,6 @@ impl GearboxMechanism {
             scale: scale.clone(),
             frequency: TAU * self.mesh_frequencies().into_iter().fold(0.0, f64::max),
             free: None,
-            back: (!self.gears.is_empty()).then_some(&back),
         };
         let MotionPlan { scheme, stop_at_events, tolerance, step, .. } = *plan;
         let method = Method { scheme, scale: scale.clone(), stop_at_events, keep_stable: true };
@@ -43,17 +42,6 @@ impl GearboxMechanism {
         self.restore(&memory)?;
         integrate::Mechanism::forget(self);
         Ok(found.unwrap_or(None))
-    }
-}
-
-impl GearboxMechanism {
-    /// Teeth by which the gear on a disc turns in so many cycles of the fastest mesh, above 0 counter-clockwise.
-    fn teeth(&self, disc: usize, cycles: u64) -> i64 {
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let mesh = self.meshes.iter().position(|mesh| mesh.discs.contains(&disc)).unwrap_or(0);
-        let turned = self.train.ratios()[self.assembly.structure().discs[disc].shaft] * self.input_speed();
-        let passed = cycles as f64 * (self.live[mesh].cycles_per_turn / fastest).abs();
-        passed.copysign(turned).round() as i64
     }
 }
 

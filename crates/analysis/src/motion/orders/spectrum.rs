@@ -34,10 +34,13 @@ impl MotionSpectrum {
     }
 }
 
+/// Tolerance below which what does not come back shows in no line.
+const LEAST: f64 = 1e-9;
+
 /// Window over a record of so many cycles of a motion that was to repeat itself to a tolerance: none where it does, and the record
 /// is whole periods.
 pub(crate) fn window(found: Option<Periodicity>, tolerance: f64, cycles: u64) -> Window {
-    let whole = |p: Periodicity| p.residual <= 10.0 * tolerance && cycles.is_multiple_of(p.period as u64);
+    let whole = |p: Periodicity| p.residual <= 10.0 * tolerance.max(LEAST) && cycles.is_multiple_of(p.period as u64);
     if found.is_some_and(whole) { Window::Rectangular } else { Window::Hann }
 }
 
