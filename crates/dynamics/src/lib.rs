@@ -28,6 +28,7 @@ mod sweep;
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
+pub use elastic_displacement::ElasticDisplacement;
 pub use equivalent_mass::equivalent_mass;
 pub use error::PairMotionError;
 pub use extremes::Extremes;
@@ -36,7 +37,7 @@ pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshRe
 pub use mapped::{MapExcess, MapRequest, MappedInstant, MappedPair};
 pub use mechanism::{MechanismState, PairMechanism};
 pub use mesh_flanks::{FlankDamping, FlankForces, FlankStates, MeshFlanks};
-pub use mesh_side::{SideState, ToothChanges};
+pub use mesh_side::{ModalForce, SideState, ToothChanges};
 pub use modal::GearVibration;
 pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};

@@ -12,7 +12,7 @@ use reduction::{ElasticGear, GearModes};
 use crate::{
     COORDINATES, Displacement, SideState, ToothChanges,
     elastic_displacement::ElasticDisplacement,
-    mesh_side::{MeshSide, SideContacts, SideForce},
+    mesh_side::{MeshSide, ModalForce, SideContacts, SideForce},
 };
 
 /// Contact of elastic teeth in motion: the flanks that drive and, where these may touch, the coast flanks.
@@ -26,7 +26,7 @@ pub struct MeshFlanks {
     last: Option<SideContacts>,
 }
 
-/// Forces of both sides on rigid gears beside their teeth, at displacements.
+/// Forces of both sides at displacements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FlankForces {
     /// -dV/dd: normal forces, N and N mm.
@@ -37,6 +37,8 @@ pub struct FlankForces {
     pub stiffness: SMatrix<f64, 12, 12>,
     /// Sum of the normal forces on the driving and on the coast flanks, N.
     pub sums: [f64; 2],
+    /// Forces on the modes of both gears, with the tangents of all; none of gears that are rigid beside their teeth.
+    pub modal: Option<ModalForce>,
 }
 
 /// What the dampers of both sides do.
@@ -109,7 +111,10 @@ impl MeshFlanks {
     }
 
     /// Takes normal modes of both gears for coordinates of their own.
-    pub(crate) fn keep_modes(&mut self, modes: &[Arc<GearModes>; 2]) -> Result<(), StaticError> {
+    ///
+    /// # Errors
+    /// [`contact::ContactError::Reduction`] for modes of another gear.
+    pub fn keep_modes(&mut self, modes: &[Arc<GearModes>; 2]) -> Result<(), StaticError> {
         self.last = None;
         self.sides_mut().try_for_each(|side| side.keep_modes(modes.clone()))
     }
@@ -158,7 +163,7 @@ impl MeshFlanks {
         std::iter::once((&self.driving, &contacts.driving)).chain(self.coast.as_ref().zip(contacts.coast.as_ref()))
     }
 
-    /// Forces on gears that are rigid beside their teeth.
+    /// Forces on the gears and on their modes.
     ///
     /// # Errors
     /// [`StaticError::Contact`].
@@ -166,18 +171,30 @@ impl MeshFlanks {
         &mut self,
         pair: &GearPair,
         cycles: f64,
-        d: &Displacement,
+        at: &ElasticDisplacement,
         tangents: bool,
     ) -> Result<FlankForces, StaticError> {
-        let SideContacts { driving, coast, .. } =
-            self.contact(pair, cycles, &ElasticDisplacement::rigid(*d), tangents)?;
-        let (mut normal, mut friction, mut stiffness) = (driving.normal, driving.friction, driving.stiffness);
+        let SideContacts { driving, coast, .. } = self.contact(pair, cycles, at, tangents)?;
+        let SideForce { mut normal, mut friction, mut stiffness, mut modal } = driving;
         if let Some(coast) = coast {
             normal += coast.normal;
             friction += coast.friction;
             stiffness += coast.stiffness;
+            if let (Some(all), Some(own)) = (&mut modal, &coast.modal) {
+                all.add(own);
+            }
         }
-        Ok(FlankForces { normal, friction, stiffness, sums: self.sums() })
+        Ok(FlankForces { normal, friction, stiffness, sums: self.sums(), modal })
+    }
+
+    /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2); empty without modes.
+    pub fn mode_sizes(&self) -> &[f64] {
+        self.driving.contact().modal().map_or(&[], |modal| modal.sizes())
+    }
+
+    /// Angles of the gears' own frames in their nominal motion, rad from the pair's axes.
+    pub fn angles(&self, pair: &GearPair, cycles: f64) -> [f64; 2] {
+        self.driving.angles(pair, cycles)
     }
 
     /// Sum of the normal forces of the last contact on the driving and on the coast flanks, N.
@@ -202,7 +219,12 @@ impl MeshFlanks {
             let (own, power) = side.damping(&placed, rate, per_length, slopes.then_some(&mut rate_slope));
             force += own;
             dissipated += power;
-            if slopes && let Some(held) = side.held_damping(&placed, rate, per_length) {
+            // Modes let slices answer each other: those slopes are left out, as of a pair.
+            let is_rigid = side.contact().modal().is_none();
+            if slopes
+                && is_rigid
+                && let Some(held) = side.held_damping(&placed, rate, per_length)
+            {
                 slope += held;
             }
         }
@@ -215,29 +237,19 @@ impl MeshFlanks {
         of(&self.driving) + self.coast.as_ref().map_or(0.0, of)
     }
 
-    /// Strain energy of both sides and nothing else; the last contact is lost.
-    pub(crate) fn energy_of(
-        &mut self,
-        pair: &GearPair,
-        cycles: f64,
-        at: &ElasticDisplacement,
-    ) -> Result<f64, StaticError> {
+    /// Strain energy of both sides at a place with the gears displaced, N mm, to twelve digits; the last contact is lost.
+    ///
+    /// # Errors
+    /// [`StaticError::Contact`].
+    pub fn energy(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<f64, StaticError> {
         self.last = None;
         let fail = at_station(cycles);
         self.sides_mut().try_fold(0.0, |sum, side| Ok(sum + side.energy(pair, cycles, at).map_err(fail)?))
     }
 
-    /// Strain energy at a place with the gears displaced, N mm, to twelve digits; the last contact is lost.
-    ///
-    /// # Errors
-    /// [`StaticError::Contact`].
-    pub fn energy(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<f64, StaticError> {
-        self.energy_of(pair, cycles, &ElasticDisplacement::rigid(*d))
-    }
-
     /// Deepest overlap of the undeformed flanks at the place of the last contact, mm, negative where they are apart: of
     /// the driving flanks, and of the coast flanks (minus infinity without any). With modes the last contact is lost.
-    pub(crate) fn overlaps_of(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> [f64; 2] {
+    pub fn overlaps(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> [f64; 2] {
         let driving = self.driving.overlap(pair, cycles, at);
         let coast = self.coast.as_mut().map_or(f64::NEG_INFINITY, |side| side.overlap(pair, cycles, at));
         if !at.q.is_empty() {
@@ -246,14 +258,9 @@ impl MeshFlanks {
         [driving, coast]
     }
 
-    /// The same of gears that are rigid beside their teeth, mm.
-    pub fn overlaps(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> [f64; 2] {
-        self.overlaps_of(pair, cycles, &ElasticDisplacement::rigid(*d))
-    }
-
     /// Moves the windows as far as the gears have turned (`turned`, mesh cycles) and outgoing teeth carry nothing;
     /// whether one has moved. Several teeth may be due after a long step.
-    pub(crate) fn follow_of(
+    pub(crate) fn follow(
         &mut self,
         pair: &GearPair,
         cycles: f64,
@@ -288,11 +295,11 @@ impl MeshFlanks {
     ///
     /// # Errors
     /// [`StaticError::PassedThrough`], [`ale::AleError::Leapt`], [`ale::AleError::Starved`].
-    pub fn accept(&mut self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<bool, StaticError> {
-        self.check_passage(pair, cycles, d)?;
-        let moved = self.follow_of(pair, cycles, &ElasticDisplacement::rigid(*d), cycles)?;
+    pub fn accept(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<bool, StaticError> {
+        self.check_passage(pair, cycles, &at.d)?;
+        let moved = self.follow(pair, cycles, at, cycles)?;
         for side in self.sides_mut().filter(|side| side.sum_of_forces() > 0.0) {
-            let poses = side.poses(pair, cycles, d);
+            let poses = side.poses(pair, cycles, &at.d);
             side.check_neighbours(pair, cycles, &poses)?;
         }
         Ok(moved)

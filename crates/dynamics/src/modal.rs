@@ -11,7 +11,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use nalgebra::{DMatrix, DVector, Matrix6, SMatrix};
+use nalgebra::{DMatrix, DVector, SMatrix};
 use reduction::GearModes;
 
 use crate::{COORDINATES, Displacement, NominalState, mesh_side::SideForce};
@@ -56,36 +56,18 @@ impl Modal {
         let mut all = DMatrix::zeros(self.count(), 2 * COORDINATES);
         let mut row = 0;
         for (g, gear) in self.gears.iter().enumerate() {
-            let (sin, cos) = angles[g].sin_cos();
-            for own in gear.modes.coupling() {
-                for at in [0, 3] {
-                    // (L D) = L turned back: the gear's x axis stands at the angle in the common frame.
-                    let (x, y, z) = (own[at], own[at + 1], own[at + 2]);
-                    let turned = [cos * x - sin * y, sin * x + cos * y, z];
-                    (0..3).for_each(|i| all[(row, COORDINATES * g + at + i)] = turned[i]);
-                }
-                row += 1;
-            }
+            let own = gear.modes.coupling_at(angles[g]);
+            all.view_mut((row, COORDINATES * g), own.shape()).copy_from(&own);
+            row += own.nrows();
         }
         all
     }
 
-    /// L' L of both gears, averaged over the turn, as bodies are: that of a cyclic gear is the same at every angle.
+    /// L' L of both gears, averaged over the turn, as bodies are.
     pub fn shared_inertia(&self) -> SMatrix<f64, 12, 12> {
         let mut all = SMatrix::<f64, 12, 12>::zeros();
         for (g, gear) in self.gears.iter().enumerate() {
-            let own = gear.modes.coupling().iter().fold(Matrix6::zeros(), |sum: Matrix6<f64>, row| {
-                let l = nalgebra::Vector6::from_column_slice(row);
-                sum + l * l.transpose()
-            });
-            let mut round = Matrix6::zeros();
-            for (a, b) in [(0, 0), (0, 3), (3, 0), (3, 3)] {
-                let (same, across) = (own[(a, b)] + own[(a + 1, b + 1)], own[(a, b + 1)] - own[(a + 1, b)]);
-                (round[(a, b)], round[(a + 1, b + 1)]) = (0.5 * same, 0.5 * same);
-                (round[(a, b + 1)], round[(a + 1, b)]) = (0.5 * across, -0.5 * across);
-                round[(a + 2, b + 2)] = own[(a + 2, b + 2)];
-            }
-            all.fixed_view_mut::<6, 6>(COORDINATES * g, COORDINATES * g).copy_from(&round);
+            all.fixed_view_mut::<6, 6>(COORDINATES * g, COORDINATES * g).copy_from(&gear.modes.shared_inertia());
         }
         all
     }

@@ -39,25 +39,18 @@ impl ElasticBody {
     /// The modes of the gear on a disc that stands at `angle` (rad, its tooth 0 from +x) with the input at its start.
     pub fn new(disc: usize, modes: &GearModes, angle: f64) -> Self {
         let m = modes.count();
-        let own = DMatrix::from_fn(m, 6, |i, axis| modes.coupling()[i][axis]);
         let squares = DVector::from_column_slice(modes.squares());
         match modes.standing() {
             Some(standing) => Self {
                 disc,
                 squares,
-                coupling: own,
+                coupling: modes.coupling_at(0.0),
                 gyroscopic: standing.gyroscopic,
                 rigid_gyroscopic: standing.coupling,
             },
             None => {
-                let (sin, cos) = angle.sin_cos();
-                let turned = DMatrix::from_fn(m, 6, |i, axis| match axis % 3 {
-                    0 => cos * own[(i, axis)] - sin * own[(i, axis + 1)],
-                    1 => sin * own[(i, axis - 1)] + cos * own[(i, axis)],
-                    _ => own[(i, axis)],
-                });
                 let (gyroscopic, rigid_gyroscopic) = (DMatrix::zeros(m, m), DMatrix::zeros(6, m));
-                Self { disc, squares, coupling: turned, gyroscopic, rigid_gyroscopic }
+                Self { disc, squares, coupling: modes.coupling_at(angle), gyroscopic, rigid_gyroscopic }
             }
         }
     }

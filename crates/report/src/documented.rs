@@ -43,7 +43,7 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
     ]);
     let (of_gearbox, _) = gearbox_files::documented(gearbox);
     let of_gearbox = of_gearbox.into_iter().map(|table| match &*table.name {
-        name @ ("campbell" | "motion" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
+        name @ ("campbell" | "motion" | "spectrum" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
             (format!("{name}, a gearbox"), table)
         }
         name => (name.to_owned(), table),
@@ -76,14 +76,6 @@ pub fn documented_objects(gearbox: &Gearbox) -> Vec<(&'static str, Vec<Key>)> {
 }
 
 fn of_motions() -> Vec<Table> {
-    let spectrum = MotionSpectrum {
-        orders: Vec::new(),
-        frequencies: Vec::new(),
-        dte_um: Vec::new(),
-        normal_force_n: Vec::new(),
-        wheel_force_z_n: Vec::new(),
-        moment_y_nmm: [Vec::new(), Vec::new()],
-    };
     let cut = OrderCut { time_s: 0.0, driver_speed_rpm: 0.0, mesh_frequency_hz: 0.0, amplitudes_um: vec![0.0] };
     let options = SweepOptions {
         key: "<key>".into(),
@@ -94,7 +86,7 @@ fn of_motions() -> Vec<Table> {
         stretches: 0,
     };
     vec![
-        rows::spectrum(&spectrum),
+        rows::spectrum(&MotionSpectrum::default()),
         rows::waterfall(&Waterfall::default()),
         rows::cycles(&RunUp::default()),
         rows::order_cuts(&RunUp { cuts: vec![cut], ..RunUp::default() }),

@@ -105,6 +105,14 @@ const VIBRATION: &str = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 4000.0\nspeeds 
 const RUN_UP: &str =
     "[motion]\nspeed_rpm = 1000.0\nto_speed_rpm = 1500.0\nmesh = \"spring\"\ncycles = 6\nsteps_per_cycle = 20\n";
 
+/// The shipped resonance curve of a gearbox, its first part.
+fn gearbox_branch() -> SmallDocument {
+    let text = include_str!("../../../scenes/gearbox/resonance_curve.toml")
+        .replace("to_speed_rpm = 8500.0", "to_speed_rpm = 11000.0")
+        .replace("time_points = 4", "time_points = 1");
+    SmallDocument { name: "gearbox_branch", files: vec![("box.toml", text)], words: vec!["run", "box.toml"] }
+}
+
 /// Two stages on three shafts, with one bearing by its type: at rest, and what `tasks` ask.
 fn gearbox(name: &'static str, tasks: &str) -> SmallDocument {
     let shaft = |name: &str, y: f64, length: f64, diameter: f64| {
@@ -166,6 +174,7 @@ fn other_than_scenes() -> Vec<SmallDocument> {
                  [[quantity]]\ncolumn = \"ste_um\"\n";
     vec![
         gearbox("gearbox", &format!("{VIBRATION}{RUN_UP}")),
+        gearbox_branch(),
         gearbox("gearbox_modes", &format!("{VIBRATION}[modes]\ncount = 4\n")),
         SmallDocument {
             name: "plan",

@@ -6,12 +6,12 @@ use answer::Remark;
 use dynamics::{RigidBody, Speed};
 use gearbox::{
     GearMesh, GearboxError, GearboxPosition, Meshing, Operation, Structure, Train, Vector12,
-    motion::{ContactSpring, MapRequest, MotionPlan, MovingMesh},
+    motion::{ContactSpring, GearVibration, MapRequest, MotionPlan, MovingMesh},
 };
 use integrate::Settle;
 use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshModel};
 
-use super::meshes::ReducedMesh;
+use super::{meshes::ReducedMesh, swings::GearModesOfDiscs};
 use crate::{AnalysisError, GearCache, Progress, motion::QuasiStatic};
 
 /// Error with which a map is taken, over that aimed at.
@@ -30,6 +30,8 @@ pub(super) struct AtRest<'a> {
     pub train: &'a Train,
     pub reduced: &'a [ReducedMesh],
     pub positions: &'a [GearboxPosition],
+    /// Elastic modes of the gears that move with the meshes.
+    pub modes: &'a GearModesOfDiscs,
     /// Keeps maps of the contact between runs.
     pub cache: &'a dyn GearCache,
 }
@@ -152,7 +154,15 @@ impl AtRest<'_> {
             if wrong { Err(GearboxError::Unmapped { what }) } else { Ok(()) }
         };
         Ok(match asked.mesh {
-            MeshModel::Exact => Box::new(self.reduced[mesh].moving(own, per_length)?),
+            MeshModel::Exact => {
+                let moving = self.reduced[mesh].moving(own, per_length)?;
+                let kept = own.discs.map(|disc| self.modes.get(disc).cloned().flatten());
+                let damping_ratio = self.file.modes.map_or(0.0, |asked| asked.damping_ratio);
+                match kept.map(|modes| modes.map(|modes| GearVibration { modes, damping_ratio })) {
+                    [Some(a), Some(b)] => Box::new(moving.with_modes([a, b])?),
+                    _ => Box::new(moving),
+                }
+            }
             MeshModel::Spring => {
                 alike()?;
                 Box::new(spring.mesh(own, meshing)?.with_damping(damping))

@@ -17,13 +17,14 @@ use scene::gearbox::{GearboxDrive, GearboxMotion};
 use super::{
     at_rest::AtRest,
     inertia,
-    orders::{MotionOrder, orders, waterfall},
+    orders::{MotionOrder, orders, spectrum, waterfall},
     parts::{input_over_time, over_time},
     sink::GearboxSink,
+    swings::{GearFrequencies, gear_frequencies},
 };
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
-    motion::{QuasiStatic, Waterfall},
+    motion::{MotionSpectrum, QuasiStatic, Waterfall, window},
     run_phase,
     run_up::RunUpTorque,
     unless_cancelled,
@@ -67,8 +68,12 @@ pub struct GearboxMotionResult {
     /// Spectra of a motion whose speed is led from one to another: transmission error (um) and normal force (N) of each
     /// mesh, then the force of each bearing (N).
     pub waterfall: Option<Waterfall>,
+    /// Spectra of a motion whose speed is not led: what a waterfall has, over all rows.
+    pub spectrum: Option<MotionSpectrum>,
     /// Cycles of the fastest mesh after which all meshes are where they began; `None` where that takes more than 100,000.
     pub common_period: Option<u64>,
+    /// Elastic modes of the gears, in their order; `None` of gears that are rigid beside their teeth.
+    pub gear_modes: Vec<Option<GearFrequencies>>,
     /// How well the shafts were reduced.
     pub reduction: ReductionCertificate,
     /// Cycles of the fastest mesh before the rows.
@@ -241,6 +246,16 @@ pub(super) fn run(
             Some(_) => waterfall(even, asked.waterfall_cycles)?,
             None => None,
         },
+        spectrum: match asked.to_speed_rpm {
+            Some(_) => None,
+            None => {
+                let fastest = frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
+                let steps = (even.len().max(1) - 1) as f64 * plan.steps_per_row as f64;
+                let found = done.periodicity.filter(|_| plan.settle.is_some());
+                let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
+                spectrum(even, (steps / plan.steps_per_cycle as f64, fastest), window)?
+            }
+        },
         common_period: done.common_period,
         rows,
         mesh_frequencies: frequencies,
@@ -251,6 +266,7 @@ pub(super) fn run(
         energy: done.energy,
         separations: done.separations,
         reach: done.reach,
+        gear_modes: gear_frequencies(rest.file.gears.len(), rest.modes),
         reduction,
         warm_up_cycles: done.warm_up,
         periodicity: done.periodicity.filter(|_| plan.settle.is_some()),

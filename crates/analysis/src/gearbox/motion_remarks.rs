@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use answer::Remark;
 use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion};
 
-use super::{GearboxMotionResult, orders::MotionOrder};
+use super::{GearboxMotionResult, orders::MotionOrder, swings::few_modes};
 use crate::{
     remark,
     run_up::{coarse_cut, cut_peak},
@@ -20,7 +20,10 @@ impl GearboxMotionResult {
         let alone =
             (self.common_period.is_none() && asked.drive != GearboxDrive::Torque).then(remark::no_common_period);
         let own = self.map_remarks.iter().cloned().chain(self.unsettled(asked));
-        own.chain(torque).chain(cut).chain(alone).collect()
+        let growth = asked.to_speed_rpm.map_or(1.0, |to| (to / asked.speed_rpm).max(1.0));
+        let fastest = growth * self.mesh_frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
+        let few = few_modes(file, &self.gear_modes, fastest);
+        own.chain(torque).chain(cut).chain(alone).chain(few).collect()
     }
 
     /// The order cut with fewest points across its peak: of each mesh the order with the largest amplitude of its own

@@ -3,12 +3,14 @@
 use std::f64::consts::TAU;
 
 use gearbox::motion::GearboxInstant;
-use study::{StudyError, order_amplitude};
+use study::{StudyError, Window, order_amplitude};
 
-use crate::motion::{RPM, Stretches, Waterfall, waterfall as order_spectra};
+use crate::motion::{MotionSpectrum, RPM, Stretches, Waterfall, waterfall as order_spectra};
 
 /// Orders of each mesh.
 const ORDERS: usize = 5;
+/// Rows of a spectrum at the least.
+const FEWEST: usize = 8;
 /// Cycles of the slowest mesh that a stretch has at the least.
 const LEAST: f64 = 4.0;
 
@@ -58,19 +60,47 @@ pub(super) fn orders(rows: &[GearboxInstant], cycles: u32) -> Result<Vec<MotionO
 /// [`StudyError`] for rows that hold what is no number.
 pub(super) fn waterfall(rows: &[GearboxInstant], cycles: u32) -> Result<Option<Waterfall>, StudyError> {
     let Some(stretches) = stretches(rows, cycles) else { return Ok(None) };
+    let quantities = Quantities::of(rows);
     let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
-    let mut quantities: Vec<Vec<Vec<f64>>> = Vec::new();
-    for mesh in 0..rows[0].meshes.len() {
-        quantities.push(vec![column(&|p| 1e3 * p.meshes[mesh].transmission_error)]);
-        quantities.push(vec![column(&|p| p.meshes[mesh].normal_force)]);
-    }
-    for bearing in 0..rows[0].bearings.len() {
-        quantities.push([0, 1, 2].map(|axis| column(&|p| p.bearings[bearing].force[axis])).to_vec());
-    }
-    let quantities: Vec<Vec<&[f64]>> =
-        quantities.iter().map(|components| components.iter().map(Vec::as_slice).collect()).collect();
     let (time, speed) = (column(&|p| p.time), column(&|p| p.input[1] / RPM));
-    order_spectra(&quantities, (&time, &speed), stretches).map(Some)
+    order_spectra(&quantities.lists(), (&time, &speed), stretches).map(Some)
+}
+
+/// Spectra of the same over the rows of a motion whose speed is not led, so many cycles of the fastest mesh of a frequency (Hz)
+/// at the start; the first row is the start and counts as the last one.
+///
+/// # Errors
+/// [`StudyError`] for rows that hold what is no number.
+pub(super) fn spectrum(
+    rows: &[GearboxInstant],
+    of: (f64, f64),
+    window: Window,
+) -> Result<Option<MotionSpectrum>, StudyError> {
+    let Some(rows) = rows.get(1..).filter(|rows| rows.len() >= FEWEST) else { return Ok(None) };
+    MotionSpectrum::of(&Quantities::of(rows).lists(), of, window).map(Some)
+}
+
+/// What has a spectrum, each by its components: transmission error (um) and normal force (N) of each mesh, then the force of
+/// each bearing (N).
+struct Quantities(Vec<Vec<Vec<f64>>>);
+
+impl Quantities {
+    fn of(rows: &[GearboxInstant]) -> Self {
+        let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+        let mut all = Vec::new();
+        for mesh in 0..rows.first().map_or(0, |row| row.meshes.len()) {
+            all.push(vec![column(&|p| 1e3 * p.meshes[mesh].transmission_error)]);
+            all.push(vec![column(&|p| p.meshes[mesh].normal_force)]);
+        }
+        for bearing in 0..rows.first().map_or(0, |row| row.bearings.len()) {
+            all.push([0, 1, 2].map(|axis| column(&|p| p.bearings[bearing].force[axis])).to_vec());
+        }
+        Self(all)
+    }
+
+    fn lists(&self) -> Vec<Vec<&[f64]>> {
+        self.0.iter().map(|components| components.iter().map(Vec::as_slice).collect()).collect()
+    }
 }
 
 /// Stretches of so many cycles of the slowest mesh, or of the whole motion, each half over the one before; `None` where the

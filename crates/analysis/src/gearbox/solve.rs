@@ -116,12 +116,13 @@ pub(super) fn solve(
             structure.about(&positions).and_then(|own| held(&own).map(|()| own)).map_err(failed)?
         }
     };
+    let modes = vibration::elastic_modes((file, &structure, &meshes), &reduced, observer)?;
     let vibration = match &file.vibration {
         None => None,
         Some(asked) => {
             let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
             let found = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
-                vibration::vibration(&parts, asked, reduced, &samples, observer)
+                vibration::vibration(&parts, asked, (reduced, &modes), &samples, observer)
             });
             let found = found?;
             remarks.extend(found.remarks(file));
@@ -138,6 +139,7 @@ pub(super) fn solve(
         train: &train,
         reduced: &reduced,
         positions: &positions,
+        modes: &modes,
         cache: models.cache(),
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;

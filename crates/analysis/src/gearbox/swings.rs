@@ -1,12 +1,18 @@
 //! What is found of a gearbox that swings about where it stands.
 
+use std::sync::Arc;
+
 use dynamics::RigidBody;
 use gearbox::{Harmonic, Vibration, WhirlModes, rms};
 use nalgebra::Complex;
+use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxGear};
 use study::Campbell;
 
 use crate::remark::{self, Remark};
+
+/// Elastic modes of the gear on every disc; `None` where it is in no mesh, and nothing where none are kept.
+pub(super) type GearModesOfDiscs = Vec<Option<Arc<GearModes>>>;
 
 /// Vibration of a gearbox about where it stands, order by order of its meshes.
 #[derive(Debug, Clone)]
@@ -108,16 +114,11 @@ impl VibrationResult {
     /// What a user should hear of the modes of gears.
     pub(super) fn remarks(&self, file: &Gearbox) -> Vec<Remark> {
         let orders = self.orders.iter().flatten().map(|order| order.frequency_hz);
-        let fastest = orders.fold(0.0, f64::max);
-        let one = |(gear, own): (&GearboxGear, &Option<GearFrequencies>)| {
-            let own = own.as_ref()?;
-            let highest =
-                file.modes.and_then(|asked| asked.below_hz).or(own.frequencies_hz.last().copied()).unwrap_or(0.0);
-            let few = (highest < fastest).then(|| remark::few_gear_modes(&*gear.name, highest, fastest));
-            let fixed = (!own.by_sectors).then(|| remark::gear_modes_do_not_travel(&*gear.name));
-            Some(few.into_iter().chain(fixed))
-        };
-        file.gears.iter().zip(&self.gear_modes).filter_map(one).flatten().collect()
+        let still = file.gears.iter().zip(&self.gear_modes).filter_map(|(gear, own)| {
+            own.as_ref().filter(|own| !own.by_sectors).map(|_| remark::gear_modes_do_not_travel(&*gear.name))
+        });
+        let few = few_modes(file, &self.gear_modes, orders.fold(0.0, f64::max));
+        few.into_iter().chain(still).collect()
     }
 
     /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` without speeds.
@@ -125,6 +126,25 @@ impl VibrationResult {
         let all = self.speeds.iter().zip(&self.rms).map(|(speed, rms)| (*speed, of(rms)));
         all.max_by(|a, b| a.1.total_cmp(&b.1))
     }
+}
+
+/// Gears whose modes end below the highest frequency (Hz) that excites them.
+pub(super) fn few_modes(file: &Gearbox, gears: &[Option<GearFrequencies>], fastest: f64) -> Vec<Remark> {
+    let one = |(gear, own): (&GearboxGear, &Option<GearFrequencies>)| {
+        let last = own.as_ref()?.frequencies_hz.last().copied();
+        let highest = file.modes.and_then(|asked| asked.below_hz).or(last).unwrap_or(0.0);
+        (highest < fastest).then(|| remark::few_gear_modes(&*gear.name, highest, fastest))
+    };
+    file.gears.iter().zip(gears).filter_map(one).collect()
+}
+
+/// Frequencies of the modes of all gears, in their order.
+pub(super) fn gear_frequencies(count: usize, modes: &GearModesOfDiscs) -> Vec<Option<GearFrequencies>> {
+    let of = |own: &Arc<GearModes>| GearFrequencies {
+        frequencies_hz: own.frequencies_hz(),
+        by_sectors: own.standing().is_some(),
+    };
+    (0..count).map(|i| modes.get(i).and_then(Option::as_ref).map(of)).collect()
 }
 
 /// Mesh orders and turns of shafts as lines of excitation.

@@ -14,7 +14,7 @@ use study::campbell;
 use super::{
     inertia,
     meshes::ReducedMesh,
-    swings::{GearFrequencies, OrderForces, SpeedRms, VibrationResult, lines},
+    swings::{GearModesOfDiscs, OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
 };
 use crate::{
     AnalysisError, Observer, PhaseWork,
@@ -44,24 +44,6 @@ const BEYOND_MODES: f64 = 1.5;
 impl Parts<'_> {
     fn failed(&self, source: GearboxError) -> AnalysisError {
         AnalysisError::from(source).in_file(&self.file.file)
-    }
-
-    /// Elastic modes of all gears in mesh, where the file keeps some; else none.
-    fn modes(
-        &self,
-        reduced: &[ReducedMesh],
-        observer: &mut dyn Observer,
-    ) -> Result<Vec<Option<Arc<GearModes>>>, AnalysisError> {
-        let Some(asked) = &self.file.modes else { return Ok(Vec::new()) };
-        let gears: Vec<_> = reduced.iter().map(ReducedMesh::gears).collect();
-        run_phase(observer, "modes", PhaseWork::Steps(self.file.gears.len() as u64), |progress| {
-            let found = elastic_gears(self.structure, self.meshes, &gears, |reducer| {
-                let own = kept_modes(reducer, asked);
-                progress.tick();
-                own
-            });
-            found.map_err(|e| self.failed(e))
-        })
     }
 
     /// Every mesh through its own cycle while the others are linear about what they did in `samples`.
@@ -101,17 +83,34 @@ impl Parts<'_> {
     }
 }
 
+/// Elastic modes of all gears in mesh, where the file keeps some; else none.
+pub(super) fn elastic_modes(
+    (file, structure, meshes): (&Gearbox, &Structure, &[GearMesh]),
+    reduced: &[ReducedMesh],
+    observer: &mut dyn Observer,
+) -> Result<GearModesOfDiscs, AnalysisError> {
+    let Some(asked) = &file.modes else { return Ok(Vec::new()) };
+    let gears: Vec<_> = reduced.iter().map(ReducedMesh::gears).collect();
+    run_phase(observer, "modes", PhaseWork::Steps(file.gears.len() as u64), |progress| {
+        let found = elastic_gears(structure, meshes, &gears, |reducer| {
+            let own = kept_modes(reducer, asked);
+            progress.tick();
+            own
+        });
+        found.map_err(|e| AnalysisError::from(e).in_file(&file.file))
+    })
+}
+
 /// Natural frequencies over speed, and the answer to all mesh orders.
 pub(super) fn vibration(
     parts: &Parts<'_>,
     asked: &GearboxVibration,
-    reduced: &[ReducedMesh],
+    (reduced, modes_of_gears): (&[ReducedMesh], &GearModesOfDiscs),
     samples: &[Vec<MeshSample>],
     observer: &mut dyn Observer,
 ) -> Result<VibrationResult, AnalysisError> {
     let failed = |source: GearboxError| parts.failed(source);
-    let modes_of_gears = parts.modes(reduced, observer)?;
-    let excitations = parts.excitations(asked, (reduced, &modes_of_gears), samples, observer)?;
+    let excitations = parts.excitations(asked, (reduced, modes_of_gears), samples, observer)?;
     let gears = inertia::gears(parts.file, reduced)?;
     let held = Held {
         shafts: parts.operation.held.clone(),
@@ -124,7 +123,7 @@ pub(super) fn vibration(
     let drawn: Vec<f64> = (0..asked.speeds.min(DRAWN)).map(|i| speed(i, asked.speeds.min(DRAWN))).collect();
     let speeds: Vec<f64> = (0..asked.speeds).map(|i| speed(i, asked.speeds)).collect();
     run_phase(observer, "vibrate", PhaseWork::Steps((drawn.len() + speeds.len()) as u64), |progress| {
-        let whole = Vibration::with_modes(structure, train, excitations, &modes_of_gears, &held).map_err(failed)?;
+        let whole = Vibration::with_modes(structure, train, excitations, modes_of_gears, &held).map_err(failed)?;
         let limit = limit(&whole, asked, to);
         let vibration = whole.reduced(limit).map_err(failed)?;
         drop(whole);
@@ -147,13 +146,8 @@ pub(super) fn vibration(
         let orders = orders.into_iter().collect::<Result<Vec<_>, _>>()?;
         let lines = lines(&vibration, parts.train.ratios(), asked.orders);
         let campbell = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
-        let kept = |own: &Arc<GearModes>| GearFrequencies {
-            frequencies_hz: own.frequencies_hz(),
-            by_sectors: own.standing().is_some(),
-        };
-        let of_gear = |i: usize| modes_of_gears.get(i).and_then(Option::as_ref).map(kept);
         Ok(VibrationResult {
-            gear_modes: (0..gears.len()).map(of_gear).collect(),
+            gear_modes: gear_frequencies(gears.len(), modes_of_gears),
             gears,
             mesh_stiffness: vibration.mesh_stiffness(),
             transmission_error: vibration

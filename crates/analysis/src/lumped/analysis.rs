@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use integrate::State;
 use scene::{Model, MotionScene, Scene};
-use study::{Lyapunov, Window};
+use study::Lyapunov;
 
 use super::{
     LumpedRow, StaticPoint,
@@ -26,7 +26,7 @@ use crate::{
     facts::{Resolution, RunInfo},
     gears,
     inputs::motion_of,
-    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall},
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
     refused::Refusal,
     resolution::{resolution, with_slices},
@@ -257,7 +257,8 @@ fn result(
             remarks.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
         }
     }
-    let spectrum = MotionSpectrum::of(&judged, run.judged, frequencies.mesh_hz, window(motion, &run))?;
+    let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
+    let spectrum = judged.spectrum((run.judged as f64, frequencies.mesh_hz), whole)?;
     let LumpedRun { rows, energy, end, .. } = run;
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
 }
@@ -370,14 +371,6 @@ fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<Remark>)> 
     let LumpedInputs { scene, pair, .. } = inputs;
     matches!(scene.analysis.model, Model::Impact | Model::Mapped)
         .then(|| resolution(scene, pair, &options(scene, pair)))
-}
-
-/// None for a record of whole periods, where every line stands in one bin.
-fn window(motion: &MotionScene, run: &LumpedRun) -> Window {
-    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
-    let whole =
-        |p: &integrate::Periodicity| p.residual <= 10.0 * tolerance && run.cycles.is_multiple_of(p.period as u64);
-    if run.periodicity.as_ref().is_some_and(whole) { Window::Rectangular } else { Window::Hann }
 }
 
 /// Series of rows, for spectra and ramps.

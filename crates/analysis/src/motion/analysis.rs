@@ -4,9 +4,9 @@ use ale::solve_widening;
 use answer::Remark;
 use dynamics::PairMechanism;
 use geometry::GearPair;
+use integrate::Periodicity;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
-use study::Window;
 
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
@@ -16,7 +16,7 @@ use super::{
     headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand, fastest_hz},
-    unresolved,
+    unresolved, window,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
@@ -272,8 +272,11 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let spectrum = match &ramp {
         Some(_) => None,
         None => {
-            let window = window(motion, &headline);
-            Some(MotionSpectrum::of(&series, headline.cycles, headline.mesh_frequency_hz, window)?)
+            let own = &headline.certificate;
+            let found = own.period_cycles.zip(own.periodicity);
+            let found = found.map(|(period, residual)| Periodicity { period, residual });
+            let window = window(found, motion.periodic_tolerance.unwrap_or(1e-6), headline.cycles);
+            Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?)
         }
     };
     let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
@@ -324,12 +327,4 @@ fn remarks_of(
     all.extend(prepared.elasticity.rotation_warning(&vibration));
     all.extend(headline.root_tensions().into_iter().flat_map(root_stress_remarks));
     all
-}
-
-/// None for a record that repeats itself, where every line stands in one bin.
-fn window(motion: &MotionScene, headline: &MotionHeadline) -> Window {
-    let tolerance = motion.periodic_tolerance.unwrap_or(1e-6);
-    let whole = headline.certificate.period_cycles.is_some_and(|p| headline.cycles.is_multiple_of(p as u64));
-    let periodic = headline.certificate.periodicity.is_some_and(|r| r <= 10.0 * tolerance);
-    if periodic && whole { Window::Rectangular } else { Window::Hann }
 }

@@ -39,6 +39,7 @@ pub use headline::{MotionCertificate, MotionHeadline};
 pub use motion_remarks::NO_BACKLASH_UM;
 pub(crate) use motion_remarks::coarse_steps;
 pub(crate) use motion_remarks::no_backlash;
+pub(crate) use orders::window;
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
     RunUpHeadline, Stretches, Waterfall, WaterfallLine, waterfall,

@@ -3,46 +3,56 @@
 
 use std::path::Path;
 
-use analysis::{Context, Ending, NoObserver, lumped::LumpedAnalysis, motion::MotionAnalysis, solve};
+use analysis::{
+    Context, Ending, NoObserver,
+    lumped::LumpedAnalysis,
+    motion::{MotionAnalysis, MotionSpectrum},
+    solve,
+};
 use scene::{
     Model, Scene, SceneBuilder,
     gearbox::{Gearbox, gearbox_of_moving_pair},
 };
 
-/// Dynamic transmission error (um) at the rows of a pair, and steps between two of them.
-fn alone(scene: &Scene) -> (Vec<f64>, u32) {
+/// Dynamic transmission error (um) at the rows of a pair, its spectrum where that is of all rows, and steps between two rows.
+fn alone(scene: &Scene) -> (Vec<f64>, Option<MotionSpectrum>, u32) {
     if scene.analysis.model == Model::Mapped {
         let found = LumpedAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         // The first row is the start.
-        return (found.rows[1..].iter().map(|r| r.transmission_error_um).collect(), found.headline.steps_per_row);
+        return (found.rows[1..].iter().map(|r| r.transmission_error_um).collect(), None, found.headline.steps_per_row);
     }
     let found = MotionAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let motion = scene.motion.as_ref().unwrap();
     let cycle_s = 60.0 / (f64::from(scene.driver_teeth()) * scene.operation.speed_rpm);
     let steps = f64::from(motion.steps_per_resonance) * found.headline.mesh_resonance_hz * cycle_s;
     let per_row = (steps / f64::from(motion.steps_per_mesh_cycle)).ceil().max(1.0);
-    (found.rows.iter().map(|r| r.dte_um).collect(), per_row as u32)
+    (found.rows.iter().map(|r| r.dte_um).collect(), found.spectrum, per_row as u32)
 }
 
 /// The same of its gearbox, the row at the start left out.
-fn as_gearbox(scene: &Scene, per_row: u32) -> Vec<f64> {
+fn as_gearbox(scene: &Scene, per_row: u32) -> (Vec<f64>, MotionSpectrum) {
     let text = gearbox_of_moving_pair(scene, per_row).unwrap().unwrap();
     let folder = tempfile::tempdir().unwrap();
     let file = Gearbox::parse(&text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished);
     let moved = found.unwrap_or_else(|e| panic!("{}: {e}", scene.name)).motion.unwrap();
-    moved.rows[1..].iter().map(|row| 1e3 * row.meshes[0].transmission_error).collect()
+    (moved.rows[1..].iter().map(|row| 1e3 * row.meshes[0].transmission_error).collect(), moved.spectrum.unwrap())
 }
 
-/// Largest difference of both over the peak to peak.
+/// Largest difference of both over the peak to peak, of rows and of lines of the spectrum.
 fn off(scene: &Scene) -> f64 {
-    let (wanted, per_row) = alone(scene);
-    let found = as_gearbox(scene, per_row);
+    let (wanted, spectrum, per_row) = alone(scene);
+    let (found, lines) = as_gearbox(scene, per_row);
     // A settled motion on maps has its start among its rows.
     let count = found.len().min(wanted.len());
     assert!(found.len() - count <= 1 && wanted.len() == count, "{}: {} rows", scene.name, found.len());
     let [low, high] = wanted.iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(*x), h.max(*x)]);
-    found.iter().zip(&wanted).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / (high - low)
+    let apart = |a: &[f64], b: &[f64]| a.iter().zip(b).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs()));
+    let of_lines = spectrum.map_or(0.0, |own| {
+        assert_eq!(own.orders, lines.orders, "{}", scene.name);
+        apart(&own.amplitudes[0], &lines.amplitudes[0])
+    });
+    apart(&found, &wanted).max(of_lines) / (high - low)
 }
 
 /// A small pair in motion, with what is changed of it.
@@ -72,6 +82,12 @@ fn ring(pair: SceneBuilder) -> SceneBuilder {
     teeth.set("pinion.profile_shift", 0.3).set("wheel.profile_shift", -0.1)
 }
 
+/// The same with normal modes of both gears.
+fn modes(pair: SceneBuilder) -> SceneBuilder {
+    // Rows are the steps: a pair with modes takes steps by their highest frequency.
+    pair.set("analysis.model", "reduced+modes").set("motion.steps_per_resonance", 0)
+}
+
 type Change = fn(SceneBuilder) -> SceneBuilder;
 
 /// Shafts held, a pair in motion is its own gearbox, row by row: with every method, drive, way and side, friction and
@@ -79,7 +95,7 @@ type Change = fn(SceneBuilder) -> SceneBuilder;
 /// divides by its path what round-off of places makes of the energy.
 #[test]
 fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
-    let all: [(&str, f64, Change); 17] = [
+    let all: [(&str, f64, Change); 19] = [
         ("newmark", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.0)),
         ("generalised-alpha", 1e-8, |s| s.set("motion.method", "generalised-alpha")),
         ("rk4", 1e-8, |s| s.set("motion.method", "rk4")),
@@ -96,6 +112,11 @@ fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
         ("driving flanks", 1e-8, |s| s.set("contact.flanks", "driving")),
         ("ring", 1e-8, ring),
         ("ring drives", 1e-7, |s| ring(s).set("operation.driver", "wheel")),
+        ("modes", 1e-8, |s| modes(s).set("modes.count", 8)),
+        ("modes with mass of the flanks, friction", 1e-8, |s| {
+            let heavy = modes(s).set("modes.boundary", "consistent").set("modes.fixed_modes", 1);
+            heavy.set("contact.friction", 0.05).set("motion.method", "generalised-alpha")
+        }),
         ("mapped", 1e-8, |s| {
             let maps = s.set("analysis.model", "mapped").set("contact.flanks", "driving");
             maps.set("motion.run", "steady").set("motion.periodic_tolerance", 1e-11)
@@ -133,11 +154,10 @@ fn moving_pairs_of_the_scenes_are_gearboxes_of_held_shafts() {
     assert!(wrong.is_empty(), "off by more: {wrong:?}");
 }
 
-/// What held shafts do not have is no gearbox: normal modes, gears on bearings, torques over time.
+/// What held shafts do not have is no gearbox: gears on bearings, torques over time.
 #[test]
 fn other_motions_of_pairs_have_no_gearbox() {
-    let all: [Change; 4] = [
-        |s| s.set("analysis.model", "reduced+modes"),
+    let all: [Change; 3] = [
         |s| s.set("wheel.body.free", vec!["x"]).set("wheel.bearing.stiffness_x_n_per_mm", 1e6),
         |s| s.set("load.amplitude_nm", 10.0).set("load.frequency_hz", 10.0),
         |s| s.set("drive.by", "torque").set("drive.torque_nm", 10.0),

@@ -114,7 +114,7 @@ impl Mechanism for PairMechanism {
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
         let at = self.elastic_displacement(t, q);
         let cycles = self.cycles(t);
-        Ok(self.flanks.energy_of(&self.pair, cycles, &at)? + self.bearing_and_modal_energy(&at))
+        Ok(self.flanks.energy(&self.pair, cycles, &at)? + self.bearing_and_modal_energy(&at))
     }
 
     fn events(&self) -> usize {
@@ -126,7 +126,7 @@ impl Mechanism for PairMechanism {
         let at = self.elastic_displacement(t, q);
         self.contact(t, &at, false)?;
         let cycles = self.cycles(t);
-        let overlaps = self.flanks.overlaps_of(&self.pair, cycles, &at);
+        let overlaps = self.flanks.overlaps(&self.pair, cycles, &at);
         out.iter_mut().zip(overlaps).for_each(|(value, overlap)| *value = overlap);
         Ok(())
     }
@@ -135,7 +135,7 @@ impl Mechanism for PairMechanism {
         let (at, rate) = (self.elastic_displacement(t, q), self.coordinates.displacement(v));
         let (cycles, turned) = (self.cycles(t), self.turned_cycles(t, &at.d));
         self.flanks.check_passage(&self.pair, cycles, &at.d)?;
-        self.flanks.follow_of(&self.pair, cycles, &at, turned)?;
+        self.flanks.follow(&self.pair, cycles, &at, turned)?;
         self.update_extremes(t, &at, &rate, turned)
     }
 

@@ -143,7 +143,7 @@ impl PairMechanism {
 
     /// Sizes of all coordinates from those of the rigid ones: a mode's is what moves a flank by `length` (mm).
     pub fn scales(&self, rigid: &DVector<f64>, length: f64) -> DVector<f64> {
-        let sizes = self.flanks.driving.contact().modal().map_or(&[][..], |modal| modal.sizes());
+        let sizes = self.flanks.mode_sizes();
         let modes = sizes.iter().map(|s| length / s);
         DVector::from_iterator(rigid.len() + sizes.len(), rigid.iter().copied().chain(modes))
     }

@@ -20,15 +20,26 @@ pub(crate) struct SideForce {
     pub modal: Option<ModalForce>,
 }
 
-/// Forces of one side on the modes.
+/// Forces on the modes of both gears, N t^(-1/2).
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct ModalForce {
+pub struct ModalForce {
     /// Normal forces, m.
     pub normal: DVector<f64>,
     /// Friction, m.
     pub friction: DVector<f64>,
     /// -d(forces)/d(d, q), (12 + m) x (12 + m), where it was asked for.
     pub stiffness: Option<DMatrix<f64>>,
+}
+
+impl ModalForce {
+    /// Adds the forces of the other side.
+    pub(crate) fn add(&mut self, other: &Self) {
+        self.normal += &other.normal;
+        self.friction += &other.friction;
+        if let (Some(all), Some(own)) = (&mut self.stiffness, &other.stiffness) {
+            *all += own;
+        }
+    }
 }
 
 /// Contact of both sides at one place and displacement.

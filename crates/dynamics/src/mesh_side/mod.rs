@@ -21,6 +21,7 @@ use reduction::{ElasticGear, GearModes};
 use super::{COORDINATES, Displacement, LoadedSlice};
 
 pub use changes::{SideState, ToothChanges};
+pub use forces::ModalForce;
 pub(super) use forces::{SideContacts, SideForce};
 
 /// One side of the teeth: the flanks that drive, or those that touch when torque reverses.

@@ -1,9 +1,10 @@
 //! The balance of forces on the coordinates of a gearbox in motion. Theory (92), (93).
 
+use dynamics::ModalForce;
 use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
-use super::GearboxMechanism;
+use super::{GearboxMechanism, gear_modes::with_modes};
 use crate::GearboxError;
 
 impl GearboxMechanism {
@@ -69,13 +70,14 @@ impl GearboxMechanism {
         let turn = self.free.turn;
         let rates = self.displacements(mesh, v);
         let cycles = self.cycles(mesh, angle);
-        let d = self.displacements(mesh, q);
+        let at = self.displaced(mesh, angle, q);
         let live = &mut self.live[mesh];
-        let reply = live.reply(&self.meshes[mesh], cycles, &d, out.tangents)?.clone();
+        let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?.clone();
         let per_turn = live.cycles_per_turn;
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
         let energy_rate = live.element().energy_rate();
+        let on_modes = live.element().on_modes().cloned();
         let answer = self.balance_of(mesh, &(losses.friction + losses.force));
         if answer != 0.0 {
             out.other.axpy(answer, &self.push, 1.0);
@@ -95,11 +97,29 @@ impl GearboxMechanism {
                 out.supplied -= losses.along_cycles * passing;
             }
         }
+        let mut along_modes = 0.0;
+        let modal = on_modes.zip(self.gears.map_of(mesh, angle)).zip(self.gears.map_rate_of(mesh, angle));
+        if let Some(((found, map), map_rate)) = &modal {
+            out.conservative += map.tr_mul(&found.normal);
+            out.other += map.tr_mul(&found.friction);
+            out.dissipated -= found.friction.dot(&(map * v));
+            along_modes = found.normal.dot(&(map_rate * q));
+            if let Some(i) = turn {
+                out.conservative[i] += along_modes;
+            }
+        }
         if out.tangents {
-            out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears));
+            match &modal {
+                Some(((ModalForce { stiffness: Some(stiffness), .. }, map), _)) => {
+                    out.stiffness += with_modes(to_gears, map, stiffness);
+                    out.stiffness += to_gears.tr_mul(&(losses.slope * to_gears));
+                }
+                _ => out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears)),
+            }
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
         }
         if out.rates && turn.is_none() {
+            out.parametric -= along_modes * speed;
             out.parametric += self.live[mesh].energy_change(&self.meshes[mesh])? * passing;
         }
         Ok(())
@@ -116,12 +136,13 @@ impl Mechanism for GearboxMechanism {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         let input = self.input(t, q, v);
         self.bodies_and_loads(q, v, [t, input[1], self.acceleration(t)], out)?;
+        self.gears.add(input, [q, v], self.free.turn, out);
         (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let [angle, _] = self.input(t, q, q);
-        let mut sum = self.body_energy(q)?;
+        let mut sum = self.body_energy(q)? + self.gears.energy(angle, q);
         for i in 0..self.live.len() {
             sum += self.ask(i, angle, q)?.1.element().energy();
         }
@@ -130,10 +151,10 @@ impl Mechanism for GearboxMechanism {
 
     fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let [angle, _] = self.input(t, q, q);
-        let mut sum = self.body_energy(q)?;
+        let mut sum = self.body_energy(q)? + self.gears.energy(angle, q);
         for i in 0..self.live.len() {
-            let (cycles, d) = (self.cycles(i, angle), self.displacements(i, q));
-            sum += self.live[i].energy_at(&self.meshes[i], cycles, &d)?;
+            let (cycles, at) = (self.cycles(i, angle), self.displaced(i, angle, q));
+            sum += self.live[i].energy_at(&self.meshes[i], cycles, &at)?;
         }
         Ok(sum)
     }

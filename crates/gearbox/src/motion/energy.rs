@@ -22,7 +22,7 @@ pub struct GearboxEnergy {
     pub shafts: f64,
     /// Strain energy of bearings and housing.
     pub supports: f64,
-    /// Elastic energy of the meshes.
+    /// Elastic energy of the meshes, modes of gears among it.
     pub meshes: f64,
     /// Energy stored since the start, of all four kinds.
     pub gained: f64,
@@ -95,6 +95,7 @@ impl GearboxMechanism {
         }
         energy.shafts = 0.5 * (state.q.dot(&(&self.stiffness * &state.q)) - self.springs_energy(&state.q));
         let [angle, _] = self.input(state.time, &state.q, &state.v);
+        energy.meshes = self.gears.energy(angle, &state.q);
         for i in 0..self.live.len() {
             energy.meshes += self.ask(i, angle, &state.q)?.1.element().energy();
         }

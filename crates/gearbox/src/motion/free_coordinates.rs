@@ -31,6 +31,8 @@ pub(super) struct FreeCoordinates {
     pub turn: Option<usize>,
     /// Which coordinates are turns (rad); the others are mm, modes among them.
     pub turns: Vec<bool>,
+    /// First of the coordinates that are modes of gears, which stand together.
+    pub first_of_gears: usize,
 }
 
 impl FreeCoordinates {
@@ -48,7 +50,13 @@ impl FreeCoordinates {
         let along = |of: &dyn Fn(usize) -> f64| {
             DVector::from_fn(n, |i, _| if bodies.axis(i) == Some(5) { of(bodies.shaft(i)) } else { 0.0 })
         };
-        let rigid = along(&|shaft| train.ratios()[shaft]);
+        let mut rigid = along(&|shaft| train.ratios()[shaft]);
+        for (i, own) in rigid.iter_mut().enumerate() {
+            // A turn of the whole train deforms no gear.
+            if let Some(by_turn) = bodies.by_turn(i) {
+                *own = by_turn * train.ratios()[bodies.shaft(i)];
+            }
+        }
         let mut input = DVector::zeros(n);
         input[input_turn] = 1.0;
         let (mut columns, mut turns): (Vec<DVector<f64>>, Vec<bool>) = Default::default();
@@ -56,7 +64,12 @@ impl FreeCoordinates {
             columns.push(along(&|s| f64::from(u8::from(s == shaft))));
             turns.push(true);
         }
-        for i in (0..n).filter(|i| !held(bodies.shaft(*i)) && *i != input_turn) {
+        let is_of_gear = |i: usize| bodies.by_turn(i).is_some();
+        let mut first_of_gears = columns.len();
+        for i in (0..n).filter(|i| (is_of_gear(*i) || !held(bodies.shaft(*i))) && *i != input_turn) {
+            if !is_of_gear(i) {
+                first_of_gears = columns.len() + 1;
+            }
             let mut column = DVector::zeros(n);
             column[i] = 1.0;
             columns.push(column);
@@ -84,7 +97,7 @@ impl FreeCoordinates {
             }
         }
         let basis = DMatrix::from_fn(n, columns.len(), |i, j| columns[j][i]);
-        Self { basis, rigid, input, turning, turn, turns }
+        Self { basis, rigid, input, turning, turn, turns, first_of_gears }
     }
 
     /// Number of coordinates z.

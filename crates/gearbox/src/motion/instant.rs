@@ -50,12 +50,19 @@ impl GearboxMechanism {
         let input = self.input(*time, q, v);
         let (mut meshes, mut answered) = (Vec::new(), 0.0);
         let mut on_bodies = DVector::zeros(self.bodies.size());
+        let mut on_modes = Vec::new();
         for i in 0..self.live.len() {
             let (own, answer) = self.mesh_instant(i, input, q, v)?;
             answered += answer;
             let at = self.live[i].gears;
             (0..12).for_each(|k| on_bodies[at[k / 6] + k % 6] += own.wrench[k]);
             meshes.push(own);
+            let found = self.live[i].element().on_modes();
+            on_modes.push(found.map(|found| &found.normal + &found.friction));
+        }
+        for (disc, force) in self.gears.on_discs(input[0], [q, v], &on_modes) {
+            let at = self.bodies.of_node(self.assembly.disc(disc).unwrap_or(0));
+            (0..6).for_each(|k| on_bodies[at + k] += force[k]);
         }
         let (y, rates) = (self.free.deviations(q), self.free.deviations(v));
         let input_torque = match self.free.turn {
@@ -92,18 +99,18 @@ impl GearboxMechanism {
     ) -> Result<(MeshInstant, f64), GearboxError> {
         let cycles = self.cycles(mesh, angle);
         let rates = self.displacements(mesh, v);
-        let (d, live) = self.ask(mesh, angle, q)?;
+        let (at, live) = self.ask(mesh, angle, q)?;
         let passing = live.cycles_per_turn * speed;
         let losses = live.element().losses(&rates, passing);
         let answer = self.balance_of(mesh, &(losses.friction + losses.force));
         let live = &mut self.live[mesh];
         let turn = live.turn;
-        let reply = live.reply(&self.meshes[mesh], cycles, &d, false)?;
+        let reply = live.reply(&self.meshes[mesh], cycles, &at, false)?;
         let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + losses.force));
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
         let error = |moved: &Vector12| meshing.side().sign() * (r1 * moved[5] + r2 * moved[11]);
-        let [transmission_error, transmission_error_rate] = [error(&d), error(&rates)];
+        let [transmission_error, transmission_error_rate] = [error(&at.d), error(&rates)];
         let wrench = wrench.into();
         Ok((MeshInstant { cycles, transmission_error, transmission_error_rate, normal_force, wrench }, answer))
     }

@@ -1,6 +1,6 @@
 //! A mesh at its place between two bodies.
 
-use dynamics::FlankStates;
+use dynamics::{ElasticDisplacement, FlankStates};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use super::MovingMesh;
@@ -25,7 +25,7 @@ pub(super) struct LiveMesh {
 /// An answer, and what it is to.
 struct Last {
     cycles: f64,
-    displacements: Vector12,
+    at: ElasticDisplacement,
     reply: MeshForces,
     tangents: bool,
 }
@@ -48,20 +48,27 @@ impl LiveMesh {
         &mut self,
         mesh: &GearMesh,
         cycles: f64,
-        d: &Vector12,
+        at: &ElasticDisplacement,
         tangents: bool,
     ) -> Result<&MeshForces, GearboxError> {
-        let serves = |last: &Last| last.cycles == cycles && last.displacements == *d && (last.tangents || !tangents);
+        let serves = |last: &Last| last.cycles == cycles && last.at == *at && (last.tangents || !tangents);
         let last = match self.last.take().filter(serves) {
             Some(known) => known,
             None => {
                 let named = |source| at_mesh(mesh, source);
                 self.element.go_to(cycles).map_err(named)?;
-                let answer = if tangents { self.element.evaluate(d) } else { self.element.evaluate_forces(d) };
-                Last { cycles, displacements: *d, reply: answer.map_err(named)?, tangents }
+                self.deform(&at.q);
+                let answer = if tangents { self.element.evaluate(&at.d) } else { self.element.evaluate_forces(&at.d) };
+                Last { cycles, at: at.clone(), reply: answer.map_err(named)?, tangents }
             }
         };
         Ok(&self.last.insert(last).reply)
+    }
+
+    fn deform(&mut self, amplitudes: &DVector<f64>) {
+        if !amplitudes.is_empty() {
+            self.element.deform(amplitudes);
+        }
     }
 
     /// How its energy follows the mesh cycles where it was asked last ([`MovingMesh::energy_change`]); its last answer is
@@ -72,9 +79,10 @@ impl LiveMesh {
     }
 
     /// Energy at a place off the path of the motion; its last answer is lost.
-    pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, d: &Vector12) -> Result<f64, GearboxError> {
+    pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, at: &ElasticDisplacement) -> Result<f64, GearboxError> {
         self.last = None;
-        self.element.energy_at(cycles, d).map_err(|source| at_mesh(mesh, source))
+        self.deform(&at.q);
+        self.element.energy_at(cycles, &at.d).map_err(|source| at_mesh(mesh, source))
     }
 
     /// The end of a step where it was asked last: tooth changes are taken, and its forces are all there are.

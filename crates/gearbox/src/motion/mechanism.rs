@@ -1,11 +1,12 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
-use dynamics::{Speed, Torque};
+use dynamics::{ElasticDisplacement, Speed, Torque};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     Drive, MotionOptions, MovingMesh, ReducedBodies,
     free_coordinates::FreeCoordinates,
+    gear_modes::MovingGears,
     live_mesh::LiveMesh,
     rolling_supports::RollingSupports,
     varying_torques::{VaryingTorque, VaryingTorques},
@@ -28,6 +29,8 @@ pub struct GearboxMechanism {
     pub(super) operation: Operation,
     pub(super) bodies: ReducedBodies,
     pub(super) free: FreeCoordinates,
+    /// Gears whose modes move.
+    pub(super) gears: MovingGears,
     pub(super) live: Vec<LiveMesh>,
     pub(super) drive: Drive,
     pub(super) mass: DMatrix<f64>,
@@ -81,8 +84,14 @@ impl GearboxMechanism {
         let mut held = vec![false; structure.shafts.len()];
         operation.held.iter().for_each(|&shaft| held[shaft] = true);
         let assembly = Assembly::new(structure)?;
-        let bodies = ReducedBodies::new(&assembly, &held, options.limit)?;
+        let mut all = Vec::new();
+        for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
+            all.push(elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?);
+        }
+        let gears = MovingGears::new(&assembly, (&meshes, &train), &all)?;
+        let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.modes());
         let free = FreeCoordinates::new(&assembly, &bodies, &train, &operation, &options.drive);
+        let gears = gears.placed(&assembly, &bodies, &free);
         let mut outputs = DVector::zeros(bodies.size());
         let mut balancing = 0.0;
         for torque in &operation.torques {
@@ -101,8 +110,7 @@ impl GearboxMechanism {
         let deviations = free.of_deviations();
         let (start_cycles, further) = (train.cycles(0.0), train.cycles(1.0));
         let mut live = Vec::new();
-        for (i, (mesh, meshing)) in meshes.iter().zip(train.meshing()).enumerate() {
-            let mut element = elements(i, mesh, meshing).map_err(|source| at_mesh(mesh, source))?;
+        for (i, (mut element, (mesh, meshing))) in all.into_iter().zip(meshes.iter().zip(train.meshing())).enumerate() {
             element.begin_at(start_cycles[i]).map_err(|source| at_mesh(mesh, source))?;
             let gears = mesh.discs.map(|d| bodies.of_node(assembly.disc(d).unwrap_or(0)));
             let rate = further[i] - start_cycles[i];
@@ -121,6 +129,7 @@ impl GearboxMechanism {
             operation,
             bodies,
             free,
+            gears,
             live,
             drive,
             mass,
@@ -307,12 +316,18 @@ impl GearboxMechanism {
         mesh: usize,
         angle: f64,
         q: &DVector<f64>,
-    ) -> Result<(Vector12, &mut LiveMesh), GearboxError> {
+    ) -> Result<(ElasticDisplacement, &mut LiveMesh), GearboxError> {
         let cycles = self.cycles(mesh, angle);
-        let d = self.displacements(mesh, q);
+        let at = self.displaced(mesh, angle, q);
         let live = &mut self.live[mesh];
-        live.reply(&self.meshes[mesh], cycles, &d, false)?;
-        Ok((d, live))
+        live.reply(&self.meshes[mesh], cycles, &at, false)?;
+        Ok((at, live))
+    }
+
+    /// Displacements of both gears of a mesh with the amplitudes of their modes.
+    pub(super) fn displaced(&self, mesh: usize, angle: f64, z: &DVector<f64>) -> ElasticDisplacement {
+        let q = self.gears.map_of(mesh, angle).map_or_else(|| DVector::zeros(0), |map| map * z);
+        ElasticDisplacement { d: self.displacements(mesh, z), q }
     }
 
     /// Displacements of both gears of a mesh, or their rates, in its own axes.

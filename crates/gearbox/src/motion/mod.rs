@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
+//! | `gear_modes` | elastic modes of gears |
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
@@ -18,6 +19,7 @@ mod branch;
 mod contact_spring;
 mod energy;
 mod free_coordinates;
+mod gear_modes;
 mod instant;
 mod live_mesh;
 mod mapped_mesh;
@@ -41,7 +43,7 @@ mod varying_torques;
 
 pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
-pub use dynamics::{Speed, Torque as TorqueOverTime};
+pub use dynamics::{GearVibration, Speed, Torque as TorqueOverTime};
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use mapped_mesh::{MapRequest, MappedMesh};

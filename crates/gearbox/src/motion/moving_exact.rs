@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use contact::SliceResult;
 use contact_map::PairOffsets;
-use dynamics::{FlankForces, FlankStates, MeshFlanks};
+use dynamics::{ElasticDisplacement, FlankForces, FlankStates, GearVibration, MeshFlanks, ModalForce};
 use geometry::{Gear, GearPair};
 use ltca::StaticOptions;
+use nalgebra::DVector;
 use reduction::ElasticGear;
 
 use super::{MeshLosses, MovingMesh};
@@ -31,13 +32,16 @@ pub struct MovingExactMesh {
     /// Backlash along the normal, mm.
     backlash: f64,
     cycles: f64,
+    /// Modes of both gears that are coordinates, and their amplitudes.
+    modes: Option<[GearVibration; 2]>,
+    amplitudes: DVector<f64>,
     at: Option<Answer>,
 }
 
 /// What was asked for last.
 #[derive(Debug)]
 struct Answer {
-    displacements: Vector12,
+    displaced: ElasticDisplacement,
     forces: FlankForces,
     tangents: bool,
 }
@@ -62,18 +66,36 @@ impl MovingExactMesh {
         let sense = options.contact.sense.sign() as f64;
         let per_cycle = [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()];
         let backlash = pair.backlash() * pair.base_helix_angle().cos();
-        Ok(Self { pair, flanks, damping_per_length, per_cycle, backlash, cycles: 0.0, at: None })
+        let (modes, amplitudes) = (None, DVector::zeros(0));
+        Ok(Self { pair, flanks, damping_per_length, per_cycle, backlash, cycles: 0.0, modes, amplitudes, at: None })
+    }
+
+    /// The mesh with elastic modes of gear 1 and gear 2 as coordinates: their share of the compliance gets inertia, the rest
+    /// stays quasi-static.
+    ///
+    /// # Errors
+    /// [`GearboxError::Contact`] for modes of other gears.
+    pub fn with_modes(mut self, modes: [GearVibration; 2]) -> Result<Self, GearboxError> {
+        self.flanks.keep_modes(&modes.each_ref().map(|own| Arc::clone(&own.modes)))?;
+        self.amplitudes = DVector::zeros(modes.iter().map(|own| own.modes.count()).sum());
+        self.modes = Some(modes);
+        Ok(self)
+    }
+
+    fn displaced(&self, d: &Vector12) -> ElasticDisplacement {
+        ElasticDisplacement { d: *d, q: self.amplitudes.clone() }
     }
 
     fn answer(&mut self, displacements: &Vector12, tangents: bool) -> Result<MeshForces, GearboxError> {
         self.at = None;
-        let forces = self.flanks.forces(&self.pair, self.cycles, displacements, tangents)?;
+        let displaced = self.displaced(displacements);
+        let forces = self.flanks.forces(&self.pair, self.cycles, &displaced, tangents)?;
         let reply = MeshForces {
             force: forces.normal + forces.friction,
             tangent: -forces.stiffness,
             normal_force: forces.sums[0] + forces.sums[1],
         };
-        self.at = Some(Answer { displacements: *displacements, forces, tangents });
+        self.at = Some(Answer { displaced, forces, tangents });
         Ok(reply)
     }
 
@@ -110,6 +132,27 @@ impl MovingMesh for MovingExactMesh {
         Ok(self.flanks.begin_at(&self.pair, finite_cycles(cycles)?)?)
     }
 
+    fn modes(&self) -> Option<[GearVibration; 2]> {
+        self.modes.clone()
+    }
+
+    fn mode_sizes(&self) -> Vec<f64> {
+        self.flanks.mode_sizes().to_vec()
+    }
+
+    fn gear_angles(&self, cycles: f64) -> [f64; 2] {
+        self.flanks.angles(&self.pair, cycles)
+    }
+
+    fn deform(&mut self, amplitudes: &DVector<f64>) {
+        self.at = None;
+        self.amplitudes.copy_from(amplitudes);
+    }
+
+    fn on_modes(&self) -> Option<&ModalForce> {
+        self.at.as_ref()?.forces.modal.as_ref()
+    }
+
     fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
         self.answer(displacements, false)
     }
@@ -120,7 +163,8 @@ impl MovingMesh for MovingExactMesh {
 
     fn energy_at(&mut self, cycles: f64, displacements: &Vector12) -> Result<f64, GearboxError> {
         self.go_to(cycles)?;
-        Ok(self.flanks.energy(&self.pair, self.cycles, displacements)?)
+        let displaced = self.displaced(displacements);
+        Ok(self.flanks.energy(&self.pair, self.cycles, &displaced)?)
     }
 
     fn energy_rate(&self) -> f64 {
@@ -128,17 +172,17 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn energy_change(&mut self) -> Result<f64, GearboxError> {
-        let Some(Answer { displacements, .. }) = self.at.take() else { return Ok(0.0) };
+        let Some(Answer { displaced, .. }) = self.at.take() else { return Ok(0.0) };
         let mut at = |cycles: f64| {
-            self.flanks.forces(&self.pair, cycles, &displacements, false)?;
+            self.flanks.forces(&self.pair, cycles, &displaced, false)?;
             Ok::<_, GearboxError>(self.flanks.strain_energy())
         };
         Ok((at(self.cycles + EITHER_WAY)? - at(self.cycles - EITHER_WAY)?) / (2.0 * EITHER_WAY))
     }
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
-        let Some(Answer { displacements, forces, tangents }) = &self.at else { return MeshLosses::default() };
-        let (friction, moving) = (forces.friction, (displacements, rates));
+        let Some(Answer { displaced, forces, tangents }) = &self.at else { return MeshLosses::default() };
+        let (friction, moving) = (forces.friction, (&displaced.d, rates));
         let dampers = self.flanks.damping(&self.pair, self.cycles, moving, self.damping_per_length, *tangents);
         let along_cycles = self.by_cycles(&friction);
         MeshLosses {
@@ -153,22 +197,21 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {
-        let found = self.at.as_ref().map(|at| self.flanks.overlaps(&self.pair, self.cycles, &at.displacements));
+        let found = self.at.as_ref().map(|at| self.flanks.overlaps(&self.pair, self.cycles, &at.displaced));
         Ok(found.unwrap_or([f64::NEG_INFINITY; 2]))
     }
 
     /// Moves the windows; refuses one that is too narrow, teeth that have gone through each other, and a place at which
     /// coast flanks would touch that are not there.
     fn accept(&mut self) -> Result<bool, GearboxError> {
-        let Some(Answer { displacements, .. }) = &self.at else { return Ok(false) };
-        let d = *displacements;
+        let Some(Answer { displaced, .. }) = &self.at else { return Ok(false) };
         if !self.flanks.has_coast_flanks() {
-            let gap_mm = -self.flanks.overlaps(&self.pair, self.cycles, &d)[0];
+            let gap_mm = -self.flanks.overlaps(&self.pair, self.cycles, displaced)[0];
             if gap_mm > self.backlash {
                 return Err(GearboxError::BeyondBacklash { gap_mm, backlash_mm: self.backlash });
             }
         }
-        let moved = self.flanks.accept(&self.pair, self.cycles, &d)?;
+        let moved = self.flanks.accept(&self.pair, self.cycles, displaced)?;
         if moved {
             self.at = None;
         }

@@ -1,7 +1,7 @@
 //! What a motion asks of a mesh beside its forces at rest: energy, losses, free flight, tooth changes. Theory (93).
 
-use dynamics::FlankStates;
-use nalgebra::SMatrix;
+use dynamics::{FlankStates, GearVibration, ModalForce};
+use nalgebra::{DVector, SMatrix};
 
 use crate::{GearboxError, MeshElement, MeshForces, Vector12};
 
@@ -14,6 +14,30 @@ pub trait MovingMesh: MeshElement {
     /// [`GearboxError`] for a place that cannot be.
     fn begin_at(&mut self, _cycles: f64) -> Result<(), GearboxError> {
         Ok(())
+    }
+
+    /// Elastic modes of both gears that this mesh has as coordinates; none of gears that are rigid beside their teeth.
+    fn modes(&self) -> Option<[GearVibration; 2]> {
+        None
+    }
+
+    /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2).
+    fn mode_sizes(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Angles (rad, the mesh's own axes) of the frames in which amplitudes count, at a place in the mesh cycles, of a mesh
+    /// that has modes.
+    fn gear_angles(&self, _cycles: f64) -> [f64; 2] {
+        [0.0; 2]
+    }
+
+    /// Deforms both gears by amplitudes of these modes, mm t^(1/2), from now on.
+    fn deform(&mut self, _amplitudes: &DVector<f64>) {}
+
+    /// What the flanks do to these modes where they were evaluated last, with the tangents of all coordinates.
+    fn on_modes(&self) -> Option<&ModalForce> {
+        None
     }
 
     /// [`MeshElement::evaluate`] with any tangent: forces alone are wanted.

@@ -10,8 +10,8 @@ use super::{GearboxMechanism, MotionPlan};
 use crate::GearboxError;
 
 impl GearboxMechanism {
-    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, or the search
-    /// leads out of what the meshes hold. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
+    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, the search leads out of
+    /// what the meshes hold, or modes of gears move, whose frames turn on in a period. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
     ///
     /// # Errors
     /// [`GearboxError`] where the mechanism cannot be put back.
@@ -21,7 +21,9 @@ impl GearboxMechanism {
         plan: &MotionPlan,
         scale: &DVector<f64>,
     ) -> Result<Option<State>, GearboxError> {
-        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none()) else { return Ok(None) };
+        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none() && self.gears.is_empty()) else {
+            return Ok(None);
+        };
         let memory = self.memory();
         let search = Shooting {
             period: plan.step * plan.steps_per_cycle.saturating_mul(cycles) as f64,

@@ -1,7 +1,10 @@
 //! Shafts in motion with few coordinates: component mode synthesis after Craig and Bampton. Theory (91).
 
+use std::ops::Range;
+
 use fem::{Condensation, Modes, natural_modes};
 use nalgebra::{DMatrix, DVector};
+use reduction::GearModes;
 
 use crate::{Assembly, GearboxError, whirl::told_from_round_off};
 
@@ -24,8 +27,10 @@ const MOST: f64 = 1e9;
 pub struct ReducedBodies {
     /// First coordinate of the seats' nodes among those of the assembly, ascending, and the shaft of each.
     nodes: Vec<(usize, usize)>,
-    /// Shaft of each mode.
+    /// Shaft of each mode, of shafts and then of gears.
     modes: Vec<usize>,
+    /// Coordinates of each gear whose modes move, and what a turn of its disc by a radian adds to them.
+    gears: Vec<(Range<usize>, Vec<f64>)>,
     basis: DMatrix<f64>,
     pub(super) mass: DMatrix<f64>,
     pub(super) stiffness: DMatrix<f64>,
@@ -108,7 +113,7 @@ impl ReducedBodies {
         let (mass, stiffness, damping) = (of(&m), of(&k), of(&assembly.damping()));
         let coordinates = [assembly.size(), basis.ncols()];
         let certificate = ReductionCertificate { coordinates, modes: modes.len(), limit, compared: 0, error: 0.0 };
-        let mut bodies = Self { nodes, modes, basis, mass, stiffness, damping, certificate };
+        let mut bodies = Self { nodes, modes, gears: Vec::new(), basis, mass, stiffness, damping, certificate };
         bodies.compare(assembly, held, [&k, &m])?;
         Ok((bodies, is_all))
     }
@@ -134,6 +139,43 @@ impl ReducedBodies {
         self.certificate.error = errors.fold(0.0, f64::max);
         self.certificate.compared = below;
         Ok(())
+    }
+
+    /// The bodies with the modes of gears as coordinates P behind all others: unit mass, and what they share of the inertia
+    /// of their discs taken off there. Theory (93b).
+    ///
+    /// `gears`: disc and modes of each.
+    pub(super) fn with_gears<'a>(
+        mut self,
+        assembly: &Assembly,
+        gears: impl Iterator<Item = (usize, &'a GearModes)>,
+    ) -> Self {
+        for (disc, modes) in gears {
+            let (n, m) = (self.size(), modes.count());
+            let shaft = assembly.structure().discs[disc].shaft;
+            let disc = self.of_node(assembly.disc(disc).unwrap_or(0));
+            let mut block = self.mass.fixed_view_mut::<6, 6>(disc, disc);
+            block -= modes.shared_inertia();
+            for matrix in [&mut self.mass, &mut self.stiffness, &mut self.damping] {
+                matrix.resize_mut(n + m, n + m, 0.0);
+            }
+            (n..n + m).for_each(|i| self.mass[(i, i)] = 1.0);
+            self.basis.resize_horizontally_mut(n + m, 0.0);
+            self.modes.extend(std::iter::repeat_n(shaft, m));
+            self.gears.push((n..n + m, modes.coupling().iter().map(|own| own[5]).collect()));
+        }
+        self
+    }
+
+    /// Coordinates of the modes of a gear, in the order in which they came.
+    pub(super) fn of_gear(&self, gear: usize) -> Range<usize> {
+        self.gears.get(gear).map_or(0..0, |(own, _)| own.clone())
+    }
+
+    /// What a turn of its gear by a radian adds to a coordinate that is a gear's mode; `None` for others.
+    pub(super) fn by_turn(&self, coordinate: usize) -> Option<f64> {
+        let own = self.gears.iter().find(|(own, _)| own.contains(&coordinate));
+        own.map(|(own, by_turn)| by_turn[coordinate - own.start])
     }
 
     /// How well they stand for all nodes.

@@ -155,6 +155,11 @@ impl GearboxMechanism {
             (Some(Settle { most, .. }), period) if period.is_none_or(|p| p > most) => {
                 return Err(GearboxError::NoCommonPeriod { period, most });
             }
+            // Amplitudes of modes are in the gears' own frames: they come back after whole turns.
+            (Some(_), Some(period)) if !self.gears.is_empty() => {
+                let scale = self.scale(start).rows(0, self.free.first_of_gears).into_owned();
+                Some(Compared::States { scale, free: None, period })
+            }
             (Some(_), Some(period)) => {
                 Some(Compared::States { scale: self.scale(start), free: self.free.turn, period })
             }

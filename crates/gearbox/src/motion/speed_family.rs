@@ -3,6 +3,7 @@
 
 use std::f64::consts::TAU;
 
+use dynamics::ElasticDisplacement;
 use integrate::{Forces, State};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, U12};
 use periodic::{CondensedFamily, LinearMachine};
@@ -151,7 +152,8 @@ impl CondensedFamily for SpeedFamily<'_> {
             let (d, rates) = (own.displacements(s), own.displacements(rate));
             let cycles = self.mechanism.cycles(i, angle);
             let live = &mut self.mechanism.live[i];
-            let reply = live.reply(&self.mechanism.meshes[i], cycles, &d, out.tangents)?.clone();
+            let at = ElasticDisplacement::rigid(d);
+            let reply = live.reply(&self.mechanism.meshes[i], cycles, &at, out.tangents)?.clone();
             let passing = live.cycles_per_turn * speed;
             let losses = live.element().losses(&rates, passing);
             let along = own.inverse.tr_mul(&(reply.force + losses.force));

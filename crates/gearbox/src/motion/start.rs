@@ -1,12 +1,13 @@
 //! Where a motion begins: in equilibrium, moving on as the equilibrium moves.
 
+use dynamics::ModalForce;
 use fem::natural_modes;
 use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 
-use super::{Drive, GearboxMechanism};
+use super::{Drive, GearboxMechanism, gear_modes::with_modes};
 use crate::{
-    GearboxError, Vector12,
+    GearMesh, GearboxError, Vector12,
     equilibrium::{Left, Norms, equilibrium},
     even_mesh::{guessed_lever, guessed_stiffness},
 };
@@ -31,12 +32,14 @@ impl GearboxMechanism {
         self.forget();
         let z = self.standing(0.0, Some(&z))?;
         if modal_damping > 0.0 {
-            let k = self.tangent(&z)?;
-            let modes = natural_modes(&k, &self.mass)?;
+            let (rigid, [k, mass]) = self.with_static_gears(&z)?;
+            let modes = natural_modes(&k, &mass)?;
             // A tangent has round-off: what turns the whole train is no elastic mode.
             let turning = usize::from(self.free.turn.is_some());
             for (i, omega) in modes.frequencies.iter().enumerate().skip(turning) {
-                let heavy = &self.mass * modes.shapes.column(i);
+                let own = &mass * modes.shapes.column(i);
+                let mut heavy = DVector::zeros(self.count());
+                rigid.iter().zip(own.iter()).for_each(|(at, x)| heavy[*at] = *x);
                 self.damping.ger(2.0 * modal_damping * omega, &heavy, &heavy, 1.0);
             }
             if let Some(i) = self.free.turn {
@@ -62,9 +65,15 @@ impl GearboxMechanism {
 
     /// Sizes of the coordinates: what deflections and turns are at `state`.
     pub fn scale(&self, state: &State) -> DVector<f64> {
+        let modes: Vec<usize> = self.gears.sizes(0.0).map(|(i, _)| i).collect();
         let of = |turns: bool| {
-            let own = state.q.iter().zip(&self.free.turns).filter(|(_, t)| **t == turns).map(|(x, _)| x.abs());
-            own.fold(0.0, f64::max)
+            let own = state
+                .q
+                .iter()
+                .zip(&self.free.turns)
+                .enumerate()
+                .filter(|(i, (_, t))| **t == turns && !modes.contains(i));
+            own.map(|(_, (x, _))| x.abs()).fold(0.0, f64::max)
         };
         let sizes = [of(false).max(1e-6), of(true).max(1e-9)];
         let one = |(x, turns): (&f64, &bool)| x.abs().max(LEAST * sizes[usize::from(*turns)]);
@@ -72,7 +81,18 @@ impl GearboxMechanism {
         if let Some(i) = self.free.turn {
             scale[i] = sizes[1];
         }
+        self.gears.sizes(self.moved(&state.q)).for_each(|(i, size)| scale[i] = size);
         scale
+    }
+
+    /// Largest displacement of a gear, mm: of its place, or of its base circle.
+    fn moved(&self, q: &DVector<f64>) -> f64 {
+        let of = |(i, mesh): (usize, &GearMesh)| {
+            let (d, radii) = (self.displacements(i, q), [&mesh.pair.pinion, &mesh.pair.wheel].map(|g| g.base_radius()));
+            let one = |g: usize| d.fixed_rows::<3>(6 * g).amax().max((radii[g] * d[6 * g + 5]).abs());
+            one(0).max(one(1))
+        };
+        self.meshes.iter().enumerate().map(of).fold(1e-6, f64::max)
     }
 
     /// Equilibrium with the input turned by an angle (rad about +z); the turn itself is left at 0.
@@ -81,7 +101,8 @@ impl GearboxMechanism {
         let count = self.count();
         let n = count - usize::from(self.free.turn.is_some());
         let all = |z: &DVector<f64>| z.clone().resize_vertically(count, 0.0);
-        let stiffness = self.stiffness.view((0, 0), (n, n)).into_owned();
+        let of_modes = self.gears.stiffness(angle, count);
+        let stiffness = (&self.stiffness + of_modes).view((0, 0), (n, n)).into_owned();
         // What a torque gives to the turn itself is left out.
         let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
         self.varying.forces(0.0).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
@@ -105,12 +126,20 @@ impl GearboxMechanism {
             }
             for i in 0..self.live.len() {
                 let cycles = self.cycles(i, angle);
-                let d = self.displacements(i, &whole);
+                let (at, map) = (self.displaced(i, angle, &whole), self.gears.map_of(i, angle));
                 let live = &mut self.live[i];
-                let reply = live.reply(&self.meshes[i], cycles, &d, true)?.clone();
+                let reply = live.reply(&self.meshes[i], cycles, &at, true)?.clone();
+                let on_modes = live.element().on_modes().cloned();
                 let own = live.to_gears.columns(0, n);
                 left.residual -= own.tr_mul(&reply.force);
-                left.tangent -= own.tr_mul(&(reply.tangent * own));
+                match on_modes.zip(map) {
+                    Some((ModalForce { normal, friction, stiffness: Some(stiffness) }, map)) => {
+                        let map = map.columns(0, n);
+                        left.residual -= map.tr_mul(&(normal + friction));
+                        left.tangent += with_modes(&own.into_owned(), &map.into_owned(), &stiffness);
+                    }
+                    _ => left.tangent -= own.tr_mul(&(reply.tangent * own)),
+                }
                 if balances {
                     let losses = live.element().losses(&Vector12::zeros(), 0.0);
                     left.residual.axpy(-self.balance_of(i, &losses.friction), &push, 1.0);
@@ -121,11 +150,24 @@ impl GearboxMechanism {
         Ok(all(&found.displacements))
     }
 
-    /// K - df_mesh/dz at a place, symmetric.
-    fn tangent(&mut self, z: &DVector<f64>) -> Result<DMatrix<f64>, GearboxError> {
-        let mut forces = Forces::zeros(z.len());
-        self.forces(0.0, z, &DVector::zeros(z.len()), &mut forces)?;
+    /// Coordinates that are no modes of gears, and for these K - df_mesh/dz at a place, symmetric, and the mass, with the modes
+    /// of gears in equilibrium and without inertia: theirs are damped by themselves.
+    fn with_static_gears(&mut self, z: &DVector<f64>) -> Result<(Vec<usize>, [DMatrix<f64>; 2]), GearboxError> {
+        let n = z.len();
+        let mut forces = Forces::zeros(n);
+        self.forces(0.0, z, &DVector::zeros(n), &mut forces)?;
         let k = forces.stiffness;
-        Ok(0.5 * (&k + k.transpose()))
+        let k = 0.5 * (&k + k.transpose());
+        let modes: Vec<usize> = self.gears.sizes(1.0).map(|(i, _)| i).collect();
+        let rigid: Vec<usize> = (0..n).filter(|i| !modes.contains(i)).collect();
+        if modes.is_empty() {
+            return Ok((rigid, [k, self.mass.clone()]));
+        }
+        let condensation = fem::Condensation::new(&k, &rigid)?;
+        // P that leaves the gears as they are.
+        let follow = self.gears.undeformed(0.0, n);
+        let still = DMatrix::from_fn(n, rigid.len(), |i, j| follow[(i, rigid[j])] + f64::from(u8::from(i == rigid[j])));
+        let stiffness = condensation.of(&k);
+        Ok((rigid, [0.5 * (&stiffness + stiffness.transpose()), still.tr_mul(&(&self.mass * &still))]))
     }
 }

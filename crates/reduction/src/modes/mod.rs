@@ -15,6 +15,7 @@ mod held;
 mod krylov;
 mod lowest;
 mod pencil;
+mod rigid_share;
 mod spin;
 mod standing;
 mod turn;

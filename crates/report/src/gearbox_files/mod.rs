@@ -13,7 +13,7 @@ mod vibration_rows;
 
 use analysis::{
     gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult},
-    motion::Waterfall,
+    motion::{MotionSpectrum, Waterfall},
 };
 use answer::{Answer, Cost, Table};
 use columns::gearbox as rows;
@@ -54,6 +54,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
         if !own.orders.is_empty() {
             tables.push(motion_tables::orders(file, &own.orders));
         }
+        tables.extend(own.spectrum.as_ref().map(|own| motion_tables::spectrum(file, own)));
         tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
     }
     tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
@@ -101,6 +102,7 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         vibration_rows::bearing_forces(file, &none),
         rows::motion(file, &[]),
         motion_tables::orders(file, &[]),
+        motion_tables::spectrum(file, &MotionSpectrum::default()),
         motion_tables::waterfall(file, &Waterfall::default()),
     ];
     tables.extend(branch_files::tables(&branch::without_rows(file)));

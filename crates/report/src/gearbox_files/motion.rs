@@ -36,6 +36,8 @@ described::described! {
         meshes: Vec<MeshMotion<'a>>,
         /// bearings, in the order of the file
         bearings: Vec<BearingMotion<'a>>,
+        /// gears that keep elastic modes, in the order of the file
+        gears: Vec<GearMotion<'a>>,
         /// energy since the start, in common axes
         energy: EnergySummary,
         /// shafts in motion
@@ -78,6 +80,17 @@ described::described! {
         max_radial_force_n: f64,
     }
 
+    /// A gear with elastic modes in motion.
+    #[derive(Serialize)]
+    struct GearMotion<'a> {
+        /// name of the gear
+        name: &'a str,
+        /// elastic modes that move
+        elastic_modes: usize,
+        /// frequency of the highest of them, bore held and flanks free
+        highest_elastic_mode_hz: f64,
+    }
+
     /// Energy since the start.
     #[derive(Serialize)]
     struct EnergySummary {
@@ -91,7 +104,7 @@ described::described! {
         shafts_mj: f64,
         /// elastic energy of bearings and housing at the end
         supports_mj: f64,
-        /// elastic energy of the meshes at the end
+        /// elastic energy of the meshes at the end, modes of gears among it
         meshes_mj: f64,
         /// gain of kinetic and elastic energy
         gained_mj: f64,
@@ -122,10 +135,11 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 5] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 6] = [
     ("motion", MotionSummary::KEYS),
     ("meshes, motion", MeshMotion::KEYS),
     ("bearings, motion", BearingMotion::KEYS),
+    ("gears, motion", GearMotion::KEYS),
     ("energy, motion", EnergySummary::KEYS),
     ("reduction, motion", ShaftReductionSummary::KEYS),
 ];
@@ -153,6 +167,10 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
         let force = motion.radial_force(i);
         BearingMotion { name: &b.name, min_radial_force_n: force.least, max_radial_force_n: force.largest }
     });
+    let gears = file.gears.iter().zip(&motion.gear_modes).filter_map(|(gear, modes)| {
+        let all = &modes.as_ref()?.frequencies_hz;
+        Some(GearMotion { name: &gear.name, elastic_modes: all.len(), highest_elastic_mode_hz: *all.last()? })
+    });
     let energy = &motion.energy;
     Some(MotionSummary {
         rows: motion.rows.len(),
@@ -165,6 +183,7 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
         common_period_cycles: motion.common_period,
         meshes: (0..file.meshes.len()).map(mesh).collect(),
         bearings: bearings.collect(),
+        gears: gears.collect(),
         energy: EnergySummary {
             input_work_mj: energy.input_work,
             output_work_mj: energy.output_work,

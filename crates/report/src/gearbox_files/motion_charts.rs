@@ -2,7 +2,7 @@
 
 use analysis::{
     gearbox::{GearboxMotionResult, MotionOrder},
-    motion::{RPM, Waterfall},
+    motion::{MotionSpectrum, RPM, Waterfall},
 };
 use answer::Answer;
 use gearbox::motion::GearboxInstant;
@@ -10,7 +10,7 @@ use scene::gearbox::Gearbox;
 
 use crate::{
     charts::{Curve, line_chart},
-    motion_files::{portrait, waterfall_chart},
+    motion_files::{portrait, spectrum_chart, waterfall_chart},
 };
 
 /// Orders of a mesh that are drawn over the speed.
@@ -26,6 +26,7 @@ pub(super) fn motion_charts(file: &Gearbox, motion: &GearboxMotionResult, answer
         all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
         return all;
     }
+    all.extend(motion.spectrum.iter().flat_map(|own| spectra(file, own)));
     let table = |name: &str| answer.tables.iter().find(|table| table.name == name);
     if let Some((rows, section)) = table("motion").zip(table("section")) {
         let one = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
@@ -40,22 +41,34 @@ pub(super) fn motion_charts(file: &Gearbox, motion: &GearboxMotionResult, answer
 /// Waterfalls of every mesh, and of the bearing with the largest line.
 fn waterfalls(file: &Gearbox, of: &Waterfall) -> Vec<String> {
     let speed = "speed of the input [1/min]";
+    let lines: Vec<&[Vec<f64>]> = of.lines.iter().map(|line| &line.amplitudes[..]).collect();
+    let one = |(place, whose, unit): (usize, String, &str)| waterfall_chart(of, place, [&whose, unit], speed);
+    shown(file, &lines).into_iter().filter_map(one).collect()
+}
+
+/// Spectra of the same.
+fn spectra(file: &Gearbox, of: &MotionSpectrum) -> Vec<String> {
+    let one = |(place, whose, unit): (usize, String, &str)| {
+        spectrum_chart(of, place, [&format!("Spectrum of {whose}"), &format!("amplitude [{unit}]")])
+    };
+    shown(file, &[&of.amplitudes]).into_iter().filter_map(one).collect()
+}
+
+/// What is shown of spectra with these amplitudes: place among the quantities, name and unit.
+fn shown(file: &Gearbox, amplitudes: &[&[Vec<f64>]]) -> Vec<(usize, String, &'static str)> {
     let mesh = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
         let dte = format!("the DTE of mesh {}", mesh.name);
         let force = format!("the normal force of mesh {}", mesh.name);
-        [waterfall_chart(of, 2 * i, [&dte, "um"], speed), waterfall_chart(of, 2 * i + 1, [&force, "N"], speed)]
+        [(2 * i, dte, "um"), (2 * i + 1, force, "N")]
     };
     let place = |bearing: usize| 2 * file.meshes.len() + bearing;
     let largest = |bearing: usize| {
-        let lines = of.lines.iter().flat_map(|line| &line.amplitudes[place(bearing)][1..]);
+        let lines = amplitudes.iter().filter_map(|own| own.get(place(bearing))?.get(1..)).flatten();
         lines.fold(0.0, |m: f64, a| m.max(*a))
     };
     let strongest = (0..file.bearings.len()).max_by(|&a, &b| largest(a).total_cmp(&largest(b)));
-    let bearing = strongest.and_then(|i| {
-        let whose = format!("the force of bearing {}", file.bearings[i].name);
-        waterfall_chart(of, place(i), [&whose, "N"], speed)
-    });
-    file.meshes.iter().enumerate().flat_map(mesh).chain([bearing]).flatten().collect()
+    let bearing = strongest.map(|i| (place(i), format!("the force of bearing {}", file.bearings[i].name), "N"));
+    file.meshes.iter().enumerate().flat_map(mesh).chain(bearing).collect()
 }
 
 /// Whether the speed changes so much that what is seen of orders is seen over it.

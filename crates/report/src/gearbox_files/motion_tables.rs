@@ -2,7 +2,7 @@
 
 use analysis::{
     gearbox::{GearboxMotionResult, MotionOrder},
-    motion::Waterfall,
+    motion::{MotionSpectrum, Waterfall},
 };
 use answer::Table;
 use scene::gearbox::Gearbox;
@@ -58,6 +58,22 @@ pub(super) fn orders(file: &Gearbox, orders: &[MotionOrder]) -> Table {
 
 /// `waterfall`: spectra of a motion whose speed is led from one to another.
 pub(super) fn waterfall(file: &Gearbox, of: &Waterfall) -> Table {
+    let quantities = quantities(file);
+    let of_gearbox = WaterfallOf {
+        speed: ["input_rpm", "mean speed of the input over the interval"],
+        order: "order of the frequency of the fastest mesh",
+        quantities: &quantities,
+    };
+    motion_files::waterfall(of, of_gearbox)
+}
+
+/// `spectrum`: lines of a motion whose speed is not led.
+pub(super) fn spectrum(file: &Gearbox, of: &MotionSpectrum) -> Table {
+    motion_files::spectrum(of, quantities(file))
+}
+
+/// Columns of spectra: of each mesh, then of each bearing.
+fn quantities(file: &Gearbox) -> Vec<(String, &'static str)> {
     let mesh = |i: usize| {
         [
             (format!("mesh_{i}_dte_um"), "single-sided amplitude of the dynamic transmission error"),
@@ -67,11 +83,5 @@ pub(super) fn waterfall(file: &Gearbox, of: &Waterfall) -> Table {
     let bearing =
         |i: usize| (format!("bearing_{i}_force_n"), "single-sided amplitude of the bearing force, x, y, z together");
     let meshes = (1..=file.meshes.len()).flat_map(mesh);
-    let quantities: Vec<_> = meshes.chain((1..=file.bearings.len()).map(bearing)).collect();
-    let of_gearbox = WaterfallOf {
-        speed: ["input_rpm", "mean speed of the input over the interval"],
-        order: "order of the frequency of the fastest mesh",
-        quantities: &quantities,
-    };
-    motion_files::waterfall(of, of_gearbox)
+    meshes.chain((1..=file.bearings.len()).map(bearing)).collect()
 }

@@ -5,11 +5,8 @@ use dynamics::Speed;
 use scene::SweepWay;
 use study::{StudyError, extent};
 
-use super::{
-    SPECTRA, spectra,
-    waterfall::{SHOWN_ORDERS, waterfall_chart},
-};
-use crate::charts::{Curve, campbell_chart, line_chart, stick_chart};
+use super::{spectrum::spectrum_chart, waterfall::waterfall_chart};
+use crate::charts::{Curve, campbell_chart, line_chart};
 use answer::Table;
 use columns::motion_history::{MESH_PHASE, TIME};
 
@@ -111,7 +108,11 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
         all.push(line_chart(&format!("Bearing force of the {gear}"), axis, "force [N]", &curves, false));
     }
     if let Some(spectrum) = of.spectrum {
-        all.extend([0, 1].map(|i| spectrum_chart(spectrum, i)));
+        let shown = [
+            ["Spectrum of the dynamic transmission error", "amplitude [um]"],
+            ["Spectrum of the sum of normal forces", "amplitude [N]"],
+        ];
+        all.extend(shown.into_iter().enumerate().map(|(i, words)| spectrum_chart(spectrum, i, words)));
     }
     let dte = ["the DTE", "um"];
     all.push(of.waterfall.and_then(|own| waterfall_chart(own, 0, dte, "pinion speed [1/min]")));
@@ -176,17 +177,6 @@ fn repeated(
         1e3 * ((1.0 - share) * ste[i] + share * ste[(i + 1) % n])
     };
     Ok(time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect())
-}
-
-/// Lines of one quantity as sticks.
-fn spectrum_chart(spectrum: &MotionSpectrum, quantity: usize) -> Option<String> {
-    let lines = spectrum.orders.iter().copied().zip(spectra(spectrum)[quantity].iter().copied()).skip(1);
-    let points = lines.take_while(|(order, _)| *order <= SHOWN_ORDERS).collect();
-    let (title, unit) = match SPECTRA[quantity] {
-        "dte_um" => ("Spectrum of the dynamic transmission error", "amplitude [um]"),
-        _ => ("Spectrum of the sum of normal forces", "amplitude [N]"),
-    };
-    stick_chart(title, "mesh order", unit, Curve { label: "amplitude".into(), points })
 }
 
 /// What the charts of a sweep are drawn from.

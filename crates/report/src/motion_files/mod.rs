@@ -7,5 +7,6 @@ mod waterfall;
 
 pub use charts::{MotionPictures, SHOWN_CYCLES, SweepPictures, motion_charts, sweep_charts};
 pub(crate) use section::{portrait, section};
-pub use spectrum::{SPECTRA, spectra};
+pub use spectrum::SPECTRA;
+pub(crate) use spectrum::{spectrum, spectrum_chart};
 pub(crate) use waterfall::{WaterfallOf, waterfall, waterfall_chart};

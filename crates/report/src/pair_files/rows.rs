@@ -7,7 +7,7 @@ use analysis::{
 use answer::Table;
 use study::Campbell;
 
-use crate::motion_files::{self, SPECTRA, WaterfallOf, spectra};
+use crate::motion_files::{self, SPECTRA, WaterfallOf};
 
 /// Meaning of the column `periodicity` of all sweeps.
 pub(super) const PERIODICITY: &str =
@@ -17,17 +17,8 @@ pub(super) const STATUS: &str = "`solved`; `not-periodic`: `periodicity` is abov
 
 /// `spectrum`: lines of a motion at constant speed.
 pub(crate) fn spectrum(of: &MotionSpectrum) -> Table {
-    let mut table = Table::new("spectrum")
-        .numbers("mesh_order", "order of the mesh frequency", of.orders.iter().copied())
-        .numbers("frequency_hz", "frequency of the order", of.frequencies.iter().copied());
-    for (name, amplitudes) in SPECTRA.into_iter().zip(spectra(of)) {
-        table.push_numbers(
-            name,
-            "single-sided amplitude; of order 0 the mean",
-            amplitudes[..of.orders.len()].iter().copied(),
-        );
-    }
-    table
+    let meaning = "single-sided amplitude; of order 0 the mean";
+    motion_files::spectrum(of, SPECTRA.map(|name| (name.to_owned(), meaning)))
 }
 
 /// `waterfall`: spectra of a ramp, stretch by stretch.

@@ -73,7 +73,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
     over_time(s, &raw, table.get_ref(), moves.as_ref().map(Asked::motion))?;
-    let modes = modes(s, &raw)?;
+    let modes = modes(s, &raw, moves.as_ref().map(Asked::motion))?;
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
     let (motion, branch) = match moves {
         None => (None, None),

@@ -43,7 +43,8 @@ pub struct Gearbox {
     pub rating: Option<GearboxRating>,
     /// Vibration about where it stands, where it is asked for.
     pub vibration: Option<GearboxVibration>,
-    /// Normal modes of the gears in that vibration; none: gears are rigid beside their teeth. Damping is the vibration's.
+    /// Normal modes of the gears in that vibration and in a motion; none: gears are rigid beside their teeth. Their damping is
+    /// that of the motion: a vibration has one for all modes.
     pub modes: Option<ModesScene>,
     /// How it runs in time; none: at rest alone.
     pub motion: Option<GearboxMotion>,

@@ -1,20 +1,31 @@
-//! `[modes]` of a gearbox file: which normal modes of its gears vibrate.
+//! `[modes]` of a gearbox file: which normal modes of its gears move.
 
-use super::{schema::RawGearbox, values::Checked};
-use crate::{ModesScene, Source, motion, schema::RawModes};
+use super::{
+    motion::GearboxMotion,
+    schema::{MeshModel, RawGearbox},
+    values::Checked,
+};
+use crate::{ModesScene, Source, schema::RawModes};
 
 /// The modes that are asked for, as a pair of the model `reduced+modes` has them; nothing where there is no table.
-pub(super) fn modes(s: &Source<'_>, raw: &RawGearbox) -> Checked<Option<ModesScene>> {
+pub(super) fn modes(s: &Source<'_>, raw: &RawGearbox, moves: Option<&GearboxMotion>) -> Checked<Option<ModesScene>> {
     let Some(table) = &raw.modes else { return Ok(None) };
     let refused = |what: &str, advice: &str| Err(s.conflict(&table.span(), what, advice));
-    if raw.motion.is_some() {
-        return refused(
-            "[modes] with [motion]: gears of a motion in time are rigid beside their teeth",
-            "leave [motion] out for a vibration with modes of the gears, or leave [modes] out",
-        );
+    if raw.motion.is_none() && raw.vibration.is_none() {
+        return refused("[modes] belongs to a vibration or a motion", "add [vibration] or [motion], or leave it out");
     }
-    if raw.vibration.is_none() {
-        return refused("[modes] belongs to a vibration", "add [vibration], or leave it out");
+    if let Some(motion) = moves.filter(|motion| motion.mesh != MeshModel::Exact) {
+        let word = motion.mesh.word();
+        let said = format!("[modes] with a motion of `mesh = \"{word}\"`: modes move in the exact contact alone");
+        return refused(&said, "take `mesh = \"exact\"` in [motion], or leave [modes] or [motion] out");
+    }
+    if moves.is_some_and(|motion| motion.shoots) {
+        let said = "[modes] with a motion of `run = \"shooting\"`: amplitudes of modes come back in frames that have turned on";
+        return refused(said, "take `run = \"steady\"` in [motion]");
+    }
+    if let (None, Some(damping)) = (moves, &table.get_ref().damping_ratio) {
+        let said = "`damping_ratio` of [modes] is that of a motion";
+        return Err(s.conflict(&damping.span(), said, "leave it out: a vibration has its own in [vibration]"));
     }
     let own = table.get_ref();
     let words = RawModes {
@@ -22,7 +33,7 @@ pub(super) fn modes(s: &Source<'_>, raw: &RawGearbox) -> Checked<Option<ModesSce
         below_hz: own.below_hz.clone(),
         boundary: own.boundary.clone(),
         fixed_modes: own.fixed_modes.clone(),
-        ..RawModes::default()
+        damping_ratio: own.damping_ratio.clone(),
     };
-    motion::modes(s, &words).map(Some)
+    crate::motion::modes(s, &words).map(Some)
 }

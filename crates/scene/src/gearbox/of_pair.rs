@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use crate::{
-    BodyScene, DriveBy, DriveScene, Driver, Model, MotionScene, Run, Scene, SceneError, Sense, TorqueScene,
+    BodyScene, DriveBy, DriveScene, Driver, Model, ModesScene, MotionScene, Run, Scene, SceneError, Sense, TorqueScene,
     schema::{Integration, LEAST_SLICES},
 };
 
@@ -40,8 +40,8 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
 }
 
 /// The same of a scene in motion, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
-/// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings or with
-/// normal modes, lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
+/// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings,
+/// normal modes in a motion found by shooting, lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
 ///
 /// # Errors
 /// As of [`gearbox_of_pair`].
@@ -55,7 +55,7 @@ pub fn gearbox_of_moving_pair(scene: &Scene, steps_per_row: u32) -> Result<Optio
 /// `[motion]` of the gearbox of a pair.
 fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<String> {
     let mesh = match scene.analysis.model {
-        Model::Reduced => "exact",
+        Model::Reduced | Model::ReducedModes => "exact",
         Model::Mapped => "mapped",
         _ => return None,
     };
@@ -63,7 +63,7 @@ fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<Str
         // A map that nearly repeats itself is taken to its periodic state.
         Run::Steady if scene.analysis.model == Model::Mapped => "shooting",
         Run::Steady => "steady",
-        Run::Shooting => "shooting",
+        Run::Shooting if scene.analysis.model != Model::ReducedModes => "shooting",
         Run::Span if motion.duration_s.is_none() => "span",
         _ => return None,
     };
@@ -105,7 +105,24 @@ fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<Str
     if mesh == "mapped" {
         text += MAPS;
     }
+    if let Some(modes) = scene.modes.filter(|_| scene.analysis.model == Model::ReducedModes) {
+        text += &kept(&modes);
+    }
     Some(text)
+}
+
+/// `[modes]` of the gearbox of a pair.
+fn kept(modes: &ModesScene) -> String {
+    let ModesScene { count, below_hz, boundary, fixed_modes, damping_ratio } = *modes;
+    let mut text = format!("\n[modes]\nboundary = \"{}\"\ndamping_ratio = {damping_ratio:?}\n", boundary.word());
+    let wholes = [("count", count), ("fixed_modes", fixed_modes)];
+    for (key, value) in wholes.into_iter().filter_map(|(key, value)| Some((key, value?))) {
+        let _ = writeln!(text, "{key} = {value}");
+    }
+    if let Some(hz) = below_hz {
+        let _ = writeln!(text, "below_hz = {hz:?}");
+    }
+    text
 }
 
 /// Two held shafts with a mesh, after whose sections `more` stands.

@@ -243,11 +243,12 @@ table! {
 
 table! {
     /// `[modes]` of a gearbox
-    GEARBOX_MODES, RawGearboxModes: "which normal modes of the gears vibrate beside their rigid motion (with [vibration], not with [motion]); what is not kept stays quasi-static. Left out: gears are rigid beside their teeth"; {
+    GEARBOX_MODES, RawGearboxModes: "which normal modes of the gears move beside their rigid motion (with [vibration], or with [motion] and the mesh exact); what is not kept stays quasi-static. Left out: gears are rigid beside their teeth"; {
         count: whole(1, 1000, 12), "the lowest so many modes of each gear that meshes, bore held and flanks free. Modes of one frequency stay together, so there may be one more";
         below_hz: bare(1.0, 1e9), "in place of count: all modes of each gear up to this frequency, Hz";
         boundary: word(Boundary), "whether the flanks have inertia of their own. massless: modes of the whole mesh, the rest of the flanks' compliance without inertia; consistent: modes of the Craig-Bampton model, with the flanks' consistent mass";
         fixed_modes: whole(0, 100, 2), "modes with the flanks held behind a consistent boundary: of every harmonic of a cyclic gear, in all of any other one";
+        damping_ratio: number(0.0, 1.0, 0.01), "damping ratio of every mode of the gears in a motion, beside those of its shafts (modal_damping_ratio). Steel alone has a thousandth";
     }
 }
 

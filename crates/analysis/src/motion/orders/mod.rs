@@ -8,4 +8,5 @@ mod spectrum;
 pub use campbell::{CampbellDiagram, CriticalSpeed};
 pub use run_up::{OrderCut, PeakOverSpeed, RunUp, RunUpCycle, RunUpHeadline};
 pub use series::MotionSeries;
+pub(crate) use spectrum::window;
 pub use spectrum::{MotionSpectrum, Stretches, Waterfall, WaterfallLine, waterfall};

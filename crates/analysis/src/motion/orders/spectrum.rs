@@ -1,45 +1,54 @@
 //! Spectra of a motion at constant speed, and a waterfall of one whose speed changes.
 
+use integrate::Periodicity;
 use study::{StudyError, Window, spectrum as record_spectrum};
 
 use super::MotionSeries;
 
 /// Lines of a record; line 0 is the mean.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct MotionSpectrum {
     /// Orders of the mesh frequency.
     pub orders: Vec<f64>,
     /// Frequencies, Hz.
     pub frequencies: Vec<f64>,
-    /// Amplitudes of the dynamic transmission error, um.
-    pub dte_um: Vec<f64>,
-    /// Of the sum of the normal forces of the driving flanks, N.
-    pub normal_force_n: Vec<f64>,
-    /// Of the axial force on the wheel, N.
-    pub wheel_force_z_n: Vec<f64>,
-    /// Of the tilting moments about y on pinion and wheel, N mm.
-    pub moment_y_nmm: [Vec<f64>; 2],
+    /// Amplitudes, quantity by quantity.
+    pub amplitudes: Vec<Vec<f64>>,
 }
 
 impl MotionSpectrum {
-    /// Spectra of the whole record of `cycles` mesh cycles.
+    /// Spectra of the whole record of `cycles` mesh cycles. A quantity is a list of components, whose amplitudes are those of a
+    /// vector: the length of all.
     ///
     /// # Errors
     /// [`StudyError`] for a record that contains a value that is not a number.
-    pub fn of(series: &MotionSeries, cycles: u64, mesh_frequency_hz: f64, window: Window) -> Result<Self, StudyError> {
-        let of = |samples: &[f64]| amplitudes(samples, window);
-        let dte_um = of(&series.dte_um)?;
-        let orders: Vec<f64> = (0..dte_um.len()).map(|k| k as f64 / cycles as f64).collect();
-        let [pinion, wheel] = &series.moment_y_nmm;
-        Ok(Self {
-            frequencies: orders.iter().map(|o| o * mesh_frequency_hz).collect(),
-            orders,
-            dte_um,
-            normal_force_n: of(&series.normal_force_n)?,
-            wheel_force_z_n: of(&series.wheel_force_z_n)?,
-            moment_y_nmm: [of(pinion)?, of(wheel)?],
-        })
+    pub fn of(
+        quantities: &[Vec<&[f64]>],
+        (cycles, mesh_frequency_hz): (f64, f64),
+        window: Window,
+    ) -> Result<Self, StudyError> {
+        let amplitudes = quantities.iter().map(|own| of_vector(own, window)).collect::<Result<Vec<_>, _>>()?;
+        let lines = amplitudes.first().map_or(0, Vec::len);
+        let orders: Vec<f64> = (0..lines).map(|k| k as f64 / cycles).collect();
+        Ok(Self { frequencies: orders.iter().map(|o| o * mesh_frequency_hz).collect(), orders, amplitudes })
     }
+}
+
+/// Tolerance below which what does not come back shows in no line.
+const LEAST: f64 = 1e-9;
+
+/// Window over a record of so many cycles of a motion that was to repeat itself to a tolerance: none where it does, and the record
+/// is whole periods.
+pub(crate) fn window(found: Option<Periodicity>, tolerance: f64, cycles: u64) -> Window {
+    let whole = |p: Periodicity| p.residual <= 10.0 * tolerance.max(LEAST) && cycles.is_multiple_of(p.period as u64);
+    if found.is_some_and(whole) { Window::Rectangular } else { Window::Hann }
+}
+
+/// Amplitudes of a vector by those of its components.
+fn of_vector(components: &[&[f64]], window: Window) -> Result<Vec<f64>, StudyError> {
+    let mut all = components.iter().map(|own| amplitudes(own, window));
+    let first = all.next().unwrap_or_else(|| Ok(Vec::new()))?;
+    all.try_fold(first, |sum, own| Ok(sum.iter().zip(own?).map(|(a, b)| a.hypot(b)).collect()))
 }
 
 /// Amplitudes at 0 (the mean), 1, 2, ... periods a record.
@@ -129,9 +138,8 @@ pub fn waterfall(
         let part = from..from + length;
         let speed_rpm = speed[part.clone()].iter().sum::<f64>().abs() / length as f64;
         let of_quantity = |components: &Vec<&[f64]>| {
-            let mut all = components.iter().map(|own| amplitudes(&own[part.clone()], Window::Hann));
-            let first = all.next().unwrap_or_else(|| Ok(Vec::new()))?;
-            all.try_fold(first, |sum, own| Ok(sum.iter().zip(own?).map(|(a, b)| a.hypot(b)).collect()))
+            let own: Vec<&[f64]> = components.iter().map(|own| &own[part.clone()]).collect();
+            of_vector(&own, Window::Hann)
         };
         Ok(WaterfallLine {
             time: 0.5 * (time[from] + time[from + length - 1]),
@@ -145,6 +153,17 @@ pub fn waterfall(
 }
 
 impl MotionSeries {
+    /// Spectra of the whole record of so many mesh cycles: transmission error (um), sum of the normal forces of the driving flanks
+    /// (N), axial force on the wheel (N), tilting moments about y on pinion and wheel (N mm).
+    ///
+    /// # Errors
+    /// [`StudyError`] for a record that contains a value that is not a number.
+    pub fn spectrum(&self, of: (f64, f64), window: Window) -> Result<MotionSpectrum, StudyError> {
+        let [pinion, wheel] = &self.moment_y_nmm;
+        let all = [&self.dte_um, &self.normal_force_n, &self.wheel_force_z_n, pinion, wheel];
+        MotionSpectrum::of(&all.map(|own| vec![own.as_slice()]), of, window)
+    }
+
     /// Order spectra of the transmission error over stretches of so many mesh cycles, `per_cycle` values in each, of a pair
     /// whose pinion has so many teeth.
     ///
