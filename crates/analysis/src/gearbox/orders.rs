@@ -2,10 +2,14 @@
 
 use std::f64::consts::TAU;
 
+use answer::{RowStore, TableError};
 use gearbox::motion::GearboxInstant;
 use study::{StudyError, order_amplitude};
 
-use crate::motion::{RPM, Stretches, Waterfall, waterfall as order_spectra};
+use crate::{
+    AnalysisError,
+    motion::{RPM, Stretches, Waterfall, waterfall as order_spectra},
+};
 
 /// Orders of each mesh.
 const ORDERS: usize = 5;
@@ -40,24 +44,40 @@ pub struct MotionOrder {
 /// stretch apart, counted in cycles of the same mesh, are not told from each other.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
-pub(super) fn orders(rows: &[GearboxInstant], cycles: u32) -> Result<Vec<MotionOrder>, StudyError> {
-    let Some(Stretches { length, hop, .. }) = stretches(rows, cycles) else { return Ok(Vec::new()) };
+/// [`AnalysisError::Statistics`] for rows that hold what is no number.
+pub(super) fn orders(rows: &RowStore<GearboxInstant>, cycles: u32) -> Result<Vec<MotionOrder>, AnalysisError> {
+    let Some(Stretches { length, hop, .. }) = stretches((rows, rows.len()), cycles)? else { return Ok(Vec::new()) };
     let mut all = Vec::new();
     for from in (0..).map(|k| k * hop).take_while(|from| from + length <= rows.len()) {
-        stretch(&rows[from..from + length], &mut all)?;
+        stretch(&rows.part(from..from + length)?, &mut all)?;
     }
     Ok(all)
 }
 
-/// Order spectra of every mesh and bearing over the same stretches, of a motion whose rows are evenly spaced along the turn
-/// of its input: transmission error (um) and normal force (N) of each mesh, then the force of each bearing (N). Orders are
-/// those of the fastest mesh.
+/// Order spectra of every mesh and bearing over the same stretches, of a motion whose first rows, so many, are evenly spaced
+/// along the turn of its input: transmission error (um) and normal force (N) of each mesh, then the force of each bearing
+/// (N). Orders are those of the fastest mesh.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
-pub(super) fn waterfall(rows: &[GearboxInstant], cycles: u32) -> Result<Option<Waterfall>, StudyError> {
-    let Some(stretches) = stretches(rows, cycles) else { return Ok(None) };
+/// [`AnalysisError::Statistics`] for rows that hold what is no number.
+pub(super) fn waterfall(
+    (rows, even): (&RowStore<GearboxInstant>, usize),
+    cycles: u32,
+) -> Result<Option<Waterfall>, AnalysisError> {
+    let Some(stretches) = stretches((rows, even), cycles)? else { return Ok(None) };
+    let mut all: Option<Waterfall> = None;
+    for from in (0..).map(|k| k * stretches.hop).take_while(|from| from + stretches.length <= even) {
+        let own = line(&rows.part(from..from + stretches.length)?, stretches)?;
+        match &mut all {
+            Some(all) => all.lines.extend(own.lines),
+            None => all = Some(own),
+        }
+    }
+    Ok(Some(all.unwrap_or_default()))
+}
+
+/// The spectra of one stretch.
+fn line(rows: &[GearboxInstant], stretches: Stretches) -> Result<Waterfall, StudyError> {
     let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
     let mut quantities: Vec<Vec<Vec<f64>>> = Vec::new();
     for mesh in 0..rows[0].meshes.len() {
@@ -70,28 +90,28 @@ pub(super) fn waterfall(rows: &[GearboxInstant], cycles: u32) -> Result<Option<W
     let quantities: Vec<Vec<&[f64]>> =
         quantities.iter().map(|components| components.iter().map(Vec::as_slice).collect()).collect();
     let (time, speed) = (column(&|p| p.time), column(&|p| p.input[1] / RPM));
-    order_spectra(&quantities, (&time, &speed), stretches).map(Some)
+    order_spectra(&quantities, (&time, &speed), stretches)
 }
 
 /// Stretches of so many cycles of the slowest mesh, or of the whole motion, each half over the one before; `None` where the
 /// slowest mesh has gone through fewer than four cycles.
-fn stretches(rows: &[GearboxInstant], cycles: u32) -> Option<Stretches> {
-    let (first, last) = (rows.first()?, rows.last()?);
+fn stretches((rows, count): (&RowStore<GearboxInstant>, usize), cycles: u32) -> Result<Option<Stretches>, TableError> {
+    let (Some(first), Some(last)) = (rows.get(0)?, rows.get(count.saturating_sub(1))?) else { return Ok(None) };
     let gone = || first.meshes.iter().zip(&last.meshes).map(|(a, b)| (b.cycles - a.cycles).abs());
     let (slowest, fastest) = (gone().fold(f64::INFINITY, f64::min), gone().fold(0.0, f64::max));
     if !(slowest >= LEAST && slowest.is_finite()) {
-        return None;
+        return Ok(None);
     }
     // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so. Orders of the fastest
     // mesh are in the middle of lines.
-    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (rows.len() - 1) as f64 / fastest);
-    let length = ((whole * per_cycle).round() as usize).clamp(8, rows.len().max(8));
-    Some(Stretches {
+    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (count - 1) as f64 / fastest);
+    let length = ((whole * per_cycle).round() as usize).clamp(8, count.max(8));
+    Ok(Some(Stretches {
         length,
         hop: (length / 2).max(1),
         per_cycle,
         cycles_per_turn: fastest * TAU / (last.input[0] - first.input[0]).abs(),
-    })
+    }))
 }
 
 fn stretch(rows: &[GearboxInstant], all: &mut Vec<MotionOrder>) -> Result<(), StudyError> {
