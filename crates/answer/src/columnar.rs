@@ -1,6 +1,9 @@
 //! A table as a Parquet file: the same columns in the same order, numbers bit for bit.
 
-use std::{io::Write, sync::Arc};
+use std::{
+    io::{self, Write},
+    sync::Arc,
+};
 
 use parquet::basic::{Compression, ConvertedType, Encoding, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
@@ -17,10 +20,10 @@ const GROUP: usize = 65_536;
 /// Writes the Parquet file of a table, in groups of 65,536 rows, Snappy: one group at a time is in memory.
 ///
 /// # Errors
-/// [`TableError::Parquet`] when a name is none that the format takes, or the system refuses; [`TableError::Kept`] where
+/// [`TableError::Parquet`] when a name is none that the format takes, [`TableError::Write`] when the system refuses; [`TableError::Kept`] where
 /// rows cannot be read back.
 pub fn write_parquet(table: &Table, to: impl Write + Send) -> Result<(), TableError> {
-    let refused = |cause| TableError::Parquet { table: table.name.to_string(), cause };
+    let refused = |cause| refused(&table.name, cause);
     let columns: Vec<(&str, bool)> =
         table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
     let schema = schema(&table.name, &columns).map_err(refused)?;
@@ -31,6 +34,18 @@ pub fn write_parquet(table: &Table, to: impl Write + Send) -> Result<(), TableEr
         write_group(&mut writer, &parts).map_err(refused)?;
     }
     writer.close().map(|_| ()).map_err(refused)
+}
+
+/// What the library says, or the system through it.
+fn refused(table: &str, cause: ParquetError) -> TableError {
+    let table = table.to_owned();
+    match cause {
+        ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+            Ok(cause) => TableError::Write { table, cause: *cause },
+            Err(cause) => TableError::Parquet { table, cause: ParquetError::External(cause) },
+        },
+        cause => TableError::Parquet { table, cause },
+    }
 }
 
 fn write_group<W: Write + Send>(writer: &mut SerializedFileWriter<W>, parts: &[Part<'_>]) -> Result<(), ParquetError> {

@@ -16,6 +16,14 @@ pub enum TableError {
         /// What it says.
         cause: ParquetError,
     },
+    /// The system refuses to write a Parquet file.
+    #[error("{table}.parquet: cannot be written: {cause}")]
+    Write {
+        /// Name of the table.
+        table: String,
+        /// What the system says.
+        cause: io::Error,
+    },
     /// Rows that are more than memory is to hold cannot be put into a temporary file, or read from it.
     #[error("rows cannot be kept in the folder for temporary files, {}: {cause}", folder.display())]
     Kept {
@@ -43,7 +51,7 @@ impl TableError {
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Parquet { .. } => "is the disk full? The rows are in the file with commas as well",
+            Self::Parquet { .. } | Self::Write { .. } => "is the disk full? The rows are in the file with commas as well",
             Self::Kept { .. } => "is the disk full? `TMPDIR` names another folder; 10^6 rows take about 400 MB there",
             Self::Damaged { .. } => "make the result again",
         }

@@ -103,7 +103,7 @@ impl<T: Serialize> RowStore<T> {
         for rows in self.tail.chunks_exact(BLOCK) {
             bytes.clear();
             for row in rows {
-                bytes = postcard::to_extend(row, bytes).map_err(io::Error::other)?;
+                bytes = postcard::to_extend(row, bytes).map_err(|e| io::Error::other(e.to_string()))?;
             }
             file.write_all(&bytes)?;
             let end = start + bytes.len() as u64;
@@ -200,7 +200,7 @@ impl<'a, T: Clone + DeserializeOwned> Reader<'a, T> {
     }
 
     fn row(&mut self) -> io::Result<T> {
-        let (row, rest) = postcard::take_from_bytes(&self.bytes[self.at..]).map_err(io::Error::other)?;
+        let (row, rest) = postcard::take_from_bytes(&self.bytes[self.at..]).map_err(|e| io::Error::other(e.to_string()))?;
         self.at = self.bytes.len() - rest.len();
         Ok(row)
     }
