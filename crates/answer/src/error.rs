@@ -51,7 +51,9 @@ impl TableError {
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Parquet { .. } | Self::Write { .. } => "is the disk full? The rows are in the file with commas as well",
+            Self::Parquet { .. } | Self::Write { .. } => {
+                "is the disk full? The rows are in the file with commas as well"
+            }
             Self::Kept { .. } => "is the disk full? `TMPDIR` names another folder; 10^6 rows take about 400 MB there",
             Self::Damaged { .. } => "make the result again",
         }

@@ -41,7 +41,7 @@ impl<T: Clone + DeserializeOwned + Send + Sync> Source for Rows<T> {
     }
 
     fn read(&self, rows: Range<usize>, columns: &[usize]) -> Result<Vec<Vec<f64>>, TableError> {
-        let mut values = vec![Vec::with_capacity(rows.len()); columns.len()];
+        let mut values: Vec<Vec<f64>> = columns.iter().map(|_| Vec::with_capacity(rows.len())).collect();
         self.rows.for_each(rows, |row| {
             values.iter_mut().zip(columns).for_each(|(list, &column)| list.push((self.columns[column])(row)));
         })?;

@@ -200,7 +200,8 @@ impl<'a, T: Clone + DeserializeOwned> Reader<'a, T> {
     }
 
     fn row(&mut self) -> io::Result<T> {
-        let (row, rest) = postcard::take_from_bytes(&self.bytes[self.at..]).map_err(|e| io::Error::other(e.to_string()))?;
+        let (row, rest) =
+            postcard::take_from_bytes(&self.bytes[self.at..]).map_err(|e| io::Error::other(e.to_string()))?;
         self.at = self.bytes.len() - rest.len();
         Ok(row)
     }

@@ -12,7 +12,8 @@ const PER_CYCLE: usize = 50;
 
 /// A motion of a model that is quickly solved, from its start on.
 fn scene(rows: usize) -> String {
-    let motion = "[output]\nparquet = true\n[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 50\nsteps_per_resonance = 0\n";
+    let motion =
+        "[output]\nparquet = true\n[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 50\nsteps_per_resonance = 0\n";
     let cycles = rows / PER_CYCLE;
     let model = format!("kind = \"dynamic\"\nmodel = \"lumped8\"\ncycles = {cycles}\n");
     ISO_SCENE.replace("model = \"iso\"\n", &model) + motion
@@ -66,7 +67,8 @@ fn same_numbers(folder: &Path, csv: &str) {
     let mut lines = csv.lines().skip(1);
     for (k, (row, line)) in reader.get_row_iter(None).unwrap().zip(lines.by_ref()).enumerate() {
         let row = row.unwrap();
-        let same = |(i, text): (usize, &str)| row.get_double(i).unwrap().to_bits() == text.parse::<f64>().unwrap().to_bits();
+        let same =
+            |(i, text): (usize, &str)| row.get_double(i).unwrap().to_bits() == text.parse::<f64>().unwrap().to_bits();
         // Every row has to be there, and some are read as a whole.
         let read = if k % 97 == 0 { usize::MAX } else { 1 };
         assert!(line.split(',').enumerate().take(read).all(same), "row {k}: {line}");
