@@ -3,7 +3,10 @@
 
 use std::{fs, path::Path, process::Stdio, time::Duration};
 
-use parquet::file::reader::{FileReader, SerializedFileReader};
+use parquet::{
+    file::reader::{FileReader, SerializedFileReader},
+    record::RowAccessor,
+};
 
 use super::util::{ISO_SCENE, Scratch};
 
