@@ -17,9 +17,13 @@ const PER_CYCLE: usize = 50;
 fn scene(rows: usize) -> String {
     let motion =
         "[output]\nparquet = true\n[motion]\nrun = \"span\"\nsteps_per_mesh_cycle = 50\nsteps_per_resonance = 0\n";
+    let bearing = ["pinion", "wheel"].map(|gear| {
+        let springs = ["x", "y", "z"].map(|axis| format!("stiffness_{axis}_n_per_mm = 2e5\n"));
+        format!("[{gear}.bearing]\n{}", springs.concat())
+    });
     let cycles = rows / PER_CYCLE;
     let model = format!("kind = \"dynamic\"\nmodel = \"lumped8\"\ncycles = {cycles}\n");
-    ISO_SCENE.replace("model = \"iso\"\n", &model) + motion
+    ISO_SCENE.replace("model = \"iso\"\n", &model) + &bearing.concat() + motion
 }
 
 /// Runs the scene of so many rows into a folder of that name; the largest resident set of the process, MB.

@@ -101,14 +101,8 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, ReportError
         pairs.iter().map(|name| curve(&name.replace("normal_force_", "").replace("_n", "").replace('_', " "), name));
     let sharing = sharing.collect::<Result<Vec<_>, _>>()?;
     let moments = [curve("pinion", "pinion_moment_y_nmm")?, curve("wheel", "wheel_moment_y_nmm")?];
-    let energy = of.energy.part(0..of.energy.rows(), |name| name == TIME.name || name == RESIDUAL.name)?;
-    let energy_time = series(&energy, TIME.name)?;
     let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
         if steady { ("time [s]", &|t| t) } else { (axis, &place) };
-    let residual = Curve {
-        label: "residual".into(),
-        points: energy_time.iter().zip(series(&energy, RESIDUAL.name)?).map(|(t, x)| (energy_place(*t), *x)).collect(),
-    };
     let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, run_up)| run_up_charts(run_up, &speed_axis(teeth)));
     all.extend([
         line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
@@ -137,6 +131,7 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, ReportError
     let dte = ["the DTE", "um"];
     all.push(of.waterfall.and_then(|own| waterfall_chart(own, 0, dte, "pinion speed [1/min]")));
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
+    let residual = residual(of.energy, energy_place)?;
     all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
     Ok(all.into_iter().flatten().collect())
 }
@@ -149,6 +144,13 @@ fn missing(name: &str) -> ReportError {
 /// The column of that name, in memory.
 fn series<'t>(of: &'t Table, name: &str) -> Result<&'t [f64], ReportError> {
     of.find(name).ok_or_else(|| missing(name))
+}
+
+/// Energy that does not close, row by row, over places of their times.
+fn residual(energy: &Table, place: &dyn Fn(f64) -> f64) -> Result<Curve, ReportError> {
+    let part = energy.part(0..energy.rows(), |name| name == TIME.name || name == RESIDUAL.name)?;
+    let both = series(&part, TIME.name)?.iter().zip(series(&part, RESIDUAL.name)?);
+    Ok(Curve { label: "residual".into(), points: both.map(|(t, x)| (place(*t), *x)).collect() })
 }
 
 /// Columns of the pairs that press in any row.
