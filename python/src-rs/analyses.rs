@@ -58,7 +58,7 @@ pub fn in_time(scene: &Scene, held: Held<'_>, watch: &mut Watch) -> Answer {
     let written = write_in_time(&solved, &watch.cost(), sink.view.as_ref(), &results)?;
     results.finish(drop)?;
     let failure = solved.verdict().err().map(Complaint::from);
-    Ok(Result::written("dynamic", written.answer, folder, failure))
+    Result::written("dynamic", written.answer, folder, failure)
 }
 
 /// Many cases of a scene, a row a case; `again`: the call that makes it again.
@@ -75,7 +75,7 @@ pub fn vary(plan: &Plan, again: &str, held: Held<'_>, watch: &mut Watch) -> Answ
     let words = PageWords { again, ..PageWords::default() };
     let written = write_cases((plan, &done), words, watch.cost(), &results)?;
     results.finish(drop)?;
-    Ok(Result::written("plan", written.answer, folder, None))
+    Result::written("plan", written.answer, folder, None)
 }
 
 /// The quietest micro-geometry; `again`: words of the command that make it again.
@@ -96,7 +96,7 @@ pub fn optimum(plan: &Optimisation, again: &str, held: Held<'_>, watch: &mut Wat
     let of = OptimumResult { optimum: &found, summary: &summary, scene: &scene, again };
     let written = write_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
-    Ok(Result::written("optimum", written.answer, folder, None))
+    Result::written("optimum", written.answer, folder, None)
 }
 
 /// The design whose numbers are smallest within limits; `again`: the call that makes it again.
@@ -122,5 +122,5 @@ pub fn number_optimum(plan: &NumberOptimisation, again: &str, held: Held<'_>, wa
     let of = NumberOptimumResult { plan, optimum: &optimum, again };
     let written = write_number_optimum(&of, watch.cost(), &results)?;
     results.finish(drop)?;
-    Ok(Result::written("optimum", written.answer, folder, None))
+    Result::written("optimum", written.answer, folder, None)
 }

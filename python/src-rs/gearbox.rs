@@ -159,5 +159,5 @@ fn solved(file: &GearboxFile, cache: &dyn GearCache, watch: &mut Watch) -> Answe
     let written = write_gearbox(file, &solved, watch.cost(), &results)?;
     results.finish(drop)?;
     let failure = solved.verdict(file).err().map(Complaint::from);
-    Ok(Result::written("gearbox", written.answer, folder, failure))
+    Result::written("gearbox", written.answer, folder, failure)
 }

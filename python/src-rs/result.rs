@@ -56,6 +56,8 @@ fn values<'py>(py: Python<'py>, values: &Values) -> PyResult<Bound<'py, PyAny>> 
     match values {
         Values::Numbers(list) => Ok(PyArray1::from_slice(py, list).into_any()),
         Values::Texts(list) => Ok(PyList::new(py, list)?.into_any()),
+        // All tables are in memory.
+        Values::Kept(_) => Ok(PyList::empty(py).into_any()),
     }
 }
 
@@ -75,14 +77,22 @@ impl Result {
 
     /// Result of an answer whose files are written in the folder [`FILES`] of `folder`; `failure`: why it does not
     /// hold.
-    pub fn written(kind: &'static str, answer: Answer, folder: TempDir, failure: Option<Complaint>) -> Self {
+    pub fn written(
+        kind: &'static str,
+        answer: Answer,
+        folder: TempDir,
+        failure: Option<Complaint>,
+    ) -> std::result::Result<Self, Complaint> {
         let Answer { name, tables, headline, remarks, checks, .. } = answer;
+        // Arrays are views of what is in memory.
+        let tables = tables.into_iter().map(Table::in_memory).collect::<std::result::Result<Vec<_>, _>>();
+        let tables = tables.map_err(report::ReportError::from)?;
         let failure = failure.or_else(|| {
             let failed = checks.failed()?;
             let message = format!("{name}: check failed: {}", failed.missed);
             Some(Complaint::new(Kind::NoResult, message, Some(failed.hint.to_owned())))
         });
-        Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure }
+        Ok(Self { kind, name, tables, headline, remarks, files: Files::Written(folder), failure })
     }
 
     /// Columns of the rows, in their order.

@@ -1,6 +1,8 @@
 //! Scenes in time, from a checked scene to a result folder: what is computed stands in [`analysis::in_time`], what is
 //! written in [`report::write_in_time`]. What is added here are the checkpoints of one motion.
 
+use std::sync::Arc;
+
 use analysis::{Context, Ending, Solved, in_time::is_one_motion, motion::MotionLayout};
 use export::MotionFileSink;
 use report::write_in_time;
@@ -61,7 +63,7 @@ pub(crate) fn solve(
             let checkpoint = stored.state.checkpoint();
             let layout = MotionLayout::of(scene, checkpoint.window);
             let rows = read_rows(&layout, folder, &stored.state.rows)?;
-            context = context.resume((checkpoint, rows));
+            context = context.resume((checkpoint, Arc::new(rows)));
         }
         let mut sink = MotionFileSink::new(scene, folder, Some(checkpoints), from.as_ref()).with_fields(results);
         let solved = match analysis::solve(scene, context.with_sink(&mut sink))? {

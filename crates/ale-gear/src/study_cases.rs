@@ -11,7 +11,7 @@ use analysis::{
 use columns::read_columns;
 use columns::solved_rows;
 use report::study_files::{CaseMiss, CaseResult, CaseRun};
-use report::{Cost, write_static_rows};
+use report::{Cost, ReportError, write_static_rows};
 use scene::{
     Kind,
     study::{RefusedCase, Study, StudyCase},
@@ -90,7 +90,10 @@ fn one(study: &Study, i: usize, kept: &KeptCases, runner: CaseRunner<'_>) -> Res
     };
     own.finish(talk::note)?;
     Ok(Ok(CaseRun {
-        record: CaseRecord { rows: solved_rows(&solved), geometry: gears::geometry_facts(&scene.gear_pair()?) },
+        record: CaseRecord {
+            rows: solved_rows(&solved).map_err(ReportError::from)?,
+            geometry: gears::geometry_facts(&scene.gear_pair()?),
+        },
         cost,
         steps: steps(&solved.headline()?),
         has_report: has_report(&folder),

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         .set("motion.mesh_damping_ratio", 0.06)
         .build()?;
     let result = MotionAnalysis::new(&scene).solve()?;
-    let dte_um: Vec<f64> = result.rows.iter().map(|row| row.dte_um).collect();
+    let dte_um = result.rows.series(0..result.rows.len(), |row| row.dte_um)?;
     let h = &result.headline;
     println!(
         "{} rows, {:.3} um peak to peak, at rest {:.3} um",

@@ -2,7 +2,7 @@
 
 use std::{path::Path, sync::Arc};
 
-use answer::FailedCheck;
+use answer::{FailedCheck, TableError};
 use dynamics::PairMotionError;
 use files::{Located, Place};
 use gearbox::GearboxError;
@@ -57,6 +57,9 @@ pub enum AnalysisError {
     /// A record that no statistics can be made of.
     #[error(transparent)]
     Statistics(#[from] StudyError),
+    /// Rows of a motion find no room, or cannot be read back.
+    #[error(transparent)]
+    Rows(#[from] TableError),
     /// A question that has no answer, in words.
     #[error("{0}")]
     Refused(Box<Refusal>),
@@ -172,7 +175,7 @@ impl AnalysisError {
         let without_result = match self.what() {
             Self::Refused(refusal) => return refusal.blame,
             Self::Motion(_) | Self::Periodic(_) | Self::Statistics(_) => true,
-            Self::Certificate(_) | Self::Sink(_) | Self::Cancelled => true,
+            Self::Certificate(_) | Self::Rows(_) | Self::Sink(_) | Self::Cancelled => true,
             Self::Lumped(source) => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
             Self::Gearbox(source) => source.is_without_result(),
             Self::Reduction(source) => source.is_without_result(),
@@ -197,6 +200,7 @@ impl AnalysisError {
                 "begin where the motion is small, far from a resonance (`from`), with more `most_harmonics` or a larger `tail`; `run = \"steady\"` shows whether the motion repeats itself there".to_owned(),
             ),
             Self::Statistics(e) => e.hint(),
+            Self::Rows(e) => Some(e.hint().to_owned()),
             Self::Refused(refusal) => refusal.hint.clone(),
             Self::Certificate(failed) => Some(failed.hint.to_owned()),
             Self::At(_) | Self::Shared(_) | Self::Cancelled | Self::Sink(_) => None,

@@ -1,5 +1,8 @@
 //! A scene in time, solved by the analysis that it asks for, without a file.
 
+use std::sync::Arc;
+
+use answer::RowStore;
 use mesh::Mesh;
 use scene::Scene;
 use serde_json::Value;
@@ -108,7 +111,7 @@ pub(crate) struct InTime<'a> {
     /// Where reduced gears come from and go to.
     pub cache: &'a dyn GearCache,
     /// State to go on from, with the rows before it.
-    pub from: Option<(MotionCheckpoint, Vec<MotionRow>)>,
+    pub from: Option<(MotionCheckpoint, Arc<RowStore<MotionRow>>)>,
     /// Mesh cycles after which it stops.
     pub stop_after: Option<u64>,
 }

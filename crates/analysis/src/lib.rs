@@ -73,6 +73,7 @@ pub mod remark;
 pub mod resolution;
 pub mod results;
 mod run_up;
+mod running;
 mod shared_models;
 mod shared_solutions;
 mod sink;

@@ -1,7 +1,8 @@
 //! A scene of any kind, solved without a file.
 
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
+use answer::RowStore;
 use ltca::StaticHistory;
 use scene::Scene;
 use serde_json::Value;
@@ -55,7 +56,7 @@ pub fn solve<Q: Question + ?Sized>(question: &Q, context: Context<'_, Q>) -> Res
 impl Question for Scene {
     type Answer = Solved;
     type Sink<'s> = dyn MotionSink + 's;
-    type State = (MotionCheckpoint, Vec<MotionRow>);
+    type State = (MotionCheckpoint, Arc<RowStore<MotionRow>>);
 
     fn answer(&self, context: Context<'_, Self>) -> Result<Ending<Solved>, AnalysisError> {
         let Context { observer, cache, models, meshes, remarks, sink, from, stop_after } = context;

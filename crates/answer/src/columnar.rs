@@ -1,6 +1,9 @@
 //! A table as a Parquet file: the same columns in the same order, numbers bit for bit.
 
-use std::sync::Arc;
+use std::{
+    io::{self, Write},
+    sync::Arc,
+};
 
 use parquet::basic::{Compression, ConvertedType, Encoding, Repetition, Type as Physical};
 use parquet::data_type::{ByteArray, ByteArrayType, DoubleType};
@@ -9,44 +12,56 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
 
-use crate::{Table, TableError, Values};
+use crate::{Table, TableError, Values, table::Part};
 
 /// Rows of a group.
 const GROUP: usize = 65_536;
 
-/// The bytes of a Parquet file of a table, in groups of 65,536 rows, Snappy.
+/// Writes the Parquet file of a table, in groups of 65,536 rows, Snappy: one group at a time is in memory.
 ///
 /// # Errors
-/// [`TableError::Parquet`] when a name is none that the format takes.
-pub fn parquet_bytes(table: &Table) -> Result<Vec<u8>, TableError> {
-    write(table).map_err(|cause| TableError::Parquet { table: table.name.to_string(), cause })
-}
-
-fn write(table: &Table) -> Result<Vec<u8>, ParquetError> {
-    let mut bytes = Vec::new();
+/// [`TableError::Parquet`] when a name is none that the format takes, [`TableError::Write`] when the system refuses; [`TableError::Kept`] where
+/// rows cannot be read back.
+pub fn write_parquet(table: &Table, to: impl Write + Send) -> Result<(), TableError> {
+    let refused = |cause| refused(&table.name, cause);
     let columns: Vec<(&str, bool)> =
         table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
-    let mut writer =
-        SerializedFileWriter::new(&mut bytes, schema(&table.name, &columns)?, Arc::new(properties(&columns)))?;
+    let schema = schema(&table.name, &columns).map_err(refused)?;
+    let mut writer = SerializedFileWriter::new(to, schema, Arc::new(properties(&columns))).map_err(refused)?;
     let rows = table.rows();
     for first in (0..rows).step_by(GROUP) {
-        let mut group = writer.next_row_group()?;
-        for column in &table.columns {
-            let Some(mut to) = group.next_column()? else { break };
-            let own = first..rows.min(first + GROUP);
-            match &column.values {
-                Values::Numbers(list) => to.typed::<DoubleType>().write_batch(&list[own], None, None)?,
-                Values::Texts(list) => {
-                    let texts: Vec<ByteArray> = list[own].iter().map(|t| ByteArray::from(t.as_str())).collect();
-                    to.typed::<ByteArrayType>().write_batch(&texts, None, None)?
-                }
-            };
-            to.close()?;
-        }
-        group.close()?;
+        let parts = table.parts(first..rows.min(first + GROUP))?;
+        write_group(&mut writer, &parts).map_err(refused)?;
     }
-    writer.close()?;
-    Ok(bytes)
+    writer.close().map(|_| ()).map_err(refused)
+}
+
+/// What the library says, or the system through it.
+fn refused(table: &str, cause: ParquetError) -> TableError {
+    let table = table.to_owned();
+    match cause {
+        ParquetError::External(cause) => match cause.downcast::<io::Error>() {
+            Ok(cause) => TableError::Write { table, cause: *cause },
+            Err(cause) => TableError::Parquet { table, cause: ParquetError::External(cause) },
+        },
+        cause => TableError::Parquet { table, cause },
+    }
+}
+
+fn write_group<W: Write + Send>(writer: &mut SerializedFileWriter<W>, parts: &[Part<'_>]) -> Result<(), ParquetError> {
+    let mut group = writer.next_row_group()?;
+    for part in parts {
+        let Some(mut to) = group.next_column()? else { break };
+        match part {
+            Part::Numbers(list) => to.typed::<DoubleType>().write_batch(list, None, None)?,
+            Part::Texts(list) => {
+                let texts: Vec<ByteArray> = list.iter().map(|t| ByteArray::from(t.as_str())).collect();
+                to.typed::<ByteArrayType>().write_batch(&texts, None, None)?
+            }
+        };
+        to.close()?;
+    }
+    group.close().map(|_| ())
 }
 
 /// How all Parquet files of this program are written; columns as [`schema`] takes them.

@@ -1,5 +1,7 @@
 //! What can be wrong with a table.
 
+use std::{io, path::PathBuf};
+
 use parquet::errors::ParquetError;
 use thiserror::Error;
 
@@ -14,6 +16,22 @@ pub enum TableError {
         /// What it says.
         cause: ParquetError,
     },
+    /// The system refuses to write a Parquet file.
+    #[error("{table}.parquet: cannot be written: {cause}")]
+    Write {
+        /// Name of the table.
+        table: String,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// Rows that are more than memory is to hold cannot be put into a temporary file, or read from it.
+    #[error("rows cannot be kept in the folder for temporary files, {}: {cause}", folder.display())]
+    Kept {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system says.
+        cause: io::Error,
+    },
     /// A text is no file of a table.
     #[error("{table}.csv: {what}")]
     Damaged {
@@ -25,10 +43,18 @@ pub enum TableError {
 }
 
 impl TableError {
+    /// That the system refuses the file of rows.
+    pub(crate) fn kept(cause: io::Error) -> Self {
+        Self::Kept { folder: std::env::temp_dir(), cause }
+    }
+
     /// What to do about it.
     pub fn hint(&self) -> &'static str {
         match self {
-            Self::Parquet { .. } => "is the disk full? The rows are in the file with commas as well",
+            Self::Parquet { .. } | Self::Write { .. } => {
+                "is the disk full? The rows are in the file with commas as well"
+            }
+            Self::Kept { .. } => "is the disk full? `TMPDIR` names another folder; 10^6 rows take about 400 MB there",
             Self::Damaged { .. } => "make the result again",
         }
     }

@@ -8,7 +8,8 @@
 //! | [`Table`], [`Column`] | columns of numbers or texts; name, unit and meaning stand once |
 //! | [`unit_of`] | the unit that a name ends with |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
-//! | [`parquet_bytes`] | a table as a Parquet file |
+//! | [`write_parquet`] | a table as a Parquet file |
+//! | [`RowStore`], [`RowColumn`] | rows of a motion in constant memory, and columns of a table that are read off them |
 //! | [`Check`], [`Checks`] | what was demanded of a result and what was found |
 //! | [`Remark`], [`remarks!`] | what a user should hear: code, values, and the words made of them |
 //! | [`Numbers`] | numbers with so many digits, for the script of a page |
@@ -24,15 +25,19 @@ pub mod csv;
 mod error;
 mod numbers;
 mod remark;
+mod row_column;
+mod row_store;
 mod table;
 mod unit;
 
 pub use answer::{Answer, keyed};
 pub use check::{Check, Checks, FailedCheck};
-pub use columnar::parquet_bytes;
+pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
 pub use numbers::{Numbers, json};
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};
+pub use row_column::{KeptColumn, RowColumn};
+pub use row_store::RowStore;
 pub use table::{Column, Table, Values};
 pub use unit::unit_of;

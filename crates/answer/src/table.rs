@@ -1,11 +1,15 @@
 //! Rows of an answer, column by column.
 
-use std::{borrow::Cow, collections::BTreeSet, convert::Infallible};
+use std::{borrow::Cow, collections::BTreeSet, ops::Range, sync::Arc};
 
-use crate::{TableError, csv, unit_of};
+use serde::de::DeserializeOwned;
+
+use crate::{KeptColumn, RowColumn, RowStore, TableError, csv, row_column::kept, unit_of};
 
 /// Bytes of text from which on a block of lines is handed out.
 const BLOCK: usize = 1 << 16;
+/// Rows that are looked at together.
+const ROWS: usize = 2_048;
 
 /// Numbers or texts of a column, one a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,6 +18,16 @@ pub enum Values {
     Numbers(Vec<f64>),
     /// Texts.
     Texts(Vec<String>),
+    /// Numbers that are read off rows, which need not be in memory.
+    Kept(KeptColumn),
+}
+
+/// Values of some rows of a column.
+pub(crate) enum Part<'a> {
+    /// Numbers.
+    Numbers(Cow<'a, [f64]>),
+    /// Texts.
+    Texts(&'a [String]),
 }
 
 impl Values {
@@ -22,6 +36,7 @@ impl Values {
         match self {
             Self::Numbers(list) => list.len(),
             Self::Texts(list) => list.len(),
+            Self::Kept(column) => column.len(),
         }
     }
 
@@ -46,9 +61,27 @@ impl Column {
     /// Unit as in a text, `""` for a number without one ([`unit_of`] the name).
     pub fn unit(&self) -> String {
         match self.values {
-            Values::Numbers(_) => unit_of(&self.name),
+            Values::Numbers(_) | Values::Kept(_) => unit_of(&self.name),
             Values::Texts(_) => String::new(),
         }
+    }
+
+    /// Its numbers, where they are in memory; nothing of one of texts, or of one that is read off rows.
+    pub fn numbers(&self) -> &[f64] {
+        match &self.values {
+            Values::Numbers(list) => list,
+            Values::Texts(_) | Values::Kept(_) => &[],
+        }
+    }
+
+    /// Whether it holds texts.
+    pub fn is_of_texts(&self) -> bool {
+        matches!(self.values, Values::Texts(_))
+    }
+
+    /// Name and meaning, without values.
+    fn named(&self) -> Self {
+        Self { name: self.name.clone(), meaning: self.meaning.clone(), values: Values::Numbers(Vec::new()) }
     }
 }
 
@@ -102,12 +135,23 @@ impl Table {
                 match column {
                     Values::Numbers(list) => list.extend(field.parse::<f64>()),
                     Values::Texts(list) => list.push(field.to_owned()),
+                    // None is read from a text.
+                    Values::Kept(_) => {}
                 }
             }
         }
         let columns = names.into_iter().zip(columns);
         let columns = columns.map(|(name, values)| Column { name: name.into(), meaning: "".into(), values }).collect();
         Ok(Self { columns, ..Self::new(name.to_owned()) })
+    }
+
+    /// A table that is read off rows.
+    pub fn of_rows<T>(name: impl Into<Cow<'static, str>>, rows: &Arc<RowStore<T>>, columns: Vec<RowColumn<T>>) -> Self
+    where
+        T: Clone + DeserializeOwned + Send + Sync + 'static,
+    {
+        let column = |(name, meaning, column)| Column { name, meaning, values: Values::Kept(column) };
+        Self { columns: kept(rows, columns).map(column).collect(), ..Self::new(name) }
     }
 
     /// A table whose file with commas is there already.
@@ -157,12 +201,11 @@ impl Table {
         self.columns.iter().map(|c| c.values.len()).min().unwrap_or(0)
     }
 
-    /// Numbers of the column of that name; `None` where there is none, or where it holds texts.
+    /// Numbers of the column of that name; `None` where there is none, where it holds texts, and where it is read off
+    /// rows: [`Self::part`] takes those into memory.
     pub fn find(&self, name: &str) -> Option<&[f64]> {
-        self.columns.iter().find(|c| c.name == name).and_then(|c| match &c.values {
-            Values::Numbers(list) => Some(&list[..]),
-            Values::Texts(_) => None,
-        })
+        let column = self.columns.iter().find(|c| c.name == name)?;
+        matches!(column.values, Values::Numbers(_)).then(|| column.numbers())
     }
 
     /// Names of all columns.
@@ -170,40 +213,101 @@ impl Table {
         self.columns.iter().map(|c| &*c.name)
     }
 
+    /// Some rows of the columns whose names are wanted, in memory.
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn part(&self, rows: Range<usize>, wanted: impl Fn(&str) -> bool) -> Result<Self, TableError> {
+        let all = || self.columns.iter().filter(|column| wanted(&column.name));
+        let values = parts(all(), rows)?.into_iter().map(|part| match part {
+            Part::Numbers(list) => Values::Numbers(list.into_owned()),
+            Part::Texts(list) => Values::Texts(list.to_vec()),
+        });
+        let own = |(column, values): (&Column, Values)| Column { values, ..column.named() };
+        let columns = all().zip(values).map(own).collect();
+        Ok(Self { name: self.name.clone(), columns, is_written: self.is_written })
+    }
+
+    /// With all rows in memory.
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn in_memory(self) -> Result<Self, TableError> {
+        if self.columns.iter().any(|column| matches!(column.values, Values::Kept(_))) {
+            return self.part(0..self.rows(), |_| true);
+        }
+        Ok(self)
+    }
+
+    /// The values of some rows, column by column.
+    pub(crate) fn parts(&self, rows: Range<usize>) -> Result<Vec<Part<'_>>, TableError> {
+        parts(self.columns.iter(), rows)
+    }
+
     /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
     /// bits.
-    pub fn csv(&self) -> String {
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn csv(&self) -> Result<String, TableError> {
         let mut text = String::new();
-        // Taking a text in memory cannot fail.
-        let _ = self.csv_in_blocks(|block| {
+        self.csv_in_blocks(|block| {
             text.push_str(block);
-            Ok::<_, Infallible>(())
-        });
-        text
+            Ok::<_, TableError>(())
+        })?;
+        Ok(text)
     }
 
     /// The text of [`Self::csv`], some lines at a time.
     ///
     /// # Errors
-    /// The first that `take` has; nothing is handed out after it.
-    pub fn csv_in_blocks<E>(&self, mut take: impl FnMut(&str) -> Result<(), E>) -> Result<(), E> {
+    /// The first that `take` has, nothing is handed out after it; [`TableError::Kept`] where rows cannot be read back.
+    pub fn csv_in_blocks<E: From<TableError>>(&self, mut take: impl FnMut(&str) -> Result<(), E>) -> Result<(), E> {
         let mut text = self.names().map(csv::quoted).collect::<Vec<_>>().join(",") + "\n";
-        for row in 0..self.rows() {
-            if text.len() >= BLOCK {
-                take(&text)?;
-                text.clear();
-            }
-            for (k, column) in self.columns.iter().enumerate() {
-                if k > 0 {
-                    text.push(',');
+        let rows = self.rows();
+        for first in (0..rows).step_by(ROWS) {
+            let block = first..rows.min(first + ROWS);
+            let parts = self.parts(block.clone())?;
+            for row in 0..block.len() {
+                if text.len() >= BLOCK {
+                    take(&text)?;
+                    text.clear();
                 }
-                match &column.values {
-                    Values::Numbers(list) => csv::push_number(&mut text, list[row]),
-                    Values::Texts(list) => text.push_str(&csv::quoted(&list[row])),
+                for (k, part) in parts.iter().enumerate() {
+                    if k > 0 {
+                        text.push(',');
+                    }
+                    match part {
+                        Part::Numbers(list) => csv::push_number(&mut text, list[row]),
+                        Part::Texts(list) => text.push_str(&csv::quoted(&list[row])),
+                    }
                 }
+                text.push('\n');
             }
-            text.push('\n');
         }
         take(&text)
     }
+}
+
+/// The values of some rows; columns that are read off the same rows are so in one pass.
+fn parts<'a>(columns: impl Iterator<Item = &'a Column>, rows: Range<usize>) -> Result<Vec<Part<'a>>, TableError> {
+    let columns: Vec<&Column> = columns.collect();
+    let mut kept: Vec<Option<Vec<f64>>> = vec![None; columns.len()];
+    for k in 0..columns.len() {
+        let (Values::Kept(first), None) = (&columns[k].values, &kept[k]) else { continue };
+        let with_it = |column: &Column| match &column.values {
+            Values::Kept(own) => own.place_in(first),
+            _ => None,
+        };
+        let places: Vec<(usize, usize)> =
+            columns.iter().enumerate().filter_map(|(i, column)| Some((i, with_it(column)?))).collect();
+        let read = first.read(rows.clone(), &places.iter().map(|place| place.1).collect::<Vec<usize>>())?;
+        places.iter().zip(read).for_each(|((i, _), values)| kept[*i] = Some(values));
+    }
+    let part = |(column, kept): (&&'a Column, Option<Vec<f64>>)| match &column.values {
+        Values::Numbers(list) => Part::Numbers(Cow::Borrowed(&list[rows.clone()])),
+        Values::Texts(list) => Part::Texts(&list[rows.clone()]),
+        Values::Kept(_) => Part::Numbers(Cow::Owned(kept.unwrap_or_default())),
+    };
+    Ok(columns.iter().zip(kept).map(part).collect())
 }

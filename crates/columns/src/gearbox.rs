@@ -1,12 +1,14 @@
 //! Rows of a gearbox at rest and in motion as tables. Meshes, bearings and outputs are numbered from 1 in the order of
 //! the file.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use analysis::gearbox::{GearboxResult, MeshResult};
-use answer::{Table, Values};
+use answer::{RowColumn, RowStore, Table, TableError, Values};
 use gearbox::{
-    BearingState, GearboxPosition, ShaftLine, line_load, motion::GearboxInstant, rolling_bearing::RollingState,
+    BearingState, GearboxPosition, ShaftLine, line_load,
+    motion::{GearboxInstant, MeshInstant},
+    rolling_bearing::RollingState,
 };
 use scene::gearbox::Gearbox;
 use study::Columns;
@@ -41,7 +43,7 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
         });
     }
     for i in 0..file.bearings.len() {
-        bearing(i, &mut |name, meaning, of| push(name, meaning, &|p| of(&p.bearings[i])));
+        bearing(i).for_each(|(name, meaning, of)| push(name, meaning, &|p| of(&p.bearings[i])));
         if file.bearings[i].rolling.is_some() {
             let of = |p: &GearboxPosition, what: fn(&RollingState) -> f64| p.rolling[i].as_ref().map_or(0.0, what);
             let name = |what: &str| format!("bearing_{}_{what}", i + 1);
@@ -58,17 +60,20 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
     table
 }
 
-/// What takes a column of a bearing: name, meaning, value.
-type BearingColumn<'a> = &'a mut dyn FnMut(String, &'static str, &dyn Fn(&BearingState) -> f64);
+/// Number of a bearing.
+type OfBearing = Box<dyn Fn(&BearingState) -> f64 + Send + Sync>;
 
-/// Forces and moments of a bearing on its shaft.
-fn bearing(i: usize, push: BearingColumn<'_>) {
-    for (k, axis) in AXES.into_iter().enumerate() {
-        push(format!("bearing_{}_force_{axis}_n", i + 1), "force on the shaft", &|b| b.force[k]);
-    }
-    for (k, axis) in AXES.into_iter().enumerate() {
-        push(format!("bearing_{}_moment_{axis}_nmm", i + 1), "moment on the shaft", &|b| b.moment[k]);
-    }
+/// Forces and moments of a bearing on its shaft: name, meaning, value.
+fn bearing(i: usize) -> impl Iterator<Item = (String, &'static str, OfBearing)> {
+    let force = move |(k, axis): (usize, &str)| {
+        let of: OfBearing = Box::new(move |b| b.force[k]);
+        (format!("bearing_{}_force_{axis}_n", i + 1), "force on the shaft", of)
+    };
+    let moment = move |(k, axis): (usize, &str)| {
+        let of: OfBearing = Box::new(move |b| b.moment[k]);
+        (format!("bearing_{}_moment_{axis}_nmm", i + 1), "moment on the shaft", of)
+    };
+    AXES.into_iter().enumerate().map(force).chain(AXES.into_iter().enumerate().map(moment))
 }
 
 /// `shafts`: one row a node of a shaft at a position.
@@ -106,51 +111,58 @@ pub fn line_loads(meshes: &[MeshResult], positions: &[GearboxPosition]) -> Table
 }
 
 /// `motion`: one row an instant.
-pub fn motion(file: &Gearbox, rows: &[GearboxInstant]) -> Table {
-    let mut table = Table::new("motion");
-    let mut push = |name: String, meaning: &'static str, of: &dyn Fn(&GearboxInstant) -> f64| {
-        table.push_numbers(name, meaning, rows.iter().map(of));
+pub fn motion(file: &Gearbox, rows: &Arc<RowStore<GearboxInstant>>) -> Table {
+    let mut columns = Vec::new();
+    let mut push = |name: String, meaning: &'static str, of: OfInstant| {
+        columns.push(RowColumn { name: name.into(), meaning: meaning.into(), of });
     };
-    push("time_s".into(), "time since the start", &|p| p.time);
-    push("input_angle_deg".into(), "angle of the input", &|p| p.input[0].to_degrees());
-    push("input_speed_rpm".into(), "speed of the input about +z", &|p| PER_MINUTE * p.input[1]);
+    push("time_s".into(), "time since the start", Box::new(|p| p.time));
+    push("input_angle_deg".into(), "angle of the input", Box::new(|p| p.input[0].to_degrees()));
+    push("input_speed_rpm".into(), "speed of the input about +z", Box::new(|p| PER_MINUTE * p.input[1]));
     let meaning = "torque on the input about +z; with a given speed the torque that keeps it";
-    push("input_torque_nm".into(), meaning, &|p| 1e-3 * p.input_torque);
+    push("input_torque_nm".into(), meaning, Box::new(|p| 1e-3 * p.input_torque));
     for i in 0..file.torques.len() {
-        push(format!("output_{}_speed_rpm", i + 1), "speed of the output", &|p| PER_MINUTE * p.output_speeds[i]);
+        let of = move |p: &GearboxInstant| PER_MINUTE * p.output_speeds[i];
+        push(format!("output_{}_speed_rpm", i + 1), "speed of the output", Box::new(of));
     }
     for i in 0..file.meshes.len() {
-        let name = |what: &str| format!("mesh_{}_{what}", i + 1);
-        push(name("cycles"), "mesh cycles since the start: whole ones and the phase", &|p| p.meshes[i].cycles);
-        push(name("dte_um"), "dynamic transmission error from the rotations of both gears", &|p| {
-            1e3 * p.meshes[i].transmission_error
-        });
-        push(name("dte_rate_um_per_s"), "rate of the dynamic transmission error", &|p| {
-            1e3 * p.meshes[i].transmission_error_rate
-        });
-        push(name("normal_force_n"), "sum of the normal forces, without damping", &|p| p.meshes[i].normal_force);
+        let mut mesh = |what: &str, meaning: &'static str, of: fn(&MeshInstant) -> f64| {
+            push(format!("mesh_{}_{what}", i + 1), meaning, Box::new(move |p| of(&p.meshes[i])));
+        };
+        mesh("cycles", "mesh cycles since the start: whole ones and the phase", |m| m.cycles);
+        let meaning = "dynamic transmission error from the rotations of both gears";
+        mesh("dte_um", meaning, |m| 1e3 * m.transmission_error);
+        let meaning = "rate of the dynamic transmission error";
+        mesh("dte_rate_um_per_s", meaning, |m| 1e3 * m.transmission_error_rate);
+        mesh("normal_force_n", "sum of the normal forces, without damping", |m| m.normal_force);
     }
     for i in 0..file.bearings.len() {
-        bearing(i, &mut |name, meaning, of| push(name, meaning, &|p| of(&p.bearings[i])));
+        bearing(i).for_each(|(name, meaning, of)| push(name, meaning, Box::new(move |p| of(&p.bearings[i]))));
     }
-    table
+    Table::of_rows("motion", rows, columns)
 }
 
+/// Number of an instant.
+type OfInstant = Box<dyn Fn(&GearboxInstant) -> f64 + Send + Sync>;
+
 /// The rows that a plan reads numbers off: of a motion, else of the positions at rest.
-pub fn history(file: &Gearbox, result: &GearboxResult) -> Columns {
+///
+/// # Errors
+/// [`TableError::Kept`] where rows cannot be read back.
+pub fn history(file: &Gearbox, result: &GearboxResult) -> Result<Columns, TableError> {
     let table = match &result.motion {
         Some(own) => motion(file, &own.rows),
         None => positions(file, &result.positions),
     };
     let series = |column: answer::Column| match column.values {
         Values::Numbers(values) => Some((column.name.into_owned(), values)),
-        Values::Texts(_) => None,
+        Values::Texts(_) | Values::Kept(_) => None,
     };
-    table.columns.into_iter().filter_map(series).collect()
+    Ok(table.in_memory()?.columns.into_iter().filter_map(series).collect())
 }
 
 /// Names of the columns of [`history`], before anything is solved.
 pub fn history_columns(file: &Gearbox) -> Vec<String> {
-    let table = if file.motion.is_some() { motion(file, &[]) } else { positions(file, &[]) };
+    let table = if file.motion.is_some() { motion(file, &Arc::default()) } else { positions(file, &[]) };
     table.columns.into_iter().map(|column| column.name.into_owned()).collect()
 }

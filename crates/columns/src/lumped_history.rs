@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use analysis::lumped::{CoordinateAxis, GearCoordinate, LumpedQuantity, LumpedRow, gear_coordinates};
+use answer::{RowStore, TableError};
 use scene::{Model, Scene};
 use study::Columns;
 
@@ -73,7 +74,10 @@ impl LumpedLayout {
 }
 
 /// The rows of a scene as columns by name, for charts and studies of any analysis.
-pub fn lumped_columns<'a>(scene: &Scene, rows: impl IntoIterator<Item = &'a LumpedRow>) -> Columns {
+///
+/// # Errors
+/// [`TableError::Kept`] where rows cannot be read back.
+pub fn lumped_columns(scene: &Scene, rows: &RowStore<LumpedRow>) -> Result<Columns, TableError> {
     let layout = LumpedLayout::of(scene);
     layout.sheet().columns(&layout, rows)
 }

@@ -1,10 +1,10 @@
 //! What a column of a file of rows is, and how files are made of them.
 
-use std::fmt::Debug;
+use std::{fmt::Debug, sync::Arc};
 
+use answer::{RowColumn, RowStore, TableError, csv::push_row};
+use serde::de::DeserializeOwned;
 use study::Columns;
-
-use answer::csv::push_row;
 
 /// The gears as columns and files name them.
 pub const GEARS: [&str; 2] = ["pinion", "wheel"];
@@ -16,7 +16,7 @@ const PAIR: &str = "<k>";
 /// A kind of rows.
 pub trait Rows: 'static {
     /// What all rows of a file share.
-    type Layout;
+    type Layout: 'static;
     /// What one row is made of.
     type Record;
 
@@ -167,10 +167,16 @@ impl<R: Rows> Sheet<R> {
     }
 
     /// All numbers by the names of their columns.
-    pub fn columns<'a>(&self, layout: &R::Layout, records: impl IntoIterator<Item = &'a R::Record>) -> Columns {
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn columns(&self, layout: &R::Layout, rows: &RowStore<R::Record>) -> Result<Columns, TableError>
+    where
+        R::Record: Clone + DeserializeOwned,
+    {
         let mut columns = Columns::named(self.names());
-        records.into_iter().for_each(|record| columns.push(self.row(layout, record)));
-        columns
+        rows.for_each(0..rows.len(), |record| columns.push(self.row(layout, record)))?;
+        Ok(columns)
     }
 
     /// The whole as a table of this name.
@@ -189,6 +195,26 @@ impl<R: Rows> Sheet<R> {
             table.push_numbers(column.name_at(*at), column.meaning, values);
         }
         table
+    }
+
+    /// A table of this name that is read off rows of a motion; `record`: what of a row the columns are of.
+    pub fn kept<T>(
+        &self,
+        name: &'static str,
+        layout: &R::Layout,
+        rows: &Arc<RowStore<T>>,
+        record: fn(&T) -> &R::Record,
+    ) -> answer::Table
+    where
+        T: Clone + DeserializeOwned + Send + Sync + 'static,
+        R::Layout: Clone + Send + Sync,
+    {
+        let column = |&(column, at): &(Column<R>, At)| {
+            let layout = layout.clone();
+            let of = move |row: &T| (column.value)(&layout, record(row), at);
+            RowColumn { name: column.name_at(at).into(), meaning: column.meaning.into(), of: Box::new(of) }
+        };
+        answer::Table::of_rows(name, rows, self.columns.iter().map(column).collect())
     }
 
     /// The whole file.

@@ -1,7 +1,7 @@
 //! Results of contact: forces and moments on the gears, and the state of each loaded slice.
 
 use geometry::Side;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::{
     Pose, Vec3,
@@ -49,7 +49,7 @@ impl MeshForce {
 }
 
 /// Part of the flanks that presses.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Site {
     /// Flank against flank.

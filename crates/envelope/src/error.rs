@@ -1,6 +1,7 @@
 //! Why a failure mode could not be examined.
 
 use analysis::AnalysisError;
+use answer::TableError;
 use scene::SceneError;
 
 /// Why a failure mode could not be examined. What a mode is about is no error but a value of a figure.
@@ -21,6 +22,12 @@ pub enum EnvelopeError {
         /// What was said.
         reason: String,
     },
+}
+
+impl From<TableError> for EnvelopeError {
+    fn from(e: TableError) -> Self {
+        Self::Analysis(e.into())
+    }
 }
 
 impl EnvelopeError {

@@ -17,7 +17,12 @@ use columns::solved_rows;
 /// Why there is none: a name that stands for no number, a headline without value.
 pub fn case_values(outputs: &[PlanOutput], solved: &Solved) -> Result<Vec<f64>, String> {
     let headline = || solved.headline().map_err(|e| e.to_string());
-    of_case(outputs, headline, || solved_rows(solved), Some(solved.scene().analysis.cycles as usize))
+    of_case(
+        outputs,
+        headline,
+        || solved_rows(solved).map_err(|e| e.to_string()),
+        Some(solved.scene().analysis.cycles as usize),
+    )
 }
 
 /// Outputs of a solved gearbox: of its motion where it has one, else over whole cycles of its first mesh.
@@ -26,18 +31,19 @@ pub fn case_values(outputs: &[PlanOutput], solved: &Solved) -> Result<Vec<f64>, 
 /// As [`case_values`].
 pub fn gearbox_values(outputs: &[PlanOutput], file: &Gearbox, result: &GearboxResult) -> Result<Vec<f64>, String> {
     let cycles = file.motion.is_none().then_some(file.cycles as usize);
-    of_case(outputs, || Ok(result.headline()), || columns::gearbox::history(file, result), cycles)
+    let rows = || columns::gearbox::history(file, result).map_err(|e| e.to_string());
+    of_case(outputs, || Ok(result.headline()), rows, cycles)
 }
 
 /// `cycles`: whole mesh cycles of the rows, where they are.
 fn of_case(
     outputs: &[PlanOutput],
     headline: impl FnOnce() -> Result<Value, String>,
-    rows: impl FnOnce() -> Columns,
+    rows: impl FnOnce() -> Result<Columns, String>,
     cycles: Option<usize>,
 ) -> Result<Vec<f64>, String> {
     let needs = |headline: bool| outputs.iter().any(|o| matches!(o, PlanOutput::Headline(_)) == headline);
-    let rows = if needs(false) { rows() } else { Columns::default() };
+    let rows = if needs(false) { rows()? } else { Columns::default() };
     let headline = if needs(true) { headline()? } else { Value::Null };
     let one = |output: &PlanOutput| match output {
         PlanOutput::Headline(key) => of_headline(&headline, key),

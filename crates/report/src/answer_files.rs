@@ -1,6 +1,6 @@
 //! An answer of any kind as the files of a result.
 
-use answer::{Answer, Checks, Cost, Remark, parquet_bytes};
+use answer::{Answer, Checks, Cost, Remark};
 use described::Key;
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -113,7 +113,7 @@ fn write_tables(answer: &Answer, with_parquet: bool, results: &ResultDirectory) 
             results.write_csv(table)?;
         }
         if with_parquet {
-            results.write(&format!("{}.parquet", table.name), &parquet_bytes(table)?)?;
+            results.write_parquet(table)?;
         }
     }
     Ok(())

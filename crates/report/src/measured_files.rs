@@ -17,6 +17,8 @@ const HARMONICS: u32 = 10;
 pub struct MeasuredFiles {
     /// Names and contents.
     pub files: Vec<(String, String)>,
+    /// Tables that go beside them.
+    pub tables: Vec<Table>,
     /// What is said on stdout.
     pub text: String,
 }
@@ -53,11 +55,10 @@ pub fn measured_files(
         files.push((format!("{name}_{which}.csv"), topography_csv(topography, source)));
         scene += &format!("[{name}.modification.{which}]\ntopography = \"{name}_{which}.csv\"\n");
     }
-    files.push((format!("{name}_evaluation.csv"), evaluation_table(name, &evaluation).csv()));
-    files.push((format!("{name}_ripple.csv"), ripple_table(name, &ripples).csv()));
+    let tables = vec![evaluation_table(name, &evaluation), ripple_table(name, &ripples)];
     files.extend(pictures(measured, name, &ripples));
     let text = text(&flanks, &evaluation, &ripples, teeth) + "\nFor the scene:\n" + &scene;
-    Ok(MeasuredFiles { files, text })
+    Ok(MeasuredFiles { files, tables, text })
 }
 
 /// A topography in its own format, by tooth.

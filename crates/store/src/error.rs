@@ -2,6 +2,7 @@
 
 use std::{io, path::PathBuf};
 
+use answer::TableError;
 use columns::ColumnsError;
 use study::StudyError;
 
@@ -34,6 +35,9 @@ pub enum StoreError {
     /// Rows that were kept are not those of the motion.
     #[error(transparent)]
     Rows(#[from] StudyError),
+    /// A table does not become a file.
+    #[error(transparent)]
+    Table(#[from] TableError),
     /// A run that cannot go on from a checkpoint.
     #[error(transparent)]
     Checkpoint(#[from] CheckpointError),
@@ -47,6 +51,7 @@ impl StoreError {
             Self::Folder { hint, .. } => Some((*hint).to_owned()),
             Self::Columns(e) => Some(e.hint().to_owned()),
             Self::Rows(e) => e.hint(),
+            Self::Table(e) => Some(e.hint().to_owned()),
             Self::Checkpoint(e) => e.hint(),
         }
     }

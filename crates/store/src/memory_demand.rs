@@ -1,25 +1,23 @@
 //! Whether memory holds the rows that a scene asks for: told before any work, with the keys that ask for them.
 //!
-//! Each count is within its range; products of counts need not be. Rows are kept until statistics, charts and files are
-//! made of them.
+//! Each count is within its range; products of counts need not be. Rows of a motion are kept in a file; statistics, spectra
+//! and charts take some columns of them at a time.
 
 use std::mem::size_of;
 
-use analysis::lumped::{LumpedRow, is_lumped};
+use analysis::lumped::is_lumped;
 use contact::SliceResult;
 use ltca::{PairResult, StaticPosition};
 use scene::{MesherScene, MotionScene, Place, Scene};
 
-use crate::checkpoint::motion_column_names;
 use columns::history_columns;
 
 /// A number in memory, and as text.
 const NUMBER: usize = size_of::<f64>();
 const TEXT: usize = 20;
-/// Columns of a cheaper model, about.
-const LUMPED_COLUMNS: usize = 40;
-/// A row of a cheaper model, its coordinates with their rates included.
-const LUMPED_ROW: usize = size_of::<LumpedRow>() + 24 * NUMBER;
+/// What a row of a motion takes in memory, about: its numbers in the columns that a spectrum or a chart is made of at a
+/// time, with their copies on the way.
+const ROW: usize = 20 * NUMBER;
 /// Teeth of a window, about, where the contact ratio says.
 const WINDOW: usize = 3;
 /// Square matrices of all slices of a window that contact holds at a time.
@@ -91,7 +89,7 @@ pub fn check_sweep_memory(
         rows.push(("mesh cycles of a turn".to_owned(), f64::from(every)));
     }
     // Ways are run side by side.
-    let bytes_each = (ways.max(1) * LUMPED_ROW) as f64;
+    let bytes_each = (ways.max(1) * ROW) as f64;
     let along = vec![("--points".to_owned(), values as f64), cycles, ("ways".to_owned(), ways as f64)];
     let sections = Demand { what: "points of sections", factors: along, bytes_each: (NUMBER + 3 * TEXT) as f64 };
     let both = [Demand { what: "rows", factors: rows, bytes_each }, sections];
@@ -117,13 +115,11 @@ fn demands(scene: &Scene) -> Vec<Demand> {
         Some(words) => {
             let mut factors =
                 vec![cycles(scene, words), count("motion.steps_per_mesh_cycle", words.steps_per_mesh_cycle)];
-            let is_cheaper = is_lumped(scene);
-            let columns = if is_cheaper { LUMPED_COLUMNS } else { motion_column_names(scene).len() + WINDOW };
-            let mut bytes_each = columns * (NUMBER + TEXT) + if is_cheaper { LUMPED_ROW } else { 0 };
+            let mut bytes_each = ROW;
             if let Some(sweep) = &words.sweep {
-                if is_cheaper {
+                if is_lumped(scene) {
                     // Rows of a speed are let go before the next one; ways are run side by side.
-                    bytes_each = LUMPED_ROW * sweep.ways.len();
+                    bytes_each = ROW * sweep.ways.len();
                 } else {
                     factors.push(count("motion.sweep.speeds", sweep.speeds));
                     bytes_each = 2 * NUMBER * sweep.ways.len();

@@ -35,7 +35,9 @@ pub use harmonics::{Harmonic, mesh_harmonics, unresolved_share};
 pub use lyapunov::{Lyapunov, LyapunovPlan, largest_lyapunov};
 pub use order_tracking::order_amplitude;
 pub use phase_portrait::{PhasePortrait, phase_portrait};
-pub use poincare::{crossing_section, iterated_section, section_period, stroboscopic_section};
+pub use poincare::{
+    crossing_section, iterated_section, section_period, section_points, section_times, stroboscopic_section,
+};
 pub use power_law::{PowerLaw, power_law};
 pub use spectrum::{Peak, Sidebands, Spectrum, Window, scalloping_loss, spectrum};
 pub use work_precision::{Answer, AnswerError, Work};

@@ -17,7 +17,16 @@ pub fn stroboscopic_section(
     period: f64,
     offset: f64,
 ) -> Result<Vec<Vec<f64>>, StudyError> {
-    check(times, columns)?;
+    let at = section_times(times, period, offset)?;
+    section_points(times, columns, &at)
+}
+
+/// Times of a section: offset, offset + period, ... as far as the samples at `times` reach.
+///
+/// # Errors
+/// [`StudyError`] for times that do not ascend, a period that is not positive or shorter than the samples are apart.
+pub fn section_times(times: &[f64], period: f64, offset: f64) -> Result<Vec<f64>, StudyError> {
+    check(times, &[])?;
     positive("period", period)?;
     if !offset.is_finite() {
         return Err(StudyError::NotFinite { index: 0, value: offset });
@@ -30,10 +39,17 @@ pub fn stroboscopic_section(
     let slack = 1e-9 * period;
     let start = ((first - offset - slack) / period).ceil() as i64;
     let end = ((last - offset + slack) / period).floor() as i64;
-    Ok((start..=end)
-        .map(|k| (offset + k as f64 * period).clamp(first, last))
-        .map(|t| columns.iter().map(|column| interpolated(times, column, t)).collect())
-        .collect())
+    Ok((start..=end).map(|k| (offset + k as f64 * period).clamp(first, last)).collect())
+}
+
+/// Points of a motion at the times `at`, by cubic interpolation through the two samples on either side: of a long motion
+/// the samples around them are enough.
+///
+/// # Errors
+/// [`StudyError`] for columns of other lengths, numbers that are none, times that do not ascend.
+pub fn section_points(times: &[f64], columns: &[&[f64]], at: &[f64]) -> Result<Vec<Vec<f64>>, StudyError> {
+    check(times, columns)?;
+    Ok(at.iter().map(|&t| columns.iter().map(|column| interpolated(times, column, t)).collect()).collect())
 }
 
 /// Points at which `surface` goes through zero from below, the columns interpolated to that time; one point a crossing,

@@ -124,6 +124,7 @@ pub fn spectrum(samples: &[f64], rate: f64, window: Window) -> Result<Spectrum, 
     // The weighted mean leaves nothing at f = 0 that would leak into low lines.
     let mean = samples.iter().zip(&weights).map(|(x, w)| x * w).sum::<f64>() / sum;
     let windowed: Vec<f64> = samples.iter().zip(&weights).map(|(x, w)| w * (x - mean) * 2.0 / sum).collect();
+    drop(weights);
     let transform = real_transform(windowed.clone()).unwrap_or_default();
     let last = transform.len().saturating_sub(1);
     let amplitudes = transform

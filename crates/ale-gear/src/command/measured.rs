@@ -39,7 +39,11 @@ impl MeasuredArgs {
         let measured = metrology::read_mka(&bytes, path).map_err(refused)?;
         let made = measured_files(&measured, gear.1, (gear.0, scene.side()), file).map_err(refused)?;
         std::fs::create_dir_all(out).map_err(|e| CommandError::write(out, &e))?;
-        for (name, content) in &made.files {
+        let mut all = made.files;
+        for table in &made.tables {
+            all.push((format!("{}.csv", table.name), table.csv().map_err(report::ReportError::from)?));
+        }
+        for (name, content) in &all {
             let path = out.join(name);
             files::write_file(&path, content.as_bytes()).map_err(|e| CommandError::write(&path, &e))?;
         }

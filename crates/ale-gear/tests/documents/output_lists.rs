@@ -71,7 +71,7 @@ fn columns_without_rows((what, table): (String, Table)) -> Listed {
         let name = general(column, &table);
         let unit = match column.values {
             Values::Texts(_) => "text".to_owned(),
-            Values::Numbers(_) => column.unit(),
+            Values::Numbers(_) | Values::Kept(_) => column.unit(),
         };
         if seen.insert(name.clone()) {
             rows += &line(&name, &unit, &column.meaning);

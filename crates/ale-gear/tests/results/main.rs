@@ -4,6 +4,7 @@ mod certificates;
 mod contact_pattern;
 mod derivatives;
 mod ledger;
+mod many_rows;
 mod modes;
 mod motion;
 mod motion_analyses;

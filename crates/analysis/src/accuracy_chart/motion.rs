@@ -91,7 +91,7 @@ fn elastic(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, Analysis
         return Err(crate::error::unasked(scene, "motion"));
     };
     crate::certificate::verdict(&result.facts.certificate, scene)?;
-    let dte: Vec<f64> = result.rows.iter().map(|row| row.dte_um).collect();
+    let dte = result.rows.series(0..result.rows.len(), |row| row.dte_um)?;
     let offline_s = phases.wall_s(|name| !matches!(name, "settle" | "solve"));
     Ok(MotionPoint::of(&dte, 1, offline_s, phases.wall_s(|name| name == "solve") / f64::from(CYCLES)))
 }
@@ -105,7 +105,7 @@ fn cheap(scene: &Scene, tools: ChartTools<'_>) -> Result<MotionPoint, AnalysisEr
     let offline_s = start.elapsed().as_secs_f64();
     let start = Instant::now();
     let (rows, cycles) = steady_rows(&inputs, system)?;
-    let dte: Vec<f64> = rows.iter().map(|r| r.transmission_error_um).collect();
+    let dte = rows.series(0..rows.len(), |row| row.transmission_error_um)?;
     Ok(MotionPoint::of(&dte, coordinates, offline_s, start.elapsed().as_secs_f64() / cycles as f64))
 }
 

@@ -145,22 +145,22 @@ const NUMBERS: [Number; 32] = [
     list(
         "peak_to_peak_dte_um",
         "peak to peak of the dynamic transmission error of each mesh, second half of the rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.settled(|p| 1e3 * p.meshes[i].transmission_error).span()),
+        Of::MeshesMoving(|m, i| m.reached.dte_um[i].span()),
     ),
     list(
         "min_normal_force_n",
         "smallest normal force of each mesh, second half of the rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.settled(|p| p.meshes[i].normal_force).least),
+        Of::MeshesMoving(|m, i| m.reached.normal_force[i].least),
     ),
     list(
         "max_normal_force_n",
         "largest normal force of each mesh, second half of the rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.settled(|p| p.meshes[i].normal_force).largest),
+        Of::MeshesMoving(|m, i| m.reached.normal_force[i].largest),
     ),
     list(
         "max_radial_bearing_force_n",
         "largest radial force of each bearing, second half of the rows; with `[motion]`",
-        Of::BearingsMoving(|m, i| m.radial_force(i).largest),
+        Of::BearingsMoving(|m, i| m.reached.radial_force[i].largest),
     ),
     Number {
         key: Key::new("run_up_s", "f64", "duration of the run-up; with `to_speed_rpm`"),

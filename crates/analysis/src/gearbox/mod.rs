@@ -39,6 +39,7 @@ mod solve;
 mod swings;
 mod vibration;
 
+use answer::RowStore;
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 use scene::gearbox::Gearbox;
 
@@ -51,7 +52,7 @@ use accuracy::solve_accurately;
 pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
 use motion::Span;
-pub use motion::{GearboxMotionResult, Range};
+pub use motion::{GearboxMotionResult, Range, ReachedByRows};
 pub use orders::MotionOrder;
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
 pub use sink::GearboxSink;
@@ -62,7 +63,7 @@ pub use swings::{ExcitationLine, GearFrequencies, OrderForces, SpeedRms, Vibrati
 impl Question for Gearbox {
     type Answer = GearboxResult;
     type Sink<'s> = dyn GearboxSink + 's;
-    type State = (GearboxCheckpoint, Vec<GearboxInstant>);
+    type State = (GearboxCheckpoint, RowStore<GearboxInstant>);
 
     /// What is at rest is solved again where its motion is gone on with; of a gearbox that asks for an accuracy, which has
     /// no motion, with finer settings until that is kept.

@@ -1,8 +1,8 @@
 //! A gearbox in motion: from its equilibrium on, row by row.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
-use answer::Remark;
+use answer::{Remark, RowStore, TableError};
 use gearbox::{
     GearboxError,
     motion::{
@@ -27,6 +27,7 @@ use crate::{
     motion::{MotionSpectrum, QuasiStatic, Waterfall, window},
     run_phase,
     run_up::RunUpTorque,
+    running::Running,
     unless_cancelled,
 };
 
@@ -37,7 +38,7 @@ const BEYOND: f64 = 4.0;
 #[derive(Debug, Default)]
 pub(super) struct Span {
     /// State to go on from, with the rows before it.
-    pub from: Option<(GearboxCheckpoint, Vec<GearboxInstant>)>,
+    pub from: Option<(GearboxCheckpoint, RowStore<GearboxInstant>)>,
     /// Stop when so many cycles of the fastest mesh are done.
     pub stop_after: Option<u64>,
 }
@@ -46,7 +47,9 @@ pub(super) struct Span {
 #[derive(Debug, Clone)]
 pub struct GearboxMotionResult {
     /// Rows, the start among them.
-    pub rows: Vec<GearboxInstant>,
+    pub rows: Arc<RowStore<GearboxInstant>>,
+    /// What they reach.
+    pub reached: ReachedByRows,
     /// Frequency of each mesh at the speed of the start, Hz.
     pub mesh_frequencies: Vec<f64>,
     /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
@@ -102,27 +105,56 @@ impl Range {
     }
 }
 
-impl GearboxMotionResult {
-    /// Least and largest value of the second half of a motion: what settles is in the first.
-    pub fn settled(&self, of: impl Fn(&GearboxInstant) -> f64) -> Range {
-        let rows = &self.rows[self.rows.len() / 2..];
-        let begin = Range { least: f64::INFINITY, largest: f64::NEG_INFINITY };
-        rows.iter().map(of).fold(begin, |r, x| Range { least: r.least.min(x), largest: r.largest.max(x) })
-    }
-
+/// What the rows of a motion reach.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReachedByRows {
+    /// Dynamic transmission error of each mesh in the second half of the rows, um: what settles is in the first.
+    pub dte_um: Vec<Range>,
+    /// Normal force of each mesh in that half, N.
+    pub normal_force: Vec<Range>,
+    /// Radial force of each bearing in that half, N.
+    pub radial_force: Vec<Range>,
+    /// Size of the speed of the input in all rows, rad/s.
+    pub input_speed: Range,
     /// Cycles of the fastest mesh since the first row, row by row, above 0 in the sense in which it goes on.
-    pub fn cycles(&self) -> Vec<f64> {
-        let fastest = (0..self.mesh_frequencies.len())
-            .max_by(|&a, &b| self.mesh_frequencies[a].total_cmp(&self.mesh_frequencies[b]));
-        let of = |row: &GearboxInstant| fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles);
-        let (first, last) = (self.rows.first().map_or(0.0, of), self.rows.last().map_or(0.0, of));
-        let sense = if last < first { -1.0 } else { 1.0 };
-        self.rows.iter().map(|row| sense * (of(row) - first)).collect()
-    }
+    pub cycles: Vec<f64>,
+}
 
-    /// Of the radial force of a bearing in that half, N.
-    pub fn radial_force(&self, bearing: usize) -> Range {
-        self.settled(|p| p.bearings[bearing].force[0].hypot(p.bearings[bearing].force[1]))
+impl ReachedByRows {
+    /// Of rows, with the frequencies of the meshes (Hz).
+    fn of(rows: &RowStore<GearboxInstant>, mesh_frequencies: &[f64]) -> Result<Self, TableError> {
+        let fastest = (0..mesh_frequencies.len()).max_by(|&a, &b| mesh_frequencies[a].total_cmp(&mesh_frequencies[b]));
+        let mut cycles = Vec::with_capacity(rows.len());
+        let [mut meshes, mut bearings]: [Vec<[Running; 2]>; 2] = Default::default();
+        let (mut speed, mut row_number) = (Running::default(), 0);
+        rows.for_each(0..rows.len(), |row| {
+            cycles.push(fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles));
+            speed.push(row.input[1].abs());
+            meshes.resize(row.meshes.len(), Default::default());
+            bearings.resize(row.bearings.len(), Default::default());
+            if row_number >= rows.len() / 2 {
+                for ([dte, force], mesh) in meshes.iter_mut().zip(&row.meshes) {
+                    dte.push(1e3 * mesh.transmission_error);
+                    force.push(mesh.normal_force);
+                }
+                for ([radial, _], bearing) in bearings.iter_mut().zip(&row.bearings) {
+                    radial.push(bearing.force[0].hypot(bearing.force[1]));
+                }
+            }
+            row_number += 1;
+        })?;
+        let (first, last) = (cycles.first().copied().unwrap_or(0.0), cycles.last().copied().unwrap_or(0.0));
+        let sense = if last < first { -1.0 } else { 1.0 };
+        cycles.iter_mut().for_each(|own| *own = sense * (*own - first));
+        let range = |of: &Running| Range { least: of.ends[0], largest: of.ends[1] };
+        let ranges = |all: &[[Running; 2]], k: usize| all.iter().map(|own| range(&own[k])).collect();
+        Ok(Self {
+            dte_um: ranges(&meshes, 0),
+            normal_force: ranges(&meshes, 1),
+            radial_force: ranges(&bearings, 0),
+            input_speed: range(&speed),
+            cycles,
+        })
     }
 }
 
@@ -210,7 +242,7 @@ pub(super) fn run(
         Drive::Torque { .. } => None,
     };
     let plan = rest.plan(asked);
-    let (from, rows) = span.from.map_or((None, Vec::new()), |(from, rows)| (Some(from), rows));
+    let (from, rows) = span.from.map_or((None, RowStore::default()), |(from, rows)| (Some(from), rows));
     sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
     let mut goal = mechanism.goal(&start, &plan).map_err(failed)?;
     goal.checkpoint_every = u64::from(asked.checkpoint_every_cycles);
@@ -239,25 +271,26 @@ pub(super) fn run(
     let rows = told.rows;
     // The last row of a motion may be no whole row behind the one before.
     let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
-    let even = &rows[..rows.len().min(even as usize + 1)];
+    let even = rows.len().min(even as usize + 1);
     let result = GearboxMotionResult {
         orders: orders(&rows, asked.waterfall_cycles)?,
         waterfall: match asked.to_speed_rpm {
-            Some(_) => waterfall(even, asked.waterfall_cycles)?,
+            Some(_) => waterfall((&rows, even), asked.waterfall_cycles)?,
             None => None,
         },
         spectrum: match asked.to_speed_rpm {
             Some(_) => None,
             None => {
                 let fastest = frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
-                let steps = (even.len().max(1) - 1) as f64 * plan.steps_per_row as f64;
+                let steps = (even.max(1) - 1) as f64 * plan.steps_per_row as f64;
                 let found = done.periodicity.filter(|_| plan.settle.is_some());
                 let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
-                spectrum(even, (steps / plan.steps_per_cycle as f64, fastest), window)?
+                spectrum((&rows, even), (steps / plan.steps_per_cycle as f64, fastest), window)?
             }
         },
         common_period: done.common_period,
-        rows,
+        reached: ReachedByRows::of(&rows, &frequencies)?,
+        rows: Arc::new(rows),
         mesh_frequencies: frequencies,
         stiffness,
         damping,
@@ -278,7 +311,7 @@ pub(super) fn run(
 
 /// Who is told of a motion, and its rows so far.
 struct Outcome<'a> {
-    rows: Vec<GearboxInstant>,
+    rows: RowStore<GearboxInstant>,
     sink: &'a mut dyn GearboxSink,
     plan: MotionPlan,
     /// Sizes of the coordinates.
@@ -326,8 +359,7 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
     fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), Ended> {
         let instant = row.system.instant(row.state).map_err(Ended::Motion)?;
         self.told.sink.row(&instant).map_err(AnalysisError::Sink)?;
-        self.told.rows.push(instant);
-        Ok(())
+        Ok(self.told.rows.push(instant).map_err(AnalysisError::from)?)
     }
 
     fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {

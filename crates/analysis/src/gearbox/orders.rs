@@ -2,10 +2,14 @@
 
 use std::f64::consts::TAU;
 
+use answer::{RowStore, TableError};
 use gearbox::motion::GearboxInstant;
 use study::{StudyError, Window, order_amplitude};
 
-use crate::motion::{MotionSpectrum, RPM, Stretches, Waterfall, waterfall as order_spectra};
+use crate::{
+    AnalysisError,
+    motion::{MotionSpectrum, RPM, Stretches, Waterfall, waterfall as order_spectra},
+};
 
 /// Orders of each mesh.
 const ORDERS: usize = 5;
@@ -42,60 +46,90 @@ pub struct MotionOrder {
 /// stretch apart, counted in cycles of the same mesh, are not told from each other.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
-pub(super) fn orders(rows: &[GearboxInstant], cycles: u32) -> Result<Vec<MotionOrder>, StudyError> {
-    let Some(Stretches { length, hop, .. }) = stretches(rows, cycles) else { return Ok(Vec::new()) };
+/// [`AnalysisError::Statistics`] for rows that hold what is no number.
+pub(super) fn orders(rows: &RowStore<GearboxInstant>, cycles: u32) -> Result<Vec<MotionOrder>, AnalysisError> {
+    let Some(Stretches { length, hop, .. }) = stretches((rows, rows.len()), cycles)? else { return Ok(Vec::new()) };
     let mut all = Vec::new();
     for from in (0..).map(|k| k * hop).take_while(|from| from + length <= rows.len()) {
-        stretch(&rows[from..from + length], &mut all)?;
+        stretch(&rows.part(from..from + length)?, &mut all)?;
     }
     Ok(all)
 }
 
-/// Order spectra of every mesh and bearing over the same stretches, of a motion whose rows are evenly spaced along the turn
-/// of its input: transmission error (um) and normal force (N) of each mesh, then the force of each bearing (N). Orders are
-/// those of the fastest mesh.
+/// Order spectra of every mesh and bearing over the same stretches, of a motion whose first rows, so many, are evenly spaced
+/// along the turn of its input: transmission error (um) and normal force (N) of each mesh, then the force of each bearing
+/// (N). Orders are those of the fastest mesh.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
-pub(super) fn waterfall(rows: &[GearboxInstant], cycles: u32) -> Result<Option<Waterfall>, StudyError> {
-    let Some(stretches) = stretches(rows, cycles) else { return Ok(None) };
-    let quantities = Quantities::of(rows);
-    let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
-    let (time, speed) = (column(&|p| p.time), column(&|p| p.input[1] / RPM));
-    order_spectra(&quantities.lists(), (&time, &speed), stretches).map(Some)
+/// [`AnalysisError::Statistics`] for rows that hold what is no number.
+pub(super) fn waterfall(
+    (rows, even): (&RowStore<GearboxInstant>, usize),
+    cycles: u32,
+) -> Result<Option<Waterfall>, AnalysisError> {
+    let Some(stretches) = stretches((rows, even), cycles)? else { return Ok(None) };
+    let mut all: Option<Waterfall> = None;
+    for from in (0..).map(|k| k * stretches.hop).take_while(|from| from + stretches.length <= even) {
+        let own = line(&rows.part(from..from + stretches.length)?, stretches)?;
+        match &mut all {
+            Some(all) => all.lines.extend(own.lines),
+            None => all = Some(own),
+        }
+    }
+    Ok(Some(all.unwrap_or_default()))
 }
 
-/// Spectra of the same over the rows of a motion whose speed is not led, so many cycles of the fastest mesh of a frequency (Hz)
-/// at the start; the first row is the start and counts as the last one.
+/// The spectra of one stretch.
+fn line(rows: &[GearboxInstant], stretches: Stretches) -> Result<Waterfall, StudyError> {
+    let quantities = Quantities::of(rows.iter());
+    let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
+    let (time, speed) = (column(&|p| p.time), column(&|p| p.input[1] / RPM));
+    order_spectra(&quantities.lists(), (&time, &speed), stretches)
+}
+
+/// Spectra of the same over the first rows, so many, of a motion whose speed is not led, so many cycles of the fastest mesh of a
+/// frequency (Hz) at the start; the first row is the start and counts as the last one.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
+/// [`AnalysisError::Statistics`] for rows that hold what is no number.
 pub(super) fn spectrum(
-    rows: &[GearboxInstant],
+    (rows, even): (&RowStore<GearboxInstant>, usize),
     of: (f64, f64),
     window: Window,
-) -> Result<Option<MotionSpectrum>, StudyError> {
-    let Some(rows) = rows.get(1..).filter(|rows| rows.len() >= FEWEST) else { return Ok(None) };
-    MotionSpectrum::of(&Quantities::of(rows).lists(), of, window).map(Some)
+) -> Result<Option<MotionSpectrum>, AnalysisError> {
+    if even <= FEWEST {
+        return Ok(None);
+    }
+    let mut all = Quantities::default();
+    rows.for_each(1..even, |row| all.push(row))?;
+    Ok(Some(MotionSpectrum::of(&all.lists(), of, window)?))
 }
 
 /// What has a spectrum, each by its components: transmission error (um) and normal force (N) of each mesh, then the force of
 /// each bearing (N).
+#[derive(Default)]
 struct Quantities(Vec<Vec<Vec<f64>>>);
 
 impl Quantities {
-    fn of(rows: &[GearboxInstant]) -> Self {
-        let column = |of: &dyn Fn(&GearboxInstant) -> f64| rows.iter().map(of).collect::<Vec<f64>>();
-        let mut all = Vec::new();
-        for mesh in 0..rows.first().map_or(0, |row| row.meshes.len()) {
-            all.push(vec![column(&|p| 1e3 * p.meshes[mesh].transmission_error)]);
-            all.push(vec![column(&|p| p.meshes[mesh].normal_force)]);
+    fn of<'a>(rows: impl Iterator<Item = &'a GearboxInstant>) -> Self {
+        let mut all = Self::default();
+        rows.for_each(|row| all.push(row));
+        all
+    }
+
+    fn push(&mut self, row: &GearboxInstant) {
+        let meshes = 2 * row.meshes.len();
+        if self.0.is_empty() {
+            self.0 = (0..meshes).map(|_| vec![Vec::new()]).collect();
+            self.0.extend((0..row.bearings.len()).map(|_| vec![Vec::new(); 3]));
         }
-        for bearing in 0..rows.first().map_or(0, |row| row.bearings.len()) {
-            all.push([0, 1, 2].map(|axis| column(&|p| p.bearings[bearing].force[axis])).to_vec());
+        let (of_meshes, of_bearings) = self.0.split_at_mut(meshes);
+        for (own, mesh) in of_meshes.chunks_exact_mut(2).zip(&row.meshes) {
+            own[0][0].push(1e3 * mesh.transmission_error);
+            own[1][0].push(mesh.normal_force);
         }
-        Self(all)
+        for (own, bearing) in of_bearings.iter_mut().zip(&row.bearings) {
+            own.iter_mut().zip(bearing.force).for_each(|(along, force)| along.push(force));
+        }
     }
 
     fn lists(&self) -> Vec<Vec<&[f64]>> {
@@ -105,23 +139,23 @@ impl Quantities {
 
 /// Stretches of so many cycles of the slowest mesh, or of the whole motion, each half over the one before; `None` where the
 /// slowest mesh has gone through fewer than four cycles.
-fn stretches(rows: &[GearboxInstant], cycles: u32) -> Option<Stretches> {
-    let (first, last) = (rows.first()?, rows.last()?);
+fn stretches((rows, count): (&RowStore<GearboxInstant>, usize), cycles: u32) -> Result<Option<Stretches>, TableError> {
+    let (Some(first), Some(last)) = (rows.get(0)?, rows.get(count.saturating_sub(1))?) else { return Ok(None) };
     let gone = || first.meshes.iter().zip(&last.meshes).map(|(a, b)| (b.cycles - a.cycles).abs());
     let (slowest, fastest) = (gone().fold(f64::INFINITY, f64::min), gone().fold(0.0, f64::max));
     if !(slowest >= LEAST && slowest.is_finite()) {
-        return None;
+        return Ok(None);
     }
     // Rows of a ramp are as many a turn everywhere; those of a motion that a torque drives nearly so. Orders of the fastest
     // mesh are in the middle of lines.
-    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (rows.len() - 1) as f64 / fastest);
-    let length = ((whole * per_cycle).round() as usize).clamp(8, rows.len().max(8));
-    Some(Stretches {
+    let (whole, per_cycle) = ((f64::from(cycles) * fastest / slowest).round(), (count - 1) as f64 / fastest);
+    let length = ((whole * per_cycle).round() as usize).clamp(8, count.max(8));
+    Ok(Some(Stretches {
         length,
         hop: (length / 2).max(1),
         per_cycle,
         cycles_per_turn: fastest * TAU / (last.input[0] - first.input[0]).abs(),
-    })
+    }))
 }
 
 fn stretch(rows: &[GearboxInstant], all: &mut Vec<MotionOrder>) -> Result<(), StudyError> {

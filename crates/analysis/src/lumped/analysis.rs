@@ -1,8 +1,8 @@
 //! A motion of a model with few coordinates.
 
-use answer::Remark;
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::Range, sync::Arc};
 
+use answer::{Remark, RowStore, TableError};
 use integrate::State;
 use scene::{Model, MotionScene, Scene};
 use study::Lyapunov;
@@ -18,7 +18,7 @@ use super::{
     integration::{MeshFrequencies, stable_step},
     mechanism::BoxedMechanism,
     remarks::{backlash_um, certificate_remarks, no_backlash},
-    run_loop::{LumpedCheckpoint, LumpedResume, LumpedRun, NoRunObserver, RunObserver, RunPlan},
+    run_loop::{LumpedCheckpoint, LumpedResume, LumpedRun, LumpedSoFar, NoRunObserver, RunObserver, RunPlan},
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
@@ -53,7 +53,7 @@ pub trait LumpedSink {
     ///
     /// # Errors
     /// Whatever ends the analysis.
-    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: LumpedSoFar<'_>) -> SinkResult {
         Ok(())
     }
 }
@@ -74,9 +74,9 @@ pub struct LumpedResult {
     /// What it was made of, and what must hold of it.
     pub facts: RunInfo,
     /// Row by row, equally many in each mesh cycle.
-    pub rows: Vec<LumpedRow>,
+    pub rows: Arc<RowStore<LumpedRow>>,
     /// Energy since the start, row by row and at the end.
-    pub energy: Vec<EnergyRow>,
+    pub energy: Arc<RowStore<EnergyRow>>,
     /// Where it ends: another run may go on from there.
     pub end: State,
     /// The pair under the mean load as speed goes to zero; `None` where it finds nothing to rest on.
@@ -189,9 +189,8 @@ impl<'a> LumpedAnalysis<'a> {
             plan.run(&mut system.model, &mut RowsOnward { progress, sink })
         });
         let run = run.map_err(|e| e.of(&scene))?;
-        within_bounds(&run.rows)?;
         let at_rest = static_cycle.iter().flatten().map(|point| 1e3 * point.error);
-        facts.certificate = certificate(&inputs, &run, at_rest).and(Checks::new(system.model.checks()));
+        facts.certificate = certificate(&inputs, &run, at_rest)?.and(Checks::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
         let restless = scene.impact.is_none() && run.periodicity.as_ref().is_some_and(|p| p.residual > tolerance);
         let mut found = || {
@@ -230,7 +229,8 @@ fn result(
     let static_normal_force = inputs.static_normal_force();
     let run_up = motion.ramp.map(|_| {
         let driver = (motion::speed(scene), scene.driver_teeth());
-        RunUp::of(&motion_series(&run.rows), run.per_cycle, driver, static_normal_force, &Waterfall::default())
+        let series = motion_series(&run.rows, 0..run.rows.len(), true)?;
+        Ok::<_, AnalysisError>(RunUp::of(&series, run.per_cycle, driver, static_normal_force, &Waterfall::default())?)
     });
     let run_up = run_up.transpose()?;
     let beside = HeadlineInputs {
@@ -241,11 +241,11 @@ fn result(
         static_errors: static_errors.as_deref(),
         lyapunov,
     };
-    let mut headline = headline(scene, motion, &run, &beside)?;
+    let judged = motion_series(&run.rows, run.judged_rows(), false)?;
+    let mut headline = headline(scene, motion, (&run, &judged), &beside)?;
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
     remarks.extend(certificate_remarks(motion, &headline));
     remarks.extend(inputs.remarks_of(motion, &headline));
-    let judged = motion_series(run.judged_rows());
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
@@ -260,6 +260,7 @@ fn result(
     let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
     let spectrum = judged.spectrum((run.judged as f64, frequencies.mesh_hz), whole)?;
     let LumpedRun { rows, energy, end, .. } = run;
+    let (rows, energy) = (Arc::new(rows), Arc::new(energy));
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
 }
 
@@ -278,7 +279,7 @@ impl RunObserver for RowsOnward<'_> {
         self.sink.row(row)
     }
 
-    fn checkpoint(&mut self, state: LumpedCheckpoint, so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+    fn checkpoint(&mut self, state: LumpedCheckpoint, so_far: LumpedSoFar<'_>) -> SinkResult {
         self.sink.checkpoint(state, so_far)
     }
 }
@@ -287,7 +288,10 @@ impl RunObserver for RowsOnward<'_> {
 ///
 /// # Errors
 /// [`AnalysisError`], also where the certificate does not hold.
-pub(crate) fn steady_rows(inputs: &LumpedInputs, system: LumpedSystem) -> Result<(Vec<LumpedRow>, u64), AnalysisError> {
+pub(crate) fn steady_rows(
+    inputs: &LumpedInputs,
+    system: LumpedSystem,
+) -> Result<(RowStore<LumpedRow>, u64), AnalysisError> {
     let mut model = system.model;
     let (run, _) = checked_run(inputs, &mut model, system.resonance_hz, None)?;
     Ok((run.rows, run.warm_up + run.cycles))
@@ -309,8 +313,7 @@ pub(super) fn checked_run(
     refuse_unstable(scene, motion, model, frequencies)?;
     let plan = RunPlan { scene, motion, frequencies, from, checkpoint_every: 0, resume: None };
     let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
-    within_bounds(&run.rows)?;
-    let checks = certificate(inputs, &run, std::iter::empty()).and(Checks::new(model.checks()));
+    let checks = certificate(inputs, &run, std::iter::empty())?.and(Checks::new(model.checks()));
     crate::certificate::verdict(&checks, scene)?;
     Ok((run, checks))
 }
@@ -328,36 +331,51 @@ pub(super) fn refuse_unstable(
     motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
 }
 
-/// Rows that hold numbers only.
-fn within_bounds(rows: &[LumpedRow]) -> Result<(), AnalysisError> {
-    let Some(row) = rows.iter().find(|row| !row.is_finite()) else { return Ok(()) };
-    let what = format!("the motion diverged at t = {} s", answer::digits(row.time));
+/// Of a row that holds what is no number.
+fn diverged(time: f64) -> AnalysisError {
+    let what = format!("the motion diverged at t = {} s", answer::digits(time));
     let hint = "take smaller steps, or check supports and damping".to_owned();
-    Err(AnalysisError::from(Refusal::no_result(what, Some(hint))).of_part("history.csv"))
+    AnalysisError::from(Refusal::no_result(what, Some(hint))).of_part("history.csv")
 }
 
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,
 /// and rigid teeth stay in mesh, also `at_rest` (transmission errors, um).
-fn certificate(inputs: &LumpedInputs, run: &LumpedRun, at_rest: impl Iterator<Item = f64>) -> Checks {
+///
+/// # Errors
+/// [`AnalysisError`] for a row that holds what is no number.
+fn certificate(
+    inputs: &LumpedInputs,
+    run: &LumpedRun,
+    at_rest: impl Iterator<Item = f64>,
+) -> Result<Checks, AnalysisError> {
     let LumpedInputs { scene, pair, .. } = inputs;
-    let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
-    if let Some(least) = run.rows.iter().filter_map(|r| r.least_slice_force).reduce(f64::min) {
-        let forces = run.rows.iter().flat_map(|r| [Some(r.normal_force), r.coast_normal_force]).flatten();
-        all.push(motion::pulling_check(least, forces.fold(f64::NEG_INFINITY, f64::max)));
+    let (mut least, mut largest, mut bad) = (None, f64::NEG_INFINITY, None);
+    let mut errors = Vec::new();
+    run.rows.for_each(0..run.rows.len(), |row| {
+        if !row.is_finite() {
+            bad = bad.or(Some(row.time));
+        }
+        least = row.least_slice_force.into_iter().chain(least).reduce(f64::min);
+        largest = row.coast_normal_force.into_iter().fold(f64::max(largest, row.normal_force), f64::max);
+        errors.push(row.transmission_error_um);
+    })?;
+    if let Some(time) = bad {
+        return Err(diverged(time));
     }
-    let errors = run.rows.iter().map(|row| row.transmission_error_um);
+    let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
+    all.extend(least.map(|least| motion::pulling_check(least, largest)));
     if scene.analysis.model.has_reduced_gears() {
-        all.push(motion::deflection_check_in_motion(scene, pair, errors.map(|um| 1e-3 * um)));
+        all.push(motion::deflection_check_in_motion(scene, pair, errors.into_iter().map(|um| 1e-3 * um)));
     } else {
         // Beyond the backlash the other flanks are in each other.
         let backlash = backlash_um(inputs);
         let beyond = |error_um: f64| 1e-3 * error_um.max(-error_um - backlash);
         all.push(motion::excursion_check(
-            errors.chain(at_rest).map(beyond).fold(0.0, worse),
+            errors.into_iter().chain(at_rest).map(beyond).fold(0.0, worse),
             scene.pair.normal_module_mm,
         ));
     }
-    Checks::new(all)
+    Ok(Checks::new(all))
 }
 
 /// Geometry, and coordinates as degrees of freedom.
@@ -373,17 +391,19 @@ fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<Remark>)> 
         .then(|| resolution(scene, pair, &options(scene, pair)))
 }
 
-/// Series of rows, for spectra and ramps.
-fn motion_series(rows: &[LumpedRow]) -> MotionSeries {
-    let of = |value: fn(&LumpedRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
-    MotionSeries {
-        time_s: of(|r| r.time),
-        pinion_speed_rpm: rows.iter().filter_map(|r| Some(r.speeds?[0] * 60.0 / TAU)).collect(),
-        dte_um: of(|r| r.transmission_error_um),
-        normal_force_n: of(|r| r.normal_force),
-        coast_normal_force_n: rows.iter().filter_map(|r| r.coast_normal_force).collect(),
-        pair_normal_force_n: None,
-        wheel_force_z_n: of(|r| r.wrench[1][2]),
-        moment_y_nmm: [of(|r| r.wrench[0][4]), of(|r| r.wrench[1][4])],
-    }
+/// Series of some rows, for spectra; `over_speed`: and those that a ramp is judged by.
+fn motion_series(rows: &RowStore<LumpedRow>, part: Range<usize>, over_speed: bool) -> Result<MotionSeries, TableError> {
+    let mut all = MotionSeries::default();
+    rows.for_each(part, |row| {
+        all.dte_um.push(row.transmission_error_um);
+        all.normal_force_n.push(row.normal_force);
+        all.wheel_force_z_n.push(row.wrench[1][2]);
+        all.moment_y_nmm.iter_mut().zip(&row.wrench).for_each(|(list, wrench)| list.push(wrench[4]));
+        if over_speed {
+            all.time_s.push(row.time);
+            all.pinion_speed_rpm.extend(row.speeds.map(|both| both[0] * 60.0 / TAU));
+            all.coast_normal_force_n.extend(row.coast_normal_force);
+        }
+    })?;
+    Ok(all)
 }

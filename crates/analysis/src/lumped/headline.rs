@@ -4,10 +4,14 @@ use std::f64::consts::TAU;
 
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
-use study::{Lyapunov, StudyError, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
+use study::{Lyapunov, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
-use super::{LumpedRow, run_loop::LumpedRun};
-use crate::motion::RunUpHeadline;
+use super::run_loop::LumpedRun;
+use crate::{
+    AnalysisError,
+    motion::{MotionSeries, RunUpHeadline},
+    running::Running,
+};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
@@ -123,30 +127,58 @@ pub(super) struct HeadlineInputs<'a> {
     pub lyapunov: Option<Lyapunov>,
 }
 
-/// Headline numbers of the mesh cycles that are judged.
+/// Numbers of the rows that are judged, beside their series.
+#[derive(Default)]
+struct Judged {
+    stiffness: Running,
+    contact_line_length: Running,
+    wheel_force: [Running; 2],
+    coast_normal_force: Running,
+    least_slice_force: Running,
+    /// Pinion and wheel.
+    speeds_rpm: [Running; 2],
+    without_contact: usize,
+}
+
+impl Judged {
+    fn of(run: &LumpedRun) -> Result<Self, AnalysisError> {
+        let mut all = Self::default();
+        run.rows.for_each(run.judged_rows(), |row| {
+            // What a model does not tell of one row it tells of none.
+            all.stiffness.push_known(row.mesh_stiffness.map(|stiffness| 1e-3 * stiffness));
+            all.contact_line_length.push_known(row.contact_line_length);
+            all.coast_normal_force.push_known(row.coast_normal_force);
+            all.least_slice_force.push_known(row.least_slice_force);
+            for gear in [0, 1] {
+                all.wheel_force[gear].push(row.wrench[1][gear]);
+                all.speeds_rpm[gear].push_known(row.speeds.map(|both| both[gear] * 60.0 / TAU));
+            }
+            all.without_contact += usize::from(row.contact_line_length == Some(0.0));
+        })?;
+        Ok(all)
+    }
+}
+
+/// Headline numbers of the mesh cycles that are judged, with the series of their rows.
 ///
 /// # Errors
-/// [`StudyError`] when the rows hold a transmission error that is no number.
+/// [`AnalysisError::Statistics`] when the rows hold a transmission error that is no number.
 pub(super) fn headline(
     scene: &Scene,
     motion: &MotionScene,
-    run: &LumpedRun,
+    (run, series): (&LumpedRun, &MotionSeries),
     known: &HeadlineInputs<'_>,
-) -> Result<LumpedHeadline, StudyError> {
-    let rows = run.judged_rows();
-    let of = |value: fn(&LumpedRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
-    // What a model does not tell of one row it tells of none.
-    let known_of = |value: fn(&LumpedRow) -> Option<f64>| -> Option<Vec<f64>> {
-        rows.iter().map(value).collect::<Option<Vec<f64>>>().filter(|all| !all.is_empty())
-    };
-    let mean_of = |value: fn(&LumpedRow) -> Option<f64>| known_of(value).map(|all| mean(&all));
+) -> Result<LumpedHeadline, AnalysisError> {
+    let judged = Judged::of(run)?;
+    let mean_of = |of: Running| of.known().map(|of| of.mean());
     let cycles = run.judged as usize;
-    let dte = of(|r| r.transmission_error_um);
-    let of_dte = cycle_statistics(&dte, cycles)?;
+    let (dte, force) = (&series.dte_um, &series.normal_force_n);
+    let of_dte = cycle_statistics(dte, cycles)?;
     let ste: Option<Vec<f64>> = known.static_errors.map(|all| all.iter().map(|e| 1e3 * e).collect());
     let of_ste = ste.map(|all| cycle_statistics(&all, 1)).transpose()?;
-    let force = of(|r| r.normal_force);
-    let [min_force, max_force] = extent(&force);
+    let [min_force, max_force] = extent(force);
+    let [wheel_x, wheel_y] = judged.wheel_force.map(|of| of.mean());
+    let [pinion_speed, wheel_speed] = judged.speeds_rpm.map(mean_of);
     let loaded = known.static_normal_force > 0.0;
     Ok(LumpedHeadline {
         run: motion.run,
@@ -159,33 +191,33 @@ pub(super) fn headline(
         cycles: run.cycles,
         judged_cycles: run.judged,
         mean_dte_um: of_dte.mean,
-        rms_dte_um: root_mean_square(&dte),
+        rms_dte_um: root_mean_square(dte),
         peak_to_peak_dte_um: of_dte.peak_to_peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,
-        dte_harmonics_um: mesh_harmonics(&dte, cycles, ORDERS)?.iter().map(|h| h.amplitude).collect(),
+        dte_harmonics_um: mesh_harmonics(dte, cycles, ORDERS)?.iter().map(|h| h.amplitude).collect(),
         mean_ste_um: of_ste.as_ref().map(|s| s.mean),
         peak_to_peak_ste_um: of_ste.as_ref().map(|s| s.peak_to_peak),
-        mean_mesh_stiffness_n_per_um: mean_of(|r| Some(1e-3 * r.mesh_stiffness?)),
-        mean_contact_line_length_mm: mean_of(|r| r.contact_line_length),
+        mean_mesh_stiffness_n_per_um: mean_of(judged.stiffness),
+        mean_contact_line_length_mm: mean_of(judged.contact_line_length),
         static_normal_force_n: known.static_normal_force,
-        mean_normal_force_n: mean(&force),
+        mean_normal_force_n: mean(force),
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         dynamic_factor: loaded.then(|| max_force / known.static_normal_force),
-        mean_wheel_force_n: [of(|r| r.wrench[1][0]), of(|r| r.wrench[1][1]), of(|r| r.wrench[1][2])].map(|f| mean(&f)),
-        mean_pinion_tilting_moment_nmm: mean(&of(|r| r.wrench[0][4])),
-        mean_wheel_tilting_moment_nmm: mean(&of(|r| r.wrench[1][4])),
-        max_coast_normal_force_n: known_of(|r| r.coast_normal_force).map(|all| extent(&all)[1]),
-        least_slice_force_n: known_of(|r| r.least_slice_force).map(|all| extent(&all)[0]),
-        mean_wheel_speed_rpm: mean_of(|r| Some(r.speeds?[1] * 60.0 / TAU)),
-        mean_pinion_speed_rpm: mean_of(|r| Some(r.speeds?[0] * 60.0 / TAU)),
+        mean_wheel_force_n: [wheel_x, wheel_y, mean(&series.wheel_force_z_n)],
+        mean_pinion_tilting_moment_nmm: mean(&series.moment_y_nmm[0]),
+        mean_wheel_tilting_moment_nmm: mean(&series.moment_y_nmm[1]),
+        max_coast_normal_force_n: judged.coast_normal_force.known().map(|of| of.ends[1]),
+        least_slice_force_n: judged.least_slice_force.known().map(|of| of.ends[0]),
+        mean_wheel_speed_rpm: wheel_speed,
+        mean_pinion_speed_rpm: pinion_speed,
         ramp: None,
-        certificate: certificate(run, known.lyapunov),
+        certificate: certificate(run, judged.without_contact, known.lyapunov),
     })
 }
 
-fn certificate(run: &LumpedRun, lyapunov: Option<Lyapunov>) -> LumpedCertificate {
+fn certificate(run: &LumpedRun, rows_without_contact: usize, lyapunov: Option<Lyapunov>) -> LumpedCertificate {
     LumpedCertificate {
         ledger_residual_mj: run.ledger.residual(),
         ledger_residual_over_turnover: run.ledger.relative_residual(),
@@ -194,7 +226,7 @@ fn certificate(run: &LumpedRun, lyapunov: Option<Lyapunov>) -> LumpedCertificate
         periodicity: run.periodicity.map(|p| p.residual),
         lyapunov,
         warm_up_cycles: run.warm_up,
-        rows_without_contact: run.judged_rows().iter().filter(|r| r.contact_line_length == Some(0.0)).count(),
+        rows_without_contact,
         steps: run.steps[0],
         refused_steps: run.steps[1],
     }

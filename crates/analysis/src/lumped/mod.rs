@@ -50,7 +50,7 @@ pub(crate) use campbell::{FrequencyFacts, Meeting};
 pub use headline::{LumpedCertificate, LumpedHeadline};
 pub use mechanism::{LumpedMemory, StaticPoint};
 pub use row::{CoordinateAxis, GearCoordinate, LumpedRow, gear_coordinates};
-pub use run_loop::{LumpedCheckpoint, LumpedResume};
+pub use run_loop::{LumpedCheckpoint, LumpedResume, LumpedSoFar};
 pub use sweep::{BifurcationAnalysis, KeySweep, LumpedQuantity, SweepHeadline, SweepOptions, SweepPoint};
 
 pub(crate) use analysis::steady_rows;

@@ -1,10 +1,11 @@
 //! A cheaper model at an instant.
 
 use scene::{Driver, Model, Scene};
+use serde::{Deserialize, Serialize};
 
 /// A row of a run: what every model of a pair with few coordinates tells of an instant, and `None` for what only
 /// others know.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct LumpedRow {
     /// Time, s.
     pub time: f64,

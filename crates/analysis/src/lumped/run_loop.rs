@@ -1,7 +1,8 @@
 //! A run of a model: its mesh cycles, and what is read off them.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, ops::Range, sync::Arc};
 
+use answer::{RowStore, TableError};
 use integrate::{
     Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
     Settle, State, StepControl, Stop, Timetable,
@@ -24,9 +25,9 @@ const SETTLING: f64 = 0.05;
 #[derive(Debug)]
 pub(crate) struct LumpedRun {
     /// Row by row.
-    pub rows: Vec<LumpedRow>,
+    pub rows: RowStore<LumpedRow>,
     /// Energy since the start of the run, row by row.
-    pub energy: Vec<EnergyRow>,
+    pub energy: RowStore<EnergyRow>,
     /// Where it ends.
     pub end: State,
     /// Rows in a mesh cycle.
@@ -48,27 +49,25 @@ pub(crate) struct LumpedRun {
 }
 
 impl LumpedRun {
-    /// Rows of the mesh cycles that are judged.
-    pub fn judged_rows(&self) -> &[LumpedRow] {
-        &self.rows[self.rows.len().saturating_sub(self.judged as usize * self.per_cycle)..]
-    }
-
-    /// One row a mesh cycle, at its beginning: a stroboscopic section.
-    pub fn section(&self) -> impl Iterator<Item = &LumpedRow> {
-        self.rows.iter().step_by(self.per_cycle)
+    /// Numbers of the rows of the mesh cycles that are judged.
+    pub fn judged_rows(&self) -> Range<usize> {
+        self.rows.len().saturating_sub(self.judged as usize * self.per_cycle)..self.rows.len()
     }
 }
 
 /// A state to go on from, with the rows before it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct LumpedResume {
     /// The motion, and how far it has come.
     pub checkpoint: LumpedCheckpoint,
     /// Rows so far.
-    pub rows: Vec<LumpedRow>,
+    pub rows: Arc<RowStore<LumpedRow>>,
     /// Energy, row by row.
-    pub energy: Vec<EnergyRow>,
+    pub energy: Arc<RowStore<EnergyRow>>,
 }
+
+/// Rows of a motion so far, and its energy row by row.
+pub type LumpedSoFar<'a> = (&'a RowStore<LumpedRow>, &'a RowStore<EnergyRow>);
 
 /// All that a motion of a model is at the end of a mesh cycle, but for its rows so far.
 pub type LumpedCheckpoint = Checkpoint<LumpedMemory>;
@@ -79,7 +78,7 @@ pub(super) trait RunObserver {
     fn row(&mut self, row: &LumpedRow, begins_cycle: bool) -> SinkResult;
 
     /// A state to go on from with all rows so far.
-    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: (&[LumpedRow], &[EnergyRow])) -> SinkResult {
+    fn checkpoint(&mut self, _state: LumpedCheckpoint, _so_far: LumpedSoFar<'_>) -> SinkResult {
         Ok(())
     }
 }
@@ -99,6 +98,8 @@ pub(super) enum RunFailure {
     Model(ModelFailure),
     /// Whoever gets the rows.
     Sink(Box<dyn std::error::Error + Send + Sync>),
+    /// There is no room for the rows.
+    Rows(TableError),
 }
 
 impl RunFailure {
@@ -107,6 +108,7 @@ impl RunFailure {
         match self {
             Self::Model(e) => e.of(scene),
             Self::Sink(e) => AnalysisError::Sink(e),
+            Self::Rows(e) => e.into(),
         }
     }
 }
@@ -114,6 +116,12 @@ impl RunFailure {
 impl From<ModelFailure> for RunFailure {
     fn from(e: ModelFailure) -> Self {
         Self::Model(e)
+    }
+}
+
+impl From<TableError> for RunFailure {
+    fn from(e: TableError) -> Self {
+        Self::Rows(e)
     }
 }
 
@@ -194,14 +202,14 @@ impl RunPlan<'_> {
         let times = LumpedTimes { motion, frequencies };
         let (mut course, rows, energy) = match resume {
             Some(LumpedResume { checkpoint, rows, energy }) => {
-                (Course::resume(model, times, checkpoint.clone())?, rows.clone(), energy.clone())
+                (Course::resume(model, times, checkpoint.clone())?, rows.copied()?, energy.copied()?)
             }
             None => {
                 let start = match from {
                     Some(from) => State::new(0.0, from.q.clone(), from.v.clone()),
                     None => model.start()?,
                 };
-                (Course::new(model, times, start), Vec::new(), Vec::new())
+                (Course::new(model, times, start), RowStore::default(), RowStore::default())
             }
         };
         let mut told = LumpedFollower { plan: self, observer, per_cycle, rows, energy };
@@ -256,8 +264,8 @@ struct LumpedFollower<'a> {
     plan: &'a RunPlan<'a>,
     observer: &'a mut dyn RunObserver,
     per_cycle: usize,
-    rows: Vec<LumpedRow>,
-    energy: Vec<EnergyRow>,
+    rows: RowStore<LumpedRow>,
+    energy: RowStore<EnergyRow>,
 }
 
 impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
@@ -268,9 +276,8 @@ impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
         let row = system.row(state).map_err(ModelFailure::at(state.time))?;
         let begins_cycle = self.rows.len().is_multiple_of(self.per_cycle);
         self.observer.row(&row, begins_cycle).map_err(RunFailure::Sink)?;
-        self.rows.push(row);
-        self.energy.push(EnergyRow::of(state.time, ledger));
-        Ok(())
+        self.rows.push(row)?;
+        Ok(self.energy.push(EnergyRow::of(state.time, ledger))?)
     }
 
     fn checkpoint(&mut self, state: LumpedCheckpoint) -> Result<(), RunFailure> {

@@ -1,7 +1,9 @@
 //! One motion of a scene.
 
+use std::sync::Arc;
+
 use ale::solve_widening;
-use answer::Remark;
+use answer::{Remark, RowStore};
 use dynamics::PairMechanism;
 use geometry::GearPair;
 use integrate::Periodicity;
@@ -63,7 +65,7 @@ pub struct MotionResult {
     /// The exact pair.
     pub pair: GearPair,
     /// Equally many rows in each mesh cycle.
-    pub rows: Vec<MotionRow>,
+    pub rows: Arc<RowStore<MotionRow>>,
     /// What all rows share.
     pub layout: MotionLayout,
     /// The few numbers that it is made for.
@@ -114,8 +116,8 @@ impl<'a> MotionAnalysis<'a> {
 
     /// From a checkpoint on. `rows`: all rows before it, in the bits in which they were handed out.
     #[must_use]
-    pub fn resume(self, checkpoint: MotionCheckpoint, rows: Vec<MotionRow>) -> Self {
-        Self { from: Some(ResumedState { checkpoint, rows }), ..self }
+    pub fn resume(self, checkpoint: MotionCheckpoint, rows: impl Into<Arc<RowStore<MotionRow>>>) -> Self {
+        Self { from: Some(ResumedState { checkpoint, rows: rows.into() }), ..self }
     }
 
     /// Stops when so many mesh cycles are done, settling included, and hands out a checkpoint; `None`: at its end only.
@@ -253,9 +255,9 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let (scene, motion) = (&scene, &motion);
     let per_cycle = motion.steps_per_mesh_cycle as usize;
     let teeth = scene.driver_teeth();
-    let series = MotionSeries::of(&done.rows);
+    let series = MotionSeries::of(&done.rows, motion.ramp.is_some())?;
     let driver = 1 - prepared.system.options().statics.driven();
-    let driver_rpm: Vec<f64> = done.rows.iter().map(|r| r.speed_rpm[driver]).collect();
+    let driver_rpm = done.rows.series(0..done.rows.len(), |row| row.speed_rpm[driver])?;
     let mesh_hz = mesh_range_hz(scene, motion, Some(&driver_rpm));
     let mut ramp = None;
     if let Some(asked) = motion.ramp {
@@ -265,7 +267,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         ramp = Some(RampResult { run_up, waterfall, campbell: campbell_diagram(&prepared, teeth, mesh_hz[1])? });
     }
     let run_up = ramp.as_ref().map(|r| &r.run_up);
-    let mut headline = headline::headline((scene, motion), &prepared, &done, run_up)?;
+    let mut headline = headline::headline((scene, motion), &prepared, (&done, &series, &driver_rpm), run_up)?;
     if let Some(ramp) = &ramp {
         headline.critical_speeds = ramp.campbell.critical_speeds();
     }
@@ -295,6 +297,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
+    let rows = Arc::new(rows);
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
 }
 

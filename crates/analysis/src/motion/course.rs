@@ -1,5 +1,8 @@
 //! The course of one motion of a scene: what is asked of it, and who gets its rows and checkpoints.
 
+use std::sync::Arc;
+
+use answer::RowStore;
 use dynamics::{
     Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads, compared,
     quasi_static_start, shoot,
@@ -52,7 +55,7 @@ pub(super) struct FinishedMotion {
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
     /// All rows, those before a checkpoint among them.
-    pub rows: Vec<MotionRow>,
+    pub rows: RowStore<MotionRow>,
     pub layout: MotionLayout,
     /// What the flanks were pressed by in the cycles of rows.
     pub patterns: [GearPattern; 2],
@@ -64,7 +67,7 @@ pub(super) struct FinishedMotion {
 #[derive(Debug, Clone)]
 pub(super) struct ResumedState {
     pub checkpoint: MotionCheckpoint,
-    pub rows: Vec<MotionRow>,
+    pub rows: Arc<RowStore<MotionRow>>,
 }
 
 /// Where a run begins, and where it is to stop.
@@ -130,10 +133,11 @@ fn begin<'a>(
     if let Some(ResumedState { checkpoint, rows }) = from {
         let MotionCheckpoint { motion: at, patterns, .. } = checkpoint;
         let pattern = pattern(Some(patterns))?;
+        let rows = rows.copied().map_err(AnalysisError::from)?;
         let motion = Course::resume(own, settings.clone(), at).map_err(|e| fail(e.into()))?;
         return Ok((motion, None, Outcome { sink, window, layout, rows, pattern }));
     }
-    let told = Outcome { sink, window, layout, rows: Vec::new(), pattern: pattern(None)? };
+    let told = Outcome { sink, window, layout, rows: RowStore::default(), pattern: pattern(None)? };
     let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
     let start =
         run_phase(observer, "start", PhaseWork::Unknown, |_| quasi_static_start(&mut own, 0.0, guess, &settings.scale));
@@ -154,7 +158,7 @@ struct Outcome<'a> {
     sink: &'a mut dyn MotionSink,
     window: usize,
     layout: MotionLayout,
-    rows: Vec<MotionRow>,
+    rows: RowStore<MotionRow>,
     pattern: PatternRecord,
 }
 
@@ -209,8 +213,7 @@ impl Follower<PairMechanism> for InPhase<'_, '_> {
             sink.fields(index, now.time, &sides).map_err(AnalysisError::Sink)?;
         }
         sink.row(&row).map_err(AnalysisError::Sink)?;
-        rows.push(row);
-        Ok(())
+        Ok(rows.push(row).map_err(AnalysisError::from)?)
     }
 
     fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {

@@ -3,15 +3,15 @@
 use dynamics::Drive;
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
-use study::{StudyError, cycle_statistics, extent, mean, mesh_harmonics, peak_to_peak, root_mean_square};
+use study::{cycle_statistics, extent, mean, mesh_harmonics, peak_to_peak, root_mean_square};
 
 use super::{
-    MotionRow,
+    MotionRow, MotionSeries,
     course::FinishedMotion,
     orders::{CriticalSpeed, RunUp, RunUpHeadline},
     setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration, mesh_range_hz},
 };
-use crate::results::PressurePlace;
+use crate::{AnalysisError, results::PressurePlace, running::Running};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
@@ -156,50 +156,107 @@ described::described! {
     }
 }
 
-/// Headline numbers from the rows and from what was counted; of a ramp peak to peak and harmonics are the largest of
-/// its `run_up`.
+/// Numbers of the rows, beside their series.
+#[derive(Default)]
+struct Survey {
+    coast_force: Running,
+    contact_line_length: Running,
+    wheel_force: [Running; 2],
+    pressure: Running,
+    bearing_force: f64,
+    /// Row of the largest pressure.
+    hardest: Option<MotionRow>,
+    /// Largest root tension of pinion and wheel (MPa) and its estimated error (%), where they were asked for.
+    tension: Option<[(f64, f64); 2]>,
+    /// Rows in which driving and coast flanks press at once.
+    on_both_flanks: usize,
+    /// Largest of the smaller of both forces in such rows, N.
+    shared_force: f64,
+}
+
+impl Survey {
+    fn of(done: &FinishedMotion) -> Result<Self, AnalysisError> {
+        let mut all = Self::default();
+        done.rows.for_each(0..done.rows.len(), |row| all.take(row))?;
+        Ok(all)
+    }
+
+    fn take(&mut self, row: &MotionRow) {
+        self.coast_force.push(row.coast_normal_force_n);
+        self.contact_line_length.push(row.contact_line_length_mm);
+        [0, 1].into_iter().for_each(|k| self.wheel_force[k].push(row.force_n[1][k]));
+        self.pressure.push(row.max_pressure_mpa);
+        for bearing in row.bearing.iter().flatten() {
+            self.bearing_force = self.bearing_force.max(bearing.force_n.map(|f| f * f).iter().sum::<f64>().sqrt());
+        }
+        if self.hardest.as_ref().is_none_or(|best| row.max_pressure_mpa > best.max_pressure_mpa) {
+            self.hardest = Some(row.clone());
+        }
+        if let Some(both) = &row.root_stress {
+            let largest = self.tension.get_or_insert([(f64::NAN, f64::NAN); 2]);
+            for (best, now) in largest.iter_mut().zip(&**both) {
+                // NaN where coast flanks press.
+                let is_more = now.max_principal_mpa > best.0 || best.0.is_nan();
+                if is_more && !now.max_principal_mpa.is_nan() {
+                    *best = (now.max_principal_mpa, now.estimated_error_percent);
+                }
+            }
+        }
+        let shared = row.normal_force_n.min(row.coast_normal_force_n);
+        if shared > 0.0 {
+            self.on_both_flanks += 1;
+            self.shared_force = self.shared_force.max(shared);
+        }
+    }
+
+    /// Where the pressure is largest in any row.
+    fn hardest(&self) -> Option<PressurePlace> {
+        let row = self.hardest.as_ref()?;
+        Some(PressurePlace::of_spot(row.max_pressure_at.as_ref()?, row.pinion_angle_deg, row.mesh_phase))
+    }
+}
+
+/// Headline numbers from the rows, with their series and the speed of the driver (1/min), and from what was counted; of a
+/// ramp peak to peak and harmonics are the largest of its `run_up`.
 ///
 /// # Errors
-/// [`StudyError`] when the rows are no whole cycles, or hold a transmission error that is no number.
+/// [`AnalysisError::Statistics`] when the rows are no whole cycles, or hold a transmission error that is no number.
 pub(super) fn headline(
     (scene, motion): (&Scene, &MotionScene),
     prepared: &PreparedMotion,
-    done: &FinishedMotion,
+    (done, series, driver_rpm): (&FinishedMotion, &MotionSeries, &[f64]),
     run_up: Option<&RunUp>,
-) -> Result<MotionHeadline, StudyError> {
+) -> Result<MotionHeadline, AnalysisError> {
     let cycles = done.motion.stage().recorded;
-    let rows = &done.rows;
-    let series = |value: &dyn Fn(&MotionRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
-    let dte = series(&|r| r.dte_um);
-    let of_dte = cycle_statistics(&dte, cycles as usize)?;
+    let survey = Survey::of(done)?;
+    let MotionSeries { dte_um: dte, normal_force_n: normal_force, wheel_force_z_n: axial, .. } = series;
+    let of_dte = cycle_statistics(dte, cycles as usize)?;
     let ste: Vec<f64> = prepared.quasi_static.transmission_error.iter().map(|e| 1e3 * e).collect();
     let of_ste = cycle_statistics(&ste, 1)?;
     let system = &prepared.system;
     let options = system.options();
     let driver = 1 - options.statics.driven();
     let teeth = f64::from([scene.pinion.teeth, scene.wheel.teeth][driver]);
-    let driver_rpm = series(&|r| r.speed_rpm[driver]);
     let speed_rpm = match &options.drive {
         Drive::Speed(_) | Drive::Balanced(_) if motion.ramp.is_none() => scene.operation.speed_rpm,
-        _ => mean(&driver_rpm).abs(),
+        _ => mean(driver_rpm).abs(),
     };
-    let normal_force = series(&|r| r.normal_force_n);
-    let [min_force, max_force] = extent(&normal_force);
-    let [_, max_coast_force] = extent(&series(&|r| r.coast_normal_force_n));
-    let axial = series(&|r| r.force_n[1][2]);
-    let tilting = [0, 1].map(|gear| series(&|r| r.moment_nmm[gear][1]));
+    let [min_force, max_force] = extent(normal_force);
+    let [_, max_coast_force] = survey.coast_force.ends;
+    let [wheel_x, wheel_y] = survey.wheel_force.map(|of| of.mean());
+    let tilting = &series.moment_y_nmm;
     let static_force = prepared.quasi_static.normal_force;
-    let tension = root_tension(rows);
+    let tension = survey.tension;
     let ramp = run_up.and_then(RunUp::headline);
     let (peak, harmonics): (f64, Vec<f64>) = match &ramp {
         Some(ramp) => (ramp.peak_to_peak_dte_um.value, ramp.dte_harmonics_um.iter().map(|l| l.value).collect()),
         None => {
-            let all = mesh_harmonics(&dte, cycles as usize, ORDERS)?;
+            let all = mesh_harmonics(dte, cycles as usize, ORDERS)?;
             (of_dte.peak_to_peak, all.iter().map(|h| h.amplitude).collect())
         }
     };
     let vibration = Vibration {
-        mesh_hz: mesh_range_hz(scene, motion, Some(&driver_rpm)),
+        mesh_hz: mesh_range_hz(scene, motion, Some(driver_rpm)),
         resonance: system.mesh_resonance(),
         peak_to_peak_um: peak,
     };
@@ -214,7 +271,7 @@ pub(super) fn headline(
         cycles,
         free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
         mean_dte_um: of_dte.mean,
-        rms_dte_um: root_mean_square(&dte),
+        rms_dte_um: root_mean_square(dte),
         peak_to_peak_dte_um: peak,
         min_dte_um: of_dte.min,
         max_dte_um: of_dte.max,
@@ -222,68 +279,34 @@ pub(super) fn headline(
         mean_ste_um: of_ste.mean,
         peak_to_peak_ste_um: of_ste.peak_to_peak,
         mean_mesh_stiffness_n_per_um: 1e-3 * prepared.quasi_static.stiffness,
-        mean_contact_line_length_mm: mean(&series(&|r| r.contact_line_length_mm)),
-        mean_normal_force_n: mean(&normal_force),
+        mean_contact_line_length_mm: survey.contact_line_length.mean(),
+        mean_normal_force_n: mean(normal_force),
         min_normal_force_n: min_force,
         max_normal_force_n: max_force,
         mean_static_normal_force_n: static_force,
         dynamic_factor: max_force.max(max_coast_force) / static_force,
         max_coast_normal_force_n: max_coast_force,
-        mean_wheel_force_n: [0, 1, 2].map(|k| mean(&series(&|r| r.force_n[1][k]))),
-        peak_to_peak_wheel_axial_force_n: peak_to_peak(&axial),
+        mean_wheel_force_n: [wheel_x, wheel_y, mean(axial)],
+        peak_to_peak_wheel_axial_force_n: peak_to_peak(axial),
         mean_pinion_tilting_moment_nmm: mean(&tilting[0]),
         peak_to_peak_pinion_tilting_moment_nmm: peak_to_peak(&tilting[0]),
         mean_wheel_tilting_moment_nmm: mean(&tilting[1]),
-        max_bearing_force_n: bearing_force(rows, 0).max(bearing_force(rows, 1)),
-        max_pressure_mpa: extent(&series(&|r| r.max_pressure_mpa))[1],
+        max_bearing_force_n: survey.bearing_force,
+        max_pressure_mpa: survey.pressure.ends[1],
         max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
         max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
-        max_pressure_at: hardest(rows),
+        max_pressure_at: survey.hardest(),
         tooth_changes: done.motion.system().changes().count,
         ramp,
         critical_speeds: Vec::new(),
-        certificate: certificate(done, prepared),
+        certificate: certificate((done, &survey), prepared),
     })
 }
 
-/// Largest force of the bearing of a gear, N; 0 where it has no free coordinates.
-fn bearing_force(rows: &[MotionRow], gear: usize) -> f64 {
-    let of_row = |row: &MotionRow| row.bearing[gear].as_ref().map_or(0.0, |b| b.force_n.map(|f| f * f).iter().sum());
-    rows.iter().map(|row| of_row(row).sqrt()).fold(0.0, f64::max)
-}
-
-/// Largest root tension of pinion and wheel over the rows (MPa), and its estimated error (%), when they were asked for.
-fn root_tension(rows: &[MotionRow]) -> Option<[(f64, f64); 2]> {
-    rows.first()?.root_stress.as_ref()?;
-    let largest = |gear: usize| {
-        let all = rows.iter().filter_map(|r| r.root_stress.as_ref()).map(|r| r[gear]);
-        // NaN where coast flanks press.
-        let known =
-            all.map(|r| (r.max_principal_mpa, r.estimated_error_percent)).filter(|(stress, _)| !stress.is_nan());
-        known.reduce(|best, now| if now.0 > best.0 { now } else { best }).unwrap_or((f64::NAN, f64::NAN))
-    };
-    Some([largest(0), largest(1)])
-}
-
-/// Where the pressure is largest in any row.
-fn hardest(rows: &[MotionRow]) -> Option<PressurePlace> {
-    let row = rows.iter().reduce(|best, row| if row.max_pressure_mpa > best.max_pressure_mpa { row } else { best })?;
-    Some(PressurePlace::of_spot(row.max_pressure_at.as_ref()?, row.pinion_angle_deg, row.mesh_phase))
-}
-
-/// Rows in which driving and coast flanks press at once, and a bound (um) of what is left out there: a force on one flank
-/// of a tooth bends the other flank by less than its own, F / k, and of the two forces only the smaller is shared.
-fn flank_coupling(rows: &[MotionRow], stiffness_along_normal_n_per_um: f64) -> (usize, f64) {
-    let shared = |row: &MotionRow| row.normal_force_n.min(row.coast_normal_force_n);
-    let both = rows.iter().map(shared).filter(|force| *force > 0.0);
-    (both.clone().count(), both.fold(0.0, f64::max) / stiffness_along_normal_n_per_um)
-}
-
-fn certificate(done: &FinishedMotion, prepared: &PreparedMotion) -> MotionCertificate {
+fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMotion) -> MotionCertificate {
     let motion = &done.motion;
     let cos = motion.system().pair().base_helix_angle().cos();
     let along_normal = 1e-3 * prepared.quasi_static.stiffness / (cos * cos);
-    let (rows_on_both_flanks, flank_coupling_bound_um) = flank_coupling(&done.rows, along_normal);
     let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
     let ledger = motion.ledger().copied().unwrap_or_default();
     let settled = done.motion.stage().periodicity;
@@ -304,8 +327,10 @@ fn certificate(done: &FinishedMotion, prepared: &PreparedMotion) -> MotionCertif
         steps_without_contact: extremes.steps_apart,
         largest_gap_um: 1e3 * extremes.largest_gap,
         coast_contacts: counts.ups(1),
-        rows_on_both_flanks,
-        flank_coupling_bound_um,
+        rows_on_both_flanks: survey.on_both_flanks,
+        // A force on one flank of a tooth bends the other flank by less than its own, F / k, and of the two forces only
+        // the smaller is shared.
+        flank_coupling_bound_um: survey.shared_force / along_normal,
         steps: counts.steps,
         refused_steps: counts.refused,
     }

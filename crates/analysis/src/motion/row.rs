@@ -6,12 +6,13 @@ use dynamics::{COORDINATES, Displacement, Instant};
 use integrate::Ledger;
 use ltca::FilletStress;
 use scene::{Axis, Scene};
+use serde::{Deserialize, Serialize};
 
 use crate::results::{MAX_PRINCIPAL, MIN_PRINCIPAL, PressureSpot, VON_MISES, base_radius_mm, error_percent};
 
 /// One row of a motion, in the units of the result files; a field's name ends in its unit, and `docs/outputs.md` says
 /// of each what it is.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MotionRow {
     /// Since the quasi-static start.
     pub time_s: f64,
@@ -60,7 +61,7 @@ pub struct MotionRow {
 }
 
 /// What holds a gear that has free coordinates, and where it is.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct BearingRow {
     /// On the gear.
     pub force_n: [f64; 3],
@@ -73,7 +74,7 @@ pub struct BearingRow {
 }
 
 /// Largest stresses in the fillets of one gear's window; no numbers where coast flanks press as well.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RootStressRow {
     /// Largest first principal stress.
     pub max_principal_mpa: f64,
@@ -86,7 +87,7 @@ pub struct RootStressRow {
 }
 
 /// The ledger of a motion at a time: work and energy since the start, mJ = N mm.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyRow {
     /// s.
     pub time_s: f64,

@@ -2,7 +2,7 @@
 
 use contact::{Site, SliceResult};
 use ltca::StaticHistory;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use scene::Scene;
 
@@ -92,7 +92,7 @@ fn words(site: Site) -> &'static str {
 }
 
 /// Where the hardest pressed slice of a row is.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PressureSpot {
     /// Flank, end face, or a tip edge.
     pub site: Site,

@@ -27,7 +27,7 @@ fn told(name: &str, text: &str) -> Told {
         let found = MotionAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{name}: {e}"));
         Told {
             rows: found.rows.len(),
-            energy: found.rows.iter().map(|r| r.energy).collect(),
+            energy: found.rows.to_vec().unwrap().iter().map(|r| r.energy).collect(),
             open_over_vibration: found.headline.certificate.energy_open_over_vibration,
             held: analysis::certificate::verdict(&found.facts.certificate, &scene).is_ok(),
         }
@@ -37,7 +37,7 @@ fn told(name: &str, text: &str) -> Told {
             rows: found.rows.len(),
             held: analysis::certificate::verdict(found.certificate(), &scene).is_ok(),
             open_over_vibration: found.headline.certificate.energy_open_over_vibration,
-            energy: found.energy,
+            energy: found.energy.to_vec().unwrap(),
         }
     }
 }

@@ -7,6 +7,7 @@ use analysis::{
         SweepAnalysis,
     },
 };
+use answer::RowStore;
 use scene::{Scene, SceneBuilder};
 
 /// A small pair from its quasi-static start on, three mesh cycles of 16 rows.
@@ -85,7 +86,7 @@ fn a_motion_in_two_pieces_is_the_one_in_one_piece() {
     let mut whole = Kept::default();
     let result = finished(MotionAnalysis::new(&scene).solve_into(&mut NoObserver, &mut whole).unwrap());
     assert_eq!((whole.rows.len(), &whole.cycles[..], whole.finished), (48, &[1, 2, 3][..], true));
-    assert_eq!(whole.rows, result.rows);
+    assert_eq!(whole.rows, result.rows.to_vec().unwrap());
     assert!(result.facts.certificate.missed().next().is_none(), "{:?}", result.facts.certificate);
 
     let mut first = Kept::default();
@@ -97,15 +98,16 @@ fn a_motion_in_two_pieces_is_the_one_in_one_piece() {
     assert_eq!(first.rows[..], whole.rows[..16]);
 
     let mut second = Kept::default();
-    let analysis = MotionAnalysis::new(&scene).resume(state.clone(), first.rows.clone());
+    let analysis = MotionAnalysis::new(&scene).resume(state.clone(), RowStore::of(first.rows.clone()).unwrap());
     let resumed = finished(analysis.solve_into(&mut NoObserver, &mut second).unwrap());
     assert_eq!(second.rows[..], whole.rows[16..]);
-    assert_eq!(resumed.rows, result.rows);
+    assert_eq!(resumed.rows.to_vec().unwrap(), whole.rows);
     assert_eq!(resumed.headline, result.headline);
     assert_eq!(resumed.spectrum, result.spectrum);
     assert_eq!(resumed.patterns, result.patterns);
 
-    let short = MotionAnalysis::new(&scene).resume(state, first.rows[..15].to_vec()).solve().unwrap_err();
+    let rows = RowStore::of(first.rows[..15].to_vec()).unwrap();
+    let short = MotionAnalysis::new(&scene).resume(state, rows).solve().unwrap_err();
     assert!(short.to_string().ends_with("15 rows are given, 16 came before the checkpoint"), "{short}");
 }
 

@@ -19,14 +19,15 @@ fn alone(scene: &Scene) -> (Vec<f64>, Option<MotionSpectrum>, u32) {
     if scene.analysis.model == Model::Mapped {
         let found = LumpedAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
         // The first row is the start.
-        return (found.rows[1..].iter().map(|r| r.transmission_error_um).collect(), None, found.headline.steps_per_row);
+        let errors = found.rows.series(1..usize::MAX, |r| r.transmission_error_um).unwrap();
+        return (errors, None, found.headline.steps_per_row);
     }
     let found = MotionAnalysis::new(scene).solve().unwrap_or_else(|e| panic!("{}: {e}", scene.name));
     let motion = scene.motion.as_ref().unwrap();
     let cycle_s = 60.0 / (f64::from(scene.driver_teeth()) * scene.operation.speed_rpm);
     let steps = f64::from(motion.steps_per_resonance) * found.headline.mesh_resonance_hz * cycle_s;
     let per_row = (steps / f64::from(motion.steps_per_mesh_cycle)).ceil().max(1.0);
-    (found.rows.iter().map(|r| r.dte_um).collect(), found.spectrum, per_row as u32)
+    (found.rows.series(0..usize::MAX, |r| r.dte_um).unwrap(), found.spectrum, per_row as u32)
 }
 
 /// The same of its gearbox, the row at the start left out.
@@ -36,7 +37,8 @@ fn as_gearbox(scene: &Scene, per_row: u32) -> (Vec<f64>, MotionSpectrum) {
     let file = Gearbox::parse(&text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished);
     let moved = found.unwrap_or_else(|e| panic!("{}: {e}", scene.name)).motion.unwrap();
-    (moved.rows[1..].iter().map(|row| 1e3 * row.meshes[0].transmission_error).collect(), moved.spectrum.unwrap())
+    let errors = moved.rows.series(1..usize::MAX, |row| 1e3 * row.meshes[0].transmission_error).unwrap();
+    (errors, moved.spectrum.unwrap())
 }
 
 /// Largest difference of both over the peak to peak, of rows and of lines of the spectrum.

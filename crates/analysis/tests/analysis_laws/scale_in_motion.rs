@@ -21,13 +21,15 @@ fn moved(size: f64, flanks: Flanks, model: &str) -> [Vec<f64>; 3] {
         let found = LumpedAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{place}: {e}"));
         found
             .rows
+            .to_vec()
+            .unwrap()
             .iter()
-            .zip(&found.energy)
+            .zip(found.energy.to_vec().unwrap())
             .map(|(r, e)| [r.transmission_error_um, r.normal_force, e.kinetic_mj])
             .collect()
     } else {
         let found = MotionAnalysis::new(&scene).solve().unwrap_or_else(|e| panic!("{place}: {e}"));
-        found.rows.iter().map(|r| [r.dte_um, r.normal_force_n, r.energy.kinetic_mj]).collect()
+        found.rows.to_vec().unwrap().iter().map(|r| [r.dte_um, r.normal_force_n, r.energy.kinetic_mj]).collect()
     };
     [1, 2, 3].map(|power| rows.iter().map(|r| r[power as usize - 1] / size.powi(power)).collect())
 }

@@ -64,7 +64,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let headline = &result.headline;
     let jump = headline.certificate.force_jump_at_tooth_change_n / headline.mean_normal_force_n;
     // Lines between the mesh harmonics over whole turns are what changes alone could make.
-    let rows: Vec<f64> = result.rows.iter().map(|r| r.dte_um).collect();
+    let rows = result.rows.series(0..result.rows.len(), |row| row.dte_um)?;
     let per_cycle = headline.rows_per_cycle as usize;
     let repeats = largest(rows.iter().zip(rows.iter().skip(per_cycle)).map(|(a, b)| (a - b).abs()));
     Ok(vec![

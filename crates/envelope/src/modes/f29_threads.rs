@@ -46,6 +46,7 @@ fn found_by(bench: &Bench, threads: usize) -> Result<Found, EnvelopeError> {
     pool.install(|| {
         let rest = bench.at_rest(&AS_IT_IS)?.history;
         let motion = bench.in_motion(&MOTION)?.rows;
+        let motion = motion.part(0..motion.len())?;
         let slices = rest.positions.iter().flat_map(|p| &p.pairs).flat_map(|pair| &pair.slices);
         Ok(Found {
             bits: format!("{rest:?} {motion:?}"),

@@ -4,6 +4,7 @@ use analysis::{
     NoObserver, SinkResult,
     motion::{MotionAnalysis, MotionCheckpoint, MotionResult, MotionRow, MotionSink},
 };
+use answer::RowStore;
 
 use super::FailureMode;
 use crate::{
@@ -42,10 +43,13 @@ impl MotionSink for Kept {
 }
 
 /// Rows that differ in any bit, and the largest difference of the transmission error over its peak to peak.
-fn apart(a: &MotionResult, b: &MotionResult) -> [f64; 2] {
-    let differ = a.rows.iter().zip(&b.rows).filter(|(x, y)| x != y).count() + a.rows.len().abs_diff(b.rows.len());
-    let most = largest(a.rows.iter().zip(&b.rows).map(|(x, y)| (x.dte_um - y.dte_um).abs()));
-    [differ as f64, most / a.headline.peak_to_peak_dte_um]
+fn apart(a: &MotionResult, b: &MotionResult) -> Result<[f64; 2], EnvelopeError> {
+    let [rows, others] = [&a.rows, &b.rows].map(|rows| rows.part(0..rows.len()));
+    let (rows, others) = (rows?, others?);
+    let both = || rows.iter().zip(&others);
+    let differ = both().filter(|(x, y)| x != y).count() + rows.len().abs_diff(others.len());
+    let most = largest(both().map(|(x, y)| (x.dte_um - y.dte_um).abs()));
+    Ok([differ as f64, most / a.headline.peak_to_peak_dte_um])
 }
 
 fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
@@ -57,10 +61,10 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let mut naive = state.clone();
     naive.motion.state.a.fill(0.0);
     naive.motion.state.averaged.fill(0.0);
-    let resumed = MotionAnalysis::new(&scene).resume(state, first.rows.clone()).solve()?;
-    let without = MotionAnalysis::new(&scene).resume(naive, first.rows).solve()?;
-    let [differ, _] = apart(&whole, &resumed);
-    let [naive_differ, naive_most] = apart(&whole, &without);
+    let resumed = MotionAnalysis::new(&scene).resume(state, RowStore::of(first.rows.clone())?).solve()?;
+    let without = MotionAnalysis::new(&scene).resume(naive, RowStore::of(first.rows)?).solve()?;
+    let [differ, _] = apart(&whole, &resumed)?;
+    let [naive_differ, naive_most] = apart(&whole, &without)?;
     Ok(vec![
         Figure::new(
             format!("rows of {} that differ after a stop at a third; naive: without accelerations", whole.rows.len()),

@@ -56,7 +56,8 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     // A sinusoidal index deviation of the pinion: one line of the shaft, and sidebands of the mesh at its distance alone.
     let result = bench.in_motion(&AS_IT_IS)?;
     let per_turn = TEETH * result.headline.rows_per_cycle as usize;
-    let last: Vec<f64> = result.rows[result.rows.len().saturating_sub(per_turn)..].iter().map(|r| r.dte_um).collect();
+    let rows = result.rows.len();
+    let last = result.rows.series(rows.saturating_sub(per_turn)..rows, |row| row.dte_um)?;
     let shaft = order(&last, 1, 1);
     let between = largest([7, 11, 13, 17, 19, 23].map(|k| order(&last, 1, k)));
     Ok(vec![

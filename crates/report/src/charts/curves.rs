@@ -1,5 +1,7 @@
 //! Charts of a report: a picture that prints and needs no script, and beside it the points for the script that zooms.
 
+use std::borrow::Cow;
+
 use plotters::prelude::*;
 
 use super::{
@@ -30,7 +32,7 @@ impl LineChart {
     /// With the curves that have something to draw; `None` without any.
     pub fn new(title: &'static str, axes: [&'static str; 2], curves: &[Curve], from_zero: bool) -> Option<Self> {
         let curves = with_points(curves);
-        (!curves.is_empty()).then_some(Self { title, axes, curves, from_zero })
+        (!curves.is_empty()).then(|| Self { title, axes, curves: curves.into_owned(), from_zero })
     }
 
     /// As a part of a report.
@@ -65,7 +67,8 @@ pub fn banded_chart(
     let moved = |by: f64| curve.points.iter().map(|&(at, value)| (at, value + by)).collect();
     let edges = [(name, moved(above)), ("", moved(-below))];
     let [upper, lower] = edges.map(|(label, points)| Curve { label: label.to_owned(), points });
-    let curves = with_points(&[curve, upper, lower]);
+    let curves = [curve, upper, lower];
+    let curves = with_points(&curves);
     let svg = picture(title, [x, y], &curves, false, Marks::Band)?;
     Some(figure(&svg, &[embedded("plot", &Plot::banded(title, x, y, &curves))]))
 }
@@ -94,9 +97,13 @@ pub fn frequency_chart(title: &str, modes: Vec<Curve>, orders: Vec<Curve>) -> Op
 }
 
 /// Curves that have something to draw.
-fn with_points(curves: &[Curve]) -> Vec<Curve> {
-    let seen = |c: &&Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
-    curves.iter().filter(seen).cloned().collect()
+fn with_points(curves: &[Curve]) -> Cow<'_, [Curve]> {
+    let seen = |c: &Curve| c.points.iter().any(|(a, b)| a.is_finite() && b.is_finite());
+    if curves.iter().all(seen) {
+        // Of a long motion they take more than all else.
+        return Cow::Borrowed(curves);
+    }
+    Cow::Owned(curves.iter().filter(|c| seen(c)).cloned().collect())
 }
 
 /// Chart of the lines of a spectrum: one stick each.

@@ -49,7 +49,7 @@ impl<'a> Plot<'a> {
     pub fn new(title: &'a str, x: &'a str, y: &'a str, curves: &'a [Curve], zero: bool) -> Self {
         let ascending: Option<Vec<Vec<(f64, f64)>>> = curves.iter().map(|c| ascending(&c.points)).collect();
         let (kind, columns) = match ascending {
-            Some(curves) => (Kind::Lines, thinned(shared(&curves))),
+            Some(curves) => (Kind::Lines, thinned(shared(curves))),
             None => (Kind::Path, path(curves)),
         };
         Self::of(kind, [title, x, y], curves, zero, columns)
@@ -109,11 +109,12 @@ fn ascending(points: &[(f64, f64)]) -> Option<Vec<(f64, f64)>> {
 }
 
 /// One abscissa for all curves, then their ordinates; NaN where a curve has no point.
-fn shared(curves: &[Vec<(f64, f64)>]) -> Vec<Vec<f64>> {
+fn shared(mut curves: Vec<Vec<(f64, f64)>>) -> Vec<Vec<f64>> {
     let same = |c: &Vec<(f64, f64)>| c.len() == curves[0].len() && c.iter().zip(&curves[0]).all(|(a, b)| a.0 == b.0);
     if curves.iter().all(same) {
         let abscissa = curves.first().map(|c| c.iter().map(|p| p.0).collect()).unwrap_or_default();
-        return std::iter::once(abscissa).chain(curves.iter().map(|c| c.iter().map(|p| p.1).collect())).collect();
+        let ordinates = curves.iter_mut().map(|c| std::mem::take(c).into_iter().map(|p| p.1).collect());
+        return std::iter::once(abscissa).chain(ordinates).collect();
     }
     let mut all: Vec<f64> = curves.iter().flatten().map(|p| p.0).collect();
     all.sort_by(f64::total_cmp);
@@ -194,7 +195,7 @@ mod tests {
     fn thinning_keeps_the_envelope() {
         let mut points: Vec<(f64, f64)> = (0..100_000).map(|i| (f64::from(i), (0.1 * f64::from(i)).sin())).collect();
         points[70_001].1 = 7.0;
-        let columns = thinned(shared(&[points]));
+        let columns = thinned(shared(vec![points]));
         assert!(columns[0].len() <= PLACES + 2, "{} places", columns[0].len());
         assert!(columns[1].contains(&7.0), "the spike is lost");
         assert!(columns[0].windows(2).all(|w| w[0] < w[1]), "the abscissa ascends");

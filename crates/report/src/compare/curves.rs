@@ -141,7 +141,7 @@ fn places<'a>(table: &'a Table, axis: Axis) -> Option<(&'a str, Vec<(f64, usize)
         _ => {
             let number = |c: &'a answer::Column| match &c.values {
                 Values::Numbers(list) => Some((&*c.name, list)),
-                Values::Texts(_) => None,
+                Values::Texts(_) | Values::Kept(_) => None,
             };
             let mut all = table.columns.iter().filter_map(number);
             let first = all.next()?;

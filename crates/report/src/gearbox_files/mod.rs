@@ -11,6 +11,8 @@ mod swing_words;
 mod vibration;
 mod vibration_rows;
 
+use std::sync::Arc;
+
 use analysis::{
     gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult},
     motion::{MotionSpectrum, Waterfall},
@@ -100,7 +102,7 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         vibration_rows::response(file, &none),
         vibration_rows::rms(file, &none),
         vibration_rows::bearing_forces(file, &none),
-        rows::motion(file, &[]),
+        rows::motion(file, &Arc::default()),
         motion_tables::orders(file, &[]),
         motion_tables::spectrum(file, &MotionSpectrum::default()),
         motion_tables::waterfall(file, &Waterfall::default()),

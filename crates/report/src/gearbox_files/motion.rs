@@ -10,7 +10,10 @@ use scene::gearbox::Gearbox;
 use serde::Serialize;
 
 use super::motion_charts::{is_run_up, motion_charts};
-use crate::page::{Cell, Grid, Part};
+use crate::{
+    ReportError,
+    page::{Cell, Grid, Part},
+};
 
 described::described! {
     /// A gearbox in motion, as `summary.json` has it.
@@ -148,8 +151,7 @@ pub(super) const OBJECTS: [(&str, &[Key]); 6] = [
 pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Option<MotionSummary<'a>> {
     let motion = result.motion.as_ref()?;
     let mesh = |i: usize| {
-        let dte = motion.settled(|p| 1e3 * p.meshes[i].transmission_error);
-        let force = motion.settled(|p| p.meshes[i].normal_force);
+        let (dte, force) = (motion.reached.dte_um[i], motion.reached.normal_force[i]);
         MeshMotion {
             name: &result.meshes[i].name,
             mesh_hz: motion.mesh_frequencies[i],
@@ -164,7 +166,7 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
         }
     };
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
-        let force = motion.radial_force(i);
+        let force = motion.reached.radial_force[i];
         BearingMotion { name: &b.name, min_radial_force_n: force.least, max_radial_force_n: force.largest }
     });
     let gears = file.gears.iter().zip(&motion.gear_modes).filter_map(|(gear, modes)| {
@@ -213,8 +215,11 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 }
 
 /// Meshes and bearings in motion, charts over time, and over speed of a run-up.
-pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Vec<Part> {
-    let Some(motion) = &result.motion else { return Vec::new() };
+///
+/// # Errors
+/// [`ReportError`] where rows cannot be read back.
+pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Vec<Part>, ReportError> {
+    let Some(motion) = &result.motion else { return Ok(Vec::new()) };
     let words = "Least and largest forces are of the second half.";
     let words = if is_run_up(motion) {
         format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
@@ -223,8 +228,7 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> 
     };
     let head = ["in motion", "mesh Hz", "DTE p-p um", "least N", "largest N", "contact lost"];
     let meshes = (0..file.meshes.len()).map(|i| {
-        let dte = motion.settled(|p| 1e3 * p.meshes[i].transmission_error);
-        let force = motion.settled(|p| p.meshes[i].normal_force);
+        let (dte, force) = (motion.reached.dte_um[i], motion.reached.normal_force[i]);
         vec![
             Cell::text(&result.meshes[i].name),
             Cell::number(motion.mesh_frequencies[i], 1),
@@ -235,7 +239,7 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> 
         ]
     });
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
-        let force = motion.radial_force(i);
+        let force = motion.reached.radial_force[i];
         vec![Cell::text(&b.name), Cell::number(force.least, 1), Cell::number(force.largest, 1)]
     });
     let reduction = &motion.reduction;
@@ -248,10 +252,10 @@ pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> 
         together(motion)
     );
     let radial = Grid::new(["bearing", "least radial N", "largest N"]).rows(bearings);
-    vec![
+    Ok(vec![
         Part::new("In motion").closing().words(words).grid(Grid::new(head).rows(meshes)).note(note),
-        Part::more().grid(radial).figures(motion_charts(file, motion, answer)),
-    ]
+        Part::more().grid(radial).figures(motion_charts(file, motion, answer)?),
+    ])
 }
 
 /// After how long all meshes come back together.
@@ -259,7 +263,7 @@ fn together(motion: &GearboxMotionResult) -> String {
     let Some(period) = motion.common_period else {
         return "The meshes do not come back together within 100,000 cycles of the fastest.".to_owned();
     };
-    let gone = motion.cycles().last().copied().unwrap_or(0.0).floor();
+    let gone = motion.reached.cycles.last().copied().unwrap_or(0.0).floor();
     let few = if gone < period as f64 { "; a section needs as many rows" } else { "" };
     format!("All meshes come back together after {period} cycles of the fastest, of {gone} here{few}.")
 }

@@ -9,6 +9,7 @@ use gearbox::motion::GearboxInstant;
 use scene::gearbox::Gearbox;
 
 use crate::{
+    ReportError,
     charts::{Curve, line_chart},
     motion_files::{portrait, spectrum_chart, waterfall_chart},
 };
@@ -19,23 +20,28 @@ const DRAWN: usize = 3;
 const RUN_UP: f64 = 0.02;
 
 /// All charts; `answer` has the tables.
-pub(super) fn motion_charts(file: &Gearbox, motion: &GearboxMotionResult, answer: &Answer) -> Vec<String> {
-    let mut all: Vec<String> = over_time(file, motion).into_iter().flatten().collect();
+///
+/// # Errors
+/// [`ReportError`] where rows cannot be read back.
+pub(super) fn motion_charts(
+    file: &Gearbox,
+    motion: &GearboxMotionResult,
+    answer: &Answer,
+) -> Result<Vec<String>, ReportError> {
+    let mut all: Vec<String> = over_time(file, motion)?.into_iter().flatten().collect();
     if is_run_up(motion) {
         all.extend(over_speed(file, motion).into_iter().flatten());
         all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
-        return all;
+        return Ok(all);
     }
     all.extend(motion.spectrum.iter().flat_map(|own| spectra(file, own)));
-    let table = |name: &str| answer.tables.iter().find(|table| table.name == name);
-    if let Some((rows, section)) = table("motion").zip(table("section")) {
-        let one = |(i, mesh): (usize, &scene::gearbox::GearboxMesh)| {
+    if let Some((rows, section)) = answer.table("motion").zip(answer.table("section")) {
+        for (i, mesh) in file.meshes.iter().enumerate() {
             let whose = format!("the transmission error of mesh {}", mesh.name);
-            portrait([rows, section], &format!("mesh_{}_dte", i + 1), [&whose, "once a common period"])
-        };
-        all.extend(file.meshes.iter().enumerate().filter_map(one));
+            all.extend(portrait([rows, section], &format!("mesh_{}_dte", i + 1), [&whose, "once a common period"])?);
+        }
     }
-    all
+    Ok(all)
 }
 
 /// Waterfalls of every mesh, and of the bearing with the largest line.
@@ -73,35 +79,32 @@ fn shown(file: &Gearbox, amplitudes: &[&[Vec<f64>]]) -> Vec<(usize, String, &'st
 
 /// Whether the speed changes so much that what is seen of orders is seen over it.
 pub(super) fn is_run_up(motion: &GearboxMotionResult) -> bool {
-    let speeds = || motion.rows.iter().map(|p| p.input[1].abs());
-    let [least, largest] = speeds().fold([f64::INFINITY, 0.0], |[l, h], x| [l.min(x), h.max(x)]);
-    !motion.orders.is_empty() && largest - least > RUN_UP * largest
+    let speed = motion.reached.input_speed;
+    !motion.orders.is_empty() && speed.span() > RUN_UP * speed.largest
 }
 
-fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> [Option<String>; 4] {
-    let curve = |label: &str, of: &dyn Fn(&GearboxInstant) -> f64| Curve {
-        label: label.to_owned(),
-        points: motion.rows.iter().map(|p| (p.time, of(p))).collect(),
+fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> Result<[Option<String>; 4], ReportError> {
+    let curves = |names: Vec<&str>, of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Result<Vec<Curve>, ReportError> {
+        let curve = |name: &str| Curve { label: name.to_owned(), points: Vec::with_capacity(motion.rows.len()) };
+        let mut all: Vec<Curve> = names.into_iter().map(curve).collect();
+        motion.rows.for_each(0..motion.rows.len(), |p| {
+            all.iter_mut().enumerate().for_each(|(i, curve)| curve.points.push((p.time, of(p, i))));
+        })?;
+        Ok(all)
     };
-    let of_meshes = |of: &dyn Fn(&GearboxInstant, usize) -> f64| -> Vec<Curve> {
-        file.meshes.iter().enumerate().map(|(i, mesh)| curve(&mesh.name, &|p| of(p, i))).collect()
-    };
-    let radial = |p: &GearboxInstant, i: usize| p.bearings[i].force[0].hypot(p.bearings[i].force[1]);
-    let bearings: Vec<Curve> =
-        file.bearings.iter().enumerate().map(|(i, b)| curve(&b.name, &|p| radial(p, i))).collect();
+    let meshes = || file.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
+    let bearings = file.bearings.iter().map(|bearing| bearing.name.as_str()).collect();
+    let dte = curves(meshes(), &|p, i| 1e3 * p.meshes[i].transmission_error)?;
+    let forces = curves(meshes(), &|p, i| p.meshes[i].normal_force)?;
+    let radial = curves(bearings, &|p, i| p.bearings[i].force[0].hypot(p.bearings[i].force[1]))?;
+    let torque = curves(vec!["input"], &|p, _| 1e-3 * p.input_torque)?;
     let time = "time [s]";
-    [
-        line_chart(
-            "Dynamic transmission error",
-            time,
-            "DTE [um]",
-            &of_meshes(&|p, i| 1e3 * p.meshes[i].transmission_error),
-            false,
-        ),
-        line_chart("Normal force of the meshes", time, "force [N]", &of_meshes(&|p, i| p.meshes[i].normal_force), true),
-        line_chart("Radial force of the bearings", time, "force [N]", &bearings, true),
-        line_chart("Torque on the input", time, "torque [N m]", &[curve("input", &|p| 1e-3 * p.input_torque)], false),
-    ]
+    Ok([
+        line_chart("Dynamic transmission error", time, "DTE [um]", &dte, false),
+        line_chart("Normal force of the meshes", time, "force [N]", &forces, true),
+        line_chart("Radial force of the bearings", time, "force [N]", &radial, true),
+        line_chart("Torque on the input", time, "torque [N m]", &torque, false),
+    ])
 }
 
 /// Orders of every mesh: its own transmission error and the force of the bearing that has most of it.

@@ -6,24 +6,26 @@ use analysis::{
 };
 use answer::Table;
 use scene::gearbox::Gearbox;
-use study::StudyError;
 
 use super::vibration_rows::which;
-use crate::motion_files::{self, WaterfallOf};
+use crate::{
+    ReportError,
+    motion_files::{self, WaterfallOf},
+};
 
 /// `section`: the rows once a common period of all meshes, at its start; `None` where the motion does not last one, the
 /// meshes have none, or the input does not turn one way alone.
 ///
 /// # Errors
-/// [`StudyError`] for rows that hold what is no number.
-pub(super) fn section(motion: &GearboxMotionResult, rows: &Table) -> Result<Option<Table>, StudyError> {
-    let places = motion.cycles();
+/// [`ReportError`] for rows that hold what is no number.
+pub(super) fn section(motion: &GearboxMotionResult, rows: &Table) -> Result<Option<Table>, ReportError> {
+    let places = &motion.reached.cycles[..];
     let Some(period) = motion.common_period.map(|p| p as f64) else { return Ok(None) };
     let lasts = places.last().is_some_and(|last| *last > (1.0 - 1e-9) * period);
     if !lasts || places.windows(2).any(|w| w[1] <= w[0]) {
         return Ok(None);
     }
-    motion_files::section(rows, &places, period).map(Some)
+    motion_files::section(rows, places, period).map(Some)
 }
 
 /// `motion_orders`: what every order of every mesh does along a motion, one row an order over a stretch.

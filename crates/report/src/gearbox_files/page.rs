@@ -50,7 +50,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     if let Some((asked, swings)) = file.vibration.as_ref().zip(result.vibration.as_ref()) {
         vibration::parts(file, asked, swings).into_iter().for_each(|part| page.push(part));
     }
-    motion::parts(file, result, answer).into_iter().for_each(|part| page.push(part));
+    motion::parts(file, result, answer)?.into_iter().for_each(|part| page.push(part));
     branch::parts(file, result).into_iter().for_each(|part| page.push(part));
     page.push(Page::trust(answer).note(
         "Not in it: what the meshes of the gears, round shafts, linear bearings and rigid rings leave out. Gears are rigid \

@@ -1,14 +1,22 @@
 //! Charts of a motion and of a sweep.
 
+use std::borrow::Cow;
+
 use analysis::motion::{CampbellDiagram, MotionSpectrum, RPM, RunUp, RunUpCycle, SweepRow, Waterfall};
 use dynamics::Speed;
 use scene::SweepWay;
 use study::{StudyError, extent};
 
 use super::{spectrum::spectrum_chart, waterfall::waterfall_chart};
-use crate::charts::{Curve, campbell_chart, line_chart};
+use crate::{
+    ReportError,
+    charts::{Curve, campbell_chart, line_chart},
+};
 use answer::Table;
-use columns::motion_history::{MESH_PHASE, TIME};
+use columns::{
+    energy::RESIDUAL,
+    motion_history::{MESH_PHASE, TIME},
+};
 
 /// Mesh cycles of a steady motion that are drawn, the last ones.
 pub const SHOWN_CYCLES: usize = 4;
@@ -36,14 +44,27 @@ pub struct MotionPictures<'a> {
     pub quasi_static: Option<&'a [f64]>,
 }
 
+/// Rows that are looked at together.
+const ROWS: usize = 65_536;
+
 /// All charts of a motion.
 ///
 /// # Errors
-/// [`StudyError`] for rows without a column that every motion has.
-pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError> {
+/// [`ReportError`] for rows without a column that every motion has, and where they cannot be read back.
+pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, ReportError> {
     let steady = of.ramp.is_none();
-    let first = if steady { of.rows.rows().saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
-    let time = &series(of.rows, TIME.name)?[first..];
+    let rows = of.rows.rows();
+    let first = if steady { rows.saturating_sub(SHOWN_CYCLES * of.per_cycle) } else { 0 };
+    // Of a ramp, which is shown as a whole, one column at a time.
+    let last = if steady { Some(of.rows.part(first..rows, |_| true)?) } else { None };
+    let column = |name: &str| -> Result<Option<Vec<f64>>, ReportError> {
+        let of = match &last {
+            Some(last) => Cow::Borrowed(last),
+            None => Cow::Owned(of.rows.part(0..rows, |own| own == name)?),
+        };
+        Ok(of.find(name).map(<[f64]>::to_vec))
+    };
+    let time = &column(TIME.name)?.ok_or_else(|| missing(TIME.name))?[..];
     let begin = if steady { time.first().copied().unwrap_or(0.0) } else { 0.0 };
     let unit = 1e3;
     // Of a ramp everything is drawn over the speed that it is made for.
@@ -53,39 +74,32 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
     };
     let axis = of.ramp.map_or("time [ms], last mesh cycles".to_owned(), |(_, teeth, _)| speed_axis(teeth));
     let axis = axis.as_str();
-    let points = |column: &[f64]| -> Vec<(f64, f64)> {
-        let column = column.get(first..).unwrap_or_default();
-        time.iter().zip(column).map(|(t, x)| (place(*t), *x)).collect()
-    };
     // A model without such a quantity has no curve.
-    let curve = |label: &str, name: &str| Curve {
-        label: label.to_owned(),
-        points: points(of.rows.find(name).unwrap_or_default()),
+    let curve = |label: &str, name: &str| -> Result<Curve, ReportError> {
+        let points = time.iter().zip(column(name)?.unwrap_or_default()).map(|(t, x)| (place(*t), x)).collect();
+        Ok(Curve { label: label.to_owned(), points })
     };
-    let mut errors = vec![curve("DTE", "dte_um")];
+    let mut errors = vec![curve("DTE", "dte_um")?];
     if let (true, Some(ste)) = (steady, of.quasi_static) {
-        errors.push(Curve { label: "STE".into(), points: repeated(of, ste, time, begin, unit)? });
+        errors.push(Curve {
+            label: "STE".into(),
+            points: repeated(
+                &column(MESH_PHASE.name)?.ok_or_else(|| missing(MESH_PHASE.name))?,
+                ste,
+                time,
+                begin,
+                unit,
+            ),
+        });
     }
-    let forces = [curve("driving flanks", "normal_force_n"), curve("coast flanks", "coast_normal_force_n")];
-    let sharing: Vec<Curve> = of
-        .rows
-        .names()
-        .filter(|n| n.starts_with("normal_force_pair_"))
-        .filter(|n| of.rows.find(n).is_some_and(|all| extent(all)[1] > 0.0))
-        .map(|n| curve(&n.replace("normal_force_", "").replace("_n", "").replace('_', " "), n))
-        .collect();
-    let moments = [curve("pinion", "pinion_moment_y_nmm"), curve("wheel", "wheel_moment_y_nmm")];
-    let energy_time = series(of.energy, TIME.name)?;
+    let forces = [curve("driving flanks", "normal_force_n")?, curve("coast flanks", "coast_normal_force_n")?];
+    let pairs = if steady { pressed_pairs(of.rows)? } else { Vec::new() };
+    let sharing =
+        pairs.iter().map(|name| curve(&name.replace("normal_force_", "").replace("_n", "").replace('_', " "), name));
+    let sharing = sharing.collect::<Result<Vec<_>, _>>()?;
+    let moments = [curve("pinion", "pinion_moment_y_nmm")?, curve("wheel", "wheel_moment_y_nmm")?];
     let (energy_axis, energy_place): (&str, &dyn Fn(f64) -> f64) =
         if steady { ("time [s]", &|t| t) } else { (axis, &place) };
-    let residual = Curve {
-        label: "residual".into(),
-        points: energy_time
-            .iter()
-            .zip(series(of.energy, "residual_mj")?)
-            .map(|(t, x)| (energy_place(*t), *x))
-            .collect(),
-    };
     let mut all = of.ramp.map_or(Vec::new(), |(_, teeth, run_up)| run_up_charts(run_up, &speed_axis(teeth)));
     all.extend([
         line_chart("Dynamic transmission error", axis, "transmission error [um]", &errors, false),
@@ -93,18 +107,19 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
             "Total contact-line length",
             axis,
             "length [mm]",
-            &[curve("length", "contact_line_length_mm")],
+            &[curve("length", "contact_line_length_mm")?],
             false,
         ),
         line_chart("Sum of normal forces", axis, "force [N]", &forces, true),
-        line_chart("Load sharing", axis, "normal force [N]", if steady { &sharing } else { &[] }, true),
-        line_chart("Axial force on the wheel", axis, "force [N]", &[curve("z", "wheel_force_z_n")], false),
+        line_chart("Load sharing", axis, "normal force [N]", &sharing, true),
+        line_chart("Axial force on the wheel", axis, "force [N]", &[curve("z", "wheel_force_z_n")?], false),
         line_chart("Tilting moment about y", axis, "moment [N mm]", &moments, false),
     ]);
     for gear in ["pinion", "wheel"] {
         let beginning = format!("{gear}_bearing_force_");
         let names = of.rows.names().filter_map(|name| Some((name, name.strip_prefix(&beginning)?)));
-        let curves: Vec<Curve> = names.map(|(name, axis)| curve(axis.trim_end_matches("_n"), name)).collect();
+        let curves = names.map(|(name, axis)| curve(axis.trim_end_matches("_n"), name));
+        let curves = curves.collect::<Result<Vec<Curve>, _>>()?;
         all.push(line_chart(&format!("Bearing force of the {gear}"), axis, "force [N]", &curves, false));
     }
     if let Some(spectrum) = of.spectrum {
@@ -117,13 +132,41 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, StudyError>
     let dte = ["the DTE", "um"];
     all.push(of.waterfall.and_then(|own| waterfall_chart(own, 0, dte, "pinion speed [1/min]")));
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
+    let residual = residual(of.energy, energy_place)?;
     all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
     Ok(all.into_iter().flatten().collect())
 }
 
-/// The column of that name.
-fn series<'t>(of: &'t Table, name: &str) -> Result<&'t [f64], StudyError> {
-    of.find(name).ok_or_else(|| StudyError::NoColumn { name: name.to_owned() })
+/// That rows have no column of that name.
+fn missing(name: &str) -> ReportError {
+    StudyError::NoColumn { name: name.to_owned() }.into()
+}
+
+/// The column of that name, in memory.
+fn series<'t>(of: &'t Table, name: &str) -> Result<&'t [f64], ReportError> {
+    of.find(name).ok_or_else(|| missing(name))
+}
+
+/// Energy that does not close, row by row, over places of their times.
+fn residual(energy: &Table, place: &dyn Fn(f64) -> f64) -> Result<Curve, ReportError> {
+    let part = energy.part(0..energy.rows(), |name| name == TIME.name || name == RESIDUAL.name)?;
+    let both = series(&part, TIME.name)?.iter().zip(series(&part, RESIDUAL.name)?);
+    Ok(Curve { label: "residual".into(), points: both.map(|(t, x)| (place(*t), *x)).collect() })
+}
+
+/// Columns of the pairs that press in any row.
+fn pressed_pairs(of: &Table) -> Result<Vec<String>, ReportError> {
+    let is_of_pair = |name: &str| name.starts_with("normal_force_pair_");
+    let mut largest: Vec<(String, f64)> =
+        of.names().filter(|name| is_of_pair(name)).map(|name| (name.to_owned(), f64::NEG_INFINITY)).collect();
+    let rows = if largest.is_empty() { 0 } else { of.rows() };
+    for first in (0..rows).step_by(ROWS) {
+        let part = of.part(first..rows.min(first + ROWS), is_of_pair)?;
+        for ((_, largest), column) in largest.iter_mut().zip(&part.columns) {
+            *largest = largest.max(extent(column.numbers())[1]);
+        }
+    }
+    Ok(largest.into_iter().filter(|(_, force)| *force > 0.0).map(|(name, _)| name).collect())
 }
 
 /// Axis of speeds of a driver with so many teeth; mesh frequency goes with it.
@@ -160,23 +203,15 @@ fn run_up_charts(of: &RunUp, axis: &str) -> Vec<Option<String>> {
     ]
 }
 
-/// The quasi-static error of one cycle under every cycle drawn.
-fn repeated(
-    of: &MotionPictures<'_>,
-    ste: &[f64],
-    time: &[f64],
-    begin: f64,
-    unit: f64,
-) -> Result<Vec<(f64, f64)>, StudyError> {
-    let phases = series(of.rows, MESH_PHASE.name)?;
-    let phases = &phases[phases.len() - time.len()..];
+/// The quasi-static error of one cycle under every cycle drawn; `phases` are those of the rows at `time`.
+fn repeated(phases: &[f64], ste: &[f64], time: &[f64], begin: f64, unit: f64) -> Vec<(f64, f64)> {
     let n = ste.len();
     let at = |phase: f64| {
         let place = phase.rem_euclid(1.0) * n as f64;
         let (i, share) = (place.floor() as usize % n, place.fract());
         1e3 * ((1.0 - share) * ste[i] + share * ste[(i + 1) % n])
     };
-    Ok(time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect())
+    time.iter().zip(phases).map(|(t, phase)| (unit * (t - begin), at(*phase))).collect()
 }
 
 /// What the charts of a sweep are drawn from.

@@ -18,7 +18,7 @@ use crate::{
     tables::fixed,
     write_result,
 };
-use columns::{ENERGY, LumpedLayout};
+use columns::{ENERGY, LumpedLayout, lumped_history::TIME};
 use store::folder::ResultDirectory;
 
 /// Displacements that have a phase portrait where the model has them; their rates are named alike.
@@ -45,8 +45,8 @@ pub(super) fn write_lumped_result(
     let layout = LumpedLayout::of(scene);
     let (history, energy) = (layout.sheet(), ENERGY.sheet(&(), &[]));
     let mut tables = vec![
-        history.table("history", &layout, &result.rows),
-        energy.table("energy", &(), &result.energy),
+        history.kept("history", &layout, &result.rows, |row| row),
+        energy.kept("energy", &(), &result.energy, |row| row),
         rows::spectrum(spectrum),
     ];
     let places: Vec<f64> = (0..result.rows.len()).map(|i| i as f64 / h.rows_per_cycle as f64).collect();
@@ -66,8 +66,8 @@ pub(super) fn write_lumped_result(
     };
     let mut charts = motion_charts(&pictures)?;
     for (name, whose) in PORTRAITS {
-        charts.extend(displacement(&pictures, name, whose));
-        charts.extend(portrait([&tables[0], &tables[2]], name, [whose, "once a mesh cycle"]));
+        charts.extend(displacement(&pictures, name, whose)?);
+        charts.extend(portrait([&tables[0], &tables[2]], name, [whose, "once a mesh cycle"])?);
     }
     charts.extend(campbell.as_ref().and_then(|c| campbell_chart(&c.diagram, &c.names, &[])));
     let frequencies = Line::number("", h.mesh_resonance_hz, 0, "").value;
@@ -141,11 +141,14 @@ fn lines(h: &LumpedHeadline) -> Vec<Line> {
 }
 
 /// Displacement over time, the last mesh cycles.
-fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Option<String> {
-    let (time, x) = (of.rows.find("time_s")?, of.rows.find(&format!("{name}_um"))?);
-    let first = x.len().saturating_sub(SHOWN_CYCLES * of.per_cycle);
-    let begin = time.get(first).copied().unwrap_or(0.0);
-    let points: Vec<(f64, f64)> = time.iter().zip(x).skip(first).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
+fn displacement(of: &MotionPictures<'_>, name: &str, whose: &str) -> Result<Option<String>, ReportError> {
+    let (rows, own) = (of.rows.rows(), format!("{name}_um"));
+    let first = rows.saturating_sub(SHOWN_CYCLES * of.per_cycle);
+    let part = of.rows.part(first..rows, |name| name == TIME.name || name == own)?;
+    let (Some(time), Some(x)) = (part.find(TIME.name), part.find(&own)) else { return Ok(None) };
+    let begin = time.first().copied().unwrap_or(0.0);
+    let points: Vec<(f64, f64)> = time.iter().zip(x).map(|(t, x)| (1e3 * (t - begin), *x)).collect();
     let curve = Curve { label: name.replace('_', " "), points };
-    line_chart(&format!("Motion of {whose}"), "time [ms], last mesh cycles", "displacement [um]", &[curve], false)
+    let title = format!("Motion of {whose}");
+    Ok(line_chart(&title, "time [ms], last mesh cycles", "displacement [um]", &[curve], false))
 }

@@ -41,8 +41,8 @@ pub(super) fn write_motion_result(
     let pairs: Vec<i64> = layout.pairs().collect();
     let (history, energy) = (MOTION_HISTORY.sheet(layout, &pairs), ENERGY.sheet(&(), &[]));
     let mut tables = vec![
-        history.table("history", layout, all).written(),
-        energy.table("energy", &(), all.iter().map(|r| &r.energy)).written(),
+        history.kept("history", layout, all, |row| row).written(),
+        energy.kept("energy", &(), all, |row| &row.energy).written(),
     ];
     tables.extend(spectrum.as_ref().map(rows::spectrum));
     if let Some(ramp) = ramp {

@@ -1,8 +1,10 @@
 //! What a gearbox's motion keeps: its state, and its rows with all their digits.
 
-use std::path::Path;
+use std::{io::BufRead, path::Path};
 
 use analysis::{SinkResult, gearbox::GearboxSink};
+use answer::RowStore;
+use columns::ColumnsError;
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 use serde::{Deserialize, Serialize};
 
@@ -47,16 +49,20 @@ impl GearboxState {
     ///
     /// # Errors
     /// When the file cannot be read, holds what is no row, or other rows than the state has.
-    pub fn read_rows(&self, folder: &Path) -> Result<Vec<GearboxInstant>, StoreError> {
+    pub fn read_rows(&self, folder: &Path) -> Result<RowStore<GearboxInstant>, StoreError> {
         let file = folder.join(GEARBOX_ROWS);
-        let text = self.rows.text(&file)?;
-        let rows: Result<Vec<GearboxInstant>, _> = text.lines().map(serde_json::from_str).collect();
-        let what = match rows {
-            Ok(rows) if rows.len() as u64 == self.motion.stage.rows => return Ok(rows),
-            Ok(rows) => format!("has {} rows, and the state {}", rows.len(), self.motion.stage.rows),
-            Err(e) => format!("holds what is no row: {e}"),
-        };
-        Err(CheckpointError::Damaged { file, what }.into())
+        let damaged = |what: String| CheckpointError::Damaged { file: file.clone(), what };
+        let mut rows = RowStore::default();
+        for line in self.rows.reader(&file)?.lines() {
+            let line = line.map_err(|cause| ColumnsError::Read { file: file.clone(), cause })?;
+            let row = serde_json::from_str(&line).map_err(|e| damaged(format!("holds what is no row: {e}")))?;
+            rows.push(row)?;
+        }
+        if rows.len() as u64 != self.motion.stage.rows {
+            let what = format!("has {} rows, and the state {}", rows.len(), self.motion.stage.rows);
+            return Err(damaged(what).into());
+        }
+        Ok(rows)
     }
 }
 

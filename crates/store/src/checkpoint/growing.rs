@@ -2,7 +2,7 @@
 
 use std::{
     fs::{File, OpenOptions},
-    io::{BufWriter, Read, Write},
+    io::{BufRead, BufReader, BufWriter, Read, Write},
     path::{Path, PathBuf},
 };
 
@@ -29,14 +29,13 @@ fn opened(path: &Path) -> std::io::Result<File> {
 }
 
 impl Kept {
-    /// The text of the file as far as it was kept.
+    /// The file as far as it was kept.
     ///
     /// # Errors
-    /// When it cannot be read.
-    pub(super) fn text(&self, path: &Path) -> Result<String, StoreError> {
-        let mut text = String::new();
-        let read = opened(path).and_then(|file| file.take(self.bytes).read_to_string(&mut text));
-        read.map(|_| text).map_err(|cause| ColumnsError::Read { file: path.to_owned(), cause }.into())
+    /// When it cannot be opened.
+    pub(super) fn reader(&self, path: &Path) -> Result<impl BufRead, StoreError> {
+        let file = opened(path).map_err(|cause| ColumnsError::Read { file: path.to_owned(), cause })?;
+        Ok(BufReader::new(file.take(self.bytes)))
     }
 }
 

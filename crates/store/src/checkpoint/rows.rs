@@ -1,9 +1,9 @@
 //! Rows of `history.csv` and `energy.csv`, written as the motion goes on.
 
-use std::path::Path;
+use std::{io::BufRead, path::Path};
 
 use analysis::motion::{MotionLayout, MotionRow};
-use answer::csv::push_row;
+use answer::{RowStore, csv::push_row};
 use scene::Scene;
 use study::Columns;
 
@@ -27,37 +27,80 @@ fn sheets(layout: &MotionLayout) -> (Sheet<MotionRows>, Sheet<EnergyRows>) {
     (MOTION_HISTORY.sheet(layout, &layout.pairs().collect::<Vec<_>>()), ENERGY.sheet(&(), &[]))
 }
 
-/// The columns of a file as far as a checkpoint kept it.
-fn columns_kept(path: &Path, kept: &Kept) -> Result<Columns, StoreError> {
-    parse_columns(&kept.text(path)?).ok_or_else(|| ColumnsError::NoNumber { file: path.to_owned() }.into())
-}
+/// Rows that are read at a time.
+const ROWS: usize = 2_048;
 
 /// The rows of a run so far, from both files as far as a checkpoint kept them.
 ///
 /// # Errors
-/// When a file cannot be read or holds what is no row.
+/// When a file cannot be read or holds what is no row; [`StoreError::Table`] where there is no room for the rows.
 pub fn read_rows(
     layout: &MotionLayout,
     folder: &Path,
     [history, energy]: &[Kept; 2],
-) -> Result<Vec<MotionRow>, StoreError> {
-    let history = columns_kept(&folder.join(HISTORY), history)?;
-    let energy = columns_kept(&folder.join(ENERGY_FILE), energy)?;
-    Ok(motion_rows(layout, &history, &energy)?)
+) -> Result<RowStore<MotionRow>, StoreError> {
+    let [of_history, of_energy] = [HISTORY, ENERGY_FILE].map(|name| folder.join(name));
+    let history = CsvBlocks::new(&of_history, history.reader(&of_history)?)?;
+    rows_of(layout, history, CsvBlocks::new(&of_energy, energy.reader(&of_energy)?)?)
 }
 
 /// Rows from the texts of both files, `history.csv` first; `folder` is what messages name.
 ///
 /// # Errors
-/// When a file holds what is no row.
+/// As [`read_rows`].
 pub fn parse_rows(
     layout: &MotionLayout,
     [history, energy]: [&str; 2],
     folder: &Path,
-) -> Result<Vec<MotionRow>, StoreError> {
-    let columns =
-        |text: &str, name| parse_columns(text).ok_or_else(|| ColumnsError::NoNumber { file: folder.join(name) });
-    Ok(motion_rows(layout, &columns(history, HISTORY)?, &columns(energy, ENERGY_FILE)?)?)
+) -> Result<RowStore<MotionRow>, StoreError> {
+    let [of_history, of_energy] = [HISTORY, ENERGY_FILE].map(|name| folder.join(name));
+    let history = CsvBlocks::new(&of_history, history.as_bytes())?;
+    rows_of(layout, history, CsvBlocks::new(&of_energy, energy.as_bytes())?)
+}
+
+/// The rows of both files, some at a time.
+fn rows_of(
+    layout: &MotionLayout,
+    mut history: CsvBlocks<'_, impl BufRead>,
+    mut energy: CsvBlocks<'_, impl BufRead>,
+) -> Result<RowStore<MotionRow>, StoreError> {
+    let mut all = RowStore::default();
+    loop {
+        let (of_history, of_energy) = (history.next()?, energy.next()?);
+        if of_history.is_empty() {
+            return Ok(all);
+        }
+        motion_rows(layout, &of_history, &of_energy)?.into_iter().try_for_each(|row| all.push(row))?;
+    }
+}
+
+/// A file with commas, some lines at a time.
+struct CsvBlocks<'a, R> {
+    file: &'a Path,
+    reader: R,
+    /// The first line.
+    names: String,
+}
+
+impl<'a, R: BufRead> CsvBlocks<'a, R> {
+    fn new(file: &'a Path, mut reader: R) -> Result<Self, StoreError> {
+        let mut names = String::new();
+        reader.read_line(&mut names).map_err(|cause| ColumnsError::Read { file: file.to_owned(), cause })?;
+        Ok(Self { file, reader, names })
+    }
+
+    /// Columns of the next rows; without rows at the end.
+    fn next(&mut self) -> Result<Columns, StoreError> {
+        let mut text = self.names.clone();
+        for _ in 0..ROWS {
+            let read = self.reader.read_line(&mut text);
+            let read = read.map_err(|cause| ColumnsError::Read { file: self.file.to_owned(), cause })?;
+            if read == 0 {
+                break;
+            }
+        }
+        parse_columns(&text).ok_or_else(|| ColumnsError::NoNumber { file: self.file.to_owned() }.into())
+    }
 }
 
 /// Both files of rows.

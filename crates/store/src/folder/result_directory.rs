@@ -84,11 +84,21 @@ impl ResultDirectory {
     pub fn write_csv(&self, table: &answer::Table) -> Result<(), StoreError> {
         let name = format!("{}.csv", table.name);
         debug_assert!(is_ours(&name), "{name} is not in the list of result files: what a killed run leaves would stay");
-        let whole = || {
-            let mut file = fs::File::create(self.path(&name))?;
-            table.csv_in_blocks(|block| file.write_all(block.as_bytes()))
-        };
-        whole().map_err(|cause| StoreError::Write { file: self.wanted.join(&name), cause })
+        let refused = |cause| StoreError::Write { file: self.wanted.join(&name), cause };
+        let mut file = fs::File::create(self.path(&name)).map_err(refused)?;
+        table.csv_in_blocks(|block| file.write_all(block.as_bytes()).map_err(refused))
+    }
+
+    /// Writes the Parquet file of a table, group by group.
+    ///
+    /// # Errors
+    /// When the system refuses.
+    pub fn write_parquet(&self, table: &answer::Table) -> Result<(), StoreError> {
+        let name = format!("{}.parquet", table.name);
+        debug_assert!(is_ours(&name), "{name} is not in the list of result files: what a killed run leaves would stay");
+        let refused = |cause| StoreError::Write { file: self.wanted.join(&name), cause };
+        let file = fs::File::create(self.path(&name)).map_err(refused)?;
+        Ok(answer::write_parquet(table, file)?)
     }
 
     /// Folder of the files while the result is being written.

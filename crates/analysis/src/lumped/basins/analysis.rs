@@ -95,7 +95,8 @@ impl<'a> BasinAnalysis<'a> {
                     checked_run(&inputs, &mut own.model, resonance_hz, Some(&from))
                 });
                 progress.tick();
-                found.map(|(run, checks)| (Attractor::of(&run, tolerance), checks)).map_err(Arc::new)
+                let of = |(run, checks)| Ok((Attractor::of(&run, tolerance)?, checks));
+                found.and_then(of).map_err(Arc::new)
             };
             places.par_iter().map(one).collect::<Vec<_>>()
         });

@@ -1,5 +1,6 @@
 //! Motions that runs end in, told apart by what they look like.
 
+use answer::TableError;
 use serde::Serialize;
 use study::{extent, mean};
 
@@ -38,12 +39,15 @@ described::described! {
 impl Attractor {
     /// What the last cycles of a run look like; `tolerance`: difference after a period, over the peak to peak, that is
     /// none.
-    pub(super) fn of(run: &LumpedRun, tolerance: f64) -> Self {
-        let errors: Vec<f64> = run.rows.iter().map(|row| row.transmission_error_um).collect();
-        let forces: Vec<f64> = run.rows.iter().map(|row| row.normal_force).collect();
+    ///
+    /// # Errors
+    /// [`TableError`] where its rows cannot be read back.
+    pub(super) fn of(run: &LumpedRun, tolerance: f64) -> Result<Self, TableError> {
+        let errors = run.rows.series(0..run.rows.len(), |row| row.transmission_error_um)?;
+        let forces = run.rows.series(0..run.rows.len(), |row| row.normal_force)?;
         let (error, force) = (extent(&errors), extent(&forces));
         let repeats = run.periodicity.filter(|p| p.residual <= tolerance);
-        Self {
+        Ok(Self {
             attractor: 0,
             period_cycles: repeats.map(|p| p.period),
             starts: 1,
@@ -54,7 +58,7 @@ impl Attractor {
             min_normal_force_n: force[0],
             max_normal_force_n: force[1],
             most_warm_up_cycles: run.warm_up,
-        }
+        })
     }
 
     /// Largest less smallest transmission error, um.

@@ -39,7 +39,7 @@ pub(super) fn integrated(
 ) -> Result<TimePoint, AnalysisError> {
     let here = inputs.in_scene(family.scene_at(motion.parameter));
     let run = steady(&here, &mut here.build()?, Some(&state(motion, 0.0)))?;
-    let errors: Vec<f64> = run.rows.iter().map(|row| row.transmission_error_um).collect();
+    let errors = run.rows.series(0..run.rows.len(), |row| row.transmission_error_um)?;
     let [low, high] = extent(&errors);
     Ok(TimePoint { value: motion.parameter, peak_to_peak_dte_um: high - low, branch_peak_to_peak_dte_um: peak_to_peak })
 }

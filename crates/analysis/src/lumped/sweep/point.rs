@@ -115,9 +115,11 @@ pub(super) fn run(
     let free = free_turn(&mut model).map_err(|e| located(e.of(scene)))?;
     let (run, checks) = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
     let every = options.every.cycles(scene) as usize;
-    let points: Vec<f64> = run.section().map(|row| options.quantity.of(row)).step_by(every).collect();
-    let of_rows: Vec<f64> = run.rows.iter().map(|row| options.quantity.of(row)).collect();
-    let force: Vec<f64> = run.rows.iter().map(|row| row.normal_force).collect();
+    let rows = 0..run.rows.len();
+    let of_rows = run.rows.series(rows.clone(), |row| options.quantity.of(row))?;
+    let force = run.rows.series(rows, |row| row.normal_force)?;
+    // One row a mesh cycle, at its beginning: a stroboscopic section.
+    let points: Vec<f64> = of_rows.iter().copied().step_by(run.per_cycle * every).collect();
     let range = extent(&of_rows);
     let lyapunov = match options.stretches {
         0 => None,

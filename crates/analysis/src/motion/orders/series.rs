@@ -1,5 +1,6 @@
 //! Series of a motion: what spectra and a run-up over speed are read off.
 
+use answer::{RowStore, TableError};
 use study::StudyError;
 
 use crate::motion::MotionRow;
@@ -7,7 +8,7 @@ use crate::motion::MotionRow;
 /// Quantities of a motion over time, equally many values in each mesh cycle.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct MotionSeries {
-    /// Time, s.
+    /// Time, s; it and all that only a ramp is judged by may be empty.
     pub time_s: Vec<f64>,
     /// Speed of the pinion, 1/min; may be empty where nothing is drawn over it.
     pub pinion_speed_rpm: Vec<f64>,
@@ -26,19 +27,27 @@ pub struct MotionSeries {
 }
 
 impl MotionSeries {
-    /// Of the rows of a motion of reduced gears.
-    pub fn of(rows: &[MotionRow]) -> Self {
-        let series = |value: fn(&MotionRow) -> f64| -> Vec<f64> { rows.iter().map(value).collect() };
-        Self {
-            time_s: series(|r| r.time_s),
-            pinion_speed_rpm: series(|r| r.speed_rpm[0]),
-            dte_um: series(|r| r.dte_um),
-            normal_force_n: series(|r| r.normal_force_n),
-            coast_normal_force_n: series(|r| r.coast_normal_force_n),
-            pair_normal_force_n: Some(series(|r| r.pair_normal_force_n.iter().fold(0.0, |m: f64, f| m.max(*f)))),
-            wheel_force_z_n: series(|r| r.force_n[1][2]),
-            moment_y_nmm: [series(|r| r.moment_nmm[0][1]), series(|r| r.moment_nmm[1][1])],
-        }
+    /// Of the rows of a motion of reduced gears, for spectra; `over_speed`: and what a ramp is judged by.
+    ///
+    /// # Errors
+    /// [`TableError`] where rows cannot be read back.
+    pub fn of(rows: &RowStore<MotionRow>, over_speed: bool) -> Result<Self, TableError> {
+        let mut all = Self::default();
+        let mut pairs = Vec::new();
+        rows.for_each(0..rows.len(), |row| {
+            all.dte_um.push(row.dte_um);
+            all.normal_force_n.push(row.normal_force_n);
+            all.wheel_force_z_n.push(row.force_n[1][2]);
+            all.moment_y_nmm.iter_mut().zip(row.moment_nmm).for_each(|(list, moment)| list.push(moment[1]));
+            if over_speed {
+                all.time_s.push(row.time_s);
+                all.pinion_speed_rpm.push(row.speed_rpm[0]);
+                all.coast_normal_force_n.push(row.coast_normal_force_n);
+                pairs.push(row.pair_normal_force_n.iter().fold(0.0, |m: f64, f| m.max(*f)));
+            }
+        })?;
+        all.pair_normal_force_n = over_speed.then_some(pairs);
+        Ok(all)
     }
 
     /// Values of each series.
