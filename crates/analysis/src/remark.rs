@@ -93,6 +93,9 @@ answer::remarks! {
     // Standards.
     rating_outside(quantity, value, clause, range)
         "the rating is outside of its standard: {quantity} is {value:.3}, {clause} covers {range}", "";
+    rating_counts_one_mesh(gear, meshes)
+        "gear {gear} works in {meshes} meshes, and its rating counts one load a turn on one flank",
+        "state `meshes_per_turn` where one flank works in all of them, `reversed_load_ratio` where both flanks do";
     rating_unloaded()
         "the mesh carries no torque, or does not turn: it is not rated", "";
     rating_fails(gear, failure, safety)
@@ -229,7 +232,7 @@ answer::remarks! {
         "";
     bearing_film_outside(bearing)
         "bearing {bearing}: the oil is thinner than a tenth of what its speed asks for, where ISO 281 has no modified life",
-        "take a thicker oil, or look at the basic life";
+        "take a thicker oil";
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
         "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
         "say `seat_mm = {better_seat_mm:.3}`";

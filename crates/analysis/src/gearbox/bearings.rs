@@ -56,14 +56,21 @@ pub struct BearingLife {
     pub over_rating: f64,
     /// Life, h.
     pub hours: f64,
-    /// What oil and dirt make of it, where they are known and ISO 281 covers them.
+    /// Whether oil and dirt are to count.
+    pub asks_modified: bool,
+    /// What they make of it, where ISO 281 covers them.
     pub modification: Option<LifeModification>,
 }
 
 impl BearingLife {
-    /// The modified life where there is one, else the basic one, h.
-    pub fn rated_hours(&self) -> f64 {
-        self.hours * self.modification.map_or(1.0, |own| own.factor)
+    /// The modified life where oil and dirt are to count, else the basic one, h; `None` where ISO 281 has no modified life.
+    pub fn rated_hours(&self) -> Option<f64> {
+        if self.asks_modified { self.modified_hours() } else { Some(self.hours) }
+    }
+
+    /// The modified life, h.
+    pub fn modified_hours(&self) -> Option<f64> {
+        self.modification.map(|own| own.factor * self.hours)
     }
 }
 
@@ -102,6 +109,7 @@ fn life(
         equivalent_load,
         over_rating: equivalent_load / rating,
         hours: 1e6 / used / (60.0 * speed_rpm),
+        asks_modified: turns.viscosity.is_some() && turns.contamination_factor.is_some(),
         modification,
     })
 }
@@ -201,11 +209,7 @@ pub(super) fn rolling_load(
 }
 
 /// What the user should hear of a rolling bearing.
-pub(super) fn remarks(
-    name: &str,
-    [is_held, asks_oil]: [bool; 2],
-    (tilt, load): (f64, &RollingLoad),
-) -> Vec<answer::Remark> {
+pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {
@@ -234,7 +238,7 @@ pub(super) fn remarks(
     }
     said.extend(load.life.iter().flat_map(|life| {
         let high = (life.over_rating > HALF).then(|| remark::bearing_life_outside(name, life.over_rating));
-        let thin = (asks_oil && life.modification.is_none()).then(|| remark::bearing_film_outside(name));
+        let thin = (life.asks_modified && life.modification.is_none()).then(|| remark::bearing_film_outside(name));
         high.into_iter().chain(thin)
     }));
     if load.pressure > dent {

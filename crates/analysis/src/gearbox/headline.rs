@@ -1,13 +1,13 @@
 //! The numbers that a gearbox is judged, varied and compared by.
 
 use described::Key;
-use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
+use scene::gearbox::Gearbox;
 use serde_json::{Map, Value, json};
 
 use crate::{pair_rating::RatingHeadline, run_up::RunUpTorque};
 
 use super::{
-    BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult,
+    BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, Rates,
     RollingLoad, VibrationResult,
 };
 
@@ -19,7 +19,7 @@ enum Of {
     Outputs(fn(&OutputResult) -> f64),
     Bearings(fn(&BearingLoad) -> f64),
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
-    BearingsRated(fn(&BearingLife) -> f64),
+    BearingsRated(fn(&BearingLife) -> Option<f64>),
     BearingsLosing(fn(&RollingLoad) -> Option<f64>),
     Efficient,
     MeshesVibrating(fn(&VibrationResult, usize) -> f64),
@@ -124,13 +124,13 @@ const NUMBERS: [Number; 32] = [
     },
     list(
         "bearing_life_h",
-        "modified life of each bearing, the basic one without `viscosity_mm2_per_s`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
+        "modified life of each bearing, the basic one without `contamination_factor`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
         Of::BearingsRated(BearingLife::rated_hours),
     ),
     list(
         "bearing_load_over_rating",
         "equivalent load of each bearing over its dynamic rating; with `[rating]`",
-        Of::BearingsRated(|l| l.over_rating),
+        Of::BearingsRated(|l| Some(l.over_rating)),
     ),
     list(
         "largest_dynamic_force_rms_n",
@@ -224,19 +224,17 @@ impl GearboxResult {
                 Of::Outputs(own) => self.outputs.iter().map(own).collect(),
                 Of::Bearings(own) => self.bearings.iter().map(own).collect(),
                 Of::MeshesRated(own) => {
-                    let rated = self.meshes.iter().any(|m| m.rating.is_some());
-                    rated.then(|| self.meshes.iter().map(|m| m.rating.as_ref().and_then(own)).collect())?
+                    let of = |m: &MeshResult| m.rating.as_ref().and_then(own);
+                    self.rates.meshes.then(|| self.meshes.iter().map(of).collect())?
                 }
-                Of::Efficient => json!(self.efficiency()?),
+                Of::Efficient => self.rates.efficiency.then(|| json!(self.efficiency()))?,
                 Of::BearingsLosing(own) => {
-                    let loss = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
-                    let known = self.bearings.iter().any(|b| loss(b).is_some());
-                    known.then(|| self.bearings.iter().map(loss).collect())?
+                    let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
+                    self.rates.bearing_losses.then(|| self.bearings.iter().map(of).collect())?
                 }
                 Of::BearingsRated(own) => {
-                    let life = |b: &BearingLoad| b.rolling.and_then(|r| r.life);
-                    let rated = self.bearings.iter().any(|b| life(b).is_some());
-                    rated.then(|| self.bearings.iter().map(|b| life(b).as_ref().map(own)).collect())?
+                    let of = |b: &BearingLoad| b.rolling.and_then(|r| r.life).as_ref().and_then(own);
+                    self.rates.lives.then(|| self.bearings.iter().map(of).collect())?
                 }
                 Of::MeshesVibrating(own) => {
                     self.vibration.as_ref().map(|s| meshes.clone().map(|i| own(s, i)).collect())?
@@ -258,26 +256,17 @@ impl GearboxResult {
 
     /// Keys of the headline before anything is solved, each with how many numbers it lists; `None`: it is one.
     pub fn headline_keys(file: &Gearbox) -> Vec<(&'static str, Option<usize>)> {
+        let rates = Rates::of(file);
         let (vibrates, moves) = (file.vibration.is_some(), file.motion.is_some());
         let count = |of: Of| match of {
             Of::Whole(_) => Some(None),
             Of::Meshes(_) => Some(Some(file.meshes.len())),
             Of::Outputs(_) => Some(Some(file.torques.len())),
             Of::Bearings(_) => Some(Some(file.bearings.len())),
-            Of::MeshesRated(_) => {
-                file.meshes.iter().any(|m| m.scene.rating.is_some()).then_some(Some(file.meshes.len()))
-            }
-            Of::Efficient => {
-                let oiled = |m: &GearboxMesh| m.scene.rating.as_ref().is_some_and(|r| r.oil_temperature_c.is_some());
-                file.meshes.iter().all(oiled).then_some(None)
-            }
-            Of::BearingsLosing(_) => {
-                file.rating.is_some_and(|r| r.viscosity.is_some()).then_some(Some(file.bearings.len()))
-            }
-            Of::BearingsRated(_) => {
-                let rated = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some());
-                file.bearings.iter().any(rated).then_some(Some(file.bearings.len()))
-            }
+            Of::MeshesRated(_) => rates.meshes.then_some(Some(file.meshes.len())),
+            Of::Efficient => rates.efficiency.then_some(None),
+            Of::BearingsLosing(_) => rates.bearing_losses.then_some(Some(file.bearings.len())),
+            Of::BearingsRated(_) => rates.lives.then_some(Some(file.bearings.len())),
             Of::MeshesVibrating(_) => vibrates.then_some(Some(file.meshes.len())),
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
             Of::RunUp(_) => file.motion.as_ref().and_then(|m| m.to_speed_rpm).map(|_| None),

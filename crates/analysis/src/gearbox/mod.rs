@@ -54,7 +54,7 @@ pub use branch::GearboxBranchResult;
 use motion::Span;
 pub use motion::{GearboxMotionResult, Range, ReachedByRows};
 pub use orders::MotionOrder;
-pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult};
+pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;
 use solve::{Asked, Slices, solve};

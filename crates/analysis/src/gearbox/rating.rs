@@ -2,7 +2,7 @@
 
 use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, MeshState, Train};
-use scene::{Driver, Scene, gearbox::Gearbox};
+use scene::{Driver, RatedGearScene, Scene, gearbox::Gearbox};
 
 use super::meshes::ReducedMesh;
 use crate::{AnalysisError, pair_rating::RatingHeadline, remark, solved_mesh::SolvedMesh};
@@ -38,7 +38,10 @@ pub(super) fn ratings(
         let unloaded = torque == 0.0 || scene.operation.speed_rpm == 0.0;
         let rating = if unloaded { None } else { RatingHeadline::of_solved(&scene, &mesh.pair, &solved(&scene))? };
         match &rating {
-            Some(own) => said.extend(own.remarks().into_iter().map(|own| own.about(&mesh.name))),
+            Some(own) => {
+                let all = own.remarks().into_iter().chain(counted_once(file, i, &scene, positions));
+                said.extend(all.map(|own| own.about(&mesh.name)));
+            }
             None => said.push(remark::rating_unloaded().about(&mesh.name)),
         }
         Ok(rating)
@@ -48,6 +51,18 @@ pub(super) fn ratings(
     };
     let all = meshes.iter().enumerate().map(named).collect::<Result<Vec<_>, _>>()?;
     Ok((all, said))
+}
+
+/// Gears of a mesh that work in others as well, and are rated as if they did not.
+fn counted_once(file: &Gearbox, mesh: usize, scene: &Scene, positions: &[GearboxPosition]) -> Vec<Remark> {
+    let works = |i: usize| positions.iter().any(|p| p.meshes[i].normal_force > 0.0);
+    let rated = scene.rating.iter().flat_map(|rating| rating.gears());
+    let one = |(rated, gear): (&RatedGearScene, usize)| {
+        let meshes = (0..file.meshes.len()).filter(|i| file.meshes[*i].gears.contains(&gear) && works(*i)).count();
+        let once = rated.meshes_per_turn == 1 && rated.reversed_load_ratio == 0.0;
+        (meshes > 1 && once).then(|| remark::rating_counts_one_mesh(file.gears[gear].name.as_str(), meshes))
+    };
+    rated.zip(file.meshes[mesh].gears).filter_map(one).collect()
 }
 
 /// Refuses meshes whose rating has no value, before any work, by the torques on their driven gears, N mm.

@@ -1,9 +1,11 @@
 //! What is read off all positions of a gearbox.
 
+use std::f64::consts::TAU;
+
 use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, Structure, Train};
 use geometry::{GearPair, Side};
-use scene::gearbox::Gearbox;
+use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
 
 use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
@@ -49,12 +51,14 @@ pub struct GearboxResult {
     pub branch: Option<GearboxBranchResult>,
     /// How exact its numbers at rest are, where the file asks for an accuracy.
     pub accuracy: Option<Accuracy>,
-    /// Power at the input at the speed of ratings, W; 0 without one.
-    pub input_power_w: f64,
+    /// What of it is rated.
+    pub rates: Rates,
+    /// Power of all outputs at the speed of ratings, W; 0 without one.
+    pub output_power_w: f64,
 }
 
 impl GearboxResult {
-    /// Output power over input power by the losses of meshes and rolling bearings; `None` where a loaded mesh has no loss, and without speed or load. Bearings that are springs lose nothing.
+    /// Output power over input power by the losses of meshes and rolling bearings, P/(P + losses); `None` where a loaded mesh has no loss, and without speed or load. Bearings that are springs lose nothing.
     pub fn efficiency(&self) -> Option<f64> {
         let loss = |mesh: &MeshResult| match &mesh.rating {
             Some(rating) => rating.mesh_loss.map(|loss| loss.mesh_loss_w),
@@ -62,7 +66,35 @@ impl GearboxResult {
         };
         let meshes = self.meshes.iter().map(loss).sum::<Option<f64>>()?;
         let bearings: f64 = self.bearings.iter().filter_map(|b| b.rolling?.loss_w).sum();
-        (self.input_power_w > 0.0).then(|| 1.0 - (meshes + bearings) / self.input_power_w)
+        (self.output_power_w > 0.0).then(|| self.output_power_w / (self.output_power_w + meshes + bearings))
+    }
+}
+
+/// What of a gearbox is rated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Rates {
+    /// Some mesh.
+    pub meshes: bool,
+    /// The life of some bearing.
+    pub lives: bool,
+    /// Losses of rolling bearings.
+    pub bearing_losses: bool,
+    /// Losses of all meshes, and with them the efficiency.
+    pub efficiency: bool,
+}
+
+impl Rates {
+    /// By the file.
+    pub fn of(file: &Gearbox) -> Self {
+        let rated = |m: &GearboxMesh| m.scene.rating.is_some();
+        let oiled = |m: &GearboxMesh| m.scene.rating.as_ref().is_some_and(|r| r.oil_temperature_c.is_some());
+        let has_life = |b: &GearboxBearing| b.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some());
+        Self {
+            meshes: file.meshes.iter().any(rated),
+            lives: file.bearings.iter().any(has_life),
+            bearing_losses: file.rating.is_some_and(|r| r.viscosity.is_some()),
+            efficiency: file.meshes.iter().all(oiled),
+        }
     }
 }
 
@@ -119,9 +151,11 @@ pub struct OutputResult {
     pub peak_to_peak: f64,
 }
 
-/// Power of a torque (N mm) at a speed (1/min), W without sign.
-fn power_w(torque: f64, speed_rpm: f64) -> f64 {
-    1e-3 * torque.abs() * speed_rpm * std::f64::consts::TAU / 60.0
+/// Power of all loads at the speed of ratings, W.
+fn output_power_w(file: &Gearbox, train: &Train) -> f64 {
+    let Some(asked) = file.rating else { return 0.0 };
+    let turns = |shaft: usize| asked.speed_rpm * train.ratios()[shaft].abs() * TAU / 60.0;
+    file.torques.iter().map(|own| 1e-3 * own.torque * turns(own.shaft)).sum()
 }
 
 /// Transmission errors that are too large for linear elasticity.
@@ -170,7 +204,9 @@ pub(super) fn result(
         let asked = file.rating?;
         let speed = asked.speed_rpm * train.ratios()[file.bearings[i].shaft].abs();
         let scene::gearbox::GearboxRating { viscosity, contamination_factor, .. } = asked;
-        (speed > 0.0).then_some(BearingTurns { speed_rpm: speed, viscosity, contamination_factor })
+        // A bearing of a held shaft carries nothing here.
+        let turns = speed > 0.0 && !file.shafts[file.bearings[i].shaft].held;
+        turns.then_some(BearingTurns { speed_rpm: speed, viscosity, contamination_factor })
     };
     let bearing = |i: usize| {
         let own = || all.iter().map(move |p| &p.bearings[i]);
@@ -193,8 +229,7 @@ pub(super) fn result(
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
     for (own, load) in file.bearings.iter().zip(&bearings) {
         let is_held = file.shafts[own.shaft].held;
-        let asks_oil = file.rating.is_some_and(|asked| asked.contamination_factor.is_some());
-        let told = |r| super::bearings::remarks(&own.name, [is_held, asks_oil], (load.tilt, r));
+        let told = |r| super::bearings::remarks(&own.name, is_held, (load.tilt, r));
         remarks.extend(load.rolling.iter().flat_map(told));
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
@@ -205,13 +240,12 @@ pub(super) fn result(
         let said = waves_on(pair, side, widest, effective_modulus(&reduced[i].scene));
         remarks.extend(said.into_iter().map(|said| said.about(&of_meshes[i].name)));
     }
-    let input_torque = mean(all.iter().map(|p| p.input_torque));
     GearboxResult {
         ratios: train.ratios().to_vec(),
         meshes: of_meshes,
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
-        input_torque,
+        input_torque: mean(all.iter().map(|p| p.input_torque)),
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
         pairs,
         positions,
@@ -220,6 +254,7 @@ pub(super) fn result(
         motion: None,
         branch: None,
         accuracy: None,
-        input_power_w: file.rating.map_or(0.0, |asked| power_w(input_torque, asked.speed_rpm)),
+        rates: Rates::of(file),
+        output_power_w: output_power_w(file, train),
     }
 }

@@ -362,9 +362,10 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         assert!(own.local.is_some() && own.local_scuffing.is_some() && own.mesh_loss.is_some());
         let headline = found.headline();
         assert_eq!(headline["least_pitting_safety"][0], own.least_pitting_safety);
-        // Held shafts lose nothing in bearings.
+        // Shafts without bearings: P/(P + loss), where the pair has 1 - loss/P by the power of its driver.
         let efficiency = headline["efficiency"].as_f64().unwrap();
-        assert!((efficiency - own.mesh_loss.unwrap().efficiency).abs() < 1e-9, "{efficiency}");
+        let lost = 1.0 - own.mesh_loss.unwrap().efficiency;
+        assert!((efficiency - 1.0 / (1.0 + lost)).abs() < 1e-9, "{efficiency}, {lost}");
         let [own, wanted] = [own, alone].map(|r| serde_json::to_value(r).unwrap());
         let mut worst = (0.0, String::new());
         compare("rating", &own, &wanted, &mut worst);

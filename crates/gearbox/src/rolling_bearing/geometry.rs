@@ -158,6 +158,14 @@ impl RollingElements {
         }
     }
 
+    /// Nominal contact angle, rad.
+    pub fn contact_angle(&self) -> f64 {
+        match self {
+            Self::Balls(own) => own.contact_angle,
+            Self::Rollers(own) => own.contact_angle,
+        }
+    }
+
     /// Diameter of the circle of their centres, mm.
     pub fn pitch_diameter(&self) -> f64 {
         match self {

@@ -154,7 +154,7 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
         }
         if lasts {
             let own = life(b);
-            let modified = own.and_then(|own| own.modification.map(|_| own.rated_hours()));
+            let modified = own.and_then(|own| own.modified_hours());
             row.extend([
                 Cell::number(own.map(|own| own.over_rating), 3),
                 Cell::number(own.map(|own| own.hours), 0),
@@ -186,9 +186,11 @@ fn outputs(result: &GearboxResult) -> Part {
         let range = format!("urad, {} urad peak to peak", crate::tables::fixed(1e6 * o.peak_to_peak, 2));
         Line::number(format!("output {} lags by", i + 1), 1e6 * o.mean, 1, range)
     });
-    let efficiency = result
-        .efficiency()
-        .map(|own| Line::number("efficiency", 100.0 * own, 3, "% (sliding teeth, rolling bearings)"));
+    let silent = result.bearings.iter().filter(|b| loss(b).is_none()).count();
+    let without =
+        if silent > 0 { format!(", without {silent} of {} bearings", result.bearings.len()) } else { String::new() };
+    let unit = format!("% (sliding teeth, rolling bearings{without})");
+    let efficiency = result.efficiency().map(|own| Line::number("efficiency", 100.0 * own, 3, unit));
     Part::new("Input and outputs").closing().lines(std::iter::once(input).chain(outputs).chain(efficiency))
 }
 

@@ -151,7 +151,7 @@ described::described! {
         equivalent_load_n: f64,
         /// P_ref over the dynamic rating C
         load_over_rating: f64,
-        /// life with oil and dirt, a_ISO L_10r; missing without `viscosity_mm2_per_s`
+        /// life with oil and dirt, a_ISO L_10r; missing without `contamination_factor`, and where the oil is thinner than ISO 281 covers
         #[serde(skip_serializing_if = "Option::is_none")]
         modified_life_h: Option<f64>,
         /// a_ISO of ISO 281
@@ -320,7 +320,7 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
             basic_life_h: life.hours,
             equivalent_load_n: life.equivalent_load,
             load_over_rating: life.over_rating,
-            modified_life_h: life.modification.map(|_| life.rated_hours()),
+            modified_life_h: life.modified_hours(),
             life_modification_factor: life.modification.map(|own| own.factor),
             viscosity_ratio: life.modification.map(|own| own.viscosity_ratio),
             fatigue_limit_n: life.modification.map(|own| own.fatigue_limit),

@@ -195,6 +195,9 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     if scene.contact.method != Method::Slice {
         return unfit("has contact by points", "a gearbox takes `method = \"slice\"` in [contact]");
     }
+    if scene.rating.is_some() && scene.wheel.is_internal() {
+        return unfit("asks for the rating of an internal pair", "there is none yet: leave [rating] out of this mesh");
+    }
     let name = mesh_name(raw);
     let timing = s.choice_of("timing", &raw.timing)?;
     Ok(GearboxMesh { name, gears: pair, scene, timing })

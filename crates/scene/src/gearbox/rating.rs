@@ -17,7 +17,7 @@ pub(super) fn rating(
     let rated_bearing =
         bearings.iter().position(|own| own.rolling.as_ref().is_some_and(|r| r.dynamic_rating.is_some()));
     let Some(table) = &raw.rating else {
-        let advice = "say [rating] with `speed_rpm`, the speed of the input";
+        let advice = "add [rating] with `speed_rpm`, the speed of the input";
         if let Some(i) = rated_mesh {
             let said = format!("the pair of mesh \"{}\" is to be rated, and no speed is stated", meshes[i].name);
             return Err(s.conflict(&raw.mesh[i].span(), said, advice));
@@ -34,12 +34,16 @@ pub(super) fn rating(
     let rolls = bearings.iter().any(|own| own.rolling.is_some());
     if let (Some(number), false) = (&own.viscosity_mm2_per_s, rolls) {
         let advice = "give one its `type`, or leave it out";
-        return Err(s.conflict(&number.span(), "oil of bearings, none of which has rolling elements", advice));
+        return Err(s.conflict(&number.span(), "`viscosity_mm2_per_s` needs a bearing with `type`", advice));
     }
     if let Some(number) = &own.contamination_factor {
         if rated_bearing.is_none() {
             let advice = "give one its `dynamic_rating_kn`, or leave it out";
-            return Err(s.conflict(&number.span(), "dirt in bearings, none of which has a rating", advice));
+            return Err(s.conflict(
+                &number.span(),
+                "`contamination_factor` needs a bearing with `dynamic_rating_kn`",
+                advice,
+            ));
         }
         if viscosity.is_none() {
             let said = "a modified life also wants `viscosity_mm2_per_s`";

@@ -116,7 +116,7 @@ table! {
         bore_mm: bare(1e-2, 1e5), "bore, mm. With outer diameter and static rating in place of what rolls, which is then estimated";
         outer_diameter_mm: bare(1e-2, 1e5), "outer diameter, mm, of a bearing that is estimated";
         static_rating_kn: bare(1e-6, 1e9), "C_0 of the whole bearing, kN, ISO 76";
-        dynamic_rating_kn: bare(1e-6, 1e9), "C of the whole bearing, kN, ISO 281: its life is then told; needs `[rating]` of the gearbox";
+        dynamic_rating_kn: bare(1e-6, 1e9), "C of the whole bearing, kN, ISO 281: reports its life; needs `[rating]` of the gearbox";
         elements: bare_whole(3, 500), "rolling elements of one row";
         element_diameter_mm: bare(1e-2, 1e5), "their diameter, mm; of tapered rollers in the middle";
         element_length_mm: bare(1e-2, 1e5), "of rollers: the length that presses, mm";
