@@ -37,7 +37,9 @@ fn run(scratch: &Scratch, rows: usize) -> f64 {
     let mut highest: f64 = 0.0;
     while child.try_wait().unwrap().is_none() {
         let text = fs::read_to_string(&status).unwrap_or_default();
-        let line = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+        // Before it is the program it is a copy of this one.
+        let mut own = text.lines().filter(|_| text.starts_with("Name:\tale-gear\n"));
+        let line = own.find_map(|line| line.strip_prefix("VmHWM:"));
         let kib = line.and_then(|line| line.trim().strip_suffix("kB")?.trim().parse::<f64>().ok());
         highest = highest.max(kib.map_or(0.0, |kib| kib * 1024e-6));
         std::thread::sleep(Duration::from_millis(2));
@@ -54,7 +56,8 @@ fn memory_of(few: usize, many: usize, most_each_bytes: f64, most_mb: f64) {
     let [small, large] = [few, many].map(|rows| run(&scratch, rows));
     let each = 1e6 * (large - small) / (many - few) as f64;
     println!("{few} rows: {small:.0} MB, {many} rows: {large:.0} MB, {each:.0} bytes a row");
-    if small > 0.0 {
+    if cfg!(target_os = "linux") {
+        assert!(small > 0.0, "no peak was seen");
         assert!(each < most_each_bytes && large < most_mb, "{small} MB, {large} MB, {each} bytes a row");
     }
     let [short, long] = [few, many].map(|rows| scratch.read(&format!("{rows}/history.csv")));
@@ -85,7 +88,7 @@ fn same_numbers(folder: &Path, csv: &str) {
 
 #[test]
 fn memory_does_not_grow_with_what_rows_hold() {
-    memory_of(20_000, 160_000, 300.0, 200.0);
+    memory_of(20_000, 160_000, 300.0, 160.0);
 }
 
 #[test]
