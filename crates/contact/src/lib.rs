@@ -19,6 +19,7 @@ mod error;
 pub mod flank;
 mod flank_projection;
 mod friction;
+mod lanes;
 pub mod line;
 pub mod local;
 pub mod nodal;

@@ -5,6 +5,8 @@
 //! wait for its tooth to be free of load, so that a group ended in another window than the next one began in. Then that
 //! next group is solved again from there.
 
+use std::sync::Arc;
+
 use ale::{SlidingWindow, Station, ToothWindow};
 use contact::ContactSet;
 use rayon::prelude::*;
@@ -24,7 +26,7 @@ const WAVE: usize = 8 * GROUP;
 pub(crate) struct SolverState {
     window: SlidingWindow,
     set: ContactSet,
-    last: Option<Equilibrium>,
+    last: Option<Arc<Equilibrium>>,
     changes: u64,
     /// Tooth changes made at the station.
     pub made: Vec<ToothChangeRecord>,

@@ -1,5 +1,7 @@
 //! A pair from station to station: window, contact and last solution.
 
+use std::sync::Arc;
+
 use ale::{SlidingWindow, Station};
 use contact::{ContactSet, WindowContact, line::NeighbourPairs};
 use geometry::GearPair;
@@ -24,7 +26,7 @@ pub(crate) struct CycleInputs<'a> {
 pub(crate) struct CycleSolver {
     pub window: SlidingWindow,
     pub contact: WindowContact,
-    pub last: Option<Equilibrium>,
+    pub last: Option<Arc<Equilibrium>>,
     pub changes: u64,
 }
 
@@ -53,10 +55,10 @@ impl CycleSolver {
         let guess = self.last.take();
         let Self { contact: WindowContact { set, slices }, window, .. } = self;
         let windowed = WindowedPair { pair, gears, set, window: window.window(), options };
-        let e = equilibrium(&windowed, slices.as_mut(), station, guess.as_ref())?;
+        let e = equilibrium(&windowed, slices.as_mut(), station, guess.as_deref())?;
         let result = self.position(inputs, &e)?;
         let window_serves = self.check_neighbours(inputs, &e);
-        self.last = Some(e);
+        self.last = Some(Arc::new(e));
         window_serves.map(|()| result)
     }
 
@@ -156,7 +158,7 @@ impl CycleSolver {
         self.changes += 1;
         // The patches of the window have other numbers now: points are not remembered across a change.
         if let Some(last) = &mut self.last {
-            last.solution.active.clear();
+            Arc::make_mut(last).solution.active.clear();
         }
         self.solve(inputs, station)
     }

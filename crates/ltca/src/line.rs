@@ -16,7 +16,7 @@ pub(crate) fn contact_line(windowed: &WindowedPair, e: &Equilibrium, k: usize) -
         let of_rows = e.rows.iter().zip(&e.slices).zip(e.solution.openings.iter().zip(&e.states));
         let of_pair = of_rows.filter(|((row, _), _)| row.patches == (first, second));
         let stations = of_pair.map(|((row, slice), (&o, state))| {
-            (row.point, line_station(row.gap, o, state.local.approach, 0.0), slice.clone())
+            (row.point, line_station(row.gap, o, state.local.approach, 0.0), slice.at[0][0])
         });
         return slice_line(set, &e.poses, (first, second), stations, face, || e.displacements_on(set));
     }

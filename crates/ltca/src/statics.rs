@@ -145,7 +145,7 @@ impl StaticModel {
 
     /// The last solved contact.
     pub fn last(&self) -> Option<&Equilibrium> {
-        self.solver.last.as_ref()
+        self.solver.last.as_deref()
     }
 
     /// Makes the maps to the root stress of the window as it stands, which the first position would make: most of the

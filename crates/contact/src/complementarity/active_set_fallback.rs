@@ -1,7 +1,7 @@
 //! Fallback where Newton's method on forces and active set cycles: tangents are frozen while the active set is found.
 
 use super::{
-    DenseProblem, DenseSolver, Equality, LinearContact, Problem,
+    DenseProblem, DenseSolver, Equality, LinearContact, LocalApproach, Problem,
     slices::{Rows, newton},
 };
 use crate::ContactError;
@@ -11,7 +11,7 @@ impl DenseSolver {
     pub(super) fn solve_by_active_set(
         &mut self,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
     ) -> Result<(), ContactError> {
         let before = self.iterations;
         let rows = Rows {
@@ -22,7 +22,7 @@ impl DenseSolver {
         };
         let active = self.active.clone();
         let mut bodies = DenseBodies { problem: *problem, solver: Self::new(problem.gaps.len()) };
-        let solution = newton(&mut bodies, &rows, &local, self.forces.clone(), active)?;
+        let solution = newton(&mut bodies, &rows, |i, force| local.under(i, force), self.forces.clone(), active)?;
         self.forces.copy_from_slice(&solution.forces);
         self.openings.copy_from_slice(&solution.openings);
         self.active = solution.active;
@@ -32,7 +32,7 @@ impl DenseSolver {
         let inner = bodies.solver;
         for &i in &self.active {
             self.slopes[i] = inner.slopes[i];
-            self.approach[i] = local(i, self.forces[i]).0;
+            self.approach[i] = local.under(i, self.forces[i]).0;
         }
         self.factor(problem)
     }

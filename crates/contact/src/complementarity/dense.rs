@@ -1,11 +1,13 @@
 //! Slices whose compliance is at hand as a matrix: Newton on forces and active set at once, in memory that is used
 //! again. Theory (37).
 
+use std::ops::Range;
+
 use dyn_stack::MemBuffer;
 use faer::{MatRef, Par, linalg::lu::partial_pivoting as lu};
 
-use super::{TOLERANCE, pivots::PIVOT_TOLERANCE};
-use crate::ContactError;
+use super::{TOLERANCE, cholesky::padded, pivots::PIVOT_TOLERANCE};
+use crate::{ContactError, complementarity::opening::Opening, lanes};
 
 /// Coordinates of two rigid bodies.
 pub(super) const RIGID: usize = 12;
@@ -50,6 +52,23 @@ pub struct DenseProblem<'a> {
     pub balance: Balance,
 }
 
+/// The rows' own compliance, not linear in their forces.
+pub trait LocalApproach {
+    /// Approach delta (mm) of a row under a force (N), and its slope (mm/N), positive.
+    fn under(&self, row: usize, force: f64) -> (f64, f64);
+
+    /// Approach and slope of the active rows under their forces; those of others do not matter.
+    fn linearise(&self, active: &[usize], forces: &[f64], approach: &mut [f64], slopes: &mut [f64]) {
+        active.iter().for_each(|&i| (approach[i], slopes[i]) = self.under(i, forces[i]));
+    }
+}
+
+impl<F: Fn(usize, f64) -> (f64, f64)> LocalApproach for F {
+    fn under(&self, row: usize, force: f64) -> (f64, f64) {
+        self(row, force)
+    }
+}
+
 /// Solver with the memory for a number of rows; nothing is allocated in [`DenseSolver::solve`] unless its Newton steps
 /// do not settle.
 pub struct DenseSolver {
@@ -59,12 +78,20 @@ pub struct DenseSolver {
     pub(super) slopes: Vec<f64>,
     pub(super) active: Vec<usize>,
     pub(super) order: Vec<usize>,
+    pub(super) runs: Vec<Range<usize>>,
     pub(super) factor: Vec<f64>,
     pub(super) x: Vec<f64>,
+    pub(super) column: Vec<f64>,
+    /// Forces by a unit turn, and what they open.
+    pub(super) refined: [Vec<f64>; 2],
+    /// Forces on the active rows by a unit turn with the factor at hand; none where they are not known.
+    pub(super) turned: Vec<f64>,
     pub(super) permutation: [Vec<usize>; 2],
     pub(super) scratch: MemBuffer,
     pub(super) arch: pulp::Arch,
     pub(super) symmetric: bool,
+    /// Whether the factor is that of the active rows.
+    pub(super) factored: bool,
     /// Whether the factor is that of a solution that was put away.
     pub(super) saved: bool,
     pub(super) rotation: f64,
@@ -75,6 +102,13 @@ pub struct DenseSolver {
 
 /// Newton steps in which the active set may change as a whole; three to eight do.
 const BLOCK_STEPS: usize = 24;
+
+/// Violation of the conditions below which the factor at hand leads to a solution under a moment: it costs three times
+/// what a step with it does. Tangents of bodies that are held are those of the last forces and want a factor of their own.
+const CLOSE: f64 = 1e-5;
+
+/// Force of a row that enters, over its overlap and its own stiffness: it shares its approach with some neighbours.
+const ENTERS_WITH: f64 = 0.2;
 
 impl std::fmt::Debug for DenseSolver {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
@@ -94,12 +128,17 @@ impl DenseSolver {
             slopes: Vec::with_capacity(most),
             active: Vec::with_capacity(most),
             order: Vec::with_capacity(most),
-            factor: Vec::with_capacity(most * most),
+            runs: Vec::with_capacity(most),
+            factor: Vec::with_capacity(padded(most).pow(2)),
             x: Vec::with_capacity(RIGID * most),
+            column: Vec::with_capacity(padded(most)),
+            refined: [Vec::with_capacity(most), Vec::with_capacity(most)],
+            turned: Vec::with_capacity(most),
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(lu.or(solve)),
             arch: pulp::Arch::new(),
             symmetric: true,
+            factored: false,
             saved: false,
             rotation: 0.0,
             stiffness: 0.0,
@@ -155,7 +194,7 @@ impl DenseSolver {
     pub fn solve(
         &mut self,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
         start: impl Fn(usize) -> f64,
     ) -> Result<(), ContactError> {
         self.solve_to(0.0, problem, local, start)
@@ -170,7 +209,7 @@ impl DenseSolver {
         &mut self,
         accuracy: f64,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
         start: impl Fn(usize) -> f64,
     ) -> Result<(), ContactError> {
         self.forces.clear();
@@ -182,16 +221,17 @@ impl DenseSolver {
     pub(super) fn newton(
         &mut self,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
         accuracy: f64,
     ) -> Result<(), ContactError> {
-        let n = problem.gaps.len();
+        let (n, turns) = (problem.gaps.len(), problem.balance != Balance::Held);
         for list in [&mut self.openings, &mut self.approach, &mut self.slopes] {
             list.clear();
             list.resize(n, 0.0);
         }
         (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
         self.symmetric = problem.symmetric;
+        self.factored = false;
         self.active.clear();
         self.active.extend((0..n).filter(|&i| self.forces[i] > 0.0));
         if self.active.is_empty() {
@@ -199,9 +239,11 @@ impl DenseSolver {
         }
         if self.active.is_empty() {
             self.factor.clear();
+            self.factored = true;
             return Ok(());
         }
         self.linearise(&local);
+        let mut kept = false;
         for _ in 0..BLOCK_STEPS {
             if self.active.is_empty() && problem.balance != Balance::Held {
                 break;
@@ -213,8 +255,27 @@ impl DenseSolver {
                 continue;
             }
             self.residual = self.violation(problem);
-            if self.residual < accuracy.max(TOLERANCE) {
+            let mut solved = self.residual < accuracy.max(TOLERANCE);
+            if solved {
                 self.finish();
+            } else if turns && !kept && self.residual < CLOSE {
+                kept = true;
+                let follow = |solver: &mut Self, step| {
+                    if step > 0 {
+                        solver.follow(problem, Some(&local))
+                    }
+                };
+                solved = self.keeps_factor(problem, follow, accuracy);
+                if !solved {
+                    self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
+                    self.linearise(&local);
+                }
+            }
+            if solved {
+                // The factor has the slopes of some steps before.
+                if turns && accuracy < TOLERANCE {
+                    self.stiffness = self.refined_stiffness(problem);
+                }
                 return Ok(());
             }
         }
@@ -254,10 +315,8 @@ impl DenseSolver {
     }
 
     /// Approach and slope of the local compliance of the active rows at the forces as they are.
-    pub(super) fn linearise(&mut self, local: &impl Fn(usize, f64) -> (f64, f64)) {
-        for &i in &self.active {
-            (self.approach[i], self.slopes[i]) = local(i, self.forces[i]);
-        }
+    pub(super) fn linearise(&mut self, local: &impl LocalApproach) {
+        local.linearise(&self.active, &self.forces, &mut self.approach, &mut self.slopes);
     }
 
     /// Forces, rotation and bulk openings of the linear problem on the active rows.
@@ -279,6 +338,7 @@ impl DenseSolver {
         self.back_substitute(m, columns);
         self.rotation = 0.0;
         if let Balance::Moment(moment) = problem.balance {
+            self.keep_turned();
             let dot = |x: &[f64]| self.active.iter().zip(x).map(|(&i, x)| problem.torque_levers[i] * x).sum::<f64>();
             let (carried, stiffness) = (dot(&self.x[..m]), dot(&self.x[m..]));
             (self.rotation, self.stiffness) = ((carried - moment) / stiffness, stiffness);
@@ -294,45 +354,44 @@ impl DenseSolver {
 
     /// Bulk openings of all rows by the forces on the active ones.
     pub(super) fn open(&mut self, problem: &DenseProblem<'_>) {
-        self.openings.fill(0.0);
-        for &i in &self.active {
-            let force = self.forces[i];
-            let column = problem.compliance.col(i).try_as_col_major().map(|c| c.as_slice());
-            match column {
-                Some(column) => self.openings.iter_mut().zip(column).for_each(|(o, c)| *o += c * force),
-                None => {
-                    let column = problem.compliance.col(i);
-                    self.openings.iter_mut().zip(column.iter()).for_each(|(o, c)| *o += c * force);
-                }
-            }
-        }
+        lanes::run(
+            self.arch,
+            Opening {
+                compliance: problem.compliance,
+                active: &self.active,
+                forces: &self.forces,
+                out: &mut self.openings,
+            },
+        );
     }
 
     /// Rows that pull leave, rows that overlap enter; whether any did.
     fn change_sides(&mut self, problem: &DenseProblem<'_>) -> bool {
-        let largest = self.forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
-        let forces = &self.forces;
-        let before = self.active.len();
-        self.active.retain(|&i| forces[i] >= -PIVOT_TOLERANCE * largest);
-        let mut changed = self.active.len() != before;
         let scale = self.scale(problem);
-        let stay = self.active.len();
-        let left = before != stay;
+        let Self { forces, active, openings, order, rotation, factored, .. } = self;
+        let largest = forces.iter().fold(0.0f64, |m, f| m.max(f.abs()));
+        order.clear();
+        let (mut changed, mut before) = (false, active.iter().peekable());
         for i in 0..problem.gaps.len() {
-            // A row that has just left is told by its force.
-            if self.forces[i] < 0.0 || self.active[..stay].binary_search(&i).is_ok() {
+            if before.next_if(|active| **active == i).is_some() {
+                if forces[i] >= -PIVOT_TOLERANCE * largest {
+                    order.push(i);
+                } else {
+                    changed = true;
+                }
+                forces[i] = forces[i].max(0.0);
                 continue;
             }
-            let gap = problem.gaps[i] + problem.levers[i] * self.rotation + self.openings[i];
+            let gap = problem.gaps[i] + problem.levers[i] * *rotation + openings[i];
             if gap < -PIVOT_TOLERANCE * scale {
-                self.active.push(i);
+                order.push(i);
                 changed = true;
+                // Its tangent is that of a force that is not far off.
+                forces[i] = -ENTERS_WITH * gap / problem.compliance[(i, i)].max(f64::MIN_POSITIVE);
             }
         }
-        self.forces.iter_mut().for_each(|f| *f = f.max(0.0));
-        if left || self.active.len() != stay {
-            self.active.sort_unstable();
-        }
+        std::mem::swap(active, order);
+        *factored &= !changed;
         changed
     }
 

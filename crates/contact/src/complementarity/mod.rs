@@ -14,6 +14,7 @@ mod cholesky;
 mod dense;
 mod factor;
 mod near;
+mod opening;
 mod pivots;
 mod proximal;
 mod slices;
@@ -21,7 +22,7 @@ mod tangent;
 
 use crate::{ContactError, nodal::ContactRow};
 
-pub use dense::{Balance, DenseProblem, DenseSolver};
+pub use dense::{Balance, DenseProblem, DenseSolver, LocalApproach};
 pub(crate) use near::SavedSolution;
 pub(crate) use proximal::LAST_COMPLIANCE;
 pub use proximal::solve;

@@ -7,8 +7,8 @@
 //! thousandths. Convergence is checked by the conditions of any solution. Where it fails, or where rows become active
 //! or inactive, full Newton steps go on from there.
 
-use super::{Balance, DenseProblem, DenseSolver, TOLERANCE, pivots::PIVOT_TOLERANCE};
-use crate::ContactError;
+use super::{Balance, DenseProblem, DenseSolver, LocalApproach, TOLERANCE, opening::Opening, pivots::PIVOT_TOLERANCE};
+use crate::{ContactError, lanes};
 
 /// A solution and the factor of its tangent, saved for later.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -61,7 +61,8 @@ impl DenseSolver {
         self.active.clone_from(&saved.active);
         self.factor.clone_from(&saved.factor);
         self.permutation.clone_from(&saved.permutation);
-        (self.symmetric, self.saved) = (saved.symmetric, true);
+        self.turned.clear();
+        (self.symmetric, self.factored, self.saved) = (saved.symmetric, true, true);
         (self.rotation, self.stiffness, self.iterations, self.residual) = (0.0, 0.0, 0, 0.0);
     }
 
@@ -77,13 +78,13 @@ impl DenseSolver {
     pub(crate) fn solve_near(
         &mut self,
         problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
+        local: impl LocalApproach,
         accuracy: f64,
     ) -> Result<(), ContactError> {
-        let m = self.active.len();
-        if self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+        if self.forces.len() != problem.gaps.len() || !self.factored {
             return self.solve(problem, local, |_| 0.0);
         }
+        self.iterations = 0;
         // Local approach and slopes are still those of the last solution.
         if self.keeps_factor(problem, |solver, step| solver.follow(problem, (step > 0).then_some(&local)), accuracy) {
             return Ok(());
@@ -95,7 +96,7 @@ impl DenseSolver {
         Ok(())
     }
 
-    fn follow(&mut self, problem: &DenseProblem<'_>, local: Option<&impl Fn(usize, f64) -> (f64, f64)>) {
+    pub(super) fn follow(&mut self, problem: &DenseProblem<'_>, local: Option<&impl LocalApproach>) {
         if let Some(local) = local {
             self.linearise(local);
         }
@@ -103,35 +104,26 @@ impl DenseSolver {
     }
 
     /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
-    /// that led to a solution, without rows becoming active or inactive. `open` computes what the forces open the rows
-    /// by: the compliance of `problem` may be that of before.
-    pub fn solve_moved(
-        &mut self,
-        problem: &DenseProblem<'_>,
-        local: impl Fn(usize, f64) -> (f64, f64),
-        mut open: impl FnMut(&[f64], &mut [f64]),
-    ) -> bool {
-        let m = self.active.len();
-        if m == 0 || self.forces.len() != problem.gaps.len() || self.factor.len() != m * m {
+    /// that led to a solution, without rows becoming active or inactive.
+    pub fn solve_moved(&mut self, problem: &DenseProblem<'_>, local: impl LocalApproach) -> bool {
+        if self.active.is_empty() || self.forces.len() != problem.gaps.len() || !self.factored {
             return false;
         }
-        self.rotation = 0.0;
-        let follow = |solver: &mut Self, _: usize| {
-            solver.linearise(&local);
-            solver.openings.fill(0.0);
-            open(&solver.forces, &mut solver.openings);
-        };
-        let solved = self.keeps_factor(problem, follow, TOLERANCE);
+        (self.rotation, self.iterations) = (0.0, 0);
+        let solved = self.keeps_factor(problem, |solver, _| solver.follow(problem, Some(&local)), TOLERANCE);
         if solved && problem.balance != Balance::Held {
-            self.stiffness = self.refined_stiffness(problem, open);
+            self.stiffness = self.refined_stiffness(problem);
         }
         solved
     }
 
     /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did.
-    fn refined_stiffness(&mut self, problem: &DenseProblem<'_>, mut open: impl FnMut(&[f64], &mut [f64])) -> f64 {
-        let n = problem.gaps.len();
-        let [mut found, mut opened] = [vec![0.0; n], vec![0.0; n]];
+    pub(super) fn refined_stiffness(&mut self, problem: &DenseProblem<'_>) -> f64 {
+        let [mut found, mut opened] = std::mem::take(&mut self.refined);
+        for list in [&mut found, &mut opened] {
+            list.clear();
+            list.resize(problem.gaps.len(), 0.0);
+        }
         let mut stiffness = 0.0;
         for step in 0..STEPS {
             self.x.clear();
@@ -145,25 +137,26 @@ impl DenseSolver {
                 change += problem.torque_levers[i] * x;
             }
             stiffness += change;
-            // What the next step would add is to this one as this one is to the first.
-            if step > 0 && change * change <= STIFFNESS_ACCURACY * stiffness * stiffness {
+            if step > 0 && change.abs() <= STIFFNESS_ACCURACY * stiffness.abs() {
                 break;
             }
-            opened.fill(0.0);
-            open(&found, &mut opened);
+            lanes::run(
+                self.arch,
+                Opening { compliance: problem.compliance, active: &self.active, forces: &found, out: &mut opened },
+            );
         }
+        self.refined = [found, opened];
         stiffness
     }
 
     /// Steps with the factor at hand, until the conditions hold to `accuracy`; false where rows become active or
     /// inactive, or where it leads to nothing. `follow` computes approach and openings of the forces as they are.
-    fn keeps_factor(
+    pub(super) fn keeps_factor(
         &mut self,
         problem: &DenseProblem<'_>,
         mut follow: impl FnMut(&mut Self, usize),
         accuracy: f64,
     ) -> bool {
-        self.iterations = 0;
         let accuracy = accuracy.max(TOLERANCE);
         let mut before = f64::INFINITY;
         for step in 0..STEPS {
@@ -196,8 +189,15 @@ impl DenseSolver {
         }
         let mut turn = 0.0;
         if let Balance::Moment(moment) = problem.balance {
-            self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
-            self.back_substitute(m, 2);
+            // Forces by a unit turn are those of the factor, too: the levers of any pose nearby balance the moment.
+            if self.turned.len() == m {
+                self.x.extend_from_slice(&self.turned);
+                self.back_substitute(m, 1);
+            } else {
+                self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
+                self.back_substitute(m, 2);
+                self.keep_turned();
+            }
             let (mut carried, mut stiffness) = (0.0, 0.0);
             for (a, &i) in self.active.iter().enumerate() {
                 carried += problem.torque_levers[i] * (self.forces[i] - self.x[a]);
@@ -213,6 +213,12 @@ impl DenseSolver {
         for (a, &i) in self.active.iter().enumerate() {
             self.forces[i] -= self.x[a] + turn * self.x[m + a];
         }
+    }
+
+    /// Keeps the second of two columns of solutions.
+    pub(super) fn keep_turned(&mut self) {
+        self.turned.clear();
+        self.turned.extend_from_slice(&self.x[self.active.len()..]);
     }
 
     /// Whether an active row pulls, or another one overlaps.

@@ -1,6 +1,6 @@
 //! Tangent: change of contact forces with the motion of the bodies.
 
-use faer::{MatMut, MatRef, Par, linalg::triangular_solve};
+use faer::{MatMut, Par, linalg::triangular_solve};
 
 use super::{DenseSolver, dense::RIGID};
 
@@ -69,7 +69,7 @@ impl DenseSolver {
             opening.iter().enumerate().for_each(|(c, v)| self.x[c * m + a] = *v);
         }
         if self.symmetric {
-            let factor = MatRef::from_column_major_slice(&self.factor, m, m);
+            let factor = Self::factored(&self.factor, m);
             let x = MatMut::from_column_major_slice_mut(&mut self.x, m, n);
             triangular_solve::solve_lower_triangular_in_place(factor, x, Par::Seq);
             for (row, p) in tangent.chunks_mut(n).zip(self.x.chunks(m)) {

@@ -13,6 +13,10 @@ pub(crate) struct FlankGridLines {
 /// Lines of a cell, as parts of its length: Lobatto's points.
 const PROFILE: [f64; 4] = [0.0, 0.276_393_202_250_021, 0.723_606_797_749_979, 1.0];
 const FACE: [f64; 3] = [0.0, 0.5, 1.0];
+/// One over the product of the distances of a line to the others: the scale of its Lagrange polynomial.
+const PROFILE_SCALES: [f64; 2] =
+    [-1.0 / (PROFILE[1] * PROFILE[2]), 1.0 / (PROFILE[1] * (PROFILE[2] - PROFILE[1]) * (1.0 - PROFILE[1]))];
+
 /// Cells of the coarsest uniform grid.
 const COARSEST: [usize; 2] = [4, 8];
 /// Ends of faces nearer than this share of a face are one.
@@ -82,23 +86,52 @@ impl FlankGridLines {
     /// Points around a place, three rows of four along the profile, and their weights; past the ends of the flank those
     /// of the end. Of each row the first point: the others follow it.
     pub fn weights(&self, at: [f64; 2]) -> ([usize; FACE.len()], [[f64; PROFILE.len()]; FACE.len()]) {
-        let (i, of_profile) = self.along(0, at[0], &PROFILE);
-        let (j, of_face) = self.along(1, at[1], &FACE);
+        let ((i, u), (j, v)) = (self.cell(0, at[0]), self.cell(1, at[1]));
+        let [ends, inner] = PROFILE_SCALES;
+        let [a, b, c, d] = [u, u - PROFILE[1], u - PROFILE[2], u - 1.0];
+        let (near, far) = (a * b, c * d);
+        let of_profile = [ends * b * far, inner * a * far, -inner * near * d, -ends * near * c];
+        let of_face = [(2.0 * v - 1.0) * (v - 1.0), 4.0 * v * (1.0 - v), v * (2.0 * v - 1.0)];
         let rows = std::array::from_fn(|b| (j + b) * self.lines(0) + i);
         (rows, of_face.map(|z| of_profile.map(|u| u * z)))
     }
 
-    /// First line of the cell that a coordinate is in, and Lagrange's weights.
-    fn along<const N: usize>(&self, axis: usize, at: f64, parts: &[f64; N]) -> (usize, [f64; N]) {
+    /// First line of the cell that a coordinate is in, and which part of the cell lies below it.
+    fn cell(&self, axis: usize, at: f64) -> (usize, f64) {
         let ends = &self.ends[axis];
-        let cell = ends.partition_point(|&e| e <= at).clamp(1, ends.len() - 1) - 1;
-        let x = ((at - ends[cell]) / (ends[cell + 1] - ends[cell])).clamp(0.0, 1.0);
-        let mut weights = [1.0; N];
-        for (a, w) in weights.iter_mut().enumerate() {
-            for b in (0..N).filter(|&b| b != a) {
-                *w *= (x - parts[b]) / (parts[a] - parts[b]);
+        // Cells are about equally long: the place tells which it is, or which is next to it.
+        let (last, from) = (ends.len() - 2, ends[0]);
+        let share = (at - from) / (ends[last + 1] - from);
+        let mut cell = ((share * (last + 1) as f64) as usize).min(last);
+        while cell < last && ends[cell + 1] <= at {
+            cell += 1;
+        }
+        while cell > 0 && ends[cell] > at {
+            cell -= 1;
+        }
+        let lines = [PROFILE.len() - 1, FACE.len() - 1][axis];
+        (cell * lines, ((at - ends[cell]) / (ends[cell + 1] - ends[cell])).clamp(0.0, 1.0))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Weights are Lagrange's: one at their own line and none at the others.
+    #[test]
+    fn weights_are_those_of_their_lines() {
+        let lines = FlankGridLines { ends: [vec![0.0, 1.0], vec![0.0, 1.0]] };
+        for (i, u) in PROFILE.into_iter().enumerate() {
+            for (j, v) in FACE.into_iter().enumerate() {
+                let (_, weights) = lines.weights([u, v]);
+                for (b, of_row) in weights.iter().enumerate() {
+                    for (a, weight) in of_row.iter().enumerate() {
+                        let own = f64::from(u8::from(a == i && b == j));
+                        assert!((weight - own).abs() < 1e-14, "line {a}, {b} at {u}, {v}: {weight}");
+                    }
+                }
             }
         }
-        (cell * (N - 1), weights)
     }
 }

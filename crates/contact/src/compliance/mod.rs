@@ -7,7 +7,7 @@ mod condensed;
 mod full;
 mod modal;
 
-pub(crate) use bulk_table::{BulkCompliance, TablePoint};
+pub(crate) use bulk_table::{BulkCompliance, TablePoint, parts};
 pub use bulk_table::{BulkTable, TableWork};
 pub(crate) use condensed::boundary_forces;
 pub use condensed::{Condensed, opening};

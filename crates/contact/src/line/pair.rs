@@ -10,7 +10,7 @@ use crate::{
     line::{LineStation, contact_intervals, covered, hertz, loaded_intervals},
     nodal::{ContactRow, LinePoints, contact_row, least_gap},
     opening,
-    slice::{Slice, SliceHint},
+    slice::SliceHint,
 };
 
 /// Axial stations at which the least gap of a pair is looked at.
@@ -103,13 +103,13 @@ pub fn nodal_contact_line(
 }
 
 /// Axial intervals over which a pair of patches touches, from slices. `opened` is the part of a row's gap under load
-/// that is not the undeformed flanks' own ([`LineStation`]). `displacements` are those of both gears' boundary
-/// coordinates, mm, requested where no row is near.
+/// that is not the undeformed flanks' own ([`LineStation`]); beside it stands the row's roll angle on body 1.
+/// `displacements` are those of both gears' boundary coordinates, mm, requested where no row is near.
 pub fn slice_line(
     set: &ContactSet,
     poses: &[Pose; 2],
     pair: (usize, usize),
-    rows: impl Iterator<Item = (usize, LineStation, Slice)>,
+    rows: impl Iterator<Item = (usize, LineStation, f64)>,
     face: [f64; 2],
     displacements: impl FnOnce() -> [Vec<f64>; 2],
 ) -> Vec<[f64; 2]> {
@@ -119,8 +119,8 @@ pub fn slice_line(
     // A station too far from contact to be a row is not known.
     let mut solved = vec![None; stations.len()];
     let mut hints = vec![SliceHint::default(); stations.len()];
-    for (point, station, slice) in rows {
-        (solved[point], hints[point]) = (Some(station), SliceHint::near(&slice));
+    for (point, station, roll) in rows {
+        (solved[point], hints[point]) = (Some(station), SliceHint::near(roll));
     }
     let gap = |near: usize, z: f64| {
         let found = flanks.nearest_point(z, &mut hints[near]);
@@ -213,14 +213,15 @@ pub fn rigid_gap(
     let tooth = running - station.middle_pair(options.sense);
     let (half, [middle, _]) = (0.5 * pair.face_width(), pair.common_middle());
     let [w_low, w_high] = flank2.nominal().roll_range();
+    let relative = poses[1].inverse() * poses[0];
+    let (turn, shift) = (relative.rotation.to_rotation_matrix(), relative.translation.vector);
+    // The path coordinate is linear in the height.
+    let [path, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(options.side(), theta1, tooth, z));
     (0..=32)
         .map(|i| {
             let z = middle + half * (f64::from(i) / 16.0 - 1.0);
-            let xi = pair.path_coordinate(options.side(), theta1, tooth, z);
-            let u = xi.clamp(start, end) / base_radius;
-            let point = poses[0].transform_point(&flank1.point(u, z).into());
-            let seen = poses[1].inverse_transform_point(&point).coords;
-            match flank2.locate(&seen) {
+            let u = (path + (beside - path) * z).clamp(start, end) / base_radius;
+            match flank2.locate(&(turn * flank1.point(u, z) + shift)) {
                 Some(foot) if foot.roll >= w_low - 1e-6 && foot.roll <= w_high + 1e-6 => foot.distance,
                 _ => f64::INFINITY,
             }

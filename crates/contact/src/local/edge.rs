@@ -27,6 +27,10 @@
 
 use std::f64::consts::PI;
 
+use pulp::Simd;
+
+use crate::lanes::{Four, LANES};
+
 /// How much faster than a half-space's the compliance of a wedge of angle omega grows with the logarithm of distance.
 ///
 /// ```text
@@ -39,7 +43,7 @@ pub fn wedge_softening(omega: f64) -> f64 {
 }
 
 /// A value and its derivative by D.
-type Dual = (f64, f64);
+type Dual<T> = (T, T);
 
 /// P(D) of a half-space whose flank ends at x = 0: 0 for D >= 1, measured from the least gap.
 ///
@@ -50,17 +54,20 @@ type Dual = (f64, f64);
 /// Band 0 < x < c, pressure proportional to sqrt((c - x)/x) (x + e): the smooth flank of one body on a sharp edge of
 /// the other, both with the kernel of a half-plane. P ~ ln|D| + 1 + ln 2 - 1/2 for D << 0, where the flanks meet at a
 /// constant angle.
-fn cut_off(d: f64) -> Dual {
-    if d >= 1.0 {
-        return (0.0, 0.0);
-    }
-    let root = (d * d + 3.0).sqrt();
-    let c = 2.0 / (root - d);
+#[inline(always)]
+fn cut_off<S: Simd>(simd: S, d: Four<S>) -> Dual<Four<S>> {
+    let of = |x: f64| Four::splat(simd, x);
+    let (zero, half) = (of(0.0), of(0.5));
+    // Further in it is 0.
+    let within = d.min(of(1.0));
+    let root = (within * within + of(3.0)).sqrt();
+    let c = of(2.0) / (root - within);
     let dc = c / root;
-    let (e, de) = (0.5 * c - d, 0.5 * dc - 1.0);
-    let past = d.max(0.0);
-    let value = -(0.5 * c).ln() - 0.5 - c * c / 8.0 + c * e + past * past;
-    (value, -dc / c - 0.25 * c * dc + dc * e + c * de + 2.0 * past)
+    let (e, de) = (half * c - within, half * dc - of(1.0));
+    let past = within.max(zero);
+    let value = c * e - (half * c).ln() - half - c * c / of(8.0) + past * past;
+    let slope = dc * e + c * de - dc / c - of(0.25) * c * dc + of(2.0) * past;
+    (d.below(of(1.0), value, zero), d.below(of(1.0), slope, zero))
 }
 
 /// [`cut_off`] by an arc of relative curvature `m` (1 / r to 1 / R) instead of a sharp end.
@@ -69,12 +76,14 @@ fn cut_off(d: f64) -> Dual {
 /// exp(-2 P_m) = exp(-2 P) + (1 - exp(-2 P)) / (1 + m)
 /// ```
 /// Exact on the flank (D > 1) and on the arc (D << 0, a Hertzian band of radius 1 / (1/R + 1/r)); 0.06 off in between.
-fn cut_off_by_arc(d: f64, m: f64) -> Dual {
-    let (sharp, slope) = cut_off(d);
-    let open = (-2.0 * sharp).exp();
-    let both = open + (1.0 - open) / (1.0 + m);
-    let part = open * m / (1.0 + m) / both;
-    (-0.5 * both.ln(), slope * part)
+///
+/// `sharp`: P and its slope; `rest`: 1 / (1 + m).
+#[inline(always)]
+fn cut_off_by_arc<S: Simd>(simd: S, (sharp, slope): Dual<Four<S>>, rest: Four<S>) -> Dual<Four<S>> {
+    let of = |x: f64| Four::splat(simd, x);
+    let [open, less] = (of(-2.0) * sharp).exp();
+    let both = open - less * rest;
+    (of(-0.5) * both.ln(), slope * open * (of(1.0) - rest) / both)
 }
 
 /// l(D, e), half-widths: how far from the edge the load acts on average (geometric mean). Tends to D on the flank.
@@ -83,16 +92,24 @@ fn cut_off_by_arc(d: f64, m: f64) -> Dual {
 /// l = z/2 + sqrt(b^2 + z^2/4),   z = D - d0 / (1 + (max(D, 0) / 2.29)^2)
 /// d0 = 0.462 - 0.057 e,   b = 0.566 + 0.181 e - 0.028 e^2
 /// ```
-fn reach(d: f64, e: f64) -> Dual {
-    // The fit covers wedges down to 95 degrees; past that it is held.
+/// `fit`: d0 and b^2.
+#[inline(always)]
+fn reach<S: Simd>(simd: S, d: Four<S>, [d0, b2]: [Four<S>; 2]) -> Dual<Four<S>> {
+    let of = |x: f64| Four::splat(simd, x);
+    let (zero, half) = (of(0.0), of(0.5));
+    let on = d.max(zero) * of(1.0 / 2.29);
+    let faded = of(1.0) / (of(1.0) + on * on);
+    let (z, dz) = (d - d0 * faded, of(1.0) + d0 * of(2.0 / 2.29) * on * faded * faded);
+    let half_z = half * z;
+    let root = (b2 + half_z * half_z).sqrt();
+    let value = zero.below(z, half_z + root, b2 / (root - half_z));
+    (value, half * dz * value / root)
+}
+
+/// d0 and b^2 of [`reach`] for e; the fit covers wedges down to 95 degrees, past that it is held.
+fn reach_fit(e: f64) -> [f64; 2] {
     let e = e.clamp(0.0, 1.5);
-    let (d0, b) = (0.462 - 0.057 * e, 0.566 + 0.181 * e - 0.028 * e * e);
-    let on = d.max(0.0) / 2.29;
-    let fading = 1.0 + on * on;
-    let (z, dz) = (d - d0 / fading, 1.0 + d0 * 2.0 * on / 2.29 / (fading * fading));
-    let root = (b * b + 0.25 * z * z).sqrt();
-    let value = if z > 0.0 { 0.5 * z + root } else { b * b / (root - 0.5 * z) };
-    (value, 0.5 * dz * value / root)
+    [0.462 - 0.057 * e, (0.566 + 0.181 * e - 0.028 * e * e).powi(2)]
 }
 
 /// Tip edge of one body, and where the band lies to it.
@@ -110,11 +127,6 @@ pub(super) struct Edge {
 }
 
 impl Edge {
-    /// eta >= 0.
-    pub fn softening(&self) -> f64 {
-        if self.angle < PI { wedge_softening(self.angle).max(0.0) } else { 0.0 }
-    }
-
     /// Distance of the arc's tangent point from the corner: r tan((PI - omega) / 2), mm.
     fn tangent_point(&self) -> f64 {
         // Most edges are sharp: no tangent is taken for these.
@@ -124,29 +136,6 @@ impl Edge {
     /// Distance of the contact from where the flank ends, mm.
     pub fn flank_left(&self) -> f64 {
         self.distance - self.tangent_point()
-    }
-
-    /// P and its derivative by ln a, for a half-width `a`.
-    pub fn cut_off(&self, a: f64) -> Dual {
-        if self.angle >= PI {
-            return (0.0, 0.0);
-        }
-        let d = (self.distance - self.tangent_point()) / a;
-        let (value, slope) = if self.arc > 0.0 { cut_off_by_arc(d, self.radius / self.arc) } else { cut_off(d) };
-        (value, -slope * d)
-    }
-
-    /// Distance (mm) between load and corner, and the derivative of its logarithm by ln a; `e` as in [`reach`].
-    pub fn reach(&self, a: f64, e: f64) -> Dual {
-        let tangent = self.tangent_point();
-        let from = self.distance - tangent;
-        // Past the tangent point the band moves along the arc towards the corner.
-        let moved = if self.arc > 0.0 { (-from).max(0.0) / (1.0 + self.radius / self.arc) } else { 0.0 };
-        let start = if tangent > 0.0 { tangent * tangent / (tangent + moved) } else { 0.0 };
-        let d = from / a;
-        let (l, slope) = reach(d, e);
-        let distance = start + a * l;
-        (distance, a * (l - slope * d) / distance)
     }
 
     /// What the arc takes away from under the least gap, mm: the gap to the rounded edge less that to the sharp one.
@@ -161,9 +150,87 @@ impl Edge {
     }
 }
 
+/// Edges of four rows as bands see them.
+#[derive(Debug, Clone)]
+pub(super) struct FourEdges {
+    /// Distance of the contact from where the flank ends, mm.
+    from: [f64; LANES],
+    /// Distance of the corner from where the band begins to move towards it, mm: 0 of a sharp edge.
+    start: [f64; LANES],
+    /// 1 / (1 + R/r): 0 of a sharp edge.
+    rest: [f64; LANES],
+    /// d0 and b^2 of [`reach`].
+    fit: [[f64; LANES]; 2],
+}
+
+impl Default for FourEdges {
+    fn default() -> Self {
+        Self { from: [1.0; LANES], start: [0.0; LANES], rest: [0.0; LANES], fit: [[1.0; LANES]; 2] }
+    }
+}
+
+impl FourEdges {
+    /// Takes an edge for one of the rows; `e` as in [`reach`]. Of a body without an edge it stands for one that no band
+    /// comes near.
+    pub fn put(&mut self, lane: usize, edge: Option<&Edge>, e: f64) {
+        let tangent = edge.map_or(0.0, Edge::tangent_point);
+        let from = edge.map_or(f64::MAX.sqrt().sqrt(), |edge| edge.distance - tangent);
+        let rest = edge.filter(|edge| edge.arc > 0.0).map_or(0.0, |edge| 1.0 / (1.0 + edge.radius / edge.arc));
+        // Past the tangent point the band moves along the arc towards the corner.
+        let moved = (-from).max(0.0) * rest;
+        self.from[lane] = from;
+        self.start[lane] = if tangent > 0.0 { tangent * tangent / (tangent + moved) } else { 0.0 };
+        self.rest[lane] = rest;
+        self.fit.iter_mut().zip(reach_fit(e)).for_each(|(all, own)| all[lane] = own);
+    }
+
+    /// P and its derivative by ln a, for half-widths `a`; none where no band is cut off.
+    #[inline(always)]
+    pub fn cut_off<S: Simd>(&self, simd: S, a: Four<S>) -> Option<Dual<Four<S>>> {
+        let from = Four::new(simd, &self.from);
+        if !from.any_below(a) {
+            return None;
+        }
+        let (zero, d) = (Four::splat(simd, 0.0), from / a);
+        let sharp = cut_off(simd, d);
+        let rest = Four::new(simd, &self.rest);
+        let (value, slope) = if zero.any_below(rest) {
+            let by_arc = cut_off_by_arc(simd, sharp, rest);
+            (zero.below(rest, by_arc.0, sharp.0), zero.below(rest, by_arc.1, sharp.1))
+        } else {
+            sharp
+        };
+        Some((value, -slope * d))
+    }
+
+    /// Distance (mm) between load and corner, and the derivative of its logarithm by ln a.
+    #[inline(always)]
+    pub fn reach<S: Simd>(&self, simd: S, a: Four<S>) -> Dual<Four<S>> {
+        let d = Four::new(simd, &self.from) / a;
+        let (l, slope) = reach(simd, d, [Four::new(simd, &self.fit[0]), Four::new(simd, &self.fit[1])]);
+        let distance = Four::new(simd, &self.start) + a * l;
+        (distance, a * (l - slope * d) / distance)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use pulp::Scalar256b;
+
     use super::*;
+
+    fn one((value, slope): Dual<Four<Scalar256b>>) -> Dual<f64> {
+        (value.array()[0], slope.array()[0])
+    }
+
+    fn cut_off(d: f64) -> Dual<f64> {
+        one(super::cut_off(Scalar256b, Four::splat(Scalar256b, d)))
+    }
+
+    fn cut_off_by_arc(d: f64, m: f64) -> Dual<f64> {
+        let of = |x: f64| Four::splat(Scalar256b, x);
+        one(super::cut_off_by_arc(Scalar256b, super::cut_off(Scalar256b, of(d)), of(1.0 / (1.0 + m))))
+    }
 
     /// A straight angle is no edge.
     #[test]
@@ -214,15 +281,18 @@ mod tests {
         for arc in [0.0, 0.05, 0.3] {
             for distance in [-2.0, -0.3, -0.05, -1e-3, 0.0, 0.02, 0.08, 0.15, 0.5, 3.0] {
                 let edge = Edge { distance, angle: 2.0, arc, radius: 5.0 };
+                let mut four = FourEdges::default();
+                (0..LANES).for_each(|lane| four.put(lane, Some(&edge), 0.24));
+                let cut_off = |a: f64| four.cut_off(Scalar256b, Four::splat(Scalar256b, a)).map_or((0.0, 0.0), one);
+                let reach = |a: f64| one(four.reach(Scalar256b, Four::splat(Scalar256b, a)));
                 for a in [0.02f64, 0.1, 0.3] {
                     let h = 1e-6;
                     let (up, down) = (a * f64::exp(h), a * f64::exp(-h));
                     let check = |what: &str, slope: f64, wanted: f64| {
                         assert!((slope - wanted).abs() < 1e-6, "{what} {edge:?} a {a}: {slope}, not {wanted}");
                     };
-                    check("P", edge.cut_off(a).1, (edge.cut_off(up).0 - edge.cut_off(down).0) / (2.0 * h));
-                    let reach = |a: f64| edge.reach(a, 0.24).0.ln();
-                    check("l", edge.reach(a, 0.24).1, (reach(up) - reach(down)) / (2.0 * h));
+                    check("P", cut_off(a).1, (cut_off(up).0 - cut_off(down).0) / (2.0 * h));
+                    check("l", reach(a).1, (reach(up).0.ln() - reach(down).0.ln()) / (2.0 * h));
                 }
             }
         }

@@ -1,5 +1,9 @@
 //! A contact line that ends at a face of the gear.
 
+use pulp::Simd;
+
+use crate::lanes::{Four, LANES};
+
 /// A free end face of a gear as the contact line meets it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct EndFace {
@@ -20,7 +24,7 @@ impl EndFace {
 const POISSON: [f64; 5] = [0.0, 0.2, 0.3, 0.4, 0.45];
 const LEAN_STEP_DEG: f64 = 10.0;
 const LEANS: usize = 9;
-/// Weights of the two terms of [`Softening`], leans from -40 to 40 deg.
+/// Weights of the two terms of [`FourFaces`], leans from -40 to 40 deg.
 ///
 /// Fitted to a bonded layer with a free end, resolved in 3-D under the same line load everywhere (`cargo run --release
 /// -p contact --example end_faces`); within 5 % of the softening at distances over a quarter of the half-width, 0.03
@@ -47,75 +51,99 @@ const STRAIGHT: f64 = 1.0;
 /// Part of the half-width within which the band is too wide to feel the face any more.
 const BLUNT: f64 = 0.28;
 
-/// [`EndFace`] before a body of known depth: all that does not depend on the load.
+/// [`EndFace`]s of four rows before bodies of known depths: all that does not depend on the load.
 ///
 /// ```text
 /// E = B_1 ln coth(1.6 s/t) + B_2 ln coth(1.2 s/t),   s^2 = distance^2 + (0.28 a)^2
 /// ```
 /// Near the face it grows with ln(t/s), as any load does that nears an edge; a depth away it is gone. An acute end
 /// softens much, an obtuse one stiffens a little; Poisson's ratio softens all (the face is free to bulge).
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Softening {
+#[derive(Debug, Clone)]
+pub(super) struct FourFaces {
     /// Distance over depth.
-    distance: f64,
+    distance: [f64; LANES],
     /// 0.28 over depth, 1/mm.
-    blunt: f64,
-    weights: [f64; 2],
-    /// What a far face adds, and how that grows with the square of the half-width (1/mm^2).
-    far: Option<[f64; 2]>,
+    blunt: [f64; LANES],
+    weights: [[f64; LANES]; 2],
 }
 
-impl Softening {
-    pub fn new(face: &EndFace, poisson: f64, t: f64) -> Self {
-        let distance = face.distance.max(0.0) / t;
-        let weights = if distance > FAR { [0.0; 2] } else { weights(poisson, face.lean) };
-        let mut face = Self { distance, blunt: BLUNT / t, weights, far: None };
-        if distance > STRAIGHT {
-            let (value, by_distance) = face.beside(distance);
-            face.far = Some([value, 0.5 * by_distance * face.blunt * face.blunt / distance]);
-        }
-        face
+impl Default for FourFaces {
+    fn default() -> Self {
+        Self { distance: [FAR; LANES], blunt: [BLUNT; LANES], weights: [[0.0; LANES]; 2] }
+    }
+}
+
+impl FourFaces {
+    /// Takes a face at a distance (mm) for one of the rows; `weights`: those of its lean; `t`: depth of the body, mm.
+    pub fn put(&mut self, lane: usize, distance: f64, weights: [f64; 2], t: f64) {
+        let distance = distance.max(0.0) / t;
+        let is_felt = distance <= FAR;
+        self.distance[lane] = if is_felt { distance } else { FAR };
+        self.blunt[lane] = BLUNT / t;
+        self.weights.iter_mut().zip(weights).for_each(|(all, own)| all[lane] = if is_felt { own } else { 0.0 });
     }
 
-    /// What the face adds to the bracket of the body for a half-width `a` (mm), and its derivative by ln a.
-    pub fn at(&self, a: f64) -> (f64, f64) {
-        if let Some([value, growth]) = self.far {
-            let grown = growth * a * a;
-            return (value + grown, 2.0 * grown);
-        }
-        let blunt = self.blunt * a;
-        let s = (self.distance * self.distance + blunt * blunt).sqrt();
-        let (value, slope) = self.beside(s);
-        if s > 0.0 { (value, slope * blunt * blunt / s) } else { (value, slope) }
+    /// Whether any of the faces is so near that what it adds is no straight line over the square of the half-width.
+    pub fn is_near(&self) -> bool {
+        self.distance.iter().any(|distance| *distance <= STRAIGHT)
     }
 
-    /// E at `s` depths, and its derivative by that.
-    fn beside(&self, s: f64) -> (f64, f64) {
-        if s > FAR || s <= 0.0 {
-            return (0.0, 0.0);
-        }
-        let (mut value, mut slope) = (0.0, 0.0);
+    /// What the far ones of the faces add, and how that grows with the square of the half-width (1/mm^2).
+    #[inline(always)]
+    pub fn far<S: Simd>(&self, simd: S) -> [Four<S>; 2] {
+        let of = |x: f64| Four::splat(simd, x);
+        let (distance, blunt) = (Four::new(simd, &self.distance), Four::new(simd, &self.blunt));
+        let (value, slope) = self.beside(simd, distance);
+        let growth = of(0.5) * slope * blunt * blunt / distance;
+        let (straight, zero) = (of(STRAIGHT), of(0.0));
+        [straight.below(distance, value, zero), straight.below(distance, growth, zero)]
+    }
+
+    /// What the near ones of the faces add to the bracket of the body for half-widths `a` (mm), and its derivative by
+    /// ln a.
+    #[inline(always)]
+    pub fn near<S: Simd>(&self, simd: S, a: Four<S>) -> (Four<S>, Four<S>) {
+        let of = |x: f64| Four::splat(simd, x);
+        let distance = Four::new(simd, &self.distance);
+        let blunt = Four::new(simd, &self.blunt) * a;
+        let s = (distance * distance + blunt * blunt).sqrt();
+        // A band many depths wide comes up only while a solution is sought; beyond its range the exponential is no number.
+        let (value, slope) = self.beside(simd, s.min(of(FAR)));
+        let (straight, zero) = (of(STRAIGHT), of(0.0));
+        (straight.below(distance, zero, value), straight.below(distance, zero, slope * blunt * blunt / s))
+    }
+
+    /// E at `s` > 0 depths, and its derivative by that.
+    #[inline(always)]
+    fn beside<S: Simd>(&self, simd: S, s: Four<S>) -> (Four<S>, Four<S>) {
+        let of = |x: f64| Four::splat(simd, x);
+        let one = of(1.0);
         // DECAY is 4 and 3 times this: one exponential serves both.
-        let less = (-2.0 * UNIT_DECAY * s).exp_m1();
-        let y = 1.0 + less;
-        let powers = [(y.powi(4), -less * (1.0 + y) * (1.0 + y * y)), (y * y * y, -less * (1.0 + y + y * y))];
-        for ((weight, k), (e, rest)) in self.weights.iter().zip(DECAY).zip(powers) {
+        let [y, less] = (of(-2.0 * UNIT_DECAY) * s).exp();
+        let cube = y * y * y;
+        let decays = [(cube * y, -less * (one + y) * (one + y * y)), (cube, -less * (one + y + y * y))];
+        let (mut value, mut slope) = (of(0.0), of(0.0));
+        for i in 0..decays.len() {
+            let (weight, (e, rest)) = (Four::new(simd, &self.weights[i]), decays[i]);
             // ln coth x = ln((1 + e) / (1 - e)) with e = exp(-2 x), and 1 / sinh(2 x) = 2 e / (1 - e^2).
-            value += weight * if e < SERIES { 2.0 * odd_series(e) } else { ((1.0 + e) / rest).ln() };
-            slope -= weight * 4.0 * k * e / ((1.0 + e) * rest);
+            let logarithm = e.below(of(SERIES), of(2.0) * odd_series(e), ((one + e) / rest).ln());
+            value = value + weight * logarithm;
+            slope = slope - weight * of(4.0 * DECAY[i]) * e / ((one + e) * rest);
         }
         (value, slope)
     }
 }
 
 /// artanh e for a small e.
-fn odd_series(e: f64) -> f64 {
+#[inline(always)]
+fn odd_series<S: Simd>(e: Four<S>) -> Four<S> {
     let square = e * e;
-    e * (1.0 + square * (1.0 / 3.0 + square * (1.0 / 5.0 + square * (1.0 / 7.0))))
+    e * square.polynomial([1.0 / 7.0, 1.0 / 5.0, 1.0 / 3.0, 1.0])
 }
 
-/// Linear between the table's entries, held past its ends.
-fn weights(poisson: f64, lean: f64) -> [f64; 2] {
+/// B_1 and B_2 of [`FourFaces`] for a ratio of Poisson and a lean (rad): linear between the table's entries, held past
+/// its ends.
+pub(super) fn weights(poisson: f64, lean: f64) -> [f64; 2] {
     let nu = poisson.clamp(POISSON[0], POISSON[POISSON.len() - 1]);
     let row = POISSON.partition_point(|&p| p <= nu).clamp(1, POISSON.len() - 1) - 1;
     let part = (nu - POISSON[row]) / (POISSON[row + 1] - POISSON[row]);
@@ -133,7 +161,12 @@ mod tests {
     use super::*;
 
     fn softening(face: &EndFace, poisson: f64, t: f64, a: f64) -> (f64, f64) {
-        Softening::new(face, poisson, t).at(a)
+        let mut faces = FourFaces::default();
+        (0..LANES).for_each(|lane| faces.put(lane, face.distance, weights(poisson, face.lean), t));
+        let (simd, of) = (pulp::Scalar256b, |x: f64| Four::splat(pulp::Scalar256b, x));
+        let ([value, growth], (near, by_ln_a)) = (faces.far(simd), faces.near(simd, of(a)));
+        let grown = growth * of(a * a);
+        ((value + grown + near).array()[0], (of(2.0) * grown + by_ln_a).array()[0])
     }
 
     /// Plane strain needs no end face when nu = 0; else an upright face softens, an acute one more, an obtuse one less.

@@ -178,7 +178,18 @@ pub(crate) fn row_at(
     gap: f64,
 ) -> ContactRow {
     let position = poses[0].transform_point(&patches[0].surface().point(at[0]).into()).coords;
-    let normal_2 = patches[1].surface().normal(at[1]);
+    row_between(poses, numbers, point, at[0], gap, (position, patches[1].surface().normal(at[1])))
+}
+
+/// Row of a point at a position in the common frame, with the unit normal out of body 2 at its foot in that one's own.
+pub(crate) fn row_between(
+    poses: &[Pose; 2],
+    numbers: (usize, usize),
+    point: usize,
+    coordinates: [f64; 2],
+    gap: f64,
+    (position, normal_2): (Vec3, Vec3),
+) -> ContactRow {
     let normal = poses[1].rotation * normal_2;
     let levers = levers(poses, &position, &normal);
     ContactRow {
@@ -188,7 +199,7 @@ pub(crate) fn row_at(
         area: 0.0,
         position,
         normal,
-        coordinates: at[0],
+        coordinates,
         levers,
         torque_levers: levers,
         traction: normal,

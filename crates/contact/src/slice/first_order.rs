@@ -11,6 +11,8 @@ const STRIDES: f64 = 23.0;
 /// What the gap to first order may be off by: one part in so many of half a band of contact, and this share of what the
 /// nominal flanks part by.
 const OFF_BY: (f64, f64) = (50.0, 0.3);
+/// Share of what plain flanks part by to second order that they surely part by.
+const SURELY: f64 = 0.9;
 /// Part of a stride by which flanks may overlap or be apart, and to which their ends are known.
 const NEARLY: f64 = 0.25;
 /// Dips that are looked into at the most.
@@ -146,6 +148,16 @@ impl FirstOrderGap {
         arc * arc * self.curvature(self.touch_at(z)) * self.cos_base_helix
     }
 
+    /// Roll angle of the first flank's nominal contact at a height (mm), exact on parallel axes; none on others.
+    pub fn touch(&self, z: f64) -> Option<f64> {
+        self.is_parallel().then_some(self.touch[0] + self.twist * z)
+    }
+
+    /// Whether the axes are parallel.
+    pub fn is_parallel(&self) -> bool {
+        self.tilted == 0.0
+    }
+
     fn touch_at(&self, z: f64) -> [f64; 2] {
         let moved = self.twist * z;
         [self.touch[0] + moved, self.touch[1] - self.base_radius[0] * moved / self.base_radius[1]]
@@ -157,9 +169,9 @@ impl FirstOrderGap {
         1.0 / arc(0) + 1.0 / arc(1)
     }
 
-    /// What is seen at a height (mm); of gaps wider than `reach` (mm) only that they are.
-    pub fn look(&self, surfaces: [&dyn Surface; 2], z: f64, reach: f64) -> Option<Outlook> {
-        let touch = self.touch_at(z);
+    /// Where both profiles face each other at a height (mm), as arcs of the first one from the place of touch, and the
+    /// squares of the roll angles of that place: `Err` where they face each other nowhere, if that is sure.
+    fn faced(&self, touch: [f64; 2]) -> Result<([f64; 2], [f64; 2]), bool> {
         let [r1, r2] = self.base_radius;
         // Arcs from the place of touch, going on where the involute has ended.
         let square = touch.map(|u| u * u.abs());
@@ -177,8 +189,39 @@ impl FirstOrderGap {
         let slack = NEARLY * self.stride;
         if low > high {
             // To first order the ends are known to a part of a stride.
-            return (low > high + slack + 0.1 * low.abs().max(high.abs())).then_some(Outlook::NotFaced);
+            return Err(low > high + slack + 0.1 * low.abs().max(high.abs()));
         }
+        Ok(([low, high], square))
+    }
+
+    /// Whether plain helicoids surely come no nearer to each other than `reach` (mm) at a height (mm): where one of them
+    /// ends before the place of touch they have parted by at least half of the least curvature on the way times its
+    /// square.
+    pub fn is_wider(&self, z: f64, reach: f64) -> bool {
+        let ([low, high], square) = match self.faced(self.touch_at(z)) {
+            Ok(faced) => faced,
+            Err(sure) => return sure,
+        };
+        let s = 0f64.clamp(low, high);
+        let least = |r: f64, square: [f64; 2]| {
+            let [a, b] = square.map(|u| r.abs() * u.max(0.0).sqrt());
+            if r > 0.0 { 1.0 / a.max(b) } else { -1.0 / a.min(b) }
+        };
+        let [r1, r2] = self.base_radius;
+        let curvature =
+            least(r1, [square[0], square[0] + 2.0 * s / r1]) + least(r2, [square[1], square[1] - 2.0 * s / r2]);
+        let parted = if s == 0.0 { 0.0 } else { SURELY * 0.5 * self.cos_base_helix * curvature * s * s };
+        self.apart - self.tilted + parted + self.shallowest > reach
+    }
+
+    /// What is seen at a height (mm); of gaps wider than `reach` (mm) only that they are.
+    pub fn look(&self, surfaces: [&dyn Surface; 2], z: f64, reach: f64) -> Option<Outlook> {
+        let touch = self.touch_at(z);
+        let [r1, r2] = self.base_radius;
+        let ([low, high], square) = match self.faced(touch) {
+            Ok(faced) => faced,
+            Err(sure) => return sure.then_some(Outlook::NotFaced),
+        };
         let curvature = self.curvature(touch) * self.cos_base_helix;
         let parted = |s: f64| 0.5 * curvature * s * s;
         let (amount, share) = (self.amount, OFF_BY.1);

@@ -4,7 +4,7 @@ use crate::{
     Pose,
     flank::FlankPatch,
     local::{BandMean, LocalContact, SAMPLES},
-    nodal::{ContactRow, row_at},
+    nodal::{ContactRow, row_at, row_between},
     slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
     slice::{SliceHint, ToothLayer},
 };
@@ -29,6 +29,8 @@ pub struct Slice {
     pub length: f64,
     /// The band at this place.
     pub local: LocalContact,
+    /// Whether plain flanks press on each other here, on parallel axes: along the normals of both.
+    pub is_along_normals: bool,
 }
 
 /// Two flanks at the poses of their bodies, ready to be cut into slices.
@@ -80,9 +82,9 @@ pub fn slice(
 }
 
 impl SliceHint {
-    /// Near the place of a slice.
-    pub fn near(slice: &Slice) -> Self {
-        Self { roll: Some(slice.at[0][0]), ..Self::default() }
+    /// Near a roll angle of body 1.
+    pub fn near(roll: f64) -> Self {
+        Self { roll: Some(roll), ..Self::default() }
     }
 }
 
@@ -203,23 +205,26 @@ impl<'a> FlankPair<'a> {
         let at = [[point.roll(), z], sample.foot];
         match point {
             LeastGapPoint::Inside(_) | LeastGapPoint::OwnEnd(_) => {
-                let mut row = row_at(patches, poses, numbers, station, at, sample.gap);
+                let position = poses[1].transform_point(&sample.point.into()).coords;
+                let mut row = row_between(poses, numbers, station, at[0], sample.gap, (position, sample.normal));
                 let inside = matches!(point, LeastGapPoint::Inside(_));
                 let off = if inside { 0.0 } else { off_line(patches, sample.slope, at) };
                 let local = local(self.flanks, at, off, deviation);
                 row.gap += local.edge_opening() + at_rest;
-                Some((row, Slice { z, at, length, local }))
+                let is_along_normals = inside && self.profiles.is_plain();
+                Some((row, Slice { z, at, length, local, is_along_normals }))
             }
             LeastGapPoint::OtherKink(_) => {
                 let row = self.edge_row(numbers, station, at, nearest.gap());
-                Some((row, Slice { z, at, length, local: local(self.flanks, at, 0.0, deviation) }))
+                let local = local(self.flanks, at, 0.0, deviation);
+                Some((row, Slice { z, at, length, local, is_along_normals: false }))
             }
             LeastGapPoint::OtherEnd(_) => {
                 let (at, sample, off) = self.other_edge(&sample)?;
                 let mut row = self.edge_row(numbers, station, at, sample.gap);
                 let local = local(self.flanks, at, off, deviation);
                 row.gap += local.edge_opening() + at_rest;
-                Some((row, Slice { z, at, length, local }))
+                Some((row, Slice { z, at, length, local, is_along_normals: false }))
             }
         }
     }
@@ -259,7 +264,7 @@ pub(crate) fn opposite_edge(
     poses: &[Pose; 2],
     sample: &GapSample,
 ) -> Option<([f64; 2], GapSample)> {
-    let turned = ProfilePair::new([b, a], [&poses[1], &poses[0]]);
+    let turned = ProfilePair::unguided([b, a], [&poses[1], &poses[0]]);
     let edge = [b.tip(), sample.foot[1]];
     Some((edge, turned.sample(edge)?))
 }

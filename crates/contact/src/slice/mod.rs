@@ -4,6 +4,7 @@ mod first_order;
 mod flank_pair;
 mod hint;
 mod mesh_contact;
+mod profile_end;
 mod profile_search;
 mod rigid;
 mod same_slices;

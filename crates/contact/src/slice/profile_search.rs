@@ -18,7 +18,7 @@ pub(crate) struct ProfilePair<'a> {
     shift: Vector3<f64>,
     /// Whether both profiles are arcs without relief, one of which may be hollow and is then the flatter one: the gap then has one minimum, and Newton's method finds it.
     single: bool,
-    /// Where dips may be, of modified flanks that nearly touch.
+    /// The gap to first order, of flanks that nearly touch.
     guide: Option<FirstOrderGap>,
 }
 
@@ -36,7 +36,7 @@ pub(crate) enum LeastGapPoint {
 }
 
 /// A place, with what is seen there where that is known.
-type Found = (LeastGapPoint, Option<GapSample>);
+pub(super) type Found = (LeastGapPoint, Option<GapSample>);
 
 /// Gap at a point of body 1's profile.
 #[derive(Debug, Clone, Copy)]
@@ -47,6 +47,11 @@ pub(crate) struct GapSample {
     pub slope: f64,
     /// Surface coordinates of the foot on body 2.
     pub foot: [f64; 2],
+    /// Square of |dx_1/du|, mm^2.
+    pub stretch: f64,
+    /// The point of body 1, and the unit normal out of body 2 at its foot, in body 2's frame.
+    pub point: Vec3,
+    pub normal: Vec3,
 }
 
 /// How far beyond an end face of body 2 a foot point may lie, as a share of its width: foot points move by gap times
@@ -63,9 +68,9 @@ const FARTHEST: f64 = 3.0;
 /// Newton steps before the scan takes over; four are enough.
 const NEWTON_STEPS: usize = 24;
 /// Roll angles nearer than this count as equal, rad: shorter steps are round-off.
-const RESOLUTION: f64 = 1e-13;
+pub(super) const RESOLUTION: f64 = 1e-13;
 /// After a longer step than this the gap is sampled again, rad: the slope is not yet linear.
-const NEAR: f64 = 1e-6;
+pub(super) const NEAR: f64 = 1e-6;
 /// After a longer first step than this the gap is sampled again, rad: the curvatures give the slope's derivative to a
 /// per cent.
 const NEAR_AT_ONCE: f64 = 1e-8;
@@ -86,16 +91,20 @@ impl LeastGapPoint {
 
 impl<'a> ProfilePair<'a> {
     pub fn new(patches: [&'a FlankPatch; 2], poses: [&Pose; 2]) -> Self {
-        let relative = poses[1].inverse() * poses[0];
-        let surfaces = patches.map(FlankPatch::surface);
-        let single = surfaces.iter().all(|s| s.is_single_arc());
         let rolls = patches.map(|patch| patch.range().map(|[u, _]| u));
+        let guide = FirstOrderGap::new(patches.map(FlankPatch::surface), rolls, poses);
+        Self { guide, ..Self::unguided(patches, poses) }
+    }
+
+    /// Two patches, for a look at places that are known.
+    pub fn unguided(patches: [&'a FlankPatch; 2], poses: [&Pose; 2]) -> Self {
+        let relative = poses[1].inverse() * poses[0];
         Self {
             patches,
             turn: relative.rotation.to_rotation_matrix().into_inner(),
             shift: relative.translation.vector,
-            single,
-            guide: if single { None } else { FirstOrderGap::new(surfaces, rolls, poses) },
+            single: patches.iter().all(|patch| patch.surface().is_single_arc()),
+            guide: None,
         }
     }
 
@@ -107,11 +116,14 @@ impl<'a> ProfilePair<'a> {
     /// Gap and its slope along the profile; `None` where the point has no foot on body 2.
     pub fn sample(&self, at: [f64; 2]) -> Option<GapSample> {
         let [point, tangent] = self.patches[0].surface().point_and_profile(at);
-        let (foot, normal) = self.patches[1].surface().locate_with_normal(&(self.turn * point + self.shift))?;
-        Some(GapSample { gap: foot.distance, slope: normal.dot(&(self.turn * tangent)), foot: foot.at })
+        let point = self.turn * point + self.shift;
+        let (foot, normal) = self.patches[1].surface().locate_with_normal(&point)?;
+        let slope = normal.dot(&(self.turn * tangent));
+        let stretch = tangent.norm_squared();
+        Some(GapSample { gap: foot.distance, slope, foot: foot.at, stretch, point, normal })
     }
 
-    fn rolls(&self, body: usize) -> [f64; 2] {
+    pub(super) fn rolls(&self, body: usize) -> [f64; 2] {
         let [[low, _], [high, _]] = self.patches[body].range();
         [low, high]
     }
@@ -120,7 +132,7 @@ impl<'a> ProfilePair<'a> {
     /// the first order says nothing.
     pub fn foretold(&self, z: f64) -> Option<[f64; 2]> {
         let anything = [f64::NEG_INFINITY, f64::INFINITY];
-        let Some(guide) = &self.guide else { return Some(anything) };
+        let Some(guide) = self.dips() else { return Some(anything) };
         match guide.look(self.patches.map(FlankPatch::surface), z, f64::INFINITY) {
             None => Some(anything),
             Some(Outlook::NotFaced) => None,
@@ -159,12 +171,22 @@ impl<'a> ProfilePair<'a> {
         {
             return found;
         }
-        if let Some(guide) = &self.guide
+        if let Some(guide) = self.dips()
             && let Ok(found) = self.guided_search(guide, z, near, reach)
         {
             return found;
         }
         self.scan_search(z).map(|point| (point, None))
+    }
+
+    /// Whether both are plain helicoids on parallel axes, which nearly touch.
+    pub fn is_plain(&self) -> bool {
+        self.single && self.guide.as_ref().is_some_and(FirstOrderGap::is_parallel)
+    }
+
+    /// Where dips may be, of modified flanks that nearly touch.
+    fn dips(&self) -> Option<&FirstOrderGap> {
+        self.guide.as_ref().filter(|_| !self.single)
     }
 
     /// The deepest of the dips that the gap to first order tells of. `Err` where the flanks are not as it says.
@@ -263,8 +285,13 @@ impl<'a> ProfilePair<'a> {
     /// Between convex arcs slope and foot point are monotonous. So the foot point at the zero of the slope tells which
     /// end of a profile, if any, comes before it. `Err` where that does not hold.
     fn newton_search(&self, z: f64, near: Option<f64>, reach: f64) -> Result<Option<Found>, ()> {
+        if self.guide.as_ref().is_some_and(|guide| guide.is_wider(z, reach)) {
+            return Ok(None);
+        }
         let [low, high] = self.rolls(0);
-        let mut u = near.unwrap_or(0.5 * (low + high)).clamp(low, high);
+        // On parallel axes the place is known in closed form, and one look sees the gap there.
+        let known = self.guide.as_ref().and_then(|guide| guide.touch(z));
+        let mut u = known.or(near).unwrap_or(0.5 * (low + high)).clamp(low, high);
         let (mut below, mut above) = (None::<f64>, None::<f64>);
         let mut before: Option<(f64, f64)> = None;
         let mut found = None;
@@ -281,7 +308,7 @@ impl<'a> ProfilePair<'a> {
                 break;
             }
             let secant = before.map(|(v, s)| (sample.slope - s) / (u - v)).filter(|h| *h > 0.0 && h.is_finite());
-            let derivative = secant.unwrap_or_else(|| self.slope_derivative([u, z], sample.foot));
+            let derivative = secant.unwrap_or_else(|| self.slope_derivative([u, z], &sample));
             let step = -sample.slope / derivative;
             if !step.is_finite() {
                 return Err(());
@@ -317,56 +344,15 @@ impl<'a> ProfilePair<'a> {
         self.within_other(z, (point, is_there.then_some(sample)), &sample, reach)
     }
 
-    /// A place where the slope vanishes, or the end of the other profile before it, where its foot (`sample`) lies
-    /// beyond that; `None` where the gap is wider than `reach` (mm) or no flank is faced.
-    fn within_other(&self, z: f64, found: Found, sample: &GapSample, reach: f64) -> Result<Option<Found>, ()> {
-        let (u, foot) = (found.0.roll(), sample.foot[0]);
-        let [[low, high], [other_low, other_high]] = [self.rolls(0), self.rolls(1)];
-        if foot >= other_low && foot <= other_high {
-            return Ok(Some(found));
-        }
-        // At the ends of the other profile the gap is no smaller than here.
-        if sample.gap > reach {
-            return Ok(None);
-        }
-        // Foot points go down the other profile as points go up this one; with a ring they go up.
-        let (bound, beyond) = if foot > other_high { (other_high, true) } else { (other_low, false) };
-        let end = if beyond != self.has_ring() { high } else { low };
-        let past = |u: f64| self.sample([u, z]).map(|l| l.foot[0] - bound).ok_or(());
-        let (here, there) = (foot - bound, past(end)?);
-        if here * there > 0.0 {
-            return Ok(None);
-        }
-        let mut failed = false;
-        let [inner, outer] = bracket_zero(
-            |u| {
-                past(u).unwrap_or_else(|()| {
-                    failed = true;
-                    0.0
-                })
-            },
-            [u, end],
-            [here, there],
-        );
-        if failed {
-            return Err(());
-        }
-        // Of the bracket, the side from which the other flank is faced: that of `end`.
-        let u = if (inner - end).abs() < (outer - end).abs() { inner } else { outer };
-        let at_tip = beyond != self.patches[1].is_hollow();
-        let point = if at_tip { LeastGapPoint::OtherEnd(u) } else { LeastGapPoint::OwnEnd(u) };
-        Ok(Some((point, None)))
-    }
-
     /// Whether one of the flanks is a ring's.
-    fn has_ring(&self) -> bool {
+    pub(super) fn has_ring(&self) -> bool {
         self.patches.iter().any(|patch| patch.is_hollow())
     }
 
     /// d slope / du where flanks touch, mm.
-    fn slope_derivative(&self, at: [f64; 2], foot: [f64; 2]) -> f64 {
+    fn slope_derivative(&self, at: [f64; 2], sample: &GapSample) -> f64 {
         let [first, second] = self.patches.map(FlankPatch::surface);
-        first.profile_tangent(at).norm_squared() * (first.curvature(at) + second.curvature(foot))
+        sample.stretch * (first.curvature(at) + second.curvature(sample.foot))
     }
 
     /// Search for any profiles: the sample of least gap, its neighbours as a bracket, and the zero of the slope in it.

@@ -3,8 +3,13 @@
 
 use faer::Mat;
 
-use super::{SliceHint, flank_pair::FlankPair, flank_pair::Slice, mesh_contact::places};
-use crate::{BulkTable, ContactSet, Friction, Pose, TablePoint, TableWork, nodal::ContactRow};
+use super::{
+    SliceHint,
+    flank_pair::FlankPair,
+    flank_pair::Slice,
+    mesh_contact::{mirror, places},
+};
+use crate::{BulkTable, ContactSet, Friction, Pose, TableWork, nodal::ContactRow};
 
 /// Slices and their rows, pair by pair and by height.
 #[derive(Debug, Clone, Default)]
@@ -27,7 +32,7 @@ impl ContactSet {
             let numbers = of_pair[0].patches;
             let pair = FlankPair::new(slice_set.flanks(patches, numbers), poses);
             for (row, slice) in of_pair.iter().zip(&like.slices[from..]) {
-                let mut hint = SliceHint::near(slice);
+                let mut hint = SliceHint::near(slice.at[0][0]);
                 let point = pair.nearest_point(slice.z, &mut hint)?;
                 let (mut row, slice) = pair.slice(&point, numbers, row.point, slice_set.length())?;
                 if !slice_set.may_touch(&slice) {
@@ -47,7 +52,7 @@ impl ContactSet {
 
     /// Memory to read the tables of both gears for up to `rows` rows; none where there are no tables.
     pub fn table_work(&self, rows: usize) -> Vec<TableWork> {
-        self.tables().map(|both| both.iter().map(|table| TableWork::new(table, rows)).collect()).unwrap_or_default()
+        self.tables().map(|both| both.iter().map(|_| TableWork::new(rows)).collect()).unwrap_or_default()
     }
 
     fn tables(&self) -> Option<&[BulkTable; 2]> {
@@ -71,24 +76,9 @@ impl SameSlices {
     /// ```
     /// `work`: [`ContactSet::table_work`] of this set or of one with the same tables.
     pub fn distances(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Vec<f64> {
-        let n = self.rows.len();
         let mut out: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
-        match set.tables() {
-            Some(tables) => {
-                let (mut openings, mut loads) = (Vec::new(), Vec::new());
-                for (b, (table, work)) in tables.iter().zip(work).enumerate() {
-                    self.stand(set, (b, table), &mut openings, &mut loads);
-                    work.stand_on(table, &openings, &loads);
-                    work.add_openings(forces, &mut out);
-                }
-            }
-            None => {
-                let mut matrix = Vec::new();
-                set.exact_compliance(&self.rows, &mut matrix);
-                for (column, f) in matrix.chunks(n.max(1)).zip(forces) {
-                    out.iter_mut().zip(column).for_each(|(o, s)| *o += s * f);
-                }
-            }
+        for (column, f) in self.bulk(set, work).chunks(out.len().max(1)).zip(forces).filter(|(_, f)| **f != 0.0) {
+            out.iter_mut().zip(column).for_each(|(o, s)| *o += s * f);
         }
         for ((out, slice), &f) in out.iter_mut().zip(&self.slices).zip(forces).filter(|(_, f)| **f > 0.0) {
             *out += slice.local.under(f / slice.length).approach;
@@ -99,19 +89,7 @@ impl SameSlices {
     /// dR/dF, mm/N.
     pub fn compliance(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Mat<f64> {
         let n = self.rows.len();
-        let mut matrix = Vec::new();
-        match set.tables() {
-            Some(tables) => {
-                matrix.resize(n * n, 0.0);
-                let (mut openings, mut loads) = (Vec::new(), Vec::new());
-                for (b, (table, work)) in tables.iter().zip(work).enumerate() {
-                    self.stand(set, (b, table), &mut openings, &mut loads);
-                    let loads = if loads.is_empty() { &openings } else { &loads };
-                    table.add(&openings, loads, false, work, &mut matrix);
-                }
-            }
-            None => set.exact_compliance(&self.rows, &mut matrix),
-        }
+        let matrix = self.bulk(set, work);
         let own = |i: usize| {
             let slice = &self.slices[i];
             slice.local.under(forces[i] / slice.length).slope / slice.length
@@ -130,19 +108,27 @@ impl SameSlices {
         slice.local.under(force / slice.length).pressure
     }
 
-    /// Where rows open and where their loads stand in the table of gear `b`; no loads where they stand on the openings.
-    fn stand(
-        &self,
-        set: &ContactSet,
-        table: (usize, &BulkTable),
-        openings: &mut Vec<TablePoint>,
-        loads: &mut Vec<TablePoint>,
-    ) {
-        let of = (&self.rows[..], &self.slices[..]);
-        places(set, table, of, openings, false);
-        loads.clear();
-        if self.rows.iter().any(|row| row.traction != row.normal) {
-            places(set, table, of, loads, true);
+    /// S between the rows, mm/N, column by column.
+    fn bulk(&self, set: &ContactSet, work: &mut [TableWork]) -> Vec<f64> {
+        let n = self.rows.len();
+        let mut matrix = vec![0.0; n * n];
+        let Some(tables) = set.tables() else {
+            set.exact_compliance(&self.rows, &mut matrix);
+            return matrix;
+        };
+        let symmetric = self.rows.iter().all(|row| row.traction == row.normal);
+        let (mut openings, mut loads) = (Vec::new(), Vec::new());
+        for (b, (table, work)) in tables.iter().zip(work).enumerate() {
+            let of = (&self.rows[..], &self.slices[..]);
+            places(set, (b, table), of, &mut openings, false);
+            if !symmetric {
+                places(set, (b, table), of, &mut loads, true);
+            }
+            table.add(&openings, &loads, symmetric, work, &mut matrix);
         }
+        if symmetric {
+            mirror(&mut matrix, n);
+        }
+        matrix
     }
 }

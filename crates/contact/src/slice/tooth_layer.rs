@@ -9,6 +9,7 @@ use crate::local::{EndFace, LocalBody};
 #[derive(Debug, Clone, PartialEq)]
 pub struct ToothLayer {
     flank: Flank,
+    cos_base_helix: f64,
     young: f64,
     poisson: f64,
     profile: LayerProfile,
@@ -28,7 +29,8 @@ impl ToothLayer {
         profile: LayerProfile,
         edge_radius: f64,
     ) -> Self {
-        Self { flank, young, poisson, profile, overshoot, edge_radius }
+        let cos_base_helix = flank.base_helix_angle.cos();
+        Self { flank, cos_base_helix, young, poisson, profile, overshoot, edge_radius }
     }
 
     /// Radius of the rounded tip edge, mm; 0: sharp.
@@ -40,12 +42,12 @@ impl ToothLayer {
     ///
     /// ```text
     /// t = (r sin(psi) + overshoot) cos(b_b),   psi = sigma - (u - atan u),   d = r_b (u_a^2 - u^2) / 2
+    /// r sin(psi) = r_b [sin(sigma - u) + u cos(sigma - u)]
     /// ```
     pub fn body(&self, [u, z]: [f64; 2]) -> LocalBody {
         let f = &self.flank;
-        let half_angle = f.base_half_angle - (u - u.atan());
-        let radius = f.base_radius * (1.0 + u * u).sqrt();
-        let depth = (radius * half_angle.sin() + self.overshoot) * f.base_helix_angle.cos();
+        let (sin, cos) = (f.base_half_angle - u).sin_cos();
+        let depth = (f.base_radius * (sin + u * cos) + self.overshoot) * self.cos_base_helix;
         LocalBody {
             young: self.young,
             poisson: self.poisson,
@@ -57,7 +59,7 @@ impl ToothLayer {
             tip_gradient: self.profile.tip_gradient(),
             edge_radius: self.edge_radius,
             ends: [1.0, -1.0].map(|end| EndFace {
-                distance: (f.half_width - end * z).max(0.0) / f.base_helix_angle.cos(),
+                distance: (f.half_width - end * z).max(0.0) / self.cos_base_helix,
                 // The flank's outward normal has -s sin(b_b) along z: it turns away from one face and towards the
                 // other.
                 lean: end * f.side.sign() * f.base_helix_angle,

@@ -2,7 +2,7 @@
 //! from any start.
 
 use contact::complementarity::{Balance, DenseProblem, DenseSolver};
-use faer::Mat;
+use faer::{Mat, linalg::solvers::Solve};
 use proptest::prelude::*;
 
 /// Approach and slope of a line contact: grows slower and slower.
@@ -18,6 +18,16 @@ fn compliance(n: usize, seed: &[f64]) -> Mat<f64> {
     let b = Mat::from_fn(n, 4, |i, j| 2e-3 * (seed[(i * 7919 + j * 104_729) % seed.len()] - 0.3));
     let local = &b * b.transpose();
     Mat::from_fn(n, n, |i, j| local[(i, j)] + 1e-6)
+}
+
+/// l_A' (S_AA + diag delta'(F_A))^-1 l_A at the forces found, N mm/rad.
+fn stiffness(s: &Mat<f64>, solver: &DenseSolver, levers: &[f64]) -> f64 {
+    let (active, forces) = (solver.active(), solver.forces());
+    let m = active.len();
+    let mut tangent = Mat::from_fn(m, m, |a, b| s[(active[a], active[b])]);
+    (0..m).for_each(|a| tangent[(a, a)] += local(forces[active[a]]).1);
+    let own = Mat::from_fn(m, 1, |a, _| levers[active[a]]);
+    (own.transpose() * tangent.partial_piv_lu().solve(&own))[(0, 0)]
 }
 
 fn check(s: &Mat<f64>, gaps: &[f64], balance: Balance, start: f64) -> Result<(), TestCaseError> {
@@ -37,6 +47,8 @@ fn check(s: &Mat<f64>, gaps: &[f64], balance: Balance, start: f64) -> Result<(),
     if let Balance::Moment(moment) = balance {
         let carried: f64 = forces.iter().zip(&levers).map(|(f, l)| f * l).sum();
         prop_assert!((carried / moment - 1.0).abs() < 1e-9, "moment {carried}, not {moment}");
+        let wanted = stiffness(s, &solver, &levers);
+        prop_assert!((solver.stiffness() / wanted - 1.0).abs() < 1e-9, "stiffness {}, not {wanted}", solver.stiffness());
     } else {
         prop_assert_eq!(solver.rotation(), 0.0);
     }

@@ -4,7 +4,8 @@ use nalgebra::Matrix3;
 use reduction::LayerStack;
 
 use super::{
-    BulkCompliance, BulkTable, DIRECTIONS, Entries, FlankGridLines, NodeBlocks, Pole, RUN, first_points, grid_supports,
+    BulkCompliance, BulkTable, DIRECTIONS, Entries, FlankGridLines, NodeBlocks, Pole, RUN, RUNS, first_points,
+    grid_supports, rows::TilePoints,
 };
 use crate::{ContactError, flank::FlankPatch, nodal::Support};
 
@@ -61,6 +62,17 @@ impl LayerEntries {
     #[inline]
     pub(super) fn run(&self, q: usize, first: usize) -> &[f64] {
         self.entry(q, first).map_or(&FAR, |entry| &self.blocks[entry..][..RUN])
+    }
+
+    /// Entries between the points of two cells, by the first points of their runs: of loads and of openings.
+    pub(super) fn tile(&self, loads: [usize; RUNS], openings: [usize; RUNS]) -> TilePoints {
+        let mut all = [[0.0; RUNS * RUN]; RUNS * RUN];
+        for (q, column) in loads.into_iter().flat_map(|first| first..first + RUN).zip(&mut all) {
+            for (first, run) in openings.into_iter().zip(column.as_chunks_mut::<RUN>().0) {
+                run.copy_from_slice(self.run(q, first));
+            }
+        }
+        all
     }
 
     /// T of two points, mm/N.

@@ -53,20 +53,21 @@ pub struct BulkTable {
 /// T of a table.
 #[derive(Debug, Clone)]
 enum Entries {
-    /// mm/N, column by column: all points along the normal, then all along the profile, then all along the generator.
+    /// mm/N, in blocks: openings along the normal, then along the profile, then along the generator by loads along the
+    /// normal, and so on; each block column by column. Contact without friction reads the first block alone.
     Whole(Vec<f64>),
     /// By teeth apart, on the shorter gear of a wide one.
     Layers(LayerEntries),
 }
 
-/// Points and weights of one row in a table: runs of points that follow each other along the profile, three of them for
-/// each direction that it is loaded along.
+/// Points and weights of one row in a table: three runs of points that follow each other along the profile.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TablePoint {
     /// First point of each run.
-    runs: [u32; DIRECTIONS * RUNS],
-    weights: [[f64; RUN]; DIRECTIONS * RUNS],
-    count: usize,
+    runs: [u32; RUNS],
+    weights: [[f64; RUN]; RUNS],
+    /// What of a unit force is along each direction.
+    parts: [f64; DIRECTIONS],
 }
 
 /// Points of a run, and runs of a cell along the face.
@@ -177,7 +178,7 @@ impl pulp::NullaryFnOnce for Filling<'_> {
     #[inline(always)]
     fn call(self) {
         let Self { bulk, supports, table } = self;
-        let (count, all) = (supports.len(), DIRECTIONS * supports.len());
+        let count = supports.len();
         let poles: Vec<Option<Pole>> = supports.iter().map(|s| s.as_ref().map(Pole::of)).collect();
         let (mut columns, mut moved): ([Vec<f64>; 3], NodeBlocks) = Default::default();
         for (q, load) in supports.iter().enumerate() {
@@ -190,7 +191,7 @@ impl pulp::NullaryFnOnce for Filling<'_> {
                 for (d, load) in load.iter().enumerate() {
                     let moved = between * load.load;
                     for (e, direction) in pole.directions.iter().enumerate() {
-                        own[(d * count + q) * all + e * count + p] = direction.dot(&moved);
+                        own[((DIRECTIONS * d + e) * count + q) * count + p] = direction.dot(&moved);
                     }
                 }
             }
@@ -205,8 +206,7 @@ const TILE: usize = 32;
 /// The other triangle: T_pq = T_qp, of points as filled for p >= q; of one point with itself as the later direction sees
 /// the earlier one.
 fn mirror(table: &mut [f64], count: usize) {
-    let all = DIRECTIONS * count;
-    let at = |d: usize, q: usize, e: usize, p: usize| (d * count + q) * all + e * count + p;
+    let at = |d: usize, q: usize, e: usize, p: usize| ((DIRECTIONS * d + e) * count + q) * count + p;
     for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
         for first in (0..count).step_by(TILE) {
             for other in (0..=first).step_by(TILE) {
@@ -246,6 +246,11 @@ fn directions(patch: &FlankPatch, at: [f64; 2]) -> [Vec3; DIRECTIONS] {
     [normal, along, normal.cross(&along)]
 }
 
+/// What of a unit force along `direction` (own frame) is along the three directions at a place of a flank.
+pub(crate) fn parts(flank: &FlankPatch, at: [f64; 2], direction: &Vec3) -> [f64; DIRECTIONS] {
+    directions(flank, at).map(|e| e.dot(direction))
+}
+
 impl BulkTable {
     /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
     /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
@@ -282,7 +287,7 @@ impl BulkTable {
                 let share = |k: f64| (0.5 + k * 0.618_033_988_749_894_9).fract();
                 let part = [(i as f64 + 0.5) / (CHECKS * CHECKS) as f64, share(i as f64)];
                 let at = [0, 1].map(|k| low[k] + part[k] * (high[k] - low[k]));
-                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(flank, patch, at, None)) {
+                if let (Some(exact), Some(place)) = (supports(flank, at), self.at(patch, at, [1.0, 0.0, 0.0])) {
                     places.push((exact[0], place, patch));
                 }
             }
@@ -328,36 +333,33 @@ impl BulkTable {
         DIRECTIONS * self.first.last().copied().unwrap_or(0)
     }
 
-    /// Place of a row in the table: `at` on its patch, the unit force along `direction` (own frame; the flank's normal
-    /// if `None`).
-    pub(crate) fn at(
-        &self,
-        flank: &FlankPatch,
-        patch: usize,
-        at: [f64; 2],
-        direction: Option<&Vec3>,
-    ) -> Option<TablePoint> {
+    /// Place of a row in the table: `at` on patch number `patch`, `parts` what of the unit force is along the three
+    /// directions there ([`parts`]).
+    pub(crate) fn at(&self, patch: usize, at: [f64; 2], parts: [f64; DIRECTIONS]) -> Option<TablePoint> {
         let (runs, weights) = self.lines.get(patch)?.weights(at);
-        let parts = direction.map_or([1.0, 0.0, 0.0], |d| directions(flank, at).map(|e| e.dot(d)));
-        let mut place = TablePoint { runs: [0; DIRECTIONS * RUNS], weights: [[0.0; RUN]; DIRECTIONS * RUNS], count: 0 };
-        let all = self.points() / DIRECTIONS;
-        for (k, part) in parts.iter().enumerate().filter(|(_, part)| part.abs() > NONE) {
-            for (first, of_run) in runs.iter().zip(weights) {
-                place.runs[place.count] = (k * all + self.first[patch] + first) as u32;
-                place.weights[place.count] = of_run.map(|w| part * w);
-                place.count += 1;
-            }
-        }
-        Some(place)
+        Some(TablePoint {
+            runs: runs.map(|first| (self.first[patch] + first) as u32),
+            weights,
+            parts: parts.map(|part| if part.abs() > NONE { part } else { 0.0 }),
+        })
     }
 
     /// S between two places, mm/N.
     pub(crate) fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
-        let at = |q: u32, p: u32| match &self.entries {
-            Entries::Whole(table) => table[q as usize * self.points() + p as usize],
-            Entries::Layers(layers) => layers.at(q as usize, p as usize),
+        let count = self.points() / DIRECTIONS;
+        let at = |[d, q]: [usize; 2], [e, p]: [usize; 2]| match &self.entries {
+            Entries::Whole(table) => table[((DIRECTIONS * d + e) * count + q) * count + p],
+            Entries::Layers(layers) => layers.at(d * count + q, e * count + p),
         };
-        second.each().map(|(q, w)| first.each().map(|(p, v)| v * at(q, p)).sum::<f64>() * w).sum()
+        let between = |e: usize, d: usize| {
+            let opening = |q: usize| first.each().map(|(p, w)| w * at([d, q], [e, p])).sum::<f64>();
+            second.each().map(|(q, w)| w * opening(q)).sum::<f64>()
+        };
+        (0..DIRECTIONS * DIRECTIONS)
+            .map(|i| (i % DIRECTIONS, i / DIRECTIONS, first.parts[i % DIRECTIONS] * second.parts[i / DIRECTIONS]))
+            .filter(|(_, _, part)| *part != 0.0)
+            .map(|(e, d, part)| part * between(e, d))
+            .sum()
     }
 }
 
@@ -371,20 +373,19 @@ fn first_points(lines: &[FlankGridLines]) -> Vec<usize> {
 impl TablePoint {
     /// Number of points that it stands on: 12 for each direction that it is loaded along.
     pub(crate) fn points(&self) -> usize {
-        RUN * self.count
+        RUN * RUNS * self.parts.iter().filter(|part| **part != 0.0).count()
     }
 
     /// Opening (mm) at this place by a displacement sampled at the table's points.
     pub(crate) fn read(&self, samples: &[f64]) -> f64 {
-        self.each().map(|(p, w)| w * samples[p as usize]).sum()
+        let along = |of_direction: &[f64]| self.each().map(|(p, w)| w * of_direction[p]).sum::<f64>();
+        let all = samples.chunks_exact(samples.len() / DIRECTIONS);
+        self.parts.iter().zip(all).filter(|(part, _)| **part != 0.0).map(|(part, of)| part * along(of)).sum()
     }
 
-    fn runs(&self) -> &[u32] {
-        &self.runs[..self.count]
-    }
-
-    fn each(&self) -> impl Iterator<Item = (u32, f64)> + '_ {
-        let runs = self.runs().iter().zip(&self.weights);
-        runs.flat_map(|(&first, weights)| (first..).zip(weights.iter().copied()))
+    /// Points and their weights.
+    fn each(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let runs = self.runs.iter().zip(&self.weights);
+        runs.flat_map(|(&first, weights)| (first as usize..).zip(weights.iter().copied()))
     }
 }

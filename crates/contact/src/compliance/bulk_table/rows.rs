@@ -1,11 +1,14 @@
-//! Compliance between rows, read from the part of a table that they touch.
+//! Compliance between rows, read from a table where they stand.
 
 use std::ops::Range;
 
-use super::{BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint};
+use pulp::{Simd, WithSimd};
 
-/// No point of a table.
-const NOWHERE: Range<usize> = Range { start: usize::MAX, end: 0 };
+use super::{BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint};
+use crate::lanes::{self, Four};
+
+/// Loads that a tile of the table is multiplied with in one pass over it.
+const AT_ONCE: usize = 4;
 
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
@@ -18,242 +21,239 @@ impl BulkTable {
         work: &mut TableWork,
         out: &mut [f64],
     ) {
-        work.stand_on(self, openings, if symmetric { &[] } else { loads });
-        let TableWork { part, column, places: [openings, loads], needed, arch, .. } = work;
-        let loads = if symmetric { &*openings } else { &*loads };
-        needed.clear();
-        if symmetric {
-            needed.extend(openings.iter().rev().scan(NOWHERE, |all, place| {
-                place.widen(all);
-                Some(all.clone())
-            }));
-            needed.reverse();
+        let TableWork { groups: [of_openings, of_loads], arch } = work;
+        group(openings, of_openings);
+        of_loads.clear();
+        let loads = if symmetric { openings } else { loads };
+        if !symmetric {
+            group(loads, of_loads);
         }
-        arch.dispatch(Interpolation { part, column, openings, loads, needed, out });
+        let groups = [&of_openings[..], if symmetric { of_openings } else { of_loads }];
+        let (count, entries) = (self.points() / DIRECTIONS, &self.entries);
+        lanes::run(*arch, Interpolation { entries, count, places: [openings, loads], groups, symmetric, out });
     }
 }
 
-/// S from the part of a table that rows touch: one column of it per load, weighed and then read at the openings.
+/// Rows that follow each other in one cell of the table, loaded along the same directions: neighbours on a contact line
+/// mostly do and are.
+#[derive(Debug, Clone, PartialEq)]
+struct Group {
+    rows: Range<usize>,
+    runs: [u32; RUNS],
+    along: [bool; DIRECTIONS],
+}
+
+fn group(places: &[TablePoint], out: &mut Vec<Group>) {
+    out.clear();
+    for (i, place) in places.iter().enumerate() {
+        let along = place.parts.map(|part| part != 0.0);
+        match out.last_mut().filter(|group| group.runs == place.runs && group.along == along) {
+            Some(group) => group.rows.end = i + 1,
+            None => out.push(Group { rows: i..i + 1, runs: place.runs, along }),
+        }
+    }
+}
+
+/// S = W T W' from the tiles of the table that groups of rows stand on, read where they are.
 struct Interpolation<'a> {
-    part: &'a [f64],
-    column: &'a mut Vec<f64>,
-    openings: &'a [TablePoint],
-    loads: &'a [TablePoint],
-    /// Where S is symmetric: points that the openings from each row on stand on.
-    needed: &'a [Range<usize>],
+    entries: &'a Entries,
+    /// Points along one direction.
+    count: usize,
+    /// Openings and loads.
+    places: [&'a [TablePoint]; 2],
+    groups: [&'a [Group]; 2],
+    symmetric: bool,
     out: &'a mut [f64],
 }
 
-impl pulp::NullaryFnOnce for Interpolation<'_> {
+impl WithSimd for Interpolation<'_> {
     type Output = ();
 
-    // Compiled for each set of instructions that there may be; the processor's own is chosen as the program runs.
     #[inline(always)]
-    fn call(self) {
-        let Self { part, column, openings, loads, needed, out } = self;
+    fn with_simd<S: Simd>(self, simd: S) {
+        let Self { entries, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, out } = self;
         let n = openings.len();
-        let m = part.len().isqrt();
-        column.clear();
-        column.resize(m, 0.0);
-        for (j, load) in loads.iter().enumerate() {
-            let (start, points) = needed.get(j).map_or((0, 0..m), |points| (j, points.clone()));
-            let sums = &mut column[points.clone()];
-            sums.fill(0.0);
-            // Four columns of the part for every pass over their sum.
-            for (&q, weights) in load.runs().iter().zip(&load.weights) {
-                add_columns(sums, &part[m * q as usize..], (m, points.start), weights);
-            }
-            for (place, entry) in openings[start..].iter().zip(&mut out[j * n + start..(j + 1) * n]) {
-                *entry += place.read_runs(column);
+        for (number, group) in of_loads.iter().enumerate() {
+            let first = if symmetric { number } else { 0 };
+            for d in (0..DIRECTIONS).filter(|d| group.along[*d]) {
+                let loads = &loads[group.rows.clone()];
+                for e in 0..DIRECTIONS {
+                    let columns = match entries {
+                        Entries::Whole(table) => {
+                            let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+                            Some(group.runs.map(|first| &block[first as usize * count..][..RUN * count]))
+                        }
+                        Entries::Layers(_) => None,
+                    };
+                    for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
+                        let rows = &openings[opened.rows.clone()];
+                        let own;
+                        let runs = opened.runs.map(|first| first as usize);
+                        let tile = match (&columns, entries) {
+                            (Some(columns), _) => Tile { columns: *columns, count, runs },
+                            (None, Entries::Layers(layers)) => {
+                                own = layers.tile(
+                                    group.runs.map(|first| d * count + first as usize),
+                                    runs.map(|first| e * count + first),
+                                );
+                                Tile::of(&own)
+                            }
+                            (None, Entries::Whole(_)) => continue,
+                        };
+                        let entries = out[n * group.rows.start..].chunks_mut(n * AT_ONCE);
+                        for (part, entries) in loads.chunks(AT_ONCE).zip(entries) {
+                            let out = &mut entries[opened.rows.start..];
+                            match part {
+                                [_, _, _, _] => tile.add::<S, 4>(simd, (part, d), (rows, e), (out, n)),
+                                [_, _, _] => tile.add::<S, 3>(simd, (part, d), (rows, e), (out, n)),
+                                [_, _] => tile.add::<S, 2>(simd, (part, d), (rows, e), (out, n)),
+                                _ => tile.add::<S, 1>(simd, (part, d), (rows, e), (out, n)),
+                            }
+                        }
+                    }
+                }
             }
         }
     }
 }
 
-/// S F from the part of a table that rows touch, without S itself.
-struct Product<'a> {
-    part: &'a [f64],
-    column: &'a mut Vec<f64>,
-    loaded: &'a mut Vec<f64>,
-    openings: &'a [TablePoint],
-    loads: &'a [TablePoint],
-    forces: &'a [f64],
-    out: &'a mut [f64],
+/// T between the points of two cells, column by column.
+pub(super) type TilePoints = [[f64; RUNS * RUN]; RUNS * RUN];
+
+/// What the loads of one group do at the points of another, along one direction each.
+struct Tile<'a> {
+    /// Columns of the table at the runs of the loads, four each.
+    columns: [&'a [f64]; RUNS],
+    count: usize,
+    /// Runs of the openings.
+    runs: [usize; RUNS],
 }
 
-impl pulp::NullaryFnOnce for Product<'_> {
-    type Output = ();
+impl<'a> Tile<'a> {
+    /// A tile that stands by itself.
+    fn of(points: &'a TilePoints) -> Self {
+        let columns = [0, 1, 2].map(|c| points[RUN * c..RUN * (c + 1)].as_flattened());
+        Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
+    }
 
+    /// Adds what `K` loads along direction `d` open `rows` by along direction `e`: to the first entries of as many columns
+    /// of `out`, `n` apart.
     #[inline(always)]
-    fn call(self) {
-        let Self { part, column, loaded, openings, loads, forces, out } = self;
-        let m = part.len().isqrt();
-        if m == 0 {
-            return;
-        }
-        for list in [&mut *loaded, &mut *column] {
-            list.clear();
-            list.resize(m, 0.0);
-        }
-        for (load, force) in loads.iter().zip(forces).filter(|(_, force)| **force != 0.0) {
-            for (&q, weights) in load.runs().iter().zip(&load.weights) {
-                let points = &mut loaded[q as usize..][..RUN];
-                points.iter_mut().zip(weights).for_each(|(x, w)| *x += w * force);
+    fn add<S: Simd, const K: usize>(
+        &self,
+        simd: S,
+        (loads, d): (&[TablePoint], usize),
+        (rows, e): (&[TablePoint], usize),
+        (out, n): (&mut [f64], usize),
+    ) {
+        let Some(loads) = loads.first_chunk::<K>() else { return };
+        let [p0, p1, p2] = self.runs;
+        let zero = Four::splat(simd, 0.0);
+        // All of these stay in registers: four columns at once are as many as there is room for.
+        let (mut first, mut second, mut third) = ([zero; K], [zero; K], [zero; K]);
+        for c in 0..RUNS {
+            for (a, column) in self.columns[c].chunks_exact(self.count).enumerate().take(RUN) {
+                let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
+                for k in 0..K {
+                    let weight = Four::splat(simd, loads[k].weights[c][a]);
+                    first[k] = first[k] + x0 * weight;
+                    second[k] = second[k] + x1 * weight;
+                    third[k] = third[k] + x2 * weight;
+                }
             }
         }
-        for (four, x) in part.chunks(RUN * m).zip(loaded.as_chunks::<RUN>().0) {
-            if x.iter().any(|x| *x != 0.0) {
-                add_columns(column, four, (m, 0), x);
+        for (k, column) in out.chunks_mut(n).take(K).enumerate() {
+            let part = loads[k].parts[d];
+            for (row, entry) in rows.iter().zip(column) {
+                let [a, b, c] = &row.weights;
+                let ends = Four::new(simd, a) * first[k] + Four::new(simd, b) * second[k];
+                *entry += part * row.parts[e] * (ends + Four::new(simd, c) * third[k]).sum();
             }
         }
-        openings.iter().zip(out).for_each(|(place, opening)| *opening += place.read_runs(column));
     }
 }
 
-/// Adds four weighed columns of a matrix of `m` rows to sums in one pass over these, from row `first` on.
+/// Four points of a column that follow each other.
 #[inline(always)]
-fn add_columns(sums: &mut [f64], matrix: &[f64], (m, first): (usize, usize), weights: &[f64; RUN]) {
-    let &[wa, wb, wc, wd] = weights;
-    let count = sums.len();
-    let (a, b) = (&matrix[first..][..count], &matrix[m + first..][..count]);
-    let (c, d) = (&matrix[2 * m + first..][..count], &matrix[3 * m + first..][..count]);
-    for ((((sum, a), b), c), d) in sums.iter_mut().zip(a).zip(b).zip(c).zip(d) {
-        *sum += (wa * a + wb * b) + (wc * c + wd * d);
-    }
-}
-
-impl TablePoint {
-    /// What a column has at this place.
-    #[inline(always)]
-    fn read_runs(&self, column: &[f64]) -> f64 {
-        let mut sums = [0.0; RUN];
-        for (&first, weights) in self.runs().iter().zip(&self.weights) {
-            let points = &column[first as usize..][..RUN];
-            (0..RUN).for_each(|k| sums[k] += weights[k] * points[k]);
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
-    }
-
-    /// Widens a range of points by those that it stands on.
-    fn widen(&self, range: &mut Range<usize>) {
-        for &first in self.runs() {
-            *range = range.start.min(first as usize)..range.end.max(first as usize + RUN);
-        }
-    }
+fn run<S: Simd>(simd: S, column: &[f64], first: usize) -> Four<S> {
+    Four::new(simd, column[first..].first_chunk::<RUN>().unwrap_or(&[0.0; RUN]))
 }
 
 /// Memory for what is read from a table, used again.
 #[derive(Debug, Default)]
 pub struct TableWork {
-    /// Runs that the rows touch, those touched before, and the place of each run in the part by its first point. Runs of
-    /// neighbouring cells share a point, which the part then has twice.
-    used: Vec<u32>,
-    before: Vec<u32>,
-    rank: Vec<u32>,
-    part: Vec<f64>,
-    column: Vec<f64>,
-    loaded: Vec<f64>,
-    /// Openings and loads, their points counted among those used.
-    places: [Vec<TablePoint>; 2],
-    needed: Vec<Range<usize>>,
+    /// Groups of openings, and of loads where these are others.
+    groups: [Vec<Group>; 2],
     arch: pulp::Arch,
 }
 
 impl TableWork {
-    /// Memory for `rows` rows on a table, for use with this table until [`TableWork::enter`] says otherwise.
-    pub(crate) fn new(table: &BulkTable, rows: usize) -> Self {
-        // A line of points along a profile has a run for every three of them.
-        let runs = table.points().div_ceil(RUN - 1).min(rows * DIRECTIONS * RUNS);
-        let most = RUN * runs;
-        // Of a wide gear rows touch a small part, which grows where it must.
-        let kept = if matches!(table.entries, Entries::Layers(_)) { 0 } else { most * most };
-        Self {
-            used: Vec::with_capacity(runs),
-            before: Vec::with_capacity(runs),
-            rank: vec![u32::MAX; table.points()],
-            part: Vec::with_capacity(kept),
-            column: Vec::with_capacity(most),
-            loaded: Vec::with_capacity(most),
-            places: [Vec::with_capacity(rows), Vec::with_capacity(rows)],
-            needed: Vec::with_capacity(rows),
-            arch: pulp::Arch::new(),
-        }
-    }
-
-    /// Makes it ready for another table.
-    pub(crate) fn enter(&mut self, table: &BulkTable) {
-        self.used.clear();
-        self.rank.clear();
-        self.rank.resize(table.points(), u32::MAX);
+    /// Memory for `rows` rows.
+    pub(crate) fn new(rows: usize) -> Self {
+        let groups = || Vec::with_capacity(rows);
+        Self { groups: [groups(), groups()], arch: pulp::Arch::new() }
     }
 
     /// Points of the table that the rows of the last call touched.
     pub(crate) fn touched(&self) -> usize {
-        RUN * self.used.len()
+        let points =
+            self.groups.iter().flatten().flat_map(|group| group.runs).flat_map(|first| first..first + RUN as u32);
+        points.collect::<std::collections::BTreeSet<u32>>().len()
     }
+}
 
-    /// Takes the part of the table that rows touch: where these open, and where their loads stand if these are others.
-    pub(crate) fn stand_on(&mut self, table: &BulkTable, openings: &[TablePoint], loads: &[TablePoint]) {
-        self.collect(table, openings.iter().chain(loads));
-        for (to, from) in self.places.iter_mut().zip([openings, loads]) {
-            to.clear();
-            to.extend(from.iter().map(|place| {
-                let mut own = *place;
-                own.runs[..own.count].iter_mut().for_each(|p| *p = self.rank[*p as usize]);
-                own
-            }));
-        }
-    }
+#[cfg(test)]
+mod tests {
+    use super::*;
 
-    /// Adds S F to `out`: openings of all rows (mm) by forces (N) along their loads, of the rows that it stands on.
-    pub(crate) fn add_openings(&mut self, forces: &[f64], out: &mut [f64]) {
-        let Self { part, column, loaded, places: [openings, loads], arch, .. } = self;
-        let loads = if loads.is_empty() { &*openings } else { &*loads };
-        arch.dispatch(Product { part, column, loaded, openings, loads, forces, out });
-    }
+    /// Points of a direction.
+    const COUNT: usize = 40;
 
-    /// The part of the table that the places touch, side by side. Contact moves on slowly: often it is the part of the
-    /// last call.
-    fn collect<'a>(&mut self, table: &BulkTable, places: impl Iterator<Item = &'a TablePoint>) {
-        std::mem::swap(&mut self.used, &mut self.before);
-        self.before.iter().for_each(|&p| self.rank[p as usize] = u32::MAX);
-        self.used.clear();
-        let mut last = [u32::MAX; DIRECTIONS * RUNS];
-        for place in places {
-            // Neighbours mostly stand on the same runs.
-            if place.runs[..place.count] == last[..place.count] {
-                continue;
-            }
-            last = place.runs;
-            for &first in place.runs() {
-                if self.rank[first as usize] == u32::MAX {
-                    self.rank[first as usize] = 0;
-                    self.used.push(first);
-                }
+    /// A table that no gear has, symmetric as one of a gear is.
+    fn table() -> BulkTable {
+        let at = |i: usize, j: usize| (1.0 + ((i * j) as f64).sin()) / (1.0 + i.abs_diff(j) as f64);
+        let mut table = vec![0.0; (DIRECTIONS * COUNT).pow(2)];
+        for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+            for (q, p) in (0..COUNT).flat_map(|q| (0..COUNT).map(move |p| (q, p))) {
+                table[((DIRECTIONS * d + e) * COUNT + q) * COUNT + p] = at(d * COUNT + q, e * COUNT + p);
             }
         }
-        self.used.sort_unstable();
-        for (r, &first) in self.used.iter().enumerate() {
-            self.rank[first as usize] = (RUN * r) as u32;
-        }
-        if self.used == self.before {
-            return;
-        }
-        self.part.resize((RUN * self.used.len()).pow(2), 0.0);
-        if self.used.is_empty() {
-            return;
-        }
-        let columns = self.used.iter().flat_map(|&first| first as usize..first as usize + RUN);
-        for (q, own) in columns.zip(self.part.chunks_exact_mut(RUN * self.used.len())) {
-            let (own, _) = own.as_chunks_mut::<RUN>();
-            let runs = self.used.iter().zip(own);
-            match &table.entries {
-                Entries::Whole(all) => {
-                    let column = &all[q * table.points()..][..table.points()];
-                    runs.for_each(|(&first, run)| run.copy_from_slice(&column[first as usize..][..RUN]));
-                }
-                Entries::Layers(layers) => {
-                    runs.for_each(|(&first, run)| run.copy_from_slice(layers.run(q, first as usize)));
+        BulkTable { lines: Vec::new(), first: vec![0, COUNT], entries: Entries::Whole(table), error: 0.0 }
+    }
+
+    /// Rows of a contact line, some of a cell together; `along`: directions that they are loaded along.
+    fn places(along: usize) -> Vec<TablePoint> {
+        let of = |i: usize| {
+            let cell = (i / 5) as u32;
+            let weight = |k: usize| ((i * 12 + k) as f64).cos();
+            TablePoint {
+                runs: [3 * cell, 3 * cell + 10, 3 * cell + 20],
+                weights: std::array::from_fn(|b| std::array::from_fn(|a| weight(RUN * b + a))),
+                parts: std::array::from_fn(|d| if d < along { 0.5 + 0.1 * ((i + d) as f64).sin() } else { 0.0 }),
+            }
+        };
+        (0..17).map(of).collect()
+    }
+
+    /// Tiles give what each entry by itself does, with the same bits in plain instructions and the processor's own.
+    #[test]
+    fn tiles_are_their_entries() {
+        let table = table();
+        for (openings, loads, symmetric) in [(1, 1, true), (3, 3, true), (1, 3, false), (3, 2, false)] {
+            let (openings, loads) = (places(openings), places(loads));
+            let n = openings.len();
+            let read = |arch: pulp::Arch| {
+                let mut out = vec![0.0; n * n];
+                let mut work = TableWork { arch, ..TableWork::new(n) };
+                table.add(&openings, &loads, symmetric, &mut work, &mut out);
+                out
+            };
+            let found = read(pulp::Arch::new());
+            assert_eq!(found, read(pulp::Arch::Scalar), "other bits on another machine");
+            for (j, load) in loads.iter().enumerate() {
+                for (i, opened) in openings.iter().enumerate().skip(if symmetric { j } else { 0 }) {
+                    let (entry, wanted) = (found[j * n + i], table.entry(opened, load));
+                    assert!((entry - wanted).abs() < 1e-12, "{i}, {j}: {entry}, not {wanted}");
                 }
             }
         }

@@ -1,26 +1,10 @@
 //! Compliance between the rows.
 
-use crate::{BulkTable, ContactSet, TablePoint, nodal::ContactRow, slice::Slice};
+use crate::{BulkTable, ContactSet, TablePoint, compliance::parts, nodal::ContactRow, slice::Slice};
 
 use super::{MeshContact, PoseContact};
 
 impl MeshContact {
-    /// Takes the parts of both tables that the rows stand on; false where there are no tables.
-    pub(super) fn stand_on_tables(&mut self) -> bool {
-        let Self { set, contact: PoseContact { rows, slices, .. }, openings, loads, work, friction, .. } = self;
-        let Some(tables) = set.slices().and_then(|s| s.bulk()) else { return false };
-        loads.clear();
-        for (b, table) in tables.iter().enumerate() {
-            let of = (&rows[..], &slices[..]);
-            places(set, (b, table), of, openings, false);
-            if friction.is_some() {
-                places(set, (b, table), of, loads, true);
-            }
-            work[b].stand_on(table, openings, loads);
-        }
-        true
-    }
-
     /// Computes S between the rows from the tables or matrices of both gears. It serves until modes open gaps by more
     /// than `by_modes` (mm).
     pub(super) fn compliance(&mut self, by_modes: f64) {
@@ -39,8 +23,10 @@ impl MeshContact {
             }
             return;
         };
-        compliance.clear();
         compliance.resize(n * n, 0.0);
+        for (j, column) in compliance.chunks_exact_mut(n.max(1)).enumerate() {
+            column[if symmetric { j } else { 0 }..].fill(0.0);
+        }
         for (b, table) in tables.iter().enumerate() {
             let of = (&rows[..], &slices[..]);
             places(set, (b, table), of, openings, false);
@@ -54,14 +40,20 @@ impl MeshContact {
             }
         }
         if symmetric {
-            for j in 0..n {
-                for i in j + 1..n {
-                    compliance[i * n + j] = compliance[j * n + i];
-                }
-            }
+            mirror(compliance, n);
         }
         if let Some(modal) = modal {
             modal.take_from(modal_rows, n, compliance);
+        }
+    }
+}
+
+/// Takes the lower triangle of a matrix (n x n, column by column) for the upper one.
+pub(in crate::slice) fn mirror(matrix: &mut [f64], n: usize) {
+    for j in 1..n {
+        let (before, own) = matrix.split_at_mut(j * n);
+        for (entry, column) in own[..j].iter_mut().zip(before.chunks_exact(n)) {
+            *entry = column[j];
         }
     }
 }
@@ -78,7 +70,14 @@ pub(in crate::slice) fn places(
     out.extend(rows.iter().zip(slices).filter_map(|(row, slice)| {
         let patch = [row.patches.0, row.patches.1][b];
         let support = &row.supports[b];
+        let at = slice.at[b];
         let direction = if load { &support.load } else { &support.direction };
-        table.at(&set.patches()[b][patch], patch, slice.at[b], Some(direction))
+        // Into the flank.
+        let parts = if slice.is_along_normals && *direction == support.direction {
+            [-1.0, 0.0, 0.0]
+        } else {
+            parts(&set.patches()[b][patch], at, direction)
+        };
+        table.at(patch, at, parts)
     }));
 }

@@ -21,16 +21,16 @@ use std::sync::Arc;
 use crate::{
     ContactError, ContactOptions, ContactSet, Friction, MeshForce, ModalFlanks, Pose, SlicePoint, SliceState,
     TablePoint, TableWork,
-    complementarity::{Balance, DenseProblem, DenseSolver},
+    complementarity::{Balance, DenseProblem, DenseSolver, LocalApproach},
     line::{covered, line_station, slice_line},
-    local::LocalState,
+    local::LocalLaws,
     nodal::ContactRow,
     opening_by_motion,
     slice::{Slice, SliceHint},
     wrenches,
 };
 
-pub(super) use compliance::places;
+pub(super) use compliance::{mirror, places};
 pub use near::EvaluationLevel;
 pub use work::ContactWork;
 
@@ -53,6 +53,8 @@ pub struct MeshContact {
     last_pose: Option<Pose>,
     /// Force of each station of each pair at the last solution, N.
     last_forces: Vec<f64>,
+    /// Those with which the search before the last one ended.
+    older_forces: Vec<f64>,
     nearest: Vec<(usize, SlicePoint)>,
     /// Contact at the current poses, and in the pose bins visited before.
     contact: PoseContact,
@@ -83,7 +85,7 @@ impl MeshContact {
         };
         let pairs = set.pairs();
         let most = pairs.len() * slices.stations().len();
-        let work = slices.bulk().map(|b| [0, 1].map(|i| TableWork::new(&b[i], most))).unwrap_or_default();
+        let work = slices.bulk().map(|_| [0, 1].map(|_| TableWork::new(most))).unwrap_or_default();
         let friction = Friction::new(pair, options);
         let force = MeshForce::none(vec![0.0; pairs.len()]);
         Ok(Self {
@@ -92,6 +94,7 @@ impl MeshContact {
             hints: vec![SliceHint::default(); most],
             last_pose: None,
             last_forces: vec![0.0; most],
+            older_forces: vec![0.0; most],
             nearest: Vec::with_capacity(most),
             contact: PoseContact::with_capacity(most),
             cache: PoseCache::default(),
@@ -154,9 +157,6 @@ impl MeshContact {
         } else {
             self.clear_cache();
         }
-        if let Some(tables) = set.slices().and_then(|s| s.bulk()) {
-            self.work.iter_mut().zip(tables).for_each(|(work, table)| work.enter(table));
-        }
         self.set = set;
     }
 
@@ -199,6 +199,7 @@ impl MeshContact {
     /// Forgets the forces of the last solution.
     pub fn forget(&mut self) {
         self.last_forces.fill(0.0);
+        self.older_forces.fill(0.0);
     }
 
     /// Forces with the gears' frames at `poses`.
@@ -310,12 +311,10 @@ impl MeshContact {
     /// ```
     /// This dual functional is stationary at the solution: its error is of second order in that of the forces.
     pub fn strain_energy(&self) -> f64 {
-        let Self { contact: PoseContact { slices, laws, .. }, gaps, solver, .. } = self;
-        let of_row = |&i: &usize| {
-            let (force, length) = (solver.forces()[i], slices[i].length);
-            length * laws[i].curved_energy(force / length) - force * (gaps[i] + 0.5 * solver.openings()[i])
-        };
-        solver.active().iter().map(of_row).sum()
+        let Self { contact: PoseContact { laws, .. }, gaps, solver, .. } = self;
+        let (forces, openings) = (solver.forces(), solver.openings());
+        let linear: f64 = solver.active().iter().map(|&i| forces[i] * (gaps[i] + 0.5 * openings[i])).sum();
+        laws.curved_energy(forces) - linear
     }
 
     /// Forces of the last evaluation.
@@ -353,10 +352,16 @@ impl MeshContact {
     /// [`ContactError`].
     pub fn solve_to(&mut self, accuracy: f64, balance: Balance, body: usize) -> Result<(), ContactError> {
         self.take_levers(body);
-        let Self { contact, gaps, levers, torque_levers, last_forces, solver, .. } = self;
+        let Self { contact, gaps, levers, torque_levers, last_forces, older_forces, solver, .. } = self;
         let problem = problem(contact, gaps, [levers, torque_levers], self.friction.is_none(), balance);
         let keys = &contact.keys;
-        solver.solve_to(accuracy, &problem, local(contact), |i| last_forces[keys[i]])?;
+        // Forces go on as they went from station to station; of a row that has just come nothing is known yet.
+        let foretold = |i: usize| match (last_forces[keys[i]], older_forces[keys[i]]) {
+            (last, older) if older > 0.0 => 2.0 * last - older,
+            (last, _) => last,
+        };
+        solver.solve_to(accuracy, &problem, &contact.laws, |i| foretold(i).max(0.0))?;
+        older_forces.copy_from_slice(last_forces);
         self.keep_forces();
         Ok(())
     }
@@ -389,8 +394,8 @@ impl MeshContact {
 
     /// The local approach of each row under forces (N): those of the last solution, or what becomes of them.
     pub fn states<'a>(&'a self, forces: &'a [f64]) -> impl Iterator<Item = SliceState> + 'a {
-        let rows = self.contact.laws.iter().zip(&self.contact.slices).zip(forces);
-        rows.map(|((law, slice), &force)| SliceState::new(law, slice.length, force))
+        let states = self.contact.laws.states(forces).into_iter();
+        states.map(|(local, curved_energy)| SliceState { local, curved_energy })
     }
 
     /// Total length of the contact lines of the last evaluation on the driving side, with the gears' frames at `poses`,
@@ -405,10 +410,9 @@ impl MeshContact {
             let patches = rows[from].patches;
             let to = from + rows[from..].iter().take_while(|row| row.patches == patches).count();
             let stations = (from..to).map(|i| {
-                let state = self.contact.laws[i].under(forces[i] / slices[i].length);
-                let approach = if forces[i] > 0.0 { state.approach } else { 0.0 };
+                let approach = if forces[i] > 0.0 { self.contact.laws.under(i, forces[i]).0 } else { 0.0 };
                 let station = line_station(rows[i].gap, openings[i], approach, self.modal_opening(i));
-                (rows[i].point, station, slices[i].clone())
+                (rows[i].point, station, slices[i].at[0][0])
             });
             let displacements = || {
                 let supported = self.set.supported_rows(poses, rows, slices, forces);
@@ -439,11 +443,13 @@ fn problem<'a>(
     DenseProblem { compliance, symmetric, gaps, levers, torque_levers, balance }
 }
 
-/// Approach (mm) and its slope (mm/N) of each row under its force.
-fn local(contact: &PoseContact) -> impl Fn(usize, f64) -> (f64, f64) + '_ {
-    move |i, force| {
-        let length = contact.slices[i].length;
-        let LocalState { approach, slope, .. } = contact.laws[i].under(force / length);
-        (approach, slope / length)
+impl LocalApproach for &LocalLaws {
+    fn under(&self, row: usize, force: f64) -> (f64, f64) {
+        LocalLaws::under(self, row, force)
+    }
+
+    /// Of all rows: four at once cost as much as one.
+    fn linearise(&self, _: &[usize], forces: &[f64], approach: &mut [f64], slopes: &mut [f64]) {
+        LocalLaws::linearise(self, forces, approach, slopes);
     }
 }

@@ -1,29 +1,33 @@
 //! The contact of the last rows after a small motion: places, gaps and compliance anew, the factor of before.
 //!
 //! A pose of a search for equilibrium differs from the one before by a thousandth of the approach and less. The rows
-//! then stay; what they open by is S F, a product, and S itself is not needed.
+//! then stay, and the factor of before serves.
 
 use crate::{FlankPair, Pose, complementarity::Balance};
 
-use super::{MeshContact, PoseContact, local, problem, search::turn};
+use super::{MeshContact, PoseContact, problem, search::turn};
 
 impl MeshContact {
     /// Moves the rows of the last solution to where they are with the gears' frames at `poses`, and solves their
     /// contact: whether that leads to a solution, with the same rows pressed. Where it does not,
     /// [`MeshContact::prepare`] and [`MeshContact::solve`] do.
     pub fn solve_moved(&mut self, poses: &[Pose; 2], balance: Balance, body: usize) -> bool {
-        if self.modal.is_some() || !self.move_rows(poses) || !self.stand_on_tables() {
+        if self.modal.is_some() || !self.has_tables() || !self.move_rows(poses) {
             return false;
         }
+        self.compliance(0.0);
         self.take_levers(body);
-        let Self { contact, gaps, levers, torque_levers, solver, work, friction, .. } = self;
+        let Self { contact, gaps, levers, torque_levers, solver, friction, .. } = self;
         let moved = problem(contact, gaps, [levers, torque_levers], friction.is_none(), balance);
-        let open = |forces: &[f64], out: &mut [f64]| work.iter_mut().for_each(|w| w.add_openings(forces, out));
-        let solved = solver.solve_moved(&moved, local(contact), open);
+        let solved = solver.solve_moved(&moved, &contact.laws);
         if solved {
             self.keep_forces();
         }
         solved
+    }
+
+    fn has_tables(&self) -> bool {
+        self.set.slices().is_some_and(|slices| slices.bulk().is_some())
     }
 
     /// The rows at other poses; false where one of them is no row there.
@@ -55,7 +59,7 @@ impl MeshContact {
             }
             first += count;
         }
-        solver.active().iter().for_each(|&i| laws[i] = slices[i].local.law());
+        laws.take(slices.iter().map(|s| (&s.local, s.length)));
         gaps.clear();
         gaps.extend(rows.iter().map(|r| r.gap));
         true

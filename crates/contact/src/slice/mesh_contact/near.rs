@@ -6,7 +6,7 @@
 
 use crate::{ContactError, MeshForce, Pose, complementarity::Balance};
 
-use super::{MeshContact, PoseContact, local, pose_bin::PoseBin, pose_contact::Tangent, problem};
+use super::{MeshContact, PoseContact, pose_bin::PoseBin, pose_contact::Tangent, problem};
 
 /// Level of an evaluation: how much it computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -128,7 +128,7 @@ impl MeshContact {
         self.levers.resize(self.contact.rows.len(), 0.0);
         let Self { contact, gaps, levers, solver, friction, .. } = self;
         let held = problem(contact, gaps, [levers, levers], friction.is_none(), Balance::Held);
-        solver.solve(&held, local(contact), |_| 0.0)?;
+        solver.solve(&held, &contact.laws, |_| 0.0)?;
         solver.save(&mut contact.saved);
         self.contact.bin = Some(bin);
         Ok(())
@@ -139,7 +139,7 @@ impl MeshContact {
         self.levers.resize(self.contact.rows.len(), 0.0);
         let Self { contact, gaps, levers, solver, friction, .. } = self;
         let problem = problem(contact, gaps, [levers, levers], friction.is_none(), Balance::Held);
-        solver.solve_near(&problem, local(contact), accuracy)
+        solver.solve_near(&problem, &contact.laws, accuracy)
     }
 
     /// The tangent at the centre of the bin, unless the set of active rows has changed since.

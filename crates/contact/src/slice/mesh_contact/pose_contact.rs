@@ -2,7 +2,7 @@
 
 use super::pose_bin::{BinSizes, PoseBin};
 use crate::{
-    ModalFlanks, Pose, SavedSolution, Vec3, compliance::ModalRows, local::LocalLaw, nodal::ContactRow,
+    ModalFlanks, Pose, SavedSolution, Vec3, compliance::ModalRows, local::LocalLaws, nodal::ContactRow,
     opening_by_motion, slice::Slice,
 };
 
@@ -17,7 +17,7 @@ pub(super) struct PoseContact {
     pub keys: Vec<usize>,
     pub rows: Vec<ContactRow>,
     pub slices: Vec<Slice>,
-    pub laws: Vec<LocalLaw>,
+    pub laws: LocalLaws,
     /// Gaps at these poses, mm. The gaps in `rows` follow small motions from there.
     pub gaps: Vec<f64>,
     /// Gap opening of each row per displacement and small turn of both gears.
@@ -46,7 +46,7 @@ impl PoseContact {
             keys: Vec::with_capacity(most),
             rows: Vec::with_capacity(most),
             slices: Vec::with_capacity(most),
-            laws: Vec::with_capacity(most),
+            laws: LocalLaws::with_capacity(most),
             gaps: Vec::with_capacity(most),
             openings: Vec::with_capacity(most),
             compliance: Vec::with_capacity(most * most),
@@ -89,8 +89,8 @@ impl PoseContact {
 
     /// Size, bytes.
     pub fn bytes(&self) -> usize {
-        let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<LocalLaw>() + size_of::<[f64; 12]>();
-        self.rows.len() * of_row + self.compliance.len() * size_of::<f64>() + self.saved.bytes()
+        let of_row = size_of::<ContactRow>() + size_of::<Slice>() + size_of::<[f64; 12]>();
+        self.rows.len() * of_row + self.laws.bytes() + self.compliance.len() * size_of::<f64>() + self.saved.bytes()
     }
 
     /// Gaps after a small motion from here.

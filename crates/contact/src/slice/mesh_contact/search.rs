@@ -120,8 +120,7 @@ impl MeshContact {
                 slices.push(slice);
             }
         }
-        contact.laws.clear();
-        contact.laws.extend(contact.slices.iter().map(|s| s.local.law()));
+        contact.laws.take(contact.slices.iter().map(|s| (&s.local, s.length)));
         // How motion opens the rows is asked of bins alone.
         contact.update_openings(bin.is_some());
         let by_modes = match bin {
