@@ -76,7 +76,7 @@ fn take<S: Simd, const R: usize>(
         for (k, weight) in weights.iter().enumerate() {
             let weight = Four::splat(simd, *weight);
             for (block, rows) in blocks.iter_mut().zip(rows) {
-                block[k] = block[k] - Four::new(simd, rows) * weight;
+                block[k] = block[k].less_product(Four::new(simd, rows), weight);
             }
         }
     }
@@ -89,9 +89,9 @@ fn solve<S: Simd>(simd: S, [a, b, c, d]: Block<S>, (own, shares): (&Entries, &[f
     let of = |column: usize, row: usize| Four::splat(simd, own[column][row]);
     let share = |column: usize| Four::splat(simd, shares[column]);
     let a = a * share(0);
-    let b = (b - a * of(0, 1)) * share(1);
-    let c = (c - (a * of(0, 2) + b * of(1, 2))) * share(2);
-    let d = (d - ((a * of(0, 3) + b * of(1, 3)) + c * of(2, 3))) * share(3);
+    let b = b.less_product(a, of(0, 1)) * share(1);
+    let c = c.less_product(a, of(0, 2)).less_product(b, of(1, 2)) * share(2);
+    let d = d.less_product(a, of(0, 3)).less_product(b, of(1, 3)).less_product(c, of(2, 3)) * share(3);
     arrays([a, b, c, d])
 }
 
@@ -154,9 +154,8 @@ impl WithSimd for Substitution<'_> {
             let (a, b, c, d) = (of(a), of(b), of(c), of(d));
             let fours = fours(below_of(l0)).zip(fours(below_of(l1))).zip(fours(below_of(l2)).zip(fours(below_of(l3))));
             for (x, ((l0, l1), (l2, l3))) in below.as_chunks_mut::<LANES>().0.iter_mut().zip(fours) {
-                let ends = Four::new(simd, l0) * a + Four::new(simd, l1) * b;
-                let taken = ends + (Four::new(simd, l2) * c + Four::new(simd, l3) * d);
-                *x = (Four::new(simd, x) - taken).array();
+                let left = Four::new(simd, x).less_product(Four::new(simd, l0), a).less_product(Four::new(simd, l1), b);
+                *x = left.less_product(Four::new(simd, l2), c).less_product(Four::new(simd, l3), d).array();
             }
         }
         for (panel, first) in panels().rev() {
@@ -168,8 +167,8 @@ impl WithSimd for Substitution<'_> {
                 fours(below_of(l0)).zip(fours(below_of(l1))).zip(fours(below_of(l2)).zip(fours(below_of(l3))));
             for (x, ((l0, l1), (l2, l3))) in fours(below).zip(fours_of) {
                 let x = Four::new(simd, x);
-                (a, b) = (a + Four::new(simd, l0) * x, b + Four::new(simd, l1) * x);
-                (c, d) = (c + Four::new(simd, l2) * x, d + Four::new(simd, l3) * x);
+                (a, b) = (x.mul_add(Four::new(simd, l0), a), x.mul_add(Four::new(simd, l1), b));
+                (c, d) = (x.mul_add(Four::new(simd, l2), c), x.mul_add(Four::new(simd, l3), d));
             }
             let d = (own[3] - d.sum()) / l3[3];
             let c = (own[2] - (c.sum() + l2[3] * d)) / l2[2];

@@ -30,9 +30,9 @@ impl WithSimd for Opening<'_> {
             let (fours, rest) = out.as_chunks_mut::<LANES>();
             let (columns, last) = column.as_chunks::<LANES>();
             for (o, c) in fours.iter_mut().zip(columns) {
-                *o = (Four::new(simd, o) + Four::new(simd, c) * of_row).array();
+                *o = of_row.mul_add(Four::new(simd, c), Four::new(simd, o)).array();
             }
-            rest.iter_mut().zip(last).for_each(|(o, c)| *o += c * force);
+            rest.iter_mut().zip(last).for_each(|(o, c)| *o = c.mul_add(force, *o));
         }
     }
 }

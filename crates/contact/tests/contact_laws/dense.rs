@@ -48,7 +48,11 @@ fn check(s: &Mat<f64>, gaps: &[f64], balance: Balance, start: f64) -> Result<(),
         let carried: f64 = forces.iter().zip(&levers).map(|(f, l)| f * l).sum();
         prop_assert!((carried / moment - 1.0).abs() < 1e-9, "moment {carried}, not {moment}");
         let wanted = stiffness(s, &solver, &levers);
-        prop_assert!((solver.stiffness() / wanted - 1.0).abs() < 1e-9, "stiffness {}, not {wanted}", solver.stiffness());
+        prop_assert!(
+            (solver.stiffness() / wanted - 1.0).abs() < 1e-9,
+            "stiffness {}, not {wanted}",
+            solver.stiffness()
+        );
     } else {
         prop_assert_eq!(solver.rotation(), 0.0);
     }

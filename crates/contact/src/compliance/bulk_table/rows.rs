@@ -71,45 +71,41 @@ impl WithSimd for Interpolation<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self { entries, count, places: [openings, loads], groups: [of_openings, of_loads], symmetric, out } = self;
-        let n = openings.len();
+        let Self { entries, count, places, groups: [of_openings, of_loads], symmetric, out } = self;
+        let n = places[0].len();
         for (number, group) in of_loads.iter().enumerate() {
             let first = if symmetric { number } else { 0 };
-            for d in (0..DIRECTIONS).filter(|d| group.along[*d]) {
-                let loads = &loads[group.rows.clone()];
-                for e in 0..DIRECTIONS {
-                    let columns = match entries {
-                        Entries::Whole(table) => {
-                            let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
-                            Some(group.runs.map(|first| &block[first as usize * count..][..RUN * count]))
+            for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+                if !group.along[d] {
+                    continue;
+                }
+                for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
+                    // Each load costs a pass over the tile: where S is symmetric, the smaller group is the load.
+                    let swapped = symmetric && opened.rows.len() < group.rows.len();
+                    let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
+                    let along = if swapped { [e, d] } else { [d, e] };
+                    let own;
+                    let tile = match entries {
+                        Entries::Whole(table) => Tile::in_table(table, count, along, [load, opening]),
+                        Entries::Layers(layers) => {
+                            let point = |b: usize, first: u32| along[b] * count + first as usize;
+                            own = layers.tile(load.runs.map(|p| point(0, p)), opening.runs.map(|p| point(1, p)));
+                            Tile::of(&own)
                         }
-                        Entries::Layers(_) => None,
                     };
-                    for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
-                        let rows = &openings[opened.rows.clone()];
-                        let own;
-                        let runs = opened.runs.map(|first| first as usize);
-                        let tile = match (&columns, entries) {
-                            (Some(columns), _) => Tile { columns: *columns, count, runs },
-                            (None, Entries::Layers(layers)) => {
-                                own = layers.tile(
-                                    group.runs.map(|first| d * count + first as usize),
-                                    runs.map(|first| e * count + first),
-                                );
-                                Tile::of(&own)
-                            }
-                            (None, Entries::Whole(_)) => continue,
-                        };
-                        let entries = out[n * group.rows.start..].chunks_mut(n * AT_ONCE);
-                        for (part, entries) in loads.chunks(AT_ONCE).zip(entries) {
-                            let out = &mut entries[opened.rows.start..];
-                            match part {
-                                [_, _, _, _] => tile.add::<S, 4>(simd, (part, d), (rows, e), (out, n)),
-                                [_, _, _] => tile.add::<S, 3>(simd, (part, d), (rows, e), (out, n)),
-                                [_, _] => tile.add::<S, 2>(simd, (part, d), (rows, e), (out, n)),
-                                _ => tile.add::<S, 1>(simd, (part, d), (rows, e), (out, n)),
-                            }
+                    // Of the lower triangle, whichever is the load.
+                    let strides = if swapped { [1, n] } else { [n, 1] };
+                    let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
+                    let mut start = load.rows.start * strides[0] + opening.rows.start * strides[1];
+                    for part in loads.chunks(AT_ONCE) {
+                        let out = &mut out[start..];
+                        match part {
+                            [_, _, _, _] => tile.add::<S, 4>(simd, along, (part, rows), (out, strides)),
+                            [_, _, _] => tile.add::<S, 3>(simd, along, (part, rows), (out, strides)),
+                            [_, _] => tile.add::<S, 2>(simd, along, (part, rows), (out, strides)),
+                            _ => tile.add::<S, 1>(simd, along, (part, rows), (out, strides)),
                         }
+                        start += AT_ONCE * strides[0];
                     }
                 }
             }
@@ -130,21 +126,29 @@ struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
+    /// A tile of a whole table with `count` points along each direction: of a load and an opening, along a direction each.
+    #[inline(always)]
+    fn in_table(table: &'a [f64], count: usize, [d, e]: [usize; 2], [load, opening]: [&Group; 2]) -> Self {
+        let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+        let columns = load.runs.map(|first| &block[first as usize * count..][..RUN * count]);
+        Self { columns, count, runs: opening.runs.map(|first| first as usize) }
+    }
+
     /// A tile that stands by itself.
     fn of(points: &'a TilePoints) -> Self {
         let columns = [0, 1, 2].map(|c| points[RUN * c..RUN * (c + 1)].as_flattened());
         Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
     }
 
-    /// Adds what `K` loads along direction `d` open `rows` by along direction `e`: to the first entries of as many columns
-    /// of `out`, `n` apart.
+    /// Adds what `K` loads along direction `d` open `rows` by along direction `e` to entries of `out`, which are
+    /// `strides` apart: from load to load and from row to row.
     #[inline(always)]
     fn add<S: Simd, const K: usize>(
         &self,
         simd: S,
-        (loads, d): (&[TablePoint], usize),
-        (rows, e): (&[TablePoint], usize),
-        (out, n): (&mut [f64], usize),
+        [d, e]: [usize; 2],
+        (loads, rows): (&[TablePoint], &[TablePoint]),
+        (out, strides): (&mut [f64], [usize; 2]),
     ) {
         let Some(loads) = loads.first_chunk::<K>() else { return };
         let [p0, p1, p2] = self.runs;
@@ -156,18 +160,18 @@ impl<'a> Tile<'a> {
                 let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
                 for k in 0..K {
                     let weight = Four::splat(simd, loads[k].weights[c][a]);
-                    first[k] = first[k] + x0 * weight;
-                    second[k] = second[k] + x1 * weight;
-                    third[k] = third[k] + x2 * weight;
+                    first[k] = x0.mul_add(weight, first[k]);
+                    second[k] = x1.mul_add(weight, second[k]);
+                    third[k] = x2.mul_add(weight, third[k]);
                 }
             }
         }
-        for (k, column) in out.chunks_mut(n).take(K).enumerate() {
+        for k in 0..K {
             let part = loads[k].parts[d];
-            for (row, entry) in rows.iter().zip(column) {
-                let [a, b, c] = &row.weights;
-                let ends = Four::new(simd, a) * first[k] + Four::new(simd, b) * second[k];
-                *entry += part * row.parts[e] * (ends + Four::new(simd, c) * third[k]).sum();
+            for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
+                let [a, b, c] = row.weights.each_ref().map(|weights| Four::new(simd, weights));
+                let sum = a.mul_add(first[k], b.mul_add(second[k], c * third[k])).sum();
+                *entry += part * row.parts[e] * sum;
             }
         }
     }
