@@ -37,7 +37,7 @@ pub use cost::{Cost, Phase};
 pub use error::TableError;
 pub use numbers::{Numbers, json};
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};
-pub use row_column::{KeptColumn, RowColumn};
+pub use row_column::{KeptColumn, OfRow, RowColumn};
 pub use row_store::RowStore;
 pub use table::{Column, Table, Values};
 pub use unit::unit_of;

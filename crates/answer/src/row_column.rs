@@ -6,6 +6,9 @@ use serde::de::DeserializeOwned;
 
 use crate::{RowStore, TableError};
 
+/// Number of a row.
+pub type OfRow<T> = Box<dyn Fn(&T) -> f64 + Send + Sync>;
+
 /// A column that is read off rows: name and meaning as those of a column, and its number in a row.
 pub struct RowColumn<T> {
     /// Name as files and programs know it.
@@ -13,7 +16,7 @@ pub struct RowColumn<T> {
     /// Meaning, as `docs/outputs.md` has it.
     pub meaning: Cow<'static, str>,
     /// Number of a row; NaN where it has none.
-    pub of: Box<dyn Fn(&T) -> f64 + Send + Sync>,
+    pub of: OfRow<T>,
 }
 
 impl<T> fmt::Debug for RowColumn<T> {
@@ -32,7 +35,7 @@ trait Source: Send + Sync {
 
 struct Rows<T> {
     rows: Arc<RowStore<T>>,
-    columns: Vec<Box<dyn Fn(&T) -> f64 + Send + Sync>>,
+    columns: Vec<OfRow<T>>,
 }
 
 impl<T: Clone + DeserializeOwned + Send + Sync> Source for Rows<T> {

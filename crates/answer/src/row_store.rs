@@ -187,7 +187,7 @@ struct Reader<'a, T> {
 }
 
 impl<'a, T: Clone + DeserializeOwned> Reader<'a, T> {
-    fn from_file(&mut self) -> io::Result<T> {
+    fn read(&mut self) -> io::Result<T> {
         let within = self.next % BLOCK;
         if within == 0 || self.bytes.is_empty() {
             self.of.bytes(self.next / BLOCK, &mut self.bytes)?;
@@ -216,7 +216,7 @@ impl<'a, T: Clone + DeserializeOwned> Iterator for Reader<'a, T> {
         }
         let row = match self.next.checked_sub(self.of.in_file()) {
             Some(place) => Ok(Cow::Borrowed(&self.of.tail[place])),
-            None => self.from_file().map(Cow::Owned).map_err(TableError::kept),
+            None => self.read().map(Cow::Owned).map_err(TableError::kept),
         };
         self.next = if row.is_ok() { self.next + 1 } else { self.end };
         Some(row)

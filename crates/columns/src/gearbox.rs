@@ -4,7 +4,7 @@
 use std::{f64::consts::TAU, sync::Arc};
 
 use analysis::gearbox::{GearboxResult, MeshResult};
-use answer::{RowColumn, RowStore, Table, TableError, Values};
+use answer::{OfRow, RowColumn, RowStore, Table, TableError, Values};
 use gearbox::{
     BearingState, GearboxPosition, ShaftLine, line_load,
     motion::{GearboxInstant, MeshInstant},
@@ -61,7 +61,7 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
 }
 
 /// Number of a bearing.
-type OfBearing = Box<dyn Fn(&BearingState) -> f64 + Send + Sync>;
+type OfBearing = OfRow<BearingState>;
 
 /// Forces and moments of a bearing on its shaft: name, meaning, value.
 fn bearing(i: usize) -> impl Iterator<Item = (String, &'static str, OfBearing)> {
@@ -113,7 +113,7 @@ pub fn line_loads(meshes: &[MeshResult], positions: &[GearboxPosition]) -> Table
 /// `motion`: one row an instant.
 pub fn motion(file: &Gearbox, rows: &Arc<RowStore<GearboxInstant>>) -> Table {
     let mut columns = Vec::new();
-    let mut push = |name: String, meaning: &'static str, of: OfInstant| {
+    let mut push = |name: String, meaning: &'static str, of: OfRow<GearboxInstant>| {
         columns.push(RowColumn { name: name.into(), meaning: meaning.into(), of });
     };
     push("time_s".into(), "time since the start", Box::new(|p| p.time));
@@ -141,9 +141,6 @@ pub fn motion(file: &Gearbox, rows: &Arc<RowStore<GearboxInstant>>) -> Table {
     }
     Table::of_rows("motion", rows, columns)
 }
-
-/// Number of an instant.
-type OfInstant = Box<dyn Fn(&GearboxInstant) -> f64 + Send + Sync>;
 
 /// The rows that a plan reads numbers off: of a motion, else of the positions at rest.
 ///

@@ -53,6 +53,8 @@ fn run(scratch: &Scratch, rows: usize) -> f64 {
 /// them.
 fn memory_of(few: usize, many: usize, most_each_bytes: f64, most_mb: f64) {
     let scratch = Scratch::new();
+    // The gears go into the cache.
+    run(&scratch, few);
     let [small, large] = [few, many].map(|rows| run(&scratch, rows));
     let each = 1e6 * (large - small) / (many - few) as f64;
     println!("{few} rows: {small:.0} MB, {many} rows: {large:.0} MB, {each:.0} bytes a row");
