@@ -181,9 +181,11 @@ fn a_gear_in_two_meshes_has_its_modes_once() {
     let mut turned = Elastic::idler(10);
     turned.meshes.reverse();
     turned.gears.reverse();
-    let both = [&own, &turned].map(|own| run(own.moving(at(200.0), Some(0.01)).unwrap(), Scheme::Energy, [64, 2], 0.01));
+    let both =
+        [&own, &turned].map(|own| run(own.moving(at(200.0), Some(0.01)).unwrap(), Scheme::Energy, [64, 2], 0.01));
     let [(a, done), (b, _)] = &both;
-    let force = |rows: &[GearboxInstant], mesh: usize| rows.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
+    let force =
+        |rows: &[GearboxInstant], mesh: usize| rows.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
     let off = |mesh: usize| {
         let (x, y) = (force(a, mesh), force(b, 1 - mesh));
         x.iter().zip(&y).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max) / x[0]
