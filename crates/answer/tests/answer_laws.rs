@@ -157,7 +157,7 @@ fn rows_in_a_file_are_the_rows() {
     type Row = (f64, Option<f64>, Vec<u32>);
     let row = |k: u32| -> Row {
         let x = (0.1 * f64::from(k)).sin();
-        (if k == 7 { f64::NAN } else { x }, (k % 3 == 0).then_some(-0.0 * x), (0..k % 4).collect())
+        (if k == 7 { f64::NAN } else { x }, k.is_multiple_of(3).then_some(-0.0 * x), (0..k % 4).collect())
     };
     let count = 70_001;
     let all: Vec<Row> = (0..count).map(row).collect();
