@@ -41,7 +41,7 @@ fn a_gearbox_is_solved_into_its_folder() {
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
     let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv motion.csv motion_orders.csv positions.csv \
-                 report.html report.json.gz response.csv rms.csv shafts.csv";
+                 report.html report.json.gz response.csv rms.csv shafts.csv spectrum.csv";
     assert_eq!(summary["files"], serde_json::json!(files.split(' ').collect::<Vec<_>>()));
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
     let of_vibration = ["modes.csv", "campbell.csv", "response.csv", "bearing_forces.csv", "bearing_forces.uff"]
@@ -489,8 +489,8 @@ fn swings(scratch: &Scratch, summary: &serde_json::Value) {
     let last: f64 = at.iter().zip(&force).filter(|(s, _)| **s == at[at.len() - 1]).map(|(_, f)| 0.5 * f * f).sum();
     assert!((last.sqrt() / rms[rms.len() - 1] - 1.0).abs() < 1e-12, "orders of unlike frequencies add up by squares");
     universal(scratch);
-    // Five of the box at rest, three of its vibration, four of its motion.
-    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 12);
+    // Five of the box at rest, three of its vibration, nine of its motion: over time, and five spectra.
+    assert_eq!(scratch.read("o/report.html").matches("<figure").count(), 17);
 }
 
 /// A strict reader of the universal file: marks, numbers of datasets, columns of every record; values against the table.

@@ -79,7 +79,8 @@ fn a_plan_takes_the_derivatives_of_its_cases() {
         let of_cases: Vec<String> =
             chart_rows(&cases).iter().map(|row| row[&format!("largest_{name}")].clone()).collect();
         assert_eq!(of_cases[1].parse(), Ok(largest), "{name} of the second case");
-        assert_ne!(of_cases[0], of_cases[1], "{name}");
+        // Without load one relief is as good as another where the pair of teeth that leads has none.
+        assert!(of_cases[0] != of_cases[1] || name.starts_with("d_kinematic"), "{name}: {of_cases:?}");
     }
 }
 

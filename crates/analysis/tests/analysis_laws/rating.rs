@@ -365,7 +365,8 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         // Shafts without bearings: P/(P + loss), where the pair has 1 - loss/P by the power of its driver.
         let efficiency = headline["efficiency"].as_f64().unwrap();
         let lost = 1.0 - own.mesh_loss.unwrap().efficiency;
-        assert!((efficiency - 1.0 / (1.0 + lost)).abs() < 1e-9, "{efficiency}, {lost}");
+        // The driver's mean torque at four positions has the slope of the transmission error in it.
+        assert!((efficiency - 1.0 / (1.0 + lost)).abs() < 1e-6, "{efficiency}, {lost}");
         let [own, wanted] = [own, alone].map(|r| serde_json::to_value(r).unwrap());
         let mut worst = (0.0, String::new());
         compare("rating", &own, &wanted, &mut worst);

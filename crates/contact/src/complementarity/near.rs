@@ -117,14 +117,15 @@ impl DenseSolver {
         solved
     }
 
-    /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did.
+    /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did. Where slopes
+    /// have changed so much that these steps creep, by a factor of its own.
     pub(super) fn refined_stiffness(&mut self, problem: &DenseProblem<'_>) -> f64 {
         let [mut found, mut opened] = std::mem::take(&mut self.refined);
         for list in [&mut found, &mut opened] {
             list.clear();
             list.resize(problem.gaps.len(), 0.0);
         }
-        let mut stiffness = 0.0;
+        let (mut stiffness, mut settled) = (0.0, false);
         for step in 0..STEPS {
             self.x.clear();
             for &i in &self.active {
@@ -137,7 +138,8 @@ impl DenseSolver {
                 change += problem.torque_levers[i] * x;
             }
             stiffness += change;
-            if step > 0 && change.abs() <= STIFFNESS_ACCURACY * stiffness.abs() {
+            settled = step > 0 && change.abs() <= STIFFNESS_ACCURACY * stiffness.abs();
+            if settled {
                 break;
             }
             lanes::run(
@@ -146,6 +148,12 @@ impl DenseSolver {
             );
         }
         self.refined = [found, opened];
+        if !settled && self.factor(problem).is_ok() {
+            self.x.clear();
+            self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
+            self.back_substitute(self.active.len(), 1);
+            stiffness = self.active.iter().zip(&self.x).map(|(&i, x)| problem.torque_levers[i] * x).sum();
+        }
         stiffness
     }
 
