@@ -49,6 +49,9 @@ pub fn quasi_static_start(
     scale: &DVector<f64>,
 ) -> Result<State, PairMotionError> {
     let q = balance(system, time, guessed(system, time, guess), scale)?;
+    // Teeth near places that were looked at before are known less well: the search ends from its own end on.
+    system.forget();
+    let q = balance(system, time, q, scale)?;
     let speed = system.nominal().cycles_per_second(system.pair(), &system.options().statics, time);
     let mut v = DVector::zeros(q.len());
     if speed > 0.0 {
