@@ -99,7 +99,7 @@ impl<T: Serialize> RowStore<T> {
         };
         let mut start = self.blocks.last().map_or(0, |block| block.end);
         file.seek(SeekFrom::Start(start))?;
-        let mut bytes = Vec::new();
+        let (mut bytes, mut blocks) = (Vec::new(), Vec::new());
         for rows in self.tail.chunks_exact(BLOCK) {
             bytes.clear();
             for row in rows {
@@ -107,9 +107,11 @@ impl<T: Serialize> RowStore<T> {
             }
             file.write_all(&bytes)?;
             let end = start + bytes.len() as u64;
-            self.blocks.push(start..end);
+            blocks.push(start..end);
             start = end;
         }
+        // All or none: rows of a file that could not be written are still in memory.
+        self.blocks.append(&mut blocks);
         self.tail.clear();
         Ok(())
     }

@@ -349,7 +349,7 @@ fn modes_of_gears_belong_to_a_vibration() {
     let (without, _) = text.split_once("[vibration]").unwrap();
     for (wrong, says) in [
         (format!("{without}[modes]\ncount = 6\n"), "[modes] belongs to a vibration"),
-        (format!("{text}[motion]\nspeed_rpm = 500.0\n"), "[modes] with [motion]"),
+        (format!("{text}[motion]\nspeed_rpm = 500.0\n"), "[modes] with a motion of `mesh = \"mapped\"`"),
         (text.replace("boundary = ", "count = 6\nboundary = "), "both say which modes are kept"),
         (text.replace("boundary = ", "fixed_modes = 6\nboundary = "), "`fixed_modes` belongs to"),
         (text.replace("below_hz = 12000.0", "damping_ratio = 0.1"), "unknown key `damping_ratio`"),

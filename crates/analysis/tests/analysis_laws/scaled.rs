@@ -15,11 +15,11 @@ pub type Flanks = (&'static str, &'static [(&'static str, f64)], &'static str);
 /// What the flanks of the pinion bear.
 pub const FLANKS: [Flanks; 5] = [
     ("nominal", &[], ""),
-    ("linear tip relief", &[("tip_relief_um", 20.0)], "tip_relief_start_roll_deg = 24.5\n"),
+    ("linear tip relief", &[("tip_relief_um", 20.0)], "tip_relief_start_roll_deg = 24.0\n"),
     (
         "parabolic tip relief",
         &[("tip_relief_um", 20.0)],
-        "tip_relief_start_roll_deg = 24.5\ntip_relief_shape = \"parabolic\"\n",
+        "tip_relief_start_roll_deg = 24.0\ntip_relief_shape = \"parabolic\"\n",
     ),
     ("crownings", &[("profile_crowning_um", 5.0), ("lead_crowning_um", 6.0), ("lead_slope_um", 4.0)], ""),
     (

@@ -21,6 +21,29 @@ const ANSWER_TOLERANCE: f64 = 1e-9;
 /// Proximal steps without extrapolation after one that made things worse.
 const PATIENCE: usize = 12;
 
+/// l' S^-1 l of exact contact on the active rows, N mm/rad, whichever of rows that are linearly dependent are among them: from two
+/// row compliances, as it is a smooth function of that.
+fn exact_stiffness(
+    bodies: &mut dyn LinearContact,
+    problem: &mut Problem,
+    own: f64,
+    solution: &Solution,
+) -> Result<f64, ContactError> {
+    if problem.held {
+        return Ok(solution.stiffness);
+    }
+    let proximal = problem.compliance.clone();
+    let mut with = |relative: f64| {
+        problem.compliance.fill(relative * own);
+        Ok::<_, ContactError>(bodies.solve(&solution.active, problem)?.stiffness)
+    };
+    let [once, twice] = [with(LAST_COMPLIANCE)?, with(2.0 * LAST_COMPLIANCE)?];
+    problem.compliance = proximal;
+    // Displacements are those of the solution again.
+    bodies.solve(&solution.active, problem)?;
+    Ok(2.0 * once - twice)
+}
+
 /// Solves the contact of `rows`; `balance` is about the axis of body number `body`.
 ///
 /// Block principal pivoting (all violated points change at once); where that stops making progress, the primal
@@ -76,6 +99,7 @@ pub fn solve(
         let mut solution = finish(&problem, answer, settled.clone(), total);
         solution.residual = exact_residual(&gaps, &driven.levers, &solution);
         if solution.residual < TOLERANCE {
+            solution.stiffness = exact_stiffness(bodies, &mut problem, own, &solution)?;
             return Ok(solution);
         }
         // Extrapolations that overshoot would go round in circles: after one that makes things worse, plain steps, each
@@ -93,11 +117,13 @@ pub fn solve(
         active = settled;
         relative = (relative * COMPLIANCE_DECAY).max(LAST_COMPLIANCE);
     }
-    best.filter(|solution| solution.residual <= ANSWER_TOLERANCE).ok_or(ContactError::NotConverged {
-        iterations: total,
-        infeasible: active.len(),
-        points: rows.len(),
-    })
+    match best.filter(|solution| solution.residual <= ANSWER_TOLERANCE) {
+        Some(mut solution) => {
+            solution.stiffness = exact_stiffness(bodies, &mut problem, own, &solution)?;
+            Ok(solution)
+        }
+        None => Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() }),
+    }
 }
 
 /// How many steps like the last one proximal continuation may go at once where it creeps.

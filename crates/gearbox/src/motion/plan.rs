@@ -30,6 +30,12 @@ pub struct MotionPlan {
 }
 
 impl MotionPlan {
+    /// A motion from its start on in steps of equal length (s), each of which is a row: it neither settles nor stops.
+    pub fn of_steps(scheme: Scheme, step: f64, [cycles, steps_per_cycle]: [u64; 2]) -> Self {
+        let (steps_per_row, tolerance, stop_at_events, settle, shoots) = (1, None, false, None, false);
+        Self { scheme, step, cycles, steps_per_cycle, steps_per_row, tolerance, stop_at_events, settle, shoots }
+    }
+
     /// Whether a motion that repeats itself so nearly is to be taken to its periodic state at once.
     pub fn seeks(&self, found: Periodicity) -> bool {
         self.shoots && found.residual <= SETTLING

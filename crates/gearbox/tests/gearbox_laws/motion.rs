@@ -65,17 +65,7 @@ fn run(
     let start = mechanism.start(0.01).unwrap();
     let step = 1.0 / mechanism.mesh_frequencies()[0] / f64::from(steps_per_cycle);
     let steps = (cycles * f64::from(steps_per_cycle)).round() as u64;
-    let plan = MotionPlan {
-        scheme,
-        step,
-        cycles: 1,
-        steps_per_cycle: steps,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    };
+    let plan = MotionPlan::of_steps(scheme, step, [1, steps]);
     let mut rows = Vec::new();
     let run = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());

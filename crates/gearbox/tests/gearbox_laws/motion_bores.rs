@@ -15,12 +15,12 @@ use gearbox::{
 use geometry::{GearPair, Sense};
 use integrate::{Forces, Mechanism, Scheme};
 use ltca::StaticOptions;
-use mesh::{BoreCoupling, Extent, MeshedGear, StructuredOptions};
+use mesh::{BoreCoupling, MeshedGear};
 use nalgebra::DVector;
 use reduction::ElasticGear;
 use testing::Case;
 
-use crate::pairs::{operation, options, pair, single};
+use crate::pairs::{SECTOR, operation, options, pair, single};
 
 const TORQUE: f64 = 1.5e5;
 /// Speed of a motion whose inertia counts for a billionth, rad/s.
@@ -45,16 +45,7 @@ impl Bored {
         let operation = operation(&structure, 2, Sense::Ccw, vec![Torque { disc: 3, torque: TORQUE }]);
         let meshes = vec![GearMesh { name: "pair".into(), discs: [0, 1], pair: gears.clone() }];
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense).unwrap();
-        let sector = StructuredOptions {
-            order: 1,
-            elements_profile: 2,
-            elements_fillet: 2,
-            elements_thickness: 2,
-            elements_face: 3,
-            elements_rim: 2,
-            extent: Extent::Periodic,
-        };
-        let mut case = Case::meshed(gears.clone(), &sector, TORQUE);
+        let mut case = Case::meshed(gears.clone(), &SECTOR, TORQUE);
         case.meshes = case.meshes.map(|own: MeshedGear| own.coupled(coupling));
         let gears = Arc::new(case.reduced_gears(&options(gears, &train.meshing()[0], TORQUE)));
         Self { structure, meshes, operation, train, gears }
@@ -118,17 +109,7 @@ fn run(
     modal_damping: f64,
 ) -> (Vec<GearboxInstant>, GearboxRun) {
     let start = mechanism.start(modal_damping).unwrap();
-    let plan = MotionPlan {
-        scheme,
-        step: 1.0 / mechanism.mesh_frequencies()[0] / steps as f64,
-        cycles,
-        steps_per_cycle: steps,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    };
+    let plan = MotionPlan::of_steps(scheme, 1.0 / mechanism.mesh_frequencies()[0] / steps as f64, [cycles, steps]);
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
     (rows, done)

@@ -107,17 +107,7 @@ impl Box1 {
         let start = mechanism.start(options.modal_damping).unwrap();
         let step = 1.0 / mechanism.mesh_frequencies()[0] / 50.0;
         let steps = (50.0 * cycles) as u64;
-        let plan = MotionPlan {
-            scheme: Scheme::Energy,
-            step,
-            cycles: 1,
-            steps_per_cycle: steps,
-            steps_per_row: 1,
-            tolerance: None,
-            stop_at_events: false,
-            settle: None,
-            shoots: false,
-        };
+        let plan = MotionPlan::of_steps(Scheme::Energy, step, [1, steps]);
         let mut rows = Vec::new();
         let began = Instant::now();
         let done = mechanism.run(&start, &plan, |instant| {

@@ -116,17 +116,7 @@ fn range(values: &[f64]) -> f64 {
 
 /// One row a step.
 fn plan(scheme: Scheme) -> MotionPlan {
-    MotionPlan {
-        scheme,
-        step: 0.0,
-        cycles: 1,
-        steps_per_cycle: 1,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    }
+    MotionPlan::of_steps(scheme, 0.0, [1, 1])
 }
 
 /// Two stages on shafts that bend, gears with mass, a heavy machine at the output, flanks on both sides.

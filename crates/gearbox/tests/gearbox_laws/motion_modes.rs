@@ -109,17 +109,7 @@ fn at(speed: f64) -> Drive {
 
 fn plan(mechanism: &GearboxMechanism, scheme: Scheme, [steps, cycles]: [u64; 2]) -> MotionPlan {
     let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
-    MotionPlan {
-        scheme,
-        step: 1.0 / fastest / steps as f64,
-        cycles,
-        steps_per_cycle: steps,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    }
+    MotionPlan::of_steps(scheme, 1.0 / fastest / steps as f64, [cycles, steps])
 }
 
 /// Motion from the equilibrium on.

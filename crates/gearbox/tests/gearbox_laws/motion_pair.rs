@@ -105,17 +105,7 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let step = 1.0 / mechanism.mesh_frequencies()[0] / 100.0;
     let steps = 400;
     let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
-    let plan = MotionPlan {
-        scheme,
-        step,
-        cycles: 1,
-        steps_per_cycle: steps,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    };
+    let plan = MotionPlan::of_steps(scheme, step, [1, steps]);
     let mut found = Vec::new();
     let done = mechanism
         .run(&start, &plan, |instant| {

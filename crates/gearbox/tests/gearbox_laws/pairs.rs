@@ -33,18 +33,20 @@ pub fn of_widths(teeth: [u32; 2], helix_deg: f64, widths: [f64; 2]) -> GearPair 
     GearPair::new(gear(0), gear(1), None).unwrap()
 }
 
-/// Both gears reduced from one-tooth sectors of few linear elements: what is compared is the same on both sides.
+/// One-tooth sectors of few linear elements: what is compared is the same on both sides.
+pub const SECTOR: StructuredOptions = StructuredOptions {
+    order: 1,
+    elements_profile: 2,
+    elements_fillet: 2,
+    elements_thickness: 2,
+    elements_face: 3,
+    elements_rim: 2,
+    extent: Extent::Periodic,
+};
+
+/// Both gears reduced from such sectors.
 pub fn reduced(pair: &GearPair, options: &StaticOptions) -> Arc<[ElasticGear; 2]> {
-    let sector = StructuredOptions {
-        order: 1,
-        elements_profile: 2,
-        elements_fillet: 2,
-        elements_thickness: 2,
-        elements_face: 3,
-        elements_rim: 2,
-        extent: Extent::Periodic,
-    };
-    Arc::new(Case::meshed(pair.clone(), &sector, options.torque).reduced_gears(options))
+    Arc::new(Case::meshed(pair.clone(), &SECTOR, options.torque).reduced_gears(options))
 }
 
 /// Options of a mesh as it runs; the torque is that of the pair alone.

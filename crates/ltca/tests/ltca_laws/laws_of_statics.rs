@@ -43,6 +43,37 @@ fn contact_line_length_tends_to_the_analytic_one() {
     }
 }
 
+/// The tangent stiffness is the slope of the base force over the transmission error: of slices, of points with a penalty, and of
+/// points without, of which more press than the faces can tell apart. What is left is that the slope follows the flanks as they
+/// turn on, and the tangent does not.
+#[test]
+fn the_tangent_stiffness_is_a_slope() {
+    let case = small_case(20.0);
+    let points = |law, points| case.options().with_contact(|c| (c.law, c.points_per_face_edge) = (law, points));
+    let all = [
+        ("slices", case.slice_options()),
+        ("points, penalty", points(Law::Penalty(1e6), 2)),
+        ("points", points(Law::Exact, 2)),
+        ("many points", points(Law::Exact, 6)),
+    ];
+    for (name, options) in all {
+        let (torque, step) = (options.torque, 1e-4);
+        let base_radius = [&case.pair.pinion, &case.pair.wheel][options.driven()].base_radius();
+        let solved = |factor: f64| {
+            let mut model = case.reduced(StaticOptions { torque: factor * torque, ..options.clone() });
+            model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{name}: {e}")).positions
+        };
+        let [less, own, more] = [1.0 - step, 1.0, 1.0 + step].map(solved);
+        let mut worst = 0.0f64;
+        for ((a, p), b) in less.iter().zip(&own).zip(&more) {
+            let slope = 2.0 * step * torque / base_radius / (b.transmission_error - a.transmission_error);
+            worst = worst.max((p.tangent_stiffness / slope - 1.0).abs());
+        }
+        println!("{name}: tangent stiffness {worst:.1e} off its slope at the most");
+        assert!(worst < 1e-3, "{name}: {worst}");
+    }
+}
+
 /// Contact forces balance the torque; axial / transverse base force = tan(b_b); action = reaction; force sum = T / (r_b
 /// cos b_b).
 #[test]
