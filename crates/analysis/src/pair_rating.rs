@@ -4,12 +4,13 @@ use geometry::{FlankTolerances, Gear, GearPair};
 use ltca::StaticHistory;
 use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
 use rating::{
-    ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LocalScuffing, Lubrication,
-    LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatingError, RatingInput, Rolling,
-    RootFactors, ScuffingInput, ScuffingRating, SolvedContact, SpectrumRating, StandardRating, local_bending_safety,
-    local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating, standard_rating,
+    ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LoadBin, LocalScuffing,
+    Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatingError,
+    RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, Spectrum, SpectrumRating,
+    StandardRating, local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating,
+    standard_rating,
 };
-use scene::{LubricationScene, RatingEdition, RatingScene, Scene};
+use scene::{DataFile, LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
 use crate::{AnalysisError, error::place_in, loaded_pair::LoadedPair, results::PressurePlace, solved_mesh::SolvedMesh};
@@ -127,18 +128,19 @@ impl RatingHeadline {
         scene.rating.as_ref()?;
         let pair = scene.gear_pair().ok()?;
         // What the formulas refuse was refused before the work.
-        Self::of_solved(scene, &pair, &SolvedMesh::of(scene, history)).ok()?
+        let spectrum = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
+        Self::of_solved(scene, &pair, (&SolvedMesh::of(scene, history), spectrum)).ok()?
     }
 
-    /// Headline of a mesh under the torque and at the speed of its scene; `None` likewise.
+    /// Headline of a mesh under the torque and at the speed of its scene, and under a spectrum of loads; `None` likewise.
     pub(crate) fn of_solved(
         scene: &Scene,
         pair: &GearPair,
-        solved: &SolvedMesh,
+        (solved, spectrum): (&SolvedMesh, Option<&Spectrum>),
     ) -> Result<Option<Self>, AnalysisError> {
         let Some(rating) = &scene.rating else { return Ok(None) };
         let Some(face_load) = rating.face_load_factor.or(solved.face_load_factor) else { return Ok(None) };
-        let (standard, spectrum, oiled) = rated(scene, rating, pair, face_load, Some(solved))?;
+        let (standard, spectrum, oiled) = rated((scene, rating), pair, face_load, (Some(solved), spectrum))?;
         let gears = standard.gears();
         let least = |of: fn(&rating::GearRating) -> f64| {
             let [pinion, wheel] = gears.map(of);
@@ -205,25 +207,30 @@ impl RatingHeadline {
 /// [`AnalysisError::Rating`], [`AnalysisError::Lumped`] where a standard has no value.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(rating) = &scene.rating else { return Ok(()) };
-    let found = rated(scene, rating, pair, rating.face_load_factor.unwrap_or(1.0), None);
+    let spectrum = rating.spectrum.as_ref().map(DataFile::values);
+    let found = rated((scene, rating), pair, rating.face_load_factor.unwrap_or(1.0), (None, spectrum));
     found.map(|_| ()).map_err(|e| e.of_part("[rating]").at(place_in(scene, &["rating.life_h"])))
 }
 
-/// What a rating is made of: the standard's, Miner's sums where the scene has a spectrum, oil and flanks.
+/// What a rating is made of: the standard's, Miner's sums where there is a spectrum, oil and flanks.
 type Rated = (StandardRating, Option<SpectrumRating>, Oiled);
 
 /// The ratings with a face load factor K_Hbeta; those of the solved contact with a history alone.
 fn rated(
-    scene: &Scene,
-    rating: &RatingScene,
+    (scene, rating): (&Scene, &RatingScene),
     pair: &GearPair,
     face_load: f64,
-    solved: Option<&SolvedMesh>,
+    (solved, spectrum): (Option<&SolvedMesh>, Option<&Spectrum>),
 ) -> Result<Rated, AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let gears = [&pair.pinion, &pair.wheel];
     let application = rating.application_factor;
-    let stiffness = LoadedPair { torque: application * loaded.torque, ..loaded }.iso_stiffness()?;
+    // Gears under light loads are softer.
+    let stiffness = |torque: f64| -> Result<MeshStiffness, AnalysisError> {
+        let found = LoadedPair { torque: application * torque, ..loaded }.iso_stiffness()?;
+        let blanks = rating.gear_blank_factor;
+        Ok(MeshStiffness { single: blanks * found.c_single, mesh: blanks * found.c_mesh })
+    };
     let ratios = IsoRootPair {
         eps_alpha: pair.transverse_contact_ratio(),
         eps_beta: pair.overlap_ratio(),
@@ -253,10 +260,7 @@ fn rated(
         },
         geometry: numbers(pair),
         flank: flank(&loaded),
-        stiffness: MeshStiffness {
-            single: rating.gear_blank_factor * stiffness.c_single,
-            mesh: rating.gear_blank_factor * stiffness.c_mesh,
-        },
+        stiffness: stiffness(loaded.torque)?,
         gears: [input(0)?, input(1)?],
         lubricant,
         deviations: Deviations {
@@ -278,7 +282,12 @@ fn rated(
         long_life: rating.long_life_factor,
     };
     let nominal = [scene.operation.torque_nm, scene.operation.speed_rpm];
-    let spectrum = rating.spectrum.as_ref().map(|file| spectrum_rating(&input, file.values(), nominal)).transpose()?;
+    // Loads without torque, which have no stiffness, do no damage.
+    let at_load = |bin: &LoadBin| {
+        let torque = loaded.torque * bin.torque_nm / scene.operation.torque_nm;
+        LoadBin { stiffness: stiffness(torque).ok(), ..*bin }
+    };
+    let spectrum = spectrum.map(|own| spectrum_rating(&input, &own.with_loads(at_load), nominal)).transpose()?;
     let standard = standard_rating(&input)?;
     let oiled = oiled(scene, rating, &loaded, (&input, &standard), solved)?;
     Ok((standard, spectrum, oiled))

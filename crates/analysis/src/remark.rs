@@ -224,6 +224,9 @@ answer::remarks! {
     bearing_tilts(bearing, tilt_mrad, elements, limit_mrad)
         "bearing {bearing} tilts by {tilt_mrad:.1} mrad: catalogues let {elements} bearings tilt by some {limit_mrad:.1} mrad at most",
         "";
+    bearing_fast(bearing, speed_factor_mm_per_min, limit_mm_per_min)
+        "bearing {bearing} runs at n d_m = {speed_factor_mm_per_min:.0} mm/min: above some {limit_mm_per_min:.0} mm/min centrifugal forces press its elements to the outer ring, which stiffness, life and loss leave out",
+        "";
     bearing_pressure(bearing, pressure_mpa, element, limit_mpa)
         "bearing {bearing}: {pressure_mpa:.0} MPa on a {element}, beyond the {limit_mpa:.0} MPa of the static rating (ISO 76): steel no longer stays elastic",
         "";

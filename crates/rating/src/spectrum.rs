@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::{RatingError, RatingInput, StandardRating, StressLife, standard_rating};
+use crate::{GivenFactors, MeshStiffness, RatingError, RatingInput, StandardRating, StressLife, standard_rating};
 
 /// A load with its share of the life.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -13,6 +13,10 @@ pub struct LoadBin {
     pub speed_rpm: f64,
     /// Share of the life, 0 to 1.
     pub share: f64,
+    /// K_Hbeta under this load; `None`: that of the nominal one.
+    pub face_load_factor: Option<f64>,
+    /// Mesh stiffness under this load; `None`: that of the nominal one.
+    pub stiffness: Option<MeshStiffness>,
 }
 
 /// Loads over a life.
@@ -56,7 +60,7 @@ impl Spectrum {
             else {
                 return refused(line, format!("`{row}` has a value that is not a number of 0 or more"));
             };
-            bins.push(LoadBin { torque_nm, speed_rpm, share });
+            bins.push(LoadBin { torque_nm, speed_rpm, share, face_load_factor: None, stiffness: None });
         }
         let sum: f64 = bins.iter().map(|bin| bin.share).sum();
         if !(sum > 0.0 && sum.is_finite()) {
@@ -64,6 +68,11 @@ impl Spectrum {
         }
         bins.iter_mut().for_each(|bin| bin.share /= sum);
         Ok(Self { bins })
+    }
+
+    /// Spectrum of the same shares with other loads: those that a mesh of a gearbox has.
+    pub fn with_loads(&self, load: impl FnMut(&LoadBin) -> LoadBin) -> Self {
+        Self { bins: self.bins.iter().map(load).collect() }
     }
 
     /// Loads in the order of the table, their shares 1 in sum.
@@ -123,7 +132,7 @@ pub fn miner(curve: &StressLife, loads: &[Cycles]) -> (f64, f64) {
     (damage, low)
 }
 
-/// Rates a pair under a spectrum: every load has its own dynamic and transverse load factors; the curves of bearable stress, Z_V with them, are those of the nominal load.
+/// Rates a pair under a spectrum: every load has its own dynamic and transverse load factors, and its own K_Hbeta and mesh stiffness where it states them; the curves of bearable stress, Z_V with them, are those of the nominal load.
 ///
 /// `nominal_torque_nm` and `nominal_speed_rpm`: torque on the driven gear and speed of the driver that `input` is for. Loads without torque or speed do no damage.
 ///
@@ -140,6 +149,11 @@ pub fn spectrum_rating(
             let own = RatingInput {
                 tangential_force: input.tangential_force * bin.torque_nm / nominal_torque_nm,
                 pinion_speed_rpm: input.pinion_speed_rpm * bin.speed_rpm / nominal_speed_rpm,
+                stiffness: bin.stiffness.unwrap_or(input.stiffness),
+                factors: GivenFactors {
+                    face_load: bin.face_load_factor.unwrap_or(input.factors.face_load),
+                    ..input.factors
+                },
                 ..*input
             };
             Ok((bin.share, standard_rating(&own)?))

@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Stiffness of the mesh, N/(mm um).
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MeshStiffness {
     /// c', single stiffness.
     pub single: f64,

@@ -2,7 +2,7 @@
 
 use crate::remark;
 use gearbox::{
-    Bearing, GearboxError, GearboxPosition,
+    Bearing, GearboxError, GearboxPosition, Train,
     rolling_bearing::{
         AxialSeat, AxialSetting, BallGeometry, Catalogue, Filling, LifeModification, RollerGeometry, RollerProfile,
         RollingBearing, RollingBearingError, RollingElements, RollingFriction, RollingState, Row,
@@ -22,6 +22,9 @@ const ROLLERS_TILT: f64 = 1.2e-3;
 /// Equivalent load over the dynamic rating up to which formulas of lives hold (ISO 281).
 const HALF: f64 = 0.5;
 
+/// Speed times pitch diameter above which centrifugal forces of rolling elements count (rule of thumb), mm/min.
+const FAST: f64 = 5e5;
+
 /// A rolling bearing over all positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RollingLoad {
@@ -39,8 +42,12 @@ pub struct RollingLoad {
     pub pressure: f64,
     /// Fewest and most rolling elements that carry.
     pub loaded: [usize; 2],
+    /// Speed of its shaft, 1/min, where it is rated.
+    pub speed_rpm: Option<f64>,
     /// How long it lasts, where its dynamic rating and a speed are known and it is loaded.
     pub life: Option<BearingLife>,
+    /// Life under the spectrum of loads, h, as [`BearingLife::rated_hours`]; `None` where it has no life, or lasts for ever.
+    pub spectrum_life_h: Option<f64>,
     /// Power that it loses, W, where speed and viscosity are known.
     pub loss_w: Option<f64>,
 }
@@ -83,6 +90,16 @@ pub(super) struct BearingTurns {
     pub viscosity: Option<f64>,
     /// e_C.
     pub contamination_factor: Option<f64>,
+}
+
+impl BearingTurns {
+    /// Of a bearing at a speed of the input, 1/min; `None` where it stands, or carries nothing as those of held shafts.
+    pub fn of((file, train): (&Gearbox, &Train), bearing: usize, input_speed_rpm: f64) -> Option<Self> {
+        let shaft = file.bearings[bearing].shaft;
+        let speed_rpm = input_speed_rpm * train.ratios()[shaft].abs();
+        let asked = file.rating.as_ref().filter(|_| speed_rpm > 0.0 && !file.shafts[shaft].held)?;
+        Some(Self { speed_rpm, viscosity: asked.viscosity, contamination_factor: asked.contamination_factor })
+    }
 }
 
 /// Life at the mean of 1/L over some states (Miner), at the speed of the shaft; `None` without rating or load.
@@ -196,6 +213,8 @@ pub(super) fn rolling_load(
         element_force: most(&|s| s.element_force),
         pressure: most(&|s| s.pressure),
         loaded: [loaded().min().unwrap_or(0), loaded().max().unwrap_or(0)],
+        speed_rpm: turns.map(|turns| turns.speed_rpm),
+        spectrum_life_h: None,
         life: turns.as_ref().and_then(|turns| life(rolling, law, &states, turns)),
         loss_w: turns.and_then(|turns| {
             let (speed, viscosity) = (turns.speed_rpm, turns.viscosity?);
@@ -241,6 +260,8 @@ pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoa
         let thin = (life.asks_modified && life.modification.is_none()).then(|| remark::bearing_film_outside(name));
         high.into_iter().chain(thin)
     }));
+    let fast = load.speed_rpm.map(|speed| speed * load.elements.pitch_diameter()).filter(|own| *own > FAST && !is_held);
+    said.extend(fast.map(|own| remark::bearing_fast(name, own, FAST)));
     if load.pressure > dent {
         let pressure = load.pressure;
         said.push(remark::bearing_pressure(name, pressure, what, dent));

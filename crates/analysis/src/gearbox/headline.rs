@@ -1,6 +1,7 @@
 //! The numbers that a gearbox is judged, varied and compared by.
 
 use described::Key;
+use rating::SpectrumRating;
 use scene::gearbox::Gearbox;
 use serde_json::{Map, Value, json};
 
@@ -21,6 +22,8 @@ enum Of {
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
     BearingsRated(fn(&BearingLife) -> Option<f64>),
     BearingsLosing(fn(&RollingLoad) -> Option<f64>),
+    BearingsUnderSpectrum(fn(&RollingLoad) -> Option<f64>),
+    MeshesUnderSpectrum(fn(&SpectrumRating) -> f64),
     Efficient,
     MeshesVibrating(fn(&VibrationResult, usize) -> f64),
     BearingsVibrating(fn(&VibrationResult, usize) -> f64),
@@ -46,7 +49,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 32] = [
+const NUMBERS: [Number; 35] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -126,6 +129,21 @@ const NUMBERS: [Number; 32] = [
         "bearing_life_h",
         "modified life of each bearing, the basic one without `contamination_factor`; with `[rating]`, `null` of a bearing without `dynamic_rating_kn`",
         Of::BearingsRated(BearingLife::rated_hours),
+    ),
+    list(
+        "bearing_spectrum_life_h",
+        "life of each bearing under the load spectrum, modified as above; with `spectrum`, `null` of a bearing without `dynamic_rating_kn`, and of one that does not tire",
+        Of::BearingsUnderSpectrum(|r| r.spectrum_life_h),
+    ),
+    list(
+        "pitting_damage",
+        "larger Miner's sum for pitting of both gears of each mesh under the load spectrum; with `spectrum`",
+        Of::MeshesUnderSpectrum(|s| s.pinion.pitting_damage.max(s.wheel.pitting_damage)),
+    ),
+    list(
+        "bending_damage",
+        "larger Miner's sum for tooth root breakage of both gears of each mesh under the load spectrum; with `spectrum`",
+        Of::MeshesUnderSpectrum(|s| s.pinion.bending_damage.max(s.wheel.bending_damage)),
     ),
     list(
         "bearing_load_over_rating",
@@ -232,6 +250,16 @@ impl GearboxResult {
                     let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
                     self.rates.bearing_losses.then(|| self.bearings.iter().map(of).collect())?
                 }
+                Of::BearingsUnderSpectrum(own) => {
+                    let of = |b: &BearingLoad| b.rolling.as_ref().and_then(own);
+                    let asked = self.rates.spectrum && self.rates.lives;
+                    asked.then(|| self.bearings.iter().map(of).collect())?
+                }
+                Of::MeshesUnderSpectrum(own) => {
+                    let of = |m: &MeshResult| m.rating.as_ref()?.spectrum.as_ref().map(own);
+                    let asked = self.rates.spectrum && self.rates.meshes;
+                    asked.then(|| self.meshes.iter().map(of).collect())?
+                }
                 Of::BearingsRated(own) => {
                     let of = |b: &BearingLoad| b.rolling.and_then(|r| r.life).as_ref().and_then(own);
                     self.rates.lives.then(|| self.bearings.iter().map(of).collect())?
@@ -266,6 +294,8 @@ impl GearboxResult {
             Of::MeshesRated(_) => rates.meshes.then_some(Some(file.meshes.len())),
             Of::Efficient => rates.efficiency.then_some(None),
             Of::BearingsLosing(_) => rates.bearing_losses.then_some(Some(file.bearings.len())),
+            Of::BearingsUnderSpectrum(_) => (rates.spectrum && rates.lives).then_some(Some(file.bearings.len())),
+            Of::MeshesUnderSpectrum(_) => (rates.spectrum && rates.meshes).then_some(Some(file.meshes.len())),
             Of::BearingsRated(_) => rates.lives.then_some(Some(file.bearings.len())),
             Of::MeshesVibrating(_) => vibrates.then_some(Some(file.meshes.len())),
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),

@@ -4,12 +4,12 @@ use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, MeshState, Train};
 use scene::{Driver, RatedGearScene, Scene, gearbox::Gearbox};
 
-use super::meshes::ReducedMesh;
+use super::{meshes::ReducedMesh, spectrum::SolvedSpectrum};
 use crate::{AnalysisError, pair_rating::RatingHeadline, remark, solved_mesh::SolvedMesh};
 
 /// The scene of a mesh with a torque on its driven gear, N mm, and the speed of its driver; `None` where it is not to be rated.
 pub(super) fn rated_scene(file: &Gearbox, train: &Train, (mesh, scene): (usize, &Scene), torque: f64) -> Option<Scene> {
-    let (asked, _) = (file.rating?, scene.rating.as_ref()?);
+    let (asked, _) = (file.rating.as_ref()?, scene.rating.as_ref()?);
     let driver = usize::from(scene.operation.driver == Driver::Wheel);
     let shaft = file.gears[file.meshes[mesh].gears[driver]].shaft;
     let mut scene = scene.clone();
@@ -26,7 +26,7 @@ pub(super) fn ratings(
     (file, train): (&Gearbox, &Train),
     meshes: &[GearMesh],
     reduced: &[ReducedMesh],
-    positions: &[GearboxPosition],
+    (positions, loads): (&[GearboxPosition], Option<&SolvedSpectrum>),
 ) -> Result<(Vec<Option<RatingHeadline>>, Vec<Remark>), AnalysisError> {
     let mut said = Vec::new();
     let mut one = |(i, mesh): (usize, &GearMesh)| {
@@ -36,7 +36,13 @@ pub(super) fn ratings(
         let torque = states.iter().map(|m| m.moment[driven][2]).sum::<f64>().abs() / states.len().max(1) as f64;
         let Some(scene) = rated_scene(file, train, (i, &reduced[i].scene), torque) else { return Ok(None) };
         let unloaded = torque == 0.0 || scene.operation.speed_rpm == 0.0;
-        let rating = if unloaded { None } else { RatingHeadline::of_solved(&scene, &mesh.pair, &solved(&scene))? };
+        let speed_ratio = scene.operation.speed_rpm / file.rating.as_ref().map_or(f64::NAN, |asked| asked.speed_rpm);
+        let is_stated = scene.rating.as_ref().is_some_and(|own| own.face_load_factor.is_some());
+        let spectrum = loads.map(|own| own.of_mesh(i, (speed_ratio, is_stated)));
+        let rating = match unloaded {
+            true => None,
+            false => RatingHeadline::of_solved(&scene, &mesh.pair, (&solved(&scene), spectrum.as_ref()))?,
+        };
         match &rating {
             Some(own) => {
                 let all = own.remarks().into_iter().chain(counted_once(file, i, &scene, positions));

@@ -13,6 +13,7 @@ use super::{
     clearance::clearance_remarks,
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
+    spectrum::SolvedSpectrum,
 };
 use crate::{
     accuracy::Accuracy, pair_rating::RatingHeadline, plausible::effective_modulus, solution_remarks::large_error,
@@ -77,6 +78,8 @@ pub struct Rates {
     pub meshes: bool,
     /// The life of some bearing.
     pub lives: bool,
+    /// Lives, or sums of Miner, under a spectrum of loads.
+    pub spectrum: bool,
     /// Losses of rolling bearings.
     pub bearing_losses: bool,
     /// Losses of all meshes, and with them the efficiency.
@@ -92,7 +95,8 @@ impl Rates {
         Self {
             meshes: file.meshes.iter().any(rated),
             lives: file.bearings.iter().any(has_life),
-            bearing_losses: file.rating.is_some_and(|r| r.viscosity.is_some()),
+            spectrum: file.rating.as_ref().is_some_and(|r| r.spectrum.is_some()),
+            bearing_losses: file.rating.as_ref().is_some_and(|r| r.viscosity.is_some()),
             efficiency: file.meshes.iter().all(oiled),
         }
     }
@@ -153,7 +157,7 @@ pub struct OutputResult {
 
 /// Power of all loads at the speed of ratings, W.
 fn output_power_w(file: &Gearbox, train: &Train) -> f64 {
-    let Some(asked) = file.rating else { return 0.0 };
+    let Some(asked) = &file.rating else { return 0.0 };
     let turns = |shaft: usize| asked.speed_rpm * train.ratios()[shaft].abs() * TAU / 60.0;
     file.torques.iter().map(|own| 1e-3 * own.torque * turns(own.shaft)).sum()
 }
@@ -172,7 +176,7 @@ pub(super) fn result(
     (meshes, ratings): (Vec<GearMesh>, Vec<Option<RatingHeadline>>),
     train: &Train,
     reduced: &[ReducedMesh],
-    (positions, vibration): (Vec<GearboxPosition>, Option<VibrationResult>),
+    (positions, vibration, loads): (Vec<GearboxPosition>, Option<VibrationResult>, Option<&SolvedSpectrum>),
     remarks: Vec<Remark>,
 ) -> GearboxResult {
     let all = &positions;
@@ -200,14 +204,7 @@ pub(super) fn result(
             gear_angles: train.meshing()[i].gear_angles(&meshes[i].pair),
         }
     };
-    let turns = |i: usize| {
-        let asked = file.rating?;
-        let speed = asked.speed_rpm * train.ratios()[file.bearings[i].shaft].abs();
-        let scene::gearbox::GearboxRating { viscosity, contamination_factor, .. } = asked;
-        // A bearing of a held shaft carries nothing here.
-        let turns = speed > 0.0 && !file.shafts[file.bearings[i].shaft].held;
-        turns.then_some(BearingTurns { speed_rpm: speed, viscosity, contamination_factor })
-    };
+    let turns = |i: usize| BearingTurns::of((file, train), i, file.rating.as_ref()?.speed_rpm);
     let bearing = |i: usize| {
         let own = || all.iter().map(move |p| &p.bearings[i]);
         BearingLoad {
@@ -215,7 +212,8 @@ pub(super) fn result(
             force: mean_force(all, i),
             moment: std::array::from_fn(|k| mean(own().map(|b| b.moment[k]))),
             tilt: own().map(|b| b.displacement[3].hypot(b.displacement[4])).fold(0.0, f64::max),
-            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, (i, turns(i))),
+            rolling: rolling_load(&file.bearings[i], &structure.bearings[i], all, (i, turns(i)))
+                .map(|own| RollingLoad { spectrum_life_h: loads.and_then(|loads| loads.bearing_life_h(i)), ..own }),
         }
     };
     let output = |i: usize| {

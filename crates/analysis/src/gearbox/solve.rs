@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
-use scene::{Scene, gearbox::Gearbox};
+use scene::{DataFile, Scene, gearbox::Gearbox};
 
 use super::{
     GearboxResult, GearboxSink,
@@ -12,10 +12,11 @@ use super::{
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, rating, result,
+    spectrum::SolvedSpectrum,
     vibration::{self, Parts},
 };
 use crate::{
-    AnalysisError, Observer, PhaseWork, SharedModels, plausible::gearbox_remarks, run_phase, unless_cancelled,
+    AnalysisError, Observer, PhaseWork, Progress, SharedModels, plausible::gearbox_remarks, run_phase, unless_cancelled,
 };
 
 /// A gearbox that is to be solved.
@@ -85,26 +86,19 @@ pub(super) fn solve(
         remarks.extend(own.remarks.clone());
         remarks.extend(own.seats(file, i));
     }
+    let parts = Parts { file, structure: &structure, meshes: &meshes, train: &train, operation: &operation };
     let (positions, samples) = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
         run_phase(observer, "solve", PhaseWork::Steps(u64::from(count(file))), |progress| {
-            let made = StaticGearbox::new(structure.clone(), meshes.clone(), operation.clone(), |i, mesh, _| {
-                reduced[i].element(mesh)
-            });
-            let mut gearbox = made.map_err(failed)?;
-            let mut positions: Vec<GearboxPosition> = Vec::new();
-            let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
-            for angle in angles(file, gearbox.train()) {
-                let position = gearbox.solve(angle).map_err(failed)?;
-                for (i, own) in samples.iter_mut().enumerate() {
-                    own.extend(MeshSample::at(&gearbox, &position, i));
-                }
-                positions.push(position);
-                progress.tick();
-                unless_cancelled(progress)?;
-            }
-            Ok((positions, samples))
+            at_all_angles(&parts, reduced, progress)
         })
     })?;
+    let spectrum = file.rating.as_ref().and_then(|asked| asked.spectrum.as_ref()).map(DataFile::values);
+    let loads = spectrum.map(|spectrum| {
+        widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
+            SolvedSpectrum::new(&parts, spectrum, reduced, observer)
+        })
+    });
+    let loads = loads.transpose()?;
     for (i, own) in reduced.iter().enumerate() {
         remarks.extend(own.jammed(i, &meshes[i], &positions));
     }
@@ -120,7 +114,7 @@ pub(super) fn solve(
     let vibration = match &file.vibration {
         None => None,
         Some(asked) => {
-            let parts = Parts { file, structure: &linear, meshes: &meshes, train: &train, operation: &operation };
+            let parts = Parts { structure: &linear, ..parts };
             let found = widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
                 vibration::vibration(&parts, asked, (reduced, &modes), &samples, observer)
             });
@@ -149,10 +143,10 @@ pub(super) fn solve(
     );
     let branch = file.branch.as_ref().map(|asked| branch::branch(&rest, asked, observer)).transpose()?;
     remarks.extend(branch.iter().flat_map(|own| own.remarks.iter().cloned()));
-    let (ratings, said) = rating::ratings((file, &train), &meshes, &reduced, &positions)?;
+    let (ratings, said) = rating::ratings((file, &train), &meshes, &reduced, (&positions, loads.as_ref()))?;
     remarks.extend(said);
-    let result =
-        result::result((file, &structure), (meshes, ratings), &train, &reduced, (positions, vibration), remarks);
+    let solved = (positions, vibration, loads.as_ref());
+    let result = result::result((file, &structure), (meshes, ratings), &train, &reduced, solved, remarks);
     Ok((GearboxResult { motion: moved, branch, ..result }, stopped))
 }
 
@@ -170,7 +164,37 @@ pub(super) fn running(file: &Gearbox, slices: Slices) -> Result<(Train, Vec<Scen
     Ok((train, scenes))
 }
 
-fn count(file: &Gearbox) -> u32 {
+/// Positions of a gearbox under the torques of its operation, and what a vibration reads of its meshes.
+///
+/// # Errors
+/// [`AnalysisError::Gearbox`], [`AnalysisError::Cancelled`].
+pub(super) fn at_all_angles(
+    parts: &Parts<'_>,
+    reduced: &[ReducedMesh],
+    progress: &dyn Progress,
+) -> Result<(Vec<GearboxPosition>, Vec<Vec<MeshSample>>), AnalysisError> {
+    let Parts { file, structure, meshes, operation, .. } = *parts;
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
+    let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation.clone(), |i, mesh, _| {
+        reduced[i].element(mesh)
+    });
+    let mut gearbox = made.map_err(failed)?;
+    let mut positions: Vec<GearboxPosition> = Vec::new();
+    let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
+    for angle in angles(file, gearbox.train()) {
+        let position = gearbox.solve(angle).map_err(failed)?;
+        for (i, own) in samples.iter_mut().enumerate() {
+            own.extend(MeshSample::at(&gearbox, &position, i));
+        }
+        positions.push(position);
+        progress.tick();
+        unless_cancelled(progress)?;
+    }
+    Ok((positions, samples))
+}
+
+/// Positions at which a gearbox is solved.
+pub(super) fn count(file: &Gearbox) -> u32 {
     file.positions_per_cycle.saturating_mul(file.cycles)
 }
 

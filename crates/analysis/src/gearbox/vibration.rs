@@ -23,6 +23,7 @@ use crate::{
 };
 
 /// A gearbox as its solvers take it.
+#[derive(Clone, Copy)]
 pub(super) struct Parts<'a> {
     pub file: &'a Gearbox,
     pub structure: &'a Structure,

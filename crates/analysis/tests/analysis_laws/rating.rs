@@ -1,12 +1,14 @@
 //! Ratings of whole pairs against printed ones, and of gearboxes against their pairs.
 #![allow(clippy::print_stdout, reason = "the figure is what the test is for")]
 
+use std::path::Path;
+
 use analysis::{
     Context, Ending, NoObserver, StaticAnalysis, pair_rating::RatingHeadline, results::static_headline, solve,
 };
 use rating::GearRating;
 use scene::{
-    Scene, SceneBuilder,
+    Scene, SceneBuilder, Setting,
     gearbox::{Gearbox, gearbox_of_pair},
 };
 use serde_json::Value;
@@ -372,6 +374,65 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         compare("rating", &own, &wanted, &mut worst);
         println!("{driver} drives: {} is {:.1e} off at the most", worst.1, worst.0);
     }
+}
+
+/// Loads of a gearbox add up: each does the damage that it does alone, with its own K_Hbeta, speed and forces of rolling elements; idle time does none.
+#[test]
+fn a_spectrum_of_a_gearbox_adds_up_over_its_loads() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/gearbox/rated.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    let loads = folder.path().join("loads.csv");
+    std::fs::write(&loads, "torque_nm,speed_rpm,share\n740,1500,1\n200,2400,2\n0,0,1\n").unwrap();
+    let solved = |settings: &[(&str, f64)], spectrum: Option<&Path>| {
+        let text = match spectrum {
+            Some(path) => text.replace("rated_loads.csv", &path.display().to_string()),
+            None => text.lines().filter(|line| !line.starts_with("spectrum")).collect::<Vec<_>>().join("\n"),
+        };
+        let mut all = vec![Setting::number("analysis.positions_per_cycle", 2.0).unwrap()];
+        all.extend(settings.iter().map(|(key, value)| Setting::number(key, *value).unwrap()));
+        let file = Gearbox::parse_with(&text, &file, &all).unwrap_or_else(|e| panic!("{e}"));
+        let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
+        found.unwrap_or_else(|e| panic!("{e}"))
+    };
+    let whole = solved(&[], Some(&loads));
+    let alone = [(740.0, 1500.0), (200.0, 2400.0)]
+        .map(|(torque, speed)| solved(&[("torque.0.torque_nm", torque), ("rating.speed_rpm", speed)], None));
+    let shares = [0.25, 0.5];
+    for (i, bearing) in whole.bearings.iter().enumerate() {
+        let used: f64 = alone
+            .iter()
+            .zip(shares)
+            .map(|(own, q)| {
+                let life = own.bearings[i].rolling.unwrap().life;
+                life.map_or(0.0, |life| q / life.rated_hours().unwrap())
+            })
+            .sum();
+        let life = bearing.rolling.unwrap().spectrum_life_h.unwrap();
+        assert!((life * used - 1.0).abs() < 1e-9, "{}: {life} h, {used}", bearing.name);
+    }
+    let mut uneven = 0.0f64;
+    for (i, mesh) in whole.meshes.iter().enumerate() {
+        let [nominal, light] = [0, 1].map(|k| alone[k].meshes[i].rating.as_ref().unwrap());
+        uneven = uneven.max((light.standard.face_load_factor / nominal.standard.face_load_factor - 1.0).abs());
+        let found = mesh.rating.as_ref().unwrap().spectrum.clone().unwrap();
+        for (k, damage) in [found.pinion, found.wheel].into_iter().enumerate() {
+            // Curves of bearable stress are those of the nominal load.
+            let curves = nominal.standard.gears()[k];
+            let loads = [nominal, light].map(|own| own.standard.gears()[k]).into_iter().zip(shares);
+            let sums = loads.fold([0.0, 0.0], |[h, f], (own, q)| {
+                let cycles = q * own.load_cycles;
+                [
+                    h + curves.pitting_curve.damage(cycles, own.contact_stress_mpa),
+                    f + curves.bending_curve.damage(cycles, own.root_stress_mpa),
+                ]
+            });
+            for (sum, own) in sums.into_iter().zip([damage.pitting_damage, damage.bending_damage]) {
+                assert!((own / sum - 1.0).abs() < 1e-9, "{}: {own}, {sum}", mesh.name);
+            }
+        }
+    }
+    assert!(uneven > 0.01, "loads share their K_Hbeta: {uneven}");
 }
 
 /// Every number of one object beside that of another.

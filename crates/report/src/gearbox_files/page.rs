@@ -129,6 +129,10 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     if lasts {
         head.extend(["P/C", "L10 h", "L10 modified h"]);
     }
+    let under_spectrum = result.rates.spectrum && lasts;
+    if under_spectrum {
+        head.push("life under the load spectrum h");
+    }
     let rows = result.bearings.iter().enumerate().map(|(i, b)| {
         let mut row = vec![
             Cell::text(&b.name),
@@ -160,6 +164,9 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
                 Cell::number(own.map(|own| own.hours), 0),
                 Cell::number(modified, 0),
             ]);
+        }
+        if under_spectrum {
+            row.push(Cell::number(b.rolling.and_then(|own| own.spectrum_life_h), 0));
         }
         row
     });

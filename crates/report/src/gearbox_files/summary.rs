@@ -132,6 +132,9 @@ described::described! {
         max_hertz_pressure_mpa: f64,
         /// mean tangent stiffness, which vibration and motion have: five rows for x, y, z and the rotations about x and y, in N/mm, N/rad and N, N mm/rad
         stiffness_n_mm_rad: [[f64; 5]; 5],
+        /// life under the load spectrum, by the sum of Miner: modified with `contamination_factor`; missing without `spectrum`
+        #[serde(skip_serializing_if = "Option::is_none")]
+        spectrum_life_h: Option<f64>,
         /// power that the bearing loses in an oil bath; missing without `viscosity_mm2_per_s`
         #[serde(skip_serializing_if = "Option::is_none")]
         loss_w: Option<f64>,
@@ -314,6 +317,7 @@ fn rolling(load: &RollingLoad) -> RollingSummary {
         max_element_force_n: load.element_force,
         max_hertz_pressure_mpa: load.pressure,
         stiffness_n_mm_rad: load.stiffness,
+        spectrum_life_h: load.spectrum_life_h,
         loss_w: load.loss_w,
         life: load.life.map(|life| LifeSummary {
             basic_life_million_turns: life.million_turns,

@@ -2,11 +2,13 @@
 
 use std::path::PathBuf;
 
+use rating::Spectrum;
+
 use super::{
     GearboxBranch, GearboxMotion,
     schema::{MeshTiming, RollingKind},
 };
-use crate::{AccuracyScene, ModesScene, Scene, Sense, TorqueScene};
+use crate::{AccuracyScene, DataFile, ModesScene, Scene, Sense, TorqueScene};
 
 /// A checked gearbox file. Shafts are numbered in the order of the file, and so are gears.
 #[derive(Debug, Clone, PartialEq)]
@@ -97,7 +99,7 @@ pub struct GearboxShaft {
 }
 
 /// Operation that meshes and bearings are rated for.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRating {
     /// Speed of the input, 1/min, above 0.
     pub speed_rpm: f64,
@@ -105,6 +107,8 @@ pub struct GearboxRating {
     pub viscosity: Option<f64>,
     /// e_C of ISO 281; none: basic lives alone.
     pub contamination_factor: Option<f64>,
+    /// Loads over the life, each with the torque of the first load and the speed of the input; other torques go with it.
+    pub spectrum: Option<DataFile<Spectrum>>,
 }
 
 /// A length of shaft of one section.

@@ -5,7 +5,7 @@ use super::{
     schema::{GEARBOX_RATING, RawGearbox},
     values::{Checked, given, needed_of, row},
 };
-use crate::Source;
+use crate::{Source, inputs::named};
 
 /// What is rated, and at which speed; nothing where there is no table and nobody needs it.
 pub(super) fn rating(
@@ -31,6 +31,26 @@ pub(super) fn rating(
     let own = table.get_ref();
     let viscosity = given!(s, GEARBOX_RATING, own.viscosity_mm2_per_s)?;
     let contamination_factor = given!(s, GEARBOX_RATING, own.contamination_factor)?;
+    let spectrum = own.spectrum.as_ref().map(|word| named(s, "spectrum", word)).transpose()?;
+    if let Some(word) = &own.spectrum {
+        if raw
+            .torque
+            .first()
+            .is_none_or(|first| !first.get_ref().torque_nm.as_ref().is_some_and(|t| *t.get_ref() > 0.0))
+        {
+            let advice = "give the first [[torque]] the `torque_nm` that others go with, or leave the spectrum out";
+            return Err(s.conflict(&word.span(), "a load spectrum without a torque", advice));
+        }
+        if let Some(mesh) = meshes.iter().find(|mesh| mesh.scene.rating.as_ref().is_some_and(|r| r.spectrum.is_some()))
+        {
+            let said = format!("the scene of mesh \"{}\" has a load spectrum of its own", mesh.name);
+            return Err(s.conflict(&word.span(), said, "leave one of them out"));
+        }
+        if rated_mesh.is_none() && rated_bearing.is_none() {
+            let advice = "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn`";
+            return Err(s.conflict(&word.span(), "a load spectrum, and nothing has a life", advice));
+        }
+    }
     let rolls = bearings.iter().any(|own| own.rolling.is_some());
     if let (Some(number), false) = (&own.viscosity_mm2_per_s, rolls) {
         let advice = "give one its `type`, or leave it out";
@@ -56,5 +76,5 @@ pub(super) fn rating(
         return Err(s.conflict(&table.span(), "[rating] rates nothing", advice));
     }
     let speed_rpm = needed_of(s, (table, "[rating]"), &GEARBOX_RATING, "speed_rpm", &own.speed_rpm)?;
-    Ok(Some(GearboxRating { speed_rpm, viscosity, contamination_factor }))
+    Ok(Some(GearboxRating { speed_rpm, viscosity, contamination_factor, spectrum }))
 }

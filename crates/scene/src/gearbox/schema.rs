@@ -206,6 +206,7 @@ table! {
         speed_rpm: must(1e-3, 1e6), "speed of the input, 1/min";
         viscosity_mm2_per_s: bare(1e-3, 1e6), "kinematic viscosity of the oil in the bearings at their temperature, mm^2/s: what rolling bearings lose, and with `contamination_factor` how long they last";
         contamination_factor: bare(1e-3, 1.0), "e_C of ISO 281, what dirt leaves of the fatigue limit: modified lives beside the basic ones. 1 extreme cleanliness, 0.8 .. 0.6 filtered and sealed for life, 0.6 .. 0.5 sealed, 0.5 .. 0.3 slight dirt. Needs `viscosity_mm2_per_s`";
+        spectrum: text(), "file of loads over the life, with commas and a heading: `torque_nm` of the first `[[torque]]`, others in proportion, `speed_rpm` of the input, and one of `share`, `duration_s`, `duration_h`. The gearbox is solved under each: Miner's sums of the meshes with the K_Hbeta of each load, lives of the bearings beside those under the torques of this file. Loads without torque or speed do no damage";
     }
 }
 
