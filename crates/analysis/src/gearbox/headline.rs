@@ -132,7 +132,7 @@ const NUMBERS: [Number; 35] = [
     ),
     list(
         "bearing_spectrum_life_h",
-        "life of each bearing under the load spectrum, modified as above; with `spectrum`, `null` of a bearing without `dynamic_rating_kn`, and of one that does not tire",
+        "life of each bearing under the load spectrum, modified with `contamination_factor`, else basic; with `spectrum`, `null` of a bearing without `dynamic_rating_kn`, and of one that does not tire",
         Of::BearingsUnderSpectrum(|r| r.spectrum_life_h),
     ),
     list(
