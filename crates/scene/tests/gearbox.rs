@@ -352,7 +352,7 @@ fn modes_of_gears_belong_to_a_vibration() {
         (format!("{text}[motion]\nspeed_rpm = 500.0\n"), "[modes] with a motion of `mesh = \"mapped\"`"),
         (text.replace("boundary = ", "count = 6\nboundary = "), "both say which modes are kept"),
         (text.replace("boundary = ", "fixed_modes = 6\nboundary = "), "`fixed_modes` belongs to"),
-        (text.replace("below_hz = 12000.0", "damping_ratio = 0.1"), "unknown key `damping_ratio`"),
+        (text.replace("below_hz = 12000.0", "damping_ratio = 0.1"), "`damping_ratio` of [modes] is that of a motion"),
     ] {
         let error = Gearbox::parse(&wrong, &file).map(|_| ()).expect_err(says);
         assert!(error.to_string().contains(says) && error.hint().is_some(), "{says}: {error}");
