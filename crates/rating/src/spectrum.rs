@@ -19,6 +19,13 @@ pub struct LoadBin {
     pub stiffness: Option<MeshStiffness>,
 }
 
+impl LoadBin {
+    /// Whether it does damage: it has a torque and a speed, and lasts.
+    pub fn works(&self) -> bool {
+        self.torque_nm > 0.0 && self.speed_rpm > 0.0 && self.share > 0.0
+    }
+}
+
 /// Loads over a life.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Spectrum {
@@ -63,8 +70,8 @@ impl Spectrum {
             bins.push(LoadBin { torque_nm, speed_rpm, share, face_load_factor: None, stiffness: None });
         }
         let sum: f64 = bins.iter().map(|bin| bin.share).sum();
-        if !(sum > 0.0 && sum.is_finite()) {
-            return refused(first, "no load lasts any time".into());
+        if !(sum.is_finite() && bins.iter().any(LoadBin::works)) {
+            return refused(first, "no load with a torque and a speed lasts any time".into());
         }
         bins.iter_mut().for_each(|bin| bin.share /= sum);
         Ok(Self { bins })
@@ -143,8 +150,7 @@ pub fn spectrum_rating(
     spectrum: &Spectrum,
     [nominal_torque_nm, nominal_speed_rpm]: [f64; 2],
 ) -> Result<SpectrumRating, RatingError> {
-    let working = |bin: &&LoadBin| bin.torque_nm > 0.0 && bin.speed_rpm > 0.0 && bin.share > 0.0;
-    let rated: Vec<(f64, StandardRating)> = (spectrum.bins.iter().filter(working))
+    let rated: Vec<(f64, StandardRating)> = (spectrum.bins.iter().filter(|bin| bin.works()))
         .map(|bin| {
             let own = RatingInput {
                 tangential_force: input.tangential_force * bin.torque_nm / nominal_torque_nm,

@@ -52,10 +52,9 @@ impl SolvedSpectrum {
         reduced: &[ReducedMesh],
         observer: &mut dyn Observer,
     ) -> Result<Self, AnalysisError> {
-        let works = |bin: &LoadBin| bin.torque_nm > 0.0 && bin.speed_rpm > 0.0 && bin.share > 0.0;
         // Speeds change nothing at rest: each torque is solved once. Bits of numbers above 0 are in their order.
         let mut torques: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
-        for (k, bin) in spectrum.bins().iter().enumerate().filter(|(_, bin)| works(bin)) {
+        for (k, bin) in spectrum.bins().iter().enumerate().filter(|(_, bin)| bin.works()) {
             torques.entry(bin.torque_nm.to_bits()).or_default().push(k);
         }
         let none = MeshLoad { torque_nm: 0.0, face_load_factor: None };
