@@ -72,15 +72,15 @@ impl Modal {
         all
     }
 
-    /// Turns of both gears by a pitch as their amplitudes see them ([`GearModes::turned_by_a_tooth`]), m x m, each
-    /// in its sense (+1 counter-clockwise); `None` where one of them has no such turn.
-    pub fn turned_by_a_pitch(&self, senses: [f64; 2]) -> Option<DMatrix<f64>> {
+    /// Turns of both gears by so many teeth, counter-clockwise, as their amplitudes see them
+    /// ([`GearModes::turned_by_teeth`]), m x m; `None` where one of them has no such turn.
+    pub fn turned_by_teeth(&self, teeth: [i64; 2]) -> Option<DMatrix<f64>> {
         let mut all = DMatrix::zeros(self.count(), self.count());
         let mut at = 0;
-        for (gear, sign) in self.gears.iter().zip(senses) {
-            let turn = gear.modes.turned_by_a_tooth()?;
+        for (gear, teeth) in self.gears.iter().zip(teeth) {
+            let turn = gear.modes.turned_by_teeth(teeth)?;
             let m = turn.nrows();
-            all.view_mut((at, at), (m, m)).copy_from(&if sign > 0.0 { turn } else { turn.transpose() });
+            all.view_mut((at, at), (m, m)).copy_from(&turn);
             at += m;
         }
         Some(all)

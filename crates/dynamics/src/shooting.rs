@@ -4,7 +4,7 @@
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
 //! P is the motion over a period, with the gears' own frames turned back by as many pitches: amplitudes of modes are in
-//! those frames (`PairMechanism::over_a_pitch`). With generalised-alpha the
+//! those frames (`PairMechanism::back_over`). With generalised-alpha the
 //! integrator's own acceleration is a third part of x, because it is carried from step to step. dP/dx comes from finite
 //! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
 //! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.
@@ -50,10 +50,9 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
     if period == 0 || motion.cycle() != 0 {
         return Err(PairMotionError::ShootingStart { cycle: motion.cycle(), period });
     }
-    let Some(over) = motion.system().over_a_pitch() else {
+    let Some(back) = motion.system().back_over(period) else {
         return Err(PairMotionError::ModesWithoutPeriod);
     };
-    let back = over.transpose().pow(u32::try_from(period).unwrap_or(u32::MAX));
     let mut search = Search { start: motion.system().memory(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();

@@ -96,6 +96,12 @@ pub enum GearboxError {
         /// What is wrong with its meshes.
         said: &'static str,
     },
+    /// Shooting with modes that a turn by teeth does not map into each other.
+    #[error("shooting with elastic modes: those of gear {gear} do not go over into each other from tooth to tooth")]
+    ModesWithoutPeriod {
+        /// Name of the gear.
+        gear: String,
+    },
     /// Elastic modes that were not found.
     #[error("elastic modes of gear {gear}: {source}")]
     GearModes {
@@ -404,6 +410,9 @@ impl GearboxError {
             }
             Self::NoModes { .. } => {
                 "mesh the whole gear or one periodic sector (`sector_teeth = 1`), the same in all scenes that it is in"
+            }
+            Self::ModesWithoutPeriod { .. } => {
+                "mesh one periodic sector (`sector_teeth = 1`) of each gear, or wait with `run = \"steady\"`"
             }
             Self::GearModes { source, .. } => return source.hint(),
             Self::SharedSeat { .. } => {

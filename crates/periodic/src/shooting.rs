@@ -4,6 +4,7 @@
 //! ```text
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a period
 //! ```
+//! P is the motion over a period, with coordinates that count in frames that turn on turned back.
 //! A motion that settles already is taken to where it settles to. An answer is one only where it is near, so that of
 //! several periodic motions it is the one that waiting leads to, and where disturbances of it fade.
 
@@ -36,6 +37,9 @@ pub struct Shooting<'a> {
     pub frequency: f64,
     /// A direction that nothing holds: where a motion is along it says nothing of it.
     pub free: Option<&'a FreeDirection>,
+    /// Map of the coordinates at the end of a period to those at its beginning which are the same motion, n x n orthogonal;
+    /// `None`: they repeat themselves.
+    pub back: Option<DMatrix<f64>>,
 }
 
 /// One period from a state on, in units of the coordinates' sizes and of velocities that belong to them.
@@ -134,6 +138,14 @@ impl Shooting<'_> {
         })?;
         if let Some(failure) = failure {
             return Err(failure);
+        }
+        if let Some(back) = &self.back {
+            for part in [&mut state.q, &mut state.v, &mut state.a, &mut state.averaged] {
+                *part = back * &*part;
+            }
+            for part in [&mut flow.places, &mut flow.rates] {
+                *part = back * &*part;
+            }
         }
         // What a free turn has become says nothing of the motion.
         let mut rest =

@@ -251,6 +251,7 @@ impl RunPlan<'_> {
                 scale: model.scale(),
                 frequency: TAU * frequencies.mesh_hz.max(frequencies.resonance_hz),
                 free: free.as_ref(),
+                back: None,
             };
             shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
         };

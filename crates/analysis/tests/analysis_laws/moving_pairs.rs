@@ -97,7 +97,7 @@ type Change = fn(SceneBuilder) -> SceneBuilder;
 /// divides by its path what round-off of places makes of the energy.
 #[test]
 fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
-    let all: [(&str, f64, Change); 21] = [
+    let all: [(&str, f64, Change); 22] = [
         ("newmark", 1e-8, |s| s.set("motion.mesh_damping_ns_per_mm2", 0.0)),
         ("generalised-alpha", 1e-8, |s| s.set("motion.method", "generalised-alpha")),
         ("rk4", 1e-8, |s| s.set("motion.method", "rk4")),
@@ -118,6 +118,11 @@ fn a_pair_in_motion_is_a_gearbox_of_held_shafts() {
         ("modes, friction", 1e-8, |s| modes(s).set("modes.count", 8).set("contact.friction", 0.05)),
         ("modes, generalised-alpha", 1e-8, |s| {
             modes(s).set("modes.count", 8).set("motion.method", "generalised-alpha")
+        }),
+        ("modes, shooting", 1e-8, |s| {
+            let shot =
+                modes(s).set("modes.count", 8).set("motion.run", "shooting").set("motion.mesh_damping_ratio", 0.1);
+            shot.set("motion.periodic_tolerance", 1e-11)
         }),
         // With both flanks a gearbox keeps the mass of both, a pair that of the driving ones: two models, 4e-4 apart.
         ("modes with mass of the flanks", 1e-8, |s| {

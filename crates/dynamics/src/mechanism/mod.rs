@@ -163,14 +163,16 @@ impl PairMechanism {
         if deflection.is_finite() { lag.abs().max(deflection) } else { lag.abs() }
     }
 
-    /// Map of the coordinates of a periodic motion from one mesh cycle to the next, n x n. Rigid coordinates repeat.
-    /// Amplitudes of modes are in the gears' own frames: they become those of gears turned by a pitch. `None` where the
-    /// modes of a gear are not mapped into each other; such a motion repeats after whole turns at best.
-    pub(crate) fn over_a_pitch(&self) -> Option<DMatrix<f64>> {
+    /// Map of the coordinates of a periodic motion at the end of so many mesh cycles to those at their beginning, n x n. Rigid
+    /// coordinates repeat. Amplitudes of modes are in the gears' own frames: they become those of gears turned back by as
+    /// many pitches. `None` where the modes of a gear are not mapped into each other; such a motion repeats after whole
+    /// turns at best.
+    pub(crate) fn back_over(&self, cycles: u64) -> Option<DMatrix<f64>> {
         let (n, rigid) = (self.count(), self.coordinates.count());
         let mut all = DMatrix::identity(n, n);
         if let Some(modal) = &self.modal {
-            let turn = modal.turned_by_a_pitch(running_senses(&self.pair, &self.options.statics))?;
+            let teeth = running_senses(&self.pair, &self.options.statics).map(|sense| -(sense * cycles as f64) as i64);
+            let turn = modal.turned_by_teeth(teeth)?;
             all.view_mut((rigid, rigid), (n - rigid, n - rigid)).copy_from(&turn);
         }
         Some(all)

@@ -27,6 +27,8 @@ struct MovingGear {
     /// Angle of its own frame from the common axes with the input at its start, rad, and turns of it a turn of the input.
     angle: f64,
     ratio: f64,
+    /// Angle from tooth to tooth, rad.
+    pitch: f64,
     /// Largest displacement of a flank by one unit of each mode, t^(-1/2).
     sizes: Vec<f64>,
     squares: DVector<f64>,
@@ -71,21 +73,24 @@ impl MovingGears {
             };
             let direction = train.meshing()[i].direction;
             let angles = element.gear_angles(cycles[i]).map(|own| own + direction);
+            let pitches = [&mesh.pair.pinion, &mesh.pair.wheel].map(|gear| gear.pitch_angle().abs());
             let mut both = Vec::new();
             let mut sizes = element.mode_sizes();
-            for ((disc, GearVibration { modes, damping_ratio }), angle) in mesh.discs.into_iter().zip(kept).zip(angles)
+            let stand = angles.into_iter().zip(pitches);
+            for ((disc, GearVibration { modes, damping_ratio }), (angle, pitch)) in
+                mesh.discs.into_iter().zip(kept).zip(stand)
             {
                 let rest = sizes.split_off(modes.count().min(sizes.len()));
                 let own = std::mem::replace(&mut sizes, rest);
                 match all.gears.iter().position(|gear| gear.disc == disc) {
-                    Some(known) => both.push((known, all.turned(known, angle, &discs[disc].name)?)),
+                    Some(known) => both.push((known, all.seen_from(known, angle, &discs[disc].name)?)),
                     None => {
                         let body = ElasticBody::new(disc, &modes, angle);
                         body.check(&discs[disc].name, discs[disc].inertia())?;
                         let squares = DVector::from_column_slice(modes.squares());
                         let dampers = squares.map(|s| 2.0 * damping_ratio * s.sqrt());
                         let ratio = train.ratios()[discs[disc].shaft];
-                        all.gears.push(MovingGear { modes, disc, angle, ratio, sizes: own, squares, dampers });
+                        all.gears.push(MovingGear { modes, disc, angle, ratio, pitch, sizes: own, squares, dampers });
                         both.push((all.gears.len() - 1, None));
                     }
                 }
@@ -103,7 +108,7 @@ impl MovingGears {
     }
 
     /// Turn of a known gear's amplitudes to the frame at `angle`.
-    fn turned(&self, known: usize, angle: f64, name: &str) -> Result<Option<DMatrix<f64>>, GearboxError> {
+    fn seen_from(&self, known: usize, angle: f64, name: &str) -> Result<Option<DMatrix<f64>>, GearboxError> {
         let gear = &self.gears[known];
         let by = angle - gear.angle;
         let whole = (by / std::f64::consts::TAU).round() * std::f64::consts::TAU;
@@ -124,6 +129,23 @@ impl MovingGears {
             self.own.push(deviations.rows_range(modes).into_owned());
         }
         self
+    }
+
+    /// What the coordinates z, n of them, become where the same motion goes on with the input turned by an angle (rad) after
+    /// which all gears have turned by whole teeth: amplitudes in the gears' own frames turn, all else is the same.
+    ///
+    /// # Errors
+    /// [`GearboxError::ModesWithoutPeriod`].
+    pub fn turned(&self, input: f64, n: usize, assembly: &Assembly) -> Result<DMatrix<f64>, GearboxError> {
+        let mut all = DMatrix::identity(n, n);
+        for (gear, first) in self.gears.iter().zip(&self.first) {
+            let teeth = (gear.ratio * input / gear.pitch).round() as i64;
+            let name = || assembly.structure().discs[gear.disc].name.clone();
+            let own =
+                gear.modes.turned_by_teeth(teeth).ok_or_else(|| GearboxError::ModesWithoutPeriod { gear: name() })?;
+            all.view_mut((*first, *first), own.shape()).copy_from(&own);
+        }
+        Ok(all)
     }
 
     /// Disc and modes of each gear, in the order of their coordinates.

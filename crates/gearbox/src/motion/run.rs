@@ -148,15 +148,19 @@ impl GearboxMechanism {
     /// What a plan asks of a motion from `start`, without checkpoints.
     ///
     /// # Errors
-    /// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its meshes do not come back together in time.
+    /// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its meshes do not come back together in time,
+    /// [`GearboxError::ModesWithoutPeriod`] where it is to shoot.
     pub fn goal<'a>(&self, start: &State, plan: &MotionPlan) -> Result<Goal<&'a mut Self>, GearboxError> {
         let period = self.common_period();
         let compared = match (plan.settle, period) {
             (Some(Settle { most, .. }), period) if period.is_none_or(|p| p > most) => {
                 return Err(GearboxError::NoCommonPeriod { period, most });
             }
-            // Amplitudes of modes are in the gears' own frames: they come back after whole turns.
+            // Amplitudes of modes are in the gears' own frames: as they stand they come back after whole turns.
             (Some(_), Some(period)) if !self.gears.is_empty() => {
+                if plan.shoots {
+                    self.back_over(period)?;
+                }
                 let scale = self.scale(start).rows(0, self.free.first_of_gears).into_owned();
                 Some(Compared::States { scale, free: None, period })
             }

@@ -46,7 +46,7 @@ impl GearModes {
     /// the gear's frame.
     pub fn standing(&self) -> Option<StandingModes> {
         let (spin, waves) = (self.spin()?, self.waves()?);
-        let turned = self.turned_by_a_tooth()?;
+        let turned = self.turned_by_teeth(1)?;
         let m = self.count();
         let phase = |j: usize| self.phase(j).filter(|psi| psi.sin().abs() > f64::EPSILON.sqrt());
         let raw = DMatrix::from_fn(m, m, |i, j| match phase(i) {

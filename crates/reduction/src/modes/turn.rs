@@ -1,4 +1,4 @@
-//! What turning a cyclic gear by a tooth does to the amplitudes of its modes.
+//! What turning a cyclic gear by some teeth does to the amplitudes of its modes.
 
 use nalgebra::DMatrix;
 
@@ -8,25 +8,25 @@ use super::{GearModes, gear_modes::Shapes};
 const LEFT: f64 = 1e-5;
 
 impl GearModes {
-    /// R of `Phi_k = Phi_(k-1) R`, m x m: the shapes on tooth k by those on the tooth before, each in the frame of its
-    /// own tooth.
+    /// R of `Phi_k = Phi_(k-n) R`, m x m: the shapes on tooth k by those on the tooth n = `teeth` before, each in the frame
+    /// of its own tooth.
     ///
     /// ```text
-    /// Phi_k q = Phi_(k-1) (R q)
+    /// Phi_k q = Phi_(k-n) (R q)
     /// ```
-    /// A gear that deforms as it did one pitch ago, seen from space, has amplitudes R q where it had q if it turns
-    /// counter-clockwise, and R' q else: R is orthogonal, and turns both modes of n waves into each other by 2 pi n /
-    /// z.
+    /// A gear that deforms as it did n pitches ago, seen from space, has amplitudes R q where it had q: it has turned
+    /// counter-clockwise by n pitches, clockwise where n is below 0. R is orthogonal, and turns both modes of w waves into
+    /// each other by 2 pi w n / z.
     ///
     /// `None` for a gear that is not known by sectors, whose teeth need not be alike, and where modes of one frequency
     /// are not all there.
-    pub fn turned_by_a_tooth(&self) -> Option<DMatrix<f64>> {
+    pub fn turned_by_teeth(&self, teeth: i64) -> Option<DMatrix<f64>> {
         let (Shapes::Sector { phases, parts, .. }, Some(waves)) = (self.shapes(), self.waves()) else { return None };
         let rows = parts[0].nrows();
         let part = |p: usize, row: usize, j: usize| parts[p][(row, j)];
-        // (x + i y) e^(i psi)
+        // (x + i y) e^(i n psi)
         let turned = |p: usize, row: usize, j: usize| {
-            let (sin, cos) = phases[j].sin_cos();
+            let (sin, cos) = (teeth as f64 * phases[j]).sin_cos();
             let (x, y) = (part(0, row, j), part(1, row, j));
             if p == 0 { cos * x - sin * y } else { sin * x + cos * y }
         };

@@ -385,9 +385,13 @@ fn a_tooth_further_modes_are_their_own_mixture() {
     let reducer = GearReducer::new(mesh.clone(), Material::STEEL, options.clone()).unwrap();
     for count in [1, 4, 15] {
         let modes = reducer.modes(ModeChoice::Count(count)).unwrap();
-        let turn = modes.turned_by_a_tooth().expect("modes of one frequency are kept together");
+        let turn = modes.turned_by_teeth(1).expect("modes of one frequency are kept together");
         let whole = turn.pow(11) - DMatrix::identity(modes.count(), modes.count());
         assert!(whole.norm() < 1e-6, "{count} modes: after eleven teeth {:e} is left", whole.norm());
+        // Turns add up, and one back is the inverse.
+        let [on, back] = [14, -2].map(|teeth| modes.turned_by_teeth(teeth).unwrap());
+        let [on, back] = [on - turn.pow(3), back - turn.pow(2).transpose()].map(|off| off.norm());
+        assert!(on.max(back) < 1e-6, "{count} modes: three teeth on {on:e}, two back {back:e}");
         let on = |tooth: u32| {
             let shapes = modes.on_window(&reducer, &reducer.window(tooth).unwrap()).unwrap();
             DMatrix::from_fn(shapes.nrows(), shapes.ncols(), |i, j| shapes[(i, j)])
@@ -399,5 +403,5 @@ fn a_tooth_further_modes_are_their_own_mixture() {
         }
     }
     let general = GearReducer::general(mesh, Material::STEEL, options).unwrap();
-    assert!(general.modes(ModeChoice::Count(4)).unwrap().turned_by_a_tooth().is_none());
+    assert!(general.modes(ModeChoice::Count(4)).unwrap().turned_by_teeth(1).is_none());
 }

@@ -28,7 +28,7 @@ fn cyclic(teeth: u32, helix_deg: f64) -> (GearReducer, GearModes) {
 #[test]
 fn a_turn_by_a_pitch_is_that_by_a_tooth() {
     let (_, modes) = cyclic(13, 15.0);
-    let (standing, by_tooth) = (modes.standing().unwrap(), modes.turned_by_a_tooth().unwrap());
+    let (standing, by_tooth) = (modes.standing().unwrap(), modes.turned_by_teeth(1).unwrap());
     let pitch = TAU / 13.0;
     assert!(off(&standing.turned(pitch), &by_tooth) < 1e-6, "{:e}", off(&standing.turned(pitch), &by_tooth));
     let twice = standing.turned(0.4) * standing.turned(1.1);

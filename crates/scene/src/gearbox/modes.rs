@@ -19,10 +19,6 @@ pub(super) fn modes(s: &Source<'_>, raw: &RawGearbox, moves: Option<&GearboxMoti
         let said = format!("[modes] with a motion of `mesh = \"{word}\"`: modes move in the exact contact alone");
         return refused(&said, "take `mesh = \"exact\"` in [motion], or leave [modes] or [motion] out");
     }
-    if moves.is_some_and(|motion| motion.shoots) {
-        let said = "[modes] with a motion of `run = \"shooting\"`: amplitudes of modes come back in frames that have turned on";
-        return refused(said, "take `run = \"steady\"` in [motion]");
-    }
     if let (None, Some(damping)) = (moves, &table.get_ref().damping_ratio) {
         let said = "`damping_ratio` of [modes] is that of a motion";
         return Err(s.conflict(&damping.span(), said, "leave it out: a vibration has its own in [vibration]"));

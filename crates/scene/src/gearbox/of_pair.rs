@@ -41,7 +41,7 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
 
 /// The same of a scene in motion, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
 /// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings,
-/// normal modes in a motion found by shooting, lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
+/// lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
 ///
 /// # Errors
 /// As of [`gearbox_of_pair`].
@@ -63,7 +63,7 @@ fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<Str
         // A map that nearly repeats itself is taken to its periodic state.
         Run::Steady if scene.analysis.model == Model::Mapped => "shooting",
         Run::Steady => "steady",
-        Run::Shooting if scene.analysis.model != Model::ReducedModes => "shooting",
+        Run::Shooting => "shooting",
         Run::Span if motion.duration_s.is_none() => "span",
         _ => return None,
     };
