@@ -40,7 +40,8 @@ pub fn write_table<E: From<TableError> + Send>(
             Some(own) => rayon::join(text, || own.add(&parts)),
             None => (text(), Ok(())),
         };
-        (text?, written?);
+        text?;
+        written?;
         lists.extend(parts.into_iter().filter_map(Part::into_list));
     }
     if let Some(own) = columns {
