@@ -83,7 +83,7 @@ mod tests {
         for n in [1, 2, 3, 7, 12] {
             let mut own = LuFactor::new(n);
             for turn in 0..5 {
-                let entry = |i: usize, j: usize| (1.7 * (i * n + j) as f64 + f64::from(turn)).sin();
+                let entry = |i: usize, j: usize| (1.0 + 0.7 * ((i * n + j) as f64).powi(2) + f64::from(turn)).sin();
                 let matrix = DMatrix::from_fn(n, n, entry);
                 let rest = DVector::from_fn(n, |i, _| entry(i, i + 1));
                 own.make(|m| m.copy_from(&matrix));

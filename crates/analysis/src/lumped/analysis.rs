@@ -28,7 +28,6 @@ use crate::{
     inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
-    refused::Refusal,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled, worse,
 };
