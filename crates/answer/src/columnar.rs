@@ -12,28 +12,55 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
 
-use crate::{Table, TableError, Values, table::Part};
+use crate::{Table, TableError, Values, table::Part, write_table};
 
 /// Rows of a group.
-const GROUP: usize = 65_536;
+pub(crate) const GROUP: usize = 65_536;
 
 /// Writes the Parquet file of a table, in groups of 65,536 rows, Snappy: one group at a time is in memory.
 ///
 /// # Errors
 /// [`TableError::Parquet`] when a name is none that the format takes, [`TableError::Write`] when the system refuses; [`TableError::Kept`] where
 /// rows cannot be read back.
-pub fn write_parquet(table: &Table, to: impl Write + Send) -> Result<(), TableError> {
-    let refused = |cause| refused(&table.name, cause);
-    let columns: Vec<(&str, bool)> =
-        table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
-    let schema = schema(&table.name, &columns).map_err(refused)?;
-    let mut writer = SerializedFileWriter::new(to, schema, Arc::new(properties(&columns))).map_err(refused)?;
-    let rows = table.rows();
-    for first in (0..rows).step_by(GROUP) {
-        let parts = table.parts(first..rows.min(first + GROUP))?;
-        write_group(&mut writer, &parts).map_err(refused)?;
+pub fn write_parquet(table: &Table, mut to: impl Write + Send) -> Result<(), TableError> {
+    write_table(table, None, Some(&mut to))
+}
+
+/// The Parquet file of a table on its way, group by group.
+pub(crate) struct ParquetFile<'a> {
+    table: &'a Table,
+    writer: SerializedFileWriter<&'a mut (dyn Write + Send)>,
+}
+
+impl<'a> ParquetFile<'a> {
+    /// File of a table without rows.
+    ///
+    /// # Errors
+    /// As [`write_parquet`].
+    pub fn new(table: &'a Table, to: &'a mut (dyn Write + Send)) -> Result<Self, TableError> {
+        let refused = |cause| refused(&table.name, cause);
+        let columns: Vec<(&str, bool)> =
+            table.columns.iter().map(|c| (&*c.name, matches!(c.values, Values::Texts(_)))).collect();
+        let schema = schema(&table.name, &columns).map_err(refused)?;
+        let writer = SerializedFileWriter::new(to, schema, Arc::new(properties(&columns))).map_err(refused)?;
+        Ok(Self { table, writer })
     }
-    writer.close().map(|_| ()).map_err(refused)
+
+    /// Writes rows as a group.
+    ///
+    /// # Errors
+    /// As [`write_parquet`].
+    pub fn add(&mut self, parts: &[Part<'_>]) -> Result<(), TableError> {
+        write_group(&mut self.writer, parts).map_err(|cause| refused(&self.table.name, cause))
+    }
+
+    /// Ends the file.
+    ///
+    /// # Errors
+    /// As [`write_parquet`].
+    pub fn end(self) -> Result<(), TableError> {
+        self.writer.close().map(|_| ()).map_err(|cause| refused(&self.table.name, cause))
+    }
 }
 
 /// What the library says, or the system through it.

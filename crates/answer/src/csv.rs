@@ -25,15 +25,18 @@ pub fn always_quoted(text: &str) -> String {
 
 /// The shortest text that reads back to the same number.
 pub fn push_number(text: &mut String, value: f64) {
+    if value == 0.0 {
+        return text.push_str(if value.is_sign_negative() { "-0" } else { "0" });
+    }
     let size = value.abs();
     // Where the crate writes plain digits and this file wants them, or both want a power of ten.
-    if (1e-4..1e12).contains(&size) || (size > 0.0 && size < 1e-5) {
+    if (1e-4..1e12).contains(&size) || size < 1e-5 {
         let mut buffer = zmij::Buffer::new();
         let digits = buffer.format_finite(value);
         text.push_str(digits.strip_suffix(".0").unwrap_or(digits));
         return;
     }
-    let plain = value == 0.0 || !value.is_finite();
+    let plain = !value.is_finite();
     // Writing to a String cannot fail.
     let _ = if plain { write!(text, "{value}") } else { write!(text, "{value:e}") };
 }

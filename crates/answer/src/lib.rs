@@ -8,7 +8,7 @@
 //! | [`Table`], [`Column`] | columns of numbers or texts; name, unit and meaning stand once |
 //! | [`unit_of`] | the unit that a name ends with |
 //! | [`csv`] | numbers and texts as fields of a file with commas |
-//! | [`write_parquet`] | a table as a Parquet file |
+//! | [`write_table`], [`write_parquet`] | the files of a table |
 //! | [`RowStore`], [`RowColumn`] | rows of a motion in constant memory, and columns of a table that are read off them |
 //! | [`Check`], [`Checks`] | what was demanded of a result and what was found |
 //! | [`Remark`], [`remarks!`] | what a user should hear: code, values, and the words made of them |
@@ -28,6 +28,7 @@ mod remark;
 mod row_column;
 mod row_store;
 mod table;
+mod table_files;
 mod unit;
 
 pub use answer::{Answer, keyed};
@@ -40,4 +41,5 @@ pub use remark::{Remark, RemarkKind, RemarkValue, digits};
 pub use row_column::{KeptColumn, OfRow, RowColumn};
 pub use row_store::RowStore;
 pub use table::{Column, Table, Values};
+pub use table_files::{TakeLines, write_table};
 pub use unit::unit_of;

@@ -29,8 +29,8 @@ impl<T> fmt::Debug for RowColumn<T> {
 trait Source: Send + Sync {
     fn len(&self) -> usize;
 
-    /// Columns of some rows, in one pass.
-    fn read(&self, rows: Range<usize>, columns: &[usize]) -> Result<Vec<Vec<f64>>, TableError>;
+    /// Columns of some rows, in one pass, each into a list.
+    fn read(&self, rows: Range<usize>, columns: &[usize], to: &mut [Vec<f64>]) -> Result<(), TableError>;
 }
 
 struct Rows<T> {
@@ -43,12 +43,10 @@ impl<T: Clone + DeserializeOwned + Send + Sync> Source for Rows<T> {
         self.rows.len()
     }
 
-    fn read(&self, rows: Range<usize>, columns: &[usize]) -> Result<Vec<Vec<f64>>, TableError> {
-        let mut values: Vec<Vec<f64>> = columns.iter().map(|_| Vec::with_capacity(rows.len())).collect();
+    fn read(&self, rows: Range<usize>, columns: &[usize], to: &mut [Vec<f64>]) -> Result<(), TableError> {
         self.rows.for_each(rows, |row| {
-            values.iter_mut().zip(columns).for_each(|(list, &column)| list.push((self.columns[column])(row)));
-        })?;
-        Ok(values)
+            to.iter_mut().zip(columns).for_each(|(list, &column)| list.push((self.columns[column])(row)));
+        })
     }
 }
 
@@ -82,9 +80,9 @@ impl KeptColumn {
         Arc::ptr_eq(&self.source, &other.source).then_some(self.place)
     }
 
-    /// Columns of its rows, by their places.
-    pub(crate) fn read(&self, rows: Range<usize>, places: &[usize]) -> Result<Vec<Vec<f64>>, TableError> {
-        self.source.read(rows, places)
+    /// Columns of its rows, by their places, each into an empty list.
+    pub(crate) fn read(&self, rows: Range<usize>, places: &[usize], to: &mut [Vec<f64>]) -> Result<(), TableError> {
+        self.source.read(rows, places, to)
     }
 }
 

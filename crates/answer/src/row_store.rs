@@ -23,9 +23,17 @@ const BLOCK: usize = 2_048;
 /// what was put in, bit for bit.
 pub struct RowStore<T> {
     file: Mutex<Option<File>>,
-    /// Where each block is in the file; every one has [`BLOCK`] rows.
-    blocks: Vec<Range<u64>>,
+    /// The blocks of the file; every one has [`BLOCK`] rows.
+    blocks: Vec<Block>,
     tail: Vec<T>,
+}
+
+/// A block of the file.
+struct Block {
+    /// Where it is.
+    place: Range<u64>,
+    /// Bytes of each row, where all rows have as many: a row in their middle is found without those before it.
+    each: Option<u64>,
 }
 
 impl<T> Default for RowStore<T> {
@@ -56,14 +64,19 @@ impl<T> RowStore<T> {
         BLOCK * self.blocks.len()
     }
 
-    /// The bytes of a block of the file.
-    fn bytes(&self, block: usize, to: &mut Vec<u8>) -> io::Result<()> {
-        let Range { start, end } = self.blocks[block].clone();
-        to.resize((end - start) as usize, 0);
+    /// The bytes of some rows of a block of the file; how many rows before the first of them are with them.
+    fn bytes(&self, block: usize, rows: Range<usize>, to: &mut Vec<u8>) -> io::Result<usize> {
+        let Block { place: Range { start, end }, each } = &self.blocks[block];
+        let (place, before) = match each {
+            Some(each) => (start + each * rows.start as u64..start + each * rows.end as u64, 0),
+            None => (*start..*end, rows.start),
+        };
+        to.resize((place.end - place.start) as usize, 0);
         let mut file = self.file.lock().unwrap_or_else(PoisonError::into_inner);
         let file = file.as_mut().ok_or(io::ErrorKind::NotFound)?;
-        file.seek(SeekFrom::Start(start))?;
-        file.read_exact(to)
+        file.seek(SeekFrom::Start(place.start))?;
+        file.read_exact(to)?;
+        Ok(before)
     }
 }
 
@@ -97,17 +110,21 @@ impl<T: Serialize> RowStore<T> {
             Some(file) => file,
             None => file.insert(tempfile::tempfile()?),
         };
-        let mut start = self.blocks.last().map_or(0, |block| block.end);
+        let mut start = self.blocks.last().map_or(0, |block| block.place.end);
         file.seek(SeekFrom::Start(start))?;
         let (mut bytes, mut blocks) = (Vec::new(), Vec::new());
         for rows in self.tail.chunks_exact(BLOCK) {
             bytes.clear();
+            let (mut each, mut even) = (None, true);
             for row in rows {
+                let before = bytes.len();
                 bytes = postcard::to_extend(row, bytes).map_err(|e| io::Error::other(e.to_string()))?;
+                let own = (bytes.len() - before) as u64;
+                even &= *each.get_or_insert(own) == own;
             }
             file.write_all(&bytes)?;
             let end = start + bytes.len() as u64;
-            blocks.push(start..end);
+            blocks.push(Block { place: start..end, each: each.filter(|_| even) });
             start = end;
         }
         // All or none: rows of a file that could not be written are still in memory.
@@ -183,7 +200,7 @@ struct Reader<'a, T> {
     of: &'a RowStore<T>,
     next: usize,
     end: usize,
-    /// The block that the next row is in, and where in it that begins.
+    /// Of the block that the next row is in, and where in it that begins.
     bytes: Vec<u8>,
     at: usize,
 }
@@ -192,9 +209,10 @@ impl<'a, T: Clone + DeserializeOwned> Reader<'a, T> {
     fn read(&mut self) -> io::Result<T> {
         let within = self.next % BLOCK;
         if within == 0 || self.bytes.is_empty() {
-            self.of.bytes(self.next / BLOCK, &mut self.bytes)?;
+            let (block, begin) = (self.next / BLOCK, self.next - within);
+            let before = self.of.bytes(block, within..BLOCK.min(self.end - begin), &mut self.bytes)?;
             self.at = 0;
-            for _ in 0..within {
+            for _ in 0..before {
                 self.row()?;
             }
         }

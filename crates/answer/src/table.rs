@@ -4,12 +4,7 @@ use std::{borrow::Cow, collections::BTreeSet, ops::Range, sync::Arc};
 
 use serde::de::DeserializeOwned;
 
-use crate::{KeptColumn, RowColumn, RowStore, TableError, csv, row_column::kept, unit_of};
-
-/// Bytes of text from which on a block of lines is handed out.
-const BLOCK: usize = 1 << 16;
-/// Rows that are looked at together.
-const ROWS: usize = 2_048;
+use crate::{KeptColumn, RowColumn, RowStore, TableError, row_column::kept, unit_of, write_table};
 
 /// Numbers or texts of a column, one a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +23,16 @@ pub(crate) enum Part<'a> {
     Numbers(Cow<'a, [f64]>),
     /// Texts.
     Texts(&'a [String]),
+}
+
+impl Part<'_> {
+    /// Its own list, whose room may serve again.
+    pub fn into_list(self) -> Option<Vec<f64>> {
+        match self {
+            Self::Numbers(Cow::Owned(list)) => Some(list),
+            _ => None,
+        }
+    }
 }
 
 impl Values {
@@ -219,7 +224,7 @@ impl Table {
     /// [`TableError::Kept`] where rows cannot be read back.
     pub fn part(&self, rows: Range<usize>, wanted: impl Fn(&str) -> bool) -> Result<Self, TableError> {
         let all = || self.columns.iter().filter(|column| wanted(&column.name));
-        let values = parts(all(), rows)?.into_iter().map(|part| match part {
+        let values = parts(all(), rows, &mut Vec::new())?.into_iter().map(|part| match part {
             Part::Numbers(list) => Values::Numbers(list.into_owned()),
             Part::Texts(list) => Values::Texts(list.to_vec()),
         });
@@ -239,9 +244,9 @@ impl Table {
         Ok(self)
     }
 
-    /// The values of some rows, column by column.
-    pub(crate) fn parts(&self, rows: Range<usize>) -> Result<Vec<Part<'_>>, TableError> {
-        parts(self.columns.iter(), rows)
+    /// The values of some rows, column by column; `lists` has room that parts before have had.
+    pub(crate) fn parts(&self, rows: Range<usize>, lists: &mut Vec<Vec<f64>>) -> Result<Vec<Part<'_>>, TableError> {
+        parts(self.columns.iter(), rows, lists)
     }
 
     /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
@@ -262,35 +267,20 @@ impl Table {
     ///
     /// # Errors
     /// The first that `take` has, nothing is handed out after it; [`TableError::Kept`] where rows cannot be read back.
-    pub fn csv_in_blocks<E: From<TableError>>(&self, mut take: impl FnMut(&str) -> Result<(), E>) -> Result<(), E> {
-        let mut text = self.names().map(csv::quoted).collect::<Vec<_>>().join(",") + "\n";
-        let rows = self.rows();
-        for first in (0..rows).step_by(ROWS) {
-            let block = first..rows.min(first + ROWS);
-            let parts = self.parts(block.clone())?;
-            for row in 0..block.len() {
-                if text.len() >= BLOCK {
-                    take(&text)?;
-                    text.clear();
-                }
-                for (k, part) in parts.iter().enumerate() {
-                    if k > 0 {
-                        text.push(',');
-                    }
-                    match part {
-                        Part::Numbers(list) => csv::push_number(&mut text, list[row]),
-                        Part::Texts(list) => text.push_str(&csv::quoted(&list[row])),
-                    }
-                }
-                text.push('\n');
-            }
-        }
-        take(&text)
+    pub fn csv_in_blocks<E: From<TableError> + Send>(
+        &self,
+        mut take: impl FnMut(&str) -> Result<(), E> + Send,
+    ) -> Result<(), E> {
+        write_table(self, Some(&mut take), None)
     }
 }
 
 /// The values of some rows; columns that are read off the same rows are so in one pass.
-fn parts<'a>(columns: impl Iterator<Item = &'a Column>, rows: Range<usize>) -> Result<Vec<Part<'a>>, TableError> {
+fn parts<'a>(
+    columns: impl Iterator<Item = &'a Column>,
+    rows: Range<usize>,
+    lists: &mut Vec<Vec<f64>>,
+) -> Result<Vec<Part<'a>>, TableError> {
     let columns: Vec<&Column> = columns.collect();
     let mut kept: Vec<Option<Vec<f64>>> = vec![None; columns.len()];
     for k in 0..columns.len() {
@@ -301,7 +291,12 @@ fn parts<'a>(columns: impl Iterator<Item = &'a Column>, rows: Range<usize>) -> R
         };
         let places: Vec<(usize, usize)> =
             columns.iter().enumerate().filter_map(|(i, column)| Some((i, with_it(column)?))).collect();
-        let read = first.read(rows.clone(), &places.iter().map(|place| place.1).collect::<Vec<usize>>())?;
+        let mut read: Vec<Vec<f64>> = places.iter().map(|_| lists.pop().unwrap_or_default()).collect();
+        for list in &mut read {
+            list.clear();
+            list.reserve(rows.len());
+        }
+        first.read(rows.clone(), &places.iter().map(|place| place.1).collect::<Vec<usize>>(), &mut read)?;
         places.iter().zip(read).for_each(|((i, _), values)| kept[*i] = Some(values));
     }
     let part = |(column, kept): (&&'a Column, Option<Vec<f64>>)| match &column.values {

@@ -1,6 +1,7 @@
 //! Damping between flanks that carry force. Theory (74).
 
 use crate::{
+    load_axis::{along, cubic},
     map::{ContactMap, CutPlace, MapContact},
     spline::Axis,
 };
@@ -55,9 +56,13 @@ impl ContactMap {
     /// L_0, L_1, L_2 and their slopes over the load's place.
     fn lengths(&self, place: &CutPlace, load: f64) -> [[f64; 3]; 2] {
         let at = load.min(self.loads as f64);
-        let [first, second] =
-            place.levers.as_deref().map_or([[0.0; 2]; 2], |both| [both[0].value(at), both[1].value(at)]);
-        let all = [place.length.value(at), first, second];
+        let cell = (at as usize).min(self.loads - 1);
+        let of = |k: usize| {
+            let cubic = cubic(&self.in_cell(&self.damping.lengths[k], place, cell));
+            along(&cubic, at - cell as f64)
+        };
+        // Levers only where the map has a tilt.
+        let all = [of(0), if self.tilts > 0 { of(1) } else { [0.0; 2] }, if self.tilts > 0 { of(2) } else { [0.0; 2] }];
         [0, 1].map(|i| all.map(|l| l[i]))
     }
 

@@ -47,12 +47,15 @@ impl LoadAxis {
 }
 
 /// A curve over load: cubic splines. What belongs to an interval is made of its four coefficients where it is asked for:
-/// of a place in a motion that is one interval of all.
+/// of a place in a motion that is one interval of all. Integrals from no load on are those of whole intervals, which are
+/// summed once, and of a part of one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct LoadCurve {
     axis: LoadAxis,
     /// Coefficients of the splines: one at each end of an interval, and one beyond either end of the axis.
     coefficients: Vec<f64>,
+    /// Sums of the intervals before each and before the end of the axis, of what [`Self::close`] says.
+    before: Vec<f64>,
 }
 
 impl LoadCurve {
@@ -74,6 +77,21 @@ impl LoadCurve {
         }
     }
 
+    /// Sums up the integrals of whole intervals, from their moments over the place: the curve is whole.
+    pub fn close(&mut self) {
+        let Self { axis, coefficients, before } = self;
+        before.clear();
+        before.reserve(axis.intervals + 1);
+        let mut sum = 0.0;
+        before.push(sum);
+        for (i, k) in coefficients.windows(4).enumerate() {
+            let area = (k[0] + 11.0 * (k[1] + k[2]) + k[3]) / 24.0;
+            let moment = (k[0] + 22.0 * k[1] + 33.0 * k[2] + 4.0 * k[3]) / 120.0;
+            sum += i as f64 * area + moment;
+            before.push(sum);
+        }
+    }
+
     /// Coefficients of the splines in an interval.
     #[inline]
     pub fn in_cell(&self, cell: usize) -> [f64; 4] {
@@ -84,25 +102,14 @@ impl LoadCurve {
     /// Coefficients of an interval's cubic in the place from its beginning, lowest power first.
     #[inline]
     fn cubic(&self, cell: usize) -> [f64; 4] {
-        let k = &self.coefficients[cell..cell + 4];
-        [
-            (k[0] + 4.0 * k[1] + k[2]) / 6.0,
-            0.5 * (k[2] - k[0]),
-            0.5 * (k[0] - 2.0 * k[1] + k[2]),
-            (k[3] - k[0] + 3.0 * (k[1] - k[2])) / 6.0,
-        ]
+        cubic(&self.in_cell(cell))
     }
 
     /// Value of the curve at the beginning of interval `i`.
     #[inline]
     fn knot(&self, i: usize) -> f64 {
         let k = &self.coefficients[i..i + 3];
-        (k[0] + 4.0 * k[1] + k[2]) / 6.0
-    }
-
-    /// Value at no load.
-    pub fn begin(&self) -> f64 {
-        self.knot(0)
+        knot([k[0], k[1], k[2]])
     }
 
     /// Value and slope over nu. Beyond the largest force it goes on in a straight line over force.
@@ -116,8 +123,7 @@ impl LoadCurve {
             return [end + per_force * (axis.force(place) - axis.force), per_force * axis.force_slope(place)];
         }
         let cell = (place as usize).min(axis.intervals - 1);
-        let (s, [a, b, c, d]) = (place - cell as f64, self.cubic(cell));
-        [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * s * d)]
+        along(&self.cubic(cell), place - cell as f64)
     }
 
     /// Integral over force within an interval, from its beginning to the part `s` of it.
@@ -129,15 +135,9 @@ impl LoadCurve {
         self.axis.force_slope(1.0) * (begin * area + moment)
     }
 
-    /// Integral over force of the whole intervals before one, from their moments over the place.
+    /// Integral over force of the whole intervals before one.
     fn before(&self, cell: usize) -> f64 {
-        let mut sum = 0.0;
-        for (i, k) in self.coefficients.windows(4).take(cell).enumerate() {
-            let area = (k[0] + 11.0 * (k[1] + k[2]) + k[3]) / 24.0;
-            let moment = (k[0] + 22.0 * k[1] + 33.0 * k[2] + 4.0 * k[3]) / 120.0;
-            sum += i as f64 * area + moment;
-        }
-        self.axis.force_slope(1.0) * sum
+        self.axis.force_slope(1.0) * self.before[cell]
     }
 
     /// Integral over force from none to that of a place.
@@ -162,17 +162,14 @@ impl LoadCurve {
         low
     }
 
-    /// Place at which a curve that grows has a value; below its beginning: none.
-    pub fn solve(&self, value: f64) -> Option<f64> {
+    /// Place at which a curve that grows has a value beyond that of its beginning.
+    pub fn solve(&self, value: f64) -> f64 {
         let n = self.axis.intervals;
-        if value <= self.begin() {
-            return None;
-        }
         let end = self.knot(n);
         if value > end {
             let [last, slope] = self.value(n as f64);
             let force = self.axis.force + (value - last) * self.axis.force_slope(n as f64) / slope;
-            return Some(self.axis.place(force));
+            return self.axis.place(force);
         }
         // The interval in which it is: its beginning is below.
         let cell = self.interval_of(value);
@@ -189,12 +186,35 @@ impl LoadCurve {
             let next = s - off / (b + s * (2.0 * c + 3.0 * s * d));
             let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
             if (next - s).abs() <= LAST_BITS * (begin + next) {
-                return Some(begin + next);
+                return begin + next;
             }
             s = next;
         }
-        Some(begin + s)
+        begin + s
     }
+}
+
+/// Value at the beginning of an interval, from its first three coefficients.
+#[inline]
+pub(crate) fn knot(k: [f64; 3]) -> f64 {
+    (k[0] + 4.0 * k[1] + k[2]) / 6.0
+}
+
+/// Coefficients of an interval's cubic in the place from its beginning, lowest power first.
+#[inline]
+pub(crate) fn cubic(k: &[f64; 4]) -> [f64; 4] {
+    [
+        knot([k[0], k[1], k[2]]),
+        0.5 * (k[2] - k[0]),
+        0.5 * (k[0] - 2.0 * k[1] + k[2]),
+        (k[3] - k[0] + 3.0 * (k[1] - k[2])) / 6.0,
+    ]
+}
+
+/// Value and slope of an interval's cubic at the part `s` of it.
+#[inline]
+pub(crate) fn along([a, b, c, d]: &[f64; 4], s: f64) -> [f64; 2] {
+    [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * s * d)]
 }
 
 /// Newton steps and halvings after which a place has all its digits.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     damping_table::DampingTable,
-    load_axis::{LoadAxis, LoadCurve},
+    load_axis::{LoadAxis, LoadCurve, knot},
     pair_shares::{PairPlace, PairShares},
     spline::{Axis, Splines},
 };
@@ -91,12 +91,13 @@ pub struct CutPlace {
     pub at: [f64; 2],
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
+    /// Approach at which flanks touch first, mm.
+    pub(crate) begin: f64,
+    /// Whether the curves are those of this place: flanks that are apart need none.
+    has_curves: bool,
     pub(crate) curve: LoadCurve,
     /// Slope of the curve over tilt and its second derivative, per unit of the spacing, where the map has a tilt.
     pub(crate) by_tilt: Option<Box<[LoadCurve; 2]>>,
-    pub(crate) length: LoadCurve,
-    /// L_1 and L_2, where the map has a tilt.
-    pub(crate) levers: Option<Box<[LoadCurve; 2]>>,
     /// Pairs of teeth that carry, where these are asked for one by one.
     pub(crate) pairs: Vec<PairPlace>,
 }
@@ -107,10 +108,10 @@ impl Default for CutPlace {
             at: [f64::NAN; 2],
             phase: Splines::NONE,
             tilt: Splines::NONE,
+            begin: f64::NAN,
+            has_curves: false,
             curve: LoadCurve::default(),
             by_tilt: None,
-            length: LoadCurve::default(),
-            levers: None,
             pairs: Vec::new(),
         }
     }
@@ -148,28 +149,59 @@ impl ContactMap {
     pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
         let mut place = CutPlace::default();
         self.move_place(&mut place, [phase, tilt]);
+        self.make_curves(&mut place);
         place
     }
 
-    /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory.
+    /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory, without curves.
     pub(crate) fn move_place(&self, place: &mut CutPlace, [phase, tilt]: [f64; 2]) {
         let tilt_place = if self.tilts == 0 { 0.0 } else { (tilt - self.tilt[0]) * self.per_tilt() };
         let p = Axis::Periodic(self.phases).splines_at((phase - phase.floor()) * self.phases as f64);
         let t = self.tilt_axis().splines_at(tilt_place);
         place.at = [phase, tilt];
-        let lengths = &self.damping.lengths;
-        self.sum(&mut place.curve, &self.approach, [&p, &t], [&p.values, &t.values]);
-        self.sum(&mut place.length, &lengths[0], [&p, &t], [&p.values, &t.values]);
-        // Without a tilt nobody asks for slopes over it, nor for levers.
+        (place.phase, place.tilt, place.has_curves) = (p, t, false);
+        let [k0, k1, k2, _] = self.in_cell(&self.approach, place, 0);
+        place.begin = knot([k0, k1, k2]);
+    }
+
+    /// Makes the curves over load of a place, where it has none.
+    pub(crate) fn make_curves(&self, place: &mut CutPlace) {
+        if place.has_curves {
+            return;
+        }
+        let CutPlace { phase: p, tilt: t, curve, by_tilt, has_curves, .. } = place;
+        self.sum(curve, &self.approach, [p, t], [&p.values, &t.values]);
+        // Without a tilt nobody asks for slopes over it.
         if self.tilts > 0 {
-            let [first, second] = &mut **place.by_tilt.get_or_insert_default();
-            self.sum(first, &self.approach, [&p, &t], [&p.values, &t.slopes]);
-            self.sum(second, &self.approach, [&p, &t], [&p.values, &t.curvatures]);
-            for (k, lever) in place.levers.get_or_insert_default().iter_mut().enumerate() {
-                self.sum(lever, &lengths[k + 1], [&p, &t], [&p.values, &t.values]);
+            let [first, second] = &mut **by_tilt.get_or_insert_default();
+            self.sum(first, &self.approach, [p, t], [&p.values, &t.slopes]);
+            self.sum(second, &self.approach, [p, t], [&p.values, &t.curvatures]);
+        }
+        *has_curves = true;
+    }
+
+    /// Coefficients of a table over load in one interval at a place: those that a curve has there.
+    pub(crate) fn in_cell(&self, table: &[f64], place: &CutPlace, cell: usize) -> [f64; 4] {
+        let (phase, tilt, loads, tilts) = (&place.phase, &place.tilt, self.loads + 3, self.tilt_axis().coefficients());
+        let mut all = [0.0; 4];
+        for (j, of_tilt) in tilt.values.iter().enumerate().take(tilt.count) {
+            let [w0, w1, w2, w3] = phase.values.map(|w| w * of_tilt);
+            let row = |i: usize| {
+                let at = ((phase.first + i) * tilts + tilt.first + j) * loads + cell;
+                [table[at], table[at + 1], table[at + 2], table[at + 3]]
+            };
+            let [r0, r1, r2, r3] = [row(0), row(1), row(2), row(3)];
+            for (k, sum) in all.iter_mut().enumerate() {
+                *sum += (w0 * r0[k] + w1 * r1[k]) + (w2 * r2[k] + w3 * r3[k]);
             }
         }
-        (place.phase, place.tilt) = (p, t);
+        all
+    }
+
+    /// Place over load of an approach (mm) at a place of this map with its curves; none where flanks are apart.
+    pub(crate) fn load(&self, place: &CutPlace, approach: f64) -> Option<f64> {
+        let apart = approach <= place.begin;
+        (!apart).then(|| place.curve.solve(approach))
     }
 
     /// Makes a curve over load the sum of a table over phases and tilts with weights.
@@ -189,6 +221,7 @@ impl ContactMap {
             };
             curve.add(&of_phase.map(|w| w * of_tilt), [row(0), row(1), row(2), row(3)]);
         }
+        curve.close();
     }
 
     /// Slope of the curve over the phase, per unit of the spacing.
@@ -211,25 +244,25 @@ impl ContactMap {
 
     /// Approach (mm) at which flanks touch first, at a place of this map.
     pub fn first_touch(&self, place: &CutPlace) -> f64 {
-        place.curve.begin()
+        place.begin
     }
 
     /// Elastic energy V at a place of this map and an approach (mm), N mm.
     pub fn energy(&self, place: &CutPlace, approach: f64) -> f64 {
-        let found = place.curve.solve(approach);
+        let found = self.load(place, approach);
         found.map_or(0.0, |load| self.load_axis().force(load) * approach - place.curve.integral(load))
     }
 
     /// Force along the approach at a place of this map and an approach (mm), N.
     pub fn force(&self, place: &CutPlace, approach: f64) -> f64 {
-        place.curve.solve(approach).map_or(0.0, |load| self.load_axis().force(load))
+        self.load(place, approach).map_or(0.0, |load| self.load_axis().force(load))
     }
 
     /// The contact at a place of this map and an approach (mm).
     pub fn contact(&self, place: &CutPlace, approach: f64, wanted: Wanted) -> MapContact {
         let axis = self.load_axis();
         let curve = &place.curve;
-        let Some(load) = curve.solve(approach) else { return MapContact::default() };
+        let Some(load) = self.load(place, approach) else { return MapContact::default() };
         let (force, by_load) = (axis.force(load), curve.value(load)[1]);
         let stiff = axis.force_slope(load) / by_load;
         let mut contact = MapContact { force, ..MapContact::default() };

@@ -112,7 +112,7 @@ impl OffsetMap {
         self.offsets.as_deref()
     }
 
-    /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory.
+    /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory, without curves.
     pub(crate) fn move_place(&self, place: &mut CutPlace, at: [f64; 2]) {
         self.map.move_place(place, at);
         if self.offsets.is_some() {
@@ -124,7 +124,16 @@ impl OffsetMap {
     pub fn place(&self, phase: f64, tilt: f64) -> CutPlace {
         let mut place = CutPlace::default();
         self.move_place(&mut place, [phase, if self.map.tilts().is_some() { tilt } else { 0.0 }]);
+        self.map.make_curves(&mut place);
         place
+    }
+
+    /// Makes the curves of a place, where it has none, if flanks may touch at an approach (mm).
+    pub(crate) fn make_curves(&self, place: &mut CutPlace, approach: f64) {
+        let apart = approach <= place.begin;
+        if !apart || self.offsets.is_some() {
+            self.map.make_curves(place);
+        }
     }
 
     /// Pairs with their offsets, mm.
@@ -157,7 +166,7 @@ impl OffsetMap {
             return self.map.force(place, approach);
         }
         let of = |(own, e): (&PairPlace, f64)| {
-            let load = place.curve.solve(approach + e)?;
+            let load = self.map.load(place, approach + e)?;
             Some(self.map.held(own, &place.tilt, load, PART).0[0] * self.map.load_axis().force(load))
         };
         self.pairs(place).filter_map(of).sum()
@@ -177,7 +186,7 @@ impl OffsetMap {
         let mut all = MapContact::default();
         let (mut touching, mut parted) = (Vec::with_capacity(place.pairs.len()), false);
         for (own, e) in self.pairs(place) {
-            match place.curve.solve(approach + e) {
+            match self.map.load(place, approach + e) {
                 Some(load) => touching.push((own, load)),
                 None => parted = true,
             }

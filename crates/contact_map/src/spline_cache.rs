@@ -11,8 +11,8 @@ pub struct SplineCache {
 }
 
 impl SplineCache {
-    /// The place at a phase (mesh cycles) and a tilt (rad).
-    pub fn at(&mut self, map: &OffsetMap, phase: f64, tilt: f64) -> &CutPlace {
+    /// The place at a phase (mesh cycles) and a tilt (rad), for the flanks at an approach (mm).
+    pub fn at(&mut self, map: &OffsetMap, phase: f64, [approach, tilt]: [f64; 2]) -> &CutPlace {
         let wanted = [phase, if map.map().tilts().is_some() { tilt } else { 0.0 }];
         if self.both[self.last].at != wanted {
             self.last = 1 - self.last;
@@ -21,6 +21,7 @@ impl SplineCache {
                 map.move_place(place, wanted);
             }
         }
+        map.make_curves(&mut self.both[self.last], approach);
         &self.both[self.last]
     }
 

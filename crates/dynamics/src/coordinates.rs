@@ -123,8 +123,11 @@ impl Coordinates {
 
     /// d = T q, and the same for velocities; what comes behind the first n is not looked at.
     pub fn displacement(&self, q: &DVector<f64>) -> Displacement {
-        let d = &self.map * q.rows(0, self.count());
-        Displacement::from_fn(|i, _| d[i])
+        let mut d = Displacement::zeros();
+        for j in 0..self.count() {
+            d.iter_mut().zip(&self.map.column(j)).for_each(|(d, t)| *d += t * q[j]);
+        }
+        d
     }
 
     /// Power of forces on the twelve coordinates at velocities of the free ones: f . T v.

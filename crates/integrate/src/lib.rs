@@ -13,6 +13,7 @@ mod error;
 mod events;
 mod integrator;
 mod ledger;
+mod lu;
 mod mechanism;
 mod newton;
 mod periodicity;

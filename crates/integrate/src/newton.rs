@@ -8,9 +8,9 @@
 //! times the step, so two steps tell when to stop. Where steps decrease slowly, because contact opens or closes, the
 //! tangent is factored anew.
 
-use nalgebra::{DMatrix, DVector, Dyn, LU};
+use nalgebra::{DMatrix, DVector};
 
-use crate::Forces;
+use crate::{Forces, lu::LuFactor};
 
 /// Iterations before giving up; two or three do.
 pub(crate) const ITERATIONS: usize = 40;
@@ -33,7 +33,9 @@ const REMAINDER: f64 = 0.5;
 /// The iteration of one step.
 #[derive(Debug, Clone)]
 pub(crate) struct Newton {
-    factor: Option<LU<f64, Dyn, Dyn>>,
+    factor: LuFactor,
+    /// Whether that is of a matrix of this step.
+    is_made: bool,
     step: DVector<f64>,
     /// Largest change of a coordinate over what is round-off for it, of the last step and of the one before; infinite
     /// after a part of a step, which says nothing of what is left.
@@ -93,37 +95,45 @@ impl Newton {
     /// Iteration for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let changes = [f64::INFINITY; 2];
-        Self { factor: None, step: DVector::zeros(n), changes, last: f64::INFINITY, line: None, part: false }
+        Self {
+            factor: LuFactor::new(n),
+            is_made: false,
+            step: DVector::zeros(n),
+            changes,
+            last: f64::INFINITY,
+            line: None,
+            part: false,
+        }
     }
 
     /// Before the first evaluation of a step.
     pub fn begin(&mut self, forces: &mut Forces) {
         (forces.tangents, forces.rates) = (true, false);
-        (self.factor, self.line, self.part) = (None, None, false);
+        (self.is_made, self.line, self.part) = (false, None, false);
         (self.changes, self.last) = ([f64::INFINITY; 2], f64::INFINITY);
     }
 
     /// Discards the factor: the next evaluation makes a new one.
     pub fn renew(&mut self) {
-        self.factor = None;
+        self.is_made = false;
     }
 
     /// Makes forces ready for the next evaluation, with tangents or without.
     pub fn prepare(&mut self, forces: &mut Forces) {
         let [last, before] = self.changes;
         if self.line.is_some() || (before.is_finite() && last > SLOW_CONTRACTION * before) {
-            self.factor = None;
+            self.is_made = false;
         }
-        forces.tangents = self.factor.is_none();
+        forces.tangents = !self.is_made;
         forces.clear();
     }
 
-    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, made where
-    /// its tangents are new, is singular or holds no numbers.
+    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, which
+    /// `matrix` makes where its tangents are new, is singular or holds no numbers.
     pub fn step(
         &mut self,
         forces: &Forces,
-        matrix: impl FnOnce(&Forces) -> DMatrix<f64>,
+        matrix: impl FnOnce(&Forces, &mut DMatrix<f64>),
         rest: &DVector<f64>,
         iteration: usize,
     ) -> Option<&DVector<f64>> {
@@ -132,9 +142,12 @@ impl Newton {
             return Some(&self.step);
         }
         (self.line, self.part) = (None, false);
-        let factor = self.factor.get_or_insert_with(|| LU::new(matrix(forces)));
+        if !self.is_made {
+            self.factor.make(|own| matrix(forces, own));
+            self.is_made = true;
+        }
         self.step.copy_from(rest);
-        if !factor.solve_mut(&mut self.step) || self.step.iter().any(|x| !x.is_finite()) {
+        if !self.factor.solve(&mut self.step) || self.step.iter().any(|x| !x.is_finite()) {
             return None;
         }
         if iteration >= LINE_SEARCH_AFTER {

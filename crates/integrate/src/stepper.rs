@@ -43,13 +43,15 @@ pub(crate) struct StepWork {
     pub begun: DVector<f64>,
     /// Residual of the balance of forces of the last step.
     pub rest: DVector<f64>,
+    /// Way of the coordinates in a step, the velocity of it, and what a method makes of either.
+    pub moved: [DVector<f64>; 4],
 }
 
 impl StepWork {
     /// Work vectors for `n` coordinates.
     pub fn new(n: usize) -> Self {
         let zeros = || DVector::zeros(n);
-        Self { error: zeros(), newton: Newton::new(n), begun: zeros(), rest: zeros() }
+        Self { error: zeros(), newton: Newton::new(n), begun: zeros(), rest: zeros(), moved: [(); 4].map(|()| zeros()) }
     }
 }
 

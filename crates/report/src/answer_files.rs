@@ -109,12 +109,7 @@ pub fn write_rows(answer: &Answer, results: &ResultDirectory) -> Result<(), Repo
 /// The files of all tables; one whose rows were written as they came is there already.
 fn write_tables(answer: &Answer, with_parquet: bool, results: &ResultDirectory) -> Result<(), ReportError> {
     for table in &answer.tables {
-        if !table.is_written {
-            results.write_csv(table)?;
-        }
-        if with_parquet {
-            results.write_parquet(table)?;
-        }
+        results.write_table(table, !table.is_written, with_parquet)?;
     }
     Ok(())
 }

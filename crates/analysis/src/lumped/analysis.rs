@@ -1,8 +1,8 @@
 //! A motion of a model with few coordinates.
 
-use std::{f64::consts::TAU, ops::Range, sync::Arc};
+use std::sync::Arc;
 
-use answer::{Remark, RowStore, TableError};
+use answer::{Remark, RowStore};
 use integrate::State;
 use scene::{Model, MotionScene, Scene};
 use study::Lyapunov;
@@ -28,7 +28,6 @@ use crate::{
     inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
-    refused::Refusal,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled, worse,
 };
@@ -229,7 +228,7 @@ fn result(
     let static_normal_force = inputs.static_normal_force();
     let run_up = motion.ramp.map(|_| {
         let driver = (motion::speed(scene), scene.driver_teeth());
-        let series = motion_series(&run.rows, 0..run.rows.len(), true)?;
+        let series = MotionSeries::over_speed(&run.rows)?;
         Ok::<_, AnalysisError>(RunUp::of(&series, run.per_cycle, driver, static_normal_force, &Waterfall::default())?)
     });
     let run_up = run_up.transpose()?;
@@ -241,8 +240,8 @@ fn result(
         static_errors: static_errors.as_deref(),
         lyapunov,
     };
-    let judged = motion_series(&run.rows, run.judged_rows(), false)?;
-    let mut headline = headline(scene, motion, (&run, &judged), &beside)?;
+    let mut headline = headline(scene, motion, &run, &beside)?;
+    let judged = &run.survey.series;
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
     remarks.extend(certificate_remarks(motion, &headline));
     remarks.extend(inputs.remarks_of(motion, &headline));
@@ -331,13 +330,6 @@ pub(super) fn refuse_unstable(
     motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
 }
 
-/// Of a row that holds what is no number.
-fn diverged(time: f64) -> AnalysisError {
-    let what = format!("the motion diverged at t = {} s", answer::digits(time));
-    let hint = "take smaller steps, or check supports and damping".to_owned();
-    AnalysisError::from(Refusal::no_result(what, Some(hint))).of_part("history.csv")
-}
-
 /// What must hold of a run: energy closes, no flank of a slice pulls, reduced gears bend as far as linear elasticity holds,
 /// and rigid teeth stay in mesh, also `at_rest` (transmission errors, um).
 ///
@@ -348,30 +340,20 @@ fn certificate(
     run: &LumpedRun,
     at_rest: impl Iterator<Item = f64>,
 ) -> Result<Checks, AnalysisError> {
+    let survey = &run.survey;
+    survey.finite()?;
     let LumpedInputs { scene, pair, .. } = inputs;
-    let (mut least, mut largest, mut bad) = (None, f64::NEG_INFINITY, None);
-    let mut errors = Vec::new();
-    run.rows.for_each(0..run.rows.len(), |row| {
-        if !row.is_finite() {
-            bad = bad.or(Some(row.time));
-        }
-        least = row.least_slice_force.into_iter().chain(least).reduce(f64::min);
-        largest = row.coast_normal_force.into_iter().fold(f64::max(largest, row.normal_force), f64::max);
-        errors.push(row.transmission_error_um);
-    })?;
-    if let Some(time) = bad {
-        return Err(diverged(time));
-    }
     let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
-    all.extend(least.map(|least| motion::pulling_check(least, largest)));
+    all.extend(survey.least_slice_force.map(|least| motion::pulling_check(least, survey.largest_force)));
+    let errors = survey.errors_um.ends.into_iter();
     if scene.analysis.model.has_reduced_gears() {
-        all.push(motion::deflection_check_in_motion(scene, pair, errors.into_iter().map(|um| 1e-3 * um)));
+        all.push(motion::deflection_check_in_motion(scene, pair, errors.map(|um| 1e-3 * um)));
     } else {
         // Beyond the backlash the other flanks are in each other.
         let backlash = backlash_um(inputs);
         let beyond = |error_um: f64| 1e-3 * error_um.max(-error_um - backlash);
         all.push(motion::excursion_check(
-            errors.into_iter().chain(at_rest).map(beyond).fold(0.0, worse),
+            errors.chain(at_rest).map(beyond).fold(0.0, worse),
             scene.pair.normal_module_mm,
         ));
     }
@@ -389,21 +371,4 @@ fn slice_resolution(inputs: &LumpedInputs) -> Option<(Resolution, Vec<Remark>)> 
     let LumpedInputs { scene, pair, .. } = inputs;
     matches!(scene.analysis.model, Model::Impact | Model::Mapped)
         .then(|| resolution(scene, pair, &options(scene, pair)))
-}
-
-/// Series of some rows, for spectra; `over_speed`: and those that a ramp is judged by.
-fn motion_series(rows: &RowStore<LumpedRow>, part: Range<usize>, over_speed: bool) -> Result<MotionSeries, TableError> {
-    let mut all = MotionSeries::default();
-    rows.for_each(part, |row| {
-        all.dte_um.push(row.transmission_error_um);
-        all.normal_force_n.push(row.normal_force);
-        all.wheel_force_z_n.push(row.wrench[1][2]);
-        all.moment_y_nmm.iter_mut().zip(&row.wrench).for_each(|(list, wrench)| list.push(wrench[4]));
-        if over_speed {
-            all.time_s.push(row.time);
-            all.pinion_speed_rpm.extend(row.speeds.map(|both| both[0] * 60.0 / TAU));
-            all.coast_normal_force_n.extend(row.coast_normal_force);
-        }
-    })?;
-    Ok(all)
 }

@@ -1,17 +1,11 @@
 //! The few numbers that a run of a cheaper model is made for.
 
-use std::f64::consts::TAU;
-
 use scene::{MotionScene, Run, Scene};
 use serde::Serialize;
 use study::{Lyapunov, cycle_statistics, extent, mean, mesh_harmonics, root_mean_square};
 
-use super::run_loop::LumpedRun;
-use crate::{
-    AnalysisError,
-    motion::{MotionSeries, RunUpHeadline},
-    running::Running,
-};
+use super::{run_loop::LumpedRun, survey::RowSurvey};
+use crate::{AnalysisError, motion::RunUpHeadline, running::Running};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
@@ -127,49 +121,17 @@ pub(super) struct HeadlineInputs<'a> {
     pub lyapunov: Option<Lyapunov>,
 }
 
-/// Numbers of the rows that are judged, beside their series.
-#[derive(Default)]
-struct Judged {
-    stiffness: Running,
-    contact_line_length: Running,
-    wheel_force: [Running; 2],
-    coast_normal_force: Running,
-    least_slice_force: Running,
-    /// Pinion and wheel.
-    speeds_rpm: [Running; 2],
-    without_contact: usize,
-}
-
-impl Judged {
-    fn of(run: &LumpedRun) -> Result<Self, AnalysisError> {
-        let mut all = Self::default();
-        run.rows.for_each(run.judged_rows(), |row| {
-            // What a model does not tell of one row it tells of none.
-            all.stiffness.push_known(row.mesh_stiffness.map(|stiffness| 1e-3 * stiffness));
-            all.contact_line_length.push_known(row.contact_line_length);
-            all.coast_normal_force.push_known(row.coast_normal_force);
-            all.least_slice_force.push_known(row.least_slice_force);
-            for gear in [0, 1] {
-                all.wheel_force[gear].push(row.wrench[1][gear]);
-                all.speeds_rpm[gear].push_known(row.speeds.map(|both| both[gear] * 60.0 / TAU));
-            }
-            all.without_contact += usize::from(row.contact_line_length == Some(0.0));
-        })?;
-        Ok(all)
-    }
-}
-
-/// Headline numbers of the mesh cycles that are judged, with the series of their rows.
+/// Headline numbers of the mesh cycles that are judged, with what was read off the rows.
 ///
 /// # Errors
 /// [`AnalysisError::Statistics`] when the rows hold a transmission error that is no number.
 pub(super) fn headline(
     scene: &Scene,
     motion: &MotionScene,
-    (run, series): (&LumpedRun, &MotionSeries),
+    run: &LumpedRun,
     known: &HeadlineInputs<'_>,
 ) -> Result<LumpedHeadline, AnalysisError> {
-    let judged = Judged::of(run)?;
+    let RowSurvey { judged, series, .. } = &run.survey;
     let mean_of = |of: Running| of.known().map(|of| of.mean());
     let cycles = run.judged as usize;
     let (dte, force) = (&series.dte_um, &series.normal_force_n);

@@ -26,20 +26,20 @@ pub(super) struct MappedModel {
 }
 
 impl MappedModel {
-    /// Where forces on a copy of the pair balance at a time, the driver's own turn held.
+    /// Where forces on a copy of the pair balance at a time, the driver's own turn held, and that copy.
     fn mesh_displacements(
         &self,
         pair: Result<MappedPair, PairMotionError>,
         t: f64,
         from: Option<&DVector<f64>>,
-    ) -> Result<DVector<f64>, LumpedError> {
+    ) -> Result<(DVector<f64>, MappedPair), LumpedError> {
         let Ok(mut pair) = pair else { return Err(LumpedError::NoEquilibrium) };
         let coordinates = pair.system().coordinates();
         let mut guess = DVector::zeros(self.frame.scale.len());
         guess[coordinates.lag()] = self.frame.lag;
         let held: Vec<usize> = coordinates.driver_turn().into_iter().collect();
         let Ok(found) = equilibrium(&mut pair, t, from.unwrap_or(&guess), &held, &self.frame.scale);
-        found.ok_or(LumpedError::NoEquilibrium)
+        Ok((found.ok_or(LumpedError::NoEquilibrium)?, pair))
     }
 }
 
@@ -47,7 +47,8 @@ mechanism_of_field!([] MappedModel, pair);
 
 impl LumpedMechanism for MappedModel {
     fn start(&mut self) -> Result<State, ModelFailure> {
-        let now = |t: f64, from: Option<&DVector<f64>>| self.mesh_displacements(self.pair.again(), t, from);
+        let now =
+            |t: f64, from: Option<&DVector<f64>>| self.mesh_displacements(self.pair.again(), t, from).map(|(q, _)| q);
         let q = now(0.0, None)?;
         let mut v = DVector::zeros(q.len());
         let hz = self.pair.mesh_hz(0.0);
@@ -64,8 +65,8 @@ impl LumpedMechanism for MappedModel {
 
     fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
         let State { time, q, v, .. } = state;
-        let system = self.pair.system();
         let [driving, coast] = self.pair.instant(*time, q, v);
+        let system = self.pair.system();
         let (d, rate) = (system.coordinates().displacement(q), system.coordinates().displacement(v));
         let (cycles, speeds) = self.pair.turning(*time, q, v);
         let wrench = driving.wrench + coast.wrench;
@@ -96,8 +97,8 @@ impl LumpedMechanism for MappedModel {
         let mut from: Option<DVector<f64>> = None;
         let mut at = |k: usize| {
             let t = k as f64 / (phases as f64 * hz);
-            let q = self.mesh_displacements(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
-            let line_length = self.pair.instant(t, &q, &DVector::zeros(q.len()))[0].line_length;
+            let (q, mut pair) = self.mesh_displacements(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
+            let line_length = pair.instant(t, &q, &DVector::zeros(q.len()))[0].line_length;
             let point = StaticPoint { error: q[lag], line_length: Some(line_length) };
             from = Some(q);
             Some(point)

@@ -16,7 +16,7 @@
 //! | `exponent` | the largest Lyapunov exponent of a motion |
 //! | `integration`, `run_loop` | a run of any of them |
 //! | `campbell` | natural frequencies over speed |
-//! | `headline`, `remarks` | what is read off the rows |
+//! | `survey`, `headline`, `remarks` | what is read off the rows |
 
 mod analysis;
 mod basins;
@@ -40,6 +40,7 @@ mod remarks;
 mod row;
 mod run_loop;
 mod shafts;
+mod survey;
 mod sweep;
 
 pub use analysis::{LumpedAnalysis, LumpedResult, LumpedSink, NoLumpedSink, is_lumped};

@@ -1,6 +1,6 @@
 //! A run of a model: its mesh cycles, and what is read off them.
 
-use std::{f64::consts::TAU, ops::Range, sync::Arc};
+use std::{f64::consts::TAU, sync::Arc};
 
 use answer::{RowStore, TableError};
 use integrate::{
@@ -16,6 +16,7 @@ use super::{
     free_turn::free_turn,
     integration::{MeshFrequencies, integrator, method},
     mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
+    survey::RowSurvey,
 };
 use crate::{AnalysisError, SinkResult, motion::EnergyRow};
 
@@ -28,6 +29,8 @@ pub(crate) struct LumpedRun {
     pub rows: RowStore<LumpedRow>,
     /// Energy since the start of the run, row by row.
     pub energy: RowStore<EnergyRow>,
+    /// What is read off the rows.
+    pub survey: RowSurvey,
     /// Where it ends.
     pub end: State,
     /// Rows in a mesh cycle.
@@ -46,13 +49,6 @@ pub(crate) struct LumpedRun {
     pub steps: [u64; 2],
     /// Steps from row to row.
     pub steps_per_row: u32,
-}
-
-impl LumpedRun {
-    /// Numbers of the rows of the mesh cycles that are judged.
-    pub fn judged_rows(&self) -> Range<usize> {
-        self.rows.len().saturating_sub(self.judged as usize * self.per_cycle)..self.rows.len()
-    }
 }
 
 /// A state to go on from, with the rows before it.
@@ -212,17 +208,20 @@ impl RunPlan<'_> {
                 (Course::new(model, times, start), RowStore::default(), RowStore::default())
             }
         };
-        let mut told = LumpedFollower { plan: self, observer, per_cycle, rows, energy };
-        course.run(&goal, &mut told)?;
-        let LumpedFollower { rows, energy, .. } = told;
         // Of a ramp the last speed is judged.
         let judged = match motion.ramp {
             Some(ramp) => ((ramp.after_s * frequencies.mesh_hz).floor() as u64).clamp(1, cycles),
             None => cycles,
         };
+        let mut survey = RowSurvey::judged_from((cycles - judged) as usize * per_cycle);
+        rows.for_each(0..rows.len(), |row| survey.take(row))?;
+        let mut told = LumpedFollower { plan: self, observer, per_cycle, rows, energy, survey };
+        course.run(&goal, &mut told)?;
+        let LumpedFollower { rows, energy, survey, .. } = told;
         Ok(LumpedRun {
             rows,
             energy,
+            survey,
             end: course.state().clone(),
             per_cycle,
             cycles,
@@ -267,6 +266,7 @@ struct LumpedFollower<'a> {
     per_cycle: usize,
     rows: RowStore<LumpedRow>,
     energy: RowStore<EnergyRow>,
+    survey: RowSurvey,
 }
 
 impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
@@ -277,6 +277,7 @@ impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
         let row = system.row(state).map_err(ModelFailure::at(state.time))?;
         let begins_cycle = self.rows.len().is_multiple_of(self.per_cycle);
         self.observer.row(&row, begins_cycle).map_err(RunFailure::Sink)?;
+        self.survey.take(&row);
         self.rows.push(row)?;
         Ok(self.energy.push(EnergyRow::of(state.time, ledger))?)
     }

@@ -84,8 +84,8 @@ impl Mechanism for MappedPair {
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
         let phase = self.phase(t, q);
         let energy = |(side, kept): (&MappedSide, &mut SplineCache)| {
-            let [approach, tilt] = side.motion(q);
-            side.map.energy(kept.at(&side.map, phase, tilt), approach)
+            let motion = side.motion(q);
+            side.map.energy(kept.at(&side.map, phase, motion), motion[0])
         };
         let of_sides: f64 = self.sides.iter().zip(&mut self.kept).map(energy).sum();
         Ok(of_sides + self.bearing.as_ref().map_or(0.0, |bearing| 0.5 * power(bearing, q)))
@@ -94,8 +94,8 @@ impl Mechanism for MappedPair {
     fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), Infallible> {
         let phase = self.phase(t, q);
         for (side, kept) in self.sides.iter().zip(&mut self.kept) {
-            let [approach, tilt] = side.motion(q);
-            let force = side.map.force(kept.at(&side.map, phase, tilt), approach);
+            let motion @ [approach, tilt] = side.motion(q);
+            let force = side.map.force(kept.at(&side.map, phase, motion), approach);
             let excess = &mut self.excess;
             excess.force = excess.force.max(force / side.map.map().largest_force());
             // Without contact a tilt does nothing.
@@ -115,8 +115,8 @@ impl Mechanism for MappedPair {
     fn event_values(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut [f64]) -> Result<(), Infallible> {
         let phase = self.phase(t, q);
         for ((side, kept), value) in self.sides.iter().zip(&mut self.kept).zip(out) {
-            let [approach, tilt] = side.motion(q);
-            *value = side.map.overlap(kept.at(&side.map, phase, tilt), approach);
+            let motion = side.motion(q);
+            *value = side.map.overlap(kept.at(&side.map, phase, motion), motion[0]);
         }
         Ok(())
     }

@@ -82,8 +82,8 @@ impl MappedSide {
 
     /// Contact with the gears displaced: several states of a step are at one phase, and share what belongs to it.
     fn contact(&self, kept: &mut SplineCache, phase: f64, q: &DVector<f64>, wanted: Wanted) -> MapContact {
-        let [approach, tilt] = self.motion(q);
-        self.map.contact(kept.at(&self.map, phase, tilt), approach, wanted)
+        let motion = self.motion(q);
+        self.map.contact(kept.at(&self.map, phase, motion), motion[0], wanted)
     }
 }
 
@@ -139,14 +139,14 @@ impl MappedPair {
     }
 
     /// Instants of the driving and the coast flanks at a state; all zero for coast flanks that the pair does not have.
-    pub fn instant(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [MappedInstant; 2] {
+    pub fn instant(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [MappedInstant; 2] {
         let mut all = [MappedInstant::default(); 2];
         let phase = self.phase(t, q);
-        for (side, out) in self.sides.iter().zip(&mut all) {
-            let [approach, tilt] = side.motion(q);
-            let place = side.map.place(phase, tilt);
-            let contact = side.map.contact(&place, approach, Wanted::default());
-            let damping = side.map.map().damping(&place, &contact, side.motion(v), self.system.damping_per_length());
+        for ((side, kept), out) in self.sides.iter().zip(&mut self.kept).zip(&mut all) {
+            let motion @ [approach, _] = side.motion(q);
+            let place = kept.at(&side.map, phase, motion);
+            let contact = side.map.contact(place, approach, Wanted::default());
+            let damping = side.map.map().damping(place, &contact, side.motion(v), self.system.damping_per_length());
             let force = contact.force + damping.force[0];
             let moment = contact.moment - damping.force[1];
             *out = MappedInstant {

@@ -185,7 +185,7 @@ impl MeshElement for MappedMesh {
         let Self { map, projection, kept, .. } = self;
         let along = [&projection.approach, &projection.tilt];
         let wanted = Wanted { energy: true, phase_rate: true };
-        self.contact = map.contact(kept.at(map, self.cycles, self.tilt), self.approach, wanted);
+        self.contact = map.contact(kept.at(map, self.cycles, [self.approach, self.tilt]), self.approach, wanted);
         let contact = &self.contact;
         let mut tangent = SMatrix::zeros();
         for (i, a) in along.into_iter().enumerate() {

@@ -47,7 +47,7 @@ impl Stepper for DiscreteGradient {
 /// Newton's method from the predictor on, `exact` with dc/dq_1.
 fn iterate<M: Mechanism>(step: &mut Step<'_, M>, exact: bool) -> Stepped<M> {
     let Step { system, from, h, scale, forces, to, ledger: book, work, .. } = step;
-    let (StepWork { error, newton, .. }, h) = (&mut **work, *h);
+    let (StepWork { error, newton, rest, moved: [moved, velocity, weighted, half], .. }, h) = (&mut **work, *h);
     let (middle, end) = (from.time + 0.5 * h, from.time + h);
     let fail = |time: f64| move |source| MotionError::Mechanism { time, source };
     let before = system.potential(middle, &from.q).map_err(fail(middle))?;
@@ -56,41 +56,51 @@ fn iterate<M: Mechanism>(step: &mut Step<'_, M>, exact: bool) -> Stepped<M> {
     to.q.axpy(h, &from.v, 1.0);
     to.q.axpy(0.5 * h * h, &from.a, 1.0);
     newton.begin(forces);
-    let mut at_end = Forces::zeros(if exact { to.q.len() } else { 0 });
+    let mut at_end = exact.then(|| Forces::zeros(to.q.len()));
     for iteration in 0..ITERATIONS {
-        let moved = &to.q - &from.q;
-        let velocity = &moved / h;
+        for i in 0..moved.len() {
+            moved[i] = to.q[i] - from.q[i];
+            velocity[i] = moved[i] / h;
+            half[i] = from.q[i] + 0.5 * moved[i];
+        }
         if exact {
             newton.renew();
         }
         newton.prepare(forces);
-        let half = &from.q + 0.5 * &moved;
-        system.forces(middle, &half, &velocity, forces).map_err(fail(middle))?;
-        let weighted = system.mass() * &moved;
-        let length = moved.dot(&weighted);
+        system.forces(middle, half, velocity, forces).map_err(fail(middle))?;
+        weighted.gemv(1.0, system.mass(), moved, 0.0);
+        let length = moved.dot(weighted);
         let after = system.potential(middle, &to.q).map_err(fail(middle))?;
-        let defect = after - before + forces.conservative.dot(&moved);
+        let defect = after - before + forces.conservative.dot(moved);
         let goes = moved.iter().zip(scale.iter()).any(|(x, s)| x.abs() > NO_WAY * s);
         let c = if goes && defect.abs() > ROUND_OFF * (after.abs() + before.abs()) { -defect / length } else { 0.0 };
         // M (v_1 - v_0) / h
-        let gained = 2.0 * (&velocity - &from.v);
-        let rest = system.mass() * gained / h - &forces.conservative - &forces.other - c * &weighted;
-        let mut added = DMatrix::zeros(0, 0);
-        if exact && c != 0.0 {
+        let gained = &mut *half;
+        gained.zip_zip_apply(velocity, &from.v, |gained, after, before| *gained = 2.0 * (after - before));
+        rest.gemv(1.0, system.mass(), gained, 0.0);
+        for i in 0..rest.len() {
+            rest[i] = rest[i] / h - forces.conservative[i] - forces.other[i] - c * weighted[i];
+        }
+        let mut added = None;
+        if let Some(at_end) = at_end.as_mut().filter(|_| c != 0.0) {
             // dc/dq_1 = [f_c(q_1) - f_c(q_m) + K (q_1 - q_0) / 2 - 2 c W (q_1 - q_0)] / (q_1 - q_0)' W (q_1 - q_0)
             at_end.clear();
-            system.forces(middle, &to.q, &velocity, &mut at_end).map_err(fail(middle))?;
+            system.forces(middle, &to.q, velocity, at_end).map_err(fail(middle))?;
             let slope =
-                &at_end.conservative - &forces.conservative + 0.5 * &forces.stiffness * &moved - 2.0 * c * &weighted;
-            added = &weighted * slope.transpose() / length;
+                &at_end.conservative - &forces.conservative + 0.5 * &forces.stiffness * &*moved - 2.0 * c * &*weighted;
+            added = Some(&*weighted * slope.transpose() / length);
         }
-        let matrix = |forces: &Forces| {
-            let plain = (2.0 / (h * h) - c) * system.mass() + &forces.damping / h + 0.5 * &forces.stiffness;
-            if added.is_empty() { plain } else { plain - &added }
+        let matrix = |forces: &Forces, sum: &mut DMatrix<f64>| {
+            let of_mass = 2.0 / (h * h) - c;
+            sum.copy_from(system.mass());
+            sum.zip_zip_apply(&forces.damping, &forces.stiffness, |m, d, k| *m = of_mass * *m + d / h + 0.5 * k);
+            if let Some(added) = &added {
+                *sum -= added;
+            }
         };
         let singular = MotionError::Singular { time: middle, which: "iteration" };
         let settled = newton.settled();
-        let step = newton.step(forces, matrix, &rest, iteration).ok_or(singular)?;
+        let step = newton.step(forces, matrix, rest, iteration).ok_or(singular)?;
         to.q -= step;
         if settled {
             // The residual of the balance is work that nothing does. It has one sign and would add up over many steps,
@@ -114,8 +124,10 @@ fn iterate<M: Mechanism>(step: &mut Step<'_, M>, exact: bool) -> Stepped<M> {
 
 /// Velocity and acceleration at the end of a step whose coordinates are known.
 fn finish(to: &mut State, from: &State, h: f64) {
-    to.v = 2.0 / h * (&to.q - &from.q) - &from.v;
-    to.a = (&to.v - &from.v) / h;
+    for i in 0..to.q.len() {
+        to.v[i] = 2.0 / h * (to.q[i] - from.q[i]) - from.v[i];
+        to.a[i] = (to.v[i] - from.v[i]) / h;
+    }
     to.averaged.copy_from(&to.a);
     to.last_step = h;
 }

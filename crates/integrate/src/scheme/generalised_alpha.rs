@@ -8,6 +8,8 @@
 //! (1 - a_m) b_1 + a_m b_0 = (1 - a_f) a_1 + a_f a_0,        M a_1 = f(t_1, q_1, v_1)
 //! ```
 
+use nalgebra::DMatrix;
+
 use crate::{
     Forces, Mechanism, MotionError,
     newton::ITERATIONS,
@@ -41,7 +43,7 @@ impl Coefficients {
     fn solve<M: Mechanism>(&self, step: &mut Step<'_, M>) -> Stepped<M> {
         let Self { a_m, a_f, beta, gamma } = *self;
         let Step { system, from, h, scale, forces, to, work, .. } = step;
-        let (StepWork { error, newton, begun: b0, rest }, h) = (&mut **work, *h);
+        let (StepWork { error, newton, begun: b0, rest, .. }, h) = (&mut **work, *h);
         let time = from.time + h;
         // The averaged acceleration belongs to a place within the step: a new step moves it.
         let stretch = if from.last_step > 0.0 { h / from.last_step } else { 1.0 };
@@ -73,10 +75,10 @@ impl Coefficients {
             rest.gemv(1.0, system.mass(), &to.a, 0.0);
             *rest -= &forces.conservative;
             *rest -= &forces.other;
-            let matrix = |forces: &Forces| {
-                let (mut sum, damping_share) = (forces.stiffness.clone(), gamma / (beta * h));
+            let matrix = |forces: &Forces, sum: &mut DMatrix<f64>| {
+                let damping_share = gamma / (beta * h);
+                sum.copy_from(&forces.stiffness);
                 sum.zip_zip_apply(system.mass(), &forces.damping, |k, m, c| *k += mass_share * m + damping_share * c);
-                sum
             };
             let singular = MotionError::Singular { time, which: "iteration" };
             to.q -= newton.step(forces, matrix, rest, iteration).ok_or(singular)?;

@@ -77,28 +77,35 @@ impl ResultDirectory {
         ResultFiles::write(self, name, content)
     }
 
-    /// Writes the file with commas of a table, block by block.
+    /// Writes the files of a table, with commas and Parquet, each where it is wanted, block by block.
     ///
     /// # Errors
     /// When the system refuses.
-    pub fn write_csv(&self, table: &answer::Table) -> Result<(), StoreError> {
-        let name = format!("{}.csv", table.name);
-        debug_assert!(is_ours(&name), "{name} is not in the list of result files: what a killed run leaves would stay");
-        let refused = |cause| StoreError::Write { file: self.wanted.join(&name), cause };
-        let mut file = fs::File::create(self.path(&name)).map_err(refused)?;
-        table.csv_in_blocks(|block| file.write_all(block.as_bytes()).map_err(refused))
-    }
-
-    /// Writes the Parquet file of a table, group by group.
-    ///
-    /// # Errors
-    /// When the system refuses.
-    pub fn write_parquet(&self, table: &answer::Table) -> Result<(), StoreError> {
-        let name = format!("{}.parquet", table.name);
-        debug_assert!(is_ours(&name), "{name} is not in the list of result files: what a killed run leaves would stay");
-        let refused = |cause| StoreError::Write { file: self.wanted.join(&name), cause };
-        let file = fs::File::create(self.path(&name)).map_err(refused)?;
-        Ok(answer::write_parquet(table, file)?)
+    pub fn write_table(&self, table: &answer::Table, with_csv: bool, with_parquet: bool) -> Result<(), StoreError> {
+        let refused = |name: &str| {
+            let file = self.wanted.join(name);
+            move |cause| StoreError::Write { file: file.clone(), cause }
+        };
+        let create = |ending: &str| {
+            let name = format!("{}.{ending}", table.name);
+            debug_assert!(
+                is_ours(&name),
+                "{name} is not in the list of result files: what a killed run leaves would stay"
+            );
+            let file = fs::File::create(self.path(&name)).map_err(refused(&name))?;
+            Ok::<_, StoreError>((file, name))
+        };
+        let text = with_csv.then(|| create("csv")).transpose()?;
+        let mut lines = text.map(|(mut file, name)| {
+            let refused = refused(&name);
+            move |block: &str| file.write_all(block.as_bytes()).map_err(&refused)
+        });
+        let mut columns = with_parquet.then(|| create("parquet")).transpose()?;
+        answer::write_table(
+            table,
+            lines.as_mut().map(|take| take as answer::TakeLines<'_, StoreError>),
+            columns.as_mut().map(|(file, _)| file as &mut (dyn Write + Send)),
+        )
     }
 
     /// Folder of the files while the result is being written.
