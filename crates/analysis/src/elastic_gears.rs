@@ -6,8 +6,8 @@ use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
 use mesh::MeshedGear;
 use reduction::{
-    ColumnFault, ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage, ReductionWatch,
-    record_key,
+    ColumnFault, ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage,
+    ReductionWatch, record_key,
 };
 
 use scene::{Model, Scene};

@@ -192,9 +192,7 @@ impl GeneralGear {
         for start in (0..coordinates).step_by(COLUMNS) {
             let width = (coordinates - start).min(COLUMNS);
             let field = match seen {
-                Seen::Last => {
-                    self.factor.expand_rows(unit_columns(coordinates, start, width).as_ref(), &support)?
-                }
+                Seen::Last => self.factor.expand_rows(unit_columns(coordinates, start, width).as_ref(), &support)?,
                 Seen::Loads(loads) => self.under_loads(loads, start..start + width, &support)?,
             };
             stress.as_mut().subcols_mut(start, width).copy_from(operator.apply(field.as_ref())?);

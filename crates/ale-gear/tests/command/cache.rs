@@ -314,7 +314,8 @@ fn half_written_records_of_killed_runs_go() {
 fn a_killed_run_over_holes_goes_on_with_its_columns() {
     use std::os::unix::fs::MetadataExt;
 
-    let text = scene("").replace("elements_rim = 1", "elements_rim = 4").replace("_cycle = 4", "_cycle = 4\ncycles = 12");
+    let text =
+        scene("").replace("elements_rim = 1", "elements_rim = 4").replace("_cycle = 4", "_cycle = 4\ncycles = 12");
     let cached = Cached(Scratch::new().file("a.toml", &text));
     let file = cached.0.path().join("wheel.msh");
     let made = cached.0.ale_gear(["mesh", "generate", "a.toml", "--gear", "wheel", "-o", "wheel.msh"]);

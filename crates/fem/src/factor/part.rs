@@ -83,9 +83,8 @@ impl BoundaryLastFactor {
     /// # Errors
     /// [`FemError::BadDof`] for a row that does not exist.
     pub(super) fn places(&self, dofs: &[usize]) -> Result<Vec<usize>, FemError> {
-        let place = |&dof: &usize| {
-            self.ordering.inverse.get(dof).copied().ok_or(FemError::BadDof { dof, count: self.n() })
-        };
+        let place =
+            |&dof: &usize| self.ordering.inverse.get(dof).copied().ok_or(FemError::BadDof { dof, count: self.n() });
         dofs.iter().map(place).collect()
     }
 }

@@ -26,10 +26,7 @@ pub(super) struct Asked {
 
 impl Asked {
     /// All that a record has beside the first window.
-    pub(super) fn recorded(
-        halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
-        lowest_hz: Option<f64>,
-    ) -> Self {
+    pub(super) fn recorded(halves: Vec<((u32, Side), Arc<LocalCompliance>)>, lowest_hz: Option<f64>) -> Self {
         let asked = Self {
             lowest_hz: lowest_hz.map_or_else(OnceLock::new, OnceLock::from),
             others: ToothWindows::default(),

@@ -9,9 +9,7 @@ use faer::Mat;
 use fem::Material;
 use geometry::{Gear, Side};
 use mesh::{BoreCoupling, Extent, GroupNames, MeshedGear, StructuredOptions};
-use reduction::{
-    ColumnFault, ColumnStore, GearReducer, ReducedGear, ReductionWay, ToothColumns, record_key,
-};
+use reduction::{ColumnFault, ColumnStore, GearReducer, ReducedGear, ReductionWay, ToothColumns, record_key};
 use testing::with_holes;
 
 use crate::common::{gear, options};

@@ -209,9 +209,7 @@ fn is_record(path: &Path) -> bool {
         Some((key, tooth)) => (key, suffix == Some(COLUMNS_SUFFIX) && tooth.parse::<u32>().is_ok()),
         None => (stem, suffix.is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX)),
     };
-    known
-        && key.len() == 64
-        && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
+    known && key.len() == 64 && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
 }
 
 /// Removes the least recently used files until the rest is within the limit; `newest` stays.
