@@ -70,10 +70,10 @@ impl BoundaryLastFactor {
             if let Some(&parent) = node.pattern.first() {
                 holds[owner[parent]] = true;
             }
-            for column in node.start..node.start + node.columns {
-                row[column] = rows;
-                rows += 1;
+            for (own, at) in row[node.start..node.start + node.columns].iter_mut().zip(rows..) {
+                *own = at;
             }
+            rows += node.columns;
         }
         Part { holds, row, rows }
     }
