@@ -1,10 +1,10 @@
 //! Reduced gears, and maps of their contact, that are kept from run to run.
 
 use answer::Remark;
-use std::fmt;
+use std::{fmt, sync::Arc};
 
 use contact_map::ContactMap;
-use reduction::{RecordKey, ReductionRecord};
+use reduction::{ColumnStore, RecordKey, ReductionRecord};
 
 /// A store of reduced gears and of maps.
 ///
@@ -19,6 +19,11 @@ pub trait GearCache: Sync {
 
     /// Keeps a record; a warning says why it could not be done.
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark>;
+
+    /// Where the columns of the teeth of a gear are kept as soon as they are made. A store need not keep them.
+    fn columns(&self, _: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
+        None
+    }
 
     /// The maps of a key, as [`GearCache::load`]. A store need not keep maps.
     fn load_maps(&self, _: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
@@ -90,6 +95,10 @@ impl<T: GearCache + ?Sized> GearCache for &T {
 
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
         (**self).save(key, record)
+    }
+
+    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
+        (**self).columns(key)
     }
 
     fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {

@@ -6,8 +6,8 @@ use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
 use mesh::MeshedGear;
 use reduction::{
-    ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage, ReductionWatch,
-    record_key,
+    ColumnFault, ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage,
+    ReductionWatch, record_key,
 };
 
 use scene::{Model, Scene};
@@ -18,6 +18,7 @@ use crate::{
     estimated_time::estimated_gear_seconds,
     layers::shorter_gear,
     meshes::SceneMesh,
+    remark,
 };
 
 /// Both gears as the analysis takes them.
@@ -43,12 +44,20 @@ impl RecordKeys {
 
     /// Writes what was reduced in this run; the remarks are about what could not be written.
     pub fn save(&self, cache: &dyn GearCache, gears: &[ElasticGear; 2]) -> Vec<Remark> {
-        let records = self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
-            ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer.record()?)),
-            ElasticGear::Full(_) => None,
-        });
-        records.filter_map(|(key, record)| cache.save(key, &record)).collect()
+        let reducers = || {
+            self.0.iter().zip(gears).filter_map(|(key, gear)| match gear {
+                ElasticGear::Reduced(reducer) => Some((key.as_ref()?, reducer)),
+                ElasticGear::Full(_) => None,
+            })
+        };
+        let records = reducers().filter_map(|(key, reducer)| cache.save(key, &reducer.record()?));
+        records.chain(reducers().flat_map(|(_, reducer)| reducer.column_faults()).map(of_columns)).collect()
     }
+}
+
+/// What a user hears of a file of columns.
+fn of_columns(ColumnFault { file, what, writing }: ColumnFault) -> Remark {
+    if writing { remark::gear_not_stored(file, what) } else { remark::gear_not_loaded(file, what) }
 }
 
 /// Both gears, side by side; the progress hears what is begun, and between the steps of the work it is asked whether the
@@ -152,8 +161,12 @@ fn one(
     match gear {
         Err(error) if error.is_unwanted() => Err(AnalysisError::Cancelled),
         gear => {
-            let gear = gear.map(ElasticGear::Reduced).map_err(|e| blame(scene, mesh, i, e))?;
-            Ok((gear, key, warning.or(said)))
+            let gear = gear.map_err(|e| blame(scene, mesh, i, e))?;
+            let gear = match key.as_ref().filter(|_| !gear.is_cyclic()).and_then(|key| cache.columns(key)) {
+                Some(store) => gear.with_columns(store),
+                None => gear,
+            };
+            Ok((ElasticGear::Reduced(gear), key, warning.or(said)))
         }
     }
 }

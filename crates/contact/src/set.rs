@@ -149,6 +149,10 @@ impl ContactSet {
         let Some(mine) = &self.windows else { return Ok(None) };
         let first = window.first_teeth();
         let mut next = mine.clone();
+        // A window with matrices of its own takes long to make, and nobody has asked for it here.
+        if (0..2).any(|i| !gears[i].shares_matrices(&mine[i], first[i])) {
+            return Ok(None);
+        }
         for i in 0..2 {
             let w = gears[i].window(first[i]).map_err(|source| ContactError::Reduction { gear: NAMES[i], source })?;
             let Some(w) = w else { return Ok(None) };

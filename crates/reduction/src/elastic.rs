@@ -56,6 +56,14 @@ impl ElasticGear {
         }
     }
 
+    /// Whether the window from tooth `first` on has the matrices of another one; nothing is made to find out.
+    pub fn shares_matrices(&self, window: &Window, first: u32) -> bool {
+        match self {
+            Self::Reduced(r) => r.shares_matrices(window, first),
+            Self::Full(_) => false,
+        }
+    }
+
     /// The meshed gear.
     pub fn gear(&self) -> &MeshedGear {
         match self {

@@ -1,5 +1,7 @@
 //! One sparse factor of a whole gear, cyclic or not.
 
+use std::ops::Range;
+
 use faer::{Mat, MatMut};
 use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
 use mesh::{BoreCoupling, Mesh, MeshedGear};
@@ -87,13 +89,45 @@ impl GeneralGear {
                 Ok(seat.compliance(&self.factor.compliance(), self.factor.boundary(), &reactions))
             }
             (Seen::Loads(loads), _) => {
-                let solve = |rhs: MatMut<'_, f64>| {
-                    unless_unwanted(wanted)?;
-                    self.solve(rhs)
-                };
-                load_compliance(self.factor.n(), loads, |n| self.dofs.position(n), solve)
+                let compliance = self.compliance_between(loads, loads, wanted)?;
+                Ok(symmetric(&compliance))
             }
         }
+    }
+
+    /// Displacements of the coordinates `of` under unit forces on those of `under`, mm/N: P_of' K^-1 P_under.
+    pub(crate) fn compliance_between(
+        &self,
+        of: &[Load],
+        under: &[Load],
+        wanted: Wanted<'_>,
+    ) -> Result<Mat<f64>, ReductionError> {
+        let (support, of) = self.on_support(of);
+        let mut compliance = Mat::<f64>::zeros(3 * of.len(), 3 * under.len());
+        for start in (0..3 * under.len()).step_by(COLUMNS) {
+            unless_unwanted(wanted)?;
+            let width = (3 * under.len() - start).min(COLUMNS);
+            let field = self.under_loads(under, start..start + width, &support)?;
+            compliance.as_mut().subcols_mut(start, width).copy_from(means(&of, &field));
+        }
+        Ok(compliance)
+    }
+
+    /// Rows `wanted` of the displacements under unit forces on some coordinates of a window.
+    fn under_loads(&self, loads: &[Load], columns: Range<usize>, wanted: &[usize]) -> Result<Mat<f64>, ReductionError> {
+        let column = |c: usize| -> Vec<(usize, f64)> {
+            let at = |&(n, w): &(u32, f64)| Some((3 * self.dofs.position(n)? + c % 3, w));
+            loads[c / 3].iter().filter_map(at).collect()
+        };
+        let forces: Vec<Vec<(usize, f64)>> = columns.map(column).collect();
+        if self.seat.is_none() {
+            return Ok(self.factor.solve_few(&forces, wanted)?);
+        }
+        let mut all = Mat::zeros(self.factor.n(), forces.len());
+        for (j, force) in forces.iter().enumerate() {
+            force.iter().for_each(|&(dof, f)| all[(dof, j)] += f);
+        }
+        self.solve_rows(&all, wanted)
     }
 
     /// Displacement of all free freedoms, n x k, for coordinates u (mm) of a window, which the forces f (N) hold.
@@ -157,13 +191,9 @@ impl GeneralGear {
         let (support, operator) = operator.on_support();
         for start in (0..coordinates).step_by(COLUMNS) {
             let width = (coordinates - start).min(COLUMNS);
-            let unit = unit_columns(coordinates, start, width);
             let field = match seen {
-                Seen::Last => self.factor.expand_rows(unit.as_ref(), &support)?,
-                Seen::Loads(loads) => {
-                    let force = spread(loads, &unit, self.factor.n(), |n| self.dofs.position(n));
-                    self.solve_rows(&force, &support)?
-                }
+                Seen::Last => self.factor.expand_rows(unit_columns(coordinates, start, width).as_ref(), &support)?,
+                Seen::Loads(loads) => self.under_loads(loads, start..start + width, &support)?,
             };
             stress.as_mut().subcols_mut(start, width).copy_from(operator.apply(field.as_ref())?);
         }
@@ -194,7 +224,7 @@ impl GeneralGear {
             }
             condensed.as_mut().subcols_mut(start, width).copy_from(&block);
         }
-        Ok(Mat::from_fn(n, n, |i, j| 0.5 * (condensed[(i, j)] + condensed[(j, i)])))
+        Ok(symmetric(&condensed))
     }
 }
 
@@ -246,5 +276,10 @@ pub(crate) fn load_compliance(
         solve(columns.as_mut())?;
         compliance.as_mut().subcols_mut(start, width).copy_from(means(&placed, &columns));
     }
-    Ok(Mat::from_fn(n, n, |i, j| 0.5 * (compliance[(i, j)] + compliance[(j, i)])))
+    Ok(symmetric(&compliance))
+}
+
+/// Half of A + A'.
+pub(crate) fn symmetric(a: &Mat<f64>) -> Mat<f64> {
+    Mat::from_fn(a.nrows(), a.ncols(), |i, j| 0.5 * (a[(i, j)] + a[(j, i)]))
 }

@@ -25,6 +25,7 @@ mod recovery;
 mod reducer;
 mod stack;
 mod stress_modes;
+mod teeth;
 mod window;
 
 pub use elastic::{ElasticGear, FullGear};
@@ -37,4 +38,5 @@ pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record
 pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
 pub use stack::LayerStack;
 pub use stress_modes::StressModes;
+pub use teeth::{ColumnFault, ColumnStore, ToothColumns};
 pub use window::{ReducedGear, Window};

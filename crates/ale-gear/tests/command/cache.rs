@@ -306,3 +306,64 @@ fn half_written_records_of_killed_runs_go() {
     assert_eq!(names.map(|n| folder.join(n).exists()), [false, true, true, true]);
     assert!(folder.join("notes.partial-17").exists());
 }
+
+/// A wheel with a hole, whose teeth all differ: a run that is killed goes on with the columns of the teeth that it had, and
+/// its result is that of a run without a cache, to the bit. No tooth change moves the wheel.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_over_holes_goes_on_with_its_columns() {
+    use std::os::unix::fs::MetadataExt;
+
+    let text =
+        scene("").replace("elements_rim = 1", "elements_rim = 4").replace("_cycle = 4", "_cycle = 4\ncycles = 12");
+    let cached = Cached(Scratch::new().file("a.toml", &text));
+    let file = cached.0.path().join("wheel.msh");
+    let made = cached.0.ale_gear(["mesh", "generate", "a.toml", "--gear", "wheel", "-o", "wheel.msh"]);
+    assert_eq!(made.code, Some(0), "{}", made.stderr);
+    let is_hole = |[x, y, _]: [f64; 3]| x.hypot(y) > 31.0 && x.hypot(y) < 43.0 && y.abs() < 6.0 && x > 0.0;
+    let holed = testing::with_holes(&mesh::Mesh::read(&file).unwrap(), is_hole);
+    holed.write(&file, mesh::MshFormat::Binary41).unwrap();
+    let (pinion, wheel) = text.split_once("[wheel.mesher]").unwrap();
+    let rest = wheel.split_once("elements_rim = 4\n").unwrap().1;
+    let text = format!("{pinion}{rest}").replace("[wheel]\n", "[wheel]\nmesh = \"wheel.msh\"\n");
+    fs::write(cached.0.path().join("a.toml"), text).unwrap();
+    let whole = cached.0.ale_gear(["run", "a.toml", "--out", "whole", "--no-cache"]);
+    assert_eq!(whole.code, Some(0), "{}{}", whole.stdout, whole.stderr);
+
+    let columns = || -> Vec<PathBuf> {
+        let Ok(entries) = fs::read_dir(cached.0.path().join("cache")) else { return Vec::new() };
+        let mut files: Vec<PathBuf> = entries.map(|e| e.unwrap().path()).collect();
+        files.retain(|f| f.extension().is_some_and(|e| e == "columns"));
+        files.sort();
+        files
+    };
+    let mut program = cached.0.program();
+    let mut run = program.args(["run", "a.toml", "--out", "killed", "--cache", "cache", "-q"]).spawn().unwrap();
+    while columns().len() < 2 && run.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    // SIGKILL: no handler of the program sees it.
+    run.kill().unwrap();
+    run.wait().unwrap();
+    assert!(!cached.0.path().join("killed").exists(), "it has ended by itself");
+    let state = |file: &PathBuf| (fs::read(file).unwrap(), fs::metadata(file).unwrap().ino());
+    let before: Vec<_> = columns().into_iter().map(|file| (state(&file), file)).collect();
+    assert!((2..12).contains(&before.len()), "{}", before.len());
+    cached.run("again");
+    for (was, file) in &before {
+        assert!(state(file) == *was, "{} was made again", file.display());
+    }
+    assert_eq!(columns().len(), 12, "a tooth each cycle");
+    assert_eq!(cached.0.read("whole/history.csv"), cached.0.read("again/history.csv"));
+    let summary: serde_json::Value = serde_json::from_str(&cached.0.read("again/summary.json")).unwrap();
+    let change = &summary["headline"]["tooth_change"];
+    let [jump, mean] = [&change["max_ste_jump_um"], &summary["headline"]["mean_ste_um"]].map(|v| v.as_f64().unwrap());
+    assert!(jump < 1e-8 * mean, "{jump} um of {mean} um");
+    // A spoilt file is told of, and made again.
+    let (was, file) = &before[0];
+    fs::write(file, &was.0[..1000]).unwrap();
+    let run = cached.run("last");
+    assert!(run.stdout.contains("has 1000 bytes of"), "{}", run.stdout);
+    assert!(fs::read(file).unwrap() == was.0, "not what it was");
+    assert_eq!(cached.0.read("whole/history.csv"), cached.0.read("last/history.csv"));
+}

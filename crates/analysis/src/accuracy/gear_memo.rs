@@ -7,7 +7,7 @@ use std::{
 };
 
 use contact_map::ContactMap;
-use reduction::{RecordKey, ReductionRecord};
+use reduction::{ColumnStore, RecordKey, ReductionRecord};
 
 use crate::{GearCache, Kept, MapKey};
 
@@ -52,6 +52,10 @@ impl GearCache for GearMemo<'_> {
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark> {
         self.kept.lock().unwrap_or_else(PoisonError::into_inner).insert(key.to_string(), record.clone());
         if self.store.is_on() { self.store.save(key, record) } else { None }
+    }
+
+    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
+        self.store.columns(key)
     }
 
     fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {

@@ -9,6 +9,7 @@
 //! so that K^ and C come without a single solve, and interior displacements by back substitution alone.
 //! Source: the Schur complement of Guyan, AIAA J. 3(2), 1965; multifrontal view of Liu, SIAM Review 34, 1992.
 
+mod part;
 mod solves;
 mod substitution;
 

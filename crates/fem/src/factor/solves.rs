@@ -23,12 +23,13 @@ impl BoundaryLastFactor {
     pub fn expand(&self, boundary: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.boundary.len(), boundary.nrows())?;
+        let whole = self.whole();
         let mut result = Mat::zeros(self.n(), boundary.ncols());
         result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK)).for_each(
             |(mut result, boundary)| {
                 let mut x = Mat::zeros(self.n(), boundary.ncols());
                 x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
-                self.backward(x.as_mut(), interior, None);
+                self.backward(&whole, x.as_mut(), interior, &whole);
                 self.unpermute(x.as_ref(), result.as_mut());
             },
         );
@@ -52,13 +53,14 @@ impl BoundaryLastFactor {
         if force.ncols() != boundary.ncols() {
             return Err(FemError::Shape { what: "columns", expected: force.ncols(), found: boundary.ncols() });
         }
+        let whole = self.whole();
         let mut result = Mat::zeros(self.n(), force.ncols());
         let given = force.par_col_chunks(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK));
         result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(given).for_each(|(mut result, (force, boundary))| {
             let mut x = self.permute(force);
-            self.forward(x.as_mut(), interior);
+            self.forward(&whole, x.as_mut(), interior);
             x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
-            self.backward(x.as_mut(), interior, None);
+            self.backward(&whole, x.as_mut(), interior, &whole);
             self.unpermute(x.as_ref(), result.as_mut());
         });
         Ok(result)
@@ -75,14 +77,17 @@ impl BoundaryLastFactor {
     pub fn expand_rows(&self, boundary: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.boundary.len(), boundary.nrows())?;
-        let near = self.near(wanted)?;
+        let places = self.places(wanted)?;
+        let (near, part) = (self.part(places.clone()), self.part(places.iter().copied().chain(interior..self.n())));
         let mut result = Mat::zeros(wanted.len(), boundary.ncols());
         result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(boundary.par_col_chunks(COLUMN_BLOCK)).for_each(
-            |(mut result, boundary)| {
-                let mut x = Mat::zeros(self.n(), boundary.ncols());
-                x.as_mut().subrows_mut(interior, boundary.nrows()).copy_from(boundary);
-                self.backward(x.as_mut(), interior, Some(&near.branches));
-                near.pick(x.as_ref(), result.as_mut());
+            |(result, boundary)| {
+                let mut x = Mat::zeros(part.rows(), boundary.ncols());
+                for c in 0..boundary.ncols() {
+                    (0..boundary.nrows()).for_each(|i| x[(part.row(interior + i), c)] = boundary[(i, c)]);
+                }
+                self.backward(&part, x.as_mut(), interior, &near);
+                part.pick(&places, x.as_ref(), result);
             },
         );
         Ok(result)
@@ -101,11 +106,12 @@ impl BoundaryLastFactor {
     pub fn condense(&self, force: MatRef<'_, f64>) -> Result<Mat<f64>, FemError> {
         let interior = self.ordering.interior;
         check_rows(self.n(), force.nrows())?;
+        let whole = self.whole();
         let mut result = Mat::zeros(self.boundary.len(), force.ncols());
         result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(force.par_col_chunks(COLUMN_BLOCK)).for_each(
             |(mut result, force)| {
                 let mut x = self.permute(force);
-                self.forward(x.as_mut(), interior);
+                self.forward(&whole, x.as_mut(), interior);
                 result.copy_from(x.as_ref().subrows(interior, self.boundary.len()));
             },
         );
@@ -118,10 +124,11 @@ impl BoundaryLastFactor {
     /// [`FemError::Shape`] when `rhs` does not have n rows.
     pub fn solve(&self, rhs: MatMut<'_, f64>) -> Result<(), FemError> {
         check_rows(self.n(), rhs.nrows())?;
+        let whole = self.whole();
         rhs.par_col_chunks_mut(COLUMN_BLOCK).for_each(|mut rhs| {
             let mut x = self.permute(rhs.as_ref());
-            self.forward(x.as_mut(), self.n());
-            self.backward(x.as_mut(), self.n(), None);
+            self.forward(&whole, x.as_mut(), self.n());
+            self.backward(&whole, x.as_mut(), self.n(), &whole);
             self.unpermute(x.as_ref(), rhs.as_mut());
         });
         Ok(())
@@ -135,64 +142,50 @@ impl BoundaryLastFactor {
     /// [`FemError::Shape`], [`FemError::BadDof`] as for [`BoundaryLastFactor::expand_rows`].
     pub fn solve_rows(&self, rhs: MatRef<'_, f64>, wanted: &[usize]) -> Result<Mat<f64>, FemError> {
         check_rows(self.n(), rhs.nrows())?;
-        let near = self.near(wanted)?;
+        let (whole, places) = (self.whole(), self.places(wanted)?);
+        let near = self.part(places.clone());
         let mut result = Mat::zeros(wanted.len(), rhs.ncols());
         result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(rhs.par_col_chunks(COLUMN_BLOCK)).for_each(
-            |(mut result, rhs)| {
+            |(result, rhs)| {
                 let mut x = self.permute(rhs);
-                self.forward(x.as_mut(), self.n());
-                self.backward(x.as_mut(), self.n(), Some(&near.branches));
-                near.pick(x.as_ref(), result.as_mut());
+                self.forward(&whole, x.as_mut(), self.n());
+                self.backward(&whole, x.as_mut(), self.n(), &near);
+                whole.pick(&places, x.as_ref(), result);
             },
         );
         Ok(result)
     }
 
-    /// Where the freedoms `wanted` are, and which supernodes back substitution needs for them: those that hold one, and
-    /// all their ancestors.
-    fn near(&self, wanted: &[usize]) -> Result<Near, FemError> {
-        let mut owner = vec![0; self.n()];
-        let mut needed = Vec::new();
-        for node in self.supernodes() {
-            owner[node.start..node.start + node.columns].fill(node.index);
-            needed.push(false);
-        }
-        let places: Vec<usize> = wanted
-            .iter()
-            .map(|&dof| {
-                let place = self.ordering.inverse.get(dof).copied();
-                place.ok_or(FemError::BadDof { dof, count: self.n() })
-            })
-            .collect::<Result<_, _>>()?;
-        for &place in &places {
-            needed[owner[place]] = true;
-        }
-        for node in self.supernodes() {
-            // The rows below a supernode all belong to ancestors, the first of them to its parent.
-            if let (true, Some(&row)) = (needed[node.index], node.pattern.first()) {
-                needed[owner[row]] = true;
-            }
-        }
-        Ok(Near { places, branches: needed })
-    }
-}
-
-/// Some freedoms and the part of the factor that they depend on.
-struct Near {
-    /// Their places in the order of elimination.
-    places: Vec<usize>,
-    /// For each supernode whether back substitution has to go through it.
-    branches: Vec<bool>,
-}
-
-impl Near {
-    /// Their rows of `x` (in the order of elimination) into `result`.
-    fn pick(&self, x: MatRef<'_, f64>, mut result: MatMut<'_, f64>) {
-        for c in 0..x.ncols() {
-            for (i, &place) in self.places.iter().enumerate() {
-                result[(i, c)] = x[(place, c)];
-            }
-        }
+    /// Rows `wanted` of K^-1 b, in that order, for columns b of a few forces each: freedom and force, N.
+    ///
+    /// Only branches of the elimination tree that hold a force or a wanted row are gone through or have memory: the
+    /// columns of one tooth of a gear take a share of the factor that hardly grows with the number of teeth.
+    ///
+    /// # Errors
+    /// [`FemError::BadDof`] for a freedom that does not exist.
+    pub fn solve_few(&self, forces: &[Vec<(usize, f64)>], wanted: &[usize]) -> Result<Mat<f64>, FemError> {
+        let placed = |column: &Vec<(usize, f64)>| -> Result<Vec<(usize, f64)>, FemError> {
+            let dofs: Vec<usize> = column.iter().map(|force| force.0).collect();
+            Ok(self.places(&dofs)?.into_iter().zip(column.iter().map(|force| force.1)).collect())
+        };
+        let forces: Vec<Vec<(usize, f64)>> = forces.iter().map(placed).collect::<Result<_, _>>()?;
+        let places = self.places(wanted)?;
+        let near = self.part(places.clone());
+        let loaded = forces.iter().flatten().map(|force| force.0);
+        let part = self.part(places.iter().copied().chain(loaded));
+        let mut result = Mat::zeros(wanted.len(), forces.len());
+        result.as_mut().par_col_chunks_mut(COLUMN_BLOCK).zip(forces.par_chunks(COLUMN_BLOCK)).for_each(
+            |(result, forces)| {
+                let mut x = Mat::zeros(part.rows(), forces.len());
+                for (c, column) in forces.iter().enumerate() {
+                    column.iter().for_each(|&(place, force)| x[(part.row(place), c)] += force);
+                }
+                self.forward(&part, x.as_mut(), self.n());
+                self.backward(&part, x.as_mut(), self.n(), &near);
+                part.pick(&places, x.as_ref(), result);
+            },
+        );
+        Ok(result)
     }
 }
 

@@ -306,12 +306,16 @@ fn answers_near_some_freedoms_are_those_of_the_whole() {
     let mut force = Mat::<f64>::zeros(k.n(), 3);
     (0..3).for_each(|j| force[(7 * j + 1, j)] = 1.0);
     let solved_near = factor.solve_rows(force.as_ref(), &wanted).unwrap();
+    let few: Vec<Vec<(usize, f64)>> = (0..3).map(|j| vec![(7 * j + 1, 1.0)]).collect();
+    let solved_few = factor.solve_few(&few, &wanted).unwrap();
     factor.solve(force.as_mut()).unwrap();
     assert_eq!((near.nrows(), solved_near.nrows()), (wanted.len(), wanted.len()));
     for (i, &dof) in wanted.iter().enumerate() {
         assert!((0..70).all(|j| all[(dof, j)] == near[(i, j)]), "row {dof} of the expansion");
         assert!((0..3).all(|j| force[(dof, j)] == solved_near[(i, j)]), "row {dof} of the solution");
+        assert!((0..3).all(|j| force[(dof, j)] == solved_few[(i, j)]), "row {dof} of the solution for few forces");
     }
     assert!(matches!(factor.expand_rows(given.as_ref(), &[k.n()]), Err(FemError::BadDof { .. })));
     assert!(matches!(factor.solve_rows(given.as_ref(), &wanted), Err(FemError::Shape { .. })));
+    assert!(matches!(factor.solve_few(&[vec![(k.n(), 1.0)]], &wanted), Err(FemError::BadDof { .. })));
 }

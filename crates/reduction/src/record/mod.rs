@@ -1,5 +1,6 @@
 //! A reduced gear without its factor: what a later run needs of it, and how that is kept in a file.
 
+mod columns;
 mod error;
 mod key;
 mod read;
@@ -16,14 +17,16 @@ pub use key::{RecordKey, record_key};
 
 /// Version of the file format, of what the numbers in it mean and of the code that makes them; another one is never read,
 /// and it is in every key. A test (`a_record_of_another_code_has_another_version`) notices when it must be raised.
-pub const RECORD_VERSION: u32 = 3;
+pub const RECORD_VERSION: u32 = 4;
 
 /// First bytes of a file.
 const MAGIC: [u8; 16] = *b"ale-gear reduced";
+/// First bytes of a file of columns of a tooth.
+const COLUMNS: [u8; 16] = *b"ale-gear columns";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its windows, half teeth; and its lowest elastic frequency. Not the
+/// What contact takes of a reduced gear: matrices of its first window, half teeth; and its lowest elastic frequency. Not the
 /// factor, which a reducer from a record makes again when displacement fields or stress modes are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
@@ -35,15 +38,15 @@ const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 /// | 32 | [`RecordKey`]: BLAKE3 of everything that the numbers depend on |
 /// | 8 | length of the payload |
 /// | 32 | BLAKE3 of all bytes above and the payload |
-/// | .. | payload: how it was condensed; lowest frequency; windows; half teeth |
+/// | .. | payload: how it was condensed; lowest frequency; first window; half teeth |
 #[derive(Debug, Clone)]
 pub struct ReductionRecord {
     /// How it was condensed.
     pub(crate) summary: Summary,
     /// Lowest frequency with the bore held and the flanks free, Hz, if it was asked for.
     pub(crate) lowest_hz: Option<f64>,
-    /// Windows; of a cyclic gear one alone.
-    pub(crate) windows: Vec<Arc<ReducedGear>>,
+    /// The first window.
+    pub(crate) window: Arc<ReducedGear>,
     /// Half teeth by tooth and side.
     pub(crate) halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
 }

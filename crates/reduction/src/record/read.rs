@@ -14,32 +14,35 @@ impl ReductionRecord {
     /// # Errors
     /// [`RecordError`]: any changed, missing or added byte is noticed.
     pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
-        if bytes.get(..16) != Some(&MAGIC[..]) {
-            return Err(RecordError::Foreign);
-        }
-        let found = bytes.len() as u64;
-        let header = bytes.get(..HEADER).ok_or(RecordError::WrongLength { found, wanted: HEADER as u64 })?;
-        let version = u32::from_le_bytes(part(header, 16));
-        if version != RECORD_VERSION {
-            return Err(RecordError::OtherVersion { found: version });
-        }
-        let wanted = u64::from_le_bytes(part(header, HEADER - 40)).saturating_add(HEADER as u64);
-        if wanted != found {
-            return Err(RecordError::WrongLength { found, wanted });
-        }
-        if checksum(bytes) != part::<32>(header, HEADER - 32) {
-            return Err(RecordError::Damaged);
-        }
-        if part::<32>(header, 20) != key.0 {
-            return Err(RecordError::OtherGear);
-        }
-        let mut cursor = Cursor { bytes, at: HEADER };
+        let mut cursor = opened(bytes, MAGIC, key)?;
         let record = cursor.record()?;
-        if cursor.at != bytes.len() {
-            return Err(cursor.wrong("bytes after the end"));
-        }
+        cursor.ended()?;
         Ok(record)
     }
+}
+
+/// The payload of a file of a kind, if it is that of `key`.
+pub(super) fn opened<'a>(bytes: &'a [u8], magic: [u8; 16], key: &RecordKey) -> Result<Cursor<'a>, RecordError> {
+    if bytes.get(..16) != Some(&magic[..]) {
+        return Err(RecordError::Foreign);
+    }
+    let found = bytes.len() as u64;
+    let header = bytes.get(..HEADER).ok_or(RecordError::WrongLength { found, wanted: HEADER as u64 })?;
+    let version = u32::from_le_bytes(part(header, 16));
+    if version != RECORD_VERSION {
+        return Err(RecordError::OtherVersion { found: version });
+    }
+    let wanted = u64::from_le_bytes(part(header, HEADER - 40)).saturating_add(HEADER as u64);
+    if wanted != found {
+        return Err(RecordError::WrongLength { found, wanted });
+    }
+    if checksum(bytes) != part::<32>(header, HEADER - 32) {
+        return Err(RecordError::Damaged);
+    }
+    if part::<32>(header, 20) != key.0 {
+        return Err(RecordError::OtherGear);
+    }
+    Ok(Cursor { bytes, at: HEADER })
 }
 
 /// `N` bytes at a place inside the header.
@@ -47,13 +50,19 @@ fn part<const N: usize>(header: &[u8], at: usize) -> [u8; N] {
     std::array::from_fn(|i| header[at + i])
 }
 
-struct Cursor<'a> {
+/// A place in a file.
+pub(super) struct Cursor<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl<'a> Cursor<'a> {
-    fn wrong(&self, what: &'static str) -> RecordError {
+    /// Refuses bytes after the end.
+    pub(super) fn ended(&self) -> Result<(), RecordError> {
+        if self.at == self.bytes.len() { Ok(()) } else { Err(self.wrong("bytes after the end")) }
+    }
+
+    pub(super) fn wrong(&self, what: &'static str) -> RecordError {
         RecordError::Inconsistent { at: self.at, what }
     }
 
@@ -70,11 +79,11 @@ impl<'a> Cursor<'a> {
         if value > most { Err(self.wrong("a mark without meaning")) } else { Ok(value) }
     }
 
-    fn count(&mut self) -> Result<usize, RecordError> {
+    pub(super) fn count(&mut self) -> Result<usize, RecordError> {
         Ok(u32::from_le_bytes(part(self.take(4)?, 0)) as usize)
     }
 
-    fn list(&mut self) -> Result<Vec<u32>, RecordError> {
+    pub(super) fn list(&mut self) -> Result<Vec<u32>, RecordError> {
         let count = self.count()?;
         let bytes = self.take(4 * count)?;
         Ok(bytes.as_chunks().0.iter().map(|c| u32::from_le_bytes(*c)).collect())
@@ -87,9 +96,9 @@ impl<'a> Cursor<'a> {
     }
 
     /// A matrix that must have so many rows and columns.
-    fn matrix(&mut self, size: usize) -> Result<Mat<f64>, RecordError> {
+    pub(super) fn matrix(&mut self, size: (usize, usize)) -> Result<Mat<f64>, RecordError> {
         let (rows, columns) = (self.count()?, self.count()?);
-        if (rows, columns) != (size, size) {
+        if (rows, columns) != size {
             return Err(self.wrong("a matrix of another size than its nodes"));
         }
         let count = rows.checked_mul(columns).ok_or_else(|| self.wrong("a list longer than the file"))?;
@@ -109,17 +118,14 @@ impl<'a> Cursor<'a> {
         let summary = Summary { way, cyclic, free_count };
         let lowest_hz = Some(self.values(1)?[0]).filter(|hz| !hz.is_nan());
         // Counts of long things are not trusted with an allocation: each thing must be there first.
-        let mut windows = Vec::new();
-        for _ in 0..self.count()? {
-            windows.push(Arc::new(self.window()?));
-        }
+        let window = Arc::new(self.window()?);
         let mut halves = Vec::new();
         for _ in 0..self.count()? {
             let tooth = u32::from_le_bytes(part(self.take(4)?, 0));
             let side = self.side()?;
             halves.push(((tooth, side), Arc::new(self.half()?)));
         }
-        Ok(ReductionRecord { summary, lowest_hz, windows, halves })
+        Ok(ReductionRecord { summary, lowest_hz, window, halves })
     }
 
     fn window(&mut self) -> Result<ReducedGear, RecordError> {
@@ -129,7 +135,7 @@ impl<'a> Cursor<'a> {
             sides.push(self.side()?);
         }
         let nodes = self.nodes()?;
-        let compliance = self.matrix(3 * nodes.len())?;
+        let compliance = self.matrix((3 * nodes.len(), 3 * nodes.len()))?;
         Ok(ReducedGear::new(teeth, sides, nodes, compliance))
     }
 
@@ -141,7 +147,7 @@ impl<'a> Cursor<'a> {
 
     fn half(&mut self) -> Result<LocalCompliance, RecordError> {
         let nodes = self.nodes()?;
-        let compliance = self.matrix(3 * nodes.len())?;
+        let compliance = self.matrix((3 * nodes.len(), 3 * nodes.len()))?;
         let overshoot = self.values(1)?[0];
         let mut lists = [Vec::new(), Vec::new(), Vec::new()];
         for list in &mut lists {

@@ -9,24 +9,14 @@ use crate::{ReductionWay, reducer::Summary};
 impl ReductionRecord {
     /// The content of a file; the same record gives the same bytes.
     pub fn to_bytes(&self, key: &RecordKey) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(HEADER + self.size());
-        bytes.extend(MAGIC);
-        bytes.extend(RECORD_VERSION.to_le_bytes());
-        bytes.extend(key.0);
-        bytes.extend([0; 8 + 32]); // length and checksum, known below
-        self.payload(&mut bytes);
-        let length = (bytes.len() - HEADER) as u64;
-        bytes[HEADER - 40..HEADER - 32].copy_from_slice(&length.to_le_bytes());
-        let checksum = checksum(&bytes);
-        bytes[HEADER - 32..HEADER].copy_from_slice(&checksum);
-        bytes
+        sealed(MAGIC, key, self.size(), |bytes| self.payload(bytes))
     }
 
     /// About the length of the payload.
     fn size(&self) -> usize {
-        let windows = self.windows.iter().map(|w| 8 * w.coordinates().pow(2) + 8 * w.nodes.len());
+        let window = 8 * self.window.coordinates().pow(2) + 8 * self.window.nodes.len();
         let halves = self.halves.iter().map(|(_, h)| 8 * h.compliance.ncols().pow(2) + 4096);
-        windows.sum::<usize>() + halves.sum::<usize>() + 4096
+        window + halves.sum::<usize>() + 4096
     }
 
     fn payload(&self, bytes: &mut Vec<u8>) {
@@ -35,14 +25,12 @@ impl ReductionRecord {
         bytes.push(u8::from(cyclic));
         bytes.extend((free_count as u64).to_le_bytes());
         bytes.extend(self.lowest_hz.unwrap_or(f64::NAN).to_le_bytes());
-        put(bytes, self.windows.len());
-        for window in &self.windows {
-            list(bytes, &window.teeth);
-            put(bytes, window.sides.len());
-            bytes.extend(window.sides.iter().map(|s| side_byte(*s)));
-            list(bytes, &window.nodes);
-            matrix(bytes, &window.compliance);
-        }
+        let window = &self.window;
+        list(bytes, &window.teeth);
+        put(bytes, window.sides.len());
+        bytes.extend(window.sides.iter().map(|s| side_byte(*s)));
+        list(bytes, &window.nodes);
+        matrix(bytes, &window.compliance);
         put(bytes, self.halves.len());
         for ((tooth, side), half) in &self.halves {
             bytes.extend(tooth.to_le_bytes());
@@ -58,6 +46,21 @@ impl ReductionRecord {
             values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
         }
     }
+}
+
+/// A file of a kind with its payload, about `size` long.
+pub(super) fn sealed(magic: [u8; 16], key: &RecordKey, size: usize, payload: impl FnOnce(&mut Vec<u8>)) -> Vec<u8> {
+    let mut bytes = Vec::with_capacity(HEADER + size);
+    bytes.extend(magic);
+    bytes.extend(RECORD_VERSION.to_le_bytes());
+    bytes.extend(key.0);
+    bytes.extend([0; 8 + 32]); // length and checksum, known below
+    payload(&mut bytes);
+    let length = (bytes.len() - HEADER) as u64;
+    bytes[HEADER - 40..HEADER - 32].copy_from_slice(&length.to_le_bytes());
+    let checksum = checksum(&bytes);
+    bytes[HEADER - 32..HEADER].copy_from_slice(&checksum);
+    bytes
 }
 
 /// BLAKE3 of a file's bytes without those of the checksum itself.
@@ -77,13 +80,13 @@ fn put(bytes: &mut Vec<u8>, count: usize) {
     bytes.extend((count as u32).to_le_bytes());
 }
 
-fn list(bytes: &mut Vec<u8>, values: &[u32]) {
+pub(super) fn list(bytes: &mut Vec<u8>, values: &[u32]) {
     put(bytes, values.len());
     values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
 }
 
 /// Rows, columns, then column by column.
-fn matrix(bytes: &mut Vec<u8>, m: &Mat<f64>) {
+pub(super) fn matrix(bytes: &mut Vec<u8>, m: &Mat<f64>) {
     put(bytes, m.nrows());
     put(bytes, m.ncols());
     for j in 0..m.ncols() {

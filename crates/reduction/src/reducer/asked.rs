@@ -7,10 +7,9 @@ use std::{
 
 use geometry::Side;
 
-use super::Summary;
+use super::{Summary, tooth_windows::ToothWindows};
 use crate::{LocalCompliance, ReducedGear, ReductionRecord};
 
-type Windows = BTreeMap<u32, Arc<ReducedGear>>;
 type Halves = BTreeMap<(u32, Side), Arc<LocalCompliance>>;
 
 /// Results that were found when first asked for, or came from a record.
@@ -18,22 +17,19 @@ type Halves = BTreeMap<(u32, Side), Arc<LocalCompliance>>;
 pub(super) struct Asked {
     /// Lowest frequency with the bore held and the flanks free, Hz.
     pub(super) lowest_hz: OnceLock<f64>,
-    others: Mutex<Windows>,
+    /// Windows but the first one, of a gear that is not cyclic.
+    pub(super) others: ToothWindows,
     halves: Mutex<Halves>,
-    /// Further windows, half teeth and frequencies that came from a record, so many.
-    recorded: Option<[usize; 3]>,
+    /// Half teeth and frequencies that came from a record, so many.
+    recorded: Option<[usize; 2]>,
 }
 
 impl Asked {
-    /// All that a record has; the windows but the first one by their first teeth.
-    pub(super) fn recorded(
-        others: Windows,
-        halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
-        lowest_hz: Option<f64>,
-    ) -> Self {
+    /// All that a record has beside the first window.
+    pub(super) fn recorded(halves: Vec<((u32, Side), Arc<LocalCompliance>)>, lowest_hz: Option<f64>) -> Self {
         let asked = Self {
             lowest_hz: lowest_hz.map_or_else(OnceLock::new, OnceLock::from),
-            others: Mutex::new(others),
+            others: ToothWindows::default(),
             halves: Mutex::new(halves.into_iter().collect()),
             recorded: None,
         };
@@ -46,11 +42,6 @@ impl Asked {
         self.recorded.is_some()
     }
 
-    /// Windows but the first one, by their first teeth.
-    pub(super) fn others(&self) -> MutexGuard<'_, Windows> {
-        self.others.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
     /// Half teeth by tooth and side.
     pub(super) fn halves(&self) -> MutexGuard<'_, Halves> {
         self.halves.lock().unwrap_or_else(PoisonError::into_inner)
@@ -61,12 +52,12 @@ impl Asked {
         (self.recorded != Some(self.counts())).then(|| ReductionRecord {
             summary,
             lowest_hz: self.lowest_hz.get().copied(),
-            windows: std::iter::once(base).chain(self.others().values()).cloned().collect(),
+            window: base.clone(),
             halves: self.halves().iter().map(|(&flank, half)| (flank, half.clone())).collect(),
         })
     }
 
-    fn counts(&self) -> [usize; 3] {
-        [self.others().len(), self.halves().len(), usize::from(self.lowest_hz.get().is_some())]
+    fn counts(&self) -> [usize; 2] {
+        [self.halves().len(), usize::from(self.lowest_hz.get().is_some())]
     }
 }

@@ -173,6 +173,16 @@ impl Opened {
         Ok(Self { teeth, nodes, loads })
     }
 
+    /// Teeth, counter-clockwise.
+    pub(super) fn teeth(&self) -> &[u32] {
+        &self.teeth
+    }
+
+    /// Boundary nodes.
+    pub(super) fn nodes(&self) -> &[u32] {
+        &self.nodes
+    }
+
     /// Number of the boundary nodes on the first tooth, which come before all others.
     fn of_first_tooth(
         &self,

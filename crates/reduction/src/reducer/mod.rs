@@ -4,6 +4,7 @@ mod asked;
 mod condense;
 mod options;
 mod recorded;
+mod tooth_windows;
 mod windows;
 
 use std::sync::{Arc, OnceLock};
@@ -25,8 +26,8 @@ pub(crate) use condense::{Method, Summary};
 /// Coordinates are the flank nodes of the window's teeth, or means of their displacements with the weights of loads on
 /// coarse grids ([`FlankGrid`]). They are known from one sector where the gear is cyclic to round-off, else from one
 /// factor of the whole gear ([`ReductionWay`]); the matrices are the same to 1e-9. A cyclic gear has the same matrices
-/// for all windows, in frames turned by whole pitches; for any other gear further windows come from solves with the
-/// same factor, for the columns of the teeth they hold.
+/// for all windows, in frames turned by whole pitches; for any other gear further windows are selections of the columns
+/// of their teeth, which come from solves with the same factor and may be kept in a [`ColumnStore`](crate::ColumnStore).
 ///
 /// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the
 /// first window and one more on either side, in the frame of the matrices.

@@ -1,6 +1,6 @@
 //! Gears from records, and records of gears.
 
-use std::{collections::BTreeMap, sync::OnceLock};
+use std::sync::OnceLock;
 
 use fem::Material;
 use mesh::MeshedGear;
@@ -24,14 +24,12 @@ impl GearReducer {
         options: ReductionOptions,
         record: ReductionRecord,
     ) -> Result<Self, ReductionError> {
-        let ReductionRecord { summary, lowest_hz, windows, halves } = record;
+        let ReductionRecord { summary, lowest_hz, window: base, halves } = record;
         let first = options.first % gear.tooth_count().max(1);
-        let by_first = windows.into_iter().filter_map(|w| Some((w.teeth.first().copied()?, w)));
-        let mut others: BTreeMap<_, _> = by_first.collect();
         let general = summary.way == ReductionWay::General;
-        let Some(base) = others.remove(&first) else {
+        if base.teeth.first() != Some(&first) {
             return Self::watched(gear, material, options, general, ReductionWatch::IDLE);
-        };
+        }
         let seen = match (gear.is_periodic_sector(), general) {
             (false, _) => None,
             (true, true) => Some(gear.clone().whole()?),
@@ -42,11 +40,12 @@ impl GearReducer {
             None => (gear, None),
         };
         let condensed = Condensed { gear, coordinates: Coordinates::FlankNodes, summary, base };
-        let asked = Asked::recorded(others, halves, lowest_hz);
+        let asked = Asked::recorded(halves, lowest_hz);
         Ok(Self { given, asked, ..Self::assembled(material, options, condensed, OnceLock::new()) })
     }
 
-    /// What a later run needs of this gear: the windows, half teeth and lowest frequency that were asked for so far.
+    /// What a later run needs of this gear: the first window, half teeth and lowest frequency that were asked for so far;
+    /// further windows are in a [`ColumnStore`](crate::ColumnStore).
     /// `None` when a record has it all already, and for a gear reduced to grids or by its layers.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);

@@ -5,10 +5,9 @@ use std::sync::Arc;
 use geometry::{Gear, Side};
 use mesh::BoreCoupling;
 
-use super::{GearReducer, Method, ReductionOptions, condense::Opened};
+use super::{GearReducer, Method, ReductionWay};
 use crate::{
     LocalCompliance, ReductionError, Window,
-    general::Seen,
     load::{Coordinates, Load, missing},
 };
 
@@ -23,19 +22,15 @@ impl GearReducer {
         if first == base || self.is_cyclic() {
             return Ok(Window { reduced: self.base.clone(), shift: (first + z - base) % z });
         }
-        let mut others = self.asked.others();
-        if let Some(reduced) = others.get(&first) {
-            return Ok(Window { reduced: reduced.clone(), shift: 0 });
-        }
-        let Method::General(general, _) = self.method()? else {
+        if self.summary.way == ReductionWay::CyclicSector {
             return Ok(Window { reduced: self.base.clone(), shift: 0 });
-        };
-        let options = ReductionOptions { first, ..self.options.clone() };
-        let other = Opened::new(&self.gear, &self.coordinates, &options)?;
-        let compliance = general.compliance(Seen::Loads(&other.loads), &|| true)?;
-        let reduced = Arc::new(other.reduced(&options, compliance));
-        others.insert(first, reduced.clone());
-        Ok(Window { reduced, shift: 0 })
+        }
+        Ok(Window { reduced: self.window_of_teeth(first)?, shift: 0 })
+    }
+
+    /// Whether the window from tooth `first` on has the matrices of another one; nothing is made to find out.
+    pub fn shares_matrices(&self, window: &Window, first: u32) -> bool {
+        self.is_cyclic() || window.reduced.teeth.first() == Some(&(first % self.gear.tooth_count()))
     }
 
     /// Half of a tooth of the mesh behind one flank, condensed when first asked for. `geometry` is the gear that was

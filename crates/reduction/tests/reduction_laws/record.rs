@@ -46,12 +46,13 @@ impl Sample {
 
 /// Record of the sample: version, digest of its code without comments, and what it holds: count, sum of sizes and sum
 /// weighted by place of the numbers of a window and of a half tooth.
-const RECORD: (u32, &str, usize, f64, f64) = (3, "3d9e721867b5aaa8", 7290, 0.0032079394506089438, 11.442760429138692);
+const RECORD: (u32, &str, usize, f64, f64) = (4, "2f47dd3b00211da1", 7290, 0.0032079394506089438, 11.442760429138692);
 
 /// A record of before must not be taken for one of today: its version goes up with what its code does.
 #[test]
 fn a_record_of_another_code_has_another_version() {
     let sources = [
+        include_str!("../../src/record/columns.rs"),
         include_str!("../../src/record/mod.rs"),
         include_str!("../../src/record/key.rs"),
         include_str!("../../src/record/read.rs"),

@@ -4,6 +4,7 @@ use std::{
     fs::{self, File},
     io::ErrorKind,
     path::{Path, PathBuf},
+    sync::Arc,
     time::SystemTime,
 };
 
@@ -13,7 +14,7 @@ use analysis::{
 };
 use contact_map::ContactMap;
 use files::{Kind, most, read_regular_file, take_away_left_overs, write_file};
-use reduction::{RecordKey, ReductionRecord};
+use reduction::{ColumnFault, ColumnStore, RecordKey, ReductionRecord, ToothColumns};
 
 /// A folder of reduced gears and maps, or none.
 ///
@@ -26,8 +27,9 @@ pub struct Cache {
 
 /// What the folder may hold, bytes; the files that were not used for the longest time go first.
 const LIMIT: u64 = 4_000_000_000;
-/// Suffixes of the files: of gears and of maps.
+/// Suffixes of the files: of gears, of columns of their teeth, and of maps.
 const SUFFIX: &str = "reduced";
+const COLUMNS_SUFFIX: &str = "columns";
 const MAP_SUFFIX: &str = "map";
 /// First word of a file of maps.
 const MAP_HEADING: &str = "ale-gear maps";
@@ -100,6 +102,10 @@ impl GearCache for Cache {
         written.err().map(|e| remark::gear_not_stored(file.display().to_string(), e.to_string()))
     }
 
+    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
+        self.folder.is_some().then(|| Arc::new(TeethOnDisk { cache: self.clone(), key: *key }) as Arc<dyn ColumnStore>)
+    }
+
     fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
         let Some(file) = self.map_file(key) else { return (None, None) };
         let complain = |what: String| (None, Some(remark::map_not_loaded(file.display().to_string(), what)));
@@ -120,6 +126,41 @@ impl GearCache for Cache {
         let file = self.map_file(key)?;
         let written = map_bytes(key, maps).map_err(std::io::Error::other).and_then(|bytes| self.write(&file, &bytes));
         written.err().map(|e| remark::map_not_stored(file.display().to_string(), e.to_string()))
+    }
+}
+
+/// Columns of the teeth of one gear, a file each.
+#[derive(Debug)]
+struct TeethOnDisk {
+    cache: Cache,
+    key: RecordKey,
+}
+
+impl TeethOnDisk {
+    fn file(&self, tooth: u32) -> PathBuf {
+        let name = format!("{}-{tooth}.{COLUMNS_SUFFIX}", self.key);
+        self.cache.folder.as_deref().unwrap_or(Path::new("")).join(name)
+    }
+}
+
+impl ColumnStore for TeethOnDisk {
+    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, ColumnFault> {
+        let file = self.file(tooth);
+        let fault = |what: String| ColumnFault { file: file.display().to_string(), what, writing: false };
+        let bytes = match read_regular_file(&file, most::RECORD) {
+            Ok(bytes) => bytes,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(e) => return Err(fault(e.to_string())),
+        };
+        let columns = ToothColumns::from_bytes(&bytes, &self.key).map_err(|e| fault(e.to_string()))?;
+        touch(&file);
+        Ok(Some(columns))
+    }
+
+    fn save(&self, columns: &ToothColumns) -> Result<(), ColumnFault> {
+        let file = self.file(columns.tooth);
+        let written = self.cache.write(&file, &columns.to_bytes(&self.key));
+        written.map_err(|e| ColumnFault { file: file.display().to_string(), what: e.to_string(), writing: true })
     }
 }
 
@@ -163,10 +204,12 @@ fn touch(file: &Path) {
 /// Whether a name is one that this program gives: a key and what the file holds.
 fn is_record(path: &Path) -> bool {
     let suffix = path.extension().and_then(|e| e.to_str());
-    let key = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
-    suffix.is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX)
-        && key.len() == 64
-        && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
+    let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+    let (key, known) = match stem.split_once('-') {
+        Some((key, tooth)) => (key, suffix == Some(COLUMNS_SUFFIX) && tooth.parse::<u32>().is_ok()),
+        None => (stem, suffix.is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX)),
+    };
+    known && key.len() == 64 && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
 }
 
 /// Removes the least recently used files until the rest is within the limit; `newest` stays.
