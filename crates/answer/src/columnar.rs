@@ -12,19 +12,10 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::{ColumnPath, Type};
 
-use crate::{Table, TableError, Values, table::Part, write_table};
+use crate::{Table, TableError, Values, table::Part};
 
 /// Rows of a group.
 pub(crate) const GROUP: usize = 65_536;
-
-/// Writes the Parquet file of a table, in groups of 65,536 rows, Snappy: one group at a time is in memory.
-///
-/// # Errors
-/// [`TableError::Parquet`] when a name is none that the format takes, [`TableError::Write`] when the system refuses; [`TableError::Kept`] where
-/// rows cannot be read back.
-pub fn write_parquet(table: &Table, mut to: impl Write + Send) -> Result<(), TableError> {
-    write_table(table, None, Some(&mut to))
-}
 
 /// The Parquet file of a table on its way, group by group.
 pub(crate) struct ParquetFile<'a> {
@@ -36,7 +27,7 @@ impl<'a> ParquetFile<'a> {
     /// File of a table without rows.
     ///
     /// # Errors
-    /// As [`write_parquet`].
+    /// [`TableError::Parquet`] when the format refuses, [`TableError::Write`] when the system does.
     pub fn new(table: &'a Table, to: &'a mut (dyn Write + Send)) -> Result<Self, TableError> {
         let refused = |cause| refused(&table.name, cause);
         let columns: Vec<(&str, bool)> =
@@ -49,7 +40,7 @@ impl<'a> ParquetFile<'a> {
     /// Writes rows as a group.
     ///
     /// # Errors
-    /// As [`write_parquet`].
+    /// [`TableError::Parquet`] when the format refuses, [`TableError::Write`] when the system does.
     pub fn add(&mut self, parts: &[Part<'_>]) -> Result<(), TableError> {
         write_group(&mut self.writer, parts).map_err(|cause| refused(&self.table.name, cause))
     }
@@ -57,7 +48,7 @@ impl<'a> ParquetFile<'a> {
     /// Ends the file.
     ///
     /// # Errors
-    /// As [`write_parquet`].
+    /// [`TableError::Parquet`] when the format refuses, [`TableError::Write`] when the system does.
     pub fn end(self) -> Result<(), TableError> {
         self.writer.close().map(|_| ()).map_err(|cause| refused(&self.table.name, cause))
     }

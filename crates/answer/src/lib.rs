@@ -33,7 +33,6 @@ mod unit;
 
 pub use answer::{Answer, keyed};
 pub use check::{Check, Checks, FailedCheck};
-pub use columnar::write_parquet;
 pub use cost::{Cost, Phase};
 pub use error::TableError;
 pub use numbers::{Numbers, json};
@@ -41,5 +40,5 @@ pub use remark::{Remark, RemarkKind, RemarkValue, digits};
 pub use row_column::{KeptColumn, OfRow, RowColumn};
 pub use row_store::RowStore;
 pub use table::{Column, Table, Values};
-pub use table_files::{TakeLines, write_table};
+pub use table_files::{TakeLines, write_parquet, write_table};
 pub use unit::unit_of;

@@ -4,7 +4,7 @@ use std::{borrow::Cow, collections::BTreeSet, ops::Range, sync::Arc};
 
 use serde::de::DeserializeOwned;
 
-use crate::{KeptColumn, RowColumn, RowStore, TableError, row_column::kept, unit_of, write_table};
+use crate::{KeptColumn, RowColumn, RowStore, TableError, row_column::kept, unit_of};
 
 /// Numbers or texts of a column, one a row.
 #[derive(Debug, Clone, PartialEq)]
@@ -247,31 +247,6 @@ impl Table {
     /// The values of some rows, column by column; `lists` has room that parts before have had.
     pub(crate) fn parts(&self, rows: Range<usize>, lists: &mut Vec<Vec<f64>>) -> Result<Vec<Part<'_>>, TableError> {
         parts(self.columns.iter(), rows, lists)
-    }
-
-    /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
-    /// bits.
-    ///
-    /// # Errors
-    /// [`TableError::Kept`] where rows cannot be read back.
-    pub fn csv(&self) -> Result<String, TableError> {
-        let mut text = String::new();
-        self.csv_in_blocks(|block| {
-            text.push_str(block);
-            Ok::<_, TableError>(())
-        })?;
-        Ok(text)
-    }
-
-    /// The text of [`Self::csv`], some lines at a time.
-    ///
-    /// # Errors
-    /// The first that `take` has, nothing is handed out after it; [`TableError::Kept`] where rows cannot be read back.
-    pub fn csv_in_blocks<E: From<TableError> + Send>(
-        &self,
-        mut take: impl FnMut(&str) -> Result<(), E> + Send,
-    ) -> Result<(), E> {
-        write_table(self, Some(&mut take), None)
     }
 }
 

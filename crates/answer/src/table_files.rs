@@ -50,6 +50,42 @@ pub fn write_table<E: From<TableError> + Send>(
     lines.map_or(Ok(()), |own| (own.take)(&own.text))
 }
 
+/// Writes the Parquet file of a table, in groups of 65,536 rows, Snappy: one group at a time is in memory.
+///
+/// # Errors
+/// [`TableError::Parquet`] when a name is none that the format takes, [`TableError::Write`] when the system refuses; [`TableError::Kept`] where
+/// rows cannot be read back.
+pub fn write_parquet(table: &Table, mut to: impl Write + Send) -> Result<(), TableError> {
+    write_table(table, None, Some(&mut to))
+}
+
+impl Table {
+    /// The file with commas: names first, then a line a row. Numbers have the shortest text that reads back to the same
+    /// bits.
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn csv(&self) -> Result<String, TableError> {
+        let mut text = String::new();
+        self.csv_in_blocks(|block| {
+            text.push_str(block);
+            Ok::<_, TableError>(())
+        })?;
+        Ok(text)
+    }
+
+    /// The text of [`Self::csv`], some lines at a time.
+    ///
+    /// # Errors
+    /// The first that `take` has, nothing is handed out after it; [`TableError::Kept`] where rows cannot be read back.
+    pub fn csv_in_blocks<E: From<TableError> + Send>(
+        &self,
+        mut take: impl FnMut(&str) -> Result<(), E> + Send,
+    ) -> Result<(), E> {
+        write_table(self, Some(&mut take), None)
+    }
+}
+
 /// Lines of a file with commas: names first, then a line a row.
 struct Lines<'a, E> {
     text: String,

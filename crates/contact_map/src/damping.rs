@@ -74,9 +74,8 @@ impl ContactMap {
         let [mut e, mut by_sigma, mut by_load] = [0.0; 3];
         for i in 0..4 {
             let first = ((place.phase.first + i) * loads + load.first) * shares + own.first;
-            for k in 0..4 {
-                let at = first + k * shares;
-                let row = &self.damping.share[at..at + 4];
+            let rows = self.damping.share[first..].chunks(shares).filter_map(|row| row.first_chunk::<4>());
+            for (k, row) in rows.take(4).enumerate() {
                 let along = |weights: &[f64; 4]| {
                     (weights[0] * row[0] + weights[1] * row[1]) + (weights[2] * row[2] + weights[3] * row[3])
                 };

@@ -188,7 +188,7 @@ impl ContactMap {
             let [w0, w1, w2, w3] = phase.values.map(|w| w * of_tilt);
             let row = |i: usize| {
                 let at = ((phase.first + i) * tilts + tilt.first + j) * loads + cell;
-                [table[at], table[at + 1], table[at + 2], table[at + 3]]
+                &table[at..at + 4]
             };
             let [r0, r1, r2, r3] = [row(0), row(1), row(2), row(3)];
             for (k, sum) in all.iter_mut().enumerate() {

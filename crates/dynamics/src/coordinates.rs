@@ -124,8 +124,8 @@ impl Coordinates {
     /// d = T q, and the same for velocities; what comes behind the first n is not looked at.
     pub fn displacement(&self, q: &DVector<f64>) -> Displacement {
         let mut d = Displacement::zeros();
-        for j in 0..self.count() {
-            d.iter_mut().zip(&self.map.column(j)).for_each(|(d, t)| *d += t * q[j]);
+        for (column, x) in self.map.as_slice().chunks_exact(d.len()).zip(q.iter()) {
+            d.as_mut_slice().iter_mut().zip(column).for_each(|(d, t)| *d += t * x);
         }
         d
     }

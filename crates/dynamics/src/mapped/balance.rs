@@ -22,7 +22,10 @@ impl Mechanism for MappedPair {
         out.supplied += self.system.coordinates().power(&external, v);
         // A driver that balances the load answers loads, dampers and gyroscopic moments: its work is theirs beyond what
         // they do without the answer.
-        out.supplied += self.system.balancing_torque(&external) * self.system.driver_rate(v);
+        let balancing = self.system.balancing_torque(&external);
+        if balancing != 0.0 {
+            out.supplied += balancing * self.system.driver_rate(v);
+        }
         if let Some(bearing) = &self.bearing {
             out.conservative.gemv(-1.0, bearing, q, 1.0);
             if out.tangents {
