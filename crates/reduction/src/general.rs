@@ -48,7 +48,7 @@ impl GeneralGear {
         if let Some(seat) = &seat {
             stiffness = seat.held(stiffness)?;
         }
-        let factor = BoundaryLastFactor::new_while(&stiffness, &node_dofs(&dofs, last), wanted)?;
+        let factor = BoundaryLastFactor::in_place_of(stiffness, &node_dofs(&dofs, last), wanted)?;
         Ok(Self { dofs, factor, seat })
     }
 

@@ -25,6 +25,7 @@ mod recovery;
 mod reducer;
 mod stack;
 mod stress_modes;
+mod stress_recovery;
 mod teeth;
 mod window;
 

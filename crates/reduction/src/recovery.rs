@@ -4,11 +4,8 @@ use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{
-    GearReducer, ReductionError, Window,
-    cyclic::PitchTurn,
-    general::Seen,
-    reducer::Method,
-    stress_modes::{KnownStress, StressRecovery},
+    GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method, stress_modes::KnownStress,
+    stress_recovery::StressRecovery,
 };
 
 impl GearReducer {
@@ -166,8 +163,8 @@ impl GearReducer {
         nodes: &[u32],
         recovery: StressRecovery,
     ) -> Result<KnownStress, ReductionError> {
-        Ok(KnownStress::Forces(match self.method()? {
-            Method::Cyclic(cyclic) => cyclic.stress(nodes, recovery)?,
+        match self.method()? {
+            Method::Cyclic(cyclic) => cyclic.stress(nodes, recovery).map(KnownStress::Sectors),
             Method::General(general, _) => {
                 let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
                 let operator = match recovery {
@@ -181,9 +178,9 @@ impl GearReducer {
                 if self.is_last(window) {
                     return general.stress(Seen::Last, count, &operator).map(KnownStress::Displacements);
                 }
-                general.stress(Seen::Loads(&self.loads(window)?), count, &operator)?
+                general.stress(Seen::Loads(&self.loads(window)?), count, &operator).map(KnownStress::Forces)
             }
-        }))
+        }
     }
 
     fn stiffness_of<'a>(&self, window: &'a Window) -> Result<&'a Mat<f64>, ReductionError> {

@@ -6,20 +6,7 @@ use faer::Mat;
 use fem::dense;
 use mesh::Face;
 
-use crate::{GearReducer, ReducedGear, ReductionError, Window};
-
-/// How the stress at a node comes from the displacement of the mesh.
-#[derive(Debug, Clone, Copy)]
-pub(crate) enum StressRecovery<'a> {
-    /// From Gauss points of the elements, the mean over the elements of a node ([`fem::StressOperator::new`]): any
-    /// node.
-    Volume,
-    /// From these free faces alone, the mean over the faces of a node ([`fem::StressOperator::on_surface`]): nodes on
-    /// them.
-    ///
-    /// On a cyclic gear the faces must be whole orbits, or all that are about the nodes.
-    Surface(&'a [Vec<Face>]),
-}
+use crate::{GearReducer, ReducedGear, ReductionError, Window, cyclic::SectorStress, stress_recovery::StressRecovery};
 
 /// Stress at some nodes of a gear as a linear map of a window's boundary coordinates.
 ///
@@ -48,6 +35,8 @@ pub(crate) enum KnownStress {
     Displacements(Mat<f64>),
     /// S C, MPa/N, by unit forces on the coordinates: S itself takes the inverse of C, which nobody may ask for.
     Forces(Mat<f64>),
+    /// S C of a cyclic gear, by its sectors.
+    Sectors(SectorStress),
 }
 
 impl StressModes {
@@ -64,11 +53,14 @@ impl StressModes {
         match &self.known {
             KnownStress::Displacements(modes) => Ok(modes.clone()),
             // From stress of unit forces to that of unit displacements: the forces that these take are K^.
-            KnownStress::Forces(modes) => {
-                let stiffness = self.reduced.stiffness().ok_or_else(|| self.singular())?;
-                Ok(dense::product(modes.as_ref(), stiffness.as_ref()))
-            }
+            KnownStress::Forces(modes) => self.by_displacements(modes),
+            KnownStress::Sectors(sectors) => self.by_displacements(&sectors.matrix()),
         }
+    }
+
+    fn by_displacements(&self, by_forces: &Mat<f64>) -> Result<Mat<f64>, ReductionError> {
+        let stiffness = self.reduced.stiffness().ok_or_else(|| self.singular())?;
+        Ok(dense::product(by_forces.as_ref(), stiffness.as_ref()))
     }
 
     /// Stress (MPa) at each node from boundary coordinates `u` (mm).
@@ -80,6 +72,7 @@ impl StressModes {
         match &self.known {
             KnownStress::Displacements(modes) => Ok(applied(modes, u)),
             KnownStress::Forces(modes) => Ok(applied(modes, &self.reduced.forces(u).ok_or_else(|| self.singular())?)),
+            KnownStress::Sectors(sectors) => Ok(sectors.under(&self.reduced.forces(u).ok_or_else(|| self.singular())?)),
         }
     }
 
@@ -91,6 +84,7 @@ impl StressModes {
         self.check_length(forces)?;
         match &self.known {
             KnownStress::Forces(modes) => Ok(applied(modes, forces)),
+            KnownStress::Sectors(sectors) => Ok(sectors.under(forces)),
             KnownStress::Displacements(modes) => {
                 let forces = faer::MatRef::from_column_major_slice(forces, forces.len(), 1);
                 let moved = dense::product(self.reduced.compliance.as_ref(), forces);

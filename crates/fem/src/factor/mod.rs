@@ -13,11 +13,16 @@ mod part;
 mod solves;
 mod substitution;
 
+use std::borrow::Cow;
+
 use dyn_stack::{MemBuffer, MemStack};
 use faer::{
-    Mat, MatRef, Par, Side, Spec,
+    Mat, MatRef, Par, Spec,
     linalg::cholesky::llt::factor::LltError,
-    sparse::linalg::cholesky::{SymbolicCholesky, supernodal::SupernodalLltRef},
+    sparse::linalg::cholesky::{
+        SymbolicCholesky,
+        supernodal::{SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch},
+    },
 };
 
 use crate::{
@@ -56,40 +61,59 @@ impl BoundaryLastFactor {
     /// # Errors
     /// As [`BoundaryLastFactor::new`], and [`FemError::Unwanted`].
     pub fn new_while(stiffness: &SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
+        Self::of(Cow::Borrowed(stiffness), boundary, wanted)
+    }
+
+    /// Factor of a matrix that goes as soon as it has been brought into the order of elimination: beside the factor only
+    /// one copy of it is held.
+    ///
+    /// # Errors
+    /// As [`BoundaryLastFactor::new_while`].
+    pub fn in_place_of(stiffness: SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
+        Self::of(Cow::Owned(stiffness), boundary, wanted)
+    }
+
+    fn of(stiffness: Cow<'_, SymmetricMatrix>, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
         unless_unwanted(wanted)?;
         if let Some((row, column, _)) = stiffness.entries().find(|(_, _, v)| !v.is_finite()) {
             return Err(FemError::NotFinite { row, column });
         }
-        let ordering = Ordering::new(stiffness, boundary)?;
+        let ordering = Ordering::new(&stiffness, boundary)?;
         unless_unwanted(wanted)?;
-        let symbolic = ordering.symbolic(stiffness)?;
+        let symbolic = ordering.symbolic(&stiffness)?;
+        let (diagonal, permuted) = (stiffness.diagonal(), ordering.permuted(&stiffness)?);
+        drop(stiffness);
         let mut values = try_zeroed(symbolic.len_val())?;
-        // sequential inside: two gears are factored side by side instead, and the bits stay the same
-        let scratch = symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch)
-            .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
-        let result = symbolic.factorize_numeric_llt(
-            &mut values,
-            stiffness.lower(),
-            Side::Lower,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Spec::default(),
-        );
-        if let Err(LltError::NonPositivePivot { index }) = result {
-            let dof = ordering.forward.get(index).copied().unwrap_or(index);
-            return Err(FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 });
+        if let Some(structure) = supernodal(&symbolic) {
+            // sequential inside: two gears are factored side by side instead, and the bits stay the same
+            let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(structure, Par::Seq, Spec::default());
+            let mut memory = MemBuffer::try_new(scratch)
+                .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+            let (matrix, stack) = (permuted.as_ref(), MemStack::new(&mut memory));
+            let free = Default::default();
+            let result = factorize_supernodal_numeric_llt(
+                &mut values,
+                matrix,
+                free,
+                structure,
+                Par::Seq,
+                stack,
+                Spec::default(),
+            );
+            if let Err(LltError::NonPositivePivot { index }) = result {
+                let dof = ordering.forward.get(index).copied().unwrap_or(index);
+                return Err(FemError::NotPositiveDefinite { dof, pivot_ratio: 0.0 });
+            }
         }
+        drop(permuted);
         unless_unwanted(wanted)?;
         let factor = Self { ordering, symbolic, values, boundary: boundary.to_vec() };
-        factor.check_pivots(stiffness)?;
+        factor.check_pivots(&diagonal)?;
         Ok(factor)
     }
 
     /// Finds pivots that are positive by luck of round-off.
-    fn check_pivots(&self, stiffness: &SymmetricMatrix) -> Result<(), FemError> {
-        let diagonal = stiffness.diagonal();
+    fn check_pivots(&self, diagonal: &[f64]) -> Result<(), FemError> {
         let mut worst = (f64::INFINITY, 0);
         for node in self.supernodes() {
             for column in 0..node.columns {

@@ -7,15 +7,20 @@
 mod graph;
 mod metis;
 
+use dyn_stack::{MemBuffer, MemStack};
 use faer::{
     Side,
     perm::PermRef,
-    sparse::linalg::{
-        SupernodalThreshold,
-        cholesky::{
-            CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
-            factorize_symbolic_cholesky, supernodal::SymbolicSupernodalCholesky,
+    sparse::{
+        SparseColMat, SymbolicSparseColMat,
+        linalg::{
+            SupernodalThreshold,
+            cholesky::{
+                CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+                factorize_symbolic_cholesky, supernodal::SymbolicSupernodalCholesky,
+            },
         },
+        utils::{permute_self_adjoint_scratch, permute_self_adjoint_to_unsorted},
     },
 };
 
@@ -59,6 +64,31 @@ impl Ordering {
         Ok(Self { forward, inverse, interior: n - last.len() })
     }
 
+    /// The matrix in this order, rows of a column unsorted: what a factor reads.
+    ///
+    /// # Errors
+    /// [`FemError::OutOfMemory`].
+    pub(crate) fn permuted(&self, matrix: &SymmetricMatrix) -> Result<SparseColMat<usize, f64>, FemError> {
+        let (n, count) = (matrix.n(), matrix.stored());
+        let mut values = try_zeroed(count)?;
+        let (mut starts, mut rows) = (try_zeroed(n + 1)?, try_zeroed(count)?);
+        let scratch = permute_self_adjoint_scratch::<usize>(n);
+        let mut memory = MemBuffer::try_new(scratch)
+            .map_err(|_| FemError::OutOfMemory { bytes: scratch.unaligned_bytes_required() })?;
+        let order = PermRef::new_checked(&self.forward, &self.inverse, n);
+        permute_self_adjoint_to_unsorted(
+            &mut values,
+            &mut starts,
+            &mut rows,
+            matrix.lower(),
+            order,
+            Side::Lower,
+            Side::Lower,
+            MemStack::new(&mut memory),
+        );
+        Ok(SparseColMat::new(SymbolicSparseColMat::new_unsorted_checked(n, n, starts, None, rows), values))
+    }
+
     /// Symbolic supernodal factor of the matrix in this order.
     pub(crate) fn symbolic(&self, matrix: &SymmetricMatrix) -> Result<SymbolicCholesky<usize>, FemError> {
         let params = CholeskySymbolicParams {
@@ -81,11 +111,11 @@ pub(crate) fn supernodal(symbolic: &SymbolicCholesky<usize>) -> Option<&Symbolic
 }
 
 /// Zeroed memory for a factor, or a typed error where the system refuses it.
-pub(crate) fn try_zeroed(count: usize) -> Result<Vec<f64>, FemError> {
+pub(crate) fn try_zeroed<T: Copy + Default>(count: usize) -> Result<Vec<T>, FemError> {
     let mut values = Vec::new();
     values
         .try_reserve_exact(count)
-        .map_err(|_| FemError::OutOfMemory { bytes: count.saturating_mul(size_of::<f64>()) })?;
-    values.resize(count, 0.0);
+        .map_err(|_| FemError::OutOfMemory { bytes: count.saturating_mul(size_of::<T>()) })?;
+    values.resize(count, T::default());
     Ok(values)
 }

@@ -18,6 +18,7 @@ mod placement;
 mod recovery;
 mod sector;
 mod sector_mesh;
+mod stress;
 mod turn;
 mod vibration;
 
@@ -32,6 +33,7 @@ use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;
 pub(crate) use sector_mesh::SectorMesh;
+pub(crate) use stress::SectorStress;
 pub(crate) use turn::{PitchTurn, face_nodes};
 pub(crate) use vibration::VibratingSector;
 

@@ -1,19 +1,16 @@
-//! Back from the loads to fields, stress and mass of any sector.
-
-use std::collections::BTreeMap;
+//! Back from the loads to fields and mass of any sector.
 
 use faer::{Mat, MatRef};
-use fem::{StressOperator, dense};
 use mesh::{Face, Origin};
 
 use super::{
     CyclicGear,
     chain::{Chain, congruent, stacked},
 };
-use crate::{ReductionError, load::Load, stress_modes::StressRecovery};
+use crate::{ReductionError, load::Load};
 
 /// Copy, node of the sector, and share in a nodal mean.
-type Share = (u32, u32, f64);
+pub(super) type Share = (u32, u32, f64);
 
 impl CyclicGear {
     /// Displacement of all free freedoms of the sector in some copies, each in its own frame, for forces on the
@@ -90,84 +87,8 @@ impl CyclicGear {
         Ok(carried)
     }
 
-    /// Stress at nodes of the larger mesh (6 rows a node, MPa) for unit forces on the coordinates, in the frame of
-    /// copy 0.
-    ///
-    /// On a cut the mean is over the elements (faces) on both of its sides.
-    pub(crate) fn stress(&self, nodes: &[u32], recovery: StressRecovery) -> Result<Mat<f64>, ReductionError> {
-        let faces = match recovery {
-            StressRecovery::Volume => None,
-            StressRecovery::Surface(faces) => Some(faces.iter().map(|faces| self.own_faces(faces)).collect::<Vec<_>>()),
-        };
-        let touching = match &faces {
-            None => self.sector.elements_about(),
-            Some(faces) => {
-                let mut count = vec![0; self.part.mesh.nodes.len()];
-                faces.iter().flatten().flat_map(Face::nodes).for_each(|&n| count[n as usize] += 1);
-                count
-            }
-        };
-        let parts = self.shares(nodes, &touching)?;
-        let mut own: Vec<u32> = parts.iter().flatten().map(|p| p.1).collect();
-        let mut copies: Vec<u32> = parts.iter().flatten().map(|p| p.0).collect();
-        for list in [&mut own, &mut copies] {
-            list.sort_unstable();
-            list.dedup();
-        }
-        let (mesh, dofs) = (self.sector.mesh(), &self.sector.dofs);
-        let operator = match &faces {
-            None => StressOperator::new(mesh, &self.material, &self.elements, dofs, &own)?,
-            Some(faces) => StressOperator::on_surface(mesh, &self.material, dofs, faces, &own)?,
-        };
-        let [by_load, by_cut] = self.sector.stress(&operator)?;
-        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
-        let offsets = copies.iter().flat_map(|&to| self.loaded().map(move |from| self.apart(from, to)));
-        let ends = self.ends_about(unit.as_ref(), offsets);
-        // Of a sector by loads so many sectors behind it, all in their own frames.
-        let local: BTreeMap<u32, Mat<f64>> = ends
-            .into_iter()
-            .map(|(d, ends)| {
-                let through = dense::product(by_cut.as_ref(), ends.as_ref());
-                (d, if d == 0 { through + &by_load } else { through })
-            })
-            .collect();
-        let mut stress = Mat::<f64>::zeros(6 * nodes.len(), 3 * self.coordinates.len());
-        for &copy in &copies {
-            let local = self.turned_loads(copy, &local);
-            let turn = tensor_turn(self.angle(copy));
-            for (i, part) in parts.iter().enumerate() {
-                for &(_, node, share) in part.iter().filter(|p| p.0 == copy) {
-                    let from = 6 * own.partition_point(|&known| known < node);
-                    for k in 0..stress.ncols() {
-                        for (a, row) in turn.iter().enumerate() {
-                            let turned: f64 = row.iter().enumerate().map(|(b, t)| t * local[(from + b, k)]).sum();
-                            stress[(6 * i + a, k)] += share * turned;
-                        }
-                    }
-                }
-            }
-        }
-        Ok(stress)
-    }
-
-    /// What unit forces on the coordinates do in a copy, in its frame, from what unit loads so many sectors behind it do.
-    fn turned_loads(&self, copy: u32, local: &BTreeMap<u32, Mat<f64>>) -> Mat<f64> {
-        let rows = local.values().next().map_or(0, Mat::nrows);
-        let mut of = Mat::zeros(rows, 3 * self.coordinates.len());
-        for (i, &(from, load)) in self.coordinates.iter().enumerate() {
-            let Some(own) = local.get(&self.apart(from, copy)) else { continue };
-            let turn = self.turn(from);
-            for (a, turn) in turn.iter().enumerate() {
-                for row in 0..rows {
-                    of[(row, 3 * i + a)] = (0..3).map(|b| own[(row, 3 * load + b)] * turn[b]).sum();
-                }
-            }
-        }
-        of
-    }
-
     /// Shares of which the nodal mean at each node is made.
-    fn shares(&self, nodes: &[u32], touching: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
+    pub(super) fn shares(&self, nodes: &[u32], touching: &[u32]) -> Result<Vec<Vec<Share>>, ReductionError> {
         let z = self.part.teeth;
         let count = self.part.places.len();
         let of = |&node: &u32| {
@@ -184,7 +105,7 @@ impl CyclicGear {
     }
 
     /// Faces of the larger mesh as those of the sector, each once; faces that lie in a cut are left out.
-    fn own_faces(&self, faces: &[Face]) -> Vec<Face> {
+    pub(super) fn own_faces(&self, faces: &[Face]) -> Vec<Face> {
         let z = self.part.teeth;
         let own = |face: &Face| {
             let places: Vec<Origin> =
@@ -232,17 +153,4 @@ impl CyclicGear {
         }
         Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])))
     }
-}
-
-/// Components xx, yy, zz, xy, yz, zx of a tensor after a turn by `angle` about z.
-fn tensor_turn(angle: f64) -> [[f64; 6]; 6] {
-    let (s, c) = angle.sin_cos();
-    [
-        [c * c, s * s, 0.0, -2.0 * s * c, 0.0, 0.0],
-        [s * s, c * c, 0.0, 2.0 * s * c, 0.0, 0.0],
-        [0.0, 0.0, 1.0, 0.0, 0.0, 0.0],
-        [s * c, -s * c, 0.0, c * c - s * s, 0.0, 0.0],
-        [0.0, 0.0, 0.0, 0.0, c, s],
-        [0.0, 0.0, 0.0, 0.0, -s, c],
-    ]
 }
