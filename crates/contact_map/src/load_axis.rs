@@ -189,9 +189,12 @@ impl LoadCurve {
             } else {
                 high = s
             }
-            let next = s - off / (b + s * (2.0 * c + 3.0 * s * d));
-            let next = if next >= low && next <= high { next } else { 0.5 * (low + high) };
-            if (next - s).abs() <= LAST_BITS * (begin + next) {
+            // Halley's step: what is left is the third power of it.
+            let (slope, bend) = (b + s * (2.0 * c + 3.0 * s * d), c + 3.0 * s * d);
+            let next = s - off * slope / (slope * slope - off * bend);
+            let within = next >= low && next <= high;
+            let next = if within { next } else { 0.5 * (low + high) };
+            if within && (next - s).abs() <= LAST_STEP * (begin + next).min(1.0) {
                 return begin + next;
             }
             s = next;
@@ -223,7 +226,7 @@ pub(crate) fn along([a, b, c, d]: &[f64; 4], s: f64) -> [f64; 2] {
     [a + s * (b + s * (c + s * d)), b + s * (2.0 * c + 3.0 * s * d)]
 }
 
-/// Newton steps and halvings after which a place has all its digits.
+/// Steps and halvings after which a place has all its digits.
 const MOST_STEPS: usize = 60;
-/// Change of a place, relative, that is round-off.
-const LAST_BITS: f64 = 4.0 * f64::EPSILON;
+/// Step within an interval, over the place where that is small, whose third power is round-off.
+const LAST_STEP: f64 = 2e-6;
