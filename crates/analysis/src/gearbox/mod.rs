@@ -36,6 +36,7 @@ mod rating;
 mod result;
 mod sink;
 mod solve;
+mod solved_positions;
 mod spectrum;
 mod swings;
 mod vibration;

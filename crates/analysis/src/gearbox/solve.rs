@@ -1,8 +1,6 @@
 //! A gearbox solved once, with the settings of its document: equilibrium, then vibration and motion where they are asked.
 
-use std::f64::consts::TAU;
-
-use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
+use gearbox::{GearboxError, Train};
 use scene::{DataFile, Scene, gearbox::Gearbox};
 
 use super::{
@@ -12,11 +10,12 @@ use super::{
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, rating, result,
+    solved_positions::{at_all_angles, count},
     spectrum::SolvedSpectrum,
     vibration::{self, Parts},
 };
 use crate::{
-    AnalysisError, Observer, PhaseWork, Progress, SharedModels, plausible::gearbox_remarks, run_phase, unless_cancelled,
+    AnalysisError, Observer, PhaseWork, SharedModels, plausible::gearbox_remarks, run_phase, unless_cancelled,
 };
 
 /// A gearbox that is to be solved.
@@ -162,48 +161,4 @@ pub(super) fn running(file: &Gearbox, slices: Slices) -> Result<(Train, Vec<Scen
     let train = Train::new(&structure, &rough, &keys, input, sense).map_err(failed)?;
     let scenes = meshes::running(file, &train, slices == Slices::Settled);
     Ok((train, scenes))
-}
-
-/// Positions of a gearbox under the torques of its operation, and what a vibration reads of its meshes.
-///
-/// # Errors
-/// [`AnalysisError::Gearbox`], [`AnalysisError::Cancelled`].
-pub(super) fn at_all_angles(
-    parts: &Parts<'_>,
-    reduced: &[ReducedMesh],
-    progress: &dyn Progress,
-) -> Result<(Vec<GearboxPosition>, Vec<Vec<MeshSample>>), AnalysisError> {
-    let Parts { file, structure, meshes, operation, .. } = *parts;
-    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
-    let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation.clone(), |i, mesh, _| {
-        reduced[i].element(mesh)
-    });
-    let mut gearbox = made.map_err(failed)?;
-    let mut positions: Vec<GearboxPosition> = Vec::new();
-    let mut samples: Vec<Vec<MeshSample>> = vec![Vec::new(); meshes.len()];
-    for angle in angles(file, gearbox.train()) {
-        let position = gearbox.solve(angle).map_err(failed)?;
-        for (i, own) in samples.iter_mut().enumerate() {
-            own.extend(MeshSample::at(&gearbox, &position, i));
-        }
-        positions.push(position);
-        progress.tick();
-        unless_cancelled(progress)?;
-    }
-    Ok((positions, samples))
-}
-
-/// Positions at which a gearbox is solved.
-pub(super) fn count(file: &Gearbox) -> u32 {
-    file.positions_per_cycle.saturating_mul(file.cycles)
-}
-
-/// Angles of the input (rad about +z) at which the first mesh has gone through its cycles, evenly spaced from where it
-/// starts.
-fn angles(file: &Gearbox, train: &Train) -> impl Iterator<Item = f64> + use<> {
-    let first = &train.meshing()[0];
-    let teeth = f64::from(file.meshes[0].scene.pinion.teeth);
-    let pitch = first.sense.sign() as f64 * TAU / teeth / first.ratio;
-    let per_cycle = f64::from(file.positions_per_cycle);
-    (0..count(file)).map(move |i| pitch * f64::from(i) / per_cycle)
 }

@@ -9,7 +9,7 @@ use super::{
     bearings::{BearingTurns, rolling_load},
     mesh_numbers::MeshNumbers,
     meshes::ReducedMesh,
-    solve::{at_all_angles, count},
+    solved_positions::{at_all_angles, count},
     vibration::Parts,
 };
 use crate::{AnalysisError, Observer, PhaseWork, run_phase};
