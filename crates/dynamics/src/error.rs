@@ -11,14 +11,12 @@ pub enum PairMotionError {
     #[error(transparent)]
     Integration(#[from] MotionError<StaticError>),
     /// There is no equilibrium to begin with.
-    #[error(
-        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
-    )]
+    #[error("at {time:.9} s: no equilibrium to begin with; the search leaves {left:.3e} of the load")]
     NoStart {
         /// Time, s.
         time: f64,
-        /// Last change, relative.
-        change: f64,
+        /// Force that is left over, over that of the load.
+        left: f64,
     },
     /// A load below what round-off of places makes of the stiffness of teeth.
     #[error(

@@ -9,6 +9,7 @@
 
 mod course;
 mod eigenvalues;
+mod equilibrium;
 mod error;
 mod events;
 mod integrator;
@@ -27,6 +28,7 @@ pub use course::{
     RowPlace, RowReader, Settle, Stage, Stop, Timetable,
 };
 pub use eigenvalues::eigenvalues;
+pub use equilibrium::{equilibrium, quasi_static};
 pub use error::MotionError;
 pub use events::{Crossing, Direction};
 pub use integrator::{Integrator, Progress};

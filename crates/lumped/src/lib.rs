@@ -27,7 +27,6 @@ mod pair;
 mod plane_of_action;
 mod recording;
 pub mod shaft18;
-mod statics;
 mod terms;
 
 pub use clock::MeshClock;
@@ -40,4 +39,3 @@ pub use mesh_cycle::MeshCycle;
 pub use pair::{LumpedPair, Operation};
 pub use plane_of_action::{LineMeans, LineSharing, PlaneOfAction};
 pub use recording::{Recorded, Recording};
-pub use statics::equilibrium;

@@ -1,8 +1,8 @@
 //! A pair on a map of its contact, as the run of a cheaper model asks for it.
 
-use ::lumped::{LumpedError, equilibrium};
-use dynamics::{COORDINATES, MappedPair, PairMotionError};
-use integrate::{Forces, Mechanism, Resumable, State};
+use ::lumped::LumpedError;
+use dynamics::{COORDINATES, MappedPair};
+use integrate::{Forces, Mechanism, Resumable, State, equilibrium, quasi_static};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 
@@ -27,19 +27,17 @@ pub(super) struct MappedModel {
 
 impl MappedModel {
     /// Where forces on a copy of the pair balance at a time, the driver's own turn held.
-    fn mesh_displacements(
-        &self,
-        pair: Result<MappedPair, PairMotionError>,
-        t: f64,
-        from: Option<&DVector<f64>>,
-    ) -> Result<DVector<f64>, LumpedError> {
-        let Ok(mut pair) = pair else { return Err(LumpedError::NoEquilibrium) };
-        let coordinates = pair.system().coordinates();
-        let mut guess = DVector::zeros(self.frame.scale.len());
-        guess[coordinates.lag()] = self.frame.lag;
-        let held: Vec<usize> = coordinates.driver_turn().into_iter().collect();
-        let Ok(found) = equilibrium(&mut pair, t, from.unwrap_or(&guess), &held, &self.frame.scale);
+    fn standing(&self, pair: &mut MappedPair, t: f64, from: &DVector<f64>) -> Result<DVector<f64>, LumpedError> {
+        let held: Vec<usize> = pair.system().coordinates().driver_turn().into_iter().collect();
+        let Ok(found) = equilibrium(pair, t, from, &held, &self.frame.scale);
         found.ok_or(LumpedError::NoEquilibrium)
+    }
+
+    /// Where the search for that begins.
+    fn guess(&self) -> DVector<f64> {
+        let mut guess = DVector::zeros(self.frame.scale.len());
+        guess[self.pair.system().coordinates().lag()] = self.frame.lag;
+        guess
     }
 }
 
@@ -47,15 +45,9 @@ mechanism_of_field!([] MappedModel, pair);
 
 impl LumpedMechanism for MappedModel {
     fn start(&mut self) -> Result<State, ModelFailure> {
-        let now = |t: f64, from: Option<&DVector<f64>>| self.mesh_displacements(self.pair.again(), t, from);
-        let q = now(0.0, None)?;
-        let mut v = DVector::zeros(q.len());
         let hz = self.pair.mesh_hz(0.0);
-        if hz > 0.0 {
-            let dt = SPAN / hz;
-            v = (now(dt, Some(&q))? - now(-dt, Some(&q))?) / (2.0 * dt);
-        }
-        Ok(State::new(0.0, q, v))
+        let span = if hz > 0.0 { SPAN / hz } else { 0.0 };
+        Ok(quasi_static(&mut self.pair.again()?, 0.0, span, self.guess(), |pair, t, q| self.standing(pair, t, &q))?)
     }
 
     fn scale(&self) -> DVector<f64> {
@@ -93,14 +85,12 @@ impl LumpedMechanism for MappedModel {
     fn static_cycle(&self, phases: usize) -> Option<Vec<StaticPoint>> {
         let hz = self.pair.mesh_hz(0.0);
         let lag = self.pair.system().coordinates().lag();
-        let mut from: Option<DVector<f64>> = None;
+        let (mut loaded, mut q) = (self.pair.under_mean_load().ok()?, self.guess());
         let mut at = |k: usize| {
             let t = k as f64 / (phases as f64 * hz);
-            let q = self.mesh_displacements(self.pair.under_mean_load(), t, from.as_ref()).ok()?;
+            q = self.standing(&mut loaded, t, &q).ok()?;
             let line_length = self.pair.instant(t, &q, &DVector::zeros(q.len()))[0].line_length;
-            let point = StaticPoint { error: q[lag], line_length: Some(line_length) };
-            from = Some(q);
-            Some(point)
+            Some(StaticPoint { error: q[lag], line_length: Some(line_length) })
         };
         (0..phases).map(&mut at).collect()
     }

@@ -92,6 +92,11 @@ impl PairMechanism {
         &self.options
     }
 
+    /// Mean stiffness of the mesh, N/mm on the base circle.
+    pub(crate) fn mean_stiffness(&self) -> f64 {
+        self.means[0]
+    }
+
     /// Frequency of the two gears turning against each other on their teeth, Hz: sqrt(k_m / m_e) / 2 pi with the mean
     /// tangent stiffness.
     pub fn mesh_resonance_hz(&self) -> f64 {
@@ -292,6 +297,13 @@ impl PairMechanism {
             None => DMatrix::zeros(0, 2 * COORDINATES),
             Some(modal) => modal.coupling(self.flanks.driving.angles(&self.pair, self.cycles(t))),
         }
+    }
+
+    /// Coordinates with all modes at rest, p = L D d.
+    pub(crate) fn stiffened(&self, t: f64, mut q: DVector<f64>) -> DVector<f64> {
+        let (d, rigid) = (self.coordinates.displacement(&q), self.coordinates.count());
+        q.rows_mut(rigid, self.count() - rigid).copy_from(&(self.coupling(t) * d));
+        q
     }
 
     /// Displacements and amplitudes of the modes from coordinates, and the same for velocities.

@@ -2,7 +2,7 @@
 
 use dynamics::ModalForce;
 use fem::natural_modes;
-use integrate::{Forces, Mechanism, State};
+use integrate::{Forces, Mechanism, State, quasi_static};
 use nalgebra::{DMatrix, DVector};
 
 use super::{Drive, GearboxMechanism, gear_modes::with_modes};
@@ -27,10 +27,13 @@ impl GearboxMechanism {
     /// # Errors
     /// [`GearboxError`] where there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
-        let z = self.standing(0.0, None)?;
-        // Teeth near places that were looked at before are known less well: the search ends from its own end on.
-        self.forget();
-        let z = self.standing(0.0, Some(&z))?;
+        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let speed = self.input_speed();
+        let way = if speed == 0.0 { 0.0 } else { SPAN / fastest };
+        let first = self.standing(0.0, None)?;
+        // The angle of the input is the time here.
+        let State { q: z, v, .. } = quasi_static(self, 0.0, way, first, |own, angle, z| own.standing(angle, Some(&z)))?;
+        let mut v = v * speed;
         if modal_damping > 0.0 {
             let (rigid, [k, mass]) = self.with_static_gears(&z)?;
             let modes = natural_modes(&k, &mass)?;
@@ -46,15 +49,6 @@ impl GearboxMechanism {
                 self.damping.row_mut(i).fill(0.0);
                 self.damping.column_mut(i).fill(0.0);
             }
-        }
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let speed = self.input_speed();
-        let mut v = DVector::zeros(z.len());
-        if speed != 0.0 {
-            let way = SPAN / fastest;
-            let after = self.standing(way, Some(&z))?;
-            let before = self.standing(-way, Some(&z))?;
-            v = (after - before) * (speed / (2.0 * way));
         }
         if let Some(i) = self.free.turn {
             v[i] = speed;

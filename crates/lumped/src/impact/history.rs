@@ -1,12 +1,12 @@
 //! A motion of rigid gears as rows of results.
 
 use dynamics::Displacement;
-use integrate::State;
+use integrate::{State, equilibrium};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ImpactMechanism;
-use crate::{LumpedError, Recorded, Recording, equilibrium, recording::record};
+use crate::{LumpedError, Recorded, Recording, recording::record};
 
 /// One instant of a pair of rigid gears.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

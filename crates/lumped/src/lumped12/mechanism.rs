@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use geometry::Vec3;
-use integrate::{Forces, Mechanism};
+use integrate::{Forces, Mechanism, equilibrium};
 use nalgebra::{DMatrix, DVector, SVector};
 
 use super::{Lumped12, MeshVectors};
@@ -11,7 +11,6 @@ use crate::{
     HistoryRow, LumpedError, LumpedModel, LumpedPair, MeshClock,
     history::{MeshState, STANDING, row_of, scale},
     modes::{Mode, undamped_modes},
-    statics::equilibrium,
     terms::{add_load, add_support, slope_in_time},
 };
 

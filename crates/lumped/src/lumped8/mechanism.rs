@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use geometry::Vec3;
-use integrate::{Forces, Mechanism};
+use integrate::{Forces, Mechanism, equilibrium};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
@@ -13,7 +13,6 @@ use super::{
 use crate::{
     DeadZone, HistoryRow, LineMeans, LumpedError, LumpedModel, LumpedPair, MeshClock,
     history::{MeshState, STANDING, places, row_of, scale},
-    statics::equilibrium,
     terms::{add_load, add_support, slope_in_time},
 };
 

@@ -1,7 +1,8 @@
-//! Where a mechanism stands still under its forces.
+//! Where a mechanism stands still under its forces, and where it moves on as that place does.
 
-use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
+
+use crate::{Forces, Mechanism, State};
 
 const ITERATIONS: usize = 60;
 /// Last change that is round-off, relative to the largest coordinate of the solution.
@@ -48,6 +49,41 @@ pub fn equilibrium<M: Mechanism>(
             near.map_or(Ok(None), |q| Ok(Some(search.newton(q.clone())?.unwrap_or(q))))
         }
     }
+}
+
+/// State at time `t` in which forces balance as the mechanism goes slowly through what is given with time; velocities are
+/// the rates of this balance.
+///
+/// ```text
+/// f(t, q, 0) = 0,   v = [q(t + dt) - q(t - dt)] / 2 dt
+/// ```
+/// Inertia of that slow motion is left out; in a fast motion the difference is a transient. `span`: dt, s; 0: nothing moves.
+/// `balance` gives the coordinates at a time from near ones ([`equilibrium`]). Each is sought twice: what is remembered of places
+/// on the way is known less well, so the search ends from its own end on with nothing remembered.
+///
+/// # Errors
+/// Those of `balance`.
+pub fn quasi_static<M: Mechanism, E>(
+    system: &mut M,
+    t: f64,
+    span: f64,
+    start: DVector<f64>,
+    mut balance: impl FnMut(&mut M, f64, DVector<f64>) -> Result<DVector<f64>, E>,
+) -> Result<State, E> {
+    let mut settled = |system: &mut M, t: f64, from: DVector<f64>| {
+        let near = balance(system, t, from)?;
+        system.forget();
+        balance(system, t, near)
+    };
+    let q = settled(system, t, start)?;
+    let mut v = DVector::zeros(q.len());
+    if span > 0.0 {
+        let after = settled(system, t + span, q.clone())?;
+        let before = settled(system, t - span, q.clone())?;
+        v = (after - before) / (2.0 * span);
+    }
+    system.forget();
+    Ok(State::new(t, q, v))
 }
 
 struct Search<'a, M> {
