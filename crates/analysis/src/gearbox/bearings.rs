@@ -93,12 +93,43 @@ pub(super) struct BearingTurns {
 }
 
 impl BearingTurns {
-    /// Of a bearing at a speed of the input, 1/min; `None` where it stands, or carries nothing as those of held shafts.
+    /// How a bearing turns at a speed of the input, 1/min; `None` where it stands, or carries nothing as those of held shafts.
     pub fn of((file, train): (&Gearbox, &Train), bearing: usize, input_speed_rpm: f64) -> Option<Self> {
         let shaft = file.bearings[bearing].shaft;
         let speed_rpm = input_speed_rpm * train.ratios()[shaft].abs();
         let asked = file.rating.as_ref().filter(|_| speed_rpm > 0.0 && !file.shafts[shaft].held)?;
         Some(Self { speed_rpm, viscosity: asked.viscosity, contamination_factor: asked.contamination_factor })
+    }
+}
+
+/// How far a bearing leaves the range of the formulas of lives, under one load or the worst of several.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct LifeLimits {
+    /// Largest P_ref over C.
+    pub over_rating: f64,
+    /// Whether some load has no modified life, though that is asked for.
+    pub lacks_film: bool,
+    /// Largest speed, 1/min.
+    pub speed_rpm: f64,
+}
+
+impl LifeLimits {
+    /// Limits of a bearing under one load.
+    pub fn of(load: &RollingLoad) -> Self {
+        Self {
+            over_rating: load.life.map_or(0.0, |life| life.over_rating),
+            lacks_film: load.life.is_some_and(|life| life.asks_modified && life.modification.is_none()),
+            speed_rpm: load.speed_rpm.unwrap_or(0.0),
+        }
+    }
+
+    /// The worse of both in each respect.
+    pub fn worse(self, other: Self) -> Self {
+        Self {
+            over_rating: self.over_rating.max(other.over_rating),
+            lacks_film: self.lacks_film || other.lacks_film,
+            speed_rpm: self.speed_rpm.max(other.speed_rpm),
+        }
     }
 }
 
@@ -227,8 +258,13 @@ pub(super) fn rolling_load(
     })
 }
 
-/// What the user should hear of a rolling bearing.
-pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoad)) -> Vec<answer::Remark> {
+/// What the user should hear of a rolling bearing; `worst`: under the worst of all loads of a spectrum as well.
+pub(super) fn remarks(
+    name: &str,
+    is_held: bool,
+    (tilt, load): (f64, &RollingLoad),
+    worst: LifeLimits,
+) -> Vec<answer::Remark> {
     let mut said = Vec::new();
     if load.is_estimated {
         let what = match &load.elements {
@@ -255,13 +291,10 @@ pub(super) fn remarks(name: &str, is_held: bool, (tilt, load): (f64, &RollingLoa
         let (tilt, most) = (1e3 * tilt, 1e3 * most);
         said.push(remark::bearing_tilts(name, tilt, what, most));
     }
-    said.extend(load.life.iter().flat_map(|life| {
-        let high = (life.over_rating > HALF).then(|| remark::bearing_life_outside(name, life.over_rating));
-        let thin = (life.asks_modified && life.modification.is_none()).then(|| remark::bearing_film_outside(name));
-        high.into_iter().chain(thin)
-    }));
-    let fast = load.speed_rpm.map(|speed| speed * load.elements.pitch_diameter()).filter(|own| *own > FAST && !is_held);
-    said.extend(fast.map(|own| remark::bearing_fast(name, own, FAST)));
+    said.extend((worst.over_rating > HALF).then(|| remark::bearing_life_outside(name, worst.over_rating)));
+    said.extend(worst.lacks_film.then(|| remark::bearing_film_outside(name)));
+    let speed_factor = worst.speed_rpm * load.elements.pitch_diameter();
+    said.extend((speed_factor > FAST && !is_held).then(|| remark::bearing_fast(name, speed_factor, FAST)));
     if load.pressure > dent {
         let pressure = load.pressure;
         said.push(remark::bearing_pressure(name, pressure, what, dent));

@@ -9,7 +9,7 @@ use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
 
 use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
-    bearings::{BearingTurns, rolling_load},
+    bearings::{BearingTurns, LifeLimits, rolling_load},
     clearance::clearance_remarks,
     mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
@@ -225,9 +225,12 @@ pub(super) fn result(
     let pairs: Vec<GearPair> = meshes.iter().map(|m| m.pair.clone()).collect();
     let mut remarks = remarks;
     let bearings: Vec<BearingLoad> = (0..file.bearings.len()).map(bearing).collect();
-    for (own, load) in file.bearings.iter().zip(&bearings) {
+    for (i, (own, load)) in file.bearings.iter().zip(&bearings).enumerate() {
         let is_held = file.shafts[own.shaft].held;
-        let told = |r| super::bearings::remarks(&own.name, is_held, (load.tilt, r));
+        let told = |r| {
+            let worst = LifeLimits::of(r).worse(loads.map_or_else(LifeLimits::default, |loads| loads.limits(i)));
+            super::bearings::remarks(&own.name, is_held, (load.tilt, r), worst)
+        };
         remarks.extend(load.rolling.iter().flat_map(told));
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));

@@ -6,7 +6,7 @@ use gearbox::{GearboxPosition, MeshState, Operation, Torque};
 use rating::{LoadBin, Spectrum};
 
 use super::{
-    bearings::{BearingTurns, rolling_load},
+    bearings::{BearingTurns, LifeLimits, rolling_load},
     mesh_numbers::MeshNumbers,
     meshes::ReducedMesh,
     solved_positions::{at_all_angles, count},
@@ -23,13 +23,13 @@ struct MeshLoad {
     face_load_factor: Option<f64>,
 }
 
-/// A bearing over the life.
+/// What all loads together do to a bearing.
 #[derive(Debug, Clone, Copy, Default)]
-struct Use {
+struct BearingUse {
     /// Sum over all loads of their share over the life under them, 1/h.
     per_hour: f64,
-    /// Some load has no modified life.
-    is_unknown: bool,
+    /// The worst that formulas of lives meet.
+    limits: LifeLimits,
 }
 
 /// What is left of the gearbox under all loads.
@@ -38,7 +38,7 @@ pub(super) struct SolvedSpectrum {
     loads: Spectrum,
     /// Meshes under each load, in their order.
     meshes: Vec<Vec<MeshLoad>>,
-    bearings: Vec<Use>,
+    bearings: Vec<BearingUse>,
 }
 
 impl SolvedSpectrum {
@@ -61,7 +61,7 @@ impl SolvedSpectrum {
         let mut all = Self {
             loads: spectrum.clone(),
             meshes: vec![vec![none; parts.meshes.len()]; spectrum.bins().len()],
-            bearings: vec![Use::default(); parts.file.bearings.len()],
+            bearings: vec![BearingUse::default(); parts.file.bearings.len()],
         };
         let work = PhaseWork::Steps(u64::from(count(parts.file)) * torques.len() as u64);
         run_phase(observer, "load spectrum", work, |progress| {
@@ -97,13 +97,9 @@ impl SolvedSpectrum {
         for (i, own) in self.bearings.iter_mut().enumerate() {
             let (file, law) = (&parts.file.bearings[i], &parts.structure.bearings[i]);
             let turns = BearingTurns::of((parts.file, parts.train), i, bin.speed_rpm);
-            let Some(life) = rolling_load(file, law, positions, (i, turns)).and_then(|load| load.life) else {
-                continue;
-            };
-            match life.rated_hours() {
-                Some(hours) => own.per_hour += bin.share / hours,
-                None => own.is_unknown = true,
-            }
+            let Some(load) = rolling_load(file, law, positions, (i, turns)) else { continue };
+            own.limits = own.limits.worse(LifeLimits::of(&load));
+            own.per_hour += load.life.and_then(|life| life.rated_hours()).map_or(0.0, |hours| bin.share / hours);
         }
     }
 
@@ -121,14 +117,19 @@ impl SolvedSpectrum {
         })
     }
 
+    /// The worst that formulas of lives meet at a bearing.
+    pub fn limits(&self, bearing: usize) -> LifeLimits {
+        self.bearings[bearing].limits
+    }
+
     /// Life of a bearing, h.
     ///
     /// ```text
     /// 1/L = sum q_k/L_k,   q_k: share of the life with load k, L_k: life under it alone, h
     /// ```
-    /// `None` where it has none, or does not tire. Source: Palmgren-Miner; theory (101e).
+    /// `None` where it has none, where some load has none, or where it does not tire. Source: Palmgren-Miner; theory (101e).
     pub fn bearing_life_h(&self, bearing: usize) -> Option<f64> {
         let own = self.bearings[bearing];
-        (own.per_hour > 0.0 && !own.is_unknown).then(|| 1.0 / own.per_hour)
+        (own.per_hour > 0.0 && !own.limits.lacks_film).then(|| 1.0 / own.per_hour)
     }
 }

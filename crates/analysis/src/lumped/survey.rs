@@ -58,12 +58,12 @@ pub(crate) struct RowSurvey {
     pub largest_force: f64,
     /// Series of the rows that are judged, for spectra.
     pub series: MotionSeries,
-    /// Other numbers of these.
+    /// Other numbers of the judged rows.
     pub judged: Judged,
 }
 
 impl RowSurvey {
-    /// Of rows that are judged from one of them on.
+    /// Survey of no rows yet; those from `first` on are judged.
     pub(super) fn judged_from(first: usize) -> Self {
         Self { first, largest_force: f64::NEG_INFINITY, ..Self::default() }
     }
@@ -97,7 +97,7 @@ impl RowSurvey {
 }
 
 impl MotionSeries {
-    /// Of all rows of a ramp: what it is judged by over its speed.
+    /// Series of all rows of a ramp, with what it is judged by over its speed.
     ///
     /// # Errors
     /// [`TableError::Kept`] where rows cannot be read back.

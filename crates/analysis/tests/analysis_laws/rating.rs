@@ -332,9 +332,13 @@ fn a_spectrum_of_the_nominal_load_is_the_nominal_load() {
 /// A pair as a gearbox of two held shafts has its own rating, standard and local, whichever gear drives: each number to 1e-9, what comes from the load of every slice to 1e-3, since the slices of a gearbox's mesh are those of all its pairs of teeth. Root stresses are the pair's alone.
 #[test]
 fn a_gearbox_of_held_shafts_rates_as_its_pair() {
+    let folder = tempfile::tempdir().unwrap();
+    let loads = folder.path().join("loads.csv");
+    std::fs::write(&loads, "torque_nm,speed_rpm,share\n200,1000,1\n90,1500,3\n").unwrap();
     for driver in ["pinion", "wheel"] {
         let pair = Scene::builder().pinion(23, 20.0).wheel(37).normal_module_mm(2.0).face_width_mm(20.0);
         let pair = pair
+            .set("rating.spectrum", loads.display().to_string())
             .torque_nm(200.0)
             .set("operation.driver", driver)
             .set("operation.speed_rpm", 1000.0)
@@ -361,7 +365,9 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
         let found = found.unwrap_or_else(|e| panic!("{e}"));
         let own = found.meshes[0].rating.clone().unwrap();
-        assert!(own.local.is_some() && own.local_scuffing.is_some() && own.mesh_loss.is_some());
+        assert!(
+            own.local.is_some() && own.local_scuffing.is_some() && own.mesh_loss.is_some() && own.spectrum.is_some()
+        );
         let headline = found.headline();
         assert_eq!(headline["least_pitting_safety"][0], own.least_pitting_safety);
         // Shafts without bearings: P/(P + loss), where the pair has 1 - loss/P by the power of its driver.
