@@ -5,15 +5,20 @@ use ltca::StaticHistory;
 use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
 use rating::{
     ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LoadBin, LocalScuffing,
-    Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatingError,
-    RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, Spectrum, SpectrumRating,
-    StandardRating, local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating, spectrum_rating,
+    Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatedSpectrum,
+    RatingError, RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, Spectrum,
+    SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating,
     standard_rating,
 };
 use scene::{DataFile, LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
-use crate::{AnalysisError, error::place_in, loaded_pair::LoadedPair, results::PressurePlace, solved_mesh::SolvedMesh};
+use crate::{
+    AnalysisError, error::place_in, loaded_pair::LoadedPair, results::PressurePlace, solved_load::SolvedLoad,
+    solved_mesh::SolvedMesh,
+};
+
+pub use crate::local_damage::{FlankPlace, LocalDamage};
 
 /// The coarsest ISO 1328-1 class whose relief counts in K_V.
 const RELIEF_CLASS: u32 = 5;
@@ -43,6 +48,9 @@ described::described! {
         /// damage by the load spectrum; missing without `spectrum`
         #[serde(skip_serializing_if = "Option::is_none")]
         pub spectrum: Option<SpectrumRating>,
+        /// damage by the load spectrum from the stresses solved under each load; missing without `spectrum` and for models without slices
+        #[serde(skip_serializing_if = "Option::is_none")]
+        pub local_spectrum: Option<LocalDamage>,
         /// safeties from the solved stresses; missing for models without slices
         #[serde(skip_serializing_if = "Option::is_none")]
         pub local: Option<LocalRating>,
@@ -129,17 +137,21 @@ impl RatingHeadline {
         let pair = scene.gear_pair().ok()?;
         // What the formulas refuse was refused before the work.
         let spectrum = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
+        let loads = SolvedLoad::all(scene, &pair, history).ok()?;
+        let spectrum = spectrum.map(|own| (own, &loads[..]));
         Self::of_solved(scene, &pair, (&SolvedMesh::of(scene, history), spectrum)).ok()?
     }
 
-    /// Headline of a mesh under the torque and at the speed of its scene, and under a spectrum of loads; `None` likewise.
+    /// Headline of a mesh under the torque and at the speed of its scene, and under a spectrum of loads with what is solved
+    /// under each of them; `None` likewise.
     pub(crate) fn of_solved(
         scene: &Scene,
         pair: &GearPair,
-        (solved, spectrum): (&SolvedMesh, Option<&Spectrum>),
+        (solved, spectrum): (&SolvedMesh, Option<SolvedSpectrum<'_>>),
     ) -> Result<Option<Self>, AnalysisError> {
         let Some(rating) = &scene.rating else { return Ok(None) };
         let Some(face_load) = rating.face_load_factor.or(solved.face_load_factor) else { return Ok(None) };
+        let loads = spectrum.map_or(&[][..], |(_, loads)| loads);
         let (standard, spectrum, oiled) = rated((scene, rating), pair, face_load, (Some(solved), spectrum))?;
         let gears = standard.gears();
         let least = |of: fn(&rating::GearRating) -> f64| {
@@ -165,7 +177,8 @@ impl RatingHeadline {
             mesh_loss: oiled.loss,
             contact_field: oiled.local.map(|(_, field)| field),
             film_field: oiled.micropitting.map(|(_, field)| field),
-            spectrum,
+            local_spectrum: spectrum.as_ref().and_then(|own| LocalDamage::of((&standard, own), loads, pair)),
+            spectrum: spectrum.map(|own| own.rating()),
             standard,
         }))
     }
@@ -207,20 +220,23 @@ impl RatingHeadline {
 /// [`AnalysisError::Rating`], [`AnalysisError::Lumped`] where a standard has no value.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(rating) = &scene.rating else { return Ok(()) };
-    let spectrum = rating.spectrum.as_ref().map(DataFile::values);
+    let spectrum = rating.spectrum.as_ref().map(|own| (own.values(), &[][..]));
     let found = rated((scene, rating), pair, rating.face_load_factor.unwrap_or(1.0), (None, spectrum));
     found.map(|_| ()).map_err(|e| e.of_part("[rating]").at(place_in(scene, &["rating.life_h"])))
 }
 
-/// What a rating is made of: the standard's, Miner's sums where there is a spectrum, oil and flanks.
-type Rated = (StandardRating, Option<SpectrumRating>, Oiled);
+/// A spectrum with what is solved under its loads.
+pub(crate) type SolvedSpectrum<'a> = (&'a Spectrum, &'a [SolvedLoad]);
+
+/// What a rating is made of: the standard's, that of each load where there is a spectrum, oil and flanks.
+type Rated = (StandardRating, Option<RatedSpectrum>, Oiled);
 
 /// The ratings with a face load factor K_Hbeta; those of the solved contact with a history alone.
 fn rated(
     (scene, rating): (&Scene, &RatingScene),
     pair: &GearPair,
     face_load: f64,
-    (solved, spectrum): (Option<&SolvedMesh>, Option<&Spectrum>),
+    (solved, spectrum): (Option<&SolvedMesh>, Option<SolvedSpectrum<'_>>),
 ) -> Result<Rated, AnalysisError> {
     let loaded = LoadedPair::of(scene, pair);
     let gears = [&pair.pinion, &pair.wheel];
@@ -283,11 +299,16 @@ fn rated(
     };
     let nominal = [scene.operation.torque_nm, scene.operation.speed_rpm];
     // Loads without torque, which have no stiffness, do no damage.
-    let at_load = |bin: &LoadBin| {
+    let at_load = |bin: &LoadBin, loads: &[SolvedLoad]| {
         let torque = loaded.torque * bin.torque_nm / scene.operation.torque_nm;
-        LoadBin { stiffness: stiffness(torque).ok(), ..*bin }
+        let solved = SolvedLoad::under(loads, bin).and_then(|own| own.face_load_factor);
+        let face_load_factor = bin.face_load_factor.or(solved.filter(|_| rating.face_load_factor.is_none()));
+        LoadBin { face_load_factor, stiffness: stiffness(torque).ok(), ..*bin }
     };
-    let spectrum = spectrum.map(|own| spectrum_rating(&input, &own.with_loads(at_load), nominal)).transpose()?;
+    let of_loads = |(own, loads): SolvedSpectrum<'_>| {
+        RatedSpectrum::new(&input, &own.with_loads(|bin| at_load(bin, loads)), nominal)
+    };
+    let spectrum = spectrum.map(of_loads).transpose()?;
     let standard = standard_rating(&input)?;
     let oiled = oiled(scene, rating, &loaded, (&input, &standard), solved)?;
     Ok((standard, spectrum, oiled))

@@ -28,6 +28,7 @@ use crate::{
     resolution::resolution_remarks,
     shared_models::{Base, SharedModels},
     solution_remarks::{deflection_remarks, jammed_pair},
+    solved_load::under_loads,
     static_certificate,
     varied_scene::VariedScene,
     window::{foreseen_window, wider_window},
@@ -154,7 +155,7 @@ impl SharedModels<'_> {
                 let all = Sensitivities::new(variations);
                 let mut sensitivities = if asked.of_unloaded { all } else { all.of_loaded_pair() };
                 let mut rates = Vec::new();
-                let history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
+                let mut history = model.run_while(per_cycle as usize, cycles as usize, |_, _, model| {
                     if asked.of.is_empty() {
                         return if (interest.positions)() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
                     }
@@ -164,6 +165,7 @@ impl SharedModels<'_> {
                     }
                     ControlFlow::Continue(())
                 })?;
+                history.under_loads = under_loads(&scene, &model, &mut NoObserver)?;
                 Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?, base))
             },
             |window, failure| {

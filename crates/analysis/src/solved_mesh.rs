@@ -7,7 +7,7 @@ use ltca::StaticHistory;
 use rating::PressedPlace;
 use scene::Scene;
 
-use crate::results::{PressurePlace, PressureSpot, base_radius_mm, face_load_factor, root_stress_headline};
+use crate::results::{PressurePlace, PressureSpot, base_radius_mm, face_load_factor, largest_tensions};
 
 /// What ratings read of a solved contact, all positions together.
 #[derive(Debug)]
@@ -34,10 +34,10 @@ impl SolvedMesh {
         let moment = |gear: usize| positions.iter().map(|p| p.wrench[gear].moment[2].abs()).sum::<f64>();
         let pairs = positions.iter().flat_map(|p| &p.pairs);
         Self {
-            face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
+            face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
             pressed: pairs.flat_map(|pair| pressed(scene, pair.normal_force, &pair.slices)).collect(),
             hardest: PressurePlace::of(scene, history).map(|place| (largest, place)),
-            root_tensions: root_stress_headline(history).map(|root| root.largest_tensions().map(|(stress, _)| stress)),
+            root_tensions: largest_tensions(positions),
             positions: positions.len(),
             moments: [0, 1].map(moment),
         }

@@ -18,6 +18,7 @@ use crate::{
     meshes::SceneMesh,
     run_phase,
     shared_models::{Base, SharedModels},
+    solved_load::under_loads,
     unless_cancelled,
     window::{foreseen_window, wider_window},
 };
@@ -128,6 +129,7 @@ fn attempt(
         }
     })?;
     sink.finish().map_err(AnalysisError::Sink)?;
+    history.under_loads = under_loads(scene, &model, observer)?;
     // Where a window of an odd number of teeth changes, the cycle ends. Whole gears have no window that could slide.
     if model.contact_set().windows().is_some() {
         let end = Station { cycle: cycles as i64, phase: 0.0 };

@@ -30,7 +30,7 @@ pub use face_load::{envelope as load_envelope, face_load_factor};
 pub use kinematic::{ForeseenWindow, kinematic_transmission_error};
 pub use options::StaticOptions;
 pub use pose_steps::round_off_of_places;
-pub use result::{Certificate, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
+pub use result::{Certificate, LoadCycle, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};
 pub use root_stress::{FilletStress, ROOT_STRESS_DEFINITION, ROOT_STRESS_RECOVERY, RootStress, StressPeak};
 pub use sensitivity::{PositionRates, Sensitivities, Sensitivity, Variation};
 pub use slice_count::{SliceCount, SpringErrors, slice_errors, slices_needed};

@@ -112,6 +112,18 @@ pub struct StaticHistory {
     pub tooth_changes: Vec<ToothChangeRecord>,
     /// What the user should know: neglected, doubtful, adjusted.
     pub remarks: Vec<answer::Remark>,
+    /// The same mesh cycles under other torques, where they are asked for: loads over a life.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub under_loads: Vec<LoadCycle>,
+}
+
+/// Mesh cycles under another torque than that of their history.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LoadCycle {
+    /// Torque on the driven gear, N mm, above 0.
+    pub torque: f64,
+    /// Positions in the order of the rotation.
+    pub positions: Vec<StaticPosition>,
 }
 
 /// A tooth change as it happened: the same station solved with the window before and the one after.

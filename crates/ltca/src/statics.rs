@@ -19,7 +19,7 @@ pub struct StaticModel {
     pair: GearPair,
     gears: Arc<[ElasticGear; 2]>,
     options: StaticOptions,
-    root: Option<RootStress>,
+    root: Option<Arc<RootStress>>,
     solver: CycleSolver,
 }
 
@@ -41,7 +41,7 @@ impl StaticModel {
         gears: impl Into<Arc<[ElasticGear; 2]>>,
         options: StaticOptions,
     ) -> Result<Self, StaticError> {
-        Self::with_set(pair, gears.into(), options, None)
+        Self::with_known(pair, gears.into(), options, (None, None))
     }
 
     /// A model at the start of cycle 0 of the same gears with another micro-geometry, torque, friction or misalignment.
@@ -58,16 +58,27 @@ impl StaticModel {
             let place = |pair: &GearPair| [pair.centre_distance(), pair.mid_face_offset()];
             place(a) == place(b) && a.pinion.data() == b.pinion.data() && a.wheel.data() == b.wheel.data()
         };
-        let known = (alike && nominal(&self.pair, &pair)).then(|| self.contact_set());
-        Self::with_set(pair, Arc::clone(&self.gears), options, known)
+        let nominal = nominal(&self.pair, &pair);
+        let known = (alike && nominal).then(|| self.contact_set());
+        let root = self.root.clone().filter(|_| nominal);
+        Self::with_known(pair, Arc::clone(&self.gears), options, (known, root))
     }
 
-    /// Model with matrices and tables of any window of these gears, where one is known.
-    fn with_set(
+    /// The same pair under another torque, N mm: [`StaticModel::modified`] without another difference.
+    ///
+    /// # Errors
+    /// As [`StaticModel::new`].
+    pub fn under_torque(&self, torque: f64) -> Result<Self, StaticError> {
+        self.modified(self.pair.clone(), StaticOptions { torque, ..self.options.clone() })
+    }
+
+    /// Model with matrices and tables of any window of these gears, and with the maps to their root stress, where they are
+    /// known.
+    fn with_known(
         pair: GearPair,
         gears: Arc<[ElasticGear; 2]>,
         options: StaticOptions,
-        known: Option<&ContactSet>,
+        (known, root): (Option<&ContactSet>, Option<Arc<RootStress>>),
     ) -> Result<Self, StaticError> {
         let fine = options.torque.is_finite() && options.torque >= 0.0;
         if !fine {
@@ -102,15 +113,15 @@ impl StaticModel {
             Some(set) => set,
             None => ContactSet::new(&pair, &gears, window.window(), &options.contact)?,
         };
-        let root = options.root_stress.then(|| RootStress::new(&pair, &gears));
-        let inputs = CycleInputs { pair: &pair, gears: &gears, options: &options, root: root.as_ref() };
+        let root = options.root_stress.then(|| root.unwrap_or_else(|| Arc::new(RootStress::new(&pair, &gears))));
+        let inputs = CycleInputs { pair: &pair, gears: &gears, options: &options, root: root.as_deref() };
         let solver = CycleSolver::new(&inputs, window, set)?;
         Ok(Self { pair, gears, options, root, solver })
     }
 
     fn split(&mut self) -> (CycleInputs<'_>, &mut CycleSolver) {
         let Self { pair, gears, options, root, solver } = self;
-        (CycleInputs { pair, gears, options, root: root.as_ref() }, solver)
+        (CycleInputs { pair, gears, options, root: root.as_deref() }, solver)
     }
 
     /// The pair.

@@ -52,7 +52,7 @@ pub use film::test_specific_film;
 pub use geometry::PairGeometry;
 pub use life::StressLife;
 pub use load_distribution::{TransverseLoad, face_load_factor_bending, transverse_load_factors};
-pub use local::{local_bending_safety, local_pitting_safety};
+pub use local::{local_bending_safety, local_contact_stress, local_pitting_safety};
 pub use lubricant::{Lubricant, LubricantBase, Lubricants};
 pub use lubrication::{Lubrication, LubricationMethod};
 pub use material::{Material, MaterialGroup, Materials};
@@ -60,7 +60,9 @@ pub use outside::Outside;
 pub use pitting::{FlankFactors, FlankSurface, PittingFactors, pitting_curve, pitting_factors};
 pub use rolling::{Rolling, RollingPlace};
 pub use scuffing::{FlashRating, IntegralRating, ScuffingInput, ScuffingRating, scuffing_rating};
-pub use spectrum::{GearDamage, LoadBin, Spectrum, SpectrumRating, miner, spectrum_rating};
+pub use spectrum::{
+    Cycles, GearDamage, LoadBin, RatedLoad, RatedSpectrum, Spectrum, SpectrumRating, miner_safety, miner_sum,
+};
 pub use standard::{GearInput, GearRating, GivenFactors, MeshStiffness, RatingInput, StandardRating, standard_rating};
 pub use tribology::{
     ContactField, FilmField, LocalScuffing, MeshLoss, MicropittingRating, PressedPlace, SolvedContact, permissible_film,

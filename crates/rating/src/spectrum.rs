@@ -116,64 +116,113 @@ described::described! {
     }
 }
 
-/// Stress of a load with its number of cycles.
-type Cycles = (f64, f64);
+/// Load cycles with the stress, MPa, that they put on a place.
+pub type Cycles = (f64, f64);
 
-/// Miner's sum and the factor on all stresses that makes it 1.
+/// Miner's sum.
 ///
 /// ```text
-/// U = sum n_i/N_i(sigma_i),    U(S) = sum n_i/N_i(S sigma_i) = 1
+/// U = sum n_i/N_i(sigma_i)
 /// ```
-/// Source: ISO 6336-6 (Palmgren-Miner; safety by iteration).
-pub fn miner(curve: &StressLife, loads: &[Cycles]) -> (f64, f64) {
+/// Source: ISO 6336-6 (Palmgren-Miner).
+pub fn miner_sum(curve: &StressLife, loads: &[Cycles]) -> f64 {
+    loads.iter().map(|(cycles, stress)| curve.damage(*cycles, *stress)).sum()
+}
+
+/// Factor on all stresses that makes Miner's sum 1; infinite where no load does damage.
+///
+/// ```text
+/// sum n_i/N_i(S sigma_i) = 1
+/// ```
+/// Source: ISO 6336-6 (safety by iteration).
+pub fn miner_safety(curve: &StressLife, loads: &[Cycles]) -> f64 {
     let at = |factor: f64| loads.iter().map(|(cycles, stress)| curve.damage(*cycles, factor * stress)).sum::<f64>();
-    let damage = at(1.0);
     let (mut low, mut high) = (1e-3_f64, 1e3_f64);
     if at(high) <= 1.0 {
-        return (damage, f64::INFINITY);
+        return f64::INFINITY;
     }
     for _ in 0..100 {
         let middle = (low * high).sqrt();
         if at(middle) > 1.0 { high = middle } else { low = middle }
     }
-    (damage, low)
+    low
 }
 
-/// Rates a pair under a spectrum: every load has its own dynamic and transverse load factors, and its own K_Hbeta and mesh stiffness where it states them; the curves of bearable stress, Z_V with them, are those of the nominal load.
-///
-/// `nominal_torque_nm` and `nominal_speed_rpm`: torque on the driven gear and speed of the driver that `input` is for. Loads without torque or speed do no damage.
-///
-/// # Errors
-/// [`RatingError`] as [`standard_rating`].
-pub fn spectrum_rating(
-    input: &RatingInput<'_>,
-    spectrum: &Spectrum,
-    [nominal_torque_nm, nominal_speed_rpm]: [f64; 2],
-) -> Result<SpectrumRating, RatingError> {
-    let rated: Vec<(f64, StandardRating)> = (spectrum.bins.iter().filter(|bin| bin.works()))
-        .map(|bin| {
+/// A load of a spectrum that works, with its rating.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RatedLoad {
+    /// The load.
+    pub load: LoadBin,
+    /// The pair under it for the whole life.
+    pub rating: StandardRating,
+}
+
+impl RatedLoad {
+    /// Load cycles of a gear under this load, over the life.
+    fn share_of_cycles(&self, gear: usize) -> f64 {
+        self.load.share * self.rating.gears()[gear].load_cycles
+    }
+}
+
+/// A pair under every load of a spectrum: each has its own dynamic and transverse load factors, and its own K_Hbeta and mesh stiffness where it states them; the curves of bearable stress, Z_V with them, are those of the nominal load.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RatedSpectrum {
+    count: usize,
+    nominal: StandardRating,
+    loads: Vec<RatedLoad>,
+}
+
+impl RatedSpectrum {
+    /// Rates a pair under a spectrum. `nominal_torque_nm` and `nominal_speed_rpm`: torque on the driven gear and speed of the driver that `input` is for. Loads without torque or speed do no damage.
+    ///
+    /// # Errors
+    /// [`RatingError`] as [`standard_rating`].
+    pub fn new(
+        input: &RatingInput<'_>,
+        spectrum: &Spectrum,
+        [nominal_torque_nm, nominal_speed_rpm]: [f64; 2],
+    ) -> Result<Self, RatingError> {
+        let one = |load: &LoadBin| {
             let own = RatingInput {
-                tangential_force: input.tangential_force * bin.torque_nm / nominal_torque_nm,
-                pinion_speed_rpm: input.pinion_speed_rpm * bin.speed_rpm / nominal_speed_rpm,
-                stiffness: bin.stiffness.unwrap_or(input.stiffness),
+                tangential_force: input.tangential_force * load.torque_nm / nominal_torque_nm,
+                pinion_speed_rpm: input.pinion_speed_rpm * load.speed_rpm / nominal_speed_rpm,
+                stiffness: load.stiffness.unwrap_or(input.stiffness),
                 factors: GivenFactors {
-                    face_load: bin.face_load_factor.unwrap_or(input.factors.face_load),
+                    face_load: load.face_load_factor.unwrap_or(input.factors.face_load),
                     ..input.factors
                 },
                 ..*input
             };
-            Ok((bin.share, standard_rating(&own)?))
-        })
-        .collect::<Result<_, RatingError>>()?;
-    let nominal = standard_rating(input)?;
-    let gear = |k: usize| {
-        let own = nominal.gears()[k];
-        let loads = |stress: fn(&crate::GearRating) -> f64| -> Vec<Cycles> {
-            rated.iter().map(|(share, r)| (share * r.gears()[k].load_cycles, stress(r.gears()[k]))).collect()
+            Ok(RatedLoad { load: *load, rating: standard_rating(&own)? })
         };
-        let (pitting_damage, pitting_safety) = miner(&own.pitting_curve, &loads(|g| g.contact_stress_mpa));
-        let (bending_damage, bending_safety) = miner(&own.bending_curve, &loads(|g| g.root_stress_mpa));
-        GearDamage { pitting_damage, bending_damage, pitting_safety, bending_safety }
-    };
-    Ok(SpectrumRating { loads: spectrum.bins.len(), pinion: gear(0), wheel: gear(1) })
+        let loads = spectrum.bins.iter().filter(|bin| bin.works()).map(one).collect::<Result<_, RatingError>>()?;
+        Ok(Self { count: spectrum.bins.len(), nominal: standard_rating(input)?, loads })
+    }
+
+    /// Loads that work, in the order of the spectrum.
+    pub fn loads(&self) -> &[RatedLoad] {
+        &self.loads
+    }
+
+    /// Damage by the stresses of the standard.
+    pub fn rating(&self) -> SpectrumRating {
+        let gear = |k: usize| {
+            let pitting = self.cycles(k, |load| load.rating.gears()[k].contact_stress_mpa);
+            let bending = self.cycles(k, |load| load.rating.gears()[k].root_stress_mpa);
+            let own = self.nominal.gears()[k];
+            GearDamage {
+                pitting_damage: miner_sum(&own.pitting_curve, &pitting),
+                bending_damage: miner_sum(&own.bending_curve, &bending),
+                pitting_safety: miner_safety(&own.pitting_curve, &pitting),
+                bending_safety: miner_safety(&own.bending_curve, &bending),
+            }
+        };
+        SpectrumRating { loads: self.count, pinion: gear(0), wheel: gear(1) }
+    }
+
+    /// Load cycles of a gear under each load that works, with the stress (MPa) that the load puts on some place of it.
+    pub fn cycles(&self, gear: usize, stress: impl FnMut(&RatedLoad) -> f64) -> Vec<Cycles> {
+        let cycles = self.loads.iter().map(|load| load.share_of_cycles(gear));
+        cycles.zip(self.loads.iter().map(stress)).collect()
+    }
 }

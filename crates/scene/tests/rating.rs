@@ -1,6 +1,9 @@
 //! `[rating]`: what is asked for, what is refused, what is written again.
 
-use scene::{Scene, SceneError};
+use scene::{
+    DataFile, Scene, SceneError,
+    gearbox::{Gearbox, gearbox_of_pair},
+};
 
 const PAIR: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 10.0\n[wheel]\nteeth = 47\n[pair]\n\
                     normal_module_mm = 3.0\nface_width_mm = 30.0\n[operation]\ntorque_nm = 300.0\n";
@@ -126,4 +129,23 @@ fn oil_and_flanks_are_asked_for_by_name() {
     let film = "oil_temperature_c = 80.0\nlubrication = \"dip\"\nmicropitting = true\nmaterial_factor = 1.0\n";
     let error = iso(film).unwrap_err().to_string();
     assert!(error.contains("`micropitting` wants the pressures"), "{error}");
+}
+
+/// A pair's loads are those of the gearbox that stands for it; the scene of a mesh has none of its own.
+#[test]
+fn loads_belong_to_the_gearbox() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("loads.csv"), "torque_nm,speed_rpm,share\n300,1000,1\n90,1500,3\n").unwrap();
+    let text = format!("{PAIR}{RATING}").replace("[rating]\n", "[rating]\nspectrum = \"loads.csv\"\n");
+    let scene = Scene::parse(&text, &folder.path().join("a.toml")).unwrap();
+    let of_pair = gearbox_of_pair(&scene).unwrap();
+    let gearbox =
+        Gearbox::parse(&of_pair, &folder.path().join("box.toml")).unwrap_or_else(|e| panic!("{e}\n{of_pair}"));
+    let loads = gearbox.rating.unwrap().spectrum.unwrap();
+    assert_eq!(Some(loads.values()), scene.rating.as_ref().unwrap().spectrum.as_ref().map(DataFile::values));
+    let own = of_pair.replace("[mesh.scene.rating]\n", "[mesh.scene.rating]\nspectrum = \"loads.csv\"\n");
+    assert_ne!(own, of_pair);
+    let refused = Gearbox::parse(&own, &folder.path().join("box.toml")).unwrap_err();
+    assert!(refused.to_string().contains("the scene of mesh \"pair\" has a load spectrum of its own"), "{refused}");
+    assert!(refused.hint().unwrap().contains("`spectrum`"), "{refused}");
 }

@@ -223,7 +223,7 @@ fn shown(answer: Answer<'_>, text: &str, (scene, history, solve_ms): &Solved) ->
         let pair = scene.gear_pair().map_err(|e| Fault::of_scene(text, &e))?;
         let headline = static_headline(scene, history).map_err(statistics)?;
         let maps = if scene.has_slices() {
-            contact_pattern_maps(&patterns(scene, &pair, history).map_err(statistics)?).into()
+            contact_pattern_maps(&patterns(scene, &pair, &history.positions).map_err(statistics)?).into()
         } else {
             Vec::new()
         };

@@ -2,7 +2,7 @@
 
 use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, MeshState, Train};
-use scene::{DataFile, Driver, RatedGearScene, Scene, gearbox::Gearbox};
+use scene::{Driver, RatedGearScene, Scene, gearbox::Gearbox};
 
 use super::{meshes::ReducedMesh, spectrum::SolvedSpectrum};
 use crate::{AnalysisError, pair_rating::RatingHeadline, remark, solved_mesh::SolvedMesh};
@@ -37,12 +37,11 @@ pub(super) fn ratings(
         let Some(scene) = rated_scene(file, train, (i, &reduced[i].scene), torque) else { return Ok(None) };
         let unloaded = torque == 0.0 || scene.operation.speed_rpm == 0.0;
         let speed_ratio = scene.operation.speed_rpm / file.rating.as_ref().map_or(f64::NAN, |asked| asked.speed_rpm);
-        let is_stated = scene.rating.as_ref().is_some_and(|own| own.face_load_factor.is_some());
-        let of_gearbox = loads.map(|own| own.of_mesh(i, (speed_ratio, is_stated)));
-        let of_pair = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
+        let of_gearbox = loads.map(|own| own.of_mesh(i, speed_ratio));
+        let spectrum = of_gearbox.as_ref().map(|(loads, solved)| (loads, *solved));
         let rating = match unloaded {
             true => None,
-            false => RatingHeadline::of_solved(&scene, &mesh.pair, (&solved(&scene), of_gearbox.as_ref().or(of_pair)))?,
+            false => RatingHeadline::of_solved(&scene, &mesh.pair, (&solved(&scene), spectrum))?,
         };
         match &rating {
             Some(own) => {

@@ -7,21 +7,11 @@ use rating::{LoadBin, Spectrum};
 
 use super::{
     bearings::{BearingTurns, LifeLimits, rolling_load},
-    mesh_numbers::MeshNumbers,
     meshes::ReducedMesh,
     solved_positions::{at_all_angles, count},
     vibration::Parts,
 };
-use crate::{AnalysisError, Observer, PhaseWork, run_phase};
-
-/// A mesh under a load.
-#[derive(Debug, Clone, Copy)]
-struct MeshLoad {
-    /// Mean torque on the driven gear, N m without sign.
-    torque_nm: f64,
-    /// K_Hbeta of the solved distribution of the load.
-    face_load_factor: Option<f64>,
-}
+use crate::{AnalysisError, Observer, PhaseWork, run_phase, solved_load::SolvedLoad};
 
 /// What all loads together do to a bearing.
 #[derive(Debug, Clone, Copy, Default)]
@@ -36,8 +26,10 @@ struct BearingUse {
 #[derive(Debug)]
 pub(super) struct SolvedSpectrum {
     loads: Spectrum,
-    /// Meshes under each load, in their order.
-    meshes: Vec<Vec<MeshLoad>>,
+    /// Meshes under each torque of the spectrum, in their order.
+    meshes: Vec<Vec<SolvedLoad>>,
+    /// Torque of each load among these; `None` of loads that do not work.
+    torques: Vec<Option<usize>>,
     bearings: Vec<BearingUse>,
 }
 
@@ -57,10 +49,10 @@ impl SolvedSpectrum {
         for (k, bin) in spectrum.bins().iter().enumerate().filter(|(_, bin)| bin.works()) {
             torques.entry(bin.torque_nm.to_bits()).or_default().push(k);
         }
-        let none = MeshLoad { torque_nm: 0.0, face_load_factor: None };
         let mut all = Self {
             loads: spectrum.clone(),
-            meshes: vec![vec![none; parts.meshes.len()]; spectrum.bins().len()],
+            meshes: parts.meshes.iter().map(|_| Vec::new()).collect(),
+            torques: vec![None; spectrum.bins().len()],
             bearings: vec![BearingUse::default(); parts.file.bearings.len()],
         };
         let work = PhaseWork::Steps(u64::from(count(parts.file)) * torques.len() as u64);
@@ -73,27 +65,37 @@ impl SolvedSpectrum {
                 let told = |e: AnalysisError| e.of_part(format!("the load of {} N m", f64::from_bits(*torque)));
                 let under = Parts { operation: &operation, ..*parts };
                 let (positions, _) = at_all_angles(&under, reduced, progress).map_err(told)?;
+                let solved = all.meshes.first().map_or(0, Vec::len);
+                all.take_meshes(parts, reduced, &positions).map_err(told)?;
                 for &k in bins {
-                    all.take(k, parts, reduced, &positions);
+                    all.torques[k] = Some(solved);
+                    all.take_bearings(k, parts, &positions);
                 }
             }
             Ok(all)
         })
     }
 
-    /// Takes a load with the positions under it.
-    fn take(&mut self, k: usize, parts: &Parts<'_>, reduced: &[ReducedMesh], positions: &[GearboxPosition]) {
-        let bin = self.loads.bins()[k];
-        for (i, (own, mesh)) in self.meshes[k].iter_mut().zip(reduced).enumerate() {
+    /// Takes what the positions under a torque say of the meshes.
+    fn take_meshes(
+        &mut self,
+        parts: &Parts<'_>,
+        reduced: &[ReducedMesh],
+        positions: &[GearboxPosition],
+    ) -> Result<(), AnalysisError> {
+        for (i, (own, mesh)) in self.meshes.iter_mut().zip(reduced).enumerate() {
+            let states: Vec<&MeshState> = positions.iter().map(|p| &p.meshes[i]).collect();
             let driven = mesh.options.driven();
-            let moment = |p: &GearboxPosition| -> f64 {
-                let MeshState { moment, .. } = &p.meshes[i];
-                moment[driven][2]
-            };
-            let mean = positions.iter().map(moment).sum::<f64>() / positions.len().max(1) as f64;
-            let numbers = MeshNumbers::of(positions, i, mesh.options.contact.slices);
-            *own = MeshLoad { torque_nm: 1e-3 * mean.abs(), face_load_factor: numbers.face_load_factor };
+            let mean = states.iter().map(|m| m.moment[driven][2]).sum::<f64>() / positions.len().max(1) as f64;
+            let pair = &parts.meshes[i].pair;
+            own.push(SolvedLoad::of_mesh(&mesh.scene, pair, (1e-3 * mean.abs(), &states))?);
         }
+        Ok(())
+    }
+
+    /// Takes what the positions under a load say of the bearings.
+    fn take_bearings(&mut self, k: usize, parts: &Parts<'_>, positions: &[GearboxPosition]) {
+        let bin = self.loads.bins()[k];
         for (i, own) in self.bearings.iter_mut().enumerate() {
             let (file, law) = (&parts.file.bearings[i], &parts.structure.bearings[i]);
             let turns = BearingTurns::of((parts.file, parts.train), i, bin.speed_rpm);
@@ -103,18 +105,16 @@ impl SolvedSpectrum {
         }
     }
 
-    /// Loads of a mesh: torque on its driven gear, speed of its driver, K_Hbeta unless the scene states one.
-    pub fn of_mesh(&self, mesh: usize, (speed_ratio, is_stated): (f64, bool)) -> Spectrum {
-        let mut loads = self.meshes.iter().map(|all| all[mesh]);
-        self.loads.with_loads(|bin| {
-            let own = loads.next();
-            LoadBin {
-                torque_nm: own.map_or(0.0, |own| own.torque_nm),
-                speed_rpm: bin.speed_rpm * speed_ratio,
-                face_load_factor: own.and_then(|own| own.face_load_factor).filter(|_| !is_stated),
-                ..*bin
-            }
-        })
+    /// Loads of a mesh, torque on its driven gear and speed of its driver, and what is solved under them.
+    pub fn of_mesh(&self, mesh: usize, speed_ratio: f64) -> (Spectrum, &[SolvedLoad]) {
+        let solved = &self.meshes[mesh][..];
+        let mut torques = self.torques.iter().map(|own| own.map_or(0.0, |own| solved[own].torque_nm));
+        let loads = self.loads.with_loads(|bin| LoadBin {
+            torque_nm: torques.next().unwrap_or(0.0),
+            speed_rpm: bin.speed_rpm * speed_ratio,
+            ..*bin
+        });
+        (loads, solved)
     }
 
     /// The worst that formulas of lives meet at a bearing.

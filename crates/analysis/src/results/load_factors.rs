@@ -2,11 +2,11 @@
 
 use ltca::{PairResult, StaticHistory, StaticPosition};
 
-/// K_Hbeta of a history: [`ltca::face_load_factor`] of all its positions.
+/// K_Hbeta: [`ltca::face_load_factor`] of all positions.
 ///
 /// `None` where points touch, and without load.
-pub fn face_load_factor(slices: usize, history: &StaticHistory) -> Option<f64> {
-    let pairs = history.positions.iter().flat_map(|position| &position.pairs);
+pub fn face_load_factor(slices: usize, positions: &[StaticPosition]) -> Option<f64> {
+    let pairs = positions.iter().flat_map(|position| &position.pairs);
     ltca::face_load_factor(slices, pairs.flat_map(|pair| &pair.slices))
 }
 

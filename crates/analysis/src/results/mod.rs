@@ -11,11 +11,12 @@ mod static_headline;
 mod tooth_change;
 
 pub use load_factors::{face_load_factor, load_sharing_ratio, transverse_load_factor};
+pub(crate) use pattern::pressed;
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};
 pub use root_stress::{
     GearRootStress, MAX_PRINCIPAL, MIN_PRINCIPAL, Measure, Place, RootStressHeadline, VON_MISES, error_percent,
-    root_stress_headline, root_stress_remarks,
+    largest_tensions, root_stress_headline, root_stress_remarks,
 };
 pub use static_headline::{StaticHeadline, static_headline};
 pub use tooth_change::ToothChangeHeadline;

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use contact::SliceResult;
 use geometry::{Flank, GearPair, Side};
-use ltca::{StaticHistory, StaticPosition};
+use ltca::StaticPosition;
 use study::{FlankPattern, StudyError, Touch};
 
 use scene::Scene;
@@ -62,8 +62,8 @@ pub fn diameter(base_radius: f64, roll: f64) -> f64 {
 ///
 /// # Errors
 /// [`StudyError`] when the flank has no height, or a result is no number.
-pub fn patterns(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<[GearPattern; 2], StudyError> {
-    Ok([pattern(scene, pair, history, 0)?, pattern(scene, pair, history, 1)?])
+pub fn patterns(scene: &Scene, pair: &GearPair, positions: &[StaticPosition]) -> Result<[GearPattern; 2], StudyError> {
+    Ok([pattern(scene, pair, positions, 0)?, pattern(scene, pair, positions, 1)?])
 }
 
 /// A driving flank that nothing has pressed.
@@ -95,12 +95,37 @@ pub fn touch(slice: &SliceResult, gear: usize, engagement: f64) -> Touch {
     }
 }
 
-fn pattern(scene: &Scene, pair: &GearPair, history: &StaticHistory, gear: usize) -> Result<GearPattern, StudyError> {
+/// Largest pressures that positions put on the driving flank of a tooth: the slices of each, and the mesh cycles from one
+/// position to the next. Where pairs have no numbers the roll angle says how far an engagement has gone, which grows with
+/// the turn.
+///
+/// # Errors
+/// [`StudyError`] when the flank has no height, or a result is no number.
+pub(crate) fn pressed<'a>(
+    scene: &Scene,
+    pair: &GearPair,
+    gear: usize,
+    (slices, cycles): (impl Iterator<Item = &'a SliceResult>, f64),
+) -> Result<FlankPattern, StudyError> {
+    let pitch = [&pair.pinion, &pair.wheel][gear].pitch_angle().abs();
+    let mut grid = untouched(scene, pair, gear)?;
+    let driving = slices.filter(|s| s.side == scene.side());
+    let touches: Vec<Touch> = driving.map(|s| touch(s, gear, s.roll[gear] / pitch)).collect();
+    grid.press(&touches, 1.5 * cycles)?;
+    Ok(grid)
+}
+
+fn pattern(
+    scene: &Scene,
+    pair: &GearPair,
+    positions: &[StaticPosition],
+    gear: usize,
+) -> Result<GearPattern, StudyError> {
     let side = scene.side();
     let mut grid = untouched(scene, pair, gear)?;
     let pitch = 2.0 * PI / f64::from(scene.pinion.teeth);
     let per_cycle = (scene.analysis.positions_per_cycle as usize).max(1);
-    for cycle in history.positions.chunks(per_cycle) {
+    for cycle in positions.chunks(per_cycle) {
         let touches: Vec<Touch> = cycle.iter().flat_map(|p| touches(p, side, gear, pitch)).collect();
         // One and a half distances of two positions: neighbours are joined, others never.
         grid.press(&touches, 1.5 / per_cycle as f64)?;

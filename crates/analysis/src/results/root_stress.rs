@@ -125,6 +125,14 @@ pub fn root_stress_remarks(largest: [(f64, f64); 2]) -> impl Iterator<Item = ans
 /// From this estimate on the user is told, %.
 const DOUBTFUL_PERCENT: f64 = 3.0;
 
+/// Largest first principal stresses in the fillets of pinion and wheel over some positions, MPa; `None` where they are not
+/// computed.
+pub fn largest_tensions(positions: &[StaticPosition]) -> Option<[f64; 2]> {
+    let of = |gear: usize| positions.iter().map(move |p| MAX_PRINCIPAL.stress(&p.root_stress[gear], None));
+    let known = |gear: usize| of(gear).filter(|stress| !stress.is_nan()).reduce(f64::max);
+    Some([known(0)?, known(1)?])
+}
+
 /// Largest root stresses of a run that computed them.
 pub fn root_stress_headline(history: &StaticHistory) -> Option<RootStressHeadline> {
     let gear = |i| {

@@ -129,7 +129,7 @@ pub fn static_headline(scene: &Scene, history: &StaticHistory) -> Result<StaticH
         efficiency: 1.0 - share_lost(driver, positions, |p| p.friction_work).unwrap_or(0.0),
         tooth_loss_factor: share_lost(driver, positions, |p| p.sliding_work),
         max_pair_force_n: worst(&|p| p.pairs.iter().map(|pair| pair.normal_force).fold(0.0, worse)),
-        face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, history),
+        face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
         transverse_load_factor: transverse_load_factor(history),
         load_sharing_ratio: load_sharing_ratio(history),
         max_pressure_mpa: worst(&|p| p.max_pressure),

@@ -88,7 +88,7 @@ fn a_wedge_on_a_uniform_bed_has_the_factor_of_the_standard() {
         let mut model = StaticModel::new(case.pair.clone(), gears.clone(), options).unwrap();
         let position = on_a_bed(&mut model, Station { cycle: 0, phase: 0.5 });
         let history = StaticHistory { positions: vec![position], ..Default::default() };
-        let found = face_load_factor(SLICES, &history).unwrap();
+        let found = face_load_factor(SLICES, &history.positions).unwrap();
         let wanted = closed_form(wedge, BED, load);
         println!("wedge {wedge:>5} um: K_Hbeta {found:.4} ({wanted:.4}), {:+.2} %", 100.0 * (found / wanted - 1.0));
         assert!((found / wanted - 1.0).abs() < 0.02, "{wedge} um: K_Hbeta {found}, closed form {wanted}");
@@ -115,9 +115,9 @@ fn teeth_are_no_uniform_bed() {
             let history = model.run(8, 1, |_, _, _| ()).unwrap_or_else(|e| panic!("{e}"));
             let middle = &history.positions[4];
             let stiffness = 1e-3 * middle.tangent_stiffness / width;
-            let found = face_load_factor(slices, &history).unwrap();
+            let found = face_load_factor(slices, &history.positions).unwrap();
             let one = StaticHistory { positions: vec![middle.clone()], ..Default::default() };
-            let alone = face_load_factor(slices, &one).unwrap();
+            let alone = face_load_factor(slices, &one.positions).unwrap();
             let wanted = closed_form(wedge, stiffness, load);
             println!(
                 "b/m_n {modules:.1}, wedge {wedge:>4} um: K_Hbeta {found:.3} over the mesh, {alone:.3} in the middle, {wanted:.3} of a bed of {stiffness:.2} N/(mm um)"

@@ -54,7 +54,7 @@ fn a_held_gearbox_of_one_pair_is_the_scene_of_the_pair() {
         let pressure = mesh.slices.iter().map(|s| s.pressure).fold(0.0, f64::max);
         assert!((pressure / wanted.max_pressure - 1.0).abs() < 1e-9, "phase {}: {pressure} MPa", wanted.mesh_phase);
     }
-    let factor = analysis::results::face_load_factor(16, &alone.history).unwrap();
+    let factor = analysis::results::face_load_factor(16, &alone.history.positions).unwrap();
     let own = found.meshes[0].face_load_factor.unwrap();
     assert!((own / factor - 1.0).abs() < 1e-9, "K_Hbeta {own} beside {factor}");
     assert_eq!(found.meshes[0].misalignment, [0.0; 2]);

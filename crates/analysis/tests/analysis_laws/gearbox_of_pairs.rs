@@ -177,7 +177,7 @@ fn beside(pair: &str, gears: &SharedModels<'_>) -> Result<Vec<(&'static str, f64
     for (own, wanted) in found.positions.iter().zip(&alone.history.positions) {
         all.extend(differences(&own.meshes[0], wanted));
     }
-    let factor = analysis::results::face_load_factor(12, &alone.history);
+    let factor = analysis::results::face_load_factor(12, &alone.history.positions);
     if let (Some(own), Some(wanted)) = (found.meshes[0].face_load_factor, factor) {
         all.push(("K_Hbeta", off(&[own], &[wanted])));
     }

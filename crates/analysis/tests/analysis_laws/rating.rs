@@ -310,7 +310,7 @@ fn local_safeties_are_those_of_the_solved_stresses() {
     let bending = pinion.root_stress_limit_mpa / (tension * load);
     assert!((local.bending_safety.unwrap()[0] / bending - 1.0).abs() < 1e-12);
     let pair = scene.gear_pair().unwrap();
-    for pattern in analysis::results::patterns(&scene, &pair, &result.history).unwrap() {
+    for pattern in analysis::results::patterns(&scene, &pair, &result.history.positions).unwrap() {
         assert!(pattern.largest_pressure() <= headline.max_pressure_mpa);
     }
 }
@@ -327,6 +327,57 @@ fn a_spectrum_of_the_nominal_load_is_the_nominal_load() {
     let damage = rating.spectrum.unwrap();
     let life = rating.standard.pinion.pitting_life_h;
     assert!((damage.pinion.pitting_damage * life / 500.0 - 1.0).abs() < 1e-9, "half of 1000 h");
+}
+
+/// A misaligned pair with a coarse mesh and root stress, under loads; the text is that of the table.
+fn under_loads(torque_nm: f64, loads: &str) -> RatingHeadline {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("loads.csv"), loads).unwrap();
+    let scene = coarse().relative_to(folder.path()).set("rating.spectrum", "loads.csv");
+    let scene = scene.set("pair.misalignment.in_plane_of_action_um", 20.0).set("output.root_stress", true);
+    rated(scene.torque_nm(torque_nm)).0
+}
+
+/// Loads of a pair are solved each by itself: standard and local damage of a spectrum, place by place, are the sums of runs under one load after the other for their shares of the life, with the K_Hbeta, pressures and root stresses that these have.
+#[test]
+fn a_spectrum_of_a_pair_adds_up_over_its_loads() {
+    let heading = "torque_nm,speed_rpm,share\n";
+    let both = under_loads(300.0, &format!("{heading}300,1000,1\n120,1000,3\n0,1000,4\n"));
+    // Idle time takes the rest of the life.
+    let heavy = under_loads(300.0, &format!("{heading}300,1000,1\n0,0,7\n"));
+    let light = under_loads(120.0, &format!("{heading}120,1000,3\n0,0,5\n"));
+    assert!(light.standard.face_load_factor > 1.05 * heavy.standard.face_load_factor);
+    type Sums = fn(&RatingHeadline) -> Vec<f64>;
+    let of: [(&str, Sums); 3] = [
+        ("standard", |own| {
+            let gears = own.spectrum.as_ref().map(|s| [s.pinion, s.wheel]).unwrap();
+            gears.iter().flat_map(|g| [g.pitting_damage, g.bending_damage]).collect()
+        }),
+        ("root", |own| own.local_spectrum.as_ref().unwrap().bending_damage.unwrap().to_vec()),
+        ("places", |own| own.local_spectrum.as_ref().unwrap().flanks.concat()),
+    ];
+    for (what, of) in of {
+        let parts = of(&heavy).into_iter().zip(of(&light));
+        for (i, (sum, (heavy, light))) in of(&both).into_iter().zip(parts).enumerate() {
+            let wanted = heavy + light;
+            assert!((sum - wanted).abs() <= 1e-9 * wanted, "{what} {i}: {sum:e}, {heavy:e} and {light:e} alone");
+        }
+    }
+    let local = both.local_spectrum.as_ref().unwrap();
+    for gear in 0..2 {
+        assert_eq!(local.flanks[gear].iter().copied().fold(0.0, f64::max), local.pitting_damage[gear]);
+    }
+}
+
+/// A spectrum of the nominal load alone is as safe as the local rating: the factor on pressures that makes the worst sum 1 is its safety.
+#[test]
+fn local_damage_of_the_nominal_load_is_its_safety() {
+    let own = under_loads(300.0, "torque_nm,speed_rpm,share\n300,1000,1\n");
+    let (local, damage) = (own.local.unwrap(), own.local_spectrum.unwrap());
+    for gear in 0..2 {
+        close("pitting", damage.pitting_safety[gear], local.pitting_safety[gear], 1e-9);
+        close("bending", damage.bending_safety.unwrap()[gear], local.bending_safety.unwrap()[gear], 1e-9);
+    }
 }
 
 /// A pair as a gearbox of two held shafts has its own rating, standard and local, whichever gear drives: each number to 1e-9, what comes from the load of every slice to 1e-3, since the slices of a gearbox's mesh are those of all its pairs of teeth. Root stresses are the pair's alone.

@@ -2,8 +2,8 @@
 
 use rating::{
     Deviations, Edition, FlankFactors, GearInput, GivenFactors, Lubricants, Materials, MeshStiffness, PairGeometry,
-    RatingError, RatingInput, RootFactors, Spectrum, StandardRating, local_bending_safety, local_pitting_safety,
-    spectrum_rating, standard_rating,
+    RatedSpectrum, RatingError, RatingInput, RootFactors, Spectrum, StandardRating, local_bending_safety,
+    local_pitting_safety, standard_rating,
 };
 
 /// Radii of curvature of the pinion at both ends of the path of contact between tip circles, mm.
@@ -192,7 +192,7 @@ fn odd_inputs_are_refused_or_told() {
 fn spectra_add_up() {
     let input = RatingInput { life_h: 2000.0, ..nrel() };
     let nominal = [162_105.5, 1165.9];
-    let of = |text: &str| spectrum_rating(&input, &Spectrum::parse(text).unwrap(), nominal).unwrap();
+    let of = |text: &str| RatedSpectrum::new(&input, &Spectrum::parse(text).unwrap(), nominal).unwrap().rating();
     let one = of("torque_nm, speed_rpm, share\n162105.5, 1165.9, 1\n");
     let r = rated(&input);
     for (gear, damage) in r.gears().into_iter().zip([one.pinion, one.wheel]) {

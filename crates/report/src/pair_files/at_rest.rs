@@ -48,7 +48,7 @@ pub fn write_static_result(
         if scene.output.contact_lines {
             tables.push(contact_lines(scene, &pair, history));
         }
-        let patterns = analysis::results::patterns(scene, &pair, history)?;
+        let patterns = analysis::results::patterns(scene, &pair, &history.positions)?;
         tables.extend(rating::with_safeties(write_patterns(scene, &patterns, results)?, headline.rating.as_ref()));
         pattern = pattern_figure(&patterns);
     }

@@ -1,6 +1,6 @@
 //! Whether the pair will hold, on the page and in the closing table.
 
-use analysis::pair_rating::RatingHeadline;
+use analysis::pair_rating::{LocalDamage, RatingHeadline};
 use answer::Table;
 use rating::{GearDamage, GearRating, StandardRating, local_pitting_safety};
 
@@ -44,6 +44,7 @@ pub(crate) fn parts(rating: &RatingHeadline, mesh: Option<&str>) -> [Part; 2] {
         lines.push(Line::text("Miner's sum of root breakage", sum(both(|d| d.bending_damage)), loads));
         lines.push(Line::text("safety of the spectrum, pitting", pair(both(|d| d.pitting_safety)), "(pinion, wheel)"));
         lines.push(Line::text("safety of the spectrum, breakage", pair(both(|d| d.bending_safety)), "(pinion, wheel)"));
+        lines.extend(rating.local_spectrum.iter().flat_map(local_damage));
     }
     lines.extend(oiled(rating));
     let title = mesh.map_or_else(|| "Will it hold?".to_owned(), |name| format!("Will it hold? {name}"));
@@ -51,6 +52,25 @@ pub(crate) fn parts(rating: &RatingHeadline, mesh: Option<&str>) -> [Part; 2] {
     let note = "Pitting after ISO 6336-2, tooth root breakage after ISO 6336-3, load factors after ISO 6336-1, method B unless stated; K_Hbeta is that of the solved load distribution unless stated. A life ends where the safety is 1; a safety below the one that your application asks for is not enough.";
     let sheet = Part::more().lines(load(r)).with(Content::Grid(sheet(r))).note(note);
     [safeties, sheet]
+}
+
+/// Damage of the spectrum by what is solved under each load.
+fn local_damage(local: &LocalDamage) -> Vec<Line> {
+    let text = |of: [f64; 2], digits: usize| of.map(|value| crate::tables::fixed(value, digits)).join(", ");
+    let [pinion, wheel] = local.pitting_damage_at;
+    let places = format!(
+        "(pinion, wheel; at d1 {:.2} z1 {:.2}, d2 {:.2} z2 {:.2} mm)",
+        pinion.diameter_mm, pinion.z_mm, wheel.diameter_mm, wheel.z_mm
+    );
+    let mut lines = vec![
+        Line::text("local Miner's sum of pitting", text(local.pitting_damage, 3), places),
+        Line::text("  factor on pressures that makes it 1", text(local.pitting_safety, 2), "(pinion, wheel)"),
+    ];
+    if let (Some(sum), Some(safety)) = (local.bending_damage, local.bending_safety) {
+        lines.push(Line::text("local Miner's sum of root breakage", text(sum, 3), "(pinion, wheel)"));
+        lines.push(Line::text("  factor on root stresses that makes it 1", text(safety, 2), "(pinion, wheel)"));
+    }
+    lines
 }
 
 /// Scuffing, micropitting and losses, as far as they are rated.
@@ -102,6 +122,11 @@ pub(super) fn with_safeties(mut patterns: Vec<Table>, rating: Option<&RatingHead
             "safety against pitting by the largest pressure that came there",
             all,
         );
+        if let Some(damage) = rating.and_then(|rating| rating.local_spectrum.as_ref()) {
+            let meaning =
+                "Miner's sum for pitting over the life, each load with the largest pressure that it puts there";
+            table.push_numbers("pitting_damage", meaning, damage.flanks[k].clone());
+        }
         add_oiled(table, k, rating);
     }
     patterns

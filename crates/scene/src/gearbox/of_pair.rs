@@ -128,6 +128,10 @@ fn kept(modes: &ModesScene) -> String {
 /// Two held shafts with a mesh, after whose sections `more` stands.
 fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
     let pair = scene.gear_pair()?;
+    let mut scene = scene.clone();
+    // Loads are those of the gearbox.
+    let spectrum = scene.rating.as_mut().and_then(|own| own.spectrum.take());
+    let scene = &scene;
     let driven_by = scene.operation.driver;
     let sense = scene.operation.rotation;
     let begins = pair.middle_angle(scene.side()) - sense.sign() as f64 * 0.5 * pair.pinion.pitch_angle();
@@ -184,7 +188,11 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         0.0 => String::new(),
         inertia => format!("inertia_kg_m2 = {inertia:?}\n"),
     };
-    let rated = scene.rating.as_ref().map(|_| format!("[rating]\nspeed_rpm = {:?}\n\n", scene.operation.speed_rpm));
+    let loads = spectrum.map_or_else(String::new, |file| {
+        format!("spectrum = {}\n", toml::Value::from(file.path().display().to_string()))
+    });
+    let speed = scene.operation.speed_rpm;
+    let rated = scene.rating.as_ref().map(|_| format!("[rating]\nspeed_rpm = {speed:?}\n{loads}\n"));
     let _ = write!(
         text,
         "\n[input]\nshaft = \"{}\"\nposition_mm = 0.0\nrotation = \"{word}\"\n{}\n\

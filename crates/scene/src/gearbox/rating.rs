@@ -31,6 +31,12 @@ pub(super) fn rating(
     let own = table.get_ref();
     let viscosity = given!(s, GEARBOX_RATING, own.viscosity_mm2_per_s)?;
     let contamination_factor = given!(s, GEARBOX_RATING, own.contamination_factor)?;
+    let has_loads = |mesh: &GearboxMesh| mesh.scene.rating.as_ref().is_some_and(|r| r.spectrum.is_some());
+    if let Some(i) = meshes.iter().position(has_loads) {
+        let said = format!("the scene of mesh \"{}\" has a load spectrum of its own", meshes[i].name);
+        let advice = "leave it out, and give [rating] of the gearbox a `spectrum`: its loads act on all meshes";
+        return Err(s.conflict(&raw.mesh[i].span(), said, advice));
+    }
     let spectrum = own.spectrum.as_ref().map(|word| named(s, "spectrum", word)).transpose()?;
     if let Some(word) = &own.spectrum {
         if raw
@@ -40,11 +46,6 @@ pub(super) fn rating(
         {
             let advice = "give the first [[torque]] the `torque_nm` that others go with, or leave the spectrum out";
             return Err(s.conflict(&word.span(), "a load spectrum without a torque", advice));
-        }
-        if let Some(mesh) = meshes.iter().find(|mesh| mesh.scene.rating.as_ref().is_some_and(|r| r.spectrum.is_some()))
-        {
-            let said = format!("the scene of mesh \"{}\" has a load spectrum of its own", mesh.name);
-            return Err(s.conflict(&word.span(), said, "leave one of them out"));
         }
         if rated_mesh.is_none() && rated_bearing.is_none() {
             let advice = "give the scene of a mesh a [rating], or a rolling bearing its `dynamic_rating_kn`";

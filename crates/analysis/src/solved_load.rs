@@ -1,0 +1,129 @@
+//! A pair under each load of its spectrum: cycles that are solved, and what a rating reads of them.
+
+use std::collections::BTreeSet;
+
+use gearbox::MeshState;
+use geometry::GearPair;
+use ltca::{LoadCycle, StaticHistory, StaticModel, StaticPosition};
+use rating::LoadBin;
+use scene::{DataFile, Scene};
+use study::FlankPattern;
+
+use crate::{
+    AnalysisError, Observer, PhaseWork,
+    failure::Failure,
+    results::{face_load_factor, largest_tensions, patterns, pressed},
+    run_phase, solver_error, unless_cancelled,
+};
+
+/// The mesh cycles of a scene under each other torque of its load spectrum; none without one, and of models that put no
+/// load on places.
+///
+/// # Errors
+/// [`Failure::Static`] where the window is too narrow for a load.
+pub(crate) fn under_loads(
+    scene: &Scene,
+    model: &StaticModel,
+    observer: &mut dyn Observer,
+) -> Result<Vec<LoadCycle>, Failure> {
+    let torques = torques(scene);
+    if torques.is_empty() || !(scene.has_slices() || scene.output.root_stress) {
+        return Ok(Vec::new());
+    }
+    let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
+    run_phase(observer, "load spectrum", PhaseWork::Steps(torques.len() as u64), |progress| {
+        let one = |torque_nm: f64| {
+            let torque = model.options().torque * torque_nm / scene.operation.torque_nm;
+            let solved = model
+                .under_torque(torque)
+                .and_then(|mut own| own.run(per_cycle as usize, cycles as usize, |_, _, _| ()));
+            let history = solved.map_err(|e| match e.is_starved() {
+                true => Failure::Static(e),
+                false => solver_error(scene, e).of_part(format!("the load of {torque_nm} N m")).into(),
+            })?;
+            progress.tick();
+            unless_cancelled(progress)?;
+            Ok(LoadCycle { torque, positions: history.positions })
+        };
+        torques.into_iter().map(one).collect()
+    })
+}
+
+/// Torques of the loads that work, N m, each once and ascending, but that of the scene.
+fn torques(scene: &Scene) -> Vec<f64> {
+    let nominal = scene.operation.torque_nm;
+    let spectrum = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
+    let bins = spectrum.iter().flat_map(|own| own.bins());
+    // Bits of numbers above 0 are in their order.
+    let all: BTreeSet<u64> = bins.filter(|bin| bin.works()).map(|bin| bin.torque_nm.to_bits()).collect();
+    all.into_iter().map(f64::from_bits).filter(|torque| nominal > 0.0 && *torque != nominal).collect()
+}
+
+/// What a rating reads of a pair under one torque.
+#[derive(Debug)]
+pub(crate) struct SolvedLoad {
+    /// Torque on the driven gear, N m.
+    pub torque_nm: f64,
+    /// K_Hbeta of the solved distribution of the load; `None` where points touch.
+    pub face_load_factor: Option<f64>,
+    /// Largest pressures on the driving flanks of pinion and wheel; `None` where points touch.
+    pub flanks: Option<[FlankPattern; 2]>,
+    /// Largest first principal stresses in the fillets, MPa; `None` where they are not computed.
+    pub root_tensions: Option<[f64; 2]>,
+}
+
+impl SolvedLoad {
+    /// Of all torques that a history was solved under, its own among them; none where it has no others.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] where the positions give no pattern.
+    pub fn all(scene: &Scene, pair: &GearPair, history: &StaticHistory) -> Result<Vec<Self>, AnalysisError> {
+        if scene.rating.as_ref().is_none_or(|own| own.spectrum.is_none()) || history.positions.is_empty() {
+            return Ok(Vec::new());
+        }
+        let nominal = scene.operation.torque_nm;
+        let share = |own: &LoadCycle| own.torque / scene.operation.torque();
+        let others = history.under_loads.iter().map(|own| (nominal * share(own), &own.positions));
+        std::iter::once((nominal, &history.positions)).chain(others).map(|own| Self::of(scene, pair, own)).collect()
+    }
+
+    /// Of a mesh of a gearbox, whose slices are those of all its tooth pairs.
+    ///
+    /// # Errors
+    /// [`AnalysisError`] where the slices give no pattern.
+    pub fn of_mesh(
+        scene: &Scene,
+        pair: &GearPair,
+        (torque_nm, meshes): (f64, &[&MeshState]),
+    ) -> Result<Self, AnalysisError> {
+        let slices = || meshes.iter().flat_map(|own| &own.slices);
+        let step = meshes.windows(2).map(|two| (two[1].cycles - two[0].cycles).abs()).fold(0.0, f64::max);
+        let flank = |gear: usize| pressed(scene, pair, gear, (slices(), step));
+        let flanks = if scene.has_slices() { Some([flank(0)?, flank(1)?]) } else { None };
+        let count = scene.contact.slices.unwrap_or(1) as usize;
+        Ok(Self { torque_nm, face_load_factor: ltca::face_load_factor(count, slices()), flanks, root_tensions: None })
+    }
+
+    fn of(
+        scene: &Scene,
+        pair: &GearPair,
+        (torque_nm, positions): (f64, &Vec<StaticPosition>),
+    ) -> Result<Self, AnalysisError> {
+        let flanks = match scene.has_slices() {
+            true => Some(patterns(scene, pair, positions)?.map(|own| own.grid)),
+            false => None,
+        };
+        Ok(Self {
+            torque_nm,
+            face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
+            flanks,
+            root_tensions: largest_tensions(positions),
+        })
+    }
+
+    /// That of a load of the spectrum.
+    pub fn under<'a>(all: &'a [Self], load: &LoadBin) -> Option<&'a Self> {
+        // A torque comes back from N mm.
+        all.iter().find(|own| (own.torque_nm - load.torque_nm).abs() <= 1e-12 * load.torque_nm)
+    }
+}
