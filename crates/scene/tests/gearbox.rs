@@ -141,6 +141,7 @@ fn mistakes_are_told_with_their_place() {
         ("set = [\"contact.slices=16\"]", "set = [\"contact.friction=0.1\"]", "has friction", "leave `friction` out"),
         ("set = [\"contact.slices=16\"]", "set = [\"contact.slice=16\"]", "slice", "slices"),
         ("torque_nm = 740.0", "torque_nm = -740.0", "torque_nm", ""),
+        ("[[torque]]", "[torque]", "`torque` must be a list", "write `[[torque]]`, with two brackets"),
         ("rotation = \"cw\"", "rotation = \"left\"", "\"left\"", "ccw"),
         ("torque_nm = 740.0", "torque_nm = 0.0", "the mesh \"first\" carries no load", "above 0"),
         (
