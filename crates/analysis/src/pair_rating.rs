@@ -265,8 +265,8 @@ fn rated(
             root: root(gears[i], ratios)?,
             flank_roughness_um: own.flank_roughness_rz_um,
             root_roughness_um: own.root_roughness_rz_um,
-            reversed_load_ratio: own.reversed_load_ratio,
-            meshes_per_turn: f64::from(own.meshes_per_turn),
+            reversed_load_ratio: own.reversed_load_ratio.unwrap_or(0.0),
+            meshes_per_turn: f64::from(own.meshes_per_turn.unwrap_or(1)),
         })
     };
     let input = RatingInput {

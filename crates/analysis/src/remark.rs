@@ -93,9 +93,9 @@ answer::remarks! {
     // Standards.
     rating_outside(quantity, value, clause, range)
         "the rating is outside of its standard: {quantity} is {value:.3}, {clause} covers {range}", "";
-    rating_counts_one_mesh(gear, meshes)
-        "gear {gear} works in {meshes} meshes, and its rating counts one load a turn on one flank",
-        "state `meshes_per_turn` where one flank works in all of them, `reversed_load_ratio` where both flanks do";
+    rating_counts_meshes(gear, meshes, times, reversed)
+        "gear {gear} works in {meshes} meshes: rated with {times} loads a turn on the flank that this mesh loads, and {reversed:.3} of this load on the other flank",
+        "`meshes_per_turn` and `reversed_load_ratio` of the gear state other numbers";
     rating_unloaded()
         "the mesh carries no torque, or does not turn: it is not rated", "";
     rating_fails(gear, failure, safety)

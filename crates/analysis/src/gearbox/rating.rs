@@ -34,7 +34,8 @@ pub(super) fn ratings(
         let solved = |scene: &Scene| SolvedMesh::of_mesh(scene, &states, train.meshing()[i].sense);
         let driven = reduced[i].options.driven();
         let torque = states.iter().map(|m| m.moment[driven][2]).sum::<f64>().abs() / states.len().max(1) as f64;
-        let Some(scene) = rated_scene(file, train, (i, &reduced[i].scene), torque) else { return Ok(None) };
+        let Some(mut scene) = rated_scene(file, train, (i, &reduced[i].scene), torque) else { return Ok(None) };
+        let counted = count_meshes(file, i, &mut scene, positions);
         let unloaded = torque == 0.0 || scene.operation.speed_rpm == 0.0;
         let speed_ratio = scene.operation.speed_rpm / file.rating.as_ref().map_or(f64::NAN, |asked| asked.speed_rpm);
         let of_gearbox = loads.map(|own| own.of_mesh(i, speed_ratio));
@@ -45,7 +46,7 @@ pub(super) fn ratings(
         };
         match &rating {
             Some(own) => {
-                let all = own.remarks().into_iter().chain(counted_once(file, i, &scene, positions));
+                let all = own.remarks().into_iter().chain(counted);
                 said.extend(all.map(|own| own.about(&mesh.name)));
             }
             None => said.push(remark::rating_unloaded().about(&mesh.name)),
@@ -59,16 +60,49 @@ pub(super) fn ratings(
     Ok((all, said))
 }
 
-/// Gears of a mesh that work in others as well, and are rated as if they did not.
-fn counted_once(file: &Gearbox, mesh: usize, scene: &Scene, positions: &[GearboxPosition]) -> Vec<Remark> {
-    let works = |i: usize| positions.iter().any(|p| p.meshes[i].normal_force > 0.0);
-    let rated = scene.rating.iter().flat_map(|rating| rating.gears());
-    let one = |(rated, gear): (&RatedGearScene, usize)| {
-        let meshes = (0..file.meshes.len()).filter(|i| file.meshes[*i].gears.contains(&gear) && works(*i)).count();
-        let once = rated.meshes_per_turn == 1 && rated.reversed_load_ratio == 0.0;
-        (meshes > 1 && once).then(|| remark::rating_counts_one_mesh(file.gears[gear].name.as_str(), meshes))
+/// Loads that the teeth of a gear have from all its meshes, beside those of one mesh.
+#[derive(Debug, Clone, Copy)]
+struct ToothLoads {
+    /// Meshes of the gear that carry load.
+    meshes: usize,
+    /// Those of them that load the same flank.
+    same_flank: u32,
+    /// Largest load on the other flank over that of the mesh, at most 1.
+    reversed: f64,
+}
+
+impl ToothLoads {
+    /// Of a gear (0 or 1) of a mesh, by the mean moments about the axes: one sense is one flank.
+    fn of(file: &Gearbox, (mesh, side): (usize, usize), positions: &[GearboxPosition]) -> Self {
+        let gear = file.meshes[mesh].gears[side];
+        let moment = |i: usize, side: usize| positions.iter().map(|p| p.meshes[i].moment[side][2]).sum::<f64>();
+        let own = moment(mesh, side);
+        let all: Vec<f64> = (file.meshes.iter().enumerate())
+            .filter_map(|(i, other)| Some(moment(i, other.gears.iter().position(|g| *g == gear)?)))
+            .filter(|moment| *moment != 0.0)
+            .collect();
+        let same = all.iter().filter(|moment| **moment * own > 0.0).count();
+        let other = all.iter().filter(|moment| **moment * own < 0.0).map(|moment| (moment / own).abs());
+        Self { meshes: all.len(), same_flank: same.max(1) as u32, reversed: other.fold(0.0, f64::max).min(1.0) }
+    }
+}
+
+/// Gives the gears of a mesh the loads that their teeth have in other meshes, unless the scene states them; what is to be
+/// told of it.
+fn count_meshes(file: &Gearbox, mesh: usize, scene: &mut Scene, positions: &[GearboxPosition]) -> Vec<Remark> {
+    let Some(rating) = &mut scene.rating else { return Vec::new() };
+    let one = |(side, own): (usize, &mut RatedGearScene)| {
+        let loads = ToothLoads::of(file, (mesh, side), positions);
+        let is_stated = own.meshes_per_turn.is_some() || own.reversed_load_ratio.is_some();
+        if loads.meshes < 2 || is_stated {
+            return None;
+        }
+        own.meshes_per_turn = Some(loads.same_flank);
+        own.reversed_load_ratio = Some(loads.reversed);
+        let name = file.gears[file.meshes[mesh].gears[side]].name.as_str();
+        Some(remark::rating_counts_meshes(name, loads.meshes, f64::from(loads.same_flank), loads.reversed))
     };
-    rated.zip(file.meshes[mesh].gears).filter_map(one).collect()
+    [&mut rating.pinion, &mut rating.wheel].into_iter().enumerate().filter_map(one).collect()
 }
 
 /// Refuses meshes whose rating has no value, before any work, by the torques on their driven gears, N mm.

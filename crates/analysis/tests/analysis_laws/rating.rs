@@ -380,6 +380,71 @@ fn local_damage_of_the_nominal_load_is_its_safety() {
     }
 }
 
+/// Three gears in a row on held shafts, the middle one between the others: ratings of both meshes, those of `input` and the shafts of `loads` with their torques.
+fn row_of_gears(input: &str, loads: &[(&str, f64)]) -> (Vec<RatingHeadline>, Vec<String>) {
+    let [a, b] = [46.0, 111.0];
+    let mut t = String::from("name = \"row\"\n[rating]\nspeed_rpm = 1000.0\n");
+    for (name, x, key) in [("left", 0.0, 0.0), ("middle", a, 0.0), ("right", b, 0.0)] {
+        t += &format!(
+            "[[shaft]]\nname = \"{name}\"\norigin_mm = [{x:?}, 0.0, 0.0]\nheld = true\n[[shaft.section]]\nlength_mm = 60.0\n\
+             outer_diameter_mm = 20.0\n[[gear]]\nname = \"{name}\"\nshaft = \"{name}\"\nposition_mm = 30.0\nkey_deg = {key:?}\n"
+        );
+    }
+    let rated = "flank_roughness_rz_um = 4.8\nroot_roughness_rz_um = 20.0\nmaterial = \"18CrNiMo7-6\"\n";
+    for (pinion, wheel, teeth, more) in
+        [("left", "middle", [17, 29], ""), ("middle", "right", [29, 36], "timing = \"keyed\"\n")]
+    {
+        t += &format!("[[mesh]]\nname = \"{pinion}\"\npinion = \"{pinion}\"\nwheel = \"{wheel}\"\n{more}");
+        for (gear, teeth) in ["pinion", "wheel"].into_iter().zip(teeth) {
+            let helix = if gear == "pinion" { "helix_angle_deg = 0.0\n" } else { "" };
+            t += &format!(
+                "[mesh.scene.{gear}]\nteeth = {teeth}\n{helix}thickness_allowance_mm = 0.1\n[mesh.scene.{gear}.mesher]\norder = 1\n\
+                 elements_profile = 3\nelements_fillet = 2\nelements_thickness = 2\nelements_face = 4\nelements_rim = 2\n"
+            );
+        }
+        t += &format!(
+            "[mesh.scene.pair]\nnormal_module_mm = 2.0\nface_width_mm = 20.0\n[mesh.scene.operation]\ntorque_nm = 100.0\n\
+             [mesh.scene.contact]\nslices = 8\n[mesh.scene.rating]\nlife_h = 2e4\napplication_factor = 1.0\ntolerance_class = 6\n\
+             lubricant = \"mineral VG 220\"\n[mesh.scene.rating.pinion]\n{rated}[mesh.scene.rating.wheel]\n{rated}"
+        );
+    }
+    t += &format!("[input]\nshaft = \"{input}\"\nposition_mm = 0.0\n[analysis]\npositions_per_cycle = 4\n");
+    for (shaft, torque) in loads {
+        t += &format!("[[torque]]\nshaft = \"{shaft}\"\nposition_mm = 60.0\ntorque_nm = {torque:?}\n");
+    }
+    let file = Gearbox::parse(&t, "row.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{t}"));
+    let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
+    let found = found.unwrap_or_else(|e| panic!("{e}"));
+    let said = found.remarks.iter().filter(|r| r.code() == "rating_counts_meshes").map(|r| r.to_string()).collect();
+    (found.meshes.iter().map(|mesh| mesh.rating.clone().unwrap()).collect(), said)
+}
+
+/// The teeth of an idler bend both ways in every turn (Y_M of ISO 6336-3, annex B, for equal loads on both flanks), those of a gear that drives two others bend one way twice a turn; the outer gears are rated as those of a pair.
+#[test]
+fn gears_in_two_meshes_are_rated_by_both() {
+    let factor = |gear: &GearRating| gear.bending.mean_stress_factor;
+    // The idler passes on what it gets.
+    let (idles, said) = row_of_gears("left", &[("right", 80.0)]);
+    assert_eq!(said.len(), 2, "{said:?}");
+    assert!(said[0].contains("gear middle works in 2 meshes") && said[0].contains("1.000 of this load"), "{said:?}");
+    let material = rating::Materials::built_in().find("18CrNiMo7-6").unwrap();
+    let [driven, driving] = [&idles[0].standard.wheel, &idles[1].standard.pinion];
+    for own in [driven, driving] {
+        let wanted = rating::mean_stress_factor(material, own.stress_correction_factor, 1.0);
+        assert!((factor(own) / wanted - 1.0).abs() < 1e-6 && wanted < 0.8, "{} beside {wanted}", factor(own));
+    }
+    assert_eq!([&idles[0].standard.pinion, &idles[1].standard.wheel].map(factor), [1.0; 2]);
+    let cycles = |own: &RatingHeadline| own.standard.gears().map(|gear| gear.load_cycles);
+    let ratio = cycles(&idles[0])[1] / cycles(&idles[0])[0];
+    assert!((ratio - 17.0 / 29.0).abs() < 1e-12, "one load a turn: {ratio}");
+    // One that drives both.
+    let (drives, said) = row_of_gears("middle", &[("left", 40.0), ("right", 80.0)]);
+    assert!(said.len() == 2 && said[0].contains("2 loads a turn"), "{said:?}");
+    assert_eq!([&drives[0].standard.wheel, &drives[1].standard.pinion].map(factor), [1.0; 2]);
+    let ratio = cycles(&drives[0])[1] / cycles(&drives[0])[0];
+    assert!((ratio - 2.0 * 17.0 / 29.0).abs() < 1e-12, "two loads a turn: {ratio}");
+}
+
 /// A pair as a gearbox of two held shafts has its own rating, standard and local, whichever gear drives: each number to 1e-9, what comes from the load of every slice to 1e-3, since the slices of a gearbox's mesh are those of all its pairs of teeth. Root stresses are the pair's alone.
 #[test]
 fn a_gearbox_of_held_shafts_rates_as_its_pair() {

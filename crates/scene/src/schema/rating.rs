@@ -65,7 +65,7 @@ table! {
         flank_roughness_rz_um: must(0.01, 200.0), "R_z of the flanks as run in, um";
         flank_roughness_ra_um: bare(1e-3, 50.0), "R_a of the flanks as run in, um; `oil_temperature_c` of `[rating]` asks for it";
         root_roughness_rz_um: must(0.01, 500.0), "R_z of the roots, um";
-        reversed_load_ratio: number(0.0, 1.0, 0.0), "load on the flank that is loaded less over that of the other. 0: one flank works; 1: idlers and planets";
-        meshes_per_turn: whole(1, 100, 1), "times that each tooth is loaded in a turn of the gear";
+        reversed_load_ratio: bare(0.0, 1.0), "load on the flank that is loaded less over that of the other, 0: one flank works, 1: idlers and planets; default: 0. In a gearbox by the loads of all meshes of the gear";
+        meshes_per_turn: bare_whole(1, 100), "times that a flank is loaded in a turn of the gear; default: 1. In a gearbox by all meshes of the gear";
     }
 }
