@@ -21,27 +21,29 @@ const ANSWER_TOLERANCE: f64 = 1e-9;
 /// Proximal steps without extrapolation after one that made things worse.
 const PATIENCE: usize = 12;
 
-/// l' S^-1 l of exact contact on the active rows, N mm/rad, whichever of rows that are linearly dependent are among them: from two
-/// row compliances, as it is a smooth function of that.
+/// l' S^-1 l of exact contact on the active rows, N mm/rad, whichever of rows that are linearly dependent are among them: that of
+/// the smallest row compliance, [`LAST_COMPLIANCE`] of itself too small at the most. `relative`: compliance of the step that found
+/// the solution.
 fn exact_stiffness(
     bodies: &mut dyn LinearContact,
     problem: &mut Problem,
-    own: f64,
+    (rows, own, relative): (&[ContactRow], f64, f64),
     solution: &Solution,
 ) -> Result<f64, ContactError> {
-    if problem.held {
+    if problem.held || relative <= LAST_COMPLIANCE {
         return Ok(solution.stiffness);
     }
-    let proximal = problem.compliance.clone();
-    let mut with = |relative: f64| {
-        problem.compliance.fill(relative * own);
-        Ok::<_, ContactError>(bodies.solve(&solution.active, problem)?.stiffness)
-    };
-    let [once, twice] = [with(LAST_COMPLIANCE)?, with(2.0 * LAST_COMPLIANCE)?];
-    problem.compliance = proximal;
-    // Displacements are those of the solution again.
-    bodies.solve(&solution.active, problem)?;
-    Ok(2.0 * once - twice)
+    // About its own forces the solution stays the same, and so do the displacements.
+    about(problem, rows, LAST_COMPLIANCE * own, &solution.forces);
+    Ok(bodies.solve(&solution.active, problem)?.stiffness)
+}
+
+/// Gives all rows a compliance about forces at which it is without effect.
+fn about(problem: &mut Problem, rows: &[ContactRow], compliance: f64, forces: &[f64]) {
+    problem.compliance.fill(compliance);
+    for ((gap, row), force) in problem.gaps.iter_mut().zip(rows).zip(forces) {
+        *gap = row.gap - compliance * force;
+    }
 }
 
 /// Solves the contact of `rows`; `balance` is about the axis of body number `body`.
@@ -90,16 +92,13 @@ pub fn solve(
     let mut best: Option<Solution> = None;
     let mut patience = 0usize;
     for _ in 0..PROXIMAL_STEPS {
-        problem.compliance.fill(relative * own);
-        for (i, row) in rows.iter().enumerate() {
-            problem.gaps[i] = row.gap - problem.compliance[i] * before[i];
-        }
+        about(&mut problem, rows, relative * own, &before);
         let (answer, settled, iterations) = pivot(bodies, &problem, active)?;
         total += iterations;
         let mut solution = finish(&problem, answer, settled.clone(), total);
         solution.residual = exact_residual(&gaps, &driven.levers, &solution);
         if solution.residual < TOLERANCE {
-            solution.stiffness = exact_stiffness(bodies, &mut problem, own, &solution)?;
+            solution.stiffness = exact_stiffness(bodies, &mut problem, (rows, own, relative), &solution)?;
             return Ok(solution);
         }
         // Extrapolations that overshoot would go round in circles: after one that makes things worse, plain steps, each
@@ -119,7 +118,8 @@ pub fn solve(
     }
     match best.filter(|solution| solution.residual <= ANSWER_TOLERANCE) {
         Some(mut solution) => {
-            solution.stiffness = exact_stiffness(bodies, &mut problem, own, &solution)?;
+            // The best step may have had another compliance than the last one.
+            solution.stiffness = exact_stiffness(bodies, &mut problem, (rows, own, f64::INFINITY), &solution)?;
             Ok(solution)
         }
         None => Err(ContactError::NotConverged { iterations: total, infeasible: active.len(), points: rows.len() }),
