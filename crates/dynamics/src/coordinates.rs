@@ -130,11 +130,6 @@ impl Coordinates {
         d
     }
 
-    /// Power of forces on the twelve coordinates at velocities of the free ones: f . T v.
-    pub(super) fn power(&self, f: &Displacement, v: &DVector<f64>) -> f64 {
-        (0..self.count()).map(|j| v[j] * self.map.column(j).dot(f)).sum()
-    }
-
     /// T' f added to `out`.
     pub fn add_force(&self, f: &Displacement, out: &mut DVector<f64>) {
         for j in 0..self.count() {

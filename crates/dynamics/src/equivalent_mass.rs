@@ -2,7 +2,7 @@
 
 use geometry::GearPair;
 
-use crate::{Drive, MotionOptions, RigidBody};
+use crate::{Drive, MeshDamping, MotionOptions, RigidBody};
 
 /// Inertias of both gears on their base circles, J / r_b^2, t.
 pub(crate) fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
@@ -25,5 +25,18 @@ pub fn equivalent_mass([a, b]: [f64; 2], held: Option<usize>) -> f64 {
         Some(0) => b,
         Some(_) => a,
         None => a * b / (a + b),
+    }
+}
+
+/// Mesh damping per length of contact line, N s/mm^2. `means`: mesh stiffness (N/mm on the base circle) and length of
+/// contact lines (mm).
+pub fn damping_per_length(pair: &GearPair, options: &MotionOptions, means: [f64; 2]) -> f64 {
+    match options.damping {
+        MeshDamping::PerLength(c) => c,
+        MeshDamping::Ratio(zeta) => {
+            // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
+            let cos = pair.base_helix_angle().cos();
+            2.0 * zeta * (means[0] * equivalent_mass_of(pair, options)).sqrt() / (means[1] * cos * cos)
+        }
     }
 }

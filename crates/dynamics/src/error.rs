@@ -3,6 +3,8 @@
 use integrate::MotionError;
 use ltca::StaticError;
 
+use crate::MapFailure;
+
 /// The motion of a pair could not go on, or what was asked of it has no meaning.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -55,18 +57,9 @@ pub enum PairMotionError {
         "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load"
     )]
     SweepByTorque,
-    /// A map of the contact of something that no map holds.
-    #[error("no map of the contact holds {what}")]
-    Unmapped {
-        /// What, and why.
-        what: &'static str,
-    },
-    /// No map of the contact was made.
-    #[error("no map of the contact: {source}")]
-    Map {
-        /// Why.
-        source: Box<contact_map::MapError<StaticError>>,
-    },
+    /// The flanks have no maps.
+    #[error(transparent)]
+    Unmapped(#[from] MapFailure),
 }
 
 impl PairMotionError {
@@ -98,8 +91,8 @@ impl PairMotionError {
             Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
                 "wait for the motion to settle instead of shooting for its periodic state".into()
             }
-            Self::Unmapped { .. } => "use the model \"reduced\", which solves the contact itself".into(),
-            Self::Map { .. } => "allow a larger error of the map, or use the model \"reduced\"".into(),
+            Self::Unmapped(MapFailure::Map(_)) => "allow a larger error of the map, or use the model \"reduced\"".into(),
+            Self::Unmapped(_) => "use the model \"reduced\", which solves the contact itself".into(),
             Self::SweepByTorque => "give the driver a speed, or let its torque balance the load".into(),
         }
     }

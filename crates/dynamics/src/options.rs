@@ -54,3 +54,10 @@ pub struct MotionOptions {
     /// Mesh cycles at t = 0: where the run begins.
     pub start_cycles: f64,
 }
+
+impl MotionOptions {
+    /// Mean of the load over time, N mm: of a table, which has none of its own, the torque that scales are taken from.
+    pub fn mean_load(&self) -> f64 {
+        self.load.mean().unwrap_or(self.statics.torque)
+    }
+}

@@ -39,6 +39,10 @@ impl Assembly {
             let of_discs = structure.discs.iter().filter(|d| d.shaft == i).map(Disc::seat_position);
             let of_bearings = structure.bearings.iter().filter(|b| b.shaft == i).map(|b| b.position);
             let places: Vec<f64> = of_discs.chain(of_bearings).collect();
+            if shaft.pieces.is_empty() {
+                lines.push(BeamLine::point());
+                continue;
+            }
             let line = BeamLine::new(&shaft.pieces, &places, shaft.longest_element, BeamTheory::Timoshenko);
             lines.push(line.map_err(|source| GearboxError::Shaft { shaft: shaft.name.clone(), source })?);
         }

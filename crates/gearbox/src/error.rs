@@ -1,5 +1,6 @@
 //! Errors of a gearbox: refused inputs, and failures of the solution.
 
+use dynamics::MapFailure;
 use fem::FemError;
 use integrate::MotionError;
 use ltca::StaticError;
@@ -304,7 +305,7 @@ pub enum GearboxError {
     Motion(Box<MotionError<GearboxError>>),
     /// A map of the contact.
     #[error(transparent)]
-    Map(Box<contact_map::MapError<GearboxError>>),
+    Map(Box<contact_map::MapError<StaticError>>),
     /// A mesh that no map holds.
     #[error("a map does not hold {what}")]
     Unmapped {
@@ -483,5 +484,15 @@ impl GearboxError {
 impl From<MotionError<GearboxError>> for GearboxError {
     fn from(source: MotionError<GearboxError>) -> Self {
         Self::Motion(Box::new(source))
+    }
+}
+
+impl From<MapFailure> for GearboxError {
+    fn from(e: MapFailure) -> Self {
+        match e {
+            MapFailure::Unmapped { what } => Self::Unmapped { what },
+            MapFailure::Map(source) => Self::Map(source),
+            MapFailure::Contact(source) => source.into(),
+        }
     }
 }

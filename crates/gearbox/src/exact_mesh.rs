@@ -36,18 +36,6 @@ pub struct ExactMesh {
     modal: Option<ModalContact>,
 }
 
-/// A slice that carries load.
-pub(crate) struct PressedSlice {
-    /// Place, mm.
-    pub position: nalgebra::Vector3<f64>,
-    /// Normal force, N.
-    pub force: f64,
-    /// Length, mm.
-    pub length: f64,
-    /// Number of its pair of teeth, in the order in which pairs come.
-    pub pair: i64,
-}
-
 /// Overlap over that of the last evaluation up to which the search is narrow.
 const REACH: f64 = 1.25;
 
@@ -127,31 +115,10 @@ impl ExactMesh {
         self.poses = displaced(nominal, &(*d).into());
     }
 
-    /// Deepest overlap of the undeformed flanks at displacements, mm; negative where they are apart. The last evaluation
-    /// is lost.
-    pub(crate) fn overlap(&mut self, d: &Vector12) -> f64 {
-        self.place(d);
-        self.within = None;
-        self.contact.overlap(&self.poses)
-    }
-
-    /// Forgets forces and places of the last solution: what comes then depends on the place alone.
-    pub(crate) fn forget(&mut self) {
-        self.contact.forget_places();
-        self.within = None;
-    }
-
-    /// Slices that carried load in the last evaluation.
-    pub(crate) fn pressed(&self) -> impl Iterator<Item = PressedSlice> {
-        let (set, window) = (self.contact.contact_set(), self.window.window());
-        let sign = self.options.contact.sense.sign();
-        let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
-        rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &force)| PressedSlice {
-            position: row.position,
-            force,
-            length: slice.length,
-            pair: -sign * (window.first() + set.pair_of(row.patches.0) as i64),
-        })
+    /// Length of the slices that carried load in the last evaluation, mm.
+    pub(crate) fn pressed_length(&self) -> f64 {
+        let slices = self.contact.slices().iter().zip(self.contact.solver().forces());
+        slices.filter(|(_, f)| **f > 0.0).map(|(slice, _)| slice.length).sum()
     }
 
     fn failed(&self, source: contact::ContactError) -> GearboxError {

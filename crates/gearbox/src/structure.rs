@@ -15,7 +15,7 @@ pub struct Shaft {
     pub name: String,
     /// Place of the shaft's own z = 0 in the gearbox, mm. Axes of all shafts are along +z.
     pub origin: [f64; 3],
-    /// Sections, from its own z = 0 on.
+    /// Sections, from its own z = 0 on; none of a rigid body, all of whose discs and bearings sit there.
     pub pieces: Vec<BeamPiece>,
     /// Longest beam element, mm; at rest it does not matter, for the elements are exact.
     pub longest_element: f64,

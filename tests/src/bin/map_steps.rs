@@ -6,9 +6,10 @@
 
 use std::time::Instant;
 
-use dynamics::{MapRequest, MappedPair, quasi_static_start};
+use dynamics::{damping_per_length, quasi_static_start};
 use fem::ElementOptions;
-use integrate::{Integrator, Scheme, StepControl};
+use gearbox::motion::{GearboxMechanism, MappedMesh};
+use integrate::{Integrator, Scheme, State, StepControl};
 use testing::{Case, moving::MovingPair};
 
 const STEPS: usize = 64;
@@ -22,15 +23,19 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hz = rpm / 60.0 * f64::from(pair.case.pair.pinion.teeth());
     let mut system = pair.system(hz, |_| ());
     let scale = system.coordinates().scales(pair.ste[0], pair.case.pair.wheel.base_radius());
-    let mut state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale)?;
+    let start = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale)?;
     let began = Instant::now();
-    let mut map = MappedPair::new(
-        system,
-        &MapRequest { overload: 4.0, tolerance: 2e-4, worst: 2e-4, lag: pair.ste[0] },
-        &|_| {},
-    )?;
-    println!("map in {:.2} s: {:?}", began.elapsed().as_secs_f64(), map.maps().next().map(|m| *m.certificate()));
+    let request = system.map_request(pair.ste[0], 4.0, [2e-4; 2])?;
+    let mesh = MappedMesh::new(system.flanks(), system.pair(), &request, &|_| {})?;
+    println!("map in {:.2} s: {:?}", began.elapsed().as_secs_f64(), mesh.maps().next().map(|m| *m.certificate()));
+    let damping = damping_per_length(system.pair(), system.options(), system.means());
+    let mesh = mesh.with_damping(damping).with_driving_flanks_alone();
+    let mut map = GearboxMechanism::of_pair(system.pair(), system.options(), |_, _, _| Ok(Box::new(mesh.clone())))?;
+    // The coordinate of the pair is the lag of the wheel, that of the machine its turn.
+    let lag = map.error_slopes(0)[0];
+    let mut state = State::new(0.0, &start.q / lag, &start.v / lag);
     let control = StepControl::Fixed(1.0 / hz / STEPS as f64);
+    let scale = scale / lag.abs();
     let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, control, scale);
     let began = Instant::now();
     integrator.advance(&mut map, &mut state, cycles as f64 / hz, |_, _| ())?;
@@ -39,7 +44,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{rpm} 1/min, {cycles} cycles: {:.3} us a step, {:.2} times real time, lag {:.6} um",
         1e6 * spent / (cycles * STEPS) as f64,
         cycles as f64 / hz / spent,
-        1e3 * state.q[0]
+        1e3 * lag * state.q[0]
     );
     Ok(())
 }

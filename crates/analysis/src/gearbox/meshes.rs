@@ -5,7 +5,7 @@ use answer::Remark;
 use contact::Offset;
 use std::sync::Arc;
 
-use dynamics::RigidBody;
+use dynamics::{MeshFlanks, RigidBody};
 use fem::Wanted;
 use gearbox::{
     ExactMesh, GearMesh, GearboxError, GearboxPosition, MeshElement, MeshState, Meshing, Train, Vector12,
@@ -213,35 +213,28 @@ impl ReducedMesh {
         (cache, progress, remarks): (&dyn GearCache, &dyn Progress, &mut Vec<Remark>),
     ) -> Result<MappedMesh, GearboxError> {
         let turn = self.options.contact.wheel_turn;
+        let options = self.options.clone().with_contact(|contact| contact.both_flanks = false);
+        let flanks = MeshFlanks::new(&mesh.pair, self.gears(), None, &options, 0.0)?;
         let key =
             cache.is_on().then(|| self.pair.map_key(&map_words(&self.scene, &mesh.pair, &(request, turn)))).flatten();
-        if let Some(key) = &key {
+        let known = key.as_ref().and_then(|key| {
             let (kept, said) = cache.load_maps(key);
             remarks.extend(said);
-            if let Some(map) = kept.and_then(|kept| kept.of(key)).and_then(|mut maps| maps.pop())
-                && let Ok(made) = MappedMesh::on(&mesh.pair, &self.options, request, map)
-            {
-                remarks.extend(self.pitch_errors(mesh, request, &made)?);
-                return Ok(made);
+            kept.and_then(|kept| kept.of(key))
+        });
+        let made = match known.map(|maps| MappedMesh::on(&flanks, &mesh.pair, request, maps)) {
+            Some(Ok(known)) => known,
+            _ => {
+                let of = format!("{}: ", mesh.name);
+                let made = MappedMesh::new(&flanks, &mesh.pair, request, &map_teller(progress, &of))?;
+                remarks.extend(key.and_then(|key| cache.save_maps(&key, &made.maps().collect::<Vec<_>>())));
+                made
             }
-        }
-        let of = format!("{}: ", mesh.name);
-        let teller = map_teller(progress, &of);
-        let made = MappedMesh::new(&mesh.pair, &self.pair.gears, &self.options, (request, &teller))?;
-        remarks.extend(key.and_then(|key| cache.save_maps(&key, &[made.map()])));
-        remarks.extend(self.pitch_errors(mesh, request, &made)?);
+        };
+        let found = made.pitch_error(&flanks, &mesh.pair, request)?;
+        let told = found.zip(made.maps().next()).map(|(error, map)| pitch_errors_told(&error, map).about(&mesh.name));
+        remarks.extend(told);
         Ok(made)
-    }
-
-    /// How far pitch errors on a map are off.
-    fn pitch_errors(
-        &self,
-        mesh: &GearMesh,
-        request: &MapRequest,
-        map: &MappedMesh,
-    ) -> Result<Option<Remark>, GearboxError> {
-        let found = map.pitch_error(&mesh.pair, &self.pair.gears, &self.options, request)?;
-        Ok(found.map(|error| pitch_errors_told(&error, map.map()).about(&mesh.name)))
     }
 
     /// Mass and inertia of a gear: of its mesh, unless the scene of the pair states others.

@@ -4,14 +4,15 @@ use answer::Remark;
 use std::time::Instant;
 
 use contact_map::MapWatch;
-use dynamics::{COORDINATES, MapRequest, MappedPair, MeshResonance, PairMechanism, PairMotionError};
+use dynamics::{COORDINATES, MapFailure, MapRequest, MeshResonance, PairMechanism, PairMotionError};
+use gearbox::motion::MappedMesh;
 use geometry::GearPair;
 use scene::{Model, MotionScene, Scene};
 
 use super::{
     LumpedHeadline,
     elastic_frame::ElasticFrame,
-    mapped::{MappedModel, WORST_MAP},
+    mapped::{MappedModel, MappedPair, WORST_MAP},
     mechanism::BoxedMechanism,
     reduced::ReducedModel,
     row::{GearCoordinate, axis_number, gear_coordinates},
@@ -70,16 +71,18 @@ impl ElasticPair {
         let began = Instant::now();
         let (contact, contacts) = match scene.analysis.model {
             Model::Mapped => {
-                let request = MapRequest { overload: OVERLOAD, tolerance: MAP_TOLERANCE, worst: WORST_MAP, lag };
-                let key = cache.is_on().then(|| MapKey::new(&keys, &map_words(scene, &inputs.pair, &request)));
+                let mut system = system;
+                let request = system.map_request(lag, OVERLOAD, [MAP_TOLERANCE, WORST_MAP]).map_err(in_scene(scene))?;
+                let asked = (OVERLOAD, MAP_TOLERANCE, WORST_MAP, lag);
+                let key = cache.is_on().then(|| MapKey::new(&keys, &map_words(scene, &inputs.pair, &asked)));
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |progress| {
-                    mapped(system, (&request, &map_teller(progress, "")), (cache, key.as_ref()), &mut remarks)
+                    mapped(scene, &system, (&request, &map_teller(progress, "")), (cache, key.as_ref()), &mut remarks)
                 });
-                let mut made = made.map_err(in_scene(scene))?;
-                let off = made.pitch_error(lag).map_err(in_scene(scene))?;
+                let made = made?;
+                let off = made.pitch_error(system.flanks(), system.pair(), &request).map_err(in_scene(scene))?;
                 remarks.extend(off.zip(made.maps().next()).map(|(error, map)| pitch_errors_told(&error, map)));
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
-                (PairContact::Mapped(Box::new(made)), contacts)
+                (PairContact::Mapped(Box::new(MappedPair::new(&system, made))), contacts)
             }
             _ => (PairContact::Solved(Box::new(system)), 0),
         };
@@ -105,8 +108,7 @@ impl ElasticPair {
         let (drive, frame) = (pair_drive(scene, gears), self.frame.clone());
         let model = match &self.contact {
             PairContact::Mapped(pair) => {
-                let pair = pair.with_drive(drive).map_err(in_scene(scene))?;
-                BoxedMechanism::new(MappedModel { pair, frame })
+                BoxedMechanism::new(MappedModel::new(pair.with_drive(drive), frame).map_err(in_scene(scene))?)
             }
             PairContact::Solved(pair) => {
                 let pair = pair.with_drive(drive);
@@ -118,22 +120,29 @@ impl ElasticPair {
     }
 }
 
-/// The pair on its maps: those of the cache, or new ones.
+/// The flanks of a pair by their maps: those of the cache, or new ones.
 fn mapped(
-    system: PairMechanism,
+    scene: &Scene,
+    system: &PairMechanism,
     (request, watch): (&MapRequest, MapWatch<'_>),
     (cache, key): (&dyn GearCache, Option<&MapKey>),
     remarks: &mut Vec<Remark>,
-) -> Result<MappedPair, PairMotionError> {
-    let Some(key) = key else { return MappedPair::new(system, request, watch) };
-    let (kept, said) = cache.load_maps(key);
-    remarks.extend(said);
-    if let Some(maps) = kept.and_then(|kept| kept.of(key)).filter(|maps| MappedPair::can_stand_on(&system, maps)) {
-        return MappedPair::on(system, maps);
+) -> Result<MappedMesh, AnalysisError> {
+    let complain = |e: MapFailure| in_scene(scene)(PairMotionError::from(e));
+    let (flanks, pair) = (system.flanks(), system.pair());
+    flanks.check_mapped(pair, request).map_err(complain)?;
+    if let Some(key) = key {
+        let (kept, said) = cache.load_maps(key);
+        remarks.extend(said);
+        if let Some(Ok(made)) =
+            kept.and_then(|kept| kept.of(key)).map(|maps| MappedMesh::on(flanks, pair, request, maps))
+        {
+            return Ok(made);
+        }
     }
-    let made = MappedPair::new(system, request, watch)?;
-    remarks.extend(cache.save_maps(key, &made.maps().collect::<Vec<_>>()));
-    Ok(made)
+    let made = flanks.maps(pair, request, watch).map_err(complain)?;
+    remarks.extend(key.and_then(|key| cache.save_maps(key, &made.iter().collect::<Vec<_>>())));
+    MappedMesh::on(flanks, pair, request, made).map_err(in_scene(scene))
 }
 
 impl std::fmt::Debug for ElasticPair {

@@ -6,7 +6,8 @@ use std::{
 };
 
 use ::lumped::LumpedError;
-use dynamics::{MapExcess, MechanismState, MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
+use dynamics::{MechanismState, MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
+use gearbox::{GearboxError, motion::GearboxMemory};
 use integrate::{Forces, Mechanism, MotionError, Resumable, State};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
@@ -70,10 +71,40 @@ pub struct StaticPoint {
     pub line_length: Option<f64>,
 }
 
+/// An error of a mechanism as one of the contact in it.
+pub(super) trait OfContact {
+    fn of_contact(self) -> StaticError;
+}
+
+impl OfContact for StaticError {
+    fn of_contact(self) -> StaticError {
+        self
+    }
+}
+
+impl OfContact for Infallible {
+    fn of_contact(self) -> StaticError {
+        match self {}
+    }
+}
+
+impl OfContact for GearboxError {
+    /// What a pair on maps can fail by on its way: numbers that are none.
+    fn of_contact(self) -> StaticError {
+        match self {
+            Self::AtMesh { source, .. } => source.of_contact(),
+            Self::Contact(source) => source,
+            Self::OutOfRange { quantity, value, .. } => {
+                StaticError::OutOfRange { name: quantity, value, expected: "a number" }
+            }
+            _ => StaticError::OutOfRange { name: "motion", value: f64::NAN, expected: "a number" },
+        }
+    }
+}
+
 /// A mechanism that is one of its fields.
 macro_rules! mechanism_of_field {
     ([$($parameters:tt)*] $model:ty, $field:tt) => {
-        #[allow(clippy::useless_conversion, reason = "errors of some fields need it")]
         impl<$($parameters)*> Mechanism for $model {
             type Error = StaticError;
 
@@ -88,15 +119,15 @@ macro_rules! mechanism_of_field {
                 v: &DVector<f64>,
                 out: &mut Forces,
             ) -> Result<(), StaticError> {
-                self.$field.forces(t, q, v, out).map_err(StaticError::from)
+                self.$field.forces(t, q, v, out).map_err($crate::lumped::mechanism::OfContact::of_contact)
             }
 
             fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-                self.$field.potential(t, q).map_err(StaticError::from)
+                self.$field.potential(t, q).map_err($crate::lumped::mechanism::OfContact::of_contact)
             }
 
             fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-                self.$field.potential_off_path(t, q).map_err(StaticError::from)
+                self.$field.potential_off_path(t, q).map_err($crate::lumped::mechanism::OfContact::of_contact)
             }
 
             fn events(&self) -> usize {
@@ -110,11 +141,11 @@ macro_rules! mechanism_of_field {
                 v: &DVector<f64>,
                 out: &mut [f64],
             ) -> Result<(), StaticError> {
-                self.$field.event_values(t, q, v, out).map_err(StaticError::from)
+                self.$field.event_values(t, q, v, out).map_err($crate::lumped::mechanism::OfContact::of_contact)
             }
 
             fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-                self.$field.accepted(t, q, v).map_err(StaticError::from)
+                self.$field.accepted(t, q, v).map_err($crate::lumped::mechanism::OfContact::of_contact)
             }
 
             fn forget(&mut self) {
@@ -214,7 +245,7 @@ pub enum LumpedMemory {
     /// Nothing: its forces are formulas.
     Formulas,
     /// How far the motion has gone beyond its map.
-    Map(MapExcess),
+    Map(GearboxMemory),
     /// Teeth in the windows, and extremes.
     Pair(MechanismState),
 }

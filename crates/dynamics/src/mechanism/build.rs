@@ -7,8 +7,8 @@ use nalgebra::{DMatrix, SMatrix};
 
 use super::PairMechanism;
 use crate::{
-    Bearing, COORDINATES, Coordinates, Drive, Extremes, GearVibration, MeshDamping, MotionOptions, Nominal, Speed,
-    equivalent_mass::equivalent_mass_of, mesh_flanks::MeshFlanks, modal::Modal,
+    Bearing, COORDINATES, Coordinates, Drive, Extremes, GearVibration, MotionOptions, Nominal, Speed,
+    equivalent_mass::damping_per_length, mesh_flanks::MeshFlanks, modal::Modal,
 };
 use ltca::StaticError;
 use reduction::ElasticGear;
@@ -105,7 +105,7 @@ impl PairMechanism {
             all
         };
         let bearing = [both(|b| b.stiffness), both(|b| b.damping)];
-        let damping = per_length(&pair, &options, means);
+        let damping = damping_per_length(&pair, &options, means);
         let roots = options.statics.root_stress.then(|| flanks.driving.root_fillets(&pair));
         Self {
             pair,
@@ -121,19 +121,6 @@ impl PairMechanism {
             extremes: Extremes::default(),
             throughput: 0.0,
             roots,
-        }
-    }
-}
-
-/// Mesh damping per length of contact line, N s/mm^2. `means`: mesh stiffness (N/mm on the base circle) and length of
-/// contact lines (mm).
-pub(super) fn per_length(pair: &GearPair, options: &MotionOptions, means: [f64; 2]) -> f64 {
-    match options.damping {
-        MeshDamping::PerLength(c) => c,
-        MeshDamping::Ratio(zeta) => {
-            // c of the base circle; a slice moves by cos(b_b) of it, and so does its force.
-            let cos = pair.base_helix_angle().cos();
-            2.0 * zeta * (means[0] * equivalent_mass_of(pair, options)).sqrt() / (means[1] * cos * cos)
         }
     }
 }

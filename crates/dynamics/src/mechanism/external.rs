@@ -1,7 +1,7 @@
 //! Forces that do not come from the teeth: loads, drives, gyroscopic moments.
 
 use geometry::Gear;
-use nalgebra::{DVector, Matrix3, SMatrix};
+use nalgebra::{Matrix3, SMatrix};
 
 use super::PairMechanism;
 use crate::{COORDINATES, Displacement, Drive, NominalState, RigidBody};
@@ -52,12 +52,6 @@ impl PairMechanism {
         let turn = |g: usize| other[COORDINATES * (g + 1) - 1];
         let teeth = [&self.pair.pinion, &self.pair.wheel].map(Gear::signed_teeth);
         teeth[1 - driven] / teeth[driven] * turn(driven) - turn(1 - driven)
-    }
-
-    /// Velocity of the driver's turn beside the nominal one, rad/s, from those of the free coordinates.
-    pub(crate) fn driver_rate(&self, v: &DVector<f64>) -> f64 {
-        let driver = 1 - self.options.statics.driven();
-        self.coordinates.map().row(COORDINATES * (driver + 1) - 1).tr_dot(&v.rows(0, self.coordinates.count()))
     }
 
     /// Torque of the driver in the running sense, N mm: the one given, or the one that keeps its speed. `mesh`: forces

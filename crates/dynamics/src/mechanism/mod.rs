@@ -15,13 +15,12 @@ use super::{
     COORDINATES, Coordinates, Displacement, Extremes, FlankStates, MeshDamping, MeshResonance, MotionOptions, Nominal,
     NominalState, Speed, ToothChanges, Torque,
     elastic_displacement::ElasticDisplacement,
-    equivalent_mass::{equivalent_mass, equivalent_mass_of, masses_on_base_circles},
+    equivalent_mass::{damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles},
     mesh_flanks::MeshFlanks,
     mesh_side::{MeshSide, SideContacts},
     modal::Modal,
-    nominal::{running_senses, wheel_turns},
+    nominal::running_senses,
 };
-use build::per_length;
 use ltca::{RootStress, StaticError};
 
 /// A pair of gears as an integrator sees it.
@@ -183,24 +182,19 @@ impl PairMechanism {
         &self.nominal
     }
 
+    /// The flanks of its teeth.
+    pub fn flanks(&self) -> &MeshFlanks {
+        &self.flanks
+    }
+
+    /// Stiffness (N/mm) and length of contact lines (mm) that damping refers to.
+    pub fn means(&self) -> [f64; 2] {
+        self.means
+    }
+
     /// The pair.
     pub fn pair(&self) -> &GearPair {
         &self.pair
-    }
-
-    /// Whether normal modes are among the coordinates.
-    pub(crate) fn has_modes(&self) -> bool {
-        self.modal.is_some()
-    }
-
-    /// Whether flanks of teeth of a gear have forms of their own.
-    pub(crate) fn has_own_flanks(&self) -> bool {
-        [&self.pair.pinion, &self.pair.wheel].iter().any(|gear| gear.has_own_flanks())
-    }
-
-    /// Stiffness and damping of the bearings on the twelve coordinates.
-    pub(crate) fn bearings(&self) -> [SMatrix<f64, 12, 12>; 2] {
-        self.bearing
     }
 
     /// Driving flanks, and coast flanks where these may touch.
@@ -208,17 +202,10 @@ impl PairMechanism {
         self.flanks.sides()
     }
 
-    /// Gyroscopic matrix with the pinion at 1 rad/s.
-    pub(crate) fn gyroscopic_at_unit_speed(&self) -> SMatrix<f64, 12, 12> {
-        let nominal = self.nominal_state(0.0);
-        self.gyroscopic(&NominalState { velocity: [1.0, wheel_turns(&self.pair)], ..nominal })
-    }
-
     /// Puts the mean of the load in its place; gives the load.
     pub(crate) fn hold_mean_load(&mut self) -> Torque {
-        // Of a table the scene's torque is what scales are taken from.
-        let mean = self.options.load.mean().unwrap_or(self.options.statics.torque);
-        std::mem::replace(&mut self.options.load, Torque::Constant(mean))
+        let mean = Torque::Constant(self.options.mean_load());
+        std::mem::replace(&mut self.options.load, mean)
     }
 
     /// Puts a load on the driven gear, N mm against its turn.
@@ -234,32 +221,12 @@ impl PairMechanism {
     /// Damps the mesh otherwise; a ratio refers to the means that the pair was made with.
     pub fn set_damping(&mut self, damping: MeshDamping) {
         self.options.damping = damping;
-        self.damping = per_length(&self.pair, &self.options, self.means);
-    }
-
-    /// The pair at its start under the mean of its load.
-    ///
-    /// # Errors
-    /// [`StaticError`].
-    pub fn under_mean_load(&self) -> Result<Self, StaticError> {
-        let mut pair = self.with_drive(self.options.drive.clone())?;
-        pair.hold_mean_load();
-        Ok(pair)
-    }
-
-    /// Mesh damping per length of contact line, N s/mm^2.
-    pub(crate) fn damping_per_length(&self) -> f64 {
-        self.damping
+        self.damping = damping_per_length(&self.pair, &self.options, self.means);
     }
 
     /// Time (s) at which the nominal motion has turned so many mesh cycles since the start.
     pub(crate) fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
         self.nominal.time_at(&self.pair, &self.options.statics, cycles)
-    }
-
-    /// Mesh cycles a second at time `t` (s), of the nominal motion.
-    pub(crate) fn cycles_per_second(&self, t: f64) -> f64 {
-        self.nominal.cycles_per_second(&self.pair, &self.options.statics, t)
     }
 
     pub(crate) fn cycles(&self, t: f64) -> f64 {

@@ -115,6 +115,11 @@ impl MeshSide {
         self.options.side()
     }
 
+    /// Coefficient of friction.
+    pub fn friction_coefficient(&self) -> f64 {
+        self.options.contact.friction
+    }
+
     /// A copy of the side at a phase, in mesh cycles; gears and tables are shared.
     pub fn copy_at(&self, pair: &GearPair, cycles: f64) -> Result<Self, StaticError> {
         let mut copy = self.copy_at_start(pair)?;

@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 
 use crate::one_energy::{forces_are_slopes, is_angle};
 use dynamics::{
-    Bearing, Drive, MapRequest, MappedPair, MeshDamping, Motion, MotionOptions, PairMechanism, RigidBody, Speed,
-    Torque, instants, quasi_static_start,
+    Bearing, Drive, MeshDamping, Motion, MotionOptions, PairMechanism, RigidBody, Speed, Torque, instants,
+    quasi_static_start,
 };
 use geometry::{Driver, Sense};
 use integrate::{Forces, Mechanism, Scheme};
@@ -180,28 +180,6 @@ fn a_balanced_driver_keeps_the_speed() {
     assert!((torque / (TORQUE * 20.0 / 52.0) - 1.0).abs() < 1e-5, "{torque} N mm");
     let ledger = *motion.ledger().unwrap();
     assert!(ledger.relative_residual().abs() < 1e-6, "{ledger:?}");
-}
-
-/// A map has the forces of the contact.
-#[test]
-fn a_map_has_the_forces_of_the_contact() {
-    let bench = bench();
-    let request = MapRequest { overload: 4.0, tolerance: 3e-4, worst: 3e-4, lag: bench.ste[0] };
-    let mut map = MappedPair::new(bench.system(1000.0, |_| ()), &request, &|_| {}).unwrap_or_else(|e| panic!("{e}"));
-    for i in 0..12 {
-        let (t, share) = (4e-5 * f64::from(i), 0.7 + 0.05 * f64::from(i));
-        let (q, v) = (DVector::from_element(1, bench.ste[0] * share), DVector::from_element(1, 1.0));
-        let mut all = [0.0; 2];
-        let mut out = Forces::zeros(1);
-        bench.system(1000.0, |_| ()).forces(t, &q, &v, &mut out).unwrap();
-        all[0] = out.conservative[0];
-        out = Forces::zeros(1);
-        map.forces(t, &q, &v, &mut out).unwrap();
-        all[1] = out.conservative[0];
-        let off = all[1] / all[0] - 1.0;
-        println!("{:.3} N: {off:+.1e}", all[0]);
-        assert!(off.abs() < 1.5e-3, "{} N: the map's force is off by {off:e}", all[0]);
-    }
 }
 
 /// Without load behind them the gears part, and the coast flanks of the ring catch them: impacts on both sides of the

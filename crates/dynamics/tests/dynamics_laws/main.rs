@@ -3,7 +3,6 @@
 mod both_free;
 mod fields;
 mod internal_motion;
-mod mapped;
 mod modes_in_motion;
 mod motion_cells;
 mod motion_jump;

@@ -118,6 +118,12 @@ impl BeamLine {
         Ok(Self { positions, stiffness, mass, gyroscopic })
     }
 
+    /// A shaft without length, mass and stiffness: one node at z = 0.
+    pub fn point() -> Self {
+        let [stiffness, mass, gyroscopic] = [0; 3].map(|_| DMatrix::zeros(NODE_COORDINATES, NODE_COORDINATES));
+        Self { positions: vec![0.0], stiffness, mass, gyroscopic }
+    }
+
     /// Positions of the nodes, mm, ascending.
     pub fn positions(&self) -> &[f64] {
         &self.positions

@@ -23,11 +23,19 @@ impl GearboxMechanism {
                 out.stiffness += stiffness;
             }
         }
-        let damped = &self.damping * v;
-        out.dissipated += damped.dot(v);
-        out.other -= damped;
-        let turned = &self.gyroscopic * v;
-        out.other.axpy(-speed, &turned, 1.0);
+        if !is_zero(&self.damping) {
+            let damped = &self.damping * v;
+            out.dissipated += damped.dot(v);
+            out.other -= damped;
+        }
+        if !is_zero(&self.gyroscopic) {
+            let turned = &self.gyroscopic * v;
+            out.other.axpy(-speed, &turned, 1.0);
+            if let (true, Some(i)) = (out.tangents, self.free.turn) {
+                let mut column = out.damping.column_mut(i);
+                column += turned;
+            }
+        }
         for load in &self.loads {
             out.other += load;
             out.supplied += load.dot(v);
@@ -44,10 +52,6 @@ impl GearboxMechanism {
             out.stiffness += &self.stiffness;
             out.damping += &self.damping;
             out.damping.zip_apply(&self.gyroscopic, |c, g| *c += speed * g);
-            if let Some(i) = self.free.turn {
-                let mut column = out.damping.column_mut(i);
-                column += turned;
-            }
         }
         Ok(())
     }
@@ -58,15 +62,64 @@ impl GearboxMechanism {
         Ok(0.5 * q.dot(&(&self.stiffness * q)) + beside)
     }
 
-    /// Forces of one mesh.
+    /// Forces of a mesh that answers along its levers; whether it is one.
+    fn mesh_by_levers(
+        &mut self,
+        mesh: usize,
+        [angle, given]: [f64; 2],
+        [q, v]: [&DVector<f64>; 2],
+        out: &mut Forces,
+    ) -> bool {
+        let (turn, cycles) = (self.free.turn, self.cycles(mesh, angle));
+        let live = &mut self.live[mesh];
+        let Some(found) = live.answer(cycles, [q, v], out.rates || turn.is_some()) else { return false };
+        for (k, lever) in live.levers.iter().enumerate() {
+            out.conservative.axpy(found.elastic[k], &lever.row, 1.0);
+            out.other.axpy(found.damping[k], &lever.row, 1.0);
+            if let Some(answer) = &lever.answer {
+                out.other.axpy(found.damping[k], answer, 1.0);
+                out.supplied += found.damping[k] * answer.dot(v);
+            }
+        }
+        out.dissipated += found.dissipated;
+        if let Some(i) = turn {
+            out.conservative[i] -= live.cycles_per_turn * found.energy_rate;
+        }
+        if out.rates {
+            out.parametric += found.energy_rate * live.cycles_per_turn * given;
+        }
+        if out.tangents {
+            for (i, own) in live.levers.iter().enumerate() {
+                for (j, other) in live.levers.iter().enumerate() {
+                    out.stiffness.ger(found.stiffness[i][j], &own.row, &other.row, 1.0);
+                    out.damping.ger(found.rate_slope[i][j], &own.row, &other.row, 1.0);
+                    if let Some(answer) = &own.answer {
+                        out.damping.ger(found.rate_slope[i][j], answer, &other.row, 1.0);
+                    }
+                }
+                if found.slope[i] != 0.0 {
+                    out.stiffness.ger(found.slope[i], &own.row, &own.row, 1.0);
+                    if let Some(answer) = &own.answer {
+                        out.stiffness.ger(found.slope[i], answer, &own.row, 1.0);
+                    }
+                }
+            }
+        }
+        true
+    }
+
+    /// Forces of one mesh; `given`: the part of the input's speed that is no coordinate.
     fn mesh(
         &mut self,
         mesh: usize,
-        [angle, speed]: [f64; 2],
+        [angle, speed, given]: [f64; 3],
         q: &DVector<f64>,
         v: &DVector<f64>,
         out: &mut Forces,
     ) -> Result<(), GearboxError> {
+        if self.mesh_by_levers(mesh, [angle, given], [q, v], out) {
+            return Ok(());
+        }
         let turn = self.free.turn;
         let rates = self.displacements(mesh, v);
         let cycles = self.cycles(mesh, angle);
@@ -87,16 +140,12 @@ impl GearboxMechanism {
         out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
-        match turn {
-            Some(i) => {
-                out.conservative[i] -= per_turn * energy_rate;
-                out.other[i] += per_turn * losses.along_cycles;
-            }
-            None => {
-                // What the input pushes uneven teeth through with, and against friction.
-                out.supplied -= losses.along_cycles * passing;
-            }
+        if let Some(i) = turn {
+            out.conservative[i] -= per_turn * energy_rate;
+            out.other[i] += per_turn * losses.along_cycles;
         }
+        // What the input pushes uneven teeth through with, and against friction.
+        out.supplied -= losses.along_cycles * (per_turn * given);
         let mut along_modes = 0.0;
         let modal = on_modes.zip(self.gears.map_of(mesh, angle)).zip(self.gears.map_rate_of(mesh, angle));
         if let Some(((found, map), map_rate)) = &modal {
@@ -118,12 +167,17 @@ impl GearboxMechanism {
             }
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
         }
-        if out.rates && turn.is_none() {
-            out.parametric -= along_modes * speed;
-            out.parametric += self.live[mesh].energy_change(&self.meshes[mesh])? * passing;
+        if out.rates && given != 0.0 {
+            out.parametric -= along_modes * given;
+            out.parametric += self.live[mesh].energy_change(&self.meshes[mesh])? * (per_turn * given);
         }
         Ok(())
     }
+}
+
+/// Whether a matrix does nothing.
+fn is_zero(matrix: &DMatrix<f64>) -> bool {
+    matrix.iter().all(|x| *x == 0.0)
 }
 
 impl Mechanism for GearboxMechanism {
@@ -136,15 +190,16 @@ impl Mechanism for GearboxMechanism {
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         let input = self.input(t, q, v);
         self.bodies_and_loads(q, v, [t, input[1], self.acceleration(t)], out)?;
-        self.gears.add(input, [q, v], self.free.turn, out);
-        (0..self.live.len()).try_for_each(|i| self.mesh(i, input, q, v, out))
+        let given = self.given_speed(input[1]);
+        self.gears.add([input[0], given], [q, v], self.free.turn, out);
+        (0..self.live.len()).try_for_each(|i| self.mesh(i, [input[0], input[1], given], q, v, out))
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let [angle, _] = self.input(t, q, q);
         let mut sum = self.body_energy(q)? + self.gears.energy(angle, q);
         for i in 0..self.live.len() {
-            sum += self.ask(i, angle, q)?.1.element().energy();
+            sum += self.go(i, angle, q)?.element().energy();
         }
         Ok(sum)
     }
@@ -153,8 +208,13 @@ impl Mechanism for GearboxMechanism {
         let [angle, _] = self.input(t, q, q);
         let mut sum = self.body_energy(q)? + self.gears.energy(angle, q);
         for i in 0..self.live.len() {
-            let (cycles, at) = (self.cycles(i, angle), self.displaced(i, angle, q));
-            sum += self.live[i].energy_at(&self.meshes[i], cycles, &at)?;
+            let cycles = self.cycles(i, angle);
+            sum += if self.live[i].stand(cycles, q) {
+                self.live[i].element().energy()
+            } else {
+                let at = self.displaced(i, angle, q);
+                self.live[i].energy_at(&self.meshes[i], cycles, &at)?
+            };
         }
         Ok(sum)
     }
@@ -173,8 +233,7 @@ impl Mechanism for GearboxMechanism {
     ) -> Result<(), GearboxError> {
         let [angle, _] = self.input(t, q, q);
         for (i, values) in out.chunks_mut(2).enumerate() {
-            let (_, live) = self.ask(i, angle, q)?;
-            values.copy_from_slice(&live.element().overlaps()?);
+            values.copy_from_slice(&self.go(i, angle, q)?.element().overlaps()?);
         }
         Ok(())
     }
@@ -182,12 +241,11 @@ impl Mechanism for GearboxMechanism {
     fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), GearboxError> {
         let [angle, _] = self.input(t, q, q);
         for i in 0..self.live.len() {
-            let (_, live) = self.ask(i, angle, q)?;
-            let reach = live.element().reach();
+            let reach = self.go(i, angle, q)?.element().reach();
             self.reach[i] = self.reach[i].max(reach);
             self.live[i].accept(&self.meshes[i])?;
         }
-        self.varying.accept(t, angle, q);
+        self.varying.accept(t, self.nominal_turn(t)[0], q);
         Ok(())
     }
 

@@ -36,9 +36,13 @@ pub struct GearboxBranch {
 }
 
 impl GearboxMechanism {
-    /// Has the input keep a speed, rad/s without its sense.
+    /// Gives the input another nominal speed, rad/s without its sense.
     pub fn set_speed(&mut self, speed: f64) {
-        self.drive = Drive::Speed(Speed::Constant(speed));
+        self.drive = match self.drive {
+            Drive::Speed(_) => Drive::Speed(Speed::Constant(speed)),
+            Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
+            Drive::Torque { torque, .. } => Drive::Torque { start: speed, torque },
+        };
     }
 
     /// The branch of a plan over speeds of the input in 1/min, from the motion that Newton's method finds near the

@@ -43,7 +43,7 @@ impl ContactSpring {
             let (force, own) = sample(mesh, &projection, about)?;
             all.iter_mut().zip(own).for_each(|(list, x)| list.push(x));
             sum += force;
-            length += mesh.pressed().map(|slice| slice.length).sum::<f64>();
+            length += mesh.pressed_length();
         }
         let series = |quantity, values: &[f64]| {
             let found = Fourier::of_samples(quantity, values, samples / SAMPLES_PER_ORDER);

@@ -69,7 +69,7 @@ impl GearboxMechanism {
         let mut began = ledger.initial;
         if !self.varying.is_empty() {
             let left = ledger.supplied - of_loads - energy.input_work;
-            match (self.free.turn.is_some(), self.varying.input(state.time).is_some()) {
+            match (self.free.turn.is_some() && !self.beside_nominal, self.varying.input(state.time).is_some()) {
                 (true, false) => energy.output_work += left,
                 (true, true) => {
                     energy.output_work += self.varying.work();
@@ -78,9 +78,9 @@ impl GearboxMechanism {
                 (false, _) => energy.output_work += self.varying.work(),
             }
         }
-        if self.free.turn.is_none() {
+        if self.free.turn.is_none() || self.beside_nominal {
             let inertia = self.train_inertia();
-            let of = |s: &State| self.input(s.time, &s.q, &s.v);
+            let of = |s: &State| self.nominal_turn(s.time);
             let along = |s: &State| {
                 let [_, omega] = of(s);
                 omega * self.momentum.dot(&s.v) + 0.5 * omega * omega * inertia

@@ -37,11 +37,10 @@ pub(super) struct FreeCoordinates {
 
 impl FreeCoordinates {
     pub fn new(
-        assembly: &Assembly,
-        bodies: &ReducedBodies,
-        train: &Train,
-        operation: &Operation,
+        (assembly, bodies): (&Assembly, &ReducedBodies),
+        (train, operation): (&Train, &Operation),
         drive: &Drive,
+        moves: &dyn Fn(usize, usize) -> bool,
     ) -> Self {
         let n = bodies.size();
         let held = |shaft: usize| operation.held.contains(&shaft);
@@ -66,7 +65,9 @@ impl FreeCoordinates {
         }
         let is_of_gear = |i: usize| bodies.by_turn(i).is_some();
         let mut first_of_gears = columns.len();
-        for i in (0..n).filter(|i| (is_of_gear(*i) || !held(bodies.shaft(*i))) && *i != input_turn) {
+        let is_guided = |i: usize| bodies.axis(i).is_some_and(|axis| axis < 5 && !moves(bodies.shaft(i), axis));
+        let is_free = |i: &usize| (is_of_gear(*i) || !held(bodies.shaft(*i))) && !is_guided(*i);
+        for i in (0..n).filter(|i| is_free(i) && *i != input_turn) {
             if !is_of_gear(i) {
                 first_of_gears = columns.len() + 1;
             }

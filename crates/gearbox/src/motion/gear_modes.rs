@@ -193,9 +193,9 @@ impl MovingGears {
         Some(all)
     }
 
-    /// Adds what modes do by themselves with the input at `angle` (rad) and `speed` (rad/s); `turn`: number of the coordinate
-    /// of the input's turn where it is free.
-    pub fn add(&self, [angle, speed]: [f64; 2], [z, v]: [&DVector<f64>; 2], turn: Option<usize>, out: &mut Forces) {
+    /// Adds what modes do by themselves with the input at `angle` (rad), `given` (rad/s) of its speed no coordinate; `turn`:
+    /// number of the coordinate of the input's turn where it is free.
+    pub fn add(&self, [angle, given]: [f64; 2], [z, v]: [&DVector<f64>; 2], turn: Option<usize>, out: &mut Forces) {
         for (g, gear) in self.gears.iter().enumerate() {
             let map = self.map(g, angle);
             let (q, rate) = (&map * z, &map * v);
@@ -204,10 +204,10 @@ impl MovingGears {
             out.other -= map.tr_mul(&damped);
             out.dissipated += damped.dot(&rate);
             let along = elastic.dot(&(self.map_rate(g, angle) * z));
-            match turn {
-                Some(i) => out.conservative[i] += along,
-                None => out.parametric -= along * speed,
+            if let Some(i) = turn {
+                out.conservative[i] += along;
             }
+            out.parametric -= along * given;
             if out.tangents {
                 let of = |values: &DVector<f64>| map.tr_mul(&(DMatrix::from_diagonal(values) * &map));
                 out.stiffness += of(&gear.squares);

@@ -90,7 +90,7 @@ impl GearboxMechanism {
     }
 
     /// A mesh, and the torque by which an input that balances answers its losses.
-    fn mesh_instant(
+    pub(super) fn mesh_instant(
         &mut self,
         mesh: usize,
         [angle, speed]: [f64; 2],

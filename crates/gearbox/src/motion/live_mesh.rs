@@ -3,7 +3,10 @@
 use dynamics::{ElasticDisplacement, FlankStates};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
-use super::MovingMesh;
+use super::{
+    MovingMesh,
+    lever_mesh::{LEVERS, LeverForces},
+};
 use crate::{GearMesh, GearboxError, MeshForces, Vector12, static_gearbox::at_mesh};
 
 /// An element, what the coordinates of the motion do to its gears, and its last answer.
@@ -19,7 +22,17 @@ pub(super) struct LiveMesh {
     pub by_train: Vector12,
     /// Mesh cycles a radian of the input.
     pub cycles_per_turn: f64,
+    /// Levers of a mesh that answers along them; none of others.
+    pub levers: Vec<Lever>,
     last: Option<Last>,
+}
+
+/// A lever of a mesh, in the coordinates z.
+pub(super) struct Lever {
+    /// What they move it by, and what a force along it does to them.
+    pub row: DVector<f64>,
+    /// What an input that balances answers such a force with where it takes energy; none of another.
+    pub answer: Option<DVector<f64>>,
 }
 
 /// An answer, and what it is to.
@@ -36,11 +49,54 @@ impl LiveMesh {
         basis: &DMatrix<f64>,
         (gears, rigid): ([usize; 2], &DVector<f64>),
         turn: SMatrix<f64, 12, 12>,
-        cycles_per_turn: f64,
+        (cycles_per_turn, balance): (f64, Option<&DVector<f64>>),
     ) -> Self {
         let at_gears = OMatrix::<f64, U12, Dyn>::from_fn(basis.ncols(), |i, j| basis[(gears[i / 6] + i % 6, j)]);
         let by_train = turn.transpose() * Vector12::from_fn(|i, _| rigid[gears[i / 6] + i % 6]);
-        Self { element, to_gears: turn.transpose() * at_gears, gears, turn, by_train, cycles_per_turn, last: None }
+        let to_gears = turn.transpose() * at_gears;
+        let mut element = element;
+        let own = element.by_levers().is_some().then(|| element.levers()).flatten();
+        let lever = |lever: &Vector12| Lever {
+            row: to_gears.tr_mul(lever),
+            answer: balance.map(|push| push * -by_train.dot(lever)),
+        };
+        let levers = own.iter().flatten().take(LEVERS).map(lever).collect();
+        Self { element, to_gears, gears, turn, by_train, cycles_per_turn, levers, last: None }
+    }
+
+    /// What coordinates, or velocities, move the levers by.
+    #[inline]
+    fn along(&self, z: &DVector<f64>) -> [f64; LEVERS] {
+        let mut all = [0.0; LEVERS];
+        for (s, lever) in all.iter_mut().zip(&self.levers) {
+            // A product of nalgebra takes longer to call than so few coordinates to sum.
+            *s = lever.row.iter().zip(z).map(|(a, x)| a * x).sum();
+        }
+        all
+    }
+
+    /// Has a mesh that answers along its levers stand at a place; whether it is one.
+    #[inline]
+    pub fn stand(&mut self, cycles: f64, q: &DVector<f64>) -> bool {
+        if self.levers.is_empty() {
+            return false;
+        }
+        self.last = None;
+        let places = self.along(q);
+        if let Some(own) = self.element.by_levers() {
+            own.stand(cycles, &places);
+        }
+        true
+    }
+
+    /// What a mesh that answers along its levers does at a place; `None` of others.
+    #[inline]
+    pub fn answer(&mut self, cycles: f64, [q, v]: [&DVector<f64>; 2], energy_rate: bool) -> Option<LeverForces> {
+        if !self.stand(cycles, q) {
+            return None;
+        }
+        let rates = self.along(v);
+        self.element.by_levers().map(|own| own.answer(&rates, energy_rate))
     }
 
     /// Forces at a place, with any tangent unless `tangents` asks for it; the same place once more costs nothing.

@@ -33,6 +33,8 @@ pub struct GearboxMechanism {
     pub(super) gears: MovingGears,
     pub(super) live: Vec<LiveMesh>,
     pub(super) drive: Drive,
+    /// Whether a free turn of the input is a coordinate beside the nominal one, not the whole of it.
+    pub(super) beside_nominal: bool,
     pub(super) mass: DMatrix<f64>,
     pub(super) stiffness: DMatrix<f64>,
     /// Damping of bearings and modes.
@@ -74,6 +76,17 @@ impl GearboxMechanism {
         meshes: Vec<GearMesh>,
         operation: Operation,
         options: &MotionOptions,
+        elements: impl FnMut(usize, &GearMesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
+    ) -> Result<Self, GearboxError> {
+        Self::guided((structure, meshes, operation), options, &|_, _| true, elements)
+    }
+
+    /// The same with shafts that move along and about some axes alone, beside their turn: `moves` tells it of a shaft and an
+    /// axis (0 .. 4).
+    pub(super) fn guided(
+        (structure, meshes, operation): (Structure, Vec<GearMesh>, Operation),
+        options: &MotionOptions,
+        moves: &dyn Fn(usize, usize) -> bool,
         mut elements: impl FnMut(usize, &GearMesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
     ) -> Result<Self, GearboxError> {
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
@@ -90,7 +103,7 @@ impl GearboxMechanism {
         }
         let gears = MovingGears::new(&assembly, (&meshes, &train), &all)?;
         let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.modes());
-        let free = FreeCoordinates::new(&assembly, &bodies, &train, &operation, &options.drive);
+        let free = FreeCoordinates::new((&assembly, &bodies), (&train, &operation), &options.drive, moves);
         let gears = gears.placed(&assembly, &bodies, &free);
         let mut outputs = DVector::zeros(bodies.size());
         let mut balancing = 0.0;
@@ -115,7 +128,8 @@ impl GearboxMechanism {
             let gears = mesh.discs.map(|d| bodies.of_node(assembly.disc(d).unwrap_or(0)));
             let rate = further[i] - start_cycles[i];
             let gears = (gears, &free.rigid);
-            live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), rate));
+            let balance = matches!(options.drive, Drive::Balanced(_)).then_some(&push);
+            live.push(LiveMesh::new(element, &deviations, gears, turn(meshing.direction), (rate, balance)));
         }
         let spin = bodies.skew(&assembly.gyroscopic(train.ratios())?);
         let gyroscopic = free.of(&spin, false);
@@ -132,6 +146,7 @@ impl GearboxMechanism {
             gears,
             live,
             drive,
+            beside_nominal: false,
             mass,
             stiffness,
             damping,
@@ -199,7 +214,7 @@ impl GearboxMechanism {
                 along.axpy(-ratio, &self.push, 1.0);
             }
             // A free turn of the train is a coordinate.
-            let ratio = if self.free.turn.is_some() { 0.0 } else { ratio };
+            let ratio = if self.free.turn.is_some() && !self.beside_nominal { 0.0 } else { ratio };
             all.push(VaryingTorque { law, along, disc, at, ratio });
         }
         if matches!(self.drive, Drive::Balanced(_)) {
@@ -226,6 +241,19 @@ impl GearboxMechanism {
         let along = self.push.clone();
         self.varying = std::mem::take(&mut self.varying).with_input(law, along);
         Ok(self)
+    }
+
+    /// Puts another law in the place of a torque over time of the outputs ([`GearboxMechanism::with_torques`]), by its number
+    /// among these.
+    pub(super) fn set_torque(&mut self, i: usize, law: Torque) {
+        self.varying.set_output(i, law);
+    }
+
+    /// The mechanism, with the turn of an input that a torque drives counted from the nominal one: what is no deviation is then
+    /// no coordinate, and motions that come back do so in all of them.
+    pub(super) fn beside_nominal(mut self) -> Self {
+        self.beside_nominal = true;
+        self
     }
 
     /// Matrices and parts.
@@ -278,12 +306,28 @@ impl GearboxMechanism {
     /// Angle (rad about +z) and speed of the input.
     pub(super) fn input(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         match self.free.turn {
-            Some(i) => [q[i], v[i]],
-            None => {
-                let (sense, nominal) = (self.operation.sense.sign() as f64, self.drive.nominal());
-                // No angle is -0.
-                [0.0 + sense * nominal.angle(t), sense * nominal.at(t)]
+            Some(i) if self.beside_nominal => {
+                let [angle, speed] = self.nominal_turn(t);
+                [angle + q[i], speed + v[i]]
             }
+            Some(i) => [q[i], v[i]],
+            None => self.nominal_turn(t),
+        }
+    }
+
+    /// Angle and speed of the input's nominal turn.
+    pub(super) fn nominal_turn(&self, t: f64) -> [f64; 2] {
+        let (sense, nominal) = (self.operation.sense.sign() as f64, self.drive.nominal());
+        // No angle is -0.
+        [0.0 + sense * nominal.angle(t), sense * nominal.at(t)]
+    }
+
+    /// The part of the input's `speed` that is no coordinate.
+    pub(super) fn given_speed(&self, speed: f64) -> f64 {
+        match self.free.turn {
+            None => speed,
+            Some(_) if self.beside_nominal => self.input_speed(),
+            Some(_) => 0.0,
         }
     }
 
@@ -322,6 +366,12 @@ impl GearboxMechanism {
         let live = &mut self.live[mesh];
         live.reply(&self.meshes[mesh], cycles, &at, false)?;
         Ok((at, live))
+    }
+
+    /// Has a mesh stand at a state: along its levers where it answers these, else as [`Self::ask`] does.
+    pub(super) fn go(&mut self, mesh: usize, angle: f64, q: &DVector<f64>) -> Result<&mut LiveMesh, GearboxError> {
+        let cycles = self.cycles(mesh, angle);
+        if self.live[mesh].stand(cycles, q) { Ok(&mut self.live[mesh]) } else { Ok(self.ask(mesh, angle, q)?.1) }
     }
 
     /// Displacements of both gears of a mesh with the amplitudes of their modes.

@@ -5,9 +5,10 @@
 //! | `reduced_bodies` | shafts with few coordinates: seats, and modes with the seats held |
 //! | `free_coordinates` | what moves: deviations, and the turn of the whole train where a torque drives |
 //! | `gear_modes` | elastic modes of gears |
-//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh`, `moving_exact` |
+//! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh` (along its levers: `lever_mesh`), `moving_exact` |
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
+//! | `pair` | a pair alone: two rigid gears and one mesh |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
@@ -21,6 +22,7 @@ mod energy;
 mod free_coordinates;
 mod gear_modes;
 mod instant;
+mod lever_mesh;
 mod live_mesh;
 mod mapped_mesh;
 mod mechanism;
@@ -29,6 +31,7 @@ mod moving_exact;
 mod moving_mesh;
 mod normal_damper;
 mod options;
+mod pair;
 mod periodic_state;
 mod pitch_errors;
 mod plan;
@@ -43,15 +46,18 @@ mod varying_torques;
 
 pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
+pub use dynamics::MapRequest;
 pub use dynamics::{GearVibration, Speed, Torque as TorqueOverTime};
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
-pub use mapped_mesh::{MapRequest, MappedMesh};
+pub use lever_mesh::{LEVERS, LeverForces, LeverMesh};
+pub use mapped_mesh::MappedMesh;
 pub use mechanism::GearboxMechanism;
 pub use memory::{GearboxMemory, MeshMemory};
 pub use moving_exact::MovingExactMesh;
-pub use moving_mesh::{MeshLosses, MovingMesh};
+pub use moving_mesh::{FlankInstant, MeshLosses, MovingMesh};
 pub use options::{Drive, MotionOptions};
+pub use pair::PairInstant;
 pub use pitch_errors::PitchErrors;
 pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};

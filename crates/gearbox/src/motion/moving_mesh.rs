@@ -3,11 +3,12 @@
 use dynamics::{FlankStates, GearVibration, ModalForce};
 use nalgebra::{DVector, SMatrix};
 
+use super::lever_mesh::LeverMesh;
 use crate::{GearboxError, MeshElement, MeshForces, Vector12};
 
 /// A mesh whose gears move. All questions are about the place of the last [`MeshElement::go_to`] and the displacements
 /// of the last [`MeshElement::evaluate`]; forces without friction are the exact derivative of the energy.
-pub trait MovingMesh: MeshElement {
+pub trait MovingMesh: MeshElement + Send {
     /// Told once, before all else, where in the mesh cycles the motion begins: for a mesh whose teeth change on the way.
     ///
     /// # Errors
@@ -117,6 +118,17 @@ pub trait MovingMesh: MeshElement {
         None
     }
 
+    /// The mesh by these levers, of one that answers along them.
+    fn by_levers(&mut self) -> Option<&mut dyn LeverMesh> {
+        None
+    }
+
+    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving at `rates`; all zero of
+    /// flanks that are not there, and `None` of a mesh that does not tell.
+    fn by_side(&mut self, _rates: &Vector12) -> Option<[FlankInstant; 2]> {
+        None
+    }
+
     /// Mesh cycles after which this mesh comes back: 1 where the teeth of both gears are alike.
     fn period(&self) -> u64 {
         1
@@ -127,6 +139,17 @@ pub trait MovingMesh: MeshElement {
     fn reach(&self) -> f64 {
         0.0
     }
+}
+
+/// The flanks of one side at an instant.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct FlankInstant {
+    /// Sum of the normal forces, N, without damping.
+    pub force: f64,
+    /// Damping along the approach, N.
+    pub damping: f64,
+    /// Length of the loaded contact lines, mm.
+    pub line_length: f64,
 }
 
 /// What friction and dampers of a mesh do.

@@ -137,7 +137,7 @@ impl GearboxMechanism {
         let times = GearboxTimes { plan: *plan, start: start.time, scale: self.scale(start), drive: self.drive };
         Ok(match from {
             None => {
-                let [angle, _] = self.input(start.time, &start.q, &start.v);
+                let [angle, _] = self.nominal_turn(start.time);
                 self.varying.begin(start.time, angle, &start.q);
                 Course::new(self, times, start.clone())
             }

@@ -56,7 +56,7 @@ impl GearboxMechanism {
             let before = self.standing(-way, Some(&z))?;
             v = (after - before) * (speed / (2.0 * way));
         }
-        if let Some(i) = self.free.turn {
+        if let Some(i) = self.free.turn.filter(|_| !self.beside_nominal) {
             v[i] = speed;
         }
         self.forget();

@@ -54,6 +54,13 @@ impl VaryingTorques {
         Self { input: Some((law, along)), ..self }
     }
 
+    /// Gives a torque of the outputs another law.
+    pub fn set_output(&mut self, i: usize, law: Torque) {
+        if let Some(own) = self.all.get_mut(i) {
+            own.law = law;
+        }
+    }
+
     /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.all.is_empty() && self.input.is_none()

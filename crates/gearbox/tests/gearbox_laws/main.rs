@@ -3,6 +3,7 @@
 mod elastic;
 mod exact;
 mod forced;
+mod mapped_pair;
 mod motion;
 mod motion_bores;
 mod motion_branch;

@@ -3,6 +3,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
+use dynamics::MeshFlanks;
 use gearbox::{
     Disc, ExactMesh, GearMesh, GearboxError, Held, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
     Structure, Torque, Train, Vector12, Vibration,
@@ -77,7 +78,9 @@ impl Bored {
             tolerance: 2e-3,
             worst: 2e-2,
         };
-        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options(), (&request, &|_| {})).unwrap()
+        let pair = &self.meshes[0].pair;
+        let flanks = MeshFlanks::new(pair, Arc::clone(&self.gears), None, &self.options(), 0.0).unwrap();
+        MappedMesh::new(&flanks, pair, &request, &|_| {}).unwrap()
     }
 
     /// In motion with an element in its mesh.

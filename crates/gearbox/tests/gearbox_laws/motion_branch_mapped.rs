@@ -3,6 +3,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
+use dynamics::MeshFlanks;
 use gearbox::{
     Disc, ExactMesh, GearMesh, GearboxError, MeshElement, Meshing, StaticGearbox, Torque, Vector12,
     motion::{Drive, GearboxMechanism, MapRequest, MappedMesh, MotionOptions, Speed},
@@ -51,7 +52,8 @@ fn one_stage() -> GearboxMechanism {
         tolerance: 5e-3,
         worst: 5e-2,
     };
-    let map = MappedMesh::new(&meshes[0].pair, &gears, &options, (&request, &|_| {})).unwrap().with_damping(0.02);
+    let flanks = MeshFlanks::new(&meshes[0].pair, gears, None, &options, 0.0).unwrap();
+    let map = MappedMesh::new(&flanks, &meshes[0].pair, &request, &|_| {}).unwrap().with_damping(0.02);
     let drive = Drive::Speed(Speed::Constant(1500.0));
     let asked = MotionOptions { drive, modal_damping: DAMPING, limit: TAU * 6000.0 };
     GearboxMechanism::new(structure, meshes, operation, &asked, |_, _, _| Ok(Box::new(map.clone()))).unwrap()

@@ -7,6 +7,7 @@ use contact::{
     FlankProjection, Misalignment,
     pose::{gear_centre, gear_pose},
 };
+use dynamics::MeshFlanks;
 use gearbox::{
     Disc, ExactMesh, GearMesh, GearboxError, MeshElement, Meshing, Operation, StaticGearbox, Structure, Torque,
     Vector12,
@@ -78,8 +79,12 @@ impl Box1 {
         }
     }
 
+    fn flanks(&self) -> MeshFlanks {
+        MeshFlanks::new(&self.meshes[0].pair, Arc::clone(&self.gears), None, &self.options, 0.0).unwrap()
+    }
+
     fn map(&self) -> MappedMesh {
-        MappedMesh::new(&self.meshes[0].pair, &self.gears, &self.options, (&self.request(), &|_| {})).unwrap()
+        MappedMesh::new(&self.flanks(), &self.meshes[0].pair, &self.request(), &|_| {}).unwrap()
     }
 
     /// The contact in motion, its dampers 1 N s/mm along the normal of lines as long as under the mean force.
@@ -124,7 +129,8 @@ impl Box1 {
 fn a_mapped_mesh_moves_as_the_contact_that_it_was_made_from() {
     let box1 = Box1::new();
     let map = box1.map();
-    let (told, deflection) = (map.map().certificate().rms_error_mm, map.map().certificate().deflection_mm);
+    let (told, deflection) =
+        (map.maps().next().unwrap().certificate().rms_error_mm, map.maps().next().unwrap().certificate().deflection_mm);
     let mut map_at_rest = map.clone();
     let mut exact = box1.exact();
     for (i, d) in box1.stands.iter().enumerate() {
@@ -167,7 +173,7 @@ fn a_map_with_pitch_errors_has_one_energy() {
     let mut map = box1.map();
     let about = box1.stands.iter().sum::<Vector12>() / 8.0;
     let projection = FlankProjection::new(&box1.meshes[0].pair, box1.options.side());
-    let deflection = map.map().certificate().deflection_mm;
+    let deflection = map.maps().next().unwrap().certificate().deflection_mm;
     let mut ask = |cycles: f64, d: &Vector12| {
         map.go_to(cycles).unwrap();
         let reply = map.evaluate(d).unwrap();
@@ -208,9 +214,9 @@ fn a_map_with_pitch_errors_moves_as_the_contact_of_these_teeth() {
     for (amount, allowed) in [(2e-3, 0.02), (5e-3, 0.06)] {
         let box1 = Box1::of(with_pitch_errors(&pair([23, 31], 12.0), amount));
         let map = box1.map();
-        let deflection = map.map().certificate().deflection_mm;
+        let deflection = map.maps().next().unwrap().certificate().deflection_mm;
         let own = &box1.meshes[0].pair;
-        let told = map.pitch_error(own, &box1.gears, &box1.options, &box1.request()).unwrap().unwrap();
+        let told = map.pitch_error(&box1.flanks(), own, &box1.request()).unwrap().unwrap();
         let (of_map, run) = box1.run(Box::new(map.with_damping(1.0 / box1.spring().length)), 40.0);
         assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
         let (of_contact, _) = box1.run(Box::new(box1.moving()), 40.0);

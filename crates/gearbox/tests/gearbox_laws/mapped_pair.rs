@@ -1,14 +1,25 @@
-//! A map of the contact in place of the contact itself.
+//! A pair as a machine with a map of its contact, beside the contact itself.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use std::{sync::OnceLock, time::Instant};
 
-use dynamics::{Bearing, Drive, MapRequest, MappedPair, MeshDamping, MotionOptions, Speed, Torque, quasi_static_start};
+use dynamics::{
+    Bearing, Drive, MapRequest, MeshDamping, MotionOptions, PairMechanism, Speed, Torque, damping_per_length,
+    quasi_static_start,
+};
+use gearbox::{
+    GearboxError,
+    motion::{GearboxMechanism, MappedMesh},
+};
 use geometry::{Gear, GearModifications, GearPair};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use ltca::StaticOptions;
+use mesh::Extent;
 use nalgebra::{DVector, Matrix6};
-use testing::moving::{MovingPair, peak_to_peak, rows, worst};
+use testing::{
+    moving::{MovingPair, peak_to_peak, rows, worst},
+    of_order, planet_in_ring,
+};
 
 const TORQUE: f64 = 150e3;
 /// Steps in a mesh cycle.
@@ -33,9 +44,55 @@ fn on_bearings(o: &mut MotionOptions) {
     };
 }
 
-fn mapped(bench: &MovingPair, hz: f64, tolerance: f64, change: impl FnOnce(&mut MotionOptions)) -> MappedPair {
-    let request = MapRequest { overload: 4.0, tolerance, worst: tolerance, lag: bench.ste[0] };
-    MappedPair::new(bench.system(hz, change), &request, &|_| {}).unwrap_or_else(|e| panic!("{e}"))
+/// What a map must hold of a pair, and the map.
+fn map_of(system: &mut PairMechanism, lag: f64, tolerance: f64) -> Result<(MapRequest, MappedMesh), GearboxError> {
+    let request = system.map_request(lag, 4.0, [tolerance; 2]).unwrap_or_else(|e| panic!("{e}"));
+    let mesh = MappedMesh::new(system.flanks(), system.pair(), &request, &|_| {})?;
+    let damping = damping_per_length(system.pair(), system.options(), system.means());
+    Ok((request, mesh.with_damping(damping).with_driving_flanks_alone()))
+}
+
+/// The pair as a machine on its map.
+fn machine(system: &PairMechanism, mesh: &MappedMesh) -> GearboxMechanism {
+    let made = GearboxMechanism::of_pair(system.pair(), system.options(), |_, _, _| Ok(Box::new(mesh.clone())));
+    made.unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn mapped(
+    bench: &MovingPair,
+    hz: f64,
+    tolerance: f64,
+    change: impl FnOnce(&mut MotionOptions),
+) -> (GearboxMechanism, MappedMesh) {
+    let mut system = bench.system(hz, change);
+    let (_, mesh) = map_of(&mut system, bench.ste[0], tolerance).unwrap_or_else(|e| panic!("{e}"));
+    (machine(&system, &mesh), mesh)
+}
+
+/// Lag of the driven gear (mm) by the coordinate of the machine that is its turn, which comes last here.
+fn lag_of(machine: &GearboxMechanism) -> f64 {
+    let slopes = machine.error_slopes(0);
+    slopes[slopes.len() - 1]
+}
+
+/// Coordinates of the machine for those of the pair, whose last one is the lag.
+fn of_pair(machine: &GearboxMechanism, q: &DVector<f64>) -> DVector<f64> {
+    let mut z = q.clone();
+    z[q.len() - 1] /= lag_of(machine);
+    z
+}
+
+/// Forces on the machine as those on the coordinates of the pair.
+fn on_pair(machine: &mut GearboxMechanism, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Forces {
+    let (z, rates, lag) = (of_pair(machine, q), of_pair(machine, v), lag_of(machine));
+    let mut out = forces(machine, t, &z, &rates);
+    let last = q.len() - 1;
+    [&mut out.conservative, &mut out.other].into_iter().for_each(|f| f[last] /= lag);
+    for matrix in [&mut out.stiffness, &mut out.damping] {
+        matrix.row_mut(last).scale_mut(1.0 / lag);
+        matrix.column_mut(last).scale_mut(1.0 / lag);
+    }
+    out
 }
 
 fn forces<M: Mechanism>(system: &mut M, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Forces
@@ -47,18 +104,29 @@ where
     out
 }
 
+/// A pinion in a ring.
+fn ring() -> MovingPair {
+    let case = of_order(1, planet_in_ring(15.0), None, 300e3, [2, 2, 2, 2, 1], Extent::Whole);
+    let contact = case.slice_options();
+    MovingPair::new(case, contact, 16)
+}
+
 /// Forces, stiffness and damping of the map are those of the contact, at loads around the one it was made for.
 #[test]
 fn a_map_has_the_forces_of_the_contact() {
-    let bench = bench();
-    let mut map = mapped(bench, 1000.0, 3e-4, |_| ());
-    let n = map.mass().nrows();
+    has_the_forces_of_the_contact(bench());
+    has_the_forces_of_the_contact(&ring());
+}
+
+fn has_the_forces_of_the_contact(bench: &MovingPair) {
+    let (mut map, _) = mapped(bench, 1000.0, 3e-4, |_| ());
+    let n = map.count();
     for i in 0..12 {
         // Within the first window: nothing moves it here.
         let (t, share) = (4e-5 * f64::from(i), 0.7 + 0.05 * f64::from(i));
         let mut exact = bench.system(1000.0, |_| ());
         let (q, v) = (DVector::from_element(n, bench.ste[0] * share), DVector::from_element(n, 1.0));
-        let [a, b] = [forces(&mut exact, t, &q, &v), forces(&mut map, t, &q, &v)];
+        let [a, b] = [forces(&mut exact, t, &q, &v), on_pair(&mut map, t, &q, &v)];
         let off = b.conservative[0] / a.conservative[0] - 1.0;
         let [k, c] = [b.stiffness[0] / a.stiffness[0] - 1.0, b.damping[0] / a.damping[0] - 1.0];
         println!("{:.3} N: {off:+.1e}, stiffness {k:+.1e}, damping {c:+.1e}", a.conservative[0]);
@@ -72,8 +140,8 @@ fn a_map_has_the_forces_of_the_contact() {
 #[test]
 fn a_map_has_the_forces_of_gears_that_tilt() {
     let bench = bench();
-    let mut map = mapped(bench, 1000.0, 1e-3, on_bearings);
-    let certificate = *map.maps().next().expect("driving flanks").certificate();
+    let (mut map, mesh) = mapped(bench, 1000.0, 1e-3, on_bearings);
+    let certificate = *mesh.maps().next().expect("driving flanks").certificate();
     assert!(certificate.tilts > 1, "a gear on bearings tilts: {certificate:?}");
     let mut worst: f64 = 0.0;
     for i in 0..12 {
@@ -86,7 +154,7 @@ fn a_map_has_the_forces_of_gears_that_tilt() {
             start.q[k] += part * scale[k];
         }
         let still = DVector::zeros(start.q.len());
-        let [a, b] = [forces(&mut exact, t, &start.q, &still), forces(&mut map, t, &start.q, &still)];
+        let [a, b] = [forces(&mut exact, t, &start.q, &still), on_pair(&mut map, t, &start.q, &still)];
         let sized = |f: &Forces| (&f.conservative + &f.other).component_mul(&scale);
         let bearing = a.conservative.component_mul(&scale).amax();
         let load = (bench.contact.torque / bench.case.pair.wheel.base_radius() * scale[scale.len() - 1]).max(bearing);
@@ -97,14 +165,16 @@ fn a_map_has_the_forces_of_gears_that_tilt() {
     assert!(worst < 1e-2, "forces of gears that tilt are off by {worst:e}");
 }
 
-fn map_rows(map: &mut MappedPair, hz: f64, cycles: usize, mut state: State) -> (Vec<f64>, f64) {
-    let scale = DVector::from_element(map.mass().nrows(), 1e-3);
+fn map_rows(map: &mut GearboxMechanism, hz: f64, cycles: usize, start: &State) -> (Vec<f64>, f64) {
+    let lag = lag_of(map);
+    let scale = DVector::from_element(map.count(), 1e-3 / lag.abs());
+    let mut state = State::new(start.time, of_pair(map, &start.q), of_pair(map, &start.v));
     let control = StepControl::Fixed(1.0 / hz / STEPS as f64);
     let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, control, scale);
     let mut out = Vec::new();
     let began = Instant::now();
     integrator
-        .advance(map, &mut state, cycles as f64 / hz, |_, progress| out.push(progress.state.q[0]))
+        .advance(map, &mut state, cycles as f64 / hz, |_, progress| out.push(lag * progress.state.q[0]))
         .unwrap_or_else(|e| panic!("{e}"));
     (out, began.elapsed().as_secs_f64())
 }
@@ -115,7 +185,7 @@ fn a_map_moves_as_the_contact() {
     let bench = bench();
     for share in [0.1, 0.35, 0.5, 0.9, 1.0, 1.1, 2.0] {
         let hz = share * bench.resonance_hz();
-        let mut map = mapped(bench, hz, 2e-4, |_| ());
+        let (mut map, _) = mapped(bench, hz, 2e-4, |_| ());
         let system = bench.system(hz, |_| ());
         let mut settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, STEPS);
         settings.steps_per_resonance = 0;
@@ -125,8 +195,8 @@ fn a_map_moves_as_the_contact() {
         let began = Instant::now();
         let a = rows(&mut exact, cycles as u64);
         let of_exact = began.elapsed().as_secs_f64();
-        let (b, of_map) = map_rows(&mut map, hz, cycles, start);
-        assert!(map.excess().is_within(), "the motion leaves its map: {:?}", map.excess());
+        let (b, of_map) = map_rows(&mut map, hz, cycles, &start);
+        assert!(map.reach()[0] <= 1.0, "the motion leaves its map: {:?}", map.reach());
         let last = a.len() - STEPS;
         let off = worst(&a[last..], &b[last..]) / peak_to_peak(&a[last..]);
         println!(
@@ -154,15 +224,17 @@ fn a_map_moves_as_the_contact_of_teeth_with_pitch_errors() {
     let bench = MovingPair::new(case, contact, 8);
     for share in [0.35, 1.0] {
         let hz = share * bench.resonance_hz();
-        let mut map = mapped(&bench, hz, 2e-4, |_| ());
-        let told = map.pitch_error(bench.ste[0]).unwrap_or_else(|e| panic!("{e}")).expect("there are pitch errors");
-        let system = bench.system(hz, |_| ());
+        let mut system = bench.system(hz, |_| ());
+        let (request, mesh) = map_of(&mut system, bench.ste[0], 2e-4).unwrap_or_else(|e| panic!("{e}"));
+        let mut map = machine(&system, &mesh);
+        let told = mesh.pitch_error(system.flanks(), system.pair(), &request).unwrap_or_else(|e| panic!("{e}"));
+        let told = told.expect("there are pitch errors");
         let mut settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, STEPS);
         settings.steps_per_resonance = 0;
         let mut exact = bench.motion(system, settings);
         let start = exact.state().clone();
         let a = rows(&mut exact, 34);
-        let (b, of_map) = map_rows(&mut map, hz, 34, start);
+        let (b, of_map) = map_rows(&mut map, hz, 34, &start);
         let rms = (a.iter().zip(&b).map(|(a, b)| (a - b).powi(2)).sum::<f64>() / a.len() as f64).sqrt();
         let (off, most) = (rms / peak_to_peak(&a), worst(&a, &b) / peak_to_peak(&a));
         println!(
@@ -179,16 +251,17 @@ fn a_map_moves_as_the_contact_of_teeth_with_pitch_errors() {
 #[test]
 fn energy_stays_on_a_map() {
     let bench = bench();
-    let mut map = mapped(bench, 1000.0, 1e-3, |o| {
+    let (mut map, _) = mapped(bench, 1000.0, 1e-3, |o| {
         o.drive = Drive::Speed(Speed::Constant(0.0));
         o.damping = MeshDamping::PerLength(0.0);
     });
     let step = 1.0 / bench.resonance_hz() / 23.7;
-    let scale = DVector::from_element(1, 1e-3);
+    let lag = lag_of(&map);
+    let scale = DVector::from_element(1, 1e-3 / lag.abs());
     let mut integrator = Integrator::new(Scheme::Energy, StepControl::Fixed(step), scale);
-    let mut state = State::new(0.0, DVector::from_element(1, 2.5 * bench.ste[0]), DVector::zeros(1));
+    let mut state = State::new(0.0, DVector::from_element(1, 2.5 * bench.ste[0] / lag), DVector::zeros(1));
     let (mut least, steps) = (f64::INFINITY, 1e6);
-    let apart = |state: &State| state.q[0];
+    let apart = |state: &State| lag * state.q[0];
     integrator
         .advance(&mut map, &mut state, steps * step, |_, progress| least = least.min(apart(progress.state)))
         .unwrap_or_else(|e| panic!("{e}"));
@@ -203,11 +276,10 @@ fn energy_stays_on_a_map() {
 #[test]
 fn what_no_map_holds_is_refused() {
     let bench = bench();
-    let request = MapRequest { overload: 4.0, tolerance: 1e-3, worst: 1e-3, lag: bench.ste[0] };
-    let rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
-    let error = MappedPair::new(rubbing, &request, &|_| {}).expect_err("friction is in no map");
+    let mut rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
+    let error = map_of(&mut rubbing, bench.ste[0], 1e-3).expect_err("friction is in no map");
     assert!(error.to_string().contains("friction"), "{error}");
-    let idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
-    let error = MappedPair::new(idle, &request, &|_| {}).expect_err("no load says what forces occur");
+    let mut idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
+    let error = idle.map_request(bench.ste[0], 4.0, [1e-3; 2]).expect_err("no load says what forces occur");
     assert!(error.to_string().contains("load"), "{error}");
 }
