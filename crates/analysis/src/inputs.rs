@@ -5,7 +5,7 @@ use mesh::Mesh;
 use scene::{MotionScene, Scene};
 
 use crate::{
-    AnalysisError,
+    AnalysisError, GearCache,
     meshes::{self, SceneMesh},
     resolution::with_slices,
 };
@@ -25,13 +25,15 @@ pub(crate) fn motion_of(scene: &Scene) -> Result<&MotionScene, AnalysisError> {
     scene.motion.as_ref().ok_or_else(|| crate::error::unasked(scene, "motion"))
 }
 
-/// Meshes of pinion and wheel: those that the caller holds, checked as files are, else those of the scene.
+/// Meshes of pinion and wheel: those that the caller holds, checked as files are, else those of the scene, of which the
+/// cache may know that they are sound.
 pub(crate) fn meshes_of(
     scene: &Scene,
     pair: &GearPair,
     in_memory: Option<[&Mesh; 2]>,
+    cache: &dyn GearCache,
 ) -> Result<[SceneMesh; 2], AnalysisError> {
-    let Some([pinion, wheel]) = in_memory else { return meshes::pair_meshes(scene, pair) };
+    let Some([pinion, wheel]) = in_memory else { return meshes::known_pair_meshes(scene, pair, cache) };
     let one = |whose: &str, gear, exact, mesh: &Mesh| {
         let name = format!("the {whose}'s mesh in memory");
         meshes::checked_mesh(scene, whose, (gear, exact), mesh.clone(), [name.clone(), name])

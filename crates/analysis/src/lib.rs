@@ -92,7 +92,7 @@ mod window;
 
 pub use accuracy::StaticAnalysis;
 pub use alike::SharedGears;
-pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache};
+pub use cache::{GearCache, Kept, MAP_VERSION, MapKey, NoCache, SOUND_VERSION, SoundKey};
 pub use context::{Context, Ending, Question};
 pub use derivatives::{DerivativeRecorder, Derivatives};
 pub use error::AnalysisError;

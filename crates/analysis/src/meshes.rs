@@ -11,7 +11,7 @@ use mesh::{
 use scene::{Coupling, GearScene, MesherScene, Scene};
 
 use crate::{
-    AnalysisError,
+    AnalysisError, GearCache, NoCache, SoundKey,
     error::{in_scene, mismatch, place_in},
     facts::MeshFacts,
     flank_checks::NamedFlanks,
@@ -37,8 +37,20 @@ pub struct SceneMesh {
 /// # Errors
 /// As [`gear_mesh`].
 pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], AnalysisError> {
-    let pinion = gear_mesh(scene, "pinion", &scene.pinion, &pair.pinion)?;
-    let wheel = gear_mesh(scene, "wheel", &scene.wheel, &pair.wheel)?;
+    known_pair_meshes(scene, pair, &NoCache)
+}
+
+/// [`pair_meshes`], with files that the cache knows to be sound not checked for that again.
+///
+/// # Errors
+/// As [`gear_mesh`].
+pub(crate) fn known_pair_meshes(
+    scene: &Scene,
+    pair: &GearPair,
+    cache: &dyn GearCache,
+) -> Result<[SceneMesh; 2], AnalysisError> {
+    let pinion = known_gear_mesh(scene, "pinion", (&scene.pinion, &pair.pinion), cache)?;
+    let wheel = known_gear_mesh(scene, "wheel", (&scene.wheel, &pair.wheel), cache)?;
     Ok([pinion, wheel])
 }
 
@@ -48,10 +60,27 @@ pub fn pair_meshes(scene: &Scene, pair: &GearPair) -> Result<[SceneMesh; 2], Ana
 /// [`AnalysisError`] when the file is damaged, has inverted elements, does not name the parts of a gear, or is the mesh
 /// of another gear; when the built-in mesher cannot make the one asked for.
 pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> Result<SceneMesh, AnalysisError> {
+    known_gear_mesh(scene, whose, (gear, exact), &NoCache)
+}
+
+fn known_gear_mesh(
+    scene: &Scene,
+    whose: &str,
+    (gear, exact): (&GearScene, &Gear),
+    cache: &dyn GearCache,
+) -> Result<SceneMesh, AnalysisError> {
     match &gear.mesh {
         Some(file) => {
             let names = [scene.resolve(file.path()).display().to_string(), file.path().display().to_string()];
-            checked_mesh(scene, whose, (gear, exact), file.values().clone(), names)
+            // What the checks go by beside the file.
+            let key =
+                cache.is_on().then(|| SoundKey::new(&file.blake3(), &format!("{:?} {}", gear.groups, gear.teeth)));
+            let known = key.as_ref().is_some_and(|key| cache.is_sound(key));
+            let (mesh, sound) = with_checks(scene, whose, (gear, exact), file.values().clone(), names, known)?;
+            if let Some(key) = key.filter(|_| sound && !known) {
+                cache.keep_sound(&key);
+            }
+            Ok(mesh)
         }
         None => {
             let mut options = options_of(gear);
@@ -75,13 +104,26 @@ pub fn gear_mesh(scene: &Scene, whose: &str, gear: &GearScene, exact: &Gear) -> 
 pub fn checked_mesh(
     scene: &Scene,
     whose: &str,
+    gears: (&GearScene, &Gear),
+    mesh: Mesh,
+    names: [String; 2],
+) -> Result<SceneMesh, AnalysisError> {
+    Ok(with_checks(scene, whose, gears, mesh, names, false)?.0)
+}
+
+/// A checked mesh, and whether it is sound without a remark; one that is `known` to be is held against its gear alone.
+fn with_checks(
+    scene: &Scene,
+    whose: &str,
     (gear, exact): (&GearScene, &Gear),
     mesh: Mesh,
     [file, source]: [String; 2],
-) -> Result<SceneMesh, AnalysisError> {
+    known: bool,
+) -> Result<(SceneMesh, bool), AnalysisError> {
     let complain = |source| of_mesh(&file, source);
     of_this_size(&file, whose, &mesh, exact)?;
-    let mut remarks = sound(&file, &mesh, gear)?;
+    let mut remarks = if known { Vec::new() } else { sound(&file, &mesh, gear)? };
+    let is_sound = remarks.is_empty();
     let (found, fit) = MeshedGear::find(mesh, exact, &gear.groups).map_err(complain)?;
     if let Some(fit) = fit {
         let turned = if fit.phase == 0.0 {
@@ -97,7 +139,7 @@ pub fn checked_mesh(
     flanks.are_whole()?;
     remarks.extend(flanks.reach(&scene.gear_pair()?)?);
     let (gear, facts) = to_compute(scene, gear, found, source).map_err(complain)?;
-    Ok(SceneMesh { gear, facts, remarks })
+    Ok((SceneMesh { gear, facts, remarks }, is_sound))
 }
 
 /// The mesh that the built-in mesher makes of one gear.

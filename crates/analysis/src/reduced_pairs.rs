@@ -93,7 +93,7 @@ impl ReducedPairs {
         if let Some(pair) = &*made {
             return Ok(Arc::clone(pair));
         }
-        let meshes = meshes_of(scene, pair, None)?;
+        let meshes = meshes_of(scene, pair, None, cache)?;
         let ElasticGears { gears, keys, remarks } =
             elastic_gears(scene, pair, options, &meshes, (cache, progress, wanted), false)?;
         let pair = ReducedPair { meshes, gears: Arc::new(gears), keys, remarks, saved: AtomicBool::new(false) };

@@ -62,7 +62,7 @@ pub fn reduce_scene(
         return Err(nothing_to_reduce(scene));
     }
     let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
-    let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::pair_meshes(scene, &pair))?;
+    let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes::known_pair_meshes(scene, &pair, cache))?;
     let options = options(scene, &pair);
     let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), &meshes), 1.0));
     let ElasticGears { gears, keys, mut remarks } = run_phase(observer, "reduce", work, |progress| {

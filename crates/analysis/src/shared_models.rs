@@ -99,7 +99,7 @@ impl<'a> SharedModels<'a> {
         if let Some((_, found)) = known().iter().find(|(own, _)| *own == kind) {
             return Ok(Arc::clone(found));
         }
-        let made = Arc::new(meshes_of(scene, pair, self.meshes())?);
+        let made = Arc::new(meshes_of(scene, pair, self.meshes(), &*self.cache)?);
         let mut known = known();
         if known.len() == MOST_MODELS {
             known.remove(0);

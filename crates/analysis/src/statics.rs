@@ -156,7 +156,7 @@ impl<'a> CycleAnalysis<'a> {
         let own = self.meshes.or(self.shared.and_then(|models| models.meshes()));
         let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| match shared {
             Some(models) => models.scene_meshes(scene, &pair),
-            None => meshes_of(scene, &pair, own).map(Arc::new),
+            None => meshes_of(scene, &pair, own, cache).map(Arc::new),
         })?;
         let mut remarks = gears::remarks(&pair);
         remarks.extend(unlikely);

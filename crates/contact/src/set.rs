@@ -103,7 +103,8 @@ impl ContactSet {
                     TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
                 }
             });
-        let slices = slices.map(|s| s.with_tables(tabulated, windows.as_ref(), options).map(Arc::new)).transpose()?;
+        let slices =
+            slices.map(|s| s.with_tables(tabulated, gears, windows.as_ref(), options).map(Arc::new)).transpose()?;
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let own_teeth = geometry.map(Gear::has_own_teeth);
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);

@@ -188,7 +188,9 @@ impl GeneralGear {
             }
             return Ok(stress);
         }
-        let (support, operator) = operator.on_support();
+        let moved = StressOperator::moved(std::iter::once(operator));
+        let support: Vec<usize> = moved.iter().flat_map(|&place| 3 * place..3 * place + 3).collect();
+        let operator = operator.clone().of(&moved);
         for start in (0..coordinates).step_by(COLUMNS) {
             let width = (coordinates - start).min(COLUMNS);
             let field = match seen {

@@ -14,6 +14,7 @@ mod cyclic;
 mod elastic;
 mod error;
 mod general;
+mod kept_table;
 mod layer_profile;
 mod load;
 mod local_compliance;
@@ -31,6 +32,7 @@ mod window;
 
 pub use elastic::{ElasticGear, FullGear};
 pub use error::ReductionError;
+pub use kept_table::{KeptTable, TableKey};
 pub use layer_profile::LayerProfile;
 pub use load::{FlankGrid, FlankGrids};
 pub use local_compliance::LocalCompliance;

@@ -4,7 +4,11 @@ use faer::Mat;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{
-    GearReducer, ReductionError, Window, cyclic::PitchTurn, general::Seen, reducer::Method, stress_modes::KnownStress,
+    GearReducer, ReductionError, Window,
+    cyclic::PitchTurn,
+    general::{GeneralGear, Seen},
+    reducer::Method,
+    stress_modes::KnownStress,
     stress_recovery::StressRecovery,
 };
 
@@ -156,31 +160,44 @@ impl GearReducer {
     }
 
     /// Stress at `nodes` (6 rows a node) for unit coordinates of a window or unit forces on them, in the frame of its
-    /// matrices.
-    pub(crate) fn stress_of(
+    /// matrices, by some recoveries.
+    pub(crate) fn stress_of<const N: usize>(
         &self,
         window: &Window,
         nodes: &[u32],
-        recovery: StressRecovery,
-    ) -> Result<KnownStress, ReductionError> {
-        match self.method()? {
-            Method::Cyclic(cyclic) => cyclic.stress(nodes, recovery).map(KnownStress::Sectors),
-            Method::General(general, _) => {
-                let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
-                let operator = match recovery {
-                    StressRecovery::Volume => {
-                        fem::StressOperator::new(mesh, self.material(), self.elements(), &self.dofs, nodes)?
-                    }
-                    StressRecovery::Surface(faces) => {
-                        fem::StressOperator::on_surface(mesh, self.material(), &self.dofs, faces, nodes)?
-                    }
-                };
-                if self.is_last(window) {
-                    return general.stress(Seen::Last, count, &operator).map(KnownStress::Displacements);
-                }
-                general.stress(Seen::Loads(&self.loads(window)?), count, &operator).map(KnownStress::Forces)
+        recoveries: [StressRecovery<'_>; N],
+    ) -> [Result<KnownStress, ReductionError>; N] {
+        match self.method() {
+            Err(e) => recoveries.map(|_| Err(e.clone())),
+            Ok(Method::Cyclic(cyclic)) => {
+                cyclic.stress(nodes, recoveries).map(|stress| stress.map(KnownStress::Sectors))
+            }
+            Ok(Method::General(general, _)) => {
+                recoveries.map(|recovery| self.stress_of_whole(general, window, nodes, recovery))
             }
         }
+    }
+
+    fn stress_of_whole(
+        &self,
+        general: &GeneralGear,
+        window: &Window,
+        nodes: &[u32],
+        recovery: StressRecovery<'_>,
+    ) -> Result<KnownStress, ReductionError> {
+        let (mesh, count) = (self.gear().mesh(), window.reduced.coordinates());
+        let operator = match recovery {
+            StressRecovery::Volume => {
+                fem::StressOperator::new(mesh, self.material(), self.elements(), &self.dofs, nodes)?
+            }
+            StressRecovery::Surface(faces) => {
+                fem::StressOperator::on_surface(mesh, self.material(), &self.dofs, faces, nodes)?
+            }
+        };
+        if self.is_last(window) {
+            return general.stress(Seen::Last, count, &operator).map(KnownStress::Displacements);
+        }
+        general.stress(Seen::Loads(&self.loads(window)?), count, &operator).map(KnownStress::Forces)
     }
 
     fn stiffness_of<'a>(&self, window: &'a Window) -> Result<&'a Mat<f64>, ReductionError> {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 use fem::dense;
 use mesh::Face;
 
@@ -54,7 +54,7 @@ impl StressModes {
             KnownStress::Displacements(modes) => Ok(modes.clone()),
             // From stress of unit forces to that of unit displacements: the forces that these take are K^.
             KnownStress::Forces(modes) => self.by_displacements(modes),
-            KnownStress::Sectors(sectors) => self.by_displacements(&sectors.matrix()),
+            KnownStress::Sectors(sectors) => self.by_displacements(&sectors.matrix()?),
         }
     }
 
@@ -72,7 +72,9 @@ impl StressModes {
         match &self.known {
             KnownStress::Displacements(modes) => Ok(applied(modes, u)),
             KnownStress::Forces(modes) => Ok(applied(modes, &self.reduced.forces(u).ok_or_else(|| self.singular())?)),
-            KnownStress::Sectors(sectors) => Ok(sectors.under(&self.reduced.forces(u).ok_or_else(|| self.singular())?)),
+            KnownStress::Sectors(sectors) => {
+                by_sectors(sectors, &self.reduced.forces(u).ok_or_else(|| self.singular())?)
+            }
         }
     }
 
@@ -84,9 +86,9 @@ impl StressModes {
         self.check_length(forces)?;
         match &self.known {
             KnownStress::Forces(modes) => Ok(applied(modes, forces)),
-            KnownStress::Sectors(sectors) => Ok(sectors.under(forces)),
+            KnownStress::Sectors(sectors) => by_sectors(sectors, forces),
             KnownStress::Displacements(modes) => {
-                let forces = faer::MatRef::from_column_major_slice(forces, forces.len(), 1);
+                let forces = MatRef::from_column_major_slice(forces, forces.len(), 1);
                 let moved = dense::product(self.reduced.compliance.as_ref(), forces);
                 Ok(applied(modes, moved.col_as_slice(0)))
             }
@@ -101,6 +103,12 @@ impl StressModes {
     fn singular(&self) -> ReductionError {
         ReductionError::NotPositiveDefinite { first: self.reduced.teeth.first().copied().unwrap_or(0) }
     }
+}
+
+/// Stress at nodes of a cyclic gear under forces on the coordinates.
+fn by_sectors(sectors: &SectorStress, forces: &[f64]) -> Result<Vec<[f64; 6]>, ReductionError> {
+    let stress = sectors.under(MatRef::from_column_major_slice(forces, forces.len(), 1))?;
+    Ok(stress.col_as_slice(0).as_chunks().0.to_vec())
 }
 
 /// Stress at nodes, six rows each, of columns that count so many times.
@@ -126,8 +134,8 @@ impl GearReducer {
     /// # Errors
     /// [`ReductionError::Fem`] when a node does not exist.
     pub fn stress_modes(&self, window: &Window, nodes: &[u32]) -> Result<StressModes, ReductionError> {
-        let known = self.stress_of(window, nodes, StressRecovery::Volume)?;
-        Ok(StressModes { nodes: nodes.to_vec(), known, reduced: window.reduced.clone() })
+        let [volume] = self.modes_by(window, nodes, [StressRecovery::Volume]);
+        volume
     }
 
     /// Stress modes for nodes of free faces, from the displacement of these `faces` alone (numbers of the mesh in the
@@ -141,7 +149,33 @@ impl GearReducer {
         nodes: &[u32],
         faces: &[Vec<Face>],
     ) -> Result<StressModes, ReductionError> {
-        let known = self.stress_of(window, nodes, StressRecovery::Surface(faces))?;
-        Ok(StressModes { nodes: nodes.to_vec(), known, reduced: window.reduced.clone() })
+        let [surface] = self.modes_by(window, nodes, [StressRecovery::Surface(faces)]);
+        surface
+    }
+
+    /// [`GearReducer::surface_stress_modes`] and [`GearReducer::stress_modes`] of the same nodes; of a cyclic gear both
+    /// hold one map to the displacement about them.
+    ///
+    /// # Errors
+    /// As [`GearReducer::stress_modes`].
+    pub fn both_stress_modes(
+        &self,
+        window: &Window,
+        nodes: &[u32],
+        faces: &[Vec<Face>],
+    ) -> Result<[StressModes; 2], ReductionError> {
+        let recoveries = [StressRecovery::Surface(faces), StressRecovery::Volume];
+        let [surface, volume] = self.modes_by(window, nodes, recoveries);
+        Ok([surface?, volume?])
+    }
+
+    fn modes_by<const N: usize>(
+        &self,
+        window: &Window,
+        nodes: &[u32],
+        recoveries: [StressRecovery<'_>; N],
+    ) -> [Result<StressModes, ReductionError>; N] {
+        let modes = |known| StressModes { nodes: nodes.to_vec(), known, reduced: window.reduced.clone() };
+        self.stress_of(window, nodes, recoveries).map(|known| known.map(modes))
     }
 }

@@ -97,6 +97,38 @@ fn a_spoilt_file_is_told_of_and_replaced() {
     assert_eq!(cached.found("last"), 2);
 }
 
+/// The file of a mesh is found sound once, by its bytes: other bytes and a damaged word of it are checked again.
+#[test]
+fn a_mesh_is_found_sound_once_and_by_its_bytes() {
+    let meshes = |gear: &str| format!("mesh = \"{gear}.msh\"\n");
+    let text = scene("").split("[pinion.mesher]").next().unwrap_or_default().to_owned();
+    let text = text.replace("[wheel]\n", &format!("{}[wheel]\n{}", meshes("pinion"), meshes("wheel")));
+    let cached = Cached(Scratch::new().file("made.toml", scene("")).file("a.toml", text));
+    for gear in ["pinion", "wheel"] {
+        let file = format!("{gear}.msh");
+        let run = cached.0.ale_gear(["mesh", "generate", "made.toml", "--gear", gear, "-o", &file]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let sound =
+        || cached.files().into_iter().filter(|f| f.extension().is_some_and(|e| e == "sound")).collect::<Vec<_>>();
+    cached.run("first");
+    let words: Vec<String> = sound().iter().map(|f| fs::read_to_string(f).unwrap()).collect();
+    assert!(words.len() == 2 && words.iter().all(|w| w.starts_with("ale-gear sound mesh 1\n")), "{words:?}");
+    fs::write(&sound()[0], "ale-gear sound mesh 0\n").unwrap();
+    cached.run("second");
+    let now: Vec<String> = sound().iter().map(|f| fs::read_to_string(f).unwrap()).collect();
+    assert_eq!(now, words, "a damaged word is believed, or not replaced");
+    let mesh = cached.0.path().join("pinion.msh");
+    let mut bytes = fs::read(&mesh).unwrap();
+    bytes.extend(b"$Comments\nthe same mesh\n$EndComments\n");
+    fs::write(&mesh, bytes).unwrap();
+    cached.run("third");
+    assert_eq!(sound().len(), 3, "other bytes are taken for those that were checked");
+    for again in ["second", "third"] {
+        assert_eq!(cached.0.read("first/history.csv"), cached.0.read(&format!("{again}/history.csv")));
+    }
+}
+
 /// A map of the contact is kept beside the gears, serves a run at another speed, and is made again where its file is
 /// damaged or the torque is another one.
 #[test]

@@ -9,7 +9,7 @@ use std::{
 use contact_map::ContactMap;
 use reduction::{ColumnStore, RecordKey, ReductionRecord};
 
-use crate::{GearCache, Kept, MapKey};
+use crate::{GearCache, Kept, MapKey, SoundKey};
 
 /// Reduced gears in memory before the caller's own store.
 pub struct GearMemo<'a> {
@@ -56,6 +56,14 @@ impl GearCache for GearMemo<'_> {
 
     fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
         self.store.columns(key)
+    }
+
+    fn is_sound(&self, key: &SoundKey) -> bool {
+        self.store.is_sound(key)
+    }
+
+    fn keep_sound(&self, key: &SoundKey) {
+        self.store.keep_sound(key);
     }
 
     fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {

@@ -74,9 +74,9 @@ pub const MIN_PRINCIPAL: Measure = Measure { name: "min_principal", sign: -1.0, 
 pub const VON_MISES: Measure = Measure { name: "von_mises", sign: 1.0, peak: |f| &f.von_mises };
 
 impl Measure {
-    /// The worst of some fillets.
+    /// The worst of some fillets: of which both recoveries see most.
     fn worst<'a>(&self, fillets: impl Iterator<Item = &'a FilletStress>) -> Option<&'a FilletStress> {
-        let value = |f: &FilletStress| self.sign * (self.peak)(f).stress;
+        let value = |f: &FilletStress| self.sign * (self.peak)(f).seen();
         fillets.reduce(|best, f| if value(f) > value(best) { f } else { best })
     }
 

@@ -28,3 +28,4 @@ mod scale_at_rest;
 mod scale_in_motion;
 mod scaled;
 mod solved;
+mod sound_meshes;

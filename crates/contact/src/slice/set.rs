@@ -9,6 +9,7 @@ use reduction::{ElasticGear, LayerStack, LocalCompliance, Window};
 
 use crate::{
     Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, Pose,
+    compliance::Keeper,
     flank::FlankPatch,
     nodal::{ContactRow, Support},
     opening,
@@ -97,6 +98,7 @@ impl SliceSet {
     pub(crate) fn with_tables(
         mut self,
         flanks: [TableFlanks<'_>; 2],
+        gears: &[ElasticGear; 2],
         windows: Option<&[Window; 2]>,
         options: &ContactOptions,
     ) -> Result<Self, ContactError> {
@@ -115,7 +117,11 @@ impl SliceSet {
                 match flanks[i] {
                     TableFlanks::Whole { patches, alike } => {
                         let bulk = bulk(patches);
-                        let whole = BulkTable::new(&bulk, tolerance);
+                        let keeper = match &gears[i] {
+                            ElasticGear::Reduced(gear) => Some(Keeper { gear, window: &windows[i] }),
+                            ElasticGear::Full(_) => None,
+                        };
+                        let whole = BulkTable::new(&bulk, tolerance, keeper);
                         Ok(whole.or_else(|| alike.then(|| BulkTable::of_teeth_alike(&bulk, tolerance)).flatten()))
                     }
                     TableFlanks::Layers { condensed, stack, whole } => {

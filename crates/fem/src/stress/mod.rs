@@ -224,17 +224,22 @@ impl StressOperator {
         self.rows.len()
     }
 
-    /// Degrees of freedom that the stress depends on, ascending, and the same map of these alone.
-    pub fn on_support(&self) -> (Vec<usize>, Self) {
-        let mut free: Vec<usize> = self.rows.iter().flatten().map(|(position, _)| *position).collect();
-        free.sort_unstable();
-        free.dedup();
-        let mut rows = self.rows.clone();
-        for (position, _) in rows.iter_mut().flatten() {
-            *position = free.partition_point(|p| p < position);
+    /// Free nodes (by their place among these, ascending) on whose displacement the stress of any of some maps depends.
+    pub fn moved<'a>(operators: impl Iterator<Item = &'a Self>) -> Vec<usize> {
+        let mut moved: Vec<usize> = operators.flat_map(|o| &o.rows).flatten().map(|(position, _)| *position).collect();
+        moved.sort_unstable();
+        moved.dedup();
+        moved
+    }
+
+    /// The same map of the displacement of some free nodes alone, all that it depends on among them (ascending).
+    #[must_use]
+    pub fn of(mut self, moved: &[usize]) -> Self {
+        for (position, _) in self.rows.iter_mut().flatten() {
+            *position = moved.partition_point(|p| p < position);
         }
-        let free_count = 3 * free.len();
-        (free.into_iter().flat_map(|p| 3 * p..3 * p + 3).collect(), Self { rows, free_count })
+        self.free_count = 3 * moved.len();
+        self
     }
 
     /// Rows of the nodes in `range` as columns, n x 6 nodes, MPa/mm: (S')_i, what the adjoint way starts from.

@@ -96,26 +96,36 @@ impl Fillet {
         self.places.iter().map(|&at| value(at)).reduce(|best, v| if sign * v > sign * best { v } else { best })
     }
 
-    /// Place and value of the largest peak of `sign` times a measure; of the largest value below the
-    /// [`FALLBACK_TANGENT`] where there is no peak but in the lowest row, of the largest at all where no row but the
-    /// lowest is below it.
+    /// The most of `sign` times a measure at a place and at those that share a face with it, as a value of the measure.
+    pub fn beside(&self, at: usize, value: impl Fn(usize) -> f64, sign: f64) -> f64 {
+        let near = self.places.binary_search(&at).ok().into_iter().flat_map(|i| self.neighbours[i].iter().copied());
+        near.map(&value).fold(value(at), |best, v| if sign * v > sign * best { v } else { best })
+    }
+
+    /// Place of the peak of `sign` times a measure, by two recoveries of it: the peak of the first one that both see most
+    /// of; of places below the [`FALLBACK_TANGENT`] and the uppermost row where there is no peak but in the lowest row,
+    /// of all places where no row but the lowest is left.
     ///
     /// A peak is a node whose value no neighbour exceeds and that is not in the uppermost row: what rises up to there
-    /// is the stress of contact beside it, which has no limit as the mesh is refined.
-    pub fn peak(&self, value: impl Fn(usize) -> f64, sign: f64) -> Option<(usize, f64)> {
+    /// is the stress of contact beside it, which has no limit as the mesh is refined. Both recoveries see the bending of
+    /// a tooth alike; beside a force at its corner, within an element, the first one sees up to twice as much.
+    pub fn peak(&self, first: impl Fn(usize) -> f64, second: impl Fn(usize) -> f64, sign: f64) -> Option<usize> {
+        let seen = |at: usize| (sign * first(at)).min(sign * self.beside(at, &second, sign));
         let largest = |counts: &dyn Fn(usize) -> bool| {
-            let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], value(self.places[i])));
+            let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], seen(self.places[i])));
             // The first of equals, so that nothing depends on how the nodes are gone through.
-            values.reduce(|best, v| if sign * v.1 > sign * best.1 { v } else { best })
+            values.reduce(|best, v| if v.1 > best.1 { v } else { best }).map(|best| best.0)
         };
         let peak = |i: usize| {
-            let own = sign * value(self.places[i]);
-            !self.uppermost[i] && self.neighbours[i].iter().all(|&other| sign * value(other) <= own)
+            let own = sign * first(self.places[i]);
+            !self.uppermost[i] && self.neighbours[i].iter().all(|&other| sign * first(other) <= own)
         };
         // A peak of the lowest row alone may be one along the face only, its top in rows that the mesh does not have.
-        let inside = |&(at, _): &(usize, f64)| self.places.binary_search(&at).is_ok_and(|i| !self.lowest[i]);
-        let rows = (0..self.places.len()).any(|i| self.below[i] && !self.lowest[i]);
-        let below = || rows.then(|| largest(&|i| self.below[i])).flatten();
+        let inside = |at: &usize| self.places.binary_search(at).is_ok_and(|i| !self.lowest[i]);
+        // Where the first row is below that tangent already, it has the stress of contact all the same.
+        let free = |i: usize| self.below[i] && !self.uppermost[i];
+        let rows = (0..self.places.len()).any(|i| free(i) && !self.lowest[i]);
+        let below = || rows.then(|| largest(&free)).flatten();
         largest(&peak).filter(inside).or_else(below).or_else(|| largest(&|_| true))
     }
 }

@@ -42,7 +42,7 @@ fn tension(pair: &Loaded, counts: Counts, positions: usize) -> [StressPeak; 2] {
     let positions = case.reduced(options).run(positions, 1, |_, _, _| ()).unwrap().positions;
     [0, 1].map(|gear| {
         let peaks = positions.iter().flat_map(|p| p.root_stress[gear].iter().map(|f| f.max_principal));
-        peaks.reduce(|best, now| if now.stress > best.stress { now } else { best }).unwrap()
+        peaks.reduce(|best, now| if now.seen() > best.seen() { now } else { best }).unwrap()
     })
 }
 
@@ -104,6 +104,34 @@ fn default_sections_are_settled() {
             assert!(off.abs() < 3.0, "{name}: {off} % off, {said} % said");
         }
     }
+}
+
+/// A tooth touched at its corner as it goes: the largest root stress of pinion and wheel is that of the bending of a
+/// tooth, which finer meshes have, too, and its estimate says so. With nine elements along the fillet and 14 along the
+/// face, 32 positions: 64.33 and 59.55 MPa.
+#[test]
+fn a_corner_that_is_touched_makes_no_root_stress() {
+    let pair = helical_23_57();
+    let [p, f, t, _, r] = default_counts();
+    let found = tension(&pair, [p, f, t, layers(&pair), r], 8);
+    for (peak, settled) in found.into_iter().zip([64.33, 59.55]) {
+        let StressPeak { stress, radius, z, .. } = peak;
+        let said = 100.0 * peak.relative_error();
+        println!("{stress:.2} of {settled} MPa at r {radius:.2}, z {z:.2}, said {said:.1} %");
+        assert!((stress / settled - 1.0).abs() < 0.03, "{stress} MPa, {settled} on a finer mesh");
+        assert!(said < 3.0, "said {said} %");
+        assert!(z.abs() < 9.0, "at the end face: {z} mm");
+    }
+}
+
+/// The pair of 23 and 57 teeth, m_n 3 mm, b 20 mm, beta 20 deg, bores by default, 150 N m on the wheel.
+fn helical_23_57() -> Loaded {
+    let gears = [(23u32, 1.0), (57, -1.0)].map(|(teeth, hand)| {
+        let helix = hand * 20.0f64.to_radians();
+        let bore_diameter = 0.55 * 3.0 * f64::from(teeth) / helix.cos();
+        GearData { teeth, helix_angle: helix, face_width: 20.0, bore_diameter, ..GearData::default() }
+    });
+    Loaded { gears, torque: 150e3 }
 }
 
 /// Halved elements, a quarter of the error or less: 3, 6, 12 elements along the fillet against 24.

@@ -90,7 +90,7 @@ impl Chain {
         Ok(Self { links, stiffness })
     }
 
-    /// Displacements of the cuts `wanted` (0 the first, n the last; ascending) for those of the ends, 2c x k.
+    /// Displacements of the cuts `wanted` (0 the first, n the last) for those of the ends, 2c x k.
     pub(super) fn cuts(&self, ends: MatRef<'_, f64>, wanted: &[usize]) -> BTreeMap<usize, Mat<f64>> {
         let c = self.stiffness.nrows() / 2;
         let mut found = BTreeMap::new();

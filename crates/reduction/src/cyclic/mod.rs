@@ -196,25 +196,31 @@ impl CyclicGear {
     /// Displacements of both cuts (2c x k, mm) of the sectors so many (below z) on from one whose loads take `forces`
     /// (3m x k, N), each in its own frame.
     fn ends_about(&self, forces: MatRef<'_, f64>, offsets: impl Iterator<Item = u32>) -> BTreeMap<u32, Mat<f64>> {
-        let c = self.sector.cut;
-        let mut own = dense::product(self.sector.transfer.as_ref(), forces);
-        dense::solve_lower(self.ring.as_ref(), own.as_mut());
-        dense::solve_lower_transposed(self.ring.as_ref(), own.as_mut());
+        let z = self.part.teeth;
         let mut offsets: Vec<u32> = offsets.collect();
         offsets.sort_unstable();
         offsets.dedup();
+        let mut distances: Vec<u32> = offsets.iter().flat_map(|&d| [d, (d + 1) % z]).collect();
+        distances.sort_unstable();
+        distances.dedup();
+        let cuts = self.cuts_about(forces, &distances);
+        let at = |distance: u32| cuts[distances.partition_point(|&d| d < distance)].as_ref();
+        offsets.into_iter().map(|d| (d, stacked(at(d), at((d + 1) % z)))).collect()
+    }
+
+    /// Displacements of the cuts (c x k, mm) at some `distances` (below z, in sectors) from the left one of a sector
+    /// whose loads take `forces` (3m x k, N), each in the frame of the sector on its counter-clockwise side.
+    fn cuts_about(&self, forces: MatRef<'_, f64>, distances: &[u32]) -> Vec<Mat<f64>> {
+        let (c, z) = (self.sector.cut, self.part.teeth);
+        let mut own = dense::product(self.sector.transfer.as_ref(), forces);
+        dense::solve_lower(self.ring.as_ref(), own.as_mut());
+        dense::solve_lower_transposed(self.ring.as_ref(), own.as_mut());
+        let (left, right) = own.as_ref().split_at_row(c);
         // Cut i of the chain is cut i + 1 of the gear; its last one is the sector's left one.
-        let cuts: Vec<usize> = offsets.iter().filter(|&&d| d > 0).flat_map(|&d| [d as usize - 1, d as usize]).collect();
-        let inner = match cuts.is_empty() {
-            true => BTreeMap::new(),
-            false => self.chain.cuts(stacked(own.get(c.., ..), own.get(..c, ..)).as_ref(), &cuts),
-        };
-        let at = |cut: usize| inner.get(&cut).map_or(own.get(..c, ..), |found| found.as_ref());
-        let ends = |d: u32| match d {
-            0 => own.clone(),
-            d => stacked(at(d as usize - 1), at(d as usize)),
-        };
-        offsets.into_iter().map(|d| (d, ends(d))).collect()
+        let in_chain = |&d: &u32| ((d + z - 1) % z) as usize;
+        let wanted: Vec<usize> = distances.iter().map(in_chain).collect();
+        let mut found = self.chain.cuts(stacked(right, left).as_ref(), &wanted);
+        wanted.iter().map(|cut| found.remove(cut).unwrap_or_else(|| left.to_owned())).collect()
     }
 
     /// The copies with loads.

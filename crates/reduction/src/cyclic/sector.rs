@@ -1,7 +1,7 @@
 //! One sector, condensed to its cuts and its loads.
 
 use faer::{Mat, MatMut, MatRef};
-use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
+use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, Wanted, dense, unless_unwanted};
 use mesh::Mesh;
 
 use super::{SectorMesh, chain::stacked};
@@ -68,7 +68,7 @@ impl Sector {
         let cut = 3 * free.len();
         let factor = {
             let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
-            BoundaryLastFactor::new_while(&stiffness, &boundary, wanted)?
+            BoundaryLastFactor::in_place_of(stiffness, &boundary, wanted)?
         };
         let spread = if keep { Vec::new() } else { loads.to_vec() };
         let (sin, cos) = (part.way * (std::f64::consts::TAU / f64::from(part.teeth))).sin_cos();
@@ -226,27 +226,30 @@ impl Sector {
         &self.mesh
     }
 
-    /// Stress at the nodes of `operator` (q of them) for unit loads (6q x 3m, MPa/N) and unit displacements of the cuts
-    /// (6q x 2c, MPa/mm); components in the sector's frame.
-    pub(super) fn stress(&self, operator: &StressOperator) -> Result<[Mat<f64>; 2], ReductionError> {
-        let nodes = operator.node_count();
+    /// Rows of the displacement of all free freedoms for unit loads (3m columns, mm/N) and unit displacements of the cuts
+    /// (2c columns), in the sector's frame.
+    pub(super) fn rows_of_field(&self, rows: &[usize]) -> Result<[Mat<f64>; 2], ReductionError> {
         let (m, ends) = (self.loads(), 2 * self.cut);
-        let (mut by_load, mut by_cut) = (Mat::zeros(6 * nodes, m), Mat::zeros(6 * nodes, ends));
-        for start in (0..nodes).step_by(COLUMNS / 6) {
-            let end = nodes.min(start + COLUMNS / 6);
-            let answer = self.adjoint(operator.transposed(start..end)?.as_ref())?;
-            let (own, cuts) = answer.as_ref().split_at_row(m);
-            let (rows, count) = (6 * start, 6 * (end - start));
-            if self.kept == 0 {
-                by_load.as_mut().subrows_mut(rows, count).copy_from(own.transpose());
-                by_cut.as_mut().subrows_mut(rows, count).copy_from(cuts.transpose());
-                continue;
-            }
-            by_load.as_mut().subrows_mut(rows, count).copy_from(dense::product(own.transpose(), self.own.as_ref()));
-            let through = dense::product(own.transpose(), self.transfer.transpose());
-            by_cut.as_mut().subrows_mut(rows, count).copy_from(through + cuts.transpose());
+        let mut field = Mat::<f64>::zeros(rows.len(), m + ends);
+        for start in (0..m + ends).step_by(COLUMNS) {
+            let width = (m + ends - start).min(COLUMNS);
+            let mut unit = unit_columns(m + ends, start, width);
+            let block = if self.kept > 0 {
+                self.own_frame(unit.as_mut());
+                self.factor.expand_rows(unit.as_ref(), rows)?
+            } else {
+                let all = self.field(unit.as_ref())?;
+                Mat::from_fn(rows.len(), width, |i, j| all[(rows[i], j)])
+            };
+            field.as_mut().subcols_mut(start, width).copy_from(block);
         }
-        Ok([by_load, by_cut])
+        let (by_first, by_cut) = field.as_ref().split_at_col(m);
+        if self.kept == 0 {
+            return Ok([by_first.to_owned(), by_cut.to_owned()]);
+        }
+        // By displacements of the kept nodes so far: loads and cuts move them by A f + H' u_c.
+        let through = dense::product(by_first, self.transfer.transpose());
+        Ok([dense::product(by_first, self.own.as_ref()), through + by_cut])
     }
 
     /// Mass (t) on the basis: the field's mass by congruence, column block by column block.

@@ -1,107 +1,156 @@
 //! Stress at nodes of a cyclic gear, known by what one sector's loads do to the sectors about it.
 
-use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use faer::Mat;
+use faer::{Mat, MatRef};
 use fem::{StressOperator, dense};
 use mesh::Face;
 
-use super::CyclicGear;
+use super::{CyclicGear, recovery::Share};
 use crate::{ReductionError, stress_recovery::StressRecovery};
 
 /// Stress at some nodes under forces on the coordinates, in the frame of copy 0.
 ///
 /// ```text
-/// sigma = sum over copies, turned:  share S_d R' f,   S_d = Q' [X delta_d0 + T u_c(d)]
+/// sigma = sum over copies, turned:  share D B u,   u = X f + T u_c
 /// ```
-/// A window of w teeth has w (w + 2) blocks of stress by force; of their distances d only 2 w + 1 differ, and S_d is
-/// stored once each, in the sector's own frame.
+/// Nothing is stored window by window: u is the displacement of one sector about the nodes ([`NearField`]).
 #[derive(Debug, Clone)]
 pub(crate) struct SectorStress {
-    /// S_d, 6 rows a node of the sector, a column a load of it, MPa/N, by sectors behind the stress.
-    local: BTreeMap<u32, Mat<f64>>,
+    field: Arc<NearField>,
+    /// D B of the sector's nodes, 6 rows each, by the freedoms of the field.
+    operator: StressOperator,
+    /// Copy, first row of D B, and share in the mean of each node.
+    shares: Vec<Vec<(usize, usize, f64)>>,
+}
+
+/// Displacement of some freedoms of a sector in some copies, each in its own frame.
+///
+/// ```text
+/// u(j) = X f(j) + T [v(j); v(j + 1)],   v(j) = sum over loaded copies i:  V(j - i) f(i)
+/// ```
+/// | name | shape  | unit | meaning                                                                             |
+/// |------|--------|------|-------------------------------------------------------------------------------------|
+/// | f(i) | 3m     | N    | forces on the loads of copy i                                                       |
+/// | v(j) | c      | mm   | cut between copies j - 1 and j                                                       |
+/// | V(d) | c x 3m | mm/N | cut so many sectors behind the left cut of the loaded one: 2 w + 2 for a window of w |
+/// | X    | s x 3m | mm/N | freedoms asked for, by loads, cuts held                                             |
+/// | T    | s x 2c | 1    | the same by cuts                                                                    |
+#[derive(Debug)]
+struct NearField {
+    by_load: Mat<f64>,
+    by_cut: Mat<f64>,
+    /// V, one below the other.
+    cuts: Mat<f64>,
     /// Loaded copies: turn of their frame.
     loaded: Vec<[[f64; 3]; 3]>,
     /// Loaded copy and load of each coordinate node.
     coordinates: Vec<(usize, usize)>,
-    /// Copies with nodes: turn of a tensor, and distance from each loaded copy.
-    copies: Vec<([[f64; 6]; 6], Vec<u32>)>,
-    /// Copy, first row of S_d, and share in the mean of each node.
-    shares: Vec<Vec<(usize, usize, f64)>>,
+    copies: Vec<FieldCopy>,
+}
+
+/// A copy in which displacements are asked for.
+#[derive(Debug)]
+struct FieldCopy {
+    /// Which of the loaded ones it is.
+    loaded: Option<usize>,
+    /// Turn of a tensor into the frame of copy 0.
+    turn: [[f64; 6]; 6],
+    /// For each loaded copy the place among V of left and right cut.
+    cuts: Vec<[usize; 2]>,
+}
+
+impl NearField {
+    /// u of every copy, one after the other, s x (copies k), for forces on the coordinates (N, n x k).
+    fn under(&self, forces: MatRef<'_, f64>) -> Mat<f64> {
+        let (k, loads, c) = (forces.ncols(), self.by_load.ncols(), self.by_cut.ncols() / 2);
+        let mut own = Mat::<f64>::zeros(loads, k * self.loaded.len());
+        for (i, &(from, load)) in self.coordinates.iter().enumerate() {
+            for (j, b) in (0..k).flat_map(|j| (0..3).map(move |b| (j, b))) {
+                own[(3 * load + b, k * from + j)] +=
+                    (0..3).map(|a| self.loaded[from][a][b] * forces[(3 * i + a, j)]).sum::<f64>();
+            }
+        }
+        let moved = dense::product(self.cuts.as_ref(), own.as_ref());
+        let mut ends = Mat::<f64>::zeros(2 * c, k * self.copies.len());
+        let mut loaded = Mat::<f64>::zeros(loads, k * self.copies.len());
+        for (to, copy) in self.copies.iter().enumerate() {
+            for (from, cuts) in copy.cuts.iter().enumerate() {
+                for (end, cut) in cuts.iter().enumerate() {
+                    let mut sum = ends.as_mut().submatrix_mut(end * c, k * to, c, k);
+                    sum += moved.submatrix(cut * c, k * from, c, k);
+                }
+            }
+            if let Some(from) = copy.loaded {
+                loaded.as_mut().subcols_mut(k * to, k).copy_from(own.subcols(k * from, k));
+            }
+        }
+        dense::product(self.by_load.as_ref(), loaded.as_ref()) + dense::product(self.by_cut.as_ref(), ends.as_ref())
+    }
 }
 
 impl SectorStress {
-    /// Stress at each node under forces on the coordinates (N), MPa.
-    pub(crate) fn under(&self, forces: &[f64]) -> Vec<[f64; 6]> {
-        let rows = self.local.values().next().map_or(0, Mat::nrows);
-        let loads = self.local.values().next().map_or(0, Mat::ncols);
-        let mut own = vec![vec![0.0; loads]; self.loaded.len()];
-        for (&(from, load), force) in self.coordinates.iter().zip(forces.as_chunks::<3>().0) {
-            for (b, own) in own[from][3 * load..3 * load + 3].iter_mut().enumerate() {
-                *own += (0..3).map(|a| self.loaded[from][a][b] * force[a]).sum::<f64>();
-            }
-        }
-        let mut stress = vec![[0.0; 6]; self.shares.len()];
-        for (copy, (turn, distances)) in self.copies.iter().enumerate() {
-            let mut here = vec![0.0; rows];
-            for (own, distance) in own.iter().zip(distances) {
-                let Some(local) = self.local.get(distance) else { continue };
-                // Column by column, as the matrix lies in memory.
-                for (column, &force) in local.col_iter().zip(own).filter(|(_, force)| **force != 0.0) {
-                    here.iter_mut().zip(column.iter()).for_each(|(s, &mode)| *s += mode * force);
-                }
-            }
-            for (stress, shares) in stress.iter_mut().zip(&self.shares) {
-                for &(_, from, share) in shares.iter().filter(|s| s.0 == copy) {
-                    for (s, row) in stress.iter_mut().zip(turn) {
-                        *s += share * row.iter().zip(&here[from..from + 6]).map(|(t, s)| t * s).sum::<f64>();
+    /// Stress under forces on the coordinates (N, n x k), MPa: 6 rows a node.
+    pub(crate) fn under(&self, forces: MatRef<'_, f64>) -> Result<Mat<f64>, ReductionError> {
+        let k = forces.ncols();
+        let own = self.operator.apply(self.field.under(forces).as_ref())?;
+        let mut stress = Mat::<f64>::zeros(6 * self.shares.len(), k);
+        for (i, shares) in self.shares.iter().enumerate() {
+            for &(copy, from, share) in shares {
+                for (a, row) in self.field.copies[copy].turn.iter().enumerate() {
+                    for j in 0..k {
+                        let turned: f64 = row.iter().enumerate().map(|(b, t)| t * own[(from + b, k * copy + j)]).sum();
+                        stress[(6 * i + a, j)] += share * turned;
                     }
                 }
             }
         }
-        stress
+        Ok(stress)
     }
 
     /// Stress for unit forces on the coordinates, MPa/N: 6 rows a node.
-    pub(crate) fn matrix(&self) -> Mat<f64> {
-        let mut stress = Mat::<f64>::zeros(6 * self.shares.len(), 3 * self.coordinates.len());
-        for (copy, (turn, distances)) in self.copies.iter().enumerate() {
-            let local = self.turned_loads(distances);
-            for (i, shares) in self.shares.iter().enumerate() {
-                for &(_, from, share) in shares.iter().filter(|s| s.0 == copy) {
-                    for k in 0..stress.ncols() {
-                        for (a, row) in turn.iter().enumerate() {
-                            let turned: f64 = row.iter().enumerate().map(|(b, t)| t * local[(from + b, k)]).sum();
-                            stress[(6 * i + a, k)] += share * turned;
-                        }
-                    }
-                }
-            }
-        }
-        stress
-    }
-
-    /// What unit forces on the coordinates do in a copy so far from the loaded ones, in its frame.
-    fn turned_loads(&self, distances: &[u32]) -> Mat<f64> {
-        let rows = self.local.values().next().map_or(0, Mat::nrows);
-        let mut of = Mat::zeros(rows, 3 * self.coordinates.len());
-        for (i, &(from, load)) in self.coordinates.iter().enumerate() {
-            let Some(own) = self.local.get(&distances[from]) else { continue };
-            for (a, turn) in self.loaded[from].iter().enumerate() {
-                for row in 0..rows {
-                    of[(row, 3 * i + a)] = (0..3).map(|b| own[(row, 3 * load + b)] * turn[b]).sum();
-                }
-            }
-        }
-        of
+    pub(crate) fn matrix(&self) -> Result<Mat<f64>, ReductionError> {
+        let n = 3 * self.field.coordinates.len();
+        self.under(Mat::<f64>::identity(n, n).as_ref())
     }
 }
 
+/// Nodes with a stress, as those of copies of the sector.
+struct Recovered {
+    operator: StressOperator,
+    /// Ascending; 6 rows each.
+    own: Vec<u32>,
+    parts: Vec<Vec<Share>>,
+}
+
 impl CyclicGear {
-    /// Stress at nodes of the larger mesh by forces on the coordinates, in the frame of copy 0.
+    /// Stress at nodes of the larger mesh by forces on the coordinates, in the frame of copy 0, by some recoveries, which
+    /// share what they know of the displacement.
     ///
     /// On a cut the mean is over the elements (faces) on both of its sides.
-    pub(crate) fn stress(&self, nodes: &[u32], recovery: StressRecovery) -> Result<SectorStress, ReductionError> {
+    pub(crate) fn stress<const N: usize>(
+        &self,
+        nodes: &[u32],
+        recoveries: [StressRecovery<'_>; N],
+    ) -> [Result<SectorStress, ReductionError>; N] {
+        let recovered = recoveries.map(|recovery| self.recovered(nodes, recovery));
+        let known = || recovered.iter().flatten();
+        let mut copies: Vec<u32> = known().flat_map(|r| &r.parts).flatten().map(|p| p.0).collect();
+        copies.sort_unstable();
+        copies.dedup();
+        let moved = StressOperator::moved(known().map(|r| &r.operator));
+        let field = self.near_field(&moved, &copies).map(Arc::new);
+        recovered.map(|recovered| {
+            let Recovered { operator, own, parts } = recovered?;
+            let place = |&(copy, node, share): &Share| {
+                (copies.partition_point(|&c| c < copy), 6 * own.partition_point(|&known| known < node), share)
+            };
+            let shares = parts.iter().map(|part| part.iter().map(place).collect()).collect();
+            Ok(SectorStress { field: field.clone()?, operator: operator.of(&moved), shares })
+        })
+    }
+
+    fn recovered(&self, nodes: &[u32], recovery: StressRecovery<'_>) -> Result<Recovered, ReductionError> {
         let faces = match recovery {
             StressRecovery::Volume => None,
             StressRecovery::Surface(faces) => Some(faces.iter().map(|faces| self.own_faces(faces)).collect::<Vec<_>>()),
@@ -116,37 +165,47 @@ impl CyclicGear {
         };
         let parts = self.shares(nodes, &touching)?;
         let mut own: Vec<u32> = parts.iter().flatten().map(|p| p.1).collect();
-        let mut copies: Vec<u32> = parts.iter().flatten().map(|p| p.0).collect();
-        for list in [&mut own, &mut copies] {
-            list.sort_unstable();
-            list.dedup();
-        }
+        own.sort_unstable();
+        own.dedup();
         let (mesh, dofs) = (self.sector.mesh(), &self.sector.dofs);
         let operator = match &faces {
             None => StressOperator::new(mesh, &self.material, &self.elements, dofs, &own)?,
             Some(faces) => StressOperator::on_surface(mesh, &self.material, dofs, faces, &own)?,
         };
-        let [by_load, by_cut] = self.sector.stress(&operator)?;
-        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
-        let offsets = copies.iter().flat_map(|&to| self.loaded().map(move |from| self.apart(from, to)));
-        let ends = self.ends_about(unit.as_ref(), offsets);
-        // Of a sector by loads so many sectors behind it, all in their own frames.
-        let of = |(d, ends): (u32, Mat<f64>)| {
-            let through = dense::product(by_cut.as_ref(), ends.as_ref());
-            (d, if d == 0 { through + &by_load } else { through })
-        };
-        let local = ends.into_iter().map(of).collect();
-        let place = |&(copy, node, share): &(u32, u32, f64)| {
-            (copies.partition_point(|&c| c < copy), 6 * own.partition_point(|&known| known < node), share)
-        };
-        let shares = parts.iter().map(|part| part.iter().map(place).collect()).collect();
+        Ok(Recovered { operator, own, parts })
+    }
+
+    /// Displacement of free nodes of the sector, by their place among these, in some copies.
+    fn near_field(&self, moved: &[usize], copies: &[u32]) -> Result<NearField, ReductionError> {
+        let z = self.part.teeth;
         let loaded: Vec<u32> = self.loaded().collect();
-        let at = |&(copy, load): &(u32, usize)| (loaded.iter().position(|&l| l == copy).unwrap_or(0), load);
-        let coordinates = self.coordinates.iter().map(at).collect();
-        let distances = |&to: &u32| loaded.iter().map(|&from| self.apart(from, to)).collect();
-        let copies = copies.iter().map(|to| (tensor_turn(self.angle(*to)), distances(to))).collect();
-        let loaded = loaded.iter().map(|&from| self.turn(from)).collect();
-        Ok(SectorStress { local, loaded, coordinates, copies, shares })
+        // Cuts by distance: the right cut of a sector is the left one of the next.
+        let apart = |&to: &u32| loaded.iter().map(move |&from| [0, 1].map(|end| (self.apart(from, to) + end) % z));
+        let mut distances: Vec<u32> = copies.iter().flat_map(apart).flatten().collect();
+        distances.sort_unstable();
+        distances.dedup();
+        let unit = Mat::<f64>::identity(self.sector.loads(), self.sector.loads());
+        let mut cuts = Mat::zeros(distances.len() * self.sector.cut, unit.ncols());
+        for (i, cut) in self.cuts_about(unit.as_ref(), &distances).iter().enumerate() {
+            cuts.as_mut().subrows_mut(i * self.sector.cut, self.sector.cut).copy_from(cut);
+        }
+        let at = |distance: u32| distances.partition_point(|&d| d < distance);
+        let copy = |to: &u32| FieldCopy {
+            loaded: loaded.iter().position(|from| from == to),
+            turn: tensor_turn(self.angle(*to)),
+            cuts: apart(to).map(|ends| ends.map(at)).collect(),
+        };
+        let of = |&(copy, load): &(u32, usize)| (loaded.iter().position(|&l| l == copy).unwrap_or(0), load);
+        let rows: Vec<usize> = moved.iter().flat_map(|&place| 3 * place..3 * place + 3).collect();
+        let [by_load, by_cut] = self.sector.rows_of_field(&rows)?;
+        Ok(NearField {
+            by_load,
+            by_cut,
+            cuts,
+            loaded: loaded.iter().map(|&from| self.turn(from)).collect(),
+            coordinates: self.coordinates.iter().map(of).collect(),
+            copies: copies.iter().map(copy).collect(),
+        })
     }
 }
 

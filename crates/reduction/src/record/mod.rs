@@ -10,14 +10,14 @@ use std::sync::Arc;
 
 use geometry::Side;
 
-use crate::{LocalCompliance, ReducedGear, reducer::Summary};
+use crate::{KeptTable, LocalCompliance, ReducedGear, TableKey, reducer::Summary};
 
 pub use error::RecordError;
 pub use key::{RecordKey, record_key};
 
 /// Version of the file format, of what the numbers in it mean and of the code that makes them; another one is never read,
 /// and it is in every key. A test (`a_record_of_another_code_has_another_version`) notices when it must be raised.
-pub const RECORD_VERSION: u32 = 4;
+pub const RECORD_VERSION: u32 = 5;
 
 /// First bytes of a file.
 const MAGIC: [u8; 16] = *b"ale-gear reduced";
@@ -26,7 +26,7 @@ const COLUMNS: [u8; 16] = *b"ale-gear columns";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
-/// What contact takes of a reduced gear: matrices of its first window, half teeth; and its lowest elastic frequency. Not the
+/// What contact takes of a reduced gear: matrices of its first window, half teeth, tables made of them; and its lowest elastic frequency. Not the
 /// factor, which a reducer from a record makes again when displacement fields or stress modes are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
@@ -38,7 +38,7 @@ const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 /// | 32 | [`RecordKey`]: BLAKE3 of everything that the numbers depend on |
 /// | 8 | length of the payload |
 /// | 32 | BLAKE3 of all bytes above and the payload |
-/// | .. | payload: how it was condensed; lowest frequency; first window; half teeth |
+/// | .. | payload: how it was condensed; lowest frequency; first window; half teeth; tables |
 #[derive(Debug, Clone)]
 pub struct ReductionRecord {
     /// How it was condensed.
@@ -49,4 +49,13 @@ pub struct ReductionRecord {
     pub(crate) window: Arc<ReducedGear>,
     /// Half teeth by tooth and side.
     pub(crate) halves: Vec<((u32, Side), Arc<LocalCompliance>)>,
+    /// Tables that contact made of the first window.
+    pub(crate) tables: Vec<(TableKey, KeptTable)>,
+}
+
+impl ReductionRecord {
+    /// Tables that contact made of the gear, by key.
+    pub fn tables(&self) -> &[(TableKey, KeptTable)] {
+        &self.tables
+    }
 }

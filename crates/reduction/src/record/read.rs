@@ -6,7 +6,7 @@ use faer::Mat;
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord, write::checksum};
-use crate::{LayerProfile, LocalCompliance, ReducedGear, ReductionWay, reducer::Summary};
+use crate::{KeptTable, LayerProfile, LocalCompliance, ReducedGear, ReductionWay, TableKey, reducer::Summary};
 
 impl ReductionRecord {
     /// The record in the bytes of a file, if it is that of `key`.
@@ -125,7 +125,14 @@ impl<'a> Cursor<'a> {
             let side = self.side()?;
             halves.push(((tooth, side), Arc::new(self.half()?)));
         }
-        Ok(ReductionRecord { summary, lowest_hz, window, halves })
+        let mut tables = Vec::new();
+        for _ in 0..self.count()? {
+            let key = TableKey(part(self.take(32)?, 0));
+            let error = self.values(1)?[0];
+            let count = self.count()?;
+            tables.push((key, KeptTable { error, values: Arc::new(self.values(count)?) }));
+        }
+        Ok(ReductionRecord { summary, lowest_hz, window, halves, tables })
     }
 
     fn window(&mut self) -> Result<ReducedGear, RecordError> {

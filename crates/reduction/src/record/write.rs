@@ -4,7 +4,7 @@ use faer::Mat;
 use geometry::Side;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordKey, ReductionRecord};
-use crate::{ReductionWay, reducer::Summary};
+use crate::{KeptTable, ReductionWay, reducer::Summary};
 
 impl ReductionRecord {
     /// The content of a file; the same record gives the same bytes.
@@ -16,7 +16,8 @@ impl ReductionRecord {
     fn size(&self) -> usize {
         let window = 8 * self.window.coordinates().pow(2) + 8 * self.window.nodes.len();
         let halves = self.halves.iter().map(|(_, h)| 8 * h.compliance.ncols().pow(2) + 4096);
-        window + halves.sum::<usize>() + 4096
+        let tables = self.tables.iter().map(|(_, table)| 8 * table.values.len() + 64);
+        window + halves.sum::<usize>() + tables.sum::<usize>() + 4096
     }
 
     fn payload(&self, bytes: &mut Vec<u8>) {
@@ -44,6 +45,13 @@ impl ReductionRecord {
                 list.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
             }
             values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+        }
+        put(bytes, self.tables.len());
+        for (key, KeptTable { error, values }) in &self.tables {
+            bytes.extend(key.0);
+            bytes.extend(error.to_le_bytes());
+            put(bytes, values.len());
+            bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
         }
     }
 }

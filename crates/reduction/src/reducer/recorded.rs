@@ -10,7 +10,12 @@ use super::{
     asked::Asked,
     condense::{Condensed, sectors},
 };
-use crate::{ReductionError, ReductionRecord, load::Coordinates};
+use crate::{KeptTable, ReductionError, ReductionRecord, TableKey, load::Coordinates};
+
+/// Tables that are kept of a gear: a plan of cases may ask for any number.
+const MOST_TABLES: usize = 2;
+/// Values of a table that is kept: 32 MB.
+const MOST_VALUES: usize = 4 << 20;
 
 impl GearReducer {
     /// A gear from what was kept of it. Mesh, material and options must be those that the record was made of
@@ -24,7 +29,7 @@ impl GearReducer {
         options: ReductionOptions,
         record: ReductionRecord,
     ) -> Result<Self, ReductionError> {
-        let ReductionRecord { summary, lowest_hz, window: base, halves } = record;
+        let ReductionRecord { summary, lowest_hz, window: base, halves, tables } = record;
         let first = options.first % gear.tooth_count().max(1);
         let general = summary.way == ReductionWay::General;
         if base.teeth.first() != Some(&first) {
@@ -40,16 +45,31 @@ impl GearReducer {
             None => (gear, None),
         };
         let condensed = Condensed { gear, coordinates: Coordinates::FlankNodes, summary, base };
-        let asked = Asked::recorded(halves, lowest_hz);
+        let asked = Asked::recorded(halves, lowest_hz, tables);
         Ok(Self { given, asked, ..Self::assembled(material, options, condensed, OnceLock::new()) })
     }
 
-    /// What a later run needs of this gear: the first window, half teeth and lowest frequency that were asked for so far;
+    /// What a later run needs of this gear: the first window, half teeth, tables and lowest frequency that were asked for so
+    /// far;
     /// further windows are in a [`ColumnStore`](crate::ColumnStore).
     /// `None` when a record has it all already, and for a gear reduced to grids or by its layers.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);
         (self.coordinates.are_nodes() && self.stack().is_none()).then(record).flatten()
+    }
+
+    /// A table that was kept of a window of the gear.
+    pub fn kept_table(&self, key: &TableKey) -> Option<KeptTable> {
+        self.asked.tables().get(key).cloned()
+    }
+
+    /// Keeps a table of a window of the gear, which `key` names by all else that it depends on. Large ones, and more than
+    /// two, are not kept.
+    pub fn keep_table(&self, key: TableKey, table: &KeptTable) {
+        let mut tables = self.asked.tables();
+        if tables.len() < MOST_TABLES && table.values.len() <= MOST_VALUES {
+            tables.insert(key, table.clone());
+        }
     }
 
     /// Whether the gear came from a record.

@@ -9,7 +9,7 @@ use std::{
 };
 
 use analysis::{
-    GearCache, Kept, MAP_VERSION, MapKey,
+    GearCache, Kept, MAP_VERSION, MapKey, SOUND_VERSION, SoundKey,
     remark::{self, Remark},
 };
 use contact_map::ContactMap;
@@ -27,10 +27,13 @@ pub struct Cache {
 
 /// What the folder may hold, bytes; the files that were not used for the longest time go first.
 const LIMIT: u64 = 4_000_000_000;
-/// Suffixes of the files: of gears, of columns of their teeth, and of maps.
+/// Suffixes of the files: of gears, of columns of their teeth, of maps.
 const SUFFIX: &str = "reduced";
 const COLUMNS_SUFFIX: &str = "columns";
 const MAP_SUFFIX: &str = "map";
+/// Suffix of a file that says that a mesh is sound, and its first words.
+const SOUND_SUFFIX: &str = "sound";
+const SOUND_HEADING: &str = "ale-gear sound mesh";
 /// First word of a file of maps.
 const MAP_HEADING: &str = "ale-gear maps";
 
@@ -54,6 +57,10 @@ impl Cache {
     /// Where the record of a key is kept, there or not; `None` without a folder.
     pub fn file(&self, key: &RecordKey) -> Option<PathBuf> {
         Some(self.folder.as_ref()?.join(format!("{key}.{SUFFIX}")))
+    }
+
+    fn sound_file(&self, key: &SoundKey) -> Option<PathBuf> {
+        Some(self.folder.as_ref()?.join(format!("{key}.{SOUND_SUFFIX}")))
     }
 
     fn map_file(&self, key: &MapKey) -> Option<PathBuf> {
@@ -104,6 +111,24 @@ impl GearCache for Cache {
 
     fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
         self.folder.is_some().then(|| Arc::new(TeethOnDisk { cache: self.clone(), key: *key }) as Arc<dyn ColumnStore>)
+    }
+
+    fn is_sound(&self, key: &SoundKey) -> bool {
+        let Some(file) = self.sound_file(key) else { return false };
+        let text = sound_text(key);
+        // A file with anything else in it is as good as none.
+        let found = read_regular_file(&file, text.len() as u64).is_ok_and(|bytes| bytes == text.as_bytes());
+        if found {
+            touch(&file);
+        }
+        found
+    }
+
+    fn keep_sound(&self, key: &SoundKey) {
+        if let Some(file) = self.sound_file(key) {
+            // Where it cannot be written the mesh is checked again.
+            let _ = self.write(&file, sound_text(key).as_bytes());
+        }
     }
 
     fn load_maps(&self, key: &MapKey) -> (Option<Kept<MapKey, Vec<ContactMap>>>, Option<Remark>) {
@@ -164,6 +189,11 @@ impl ColumnStore for TeethOnDisk {
     }
 }
 
+/// What a file says of a sound mesh.
+fn sound_text(key: &SoundKey) -> String {
+    format!("{SOUND_HEADING} {SOUND_VERSION}\n{key}\n")
+}
+
 /// Maps as JSON, which keeps every digit, after three lines: what it is and of which version, the key, and BLAKE3 of the
 /// key and the JSON.
 fn map_bytes(key: &MapKey, maps: &[&ContactMap]) -> Result<Vec<u8>, serde_json::Error> {
@@ -207,7 +237,7 @@ fn is_record(path: &Path) -> bool {
     let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
     let (key, known) = match stem.split_once('-') {
         Some((key, tooth)) => (key, suffix == Some(COLUMNS_SUFFIX) && tooth.parse::<u32>().is_ok()),
-        None => (stem, suffix.is_some_and(|e| e == SUFFIX || e == MAP_SUFFIX)),
+        None => (stem, suffix.is_some_and(|e| [SUFFIX, MAP_SUFFIX, SOUND_SUFFIX].contains(&e))),
     };
     known && key.len() == 64 && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
 }

@@ -51,7 +51,7 @@ impl<'a> MotionInputs<'a> {
         let pair = run_phase(observer, "geometry", PhaseWork::Unknown, |_| scene.gear_pair())?;
         refuse(scene, &pair)?;
         plausible::remarks(scene, &pair).into_iter().for_each(|said| observer.note(said.to_string()));
-        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory))?;
+        let meshes = run_phase(observer, "mesh", PhaseWork::Unknown, |_| meshes_of(scene, &pair, in_memory, cache))?;
         Ok(Self { scene, motion, pair, meshes, cache })
     }
 

@@ -1,6 +1,7 @@
 //! Bulk compliance of a body as a table over its flanks: what is left of a mesh's compliance when its local dents are
 //! taken away. Theory (36).
 
+mod keep;
 mod layers;
 mod rows;
 
@@ -17,6 +18,8 @@ use crate::{
     opening,
 };
 
+pub(crate) use keep::Keeper;
+pub use keep::TABLE_VERSION;
 use layers::LayerEntries;
 
 pub use rows::TableWork;
@@ -253,25 +256,33 @@ pub(crate) fn parts(flank: &FlankPatch, at: [f64; 2], direction: &Vec3) -> [f64;
 
 impl BulkTable {
     /// The first table whose error is at most `tolerance`, relative to the largest self-compliance: on the faces of the
-    /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough.
-    pub(crate) fn new(bulk: &BulkCompliance<'_>, tolerance: f64) -> Option<Self> {
+    /// mesh, else on uniform grids that grow finer; `None` where none within reason is good enough. What `keeper` has is
+    /// not made again.
+    pub(crate) fn new(bulk: &BulkCompliance<'_>, tolerance: f64, keeper: Option<Keeper<'_>>) -> Option<Self> {
         let of_faces = bulk.patches.iter().map(FlankGridLines::of_faces).collect::<Option<Vec<_>>>();
         let uniform = |refinement| bulk.patches.iter().map(|p| FlankGridLines::uniform(p, refinement)).collect();
         let small = |lines: &Vec<FlankGridLines>| {
             DIRECTIONS * lines.iter().map(FlankGridLines::count).sum::<usize>() <= MOST_POINTS
         };
         let candidates = of_faces.into_iter().chain((0..REFINEMENTS).map(uniform));
-        candidates.filter(small).map(|lines| Self::on(bulk, lines)).find(|table| table.error <= tolerance)
+        candidates.filter(small).map(|lines| Self::on(bulk, lines, keeper)).find(|table| table.error <= tolerance)
     }
 
-    fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>) -> Self {
+    fn on(bulk: &BulkCompliance<'_>, lines: Vec<FlankGridLines>, keeper: Option<Keeper<'_>>) -> Self {
         let first = first_points(&lines);
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
+        let kept = keeper.map(|keeper| (keeper, keeper.key(&supports, bulk.patches)));
+        if let Some((error, table)) = kept.and_then(|(keeper, key)| keeper.table(&key, count)) {
+            return Self { lines, first, entries: Entries::Whole(table), error };
+        }
         let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
         pulp::Arch::new().dispatch(Filling { bulk, supports: &supports, table: &mut table });
         let mut made = Self { lines, first, entries: Entries::Whole(table), error: 0.0 };
         made.error = made.measured(bulk, bulk.patches.len());
+        if let (Some((keeper, key)), Entries::Whole(table)) = (kept, &made.entries) {
+            keeper.keep(key, made.error, table, count);
+        }
         made
     }
 
