@@ -102,7 +102,12 @@ impl DamagedFlank {
         };
         let grid = grids.first()?;
         let all: Vec<f64> = (0..grid.max_pressure().len()).map(|cell| miner_sum(curve, &cycles(cell))).collect();
-        let worst = (0..all.len()).reduce(|best, cell| if all[cell] > all[best] { cell } else { best })?;
+        // Where nothing is damaged the place that is pressed hardest comes nearest to it.
+        let hardest = |cell: usize| cycles(cell).iter().map(|(_, stress)| *stress).fold(0.0, f64::max);
+        let worst = match all.iter().any(|sum| *sum > 0.0) {
+            true => (0..all.len()).reduce(|best, cell| if all[cell] > all[best] { cell } else { best })?,
+            false => (0..all.len()).reduce(|best, cell| if hardest(cell) > hardest(best) { cell } else { best })?,
+        };
         let (rolls, stations) = (grid.rolls(), grid.stations());
         let at = FlankPlace {
             diameter_mm: diameter(base_radius, rolls[worst % rolls.len()]),

@@ -14,7 +14,11 @@ use scene::{DataFile, LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
 use crate::{
-    AnalysisError, error::place_in, loaded_pair::LoadedPair, results::PressurePlace, solved_load::SolvedLoad,
+    AnalysisError,
+    error::place_in,
+    loaded_pair::LoadedPair,
+    results::PressurePlace,
+    solved_load::{SolvedLoad, check_loads},
     solved_mesh::SolvedMesh,
 };
 
@@ -220,6 +224,7 @@ impl RatingHeadline {
 /// [`AnalysisError::Rating`], [`AnalysisError::Lumped`] where a standard has no value.
 pub(crate) fn check(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
     let Some(rating) = &scene.rating else { return Ok(()) };
+    check_loads(scene, pair)?;
     let spectrum = rating.spectrum.as_ref().map(|own| (own.values(), &[][..]));
     let found = rated((scene, rating), pair, rating.face_load_factor.unwrap_or(1.0), (None, spectrum));
     found.map(|_| ()).map_err(|e| e.of_part("[rating]").at(place_in(scene, &["rating.life_h"])))
@@ -306,7 +311,7 @@ fn rated(
         LoadBin { face_load_factor, stiffness: stiffness(torque).ok(), ..*bin }
     };
     let of_loads = |(own, loads): SolvedSpectrum<'_>| {
-        RatedSpectrum::new(&input, &own.with_loads(|bin| at_load(bin, loads)), nominal)
+        RatedSpectrum::new(&input, &own.without_light(nominal[0]).with_loads(|bin| at_load(bin, loads)), nominal)
     };
     let spectrum = spectrum.map(of_loads).transpose()?;
     let standard = standard_rating(&input)?;

@@ -93,9 +93,9 @@ answer::remarks! {
     // Standards.
     rating_outside(quantity, value, clause, range)
         "the rating is outside of its standard: {quantity} is {value:.3}, {clause} covers {range}", "";
-    rating_counts_meshes(gear, meshes, times, reversed)
-        "gear {gear} works in {meshes} meshes: rated with {times} loads a turn on the flank that this mesh loads, and {reversed:.3} of this load on the other flank",
-        "`meshes_per_turn` and `reversed_load_ratio` of the gear state other numbers";
+    rating_states_few_loads(gear, times, reversed)
+        "gear {gear} is rated with fewer loads than its meshes put on it: {times} a turn on the flank that this mesh loads, and {reversed:.3} of this load on the other flank",
+        "leave `meshes_per_turn` and `reversed_load_ratio` of the gear out, and the loads of its meshes count";
     rating_unloaded()
         "the mesh carries no torque, or does not turn: it is not rated", "";
     rating_fails(gear, failure, safety)

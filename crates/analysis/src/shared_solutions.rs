@@ -38,9 +38,9 @@ use crate::{
 /// of a quick case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RemarksAtRest {
-    /// The history has all remarks that a run by itself has.
+    /// The history has all remarks that a run by itself has, and the loads of its spectrum.
     Collected,
-    /// The history has the remarks of its own positions alone.
+    /// The history has its own positions with their remarks alone.
     Skipped,
 }
 
@@ -109,7 +109,11 @@ impl SharedModels<'_> {
             unless_lost()?;
             return Ok(SolvedWithRates { scene, history, rates: Vec::new() });
         }
-        let (mut solved, base) = self.positions(scene, rates, Interest { positions: &still, ..interest })?;
+        let (mut solved, base) = self.positions(
+            scene,
+            rates,
+            RestRequest { interest: Interest { positions: &still, ..interest }, ..request },
+        )?;
         if lost.load(Ordering::Relaxed) {
             return Err(AnalysisError::Cancelled);
         }
@@ -132,7 +136,7 @@ impl SharedModels<'_> {
         &self,
         scene: &Scene,
         asked: Rates<'_>,
-        interest: Interest<'_>,
+        RestRequest { remarks, interest }: RestRequest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = resolved_scene(scene, self.meshes().is_some());
         let pair = scene.gear_pair()?;
@@ -165,7 +169,9 @@ impl SharedModels<'_> {
                     }
                     ControlFlow::Continue(())
                 })?;
-                history.under_loads = under_loads(&scene, &model, &mut NoObserver)?;
+                if remarks == RemarksAtRest::Collected && (interest.positions)() {
+                    history.under_loads = under_loads(&scene, &model, (interest.positions, &mut NoObserver))?;
+                }
                 Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?, base))
             },
             |window, failure| {

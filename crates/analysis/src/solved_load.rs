@@ -1,7 +1,8 @@
 //! A pair under each load of its spectrum: cycles that are solved, and what a rating reads of them.
 
-use std::collections::BTreeSet;
+use std::{collections::BTreeSet, ops::ControlFlow};
 
+use fem::Wanted;
 use gearbox::MeshState;
 use geometry::GearPair;
 use ltca::{LoadCycle, StaticHistory, StaticModel, StaticPosition};
@@ -11,51 +12,80 @@ use study::FlankPattern;
 
 use crate::{
     AnalysisError, Observer, PhaseWork,
+    certificate::verdict,
+    error::place_in,
     failure::Failure,
+    plausible,
+    refused::Refusal,
     results::{face_load_factor, largest_tensions, patterns, pressed},
-    run_phase, solver_error, unless_cancelled,
+    run_phase, solver_error, static_certificate, unless_cancelled,
 };
 
-/// The mesh cycles of a scene under each other torque of its load spectrum; none without one, and of models that put no
-/// load on places.
+/// The mesh cycles of a scene under each other torque of its load spectrum, as long as they are wanted; none without one,
+/// and of models that put no load on places.
 ///
 /// # Errors
-/// [`Failure::Static`] where the window is too narrow for a load.
+/// [`Failure::Static`] where the window is too narrow for a load; [`AnalysisError::Certificate`] of a cycle that does not
+/// hold.
 pub(crate) fn under_loads(
     scene: &Scene,
     model: &StaticModel,
-    observer: &mut dyn Observer,
+    (wanted, observer): (Wanted<'_>, &mut dyn Observer),
 ) -> Result<Vec<LoadCycle>, Failure> {
     let torques = torques(scene);
-    if torques.is_empty() || !(scene.has_slices() || scene.output.root_stress) {
+    if torques.is_empty() || !scene.has_slices() {
         return Ok(Vec::new());
     }
     let (per_cycle, cycles) = (scene.analysis.positions_per_cycle, scene.analysis.cycles);
     run_phase(observer, "load spectrum", PhaseWork::Steps(torques.len() as u64), |progress| {
         let one = |torque_nm: f64| {
             let torque = model.options().torque * torque_nm / scene.operation.torque_nm;
-            let solved = model
-                .under_torque(torque)
-                .and_then(|mut own| own.run(per_cycle as usize, cycles as usize, |_, _, _| ()));
+            let goes_on = || if wanted() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+            let solved = model.under_torque(torque);
+            let solved =
+                solved.and_then(|mut own| own.run_while(per_cycle as usize, cycles as usize, |_, _, _| goes_on()));
+            let of_load = |e: AnalysisError| e.of_part(format!("the load of {torque_nm} N m"));
             let history = solved.map_err(|e| match e.is_starved() {
                 true => Failure::Static(e),
-                false => solver_error(scene, e).of_part(format!("the load of {torque_nm} N m")).into(),
+                false => of_load(solver_error(scene, e)).into(),
             })?;
             progress.tick();
             unless_cancelled(progress)?;
+            if !wanted() {
+                return Err(AnalysisError::Cancelled.into());
+            }
+            verdict(&static_certificate(scene, &history.positions), scene).map_err(of_load)?;
             Ok(LoadCycle { torque, positions: history.positions })
         };
         torques.into_iter().map(one).collect()
     })
 }
 
-/// Torques of the loads that work, N m, each once and ascending, but that of the scene.
+/// Refuses a spectrum with a load that the pair is refused under, before any work.
+///
+/// # Errors
+/// [`AnalysisError::Refused`] at the spectrum's place.
+pub(crate) fn check_loads(scene: &Scene, pair: &GearPair) -> Result<(), AnalysisError> {
+    for torque_nm in torques(scene) {
+        let mut under = scene.clone();
+        under.operation.torque_nm = torque_nm;
+        if let Some(beyond) = plausible::beyond(&under, pair) {
+            let hint = "leave the load out of the table, or write it in N m: loads are torques on the driven gear";
+            let refused = AnalysisError::from(Refusal::input(format!("a load of the spectrum: {}", beyond.said), hint));
+            return Err(refused.at(place_in(scene, &["rating.spectrum"])));
+        }
+    }
+    Ok(())
+}
+
+/// Torques of the loads that do damage, N m, each once and ascending, but that of the scene.
 fn torques(scene: &Scene) -> Vec<f64> {
     let nominal = scene.operation.torque_nm;
-    let spectrum = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
-    let bins = spectrum.iter().flat_map(|own| own.bins());
+    let Some(spectrum) = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values) else {
+        return Vec::new();
+    };
     // Bits of numbers above 0 are in their order.
-    let all: BTreeSet<u64> = bins.filter(|bin| bin.works()).map(|bin| bin.torque_nm.to_bits()).collect();
+    let all: BTreeSet<u64> = spectrum.harmful(nominal).map(|bin| bin.torque_nm.to_bits()).collect();
     all.into_iter().map(f64::from_bits).filter(|torque| nominal > 0.0 && *torque != nominal).collect()
 }
 

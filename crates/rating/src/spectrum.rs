@@ -32,6 +32,9 @@ pub struct Spectrum {
     bins: Vec<LoadBin>,
 }
 
+/// Share of the heaviest load below which loads do no damage.
+const LIGHT: f64 = 1e-3;
+
 /// Columns that say how long a load lasts: shares, or times in any unit.
 const DURATIONS: [&str; 3] = ["share", "duration_s", "duration_h"];
 
@@ -80,6 +83,25 @@ impl Spectrum {
     /// Spectrum of the same shares with other loads: those that a mesh of a gearbox has.
     pub fn with_loads(&self, load: impl FnMut(&LoadBin) -> LoadBin) -> Self {
         Self { bins: self.bins.iter().map(load).collect() }
+    }
+
+    /// Torque, N m, down to which loads do no damage beside the heaviest one or a nominal torque: a thousandth of the larger
+    /// of both. Damage goes with the 6th power of the load or a higher one.
+    fn light(&self, nominal_torque_nm: f64) -> f64 {
+        let works = self.bins.iter().filter(|bin| bin.works());
+        LIGHT * works.map(|bin| bin.torque_nm).fold(nominal_torque_nm, f64::max)
+    }
+
+    /// Loads that do damage beside a nominal torque, N m: those above a thousandth of it, and of the heaviest load.
+    pub fn harmful(&self, nominal_torque_nm: f64) -> impl Iterator<Item = &LoadBin> {
+        let light = self.light(nominal_torque_nm);
+        self.bins.iter().filter(move |bin| bin.works() && bin.torque_nm > light)
+    }
+
+    /// The spectrum, its loads that are no harm ([`Spectrum::harmful`]) without a torque.
+    pub fn without_light(&self, nominal_torque_nm: f64) -> Self {
+        let light = self.light(nominal_torque_nm);
+        self.with_loads(|bin| LoadBin { torque_nm: if bin.torque_nm > light { bin.torque_nm } else { 0.0 }, ..*bin })
     }
 
     /// Loads in the order of the table, their shares 1 in sum.

@@ -48,10 +48,13 @@ pub(super) fn of_type(key: &str, expected: &str, found: &str) -> String {
         "a text in quotes" => format!("write `{key} = \"...\"`, the text between the quotes"),
         "true or false" => format!("write `{key} = true` or `{key} = false`, without quotes"),
         "a table" => format!("write `[{key}]` on a line of its own, and its keys on the lines below"),
-        "a list" if found.starts_with("a table") => match key.split_once('.') {
-            Some((list, rest)) => format!("name an entry of the list by its number, from 0: `{list}.0.{rest}`"),
-            None => format!("write `[[{key}]]`, with two brackets: there may be several"),
-        },
+        "a list" if found.starts_with("a table") && !key.contains('.') => {
+            format!("write `[[{key}]]`, with two brackets: there may be several")
+        }
+        "a list" if found.starts_with("a table") => {
+            "its entries are named by numbers from 0, as in `torque.0.torque_nm`, and there is one of each number"
+                .into()
+        }
         "a list" => format!("write `{key} = [...]`, its values between the brackets, commas between them"),
         _ => format!("write `{key}` as {expected}"),
     }

@@ -26,6 +26,7 @@ mod clearance;
 mod headline;
 mod inertia;
 mod loads;
+mod mesh_bears;
 mod mesh_numbers;
 mod meshes;
 mod motion;

@@ -4,7 +4,7 @@ use answer::Remark;
 use gearbox::{GearMesh, GearboxPosition, MeshState, Train};
 use scene::{Driver, RatedGearScene, Scene, gearbox::Gearbox};
 
-use super::{meshes::ReducedMesh, spectrum::SolvedSpectrum};
+use super::{mesh_bears::MeshBears, meshes::ReducedMesh, spectrum::SolvedSpectrum};
 use crate::{AnalysisError, pair_rating::RatingHeadline, remark, solved_mesh::SolvedMesh};
 
 /// The scene of a mesh with a torque on its driven gear, N mm, and the speed of its driver; `None` where it is not to be rated.
@@ -29,13 +29,14 @@ pub(super) fn ratings(
     (positions, loads): (&[GearboxPosition], Option<&SolvedSpectrum>),
 ) -> Result<(Vec<Option<RatingHeadline>>, Vec<Remark>), AnalysisError> {
     let mut said = Vec::new();
+    let bears = MeshBears::of(positions);
     let mut one = |(i, mesh): (usize, &GearMesh)| {
         let states: Vec<&MeshState> = positions.iter().map(|p| &p.meshes[i]).collect();
         let solved = |scene: &Scene| SolvedMesh::of_mesh(scene, &states, train.meshing()[i].sense);
         let driven = reduced[i].options.driven();
-        let torque = states.iter().map(|m| m.moment[driven][2]).sum::<f64>().abs() / states.len().max(1) as f64;
+        let torque = bears.mean(i, driven).abs();
         let Some(mut scene) = rated_scene(file, train, (i, &reduced[i].scene), torque) else { return Ok(None) };
-        let counted = count_meshes(file, i, &mut scene, positions);
+        let counted = count_meshes(file, i, &mut scene, &bears);
         let unloaded = torque == 0.0 || scene.operation.speed_rpm == 0.0;
         let speed_ratio = scene.operation.speed_rpm / file.rating.as_ref().map_or(f64::NAN, |asked| asked.speed_rpm);
         let of_gearbox = loads.map(|own| own.of_mesh(i, speed_ratio));
@@ -63,9 +64,7 @@ pub(super) fn ratings(
 /// Loads that the teeth of a gear have from all its meshes, beside those of one mesh.
 #[derive(Debug, Clone, Copy)]
 struct ToothLoads {
-    /// Meshes of the gear that carry load.
-    meshes: usize,
-    /// Those of them that load the same flank.
+    /// Meshes that load the same flank with half of the load of the mesh or more: with less they count for little.
     same_flank: u32,
     /// Largest load on the other flank over that of the mesh, at most 1.
     reversed: f64,
@@ -73,34 +72,30 @@ struct ToothLoads {
 
 impl ToothLoads {
     /// Of a gear (0 or 1) of a mesh, by the mean moments about the axes: one sense is one flank.
-    fn of(file: &Gearbox, (mesh, side): (usize, usize), positions: &[GearboxPosition]) -> Self {
+    fn of(file: &Gearbox, (mesh, side): (usize, usize), bears: &MeshBears) -> Self {
         let gear = file.meshes[mesh].gears[side];
-        let moment = |i: usize, side: usize| positions.iter().map(|p| p.meshes[i].moment[side][2]).sum::<f64>();
-        let own = moment(mesh, side);
-        let all: Vec<f64> = (file.meshes.iter().enumerate())
-            .filter_map(|(i, other)| Some(moment(i, other.gears.iter().position(|g| *g == gear)?)))
-            .filter(|moment| *moment != 0.0)
-            .collect();
-        let same = all.iter().filter(|moment| **moment * own > 0.0).count();
-        let other = all.iter().filter(|moment| **moment * own < 0.0).map(|moment| (moment / own).abs());
-        Self { meshes: all.len(), same_flank: same.max(1) as u32, reversed: other.fold(0.0, f64::max).min(1.0) }
+        let own = bears.mean(mesh, side);
+        let of_others = (file.meshes.iter().enumerate())
+            .filter_map(|(i, other)| Some(bears.mean(i, other.gears.iter().position(|g| *g == gear)?)));
+        // Over that of the mesh, below 0 on the other flank.
+        let shares: Vec<f64> = of_others.filter(|_| own != 0.0).map(|moment| moment / own).collect();
+        let same = shares.iter().filter(|share| **share >= 0.5).count();
+        let reversed = shares.iter().fold(0.0, |most: f64, share| most.max(-share)).min(1.0);
+        Self { same_flank: same.max(1) as u32, reversed }
     }
 }
 
-/// Gives the gears of a mesh the loads that their teeth have in other meshes, unless the scene states them; what is to be
-/// told of it.
-fn count_meshes(file: &Gearbox, mesh: usize, scene: &mut Scene, positions: &[GearboxPosition]) -> Vec<Remark> {
+/// Gives the gears of a mesh the loads that their teeth have in all meshes, unless the scene states them; what is to be told
+/// of numbers that are stated too small.
+fn count_meshes(file: &Gearbox, mesh: usize, scene: &mut Scene, bears: &MeshBears) -> Vec<Remark> {
     let Some(rating) = &mut scene.rating else { return Vec::new() };
     let one = |(side, own): (usize, &mut RatedGearScene)| {
-        let loads = ToothLoads::of(file, (mesh, side), positions);
-        let is_stated = own.meshes_per_turn.is_some() || own.reversed_load_ratio.is_some();
-        if loads.meshes < 2 || is_stated {
-            return None;
-        }
-        own.meshes_per_turn = Some(loads.same_flank);
-        own.reversed_load_ratio = Some(loads.reversed);
+        let ToothLoads { same_flank, reversed } = ToothLoads::of(file, (mesh, side), bears);
+        let stated_times = *own.meshes_per_turn.get_or_insert(same_flank);
+        let stated_reversed = *own.reversed_load_ratio.get_or_insert(reversed);
         let name = file.gears[file.meshes[mesh].gears[side]].name.as_str();
-        Some(remark::rating_counts_meshes(name, loads.meshes, f64::from(loads.same_flank), loads.reversed))
+        (stated_times < same_flank || stated_reversed < reversed - 1e-3)
+            .then(|| remark::rating_states_few_loads(name, f64::from(same_flank), reversed))
     };
     [&mut rating.pinion, &mut rating.wheel].into_iter().enumerate().filter_map(one).collect()
 }

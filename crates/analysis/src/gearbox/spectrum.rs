@@ -7,6 +7,7 @@ use rating::{LoadBin, Spectrum};
 
 use super::{
     bearings::{BearingTurns, LifeLimits, rolling_load},
+    mesh_bears::MeshBears,
     meshes::ReducedMesh,
     solved_positions::{at_all_angles, count},
     vibration::Parts,
@@ -46,6 +47,7 @@ impl SolvedSpectrum {
     ) -> Result<Self, AnalysisError> {
         // Speeds change nothing at rest: each torque is solved once. Bits of numbers above 0 are in their order.
         let mut torques: BTreeMap<u64, Vec<usize>> = BTreeMap::new();
+        let spectrum = &spectrum.without_light(1e-3 * parts.file.torques[0].torque);
         for (k, bin) in spectrum.bins().iter().enumerate().filter(|(_, bin)| bin.works()) {
             torques.entry(bin.torque_nm.to_bits()).or_default().push(k);
         }
@@ -83,12 +85,11 @@ impl SolvedSpectrum {
         reduced: &[ReducedMesh],
         positions: &[GearboxPosition],
     ) -> Result<(), AnalysisError> {
+        let bears = MeshBears::of(positions);
         for (i, (own, mesh)) in self.meshes.iter_mut().zip(reduced).enumerate() {
             let states: Vec<&MeshState> = positions.iter().map(|p| &p.meshes[i]).collect();
-            let driven = mesh.options.driven();
-            let mean = states.iter().map(|m| m.moment[driven][2]).sum::<f64>() / positions.len().max(1) as f64;
-            let pair = &parts.meshes[i].pair;
-            own.push(SolvedLoad::of_mesh(&mesh.scene, pair, (1e-3 * mean.abs(), &states))?);
+            let torque = 1e-3 * bears.mean(i, mesh.options.driven()).abs();
+            own.push(SolvedLoad::of_mesh(&mesh.scene, &parts.meshes[i].pair, (torque, &states))?);
         }
         Ok(())
     }
