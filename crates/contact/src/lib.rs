@@ -34,7 +34,7 @@ mod window;
 pub use bracketing::last_inside;
 pub(crate) use complementarity::SavedSolution;
 pub(crate) use compliance::{BulkCompliance, FullContact, TablePoint};
-pub use compliance::{BulkTable, Condensed, ModalFlanks, ModalForces, TABLE_VERSION, TableWork, opening};
+pub use compliance::{BulkTable, Condensed, ModalFlanks, ModalForces, TableWork, opening};
 pub use elastic_contact::{CandidateRows, ElasticContact, WarmStart, warm_start};
 pub use error::ContactError;
 pub use flank_projection::FlankProjection;

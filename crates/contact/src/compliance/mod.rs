@@ -9,7 +9,7 @@ mod modal;
 
 pub(crate) use bulk_table::Keeper;
 pub(crate) use bulk_table::{BulkCompliance, TablePoint, parts};
-pub use bulk_table::{BulkTable, TABLE_VERSION, TableWork};
+pub use bulk_table::{BulkTable, TableWork};
 pub(crate) use condensed::boundary_forces;
 pub use condensed::{Condensed, opening};
 pub(crate) use full::FullContact;

@@ -110,9 +110,13 @@ impl Fillet {
     /// is the stress of contact beside it, which has no limit as the mesh is refined. Both recoveries see the bending of
     /// a tooth alike; beside a force at its corner, within an element, the first one sees up to twice as much.
     pub fn peak(&self, first: impl Fn(usize) -> f64, second: impl Fn(usize) -> f64, sign: f64) -> Option<usize> {
-        let seen = |at: usize| (sign * first(at)).min(sign * self.beside(at, &second, sign));
+        // Peaks may have one value beside them in common: of these the larger by itself.
+        let rank = |at: usize| {
+            let own = sign * first(at);
+            (own.min(sign * self.beside(at, &second, sign)), own)
+        };
         let largest = |counts: &dyn Fn(usize) -> bool| {
-            let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], seen(self.places[i])));
+            let values = (0..self.places.len()).filter(|&i| counts(i)).map(|i| (self.places[i], rank(self.places[i])));
             // The first of equals, so that nothing depends on how the nodes are gone through.
             values.reduce(|best, v| if v.1 > best.1 { v } else { best }).map(|best| best.0)
         };

@@ -7,9 +7,8 @@ use reduction::{GearReducer, KeptTable, TableKey, Window};
 use super::{DIRECTIONS, mirror};
 use crate::{flank::FlankPatch, nodal::Support};
 
-/// Version of what the numbers of a table mean and of how they come about: raised with every change of the code by which
-/// the same flanks get another table (the test `tables_are_those_of_their_version` notices).
-pub const TABLE_VERSION: u32 = 1;
+/// The code that makes a table and reads it: with any other, even in a comment, a table is made again.
+const CODE: [&str; 3] = [include_str!("mod.rs"), include_str!("keep.rs"), include_str!("../bulk_grid.rs")];
 
 /// The gear that keeps the tables of a window.
 #[derive(Debug, Clone, Copy)]
@@ -19,11 +18,14 @@ pub(crate) struct Keeper<'a> {
 }
 
 impl Keeper<'_> {
-    /// Key of all that a table depends on beside the matrices of the gear: teeth of the window, where the grid points
+    /// Key of all that a table depends on beside the matrices of the gear: the code, teeth of the window, where the grid points
     /// stand on the nodes and along which directions, and the flanks on which the table's error is measured.
     pub(super) fn key(&self, supports: &[Option<[Support; DIRECTIONS]>], patches: &[FlankPatch]) -> TableKey {
         let mut content: Vec<u8> = Vec::new();
-        content.extend(TABLE_VERSION.to_le_bytes());
+        for code in CODE {
+            content.extend((code.len() as u64).to_le_bytes());
+            content.extend(code.bytes());
+        }
         let reduced = &self.window.reduced;
         content.extend((reduced.teeth.len() as u64).to_le_bytes());
         reduced.teeth.iter().for_each(|tooth| content.extend(tooth.to_le_bytes()));

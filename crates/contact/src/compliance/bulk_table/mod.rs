@@ -19,7 +19,6 @@ use crate::{
 };
 
 pub(crate) use keep::Keeper;
-pub use keep::TABLE_VERSION;
 use layers::LayerEntries;
 
 pub use rows::TableWork;
