@@ -180,7 +180,7 @@ pub(crate) fn equilibrium(
         rotation = steps.next(rotation, turn);
         let elastic_mm = base_radius.abs() * (rotation - unloaded.rotation).abs();
         if steps.is_last(elastic_mm, solver.tells_forces())
-            && let Some(found) = solver.take_solution(steps.share_left())
+            && let Some(found) = solver.take_solution(options.moment(pair), steps.share_left())
         {
             rotation += steps.remainder();
             let error = side.sign() * base_radius * rotation;

@@ -129,15 +129,18 @@ impl PoseSolver<'_> {
         matches!(self, Self::Mesh { held: Some(rows), .. } if !rows.before[0].is_empty())
     }
 
-    /// The last solution; `left`: the change of the pose that is still to come, over that of the last step. Forces are
+    /// The last solution under a moment (N mm); `left`: the change of the pose that is still to come, over that of the last step. Forces are
     /// smooth functions of the pose and go on as it does.
-    pub fn take_solution(&mut self, left: f64) -> Option<Box<PoseSolution>> {
+    pub fn take_solution(&mut self, moment: f64, left: f64) -> Option<Box<PoseSolution>> {
+        let moved = self.tells_forces();
         match self {
             Self::General { last, .. } => last.take(),
             // The contact of the first pose is not solved to the last digits.
             Self::Mesh { solved: ..2, .. } => None,
             Self::Mesh { mesh, held, .. } => {
-                let rows = mesh.rows().to_vec();
+                if moved {
+                    mesh.refine_stiffness(Balance::Moment(moment));
+                }
                 let solver = mesh.solver();
                 let before = held.as_ref().map_or([&[][..]; 2], |rows| rows.before.each_ref().map(|list| &list[..]));
                 let goes_on = |now: &[f64], before: &[f64]| {
@@ -157,7 +160,7 @@ impl PoseSolver<'_> {
                     iterations: solver.iterations(),
                     residual: solver.residual(),
                 };
-                let slices = mesh.slices().to_vec();
+                let (rows, slices) = mesh.take_rows();
                 Some(Box::new(PoseSolution { rows, slices, states, solution, displacements: Default::default() }))
             }
         }

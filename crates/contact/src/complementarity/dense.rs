@@ -86,6 +86,8 @@ pub struct DenseSolver {
     pub(super) refined: [Vec<f64>; 2],
     /// Forces on the active rows by a unit turn with the factor at hand; none where they are not known.
     pub(super) turned: Vec<f64>,
+    /// What a solution leaves of its equations.
+    pub(super) rest: Vec<f64>,
     pub(super) permutation: [Vec<usize>; 2],
     pub(super) scratch: MemBuffer,
     pub(super) arch: pulp::Arch,
@@ -134,6 +136,7 @@ impl DenseSolver {
             column: Vec::with_capacity(padded(most)),
             refined: [Vec::with_capacity(most), Vec::with_capacity(most)],
             turned: Vec::with_capacity(most),
+            rest: Vec::with_capacity(most),
             permutation: [Vec::with_capacity(most), Vec::with_capacity(most)],
             scratch: MemBuffer::new(lu.or(solve)),
             arch: pulp::Arch::new(),
@@ -274,7 +277,7 @@ impl DenseSolver {
             if solved {
                 // The factor has the slopes of some steps before.
                 if turns && accuracy < TOLERANCE {
-                    self.stiffness = self.refined_stiffness(problem);
+                    self.refine_stiffness(problem);
                 }
                 return Ok(());
             }

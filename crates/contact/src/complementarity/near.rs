@@ -26,7 +26,7 @@ pub(crate) struct SavedSolution {
 /// Steps with the saved tangent before full Newton steps; three or four are enough.
 const STEPS: usize = 8;
 /// Accuracy of the stiffness, relative.
-const STIFFNESS_ACCURACY: f64 = 1e-9;
+const STIFFNESS_ACCURACY: f64 = 1e-10;
 /// Largest ratio of two successive violations with which the saved tangent is kept.
 const SLOW: f64 = 0.25;
 
@@ -104,57 +104,74 @@ impl DenseSolver {
     }
 
     /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
-    /// that led to a solution, without rows becoming active or inactive.
+    /// that led to a solution, without rows becoming active or inactive. The stiffness is that of the factor until
+    /// [`DenseSolver::refine_stiffness`].
     pub fn solve_moved(&mut self, problem: &DenseProblem<'_>, local: impl LocalApproach) -> bool {
         if self.active.is_empty() || self.forces.len() != problem.gaps.len() || !self.factored {
             return false;
         }
         (self.rotation, self.iterations) = (0.0, 0);
-        let solved = self.keeps_factor(problem, |solver, _| solver.follow(problem, Some(&local)), TOLERANCE);
-        if solved && problem.balance != Balance::Held {
-            self.stiffness = self.refined_stiffness(problem);
-        }
-        solved
+        self.keeps_factor(problem, |solver, _| solver.follow(problem, Some(&local)), TOLERANCE)
     }
 
-    /// l_t' (S + D)^-1 l, by steps with the factor of before: each reduces what is left by as much as the one before did. Where slopes
-    /// have changed so much that these steps creep, by a factor of its own.
-    pub(super) fn refined_stiffness(&mut self, problem: &DenseProblem<'_>) -> f64 {
+    /// Makes the stiffness l_t' A^-1 l, A = S + D, that of the last solution, whose factor M is of some steps before.
+    ///
+    /// ```text
+    /// y = M^-1 l (that of the last balance),   r = l - A y,   z = M^-1 r
+    /// l' A^-1 l = l' y + y' r + r' A^-1 r  ~  l' y + y' r + r' z
+    /// ```
+    /// Without friction one step is enough: M is off by a share e that r' z / l' y = e^2 tells, the sum by its third power.
+    /// With friction, and where M is too far off, y + z is the next y. Where slopes have changed so much that these steps
+    /// creep, by a factor of its own.
+    pub(crate) fn refine_stiffness(&mut self, problem: &DenseProblem<'_>) {
+        let m = self.active.len();
+        let (levers, torque_levers) = (problem.levers, problem.torque_levers);
+        if self.turned.len() != m {
+            self.x.clear();
+            self.x.extend(self.active.iter().map(|&i| levers[i]));
+            self.back_substitute(m, 1);
+            self.turned.clear();
+            self.turned.extend_from_slice(&self.x[..m]);
+        }
         let [mut found, mut opened] = std::mem::take(&mut self.refined);
         for list in [&mut found, &mut opened] {
             list.clear();
             list.resize(problem.gaps.len(), 0.0);
         }
-        let (mut stiffness, mut settled) = (0.0, false);
-        for step in 0..STEPS {
-            self.x.clear();
-            for &i in &self.active {
-                self.x.push(problem.levers[i] - opened[i] - self.slopes[i] * found[i]);
-            }
-            self.back_substitute(self.active.len(), 1);
-            let mut change = 0.0;
-            for (x, &i) in self.x.iter().zip(&self.active) {
-                found[i] += x;
-                change += problem.torque_levers[i] * x;
-            }
-            stiffness += change;
-            settled = step > 0 && change.abs() <= STIFFNESS_ACCURACY * stiffness.abs();
-            if settled {
-                break;
-            }
+        self.active.iter().zip(&self.turned).for_each(|(&i, y)| found[i] = *y);
+        let mut settled = None;
+        for _ in 0..STEPS {
             lanes::run(
                 self.arch,
                 Opening { compliance: problem.compliance, active: &self.active, forces: &found, out: &mut opened },
             );
+            self.x.clear();
+            let left = |&i: &usize| levers[i] - opened[i] - self.slopes[i] * found[i];
+            self.x.extend(self.active.iter().map(left));
+            self.rest.clone_from(&self.x);
+            self.back_substitute(m, 1);
+            let (mut stiffness, mut change, mut second) = (0.0, 0.0, 0.0);
+            for ((&i, z), r) in self.active.iter().zip(&self.x).zip(&self.rest) {
+                stiffness += torque_levers[i] * found[i];
+                change += if self.symmetric { found[i] * r } else { torque_levers[i] * z };
+                second += r * z;
+                found[i] += z;
+            }
+            let told = stiffness + change + if self.symmetric { second } else { 0.0 };
+            let off = if self.symmetric { (second / told).abs().powf(1.5) } else { (change / told).abs() };
+            if off <= STIFFNESS_ACCURACY {
+                settled = Some(told);
+                break;
+            }
         }
         self.refined = [found, opened];
-        if !settled && self.factor(problem).is_ok() {
+        if settled.is_none() && self.factor(problem).is_ok() {
             self.x.clear();
-            self.x.extend(self.active.iter().map(|&i| problem.levers[i]));
-            self.back_substitute(self.active.len(), 1);
-            stiffness = self.active.iter().zip(&self.x).map(|(&i, x)| problem.torque_levers[i] * x).sum();
+            self.x.extend(self.active.iter().map(|&i| levers[i]));
+            self.back_substitute(m, 1);
+            settled = Some(self.active.iter().zip(&self.x).map(|(&i, x)| torque_levers[i] * x).sum());
         }
-        stiffness
+        self.stiffness = settled.unwrap_or(self.stiffness);
     }
 
     /// Steps with the factor at hand, until the conditions hold to `accuracy`; false where rows become active or

@@ -85,6 +85,7 @@ impl FlankGridLines {
 
     /// Points around a place, three rows of four along the profile, and their weights; past the ends of the flank those
     /// of the end. Of each row the first point: the others follow it.
+    #[inline]
     pub fn weights(&self, at: [f64; 2]) -> ([usize; FACE.len()], [[f64; PROFILE.len()]; FACE.len()]) {
         let ((i, u), (j, v)) = (self.cell(0, at[0]), self.cell(1, at[1]));
         let [ends, inner] = PROFILE_SCALES;
@@ -98,19 +99,22 @@ impl FlankGridLines {
 
     /// First line of the cell that a coordinate is in, and which part of the cell lies below it.
     fn cell(&self, axis: usize, at: f64) -> (usize, f64) {
-        let ends = &self.ends[axis];
-        // Cells are about equally long: the place tells which it is, or which is next to it.
-        let (last, from) = (ends.len() - 2, ends[0]);
-        let share = (at - from) / (ends[last + 1] - from);
-        let mut cell = ((share * (last + 1) as f64) as usize).min(last);
-        while cell < last && ends[cell + 1] <= at {
-            cell += 1;
-        }
-        while cell > 0 && ends[cell] > at {
-            cell -= 1;
-        }
+        let ends = &self.ends[axis][..];
+        let [from, .., to] = ends else { return (0, 0.0) };
         let lines = [PROFILE.len() - 1, FACE.len() - 1][axis];
-        (cell * lines, ((at - ends[cell]) / (ends[cell + 1] - ends[cell])).clamp(0.0, 1.0))
+        // Cells are about equally long: the place tells which it is, or which is next to it.
+        let last = ends.len() - 2;
+        let mut cell = (((at - from) / (to - from) * (last + 1) as f64) as usize).min(last);
+        loop {
+            let [low, high] = [ends[cell], ends[cell + 1]];
+            if high <= at && cell < last {
+                cell += 1;
+            } else if low > at && cell > 0 {
+                cell -= 1;
+            } else {
+                return (cell * lines, ((at - low) / (high - low)).clamp(0.0, 1.0));
+            }
+        }
     }
 }
 

@@ -172,6 +172,7 @@ impl Default for FourEdges {
 impl FourEdges {
     /// Takes an edge for one of the rows; `e` as in [`reach`]. Of a body without an edge it stands for one that no band
     /// comes near.
+    #[inline(always)]
     pub fn put(&mut self, lane: usize, edge: Option<&Edge>, e: f64) {
         let tangent = edge.map_or(0.0, Edge::tangent_point);
         let from = edge.map_or(f64::MAX.sqrt().sqrt(), |edge| edge.distance - tangent);

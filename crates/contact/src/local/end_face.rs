@@ -75,6 +75,7 @@ impl Default for FourFaces {
 
 impl FourFaces {
     /// Takes a face at a distance (mm) for one of the rows; `weights`: those of its lean; `t`: depth of the body, mm.
+    #[inline(always)]
     pub fn put(&mut self, lane: usize, distance: f64, weights: [f64; 2], t: f64) {
         let distance = distance.max(0.0) / t;
         let is_felt = distance <= FAR;

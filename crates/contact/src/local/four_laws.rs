@@ -137,6 +137,8 @@ pub(super) struct FourStates<S: Simd> {
 impl FourLaws {
     /// Takes the contact of one of the rows; [`FourLaws::complete`] comes after all of them.
     pub fn put(&mut self, lane: usize, local: &LocalContact, length: f64, known: &mut [Constants; 2]) {
+        // Told once, so that no place is checked.
+        let lane = lane % LANES;
         let constants = [0, 1].map(|b| *known[b].of(&local.bodies[b]));
         let both = constants[0].softness + constants[1].softness;
         let edges = local.edges();

@@ -335,6 +335,7 @@ impl BulkTable {
 
     /// Place of a row in the table: `at` on patch number `patch`, `parts` what of the unit force is along the three
     /// directions there ([`parts`]).
+    #[inline]
     pub(crate) fn at(&self, patch: usize, at: [f64; 2], parts: [f64; DIRECTIONS]) -> Option<TablePoint> {
         let (runs, weights) = self.lines.get(patch)?.weights(at);
         Some(TablePoint {

@@ -67,7 +67,7 @@ pub(in crate::slice) fn places(
     load: bool,
 ) {
     out.clear();
-    out.extend(rows.iter().zip(slices).filter_map(|(row, slice)| {
+    for (row, slice) in rows.iter().zip(slices) {
         let patch = [row.patches.0, row.patches.1][b];
         let support = &row.supports[b];
         let at = slice.at[b];
@@ -78,6 +78,6 @@ pub(in crate::slice) fn places(
         } else {
             parts(&set.patches()[b][patch], at, direction)
         };
-        table.at(patch, at, parts)
-    }));
+        out.extend(table.at(patch, at, parts));
+    }
 }

@@ -375,6 +375,13 @@ impl MeshContact {
         torque_levers.extend(contact.rows.iter().map(|r| r.torque_levers[body]));
     }
 
+    /// Makes the stiffness of the last solution under a moment exact where a factor of before led to it
+    /// ([`MeshContact::solve_moved`]).
+    pub fn refine_stiffness(&mut self, balance: Balance) {
+        let Self { contact, gaps, levers, torque_levers, solver, friction, .. } = self;
+        solver.refine_stiffness(&problem(contact, gaps, [levers, torque_levers], friction.is_none(), balance));
+    }
+
     /// Keeps the forces of a solution for the next one to start from.
     fn keep_forces(&mut self) {
         let Self { contact, last_forces, solver, .. } = self;
@@ -385,6 +392,13 @@ impl MeshContact {
     /// Rows of the last solution, in order of pair and height.
     pub fn rows(&self) -> &[ContactRow] {
         &self.contact.rows
+    }
+
+    /// Gives away rows and slices of the last solution; contact is to be searched anew afterwards.
+    pub fn take_rows(&mut self) -> (Vec<ContactRow>, Vec<Slice>) {
+        let PoseContact { at, bin, rows, slices, .. } = &mut self.contact;
+        (*at, *bin) = (None, None);
+        (std::mem::take(rows), std::mem::take(slices))
     }
 
     /// Slices of the rows.

@@ -94,6 +94,8 @@ impl MeshContact {
         keys.clear();
         rows.clear();
         slices.clear();
+        rows.reserve(nearest.len());
+        slices.reserve(nearest.len());
         let Some(slice_set) = set.slices() else { return };
         let patches = [&set.patches()[0][..], &set.patches()[1][..]];
         let stations = slice_set.stations();
