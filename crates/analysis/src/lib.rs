@@ -54,7 +54,6 @@ pub mod iso_root;
 mod layers;
 mod light_load;
 mod loaded_pair;
-mod local_damage;
 pub mod lumped;
 pub mod meshes;
 pub mod motion;

@@ -3,8 +3,8 @@
 use described::Key;
 use geometry::{Balls, GearSheet, GeometrySheet, PathPoint, RingSheet, Span};
 use rating::{
-    BendingFactors, FlashRating, GearDamage, GearRating, IntegralRating, LocalScuffing, MeshLoss, MicropittingRating,
-    Outside, PittingFactors, ScuffingRating, SpectrumRating, StandardRating,
+    BendingFactors, FlankPlace, FlashRating, GearDamage, GearRating, IntegralRating, LocalDamage, LocalScuffing,
+    MeshLoss, MicropittingRating, Outside, PittingFactors, ScuffingRating, SpectrumRating, StandardRating,
 };
 use study::Lyapunov;
 
@@ -28,7 +28,7 @@ use crate::{
     },
     nominal_pressure::{NominalPressure, PointPressure},
     optimum::{Influence, TorqueLine},
-    pair_rating::{FlankPlace, LocalDamage, LocalRating, RatingHeadline},
+    pair_rating::{LocalRating, RatingHeadline},
     resolution::Resolution,
     results::{GearRootStress, Place, PressurePlace, RootStressHeadline, StaticHeadline, ToothChangeHeadline},
     statics::ReducedFacts,

@@ -4,11 +4,11 @@ use geometry::{FlankTolerances, Gear, GearPair};
 use ltca::StaticHistory;
 use lumped::iso::{IsoFlank, IsoRoot, IsoRootPair};
 use rating::{
-    ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LoadBin, LocalScuffing,
-    Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry, RatedSpectrum,
-    RatingError, RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact, Spectrum,
-    SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, permissible_film, scuffing_rating,
-    standard_rating,
+    ContactField, Deviations, Edition, FilmField, FlankFactors, GearInput, GivenFactors, LoadBin, LocalDamage,
+    LocalScuffing, Lubrication, LubricationMethod, MeshLoss, MeshStiffness, MicropittingRating, PairGeometry,
+    RatedSpectrum, RatingError, RatingInput, Rolling, RootFactors, ScuffingInput, ScuffingRating, SolvedContact,
+    Spectrum, SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, permissible_film,
+    scuffing_rating, standard_rating,
 };
 use scene::{DataFile, LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
@@ -21,8 +21,6 @@ use crate::{
     solved_load::{SolvedLoad, check_loads},
     solved_mesh::SolvedMesh,
 };
-
-pub use crate::local_damage::{FlankPlace, LocalDamage};
 
 /// The coarsest ISO 1328-1 class whose relief counts in K_V.
 const RELIEF_CLASS: u32 = 5;
@@ -181,7 +179,7 @@ impl RatingHeadline {
             mesh_loss: oiled.loss,
             contact_field: oiled.local.map(|(_, field)| field),
             film_field: oiled.micropitting.map(|(_, field)| field),
-            local_spectrum: spectrum.as_ref().and_then(|own| LocalDamage::of((&standard, own), loads, pair)),
+            local_spectrum: spectrum.as_ref().and_then(|own| SolvedLoad::damage(loads, own, pair)),
             spectrum: spectrum.map(|own| own.rating()),
             standard,
         }))

@@ -6,7 +6,7 @@ use fem::Wanted;
 use gearbox::MeshState;
 use geometry::GearPair;
 use ltca::{LoadCycle, StaticHistory, StaticModel, StaticPosition};
-use rating::LoadBin;
+use rating::{FlankPlace, LoadBin, LocalDamage, RatedLoad, RatedSpectrum, SolvedStress};
 use scene::{DataFile, Scene};
 use study::FlankPattern;
 
@@ -17,7 +17,7 @@ use crate::{
     failure::Failure,
     plausible,
     refused::Refusal,
-    results::{face_load_factor, largest_tensions, patterns, pressed},
+    results::{diameter, face_load_factor, largest_tensions, patterns, pressed},
     run_phase, solver_error, static_certificate, unless_cancelled,
 };
 
@@ -148,6 +148,23 @@ impl SolvedLoad {
             face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
             flanks,
             root_tensions: largest_tensions(positions),
+        })
+    }
+
+    /// Damage over a life by the pressures and root stresses of all loads; `None` where one of them is not solved, or has
+    /// no pressures.
+    pub fn damage(all: &[Self], spectrum: &RatedSpectrum, pair: &GearPair) -> Option<LocalDamage> {
+        let stress = |own: &RatedLoad| {
+            let solved = Self::under(all, &own.load)?;
+            let pressures = solved.flanks.as_ref()?.each_ref().map(FlankPattern::max_pressure);
+            Some(SolvedStress { pressures, tensions: solved.root_tensions })
+        };
+        let under: Vec<SolvedStress<'_>> = spectrum.loads().iter().map(stress).collect::<Option<_>>()?;
+        let grids = all.first()?.flanks.as_ref()?;
+        LocalDamage::new(spectrum, &under, |gear, cell| {
+            let (rolls, base) = (grids[gear].rolls(), [&pair.pinion, &pair.wheel][gear].base_radius());
+            let diameter_mm = diameter(base, rolls[cell % rolls.len()]);
+            FlankPlace { diameter_mm, z_mm: grids[gear].stations()[cell / rolls.len()] }
         })
     }
 

@@ -17,6 +17,7 @@
 //! | `tribology` | friction, heat and film of the solved contact |
 //! | `local` | how safe is a point of the solved contact? |
 //! | `spectrum` | what do many loads do over a life? |
+//! | `local_damage` | and what at each place, by solved stresses? |
 //!
 //! Lengths in mm, forces in N, stresses in MPa, speeds of rotation in 1/min, line speeds in m/s, deviations in um.
 
@@ -31,6 +32,7 @@ mod geometry;
 mod life;
 mod load_distribution;
 mod local;
+mod local_damage;
 mod lubricant;
 mod lubrication;
 mod material;
@@ -53,6 +55,7 @@ pub use geometry::PairGeometry;
 pub use life::StressLife;
 pub use load_distribution::{TransverseLoad, face_load_factor_bending, transverse_load_factors};
 pub use local::{local_bending_safety, local_contact_stress, local_pitting_safety};
+pub use local_damage::{FlankPlace, LocalDamage, SolvedStress};
 pub use lubricant::{Lubricant, LubricantBase, Lubricants};
 pub use lubrication::{Lubrication, LubricationMethod};
 pub use material::{Material, MaterialGroup, Materials};

@@ -2,7 +2,9 @@
 
 use serde::Serialize;
 
-use crate::{GivenFactors, MeshStiffness, RatingError, RatingInput, StandardRating, StressLife, standard_rating};
+use crate::{
+    GearRating, GivenFactors, MeshStiffness, RatingError, RatingInput, StandardRating, StressLife, standard_rating,
+};
 
 /// A load with its share of the life.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -229,8 +231,10 @@ impl RatedSpectrum {
     /// Damage by the stresses of the standard.
     pub fn rating(&self) -> SpectrumRating {
         let gear = |k: usize| {
-            let pitting = self.cycles(k, |load| load.rating.gears()[k].contact_stress_mpa);
-            let bending = self.cycles(k, |load| load.rating.gears()[k].root_stress_mpa);
+            let of_loads = |stress: fn(&GearRating) -> f64| {
+                self.cycles(k, self.loads.iter().map(|load| stress(load.rating.gears()[k])))
+            };
+            let (pitting, bending) = (of_loads(|g| g.contact_stress_mpa), of_loads(|g| g.root_stress_mpa));
             let own = self.nominal.gears()[k];
             GearDamage {
                 pitting_damage: miner_sum(&own.pitting_curve, &pitting),
@@ -242,9 +246,13 @@ impl RatedSpectrum {
         SpectrumRating { loads: self.count, pinion: gear(0), wheel: gear(1) }
     }
 
-    /// Load cycles of a gear under each load that works, with the stress (MPa) that the load puts on some place of it.
-    pub fn cycles(&self, gear: usize, stress: impl FnMut(&RatedLoad) -> f64) -> Vec<Cycles> {
-        let cycles = self.loads.iter().map(|load| load.share_of_cycles(gear));
-        cycles.zip(self.loads.iter().map(stress)).collect()
+    /// Load cycles of a gear under each load that works, with the stresses (MPa) that these loads put on some place of it.
+    pub fn cycles(&self, gear: usize, stresses: impl Iterator<Item = f64>) -> Vec<Cycles> {
+        self.loads.iter().map(|load| load.share_of_cycles(gear)).zip(stresses).collect()
+    }
+
+    /// The pair under its nominal load.
+    pub fn nominal(&self) -> &StandardRating {
+        &self.nominal
     }
 }

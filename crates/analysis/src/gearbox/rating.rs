@@ -1,10 +1,10 @@
 //! Whether the meshes of a gearbox will hold: each pair's rating under the torque and at the speed that it has here.
 
 use answer::Remark;
-use gearbox::{GearMesh, GearboxPosition, MeshState, Train};
+use gearbox::{GearMesh, GearboxPosition, MeshBears, MeshState, Train};
 use scene::{Driver, RatedGearScene, Scene, gearbox::Gearbox};
 
-use super::{mesh_bears::MeshBears, meshes::ReducedMesh, spectrum::SolvedSpectrum};
+use super::{meshes::ReducedMesh, spectrum::SolvedSpectrum};
 use crate::{AnalysisError, pair_rating::RatingHeadline, remark, solved_mesh::SolvedMesh};
 
 /// The scene of a mesh with a torque on its driven gear, N mm, and the speed of its driver; `None` where it is not to be rated.

@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use gearbox::{GearboxPosition, MeshState, Operation, Torque};
+use gearbox::{GearboxPosition, MeshBears, MeshState, Operation, Torque};
 use rating::{LoadBin, Spectrum};
 
 use super::{
     bearings::{BearingTurns, LifeLimits, rolling_load},
-    mesh_bears::MeshBears,
     meshes::ReducedMesh,
     solved_positions::{at_all_angles, count},
     vibration::Parts,

@@ -10,7 +10,8 @@ mod root_stress;
 mod static_headline;
 mod tooth_change;
 
-pub use load_factors::{face_load_factor, load_sharing_ratio, transverse_load_factor};
+pub use load_factors::face_load_factor;
+pub use ltca::{load_sharing_ratio, transverse_load_factor};
 pub(crate) use pattern::pressed;
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};

@@ -1,8 +1,8 @@
 //! Whether the pair will hold, on the page and in the closing table.
 
-use analysis::pair_rating::{LocalDamage, RatingHeadline};
+use analysis::pair_rating::RatingHeadline;
 use answer::Table;
-use rating::{GearDamage, GearRating, StandardRating, local_pitting_safety};
+use rating::{GearDamage, GearRating, LocalDamage, StandardRating, local_pitting_safety};
 
 use super::common::key;
 use crate::page::{Cell, Content, Grid, Line, Part};

@@ -1,13 +1,13 @@
 //! What the meshes of a gearbox bear in the mean, and which bear nothing but round-off.
 
-use gearbox::GearboxPosition;
+use crate::GearboxPosition;
 
 /// Share of the largest moment on a gear of the gearbox below which a mesh bears nothing.
 const NOTHING: f64 = 1e-6;
 
 /// Mean moments of the meshes over positions.
 #[derive(Debug)]
-pub(super) struct MeshBears {
+pub struct MeshBears {
     /// About the axes of both gears of each mesh, N mm.
     moments: Vec<[f64; 2]>,
     least: f64,

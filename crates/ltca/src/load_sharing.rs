@@ -1,0 +1,32 @@
+//! How unevenly tooth pairs share the load, from the solved distribution. Theory (34a).
+
+use crate::{PairResult, StaticHistory, StaticPosition};
+
+/// K_Halpha by the definition of ISO 6336-1 (not its estimates): [`load_sharing_ratio`], and never below 1, as the
+/// standard has it. `None` without load.
+pub fn transverse_load_factor(history: &StaticHistory) -> Option<f64> {
+    load_sharing_ratio(history).map(|ratio| ratio.max(1.0))
+}
+
+/// Largest load that a pair of teeth carries over the mesh, over the largest one that it would carry if the pairs in
+/// mesh shared the load as the lengths of their nominal contact lines.
+///
+/// ```text
+/// r = max F_k / max (F l_k / L)       over all positions and pairs k;  F = sum F_k,  L = sum l_k
+/// ```
+/// F_k normal forces, l_k analytic lengths of the unloaded lines. The standard compares with "a similar pair free from
+/// inaccuracies"; here that pair has evenly loaded lines, as the standard's own mean load. Below 1 where soft ends of
+/// lines or reliefs spread the load over more pairs; 1 for a spur pair of which one pair carries all for a while,
+/// whatever its errors. `None` without load.
+pub fn load_sharing_ratio(history: &StaticHistory) -> Option<f64> {
+    let largest = |of: &dyn Fn(&StaticPosition, &PairResult) -> f64| {
+        let all = history.positions.iter().flat_map(|p| p.pairs.iter().map(move |pair| of(p, pair)));
+        all.fold(0.0, f64::max)
+    };
+    let even = largest(&|p, pair| {
+        let force: f64 = p.pairs.iter().map(|pair| pair.normal_force).sum();
+        let length: f64 = p.pairs.iter().map(|pair| pair.geometric_line_length).sum();
+        if length > 0.0 { force * pair.geometric_line_length / length } else { 0.0 }
+    });
+    (even > 0.0).then(|| largest(&|_, pair| pair.normal_force) / even)
+}
