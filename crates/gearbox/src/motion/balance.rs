@@ -4,7 +4,11 @@ use dynamics::ModalForce;
 use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
-use super::{GearboxMechanism, gear_modes::with_modes};
+use super::{
+    GearboxMechanism,
+    gear_modes::with_modes,
+    loops::{self, is_zero},
+};
 use crate::GearboxError;
 
 impl GearboxMechanism {
@@ -16,7 +20,12 @@ impl GearboxMechanism {
         [t, speed, acceleration]: [f64; 3],
         out: &mut Forces,
     ) -> Result<(), GearboxError> {
-        out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
+        if !is_zero(&self.stiffness) {
+            out.conservative.gemv(-1.0, &self.stiffness, q, 1.0);
+            if out.tangents {
+                out.stiffness += &self.stiffness;
+            }
+        }
         if let Some(own) = self.beside_springs(q, out.tangents)? {
             out.conservative += own.force;
             if let Some(stiffness) = own.stiffness {
@@ -27,31 +36,29 @@ impl GearboxMechanism {
             let damped = &self.damping * v;
             out.dissipated += damped.dot(v);
             out.other -= damped;
+            if out.tangents {
+                out.damping += &self.damping;
+            }
         }
         if !is_zero(&self.gyroscopic) {
             let turned = &self.gyroscopic * v;
             out.other.axpy(-speed, &turned, 1.0);
-            if let (true, Some(i)) = (out.tangents, self.free.turn) {
-                let mut column = out.damping.column_mut(i);
-                column += turned;
+            if out.tangents {
+                out.damping.zip_apply(&self.gyroscopic, |c, g| *c += speed * g);
+                if let Some(i) = self.free.turn {
+                    let mut column = out.damping.column_mut(i);
+                    column += turned;
+                }
             }
         }
-        for load in &self.loads {
-            out.other += load;
-            out.supplied += load.dot(v);
-        }
-        for (torque, along) in self.varying.forces(t) {
-            out.other.axpy(torque, along, 1.0);
-            out.supplied += torque * along.dot(v);
-        }
+        let mut load = |size: f64, along: &DVector<f64>| {
+            loops::add(size, along, &mut out.other);
+            out.supplied += size * loops::along(along, v);
+        };
+        self.loads.iter().for_each(|own| load(1.0, own));
+        self.varying.forces(t).for_each(|(torque, along)| load(torque, along));
         if acceleration != 0.0 {
-            out.other.axpy(-acceleration, &self.momentum, 1.0);
-            out.supplied -= acceleration * self.momentum.dot(v);
-        }
-        if out.tangents {
-            out.stiffness += &self.stiffness;
-            out.damping += &self.damping;
-            out.damping.zip_apply(&self.gyroscopic, |c, g| *c += speed * g);
+            load(-acceleration, &self.momentum);
         }
         Ok(())
     }
@@ -59,7 +66,11 @@ impl GearboxMechanism {
     /// Elastic energy of shafts, bearings and housing, but what preloads of bearings do as loads, N mm.
     fn body_energy(&self, q: &DVector<f64>) -> Result<f64, GearboxError> {
         let beside = self.beside_springs(q, false)?.map_or(0.0, |own| own.energy);
-        Ok(0.5 * q.dot(&(&self.stiffness * q)) + beside)
+        if is_zero(&self.stiffness) {
+            return Ok(beside);
+        }
+        let twice: f64 = q.iter().zip(self.stiffness.column_iter()).map(|(x, column)| x * column.dot(q)).sum();
+        Ok(0.5 * twice + beside)
     }
 
     /// Forces of a mesh that answers along its levers; whether it is one.
@@ -72,36 +83,35 @@ impl GearboxMechanism {
     ) -> bool {
         let (turn, cycles) = (self.free.turn, self.cycles(mesh, angle));
         let live = &mut self.live[mesh];
-        let Some(found) = live.answer(cycles, [q, v], out.rates || turn.is_some()) else { return false };
-        for (k, lever) in live.levers.iter().enumerate() {
-            out.conservative.axpy(found.elastic[k], &lever.row, 1.0);
-            out.other.axpy(found.damping[k], &lever.row, 1.0);
+        let per_turn = live.cycles_per_turn;
+        let Some((levers, found)) = live.answer(cycles, [q, v], out.rates || turn.is_some()) else { return false };
+        for (k, lever) in levers.iter().enumerate() {
+            loops::add(found.elastic[k], &lever.row, &mut out.conservative);
+            loops::add(found.damping[k], &lever.row, &mut out.other);
             if let Some(answer) = &lever.answer {
-                out.other.axpy(found.damping[k], answer, 1.0);
-                out.supplied += found.damping[k] * answer.dot(v);
+                loops::add(found.damping[k], answer, &mut out.other);
+                out.supplied += found.damping[k] * loops::along(answer, v);
             }
         }
         out.dissipated += found.dissipated;
         if let Some(i) = turn {
-            out.conservative[i] -= live.cycles_per_turn * found.energy_rate;
+            out.conservative[i] -= per_turn * found.energy_rate;
         }
         if out.rates {
-            out.parametric += found.energy_rate * live.cycles_per_turn * given;
+            out.parametric += found.energy_rate * per_turn * given;
         }
         if out.tangents {
-            for (i, own) in live.levers.iter().enumerate() {
-                for (j, other) in live.levers.iter().enumerate() {
-                    out.stiffness.ger(found.stiffness[i][j], &own.row, &other.row, 1.0);
-                    out.damping.ger(found.rate_slope[i][j], &own.row, &other.row, 1.0);
+            for (i, own) in levers.iter().enumerate() {
+                for (j, other) in levers.iter().enumerate() {
+                    loops::add_product(found.stiffness[i][j], &own.row, &other.row, &mut out.stiffness);
+                    loops::add_product(found.rate_slope[i][j], &own.row, &other.row, &mut out.damping);
                     if let Some(answer) = &own.answer {
-                        out.damping.ger(found.rate_slope[i][j], answer, &other.row, 1.0);
+                        loops::add_product(found.rate_slope[i][j], answer, &other.row, &mut out.damping);
                     }
                 }
-                if found.slope[i] != 0.0 {
-                    out.stiffness.ger(found.slope[i], &own.row, &own.row, 1.0);
-                    if let Some(answer) = &own.answer {
-                        out.stiffness.ger(found.slope[i], answer, &own.row, 1.0);
-                    }
+                loops::add_product(found.slope[i], &own.row, &own.row, &mut out.stiffness);
+                if let Some(answer) = &own.answer {
+                    loops::add_product(found.slope[i], answer, &own.row, &mut out.stiffness);
                 }
             }
         }
@@ -173,11 +183,6 @@ impl GearboxMechanism {
         }
         Ok(())
     }
-}
-
-/// Whether a matrix does nothing.
-fn is_zero(matrix: &DMatrix<f64>) -> bool {
-    matrix.iter().all(|x| *x == 0.0)
 }
 
 impl Mechanism for GearboxMechanism {

@@ -181,8 +181,8 @@ impl GearboxMechanism {
         q: &DVector<f64>,
         tangent: bool,
     ) -> Result<Option<BesideSprings>, GearboxError> {
-        let springs = (self.assembly.supports(), self.stored());
-        self.rolling.as_ref().map(|rolling| rolling.beside(springs, q, tangent)).transpose()
+        let Some(rolling) = &self.rolling else { return Ok(None) };
+        rolling.beside((self.assembly.supports(), self.stored()), q, tangent).map(Some)
     }
 
     /// Energy that springs store with nothing displaced, N mm.

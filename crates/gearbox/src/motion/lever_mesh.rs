@@ -27,6 +27,7 @@ pub trait LeverMesh {
     /// Takes a place in the mesh cycles with the levers moved by `places`: energy, overlaps and reach are of there.
     fn stand(&mut self, cycles: f64, places: &[f64; LEVERS]);
 
-    /// Forces there, with the levers moving at `rates`.
-    fn answer(&mut self, rates: &[f64; LEVERS], energy_rate: bool) -> LeverForces;
+    /// Puts the forces there into `out`, with the levers moving at `rates`: all that its levers have to do with. What it
+    /// leaves alone is 0 from the beginning.
+    fn answer(&mut self, rates: &[f64; LEVERS], energy_rate: bool, out: &mut LeverForces);
 }

@@ -6,6 +6,7 @@ use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 use super::{
     MovingMesh,
     lever_mesh::{LEVERS, LeverForces},
+    loops,
 };
 use crate::{GearMesh, GearboxError, MeshForces, Vector12, static_gearbox::at_mesh};
 
@@ -23,7 +24,9 @@ pub(super) struct LiveMesh {
     /// Mesh cycles a radian of the input.
     pub cycles_per_turn: f64,
     /// Levers of a mesh that answers along them; none of others.
-    pub levers: Vec<Lever>,
+    levers: Vec<Lever>,
+    /// What it does along them.
+    found: LeverForces,
     last: Option<Last>,
 }
 
@@ -61,7 +64,17 @@ impl LiveMesh {
             answer: balance.map(|push| push * -by_train.dot(lever)),
         };
         let levers = own.iter().flatten().take(LEVERS).map(lever).collect();
-        Self { element, to_gears, gears, turn, by_train, cycles_per_turn, levers, last: None }
+        Self {
+            element,
+            to_gears,
+            gears,
+            turn,
+            by_train,
+            cycles_per_turn,
+            levers,
+            found: LeverForces::default(),
+            last: None,
+        }
     }
 
     /// What coordinates, or velocities, move the levers by.
@@ -69,8 +82,7 @@ impl LiveMesh {
     fn along(&self, z: &DVector<f64>) -> [f64; LEVERS] {
         let mut all = [0.0; LEVERS];
         for (s, lever) in all.iter_mut().zip(&self.levers) {
-            // A product of nalgebra takes longer to call than so few coordinates to sum.
-            *s = lever.row.iter().zip(z).map(|(a, x)| a * x).sum();
+            *s = loops::along(&lever.row, z);
         }
         all
     }
@@ -81,22 +93,31 @@ impl LiveMesh {
         if self.levers.is_empty() {
             return false;
         }
-        self.last = None;
         let places = self.along(q);
+        self.last = None;
         if let Some(own) = self.element.by_levers() {
             own.stand(cycles, &places);
         }
         true
     }
 
-    /// What a mesh that answers along its levers does at a place; `None` of others.
+    /// Levers of a mesh that answers along them, and what it does along these at a place; `None` of others.
     #[inline]
-    pub fn answer(&mut self, cycles: f64, [q, v]: [&DVector<f64>; 2], energy_rate: bool) -> Option<LeverForces> {
-        if !self.stand(cycles, q) {
+    pub fn answer(
+        &mut self,
+        cycles: f64,
+        [q, v]: [&DVector<f64>; 2],
+        energy_rate: bool,
+    ) -> Option<(&[Lever], &LeverForces)> {
+        if self.levers.is_empty() {
             return None;
         }
-        let rates = self.along(v);
-        self.element.by_levers().map(|own| own.answer(&rates, energy_rate))
+        let (places, rates) = (self.along(q), self.along(v));
+        self.last = None;
+        let own = self.element.by_levers()?;
+        own.stand(cycles, &places);
+        own.answer(&rates, energy_rate, &mut self.found);
+        Some((&self.levers, &self.found))
     }
 
     /// Forces at a place, with any tangent unless `tangents` asks for it; the same place once more costs nothing.

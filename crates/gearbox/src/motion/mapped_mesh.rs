@@ -267,27 +267,26 @@ impl LeverMesh for MappedMesh {
         }
     }
 
-    fn answer(&mut self, rates: &[f64; LEVERS], energy_rate: bool) -> LeverForces {
-        let mut all = LeverForces::default();
+    fn answer(&mut self, rates: &[f64; LEVERS], energy_rate: bool, out: &mut LeverForces) {
+        (out.energy_rate, out.dissipated) = (0.0, 0.0);
         let mut first = 0;
         for side in &mut self.sides {
             side.find(energy_rate);
             let (own, count) = (side.own(&rates[first..]), side.levers.len());
             let damping = side.damping(own, self.damping_per_length);
-            all.energy_rate += side.contact.phase_rate;
+            out.energy_rate += side.contact.phase_rate;
             for ((i, elastic), damped) in side.forces().into_iter().enumerate().zip(damping.force).take(count) {
                 let at = first + i;
-                all.elastic[at] = elastic;
-                all.damping[at] = -damped;
-                all.dissipated += damped * own[i];
+                out.elastic[at] = elastic;
+                out.damping[at] = -damped;
+                out.dissipated += damped * own[i];
                 for j in 0..count {
-                    all.stiffness[at][first + j] = side.contact.stiffness[i][j];
-                    all.rate_slope[at][first + j] = damping.rate_slope[i][j];
+                    out.stiffness[at][first + j] = side.contact.stiffness[i][j];
+                    out.rate_slope[at][first + j] = damping.rate_slope[i][j];
                 }
             }
-            all.slope[first] = damping.approach_slope;
+            out.slope[first] = damping.approach_slope;
             first += count;
         }
-        all
     }
 }

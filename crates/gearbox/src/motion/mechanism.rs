@@ -304,6 +304,7 @@ impl GearboxMechanism {
     }
 
     /// Angle (rad about +z) and speed of the input.
+    #[inline]
     pub(super) fn input(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         match self.free.turn {
             Some(i) if self.beside_nominal => {
@@ -316,6 +317,7 @@ impl GearboxMechanism {
     }
 
     /// Angle and speed of the input's nominal turn.
+    #[inline]
     pub(super) fn nominal_turn(&self, t: f64) -> [f64; 2] {
         let (sense, nominal) = (self.operation.sense.sign() as f64, self.drive.nominal());
         // No angle is -0.
@@ -350,6 +352,7 @@ impl GearboxMechanism {
     }
 
     /// Cycles of a mesh with the input at an angle.
+    #[inline]
     pub(super) fn cycles(&self, mesh: usize, angle: f64) -> f64 {
         self.start_cycles[mesh] + self.live[mesh].cycles_per_turn * angle
     }

@@ -24,6 +24,7 @@ mod gear_modes;
 mod instant;
 mod lever_mesh;
 mod live_mesh;
+mod loops;
 mod mapped_mesh;
 mod mechanism;
 mod memory;

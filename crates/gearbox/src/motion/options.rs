@@ -39,6 +39,7 @@ impl Drive {
     }
 
     /// Speed of the input by time where it is given, else that of the start.
+    #[inline]
     pub(super) fn nominal(&self) -> Speed {
         match *self {
             Self::Speed(speed) | Self::Balanced(speed) => speed,

@@ -4,6 +4,8 @@ use dynamics::Torque;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
+use super::loops;
+
 /// A torque that acts on a disc by a law over time.
 #[derive(Debug, Clone)]
 pub(super) struct VaryingTorque {
@@ -17,6 +19,13 @@ pub(super) struct VaryingTorque {
     pub at: usize,
     /// Turn of its shaft over the given one of the input; 0 where that is among the coordinates.
     pub ratio: f64,
+}
+
+impl VaryingTorque {
+    /// Angle of the disc with the input at an angle, rad about +z.
+    fn angle(&self, input: f64, q: &DVector<f64>) -> f64 {
+        self.ratio * input + loops::along(&self.disc, q)
+    }
 }
 
 /// All of them; none for a gearbox whose loads are constant.
@@ -88,7 +97,7 @@ impl VaryingTorques {
     }
 
     fn angles(&self, input: f64, q: &DVector<f64>) -> Vec<f64> {
-        self.all.iter().map(|own| own.ratio * input + own.disc.dot(q)).collect()
+        self.all.iter().map(|own| own.angle(input, q)).collect()
     }
 
     /// A motion begins at a time, with the input at an angle.
@@ -101,10 +110,19 @@ impl VaryingTorques {
         if self.all.is_empty() {
             return;
         }
-        let (angles, middle) = (self.angles(input, q), 0.5 * (self.done.time + time));
-        let moved = angles.iter().zip(&self.done.angles).map(|(now, before)| now - before);
-        self.done.work += self.all.iter().zip(moved).map(|(own, way)| own.law.at(middle) * way).sum::<f64>();
-        (self.done.time, self.done.angles) = (time, angles);
+        if self.done.angles.len() != self.all.len() {
+            // No motion has begun: nothing has moved yet.
+            self.done.angles = self.angles(input, q);
+        }
+        let middle = 0.5 * (self.done.time + time);
+        let mut work = 0.0;
+        for (own, angle) in self.all.iter().zip(&mut self.done.angles) {
+            let now = own.angle(input, q);
+            work += own.law.at(middle) * (now - *angle);
+            *angle = now;
+        }
+        self.done.work += work;
+        self.done.time = time;
     }
 
     /// Work of the outputs since the beginning, N mm.
