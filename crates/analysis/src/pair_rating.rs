@@ -10,7 +10,7 @@ use rating::{
     Spectrum, SpectrumRating, StandardRating, local_bending_safety, local_pitting_safety, permissible_film,
     scuffing_rating, standard_rating,
 };
-use scene::{DataFile, LubricationScene, RatingEdition, RatingScene, Scene};
+use scene::{LubricationScene, RatingEdition, RatingScene, Scene};
 use serde::Serialize;
 
 use crate::{
@@ -135,12 +135,10 @@ impl RatingHeadline {
     /// Headline of a solved pair; `None` where the scene asks for none, or where no load factor over the face was
     /// found.
     pub fn of(scene: &Scene, history: &StaticHistory) -> Option<Self> {
-        scene.rating.as_ref()?;
         let pair = scene.gear_pair().ok()?;
         // What the formulas refuse was refused before the work.
-        let spectrum = scene.rating.as_ref().and_then(|own| own.spectrum.as_ref()).map(DataFile::values);
         let loads = SolvedLoad::all(scene, &pair, history).ok()?;
-        let spectrum = spectrum.map(|own| (own, &loads[..]));
+        let spectrum = scene.rating.as_ref()?.spectrum.as_ref().map(|own| (own.values(), &loads[..]));
         Self::of_solved(scene, &pair, (&SolvedMesh::of(scene, history), spectrum)).ok()?
     }
 

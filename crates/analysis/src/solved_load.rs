@@ -139,14 +139,11 @@ impl SolvedLoad {
         pair: &GearPair,
         (torque_nm, positions): (f64, &Vec<StaticPosition>),
     ) -> Result<Self, AnalysisError> {
-        let flanks = match scene.has_slices() {
-            true => Some(patterns(scene, pair, positions)?.map(|own| own.grid)),
-            false => None,
-        };
+        let flanks = scene.has_slices().then(|| patterns(scene, pair, positions)).transpose()?;
         Ok(Self {
             torque_nm,
             face_load_factor: face_load_factor(scene.contact.slices.unwrap_or(1) as usize, positions),
-            flanks,
+            flanks: flanks.map(|both| both.map(|own| own.grid)),
             root_tensions: largest_tensions(positions),
         })
     }

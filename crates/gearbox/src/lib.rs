@@ -29,6 +29,7 @@ mod exact_mesh;
 mod linearised;
 mod mesh_bears;
 mod mesh_element;
+pub mod mesh_numbers;
 mod mesh_torques;
 mod modal_contact;
 mod modal_energy;

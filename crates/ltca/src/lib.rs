@@ -29,7 +29,7 @@ pub use equilibrium::{Equilibrium, GUESSED_LINE_STIFFNESS};
 pub use error::StaticError;
 pub use face_load::{envelope as load_envelope, face_load_factor};
 pub use kinematic::{ForeseenWindow, kinematic_transmission_error};
-pub use load_sharing::{load_sharing_ratio, transverse_load_factor};
+pub use load_sharing::{face_load_factor_of, load_sharing_ratio, transverse_load_factor};
 pub use options::StaticOptions;
 pub use pose_steps::round_off_of_places;
 pub use result::{Certificate, LoadCycle, PairResult, StaticHistory, StaticPosition, ToothChange, ToothChangeRecord};

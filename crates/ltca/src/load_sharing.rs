@@ -1,6 +1,14 @@
-//! How unevenly tooth pairs share the load, from the solved distribution. Theory (34a).
+//! How unevenly the load lies over the face and on tooth pairs, from its solved distribution. Theory (34a).
 
 use crate::{PairResult, StaticHistory, StaticPosition};
+
+/// K_Hbeta: [`crate::face_load_factor`] of all positions.
+///
+/// `None` where points touch, and without load.
+pub fn face_load_factor_of(slices: usize, positions: &[StaticPosition]) -> Option<f64> {
+    let pairs = positions.iter().flat_map(|position| &position.pairs);
+    crate::face_load_factor(slices, pairs.flat_map(|pair| &pair.slices))
+}
 
 /// K_Halpha by the definition of ISO 6336-1 (not its estimates): [`load_sharing_ratio`], and never below 1, as the
 /// standard has it. `None` without load.

@@ -26,7 +26,6 @@ mod clearance;
 mod headline;
 mod inertia;
 mod loads;
-mod mesh_numbers;
 mod meshes;
 mod motion;
 mod motion_remarks;

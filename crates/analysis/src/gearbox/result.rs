@@ -1,5 +1,6 @@
 //! What is read off all positions of a gearbox.
 
+use gearbox::mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak};
 use std::f64::consts::TAU;
 
 use answer::Remark;
@@ -11,7 +12,6 @@ use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
     bearings::{BearingTurns, LifeLimits, rolling_load},
     clearance::clearance_remarks,
-    mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak},
     meshes::ReducedMesh,
     spectrum::SolvedSpectrum,
 };

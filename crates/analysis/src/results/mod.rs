@@ -2,7 +2,6 @@
 //! patterns, the place of
 //! the largest pressure, the largest root stresses, the few numbers that a run at rest is made for. No files here.
 
-mod load_factors;
 pub mod pairs;
 mod pattern;
 mod pressure_place;
@@ -10,8 +9,7 @@ mod root_stress;
 mod static_headline;
 mod tooth_change;
 
-pub use load_factors::face_load_factor;
-pub use ltca::{load_sharing_ratio, transverse_load_factor};
+pub use ltca::{face_load_factor_of as face_load_factor, load_sharing_ratio, transverse_load_factor};
 pub(crate) use pattern::pressed;
 pub use pattern::{GearPattern, diameter, on_flank, patterns, touch, untouched};
 pub use pressure_place::{PressurePlace, PressureSpot, base_radius_mm, place_values};

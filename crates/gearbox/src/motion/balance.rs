@@ -52,8 +52,8 @@ impl GearboxMechanism {
             }
         }
         let mut load = |size: f64, along: &DVector<f64>| {
-            loops::add(size, along, &mut out.other);
-            out.supplied += size * loops::along(along, v);
+            out.other.axpy(size, along, 1.0);
+            out.supplied += size * along.dot(v);
         };
         self.loads.iter().for_each(|own| load(1.0, own));
         self.varying.forces(t).for_each(|(torque, along)| load(torque, along));
@@ -69,8 +69,7 @@ impl GearboxMechanism {
         if is_zero(&self.stiffness) {
             return Ok(beside);
         }
-        let twice: f64 = q.iter().zip(self.stiffness.column_iter()).map(|(x, column)| x * column.dot(q)).sum();
-        Ok(0.5 * twice + beside)
+        Ok(0.5 * q.dot(&(&self.stiffness * q)) + beside)
     }
 
     /// Forces of a mesh that answers along its levers; whether it is one.

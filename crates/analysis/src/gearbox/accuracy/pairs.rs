@@ -1,6 +1,7 @@
 //! What laws of pairs say of the meshes of a gearbox.
 
 use gearbox::Train;
+use gearbox::mesh_numbers::mean;
 use scene::{Driver, Quantity, Scene, gearbox::Gearbox};
 
 use crate::{
@@ -8,7 +9,6 @@ use crate::{
     accuracy::{Accuracy, Bound, Companions, bounds_of},
     gearbox::{
         GearboxResult,
-        mesh_numbers::mean,
         solve::{Slices, running},
     },
     statics::CycleAnalysis,

@@ -1,13 +1,11 @@
 //! The numbers of a gearbox at rest that bounds are given for.
 
+use gearbox::mesh_numbers::{MeshNumbers, mean_force};
 use std::f64::consts::TAU;
 
 use scene::{Quantity, gearbox::Gearbox};
 
-use crate::gearbox::{
-    GearboxResult, VibrationResult,
-    mesh_numbers::{MeshNumbers, mean_force},
-};
+use crate::gearbox::{GearboxResult, VibrationResult};
 use gearbox::{Component, GearboxPosition};
 
 /// Which number.

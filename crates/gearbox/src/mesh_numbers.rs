@@ -1,10 +1,10 @@
 //! Numbers of meshes and bearings over some positions.
 
-use gearbox::{GearboxPosition, face_load_factor};
+use crate::{GearboxPosition, face_load_factor};
 
 /// Numbers of a mesh over some positions that a gearbox is judged by.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct MeshNumbers {
+pub struct MeshNumbers {
     /// Mean and peak to peak of the transmission error, mm.
     pub transmission_error: [f64; 2],
     /// Mean misalignment in and across the plane of action, mm over the face width.
@@ -30,12 +30,12 @@ impl MeshNumbers {
 }
 
 /// Mean force of a bearing on its shaft, N.
-pub(super) fn mean_force(positions: &[GearboxPosition], bearing: usize) -> [f64; 3] {
+pub fn mean_force(positions: &[GearboxPosition], bearing: usize) -> [f64; 3] {
     std::array::from_fn(|k| mean(positions.iter().map(|p| p.bearings[bearing].force[k])))
 }
 
 /// The mean; 0 of none.
-pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
+pub fn mean(values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0.0f64);
     for value in values {
         sum += value;
@@ -45,7 +45,7 @@ pub(super) fn mean(values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// The largest less the smallest; 0 of none.
-pub(super) fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
+pub fn peak_to_peak(values: impl Iterator<Item = f64>) -> f64 {
     let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
     if low <= high { high - low } else { 0.0 }
 }
