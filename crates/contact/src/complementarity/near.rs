@@ -105,7 +105,7 @@ impl DenseSolver {
 
     /// Solves the contact of the same rows after a small motion, from the last solution and with its factor; whether
     /// that led to a solution, without rows becoming active or inactive. The stiffness is that of the factor until
-    /// [`DenseSolver::refine_stiffness`].
+    /// `refine_stiffness`.
     pub fn solve_moved(&mut self, problem: &DenseProblem<'_>, local: impl LocalApproach) -> bool {
         if self.active.is_empty() || self.forces.len() != problem.gaps.len() || !self.factored {
             return false;
