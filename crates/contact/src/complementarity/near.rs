@@ -120,8 +120,8 @@ impl DenseSolver {
     /// y = M^-1 l (that of the last balance),   r = l - A y,   z = M^-1 r
     /// l' A^-1 l = l' y + y' r + r' A^-1 r  ~  l' y + y' r + r' z
     /// ```
-    /// Without friction one step is enough: M is off by a share e that r' z / l' y = e^2 tells, the sum by its third power.
-    /// With friction, and where M is too far off, y + z is the next y. Where slopes have changed so much that these steps
+    /// Without friction one step is enough where r' z is small beside the sum: what is left out is less than it. With friction,
+    /// and where M is too far off, y + z is the next y. Where slopes have changed so much that these steps
     /// creep, by a factor of its own.
     pub(crate) fn refine_stiffness(&mut self, problem: &DenseProblem<'_>) {
         let m = self.active.len();
@@ -158,7 +158,7 @@ impl DenseSolver {
                 found[i] += z;
             }
             let told = stiffness + change + if self.symmetric { second } else { 0.0 };
-            let off = if self.symmetric { (second / told).abs().powf(1.5) } else { (change / told).abs() };
+            let off = if self.symmetric { (second / told).abs() } else { (change / told).abs() };
             if off <= STIFFNESS_ACCURACY {
                 settled = Some(told);
                 break;
