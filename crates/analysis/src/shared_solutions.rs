@@ -38,9 +38,9 @@ use crate::{
 /// of a quick case.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum RemarksAtRest {
-    /// The history has all remarks that a run by itself has, and the loads of its spectrum.
+    /// The history has all remarks that a run by itself has.
     Collected,
-    /// The history has its own positions with their remarks alone.
+    /// The history has the remarks of its own positions alone.
     Skipped,
 }
 
@@ -109,11 +109,7 @@ impl SharedModels<'_> {
             unless_lost()?;
             return Ok(SolvedWithRates { scene, history, rates: Vec::new() });
         }
-        let (mut solved, base) = self.positions(
-            scene,
-            rates,
-            RestRequest { interest: Interest { positions: &still, ..interest }, ..request },
-        )?;
+        let (mut solved, base) = self.positions(scene, rates, Interest { positions: &still, ..interest })?;
         if lost.load(Ordering::Relaxed) {
             return Err(AnalysisError::Cancelled);
         }
@@ -136,7 +132,7 @@ impl SharedModels<'_> {
         &self,
         scene: &Scene,
         asked: Rates<'_>,
-        RestRequest { remarks, interest }: RestRequest<'_>,
+        interest: Interest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
         let scene = resolved_scene(scene, self.meshes().is_some());
         let pair = scene.gear_pair()?;
@@ -169,7 +165,7 @@ impl SharedModels<'_> {
                     }
                     ControlFlow::Continue(())
                 })?;
-                if remarks == RemarksAtRest::Collected && (interest.positions)() {
+                if (interest.positions)() {
                     history.under_loads = under_loads(&scene, &model, (interest.positions, &mut NoObserver))?;
                 }
                 Ok((history, rates.into_iter().collect::<Result<Vec<_>, StaticError>>()?, base))

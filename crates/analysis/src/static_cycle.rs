@@ -32,8 +32,6 @@ pub(crate) struct CycleInputs<'a> {
     pub shared: Option<&'a SharedModels<'a>>,
     pub pair: &'a GearPair,
     pub meshes: &'a [SceneMesh; 2],
-    /// Whether the loads of a spectrum are solved as well.
-    pub loads: bool,
 }
 
 /// Positions of a scene, and the model that they were found with.
@@ -87,7 +85,7 @@ fn attempt(
     sink: &mut dyn StaticSink,
     options: &StaticOptions,
 ) -> Result<(StaticModel, StaticHistory), Failure> {
-    let CycleInputs { scene, cache, shared, pair, meshes, .. } = inputs;
+    let CycleInputs { scene, cache, shared, pair, meshes } = inputs;
     let name = if scene.analysis.model == Model::Full { "assemble" } else { "reduce" };
     let work = PhaseWork::Seconds(announced_seconds(observer, (scene.analysis.is_general(), meshes), 1.0));
     let (base, mut remarks) = run_phase(observer, name, work, |progress| match shared {
@@ -130,9 +128,7 @@ fn attempt(
             None => history.map_err(Failure::Static),
         }
     })?;
-    if inputs.loads {
-        history.under_loads = under_loads(scene, &model, (&|| true, observer))?;
-    }
+    history.under_loads = under_loads(scene, &model, (&|| true, observer))?;
     sink.finish().map_err(AnalysisError::Sink)?;
     // Where a window of an odd number of teeth changes, the cycle ends. Whole gears have no window that could slide.
     if model.contact_set().windows().is_some() {

@@ -164,7 +164,7 @@ impl<'a> CycleAnalysis<'a> {
         let options = options(scene, &pair);
         let (resolution, said) = resolution(scene, &pair, &options);
         remarks.extend(said);
-        let inputs = CycleInputs { scene, cache, shared, pair: &pair, meshes: &meshes, loads: true };
+        let inputs = CycleInputs { scene, cache, shared, pair: &pair, meshes: &meshes };
         let SolvedStaticCycle { model, mut history, widened } = inputs.solve(&options, observer, sink)?;
         remarks.extend(widened);
         let mut facts = facts_of(scene, &model, &meshes);

@@ -72,18 +72,22 @@ pub(crate) fn numbers(
         Machine::Pair(mut scene) => {
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
+            scene.rating = scene.rating.filter(|_| outputs.iter().any(is_rating));
             let context = Context::<Scene>::new(observer).with_models(models).with_remarks(RemarksAtRest::Skipped);
             let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
             solved.verdict().map_err(said)?;
             case_values(outputs, &solved)
         }
         Machine::Gearbox(mut file) => {
-            let wants = wanted_in_time(outputs);
+            let wants = wanted(outputs);
             // Nobody looks at the others.
             let bounded = file.accuracy.of(Quantity::NaturalFrequency).is_some();
             file.vibration = file.vibration.filter(|_| wants[0] || bounded);
             file.motion = file.motion.filter(|_| wants[1]);
             file.branch = file.branch.filter(|_| wants[2]);
+            if let Some(rating) = file.rating.as_mut().filter(|_| !wants[3]) {
+                rating.spectrum = None;
+            }
             let context = Context::<Gearbox>::new(observer).with_models(models);
             let result = solve(&*file, context).and_then(Ending::finished).map_err(said)?;
             result.verdict(&file).map_err(said)?;
@@ -92,11 +96,17 @@ pub(crate) fn numbers(
     }
 }
 
-/// Whether numbers of a vibration are wanted of a gearbox, those of a motion, and those of a branch: rows are of the motion.
-fn wanted_in_time(outputs: &[PlanOutput]) -> [bool; 3] {
+/// Whether a number is one of the rating of a pair.
+fn is_rating(output: &PlanOutput) -> bool {
+    matches!(output, PlanOutput::Headline(key) if key.split('.').next() == Some("rating"))
+}
+
+/// Whether numbers of a vibration are wanted of a gearbox, those of a motion, of a branch, and of a load spectrum: rows are of
+/// the motion.
+fn wanted(outputs: &[PlanOutput]) -> [bool; 4] {
     let of = |output: &PlanOutput| match output {
-        PlanOutput::Headline(key) => GearboxResult::is_in_time(key.split('.').next().unwrap_or(key)),
-        PlanOutput::Column { .. } => [false, true, false],
+        PlanOutput::Headline(key) => GearboxResult::asks_for(key.split('.').next().unwrap_or(key)),
+        PlanOutput::Column { .. } => [false, true, false, false],
     };
-    outputs.iter().map(of).fold([false; 3], |all, own| std::array::from_fn(|i| all[i] | own[i]))
+    outputs.iter().map(of).fold([false; 4], |all, own| std::array::from_fn(|i| all[i] | own[i]))
 }

@@ -88,7 +88,7 @@ impl Spectrum {
     }
 
     /// Torque, N m, down to which loads do no damage beside the heaviest one or a nominal torque: a thousandth of the larger
-    /// of both. Damage goes with the 6th power of the load or a higher one.
+    /// of both. Damage goes with the 5th power of the load or a higher one.
     fn light(&self, nominal_torque_nm: f64) -> f64 {
         let works = self.bins.iter().filter(|bin| bin.works());
         LIGHT * works.map(|bin| bin.torque_nm).fold(nominal_torque_nm, f64::max)

@@ -470,3 +470,34 @@ fn drawn_samples_are_coloured_dots() {
     assert_eq!(scratch.command(&torques).code, Some(0));
     assert!(scratch.read("o/report.html").contains("90 % of samples"));
 }
+
+/// Numbers of a rating under a load spectrum are those of a run by itself, where each load is solved as well: alone, and
+/// beside numbers that need none.
+#[test]
+fn ratings_of_cases_have_the_loads_of_a_run() {
+    let gear = "material = \"18CrNiMo7-6\"\nflank_roughness_rz_um = 4.8\nroot_roughness_rz_um = 20.0\n";
+    let rating = format!(
+        "[pair.misalignment]\nin_plane_of_action_um = 20.0\n[rating]\nlife_h = 2e4\napplication_factor = 1.25\n\
+         tolerance_class = 6\nlubricant = \"mineral VG 220\"\nspectrum = \"loads.csv\"\n[rating.pinion]\n{gear}[rating.wheel]\n{gear}"
+    );
+    let scratch = Scratch::new()
+        .file("a.toml", tiny_at_rest(4) + &rating)
+        .file("loads.csv", "torque_nm,speed_rpm,share\n100,1000,1\n40,1000,3\n");
+    assert_eq!(scratch.ale_gear(["run", "a.toml", "--set", "operation.torque_nm=100", "--out", "run"]).code, Some(0));
+    let summary: serde_json::Value = serde_json::from_str(&scratch.read("run/summary.json")).unwrap();
+    let wanted = ["/rating/spectrum/wheel/pitting_damage", "/rating/local_spectrum/pitting_damage/1", "/mean_ste_um"];
+    let of_run = |key: &str| summary["headline"].pointer(key).unwrap().as_f64().unwrap();
+    let names = wanted.map(|key| key[1..].replace('/', "."));
+    for outputs in [&names[..], &names[2..]] {
+        let mut words = vec!["vary", "a.toml", "--vary", "operation.torque_nm=100", "--out", "cases"];
+        outputs.iter().for_each(|name| words.extend(["--output", name.as_str()]));
+        let run = scratch.command(&words);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+        let rows = rows(&scratch, "cases/cases.csv");
+        for name in outputs {
+            let key = format!("/{}", name.replace('.', "/"));
+            assert_eq!(rows[0][name].parse::<f64>().unwrap(), of_run(&key), "{name}");
+        }
+        std::fs::remove_dir_all(scratch.path().join("cases")).unwrap();
+    }
+}

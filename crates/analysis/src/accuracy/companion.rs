@@ -112,6 +112,8 @@ fn companion_scene(scene: &Scene, rung: Rung, result: &StaticResult) -> Scene {
         gear.mesher = Some(mesher);
     }
     let mut own = rung.scene(&own);
+    // It is never rated.
+    own.rating = None;
     own.analysis.model = Model::Reduced;
     own.analysis.reduction = Some(Reduction::Auto);
     own.analysis.positions_per_cycle /= stride(own.analysis.positions_per_cycle);

@@ -22,7 +22,7 @@ impl SolvedCycle {
     pub fn new(scene: &Scene, cache: &dyn GearCache) -> Result<Self, AnalysisError> {
         let pair = scene.gear_pair()?;
         let meshes = meshes::known_pair_meshes(scene, &pair, cache)?;
-        let inputs = CycleInputs { scene, cache, shared: None, pair: &pair, meshes: &meshes, loads: false };
+        let inputs = CycleInputs { scene, cache, shared: None, pair: &pair, meshes: &meshes };
         // What cannot be kept in the cache is made again: nobody needs to hear of it.
         let solved = inputs.solve(&options(scene, &pair), &mut NoObserver, &mut NoSink)?;
         Ok(Self { scene: scene.clone(), history: solved.history, model: solved.model })

@@ -313,13 +313,15 @@ impl GearboxResult {
         NUMBERS.iter().map(|n| n.key).collect()
     }
 
-    /// Whether a number of the headline, by its key, is one of the vibration, of the motion, or of the branch over the speed.
-    pub fn is_in_time(key: &str) -> [bool; 3] {
+    /// Whether a number of the headline, by its key, is one of the vibration, of the motion, of the branch over the speed, or
+    /// of the load spectrum.
+    pub fn asks_for(key: &str) -> [bool; 4] {
         let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
         [
             matches!(of, Some(Of::MeshesVibrating(_) | Of::BearingsVibrating(_))),
             matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_) | Of::RunUp(_))),
             matches!(of, Some(Of::Branch(_) | Of::MeshesOnBranch(_))),
+            matches!(of, Some(Of::BearingsUnderSpectrum(_) | Of::MeshesUnderSpectrum(_))),
         ]
     }
 }

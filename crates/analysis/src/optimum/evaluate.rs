@@ -38,7 +38,8 @@ pub(super) fn evaluate(
     let torques = plan.torques.len();
     let solved = parallel_map(torques * plan.samples(), |i| {
         let (sample, torque) = (i / torques, plan.torques[i % torques].torque_nm);
-        let at = |values: &[f64]| plan.scene(values, torque, Some(sample));
+        // Nobody looks at ratings.
+        let at = |values: &[f64]| plan.scene(values, torque, Some(sample)).map(|scene| Scene { rating: None, ..scene });
         let rates = Rates { of: &varied(plan, values, at)?, of_unloaded: false };
         models.solve(&at(values)?, rates, RestRequest::to_the_end(RemarksAtRest::Skipped))
     });

@@ -2,7 +2,7 @@
 
 use design::{Goal, Measure};
 use ltca::{StaticHistory, StaticPosition};
-use scene::optimum::Optimisation;
+use scene::{Scene, optimum::Optimisation};
 use serde::Serialize;
 
 use super::Optimum;
@@ -99,7 +99,7 @@ pub fn summarise(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimis
     all.dedup();
     let solved = parallel_map(2 * all.len(), |i| {
         let values = if i % 2 == 0 { &start } else { values };
-        let scene = plan.scene(values, all[i / 2], None)?;
+        let scene = Scene { rating: None, ..plan.scene(values, all[i / 2], None)? };
         let request = RestRequest::to_the_end(RemarksAtRest::Skipped);
         Ok(cycle(&models.solve(&scene, Rates::default(), request)?.history))
     });
