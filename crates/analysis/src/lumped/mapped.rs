@@ -229,7 +229,10 @@ impl LumpedMechanism for MappedModel {
             }
             ParameterChange::Damping(ratio) => {
                 options.damping = MeshDamping::Ratio(ratio);
-                self.pair.machine().map(|made| self.machine = made).is_ok()
+                // What the motion has used of the map so far counts on.
+                let memory = self.machine.memory();
+                let made = self.pair.machine().and_then(|mut made| made.restore(&memory).map(|()| made));
+                made.map(|made| self.machine = made).is_ok()
             }
         }
     }

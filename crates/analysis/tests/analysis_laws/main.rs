@@ -23,6 +23,7 @@ mod nominal_load;
 mod overhung;
 mod planets;
 mod rating;
+mod rating_loads;
 mod remarks;
 mod scale_at_rest;
 mod scale_in_motion;
