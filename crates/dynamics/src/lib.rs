@@ -19,7 +19,6 @@ mod nominal;
 mod options;
 mod rotation;
 mod run;
-mod shooting;
 mod side_loads;
 mod stable_step;
 mod stands;
@@ -44,10 +43,7 @@ pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};
 pub use rotation::rotation_share;
 pub use run::{Motion, MotionSettings, compared, instants, run_to_steady};
-pub use shooting::{ShootingResult, shoot};
 pub use side_loads::SideLoads;
 pub use stable_step::stable_step;
 pub use start::quasi_static_start;
-pub use sweep::{
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
-};
+pub use sweep::{SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, shoot, sweep};

@@ -1,13 +1,14 @@
 //! Steady motions of a pair at many speeds.
 
-use std::ops::ControlFlow;
+use std::{f64::consts::TAU, ops::ControlFlow};
 
-use integrate::{Ledger, OnlyRows, Periodicity, State, SweepDirection};
+use integrate::{Ledger, MotionError, OnlyRows, Periodicity, State, SweepDirection, Timetable};
 use ltca::StaticError;
+use periodic::{Shooting, Shot};
 
 use crate::{
     Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, ToothChanges, instants,
-    quasi_static_start, run::steady_goal, shoot,
+    quasi_static_start, run::steady_goal,
 };
 
 /// Method that finds a steady state.
@@ -137,7 +138,7 @@ fn steady_state_at(
     let mut motion = Motion::new(own, plan.settings.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
     if by == SteadyBy::Shooting {
-        shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
+        shoot(&mut motion, tolerance)?;
     }
     let goal = steady_goal(&motion, (tolerance, most), cycles);
     motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
@@ -171,5 +172,30 @@ fn steady_state_at(
     Ok((point, end))
 }
 
-/// Newton steps of shooting before waiting takes over.
-pub const SHOOTING_NEWTON_STEPS: usize = 12;
+/// Brings a motion at its start onto its periodic solution of one mesh cycle, or as near to one as shooting comes: the
+/// residual tells.
+///
+/// # Errors
+/// [`PairMotionError::FreeDriver`] where a torque drives: speed and position of the driver are free then.
+/// [`PairMotionError::ModesWithoutPeriod`] with modes of a gear that is not known by sectors.
+/// [`PairMotionError::Integration`].
+pub fn shoot(motion: &mut Motion, tolerance: f64) -> Result<Shot, PairMotionError> {
+    let (system, times, state) = (motion.system(), motion.timetable(), motion.state().clone());
+    if system.coordinates().driver_turn().is_some() {
+        return Err(PairMotionError::FreeDriver);
+    }
+    let Some(cycles) = Shooting::cycles(times, system, state.time, 1) else {
+        return Err(MotionError::StandsStill { cycle: 0 }.into());
+    };
+    let search = Shooting {
+        method: times.method(system),
+        cycles,
+        tolerance,
+        frequency: TAU * system.mesh_resonance_hz(),
+        free: None,
+        back: Some(system.back_over(1).ok_or(PairMotionError::ModesWithoutPeriod)?),
+    };
+    let shot = search.from(motion.system_mut(), &state)?;
+    motion.replace(shot.state.clone())?;
+    Ok(shot)
+}

@@ -7,11 +7,10 @@ use gearbox::{
     GearboxError,
     motion::{
         ContactSpring, Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRun,
-        MotionOptions, MotionPlan, ReductionCertificate,
+        GearboxTimes, MotionOptions, ReductionCertificate,
     },
 };
 use integrate::{Follower, MotionError, Periodicity, Row, Stage, State};
-use nalgebra::DVector;
 use scene::gearbox::{GearboxDrive, GearboxMotion};
 
 use super::{
@@ -250,8 +249,8 @@ pub(super) fn run(
     let frequencies = mechanism.mesh_frequencies();
     let reduction = *mechanism.bodies().certificate();
     let mut course = mechanism.course(&start, &plan, from).map_err(failed)?;
-    let scale = course.timetable().scale().clone();
-    let mut told = Outcome { rows, sink, plan, scale };
+    let times = course.timetable().clone();
+    let mut told = Outcome { rows, sink, times };
     let mut stopped = false;
     if let (Some(settle), false) = (plan.settle, course.stage().recording) {
         stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
@@ -313,9 +312,7 @@ pub(super) fn run(
 struct Outcome<'a> {
     rows: RowStore<GearboxInstant>,
     sink: &'a mut dyn GearboxSink,
-    plan: MotionPlan,
-    /// Sizes of the coordinates.
-    scale: DVector<f64>,
+    times: GearboxTimes,
 }
 
 /// The same in one phase of the analysis.
@@ -372,7 +369,7 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
     }
 
     fn seeks(&self, _: &&mut GearboxMechanism, found: Periodicity) -> bool {
-        self.told.plan.seeks(found)
+        self.told.times.plan().seeks(found)
     }
 
     fn nearer(
@@ -381,7 +378,7 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
         state: &State,
         _: Periodicity,
     ) -> Result<Option<State>, Ended> {
-        system.nearer(state, &self.told.plan, &self.told.scale).map_err(Ended::Motion)
+        system.nearer(state, &self.told.times).map_err(Ended::Motion)
     }
 
     fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {

@@ -14,7 +14,7 @@ use scene::{Analysis, MotionScene, Run, Scene};
 use super::{
     LumpedRow,
     free_turn::free_turn,
-    integration::{MeshFrequencies, integrator, method},
+    integration::{MeshFrequencies, method},
     mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
     survey::RowSurvey,
 };
@@ -243,16 +243,17 @@ impl RunPlan<'_> {
     ) -> Result<Option<State>, ModelFailure> {
         let Self { motion, frequencies, .. } = *self;
         let free = free_turn(model)?;
+        let times = LumpedTimes { motion, frequencies };
         let search = |model: &mut BoxedMechanism, period: usize| {
             let shooting = Shooting {
-                period: period as f64 / frequencies.mesh_hz,
+                method: method(model, motion),
+                cycles: Shooting::cycles(&times, &&mut *model, 0.0, period as u64).unwrap_or_default(),
                 tolerance,
-                scale: model.scale(),
                 frequency: TAU * frequencies.mesh_hz.max(frequencies.resonance_hz),
                 free: free.as_ref(),
                 back: None,
             };
-            shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
+            shooting.near(model, state).map_err(ModelFailure::at(state.time))
         };
         let once = search(model, 1)?;
         Ok(if once.is_some() || period == 1 { once } else { search(model, period)? })

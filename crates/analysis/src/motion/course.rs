@@ -3,12 +3,10 @@
 use std::sync::Arc;
 
 use answer::RowStore;
-use dynamics::{
-    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads, compared,
-    quasi_static_start, shoot,
-};
+use dynamics::{Motion, PairMechanism, PairMotionError, SideLoads, compared, quasi_static_start, shoot};
 use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage, State};
 use ltca::StaticError;
+use periodic::Shot;
 use scene::{MotionScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
@@ -51,7 +49,7 @@ fn goal(scene: &Scene, motion: &MotionScene, begun: &Motion, stop_after: Option<
 /// A motion at its end.
 pub(super) struct FinishedMotion {
     pub motion: Motion,
-    pub shooting: Option<ShootingResult>,
+    pub shooting: Option<Shot>,
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
     /// All rows, those before a checkpoint among them.
@@ -122,7 +120,7 @@ fn begin<'a>(
     prepared: &PreparedMotion,
     (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
     Span { from, .. }: Span,
-) -> Result<(Motion, Option<ShootingResult>, Outcome<'a>), Failure> {
+) -> Result<(Motion, Option<Shot>, Outcome<'a>), Failure> {
     let PreparedMotion { system, settings, quasi_static, facts, .. } = prepared;
     let window = facts.window_teeth.unwrap_or(0) as usize;
     let layout = MotionLayout::of(scene, window);
@@ -145,9 +143,7 @@ fn begin<'a>(
     let mut shooting = None;
     if motion.run == Run::Shooting {
         let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
-        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-            shoot(&mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
-        });
+        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| shoot(&mut begun, tolerance));
         shooting = Some(shot.map_err(fail)?);
     }
     Ok((begun, shooting, told))

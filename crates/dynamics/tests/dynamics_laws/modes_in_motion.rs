@@ -245,7 +245,7 @@ fn shooting_finds_what_waiting_finds() {
             MotionSettings { scheme, rows, steps_per_resonance: 0, tolerance: None, stop_at_events: false, scale };
         let mut motion = Motion::new(system, settings, state);
         let periods = if shooting {
-            let shot = shoot(&mut motion, 1, 1e-7, 12).unwrap_or_else(|e| panic!("{e}"));
+            let shot = shoot(&mut motion, 1e-7).unwrap_or_else(|e| panic!("{e}"));
             assert!(shot.residual < 1e-7 && shot.multiplier < 1.0, "{shot:?}");
             shot.periods as u64
         } else {

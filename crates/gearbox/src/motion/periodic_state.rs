@@ -2,47 +2,34 @@
 
 use std::f64::consts::TAU;
 
-use integrate::{Follower, Method, Periodicity, Resumable, Row, State, StepControl};
-use nalgebra::{DMatrix, DVector};
+use integrate::{Follower, Periodicity, Row, State, Timetable};
+use nalgebra::DMatrix;
 use periodic::Shooting;
 
-use super::{GearboxMechanism, MotionPlan};
+use super::{GearboxMechanism, GearboxTimes};
 use crate::GearboxError;
 
 impl GearboxMechanism {
-    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, or the search leads out
-    /// of what the meshes hold. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
+    /// The stable periodic state near `state` of a motion by `times`, at the same time; `None` where none is near, or the
+    /// search leads out of what the meshes hold.
     ///
     /// # Errors
     /// [`GearboxError`] where the mechanism cannot be put back; [`GearboxError::ModesWithoutPeriod`].
-    pub fn nearer(
-        &mut self,
-        state: &State,
-        plan: &MotionPlan,
-        scale: &DVector<f64>,
-    ) -> Result<Option<State>, GearboxError> {
-        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none()) else {
+    pub fn nearer(&mut self, state: &State, times: &GearboxTimes) -> Result<Option<State>, GearboxError> {
+        let Some(period) = self.common_period().filter(|_| self.free.turn.is_none()) else {
             return Ok(None);
         };
-        let (memory, back) = (self.memory(), self.back_over(cycles)?);
+        let (begin, times) = (state.time, times.beginning(state.time));
+        let Some(cycles) = Shooting::cycles(&times, &&mut *self, begin, period) else { return Ok(None) };
         let search = Shooting {
-            period: plan.step * plan.steps_per_cycle.saturating_mul(cycles) as f64,
-            tolerance: plan.settle.map_or(0.0, |settle| settle.tolerance),
-            scale: scale.clone(),
+            method: times.method(&&mut *self),
+            cycles,
+            tolerance: times.plan().settle.map_or(0.0, |settle| settle.tolerance),
             frequency: TAU * self.mesh_frequencies().into_iter().fold(0.0, f64::max),
             free: None,
-            back,
+            back: self.back_over(period)?,
         };
-        let MotionPlan { scheme, stop_at_events, tolerance, step, .. } = *plan;
-        let method = Method { scheme, scale: scale.clone(), stop_at_events, keep_stable: true };
-        let found = search.near(self, state, |own| {
-            own.restore(&memory)?;
-            Ok(method.clone().integrator(StepControl::new(tolerance, step)))
-        });
-        // What was used of the meshes on the way is not the motion's.
-        self.restore(&memory)?;
-        integrate::Mechanism::forget(self);
-        Ok(found.unwrap_or(None))
+        search.near(self, state)
     }
 
     /// Map of the coordinates at the end of so many cycles of the fastest mesh to those at their beginning which are the same
@@ -63,8 +50,7 @@ impl GearboxMechanism {
 /// Reads rows off a motion, and takes it to its periodic state where it nearly repeats itself.
 pub(super) struct Settling<F> {
     pub rows: F,
-    pub plan: MotionPlan,
-    pub scale: DVector<f64>,
+    pub times: GearboxTimes,
 }
 
 impl<F> Follower<&mut GearboxMechanism> for Settling<F>
@@ -78,7 +64,7 @@ where
     }
 
     fn seeks(&self, _: &&mut GearboxMechanism, found: Periodicity) -> bool {
-        self.plan.seeks(found)
+        self.times.plan().seeks(found)
     }
 
     fn nearer(
@@ -87,6 +73,6 @@ where
         state: &State,
         _: Periodicity,
     ) -> Result<Option<State>, GearboxError> {
-        system.nearer(state, &self.plan, &self.scale)
+        system.nearer(state, &self.times)
     }
 }

@@ -30,9 +30,14 @@ pub struct GearboxTimes {
 }
 
 impl GearboxTimes {
-    /// Sizes of the coordinates.
-    pub fn scale(&self) -> &DVector<f64> {
-        &self.scale
+    /// How the motion is integrated.
+    pub fn plan(&self) -> &MotionPlan {
+        &self.plan
+    }
+
+    /// Times of a motion that begins at a time (s).
+    pub(super) fn beginning(&self, start: f64) -> Self {
+        Self { start, ..self.clone() }
     }
 
     fn is_ramp(&self) -> bool {
@@ -115,12 +120,12 @@ impl GearboxMechanism {
     ) -> Result<GearboxRun, GearboxError> {
         let goal = self.goal(start, plan)?;
         let mut course = self.course(start, plan, None)?;
-        let scale = course.timetable().scale().clone();
+        let times = course.timetable().clone();
         let rows = |row: Row<'_, &mut Self>| {
             seen(&row.system.instant(row.state)?);
             Ok::<_, GearboxError>(())
         };
-        course.run(&goal, &mut Settling { rows, plan: *plan, scale })?;
+        course.run(&goal, &mut Settling { rows, times })?;
         GearboxRun::of(course, start)
     }
 

@@ -73,6 +73,11 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.system
     }
 
+    /// The mechanism, for searches that leave it as it is.
+    pub fn system_mut(&mut self) -> &mut M {
+        &mut self.system
+    }
+
     /// The mechanism, at the end of its motion.
     pub fn into_system(self) -> M {
         self.system
@@ -114,7 +119,10 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
     }
 
     /// Goes on from another state at the same time, its own accelerations included; energy and counts begin anew.
-    fn replace(&mut self, state: State) -> Result<(), MotionError<M::Error>> {
+    ///
+    /// # Errors
+    /// [`MotionError`] where it has no energy.
+    pub fn replace(&mut self, state: State) -> Result<(), MotionError<M::Error>> {
         let time = state.time;
         let potential = self.system.potential(time, &state.q);
         let potential = potential.map_err(|source| MotionError::Mechanism { time, source })?;
