@@ -48,7 +48,7 @@ impl IndefiniteFactor {
         }
         let n = matrix.n();
         let ordering = Ordering::new(matrix, last)?;
-        let symbolic = ordering.symbolic(matrix)?;
+        let symbolic = ordering.symbolic(matrix.lower().symbolic())?;
         let mut values = try_zeroed(symbolic.len_val())?;
         let mut subdiagonal = vec![0.0; n];
         let (mut pivots, mut pivots_inverse) = (vec![0; n], vec![0; n]);

@@ -6,6 +6,7 @@
 //! 2. [`assemble`]: sparse stiffness (N/mm) and consistent mass (t);
 //! 3. [`BoundaryLastFactor`]: one sparse Cholesky factor that holds the condensed stiffness, the compliance
 //!    and the constraint modes of chosen boundary coordinates;
+//!    [`PartedFactor`]: the same of a large body, of which a part at a time is held;
 //! 4. [`IndefiniteFactor`]: the same for a system with constraints;
 //! 5. [`nodal_stress`], [`StressOperator`], [`mass_properties`]: what follows from displacements and mesh.
 //!
@@ -36,7 +37,7 @@ pub use element_matrices::{
     ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from,
 };
 pub use error::{FemError, Wanted, unless_unwanted};
-pub use factor::BoundaryLastFactor;
+pub use factor::{BoundaryLastFactor, PartedFactor};
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;

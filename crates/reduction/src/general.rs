@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use faer::{Mat, MatMut};
-use fem::{BoundaryLastFactor, DofMap, ElementOptions, Material, StressOperator, Wanted, dense, unless_unwanted};
+use fem::{DofMap, ElementOptions, Material, PartedFactor, StressOperator, Wanted, dense, unless_unwanted};
 use mesh::{BoreCoupling, Mesh, MeshedGear};
 
 use crate::{ReductionError, load::Load, mean_seat::MeanSeat};
@@ -16,7 +16,7 @@ const COLUMNS: usize = 256;
 pub(crate) struct GeneralGear {
     dofs: DofMap,
     /// Factor of the stiffness, or of K~ where the bore is held by its means.
-    factor: BoundaryLastFactor,
+    factor: PartedFactor,
     seat: Option<MeanSeat>,
 }
 
@@ -48,7 +48,7 @@ impl GeneralGear {
         if let Some(seat) = &seat {
             stiffness = seat.held(stiffness)?;
         }
-        let factor = BoundaryLastFactor::in_place_of(stiffness, &node_dofs(&dofs, last), wanted)?;
+        let factor = PartedFactor::new(stiffness, &node_dofs(&dofs, last), wanted)?;
         Ok(Self { dofs, factor, seat })
     }
 
@@ -140,6 +140,51 @@ impl GeneralGear {
                 Ok(field)
             }
         }
+    }
+
+    /// The same at some nodes of the mesh, for each column the displacements (mm) in their order.
+    pub(crate) fn fields_at(
+        &self,
+        (seen, nodes): (Seen, &[u32]),
+        u: &Mat<f64>,
+        f: &Mat<f64>,
+    ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
+        let count = self.dofs.node_count();
+        if let Some(&found) = nodes.iter().find(|n| **n as usize >= count) {
+            return Err(fem::FemError::Shape { what: "nodes", expected: count, found: found as usize }.into());
+        }
+        let dofs = node_dofs(&self.dofs, nodes);
+        let rows = match seen {
+            Seen::Last => self.factor.expand_rows(u.as_ref(), &dofs)?,
+            Seen::Loads(loads) if self.seat.is_none() => {
+                let on = |j: usize| {
+                    let of_load = |(i, load): (usize, &Load)| {
+                        let at = |&(n, w): &(u32, f64)| Some((3 * self.dofs.position(n)?, w));
+                        let of_axes =
+                            |(at, w): (usize, f64)| [0, 1, 2].map(|axis| (at + axis, w * f[(3 * i + axis, j)]));
+                        load.iter().filter_map(at).flat_map(of_axes).collect::<Vec<_>>()
+                    };
+                    loads.iter().enumerate().flat_map(of_load).collect()
+                };
+                let forces: Vec<Vec<(usize, f64)>> = (0..f.ncols()).map(on).collect();
+                self.factor.solve_few(&forces, &dofs)?
+            }
+            Seen::Loads(loads) => {
+                self.solve_rows(&spread(loads, f, self.factor.n(), |n| self.dofs.position(n)), &dofs)?
+            }
+        };
+        let of_column = |j: usize| {
+            let mut row = 0;
+            let of_node = |&n: &u32| {
+                if self.dofs.position(n).is_none() {
+                    return [0.0; 3];
+                }
+                row += 3;
+                [0, 1, 2].map(|axis| rows[(row - 3 + axis, j)])
+            };
+            nodes.iter().map(of_node).collect()
+        };
+        Ok((0..rows.ncols()).map(of_column).collect())
     }
 
     /// Forces on a window's coordinates that do the work of given ones, n x k: T' force for a window that is last, else

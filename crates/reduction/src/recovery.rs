@@ -24,7 +24,8 @@ impl GearReducer {
     }
 
     /// Displacement at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear
-    /// only the sectors that hold the nodes are gone through, and the factor once for all.
+    /// only the sectors that hold the nodes are gone through, of any other the branches of the factor that do, and the
+    /// factor once for all.
     ///
     /// # Errors
     /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.
@@ -50,12 +51,17 @@ impl GearReducer {
         match self.method()? {
             Method::Cyclic(cyclic) => cyclic.expand(forces()?.as_ref(), window.shift, nodes),
             Method::General(general, turn) => {
-                let fields = if self.is_last(window) {
-                    general.fields(Seen::Last, &columns(u), &Mat::zeros(0, u.len()))?
-                } else {
-                    general.fields(Seen::Loads(&self.loads(window)?), &columns(u), &forces()?)?
+                let loads = if self.is_last(window) { None } else { Some(self.loads(window)?) };
+                let (seen, forces) = match &loads {
+                    None => (Seen::Last, Mat::zeros(0, u.len())),
+                    Some(loads) => (Seen::Loads(loads), forces()?),
                 };
-                (0..u.len()).map(|j| self.some_of(window, fields.col_as_slice(j), turn.as_ref(), nodes)).collect()
+                let turn = turn.as_ref().filter(|_| window.shift > 0);
+                if let (Some(nodes), None) = (nodes, turn) {
+                    return general.fields_at((seen, nodes), &columns(u), &forces);
+                }
+                let fields = general.fields(seen, &columns(u), &forces)?;
+                (0..u.len()).map(|j| self.some_of(window, fields.col_as_slice(j), turn, nodes)).collect()
             }
         }
     }
@@ -70,8 +76,8 @@ impl GearReducer {
     ) -> Result<Vec<[f64; 3]>, ReductionError> {
         let field = self.dofs.to_nodes(field)?;
         let field = match turn {
-            Some(turn) if window.shift > 0 => self.turned(window, &field, turn),
-            _ => field,
+            Some(turn) => self.turned(window, &field, turn),
+            None => field,
         };
         let Some(nodes) = nodes else { return Ok(field) };
         let count = field.len();

@@ -10,8 +10,11 @@
 //! Source: the Schur complement of Guyan, AIAA J. 3(2), 1965; multifrontal view of Liu, SIAM Review 34, 1992.
 
 mod part;
+mod parted;
 mod solves;
 mod substitution;
+
+pub use parted::PartedFactor;
 
 use std::borrow::Cow;
 
@@ -19,9 +22,14 @@ use dyn_stack::{MemBuffer, MemStack};
 use faer::{
     Mat, MatRef, Par, Spec,
     linalg::cholesky::llt::factor::LltError,
-    sparse::linalg::cholesky::{
-        SymbolicCholesky,
-        supernodal::{SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch},
+    sparse::{
+        SparseColMat,
+        linalg::cholesky::{
+            SymbolicCholesky,
+            supernodal::{
+                SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
+            },
+        },
     },
 };
 
@@ -80,9 +88,31 @@ impl BoundaryLastFactor {
         }
         let ordering = Ordering::new(&stiffness, boundary)?;
         unless_unwanted(wanted)?;
-        let symbolic = ordering.symbolic(&stiffness)?;
+        let symbolic = ordering.symbolic(stiffness.lower().symbolic())?;
         let (diagonal, permuted) = (stiffness.diagonal(), ordering.permuted(&stiffness)?);
         drop(stiffness);
+        let factor = Self::numeric((ordering, symbolic), permuted, &diagonal)?;
+        unless_unwanted(wanted)?;
+        Ok(factor)
+    }
+
+    /// Factor of a matrix in the order of elimination, of which the lower triangle is given; rows from `interior` on are
+    /// the boundary. `diagonal`: what pivots are measured by.
+    ///
+    /// # Errors
+    /// As [`BoundaryLastFactor::new`].
+    fn in_order(lower: SparseColMat<usize, f64>, interior: usize, diagonal: &[f64]) -> Result<Self, FemError> {
+        let ordering = Ordering::as_given(lower.ncols(), interior);
+        let symbolic = ordering.symbolic(lower.symbolic())?;
+        Self::numeric((ordering, symbolic), lower, diagonal)
+    }
+
+    /// Factor of `permuted`, with the boundary in the order of elimination.
+    fn numeric(
+        (ordering, symbolic): (Ordering, SymbolicCholesky<usize>),
+        permuted: SparseColMat<usize, f64>,
+        diagonal: &[f64],
+    ) -> Result<Self, FemError> {
         let mut values = try_zeroed(symbolic.len_val())?;
         if let Some(structure) = supernodal(&symbolic) {
             // sequential inside: two gears are factored side by side instead, and the bits stay the same
@@ -106,9 +136,9 @@ impl BoundaryLastFactor {
             }
         }
         drop(permuted);
-        unless_unwanted(wanted)?;
-        let factor = Self { ordering, symbolic, values, boundary: boundary.to_vec() };
-        factor.check_pivots(&diagonal)?;
+        let boundary = ordering.forward[ordering.interior..].to_vec();
+        let factor = Self { ordering, symbolic, values, boundary };
+        factor.check_pivots(diagonal)?;
         Ok(factor)
     }
 

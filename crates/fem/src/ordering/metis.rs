@@ -34,25 +34,38 @@ fn classes(graph: &Graph) -> usize {
     (0..graph.group_count()).map(key).collect::<HashSet<_>>().len()
 }
 
-/// Fill-reducing order of the graph's groups, `order[new] = group`.
+/// What a dissection makes of a graph.
+#[derive(Debug, PartialEq)]
+pub(super) struct Dissection {
+    /// `order[new] = group`, with little fill.
+    pub order: Vec<usize>,
+    /// Piece of each group; [`SEPARATOR`] of those between pieces.
+    pub piece: Vec<u32>,
+}
+
+/// In place of the number of a piece: groups that pieces have been parted by.
+pub(super) const SEPARATOR: u32 = u32::MAX;
+
+/// Fill-reducing order of the graph's groups, and the `pieces` (a power of 2) that its first cuts leave: no two of them
+/// have a common edge. The order does not depend on their number.
 ///
-/// `METIS_NodeNDP` with one part makes the order of `METIS_NodeND`, the entry that most programs take. That one catches
+/// `METIS_NodeNDP` makes the order of `METIS_NodeND`, the entry that most programs take. That one catches
 /// SIGTERM and SIGABRT for the whole process while it works, and its handler jumps into the stack of whatever thread
 /// the system hands the signal to.
 ///
 /// # Errors
 /// [`FemError::OutOfMemory`] where there is no room for it: without its handlers METIS ends the process then.
 /// [`FemError::Ordering`] when METIS reports a failure.
-pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
+pub(super) fn nested_dissection(graph: &Graph, pieces: usize) -> Result<Dissection, FemError> {
     let nodes = graph.group_count();
     if nodes < 2 || graph.neighbours.is_empty() {
-        return Ok((0..nodes).collect());
+        return Ok(Dissection { order: (0..nodes).collect(), piece: vec![0; nodes] });
     }
     let (mut starts, mut neighbours) = (graph.starts.clone(), graph.neighbours.clone());
     let mut weights = graph.weights.clone();
     let uniform = weights.iter().all(|&w| w == weights[0]);
     let weights = if uniform { ptr::null_mut() } else { weights.as_mut_ptr() };
-    let (mut order, mut inverse, mut sizes) = (vec![0i32; nodes], vec![0i32; nodes], [0i32; 1]);
+    let (mut order, mut inverse, mut sizes) = (vec![0i32; nodes], vec![0i32; nodes], vec![0i32; 2 * pieces - 1]);
     let mut options = [0i32; metis_sys::METIS_NOPTIONS as usize];
     let guard = ONE_AT_A_TIME.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
     let bytes = BYTES[0].saturating_mul(neighbours.len()).saturating_add(BYTES[1].saturating_mul(nodes));
@@ -61,7 +74,7 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
     drop(room);
     // SAFETY: `starts` has `nodes + 1` entries, ascending from 0 to the length of `neighbours`, whose entries
     // are below `nodes` (the graph has been checked to fit); `order` and `inverse` have `nodes`; `sizes` has one entry
-    // less than twice the one part; `options` has the length METIS declares; all outlive the call.
+    // less than twice the pieces; `options` has the length METIS declares; all outlive the call.
     let status = unsafe {
         metis_sys::METIS_SetDefaultOptions(options.as_mut_ptr());
         if 2 * nodes > 3 * classes(graph) {
@@ -72,7 +85,7 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
             starts.as_mut_ptr(),
             neighbours.as_mut_ptr(),
             weights,
-            1,
+            pieces as i32,
             options.as_mut_ptr(),
             order.as_mut_ptr(),
             inverse.as_mut_ptr(),
@@ -83,7 +96,37 @@ pub(super) fn nested_dissection(graph: &Graph) -> Result<Vec<usize>, FemError> {
     if status != metis_sys::rstatus_et_METIS_OK {
         return Err(FemError::Ordering { nodes, status });
     }
-    Ok(order.into_iter().map(|group| group as usize).collect())
+    let order: Vec<usize> = order.into_iter().map(|group| group as usize).collect();
+    // Sizes are told of cuts alone.
+    let mut piece = vec![if pieces == 1 { 0 } else { SEPARATOR }; nodes];
+    let weight = |group: &usize| if uniform { 1 } else { i64::from(graph.weights[*group]) };
+    let mut next = order.iter().copied().peekable();
+    for (own, size) in spans(&sizes) {
+        let mut left = i64::from(size);
+        while let Some(group) = next.next_if(|group| left >= weight(group)) {
+            left -= weight(&group);
+            piece[group] = own;
+        }
+    }
+    Ok(Dissection { order, piece })
+}
+
+/// Pieces and separators as they follow each other in the order, with their weights: below each cut its two sides, then
+/// its separator. `sizes`: of the pieces, then of the cuts, the first one last.
+fn spans(sizes: &[i32]) -> Vec<(u32, i32)> {
+    let pieces = sizes.len().div_ceil(2);
+    let (mut spans, mut stack) = (Vec::new(), vec![(0, false)]);
+    while let Some((cut, is_open)) = stack.pop() {
+        let at = sizes.len() - 1 - cut;
+        if cut + 1 >= pieces {
+            spans.push((at as u32, sizes[at]));
+        } else if is_open {
+            spans.push((SEPARATOR, sizes[at]));
+        } else {
+            stack.extend([(cut, true), (2 * cut + 1, false), (2 * cut + 2, false)]);
+        }
+    }
+    spans
 }
 
 #[cfg(test)]
@@ -109,6 +152,27 @@ mod tests {
         }
         let n = numbers * a * b * c;
         Graph::new(&SymmetricMatrix::from_triplets(n, &triplets).unwrap(), &vec![false; n]).unwrap()
+    }
+
+    /// No two pieces touch, each has its share of the graph, and separators are few.
+    fn are_apart(graph: &Graph, dissection: &Dissection, pieces: usize) {
+        let (nodes, of) = (graph.group_count(), |group: usize| dissection.piece[group]);
+        for group in 0..nodes {
+            let around = &graph.neighbours[graph.starts[group] as usize..graph.starts[group + 1] as usize];
+            let apart = |&other: &i32| {
+                let both = [of(group), of(other as usize)];
+                both.contains(&SEPARATOR) || both[0] == both[1]
+            };
+            assert!(around.iter().all(apart), "{pieces} pieces");
+        }
+        let count = |piece: u32| (0..nodes).filter(|&group| of(group) == piece).count();
+        let inside: usize = (0..pieces as u32).map(count).sum();
+        assert_eq!(inside + count(SEPARATOR), nodes);
+        assert!(pieces > 1 || inside == nodes);
+        if nodes > 1000 {
+            assert!((0..pieces as u32).all(|piece| 2 * pieces * count(piece) > inside), "{pieces} pieces");
+            assert!(5 * count(SEPARATOR) < 2 * nodes, "{pieces} pieces, {} of {nodes} between", count(SEPARATOR));
+        }
     }
 
     /// Ordering by the entry that catches signals.
@@ -166,14 +230,18 @@ mod tests {
     fn the_order_is_that_of_the_common_entry_and_no_signal_is_caught() {
         for (size, numbers) in [([4, 5, 6], 3), ([12, 14, 17], 3), ([30, 9, 21], 1), ([40, 33, 2], 2)] {
             let graph = block(size, numbers);
-            let own = nested_dissection(&graph).unwrap();
-            assert!(own == by_the_common_entry(&graph), "{size:?}");
+            let common = by_the_common_entry(&graph);
+            for pieces in [1, 2, 8] {
+                let own = nested_dissection(&graph, pieces).unwrap();
+                assert!(own.order == common, "{size:?}, {pieces} pieces");
+                are_apart(&graph, &own, pieces);
+            }
         }
         #[cfg(target_os = "linux")]
         {
             // SIGABRT is 6, SIGTERM 15.
             let (graph, both) = (block([40, 40, 30], 1), 1 << 5 | 1 << 14);
-            assert_eq!(caught_while(|| drop(nested_dissection(&graph).unwrap())) & both, 0);
+            assert_eq!(caught_while(|| drop(nested_dissection(&graph, 1).unwrap())) & both, 0);
             assert_eq!(caught_while(|| drop(by_the_common_entry(&graph))) & both, both, "nobody looked in time");
         }
     }

@@ -12,7 +12,7 @@ use faer::{
     Side,
     perm::PermRef,
     sparse::{
-        SparseColMat, SymbolicSparseColMat,
+        SparseColMat, SymbolicSparseColMat, SymbolicSparseColMatRef,
         linalg::{
             SupernodalThreshold,
             cholesky::{
@@ -45,6 +45,19 @@ impl Ordering {
     /// [`FemError::BadDof`] for a row that does not exist or is named twice, [`FemError::TooLarge`],
     /// [`FemError::Ordering`].
     pub fn new(matrix: &SymmetricMatrix, last: &[usize]) -> Result<Self, FemError> {
+        Ok(Self::in_pieces(matrix, last, 1)?.0)
+    }
+
+    /// The same order, and for each matrix row the number of its piece among `pieces` (a power of 2) that share no entry
+    /// of the matrix; `None` for rows between pieces, and for `last`.
+    ///
+    /// # Errors
+    /// As [`Ordering::new`].
+    pub(crate) fn in_pieces(
+        matrix: &SymmetricMatrix,
+        last: &[usize],
+        pieces: usize,
+    ) -> Result<(Self, Vec<Option<u32>>), FemError> {
         let n = matrix.n();
         let mut is_last = vec![false; n];
         for &dof in last {
@@ -54,14 +67,24 @@ impl Ordering {
             }
         }
         let graph = Graph::new(matrix, &is_last)?;
-        let order = graph.postorder(&metis::nested_dissection(&graph)?);
+        let dissection = metis::nested_dissection(&graph, pieces)?;
+        let order = graph.postorder(&dissection.order);
+        let mut piece_of = vec![None; n];
+        for (group, &piece) in dissection.piece.iter().enumerate().filter(|(_, piece)| **piece != metis::SEPARATOR) {
+            graph.members(group).iter().for_each(|&dof| piece_of[dof] = Some(piece));
+        }
         let mut forward: Vec<usize> = order.iter().flat_map(|&group| graph.members(group)).copied().collect();
         forward.extend_from_slice(last);
         let mut inverse = vec![0; n];
         for (new, &old) in forward.iter().enumerate() {
             inverse[old] = new;
         }
-        Ok(Self { forward, inverse, interior: n - last.len() })
+        Ok((Self { forward, inverse, interior: n - last.len() }, piece_of))
+    }
+
+    /// Rows as they are, those from `interior` on last.
+    pub(crate) fn as_given(n: usize, interior: usize) -> Self {
+        Self { forward: (0..n).collect(), inverse: (0..n).collect(), interior }
     }
 
     /// The matrix in this order, rows of a column unsorted: what a factor reads.
@@ -89,16 +112,19 @@ impl Ordering {
         Ok(SparseColMat::new(SymbolicSparseColMat::new_unsorted_checked(n, n, starts, None, rows), values))
     }
 
-    /// Symbolic supernodal factor of the matrix in this order.
-    pub(crate) fn symbolic(&self, matrix: &SymmetricMatrix) -> Result<SymbolicCholesky<usize>, FemError> {
+    /// Symbolic supernodal factor of the matrix in this order, from its lower triangle.
+    pub(crate) fn symbolic(
+        &self,
+        lower: SymbolicSparseColMatRef<'_, usize>,
+    ) -> Result<SymbolicCholesky<usize>, FemError> {
         let params = CholeskySymbolicParams {
             supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
             ..Default::default()
         };
-        let order = PermRef::new_checked(&self.forward, &self.inverse, matrix.n());
+        let order = PermRef::new_checked(&self.forward, &self.inverse, lower.ncols());
         let order = SymmetricOrdering::Custom(order);
-        factorize_symbolic_cholesky(matrix.lower().symbolic(), Side::Lower, order, params)
-            .map_err(|_| FemError::OutOfMemory { bytes: matrix.stored() * size_of::<usize>() })
+        factorize_symbolic_cholesky(lower, Side::Lower, order, params)
+            .map_err(|_| FemError::OutOfMemory { bytes: lower.row_idx().len() * size_of::<usize>() })
     }
 }
 

@@ -6,5 +6,6 @@ mod common;
 mod eigen;
 mod elements;
 mod factor;
+mod parted;
 mod stress;
 mod surface_stress;

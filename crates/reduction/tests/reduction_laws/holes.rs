@@ -207,3 +207,32 @@ fn a_file_of_columns_is_believed_after_checks_alone() {
         assert!(ToothColumns::from_bytes(&bytes[..length], &key(2)).is_err(), "{length} bytes");
     }
 }
+
+/// A field at some nodes is that of the whole gear, of the first window and of others, with the bore held either way.
+#[test]
+fn fields_at_some_nodes_are_those_of_the_whole() {
+    let (_, mesh) = wheel();
+    for coupling in [BoreCoupling::Kinematic, BoreCoupling::Distributing] {
+        let gear = reducer(&mesh.clone().coupled(coupling), &[Side::Left], 3, 2);
+        // All over the gear, held ones of the bore among them.
+        let nodes: Vec<u32> = (0..gear.gear().mesh().nodes.len() as u32).step_by(7).rev().collect();
+        for first in [2, 4, 9] {
+            let window = gear.window(first).unwrap();
+            let force = |j: usize| (0..window.reduced.coordinates()).map(move |i| (0.7 * i as f64 + j as f64).sin());
+            let force = Mat::from_fn(window.reduced.coordinates(), 2, |i, j| force(j).nth(i).unwrap());
+            let moved = &window.reduced.compliance * force;
+            let columns: Vec<&[f64]> = (0..2).map(|j| moved.col_as_slice(j)).collect();
+            let near = gear.expand_at(&window, &columns, &nodes).unwrap();
+            for (column, near) in columns.iter().zip(&near) {
+                let whole = gear.expand(&window, column).unwrap();
+                let largest = whole.iter().flatten().fold(0.0, |most: f64, u| most.max(u.abs()));
+                for (&node, own) in nodes.iter().zip(near) {
+                    let apart = [0, 1, 2].map(|axis| (own[axis] - whole[node as usize][axis]).abs());
+                    assert!(apart.iter().all(|a| *a < 1e-11 * largest), "{coupling:?}, window {first}, node {node}");
+                }
+            }
+            let beyond = gear.gear().mesh().nodes.len() as u32;
+            assert!(gear.expand_at(&window, &columns, &[beyond]).is_err());
+        }
+    }
+}
