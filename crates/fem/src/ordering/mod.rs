@@ -124,7 +124,7 @@ impl Ordering {
         let order = PermRef::new_checked(&self.forward, &self.inverse, lower.ncols());
         let order = SymmetricOrdering::Custom(order);
         factorize_symbolic_cholesky(lower, Side::Lower, order, params)
-            .map_err(|_| FemError::OutOfMemory { bytes: lower.row_idx().len() * size_of::<usize>() })
+            .map_err(|_| FemError::OutOfMemory { bytes: size_of_val(lower.row_idx()) })
     }
 }
 

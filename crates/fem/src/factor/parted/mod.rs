@@ -1,4 +1,4 @@
-//! The factor of a large body, of which a part at a time is held. Theory (13).
+//! The factor of a large body, of which a part at a time is held. Theory (13c).
 //!
 //! The first cuts of the dissection leave pieces P that share no entry of the matrix. With the separators and the
 //! boundary together as the top T,
@@ -66,8 +66,13 @@ impl PartedFactor {
     /// # Errors
     /// As [`BoundaryLastFactor::new_while`].
     pub fn new(stiffness: SymmetricMatrix, boundary: &[usize], wanted: Wanted<'_>) -> Result<Self, FemError> {
-        let least = stiffness.n().div_ceil(MOST_ROWS).max(1);
-        Self::halved(stiffness, boundary, least.next_power_of_two().ilog2(), wanted)
+        let times = halvings(stiffness.n());
+        Self::halved(stiffness, boundary, times, wanted)
+    }
+
+    /// About how many of n rows have their part of the factor held at a time.
+    pub fn rows_held(n: usize) -> usize {
+        n.div_ceil(1 << halvings(n)).saturating_mul(HELD).min(n)
     }
 
     /// As [`PartedFactor::new`], with pieces that are halves of halves, so many times if the matrix is large enough.
@@ -95,7 +100,7 @@ impl PartedFactor {
             // Side by side as many as are held later.
             let made = some.par_iter().map(|&piece| {
                 let factor = pieces.factor(&stiffness, piece)?;
-                let share = pieces.share(piece, &factor);
+                let share = pieces.share(piece, &stiffness, &factor);
                 Ok(((count <= HELD).then(|| Arc::new(factor)), share))
             });
             for (factor, share) in made.collect::<Result<Vec<_>, FemError>>()? {
@@ -155,6 +160,11 @@ impl PartedFactor {
             Factors::Some(_, held) => lock(held).factors.iter().any(|(own, _)| *own == piece),
         }
     }
+}
+
+/// How often a body of `n` rows is halved.
+fn halvings(n: usize) -> u32 {
+    n.div_ceil(MOST_ROWS).max(1).next_power_of_two().ilog2()
 }
 
 fn lock(held: &Mutex<Held>) -> MutexGuard<'_, Held> {

@@ -25,8 +25,6 @@ pub(super) struct Pieces {
     pieces: Vec<Piece>,
     /// Matrix rows of the top in order of elimination, the boundary last.
     top: Vec<usize>,
-    /// What the diagonal of the top has in every piece.
-    springs: Vec<f64>,
 }
 
 /// One piece.
@@ -60,13 +58,8 @@ impl Pieces {
             };
         }
         let mut meets = vec![vec![false; top.len()]; count];
-        let mut springs = vec![0.0; top.len()];
-        for (row, column, value) in stiffness.entries() {
+        for (row, column, _) in stiffness.entries() {
             match (places[row], places[column]) {
-                (Place::Top { row: i }, Place::Top { row: j }) => {
-                    springs[i] += 2.0 * value.abs();
-                    springs[j] += 2.0 * value.abs();
-                }
                 (Place::Top { row }, Place::Piece { piece, .. }) | (Place::Piece { piece, .. }, Place::Top { row }) => {
                     meets[piece][row] = true;
                 }
@@ -76,7 +69,7 @@ impl Pieces {
         for (piece, meets) in pieces.iter_mut().zip(meets) {
             piece.border = meets.iter().enumerate().filter(|(_, meets)| **meets).map(|(row, _)| row).collect();
         }
-        Self { places, pieces, top, springs }
+        Self { places, pieces, top }
     }
 
     pub(super) fn count(&self) -> usize {
@@ -106,10 +99,9 @@ impl Pieces {
     /// Factor of a piece with its border last.
     ///
     /// ```text
-    /// [K_PP K_PB; K_BP D],   D = 2 sum over the columns T of |K_BT|
+    /// [K_PP K_PB; K_BP K_BB]
     /// ```
-    /// A piece by itself may move freely, and entries among the top belong to no piece. As D - K_BB is positive definite
-    /// and K is, so is this matrix; D is taken off again.
+    /// All that is about a piece is held, so it cannot move freely: this matrix is positive definite as K is.
     pub(super) fn factor(&self, stiffness: &SymmetricMatrix, piece: usize) -> Result<BoundaryLastFactor, FemError> {
         let Piece { rows, border } = &self.pieces[piece];
         let (interior, n) = (rows.len(), rows.len() + border.len());
@@ -120,20 +112,15 @@ impl Pieces {
             Place::Top { row } => on_border[row],
         };
         let (starts, matrix_rows, entries) = stiffness.arrays();
-        // Row, column and value of all entries but those among the border.
+        // Row, column and value of all entries.
         let visit = |tell: &mut dyn FnMut(usize, usize, f64)| {
-            for &column in rows.iter().chain(border.iter().map(|&row| &self.top[row])) {
-                let Some(own) = place(column) else { continue };
+            for (own, &column) in rows.iter().chain(border.iter().map(|&row| &self.top[row])).enumerate() {
                 for k in starts[column]..starts[column + 1] {
-                    match place(matrix_rows[k]) {
-                        Some(other) if own.min(other) < interior => {
-                            tell(own.max(other), own.min(other), entries[k]);
-                        }
-                        _ => {}
+                    if let Some(other) = place(matrix_rows[k]) {
+                        tell(own.max(other), own.min(other), entries[k]);
                     }
                 }
             }
-            border.iter().zip(interior..).for_each(|(&row, at)| tell(at, at, self.springs[row]));
         };
         let mut counts = vec![0; n + 1];
         visit(&mut |_, column, _| counts[column + 1] += 1);
@@ -157,10 +144,17 @@ impl Pieces {
     }
 
     /// What a piece adds to S on its border: - K_BP K_PP^-1 K_PB.
-    pub(super) fn share(&self, piece: usize, factor: &BoundaryLastFactor) -> Mat<f64> {
-        let mut share = factor.condensed_stiffness();
-        for (i, &row) in self.pieces[piece].border.iter().enumerate() {
-            share[(i, i)] -= self.springs[row];
+    pub(super) fn share(&self, piece: usize, stiffness: &SymmetricMatrix, factor: &BoundaryLastFactor) -> Mat<f64> {
+        let (mut share, border) = (factor.condensed_stiffness(), self.border(piece));
+        let (starts, rows, entries) = stiffness.arrays();
+        for (own, &row) in border.iter().enumerate() {
+            let dof = self.top[row];
+            for k in starts[dof]..starts[dof + 1] {
+                let Place::Top { row } = self.places[rows[k]] else { continue };
+                if let Ok(other) = border.binary_search(&row) {
+                    share[(own.max(other), own.min(other))] -= entries[k];
+                }
+            }
         }
         share
     }
