@@ -135,8 +135,8 @@ fn reduced_equals_full() {
             c.law = law;
             c.points_per_face_edge = 4
         });
-        let reduced = case.reduced(options.clone()).run(8, 1, |_, _, _| ()).unwrap();
-        let full = case.full(options).run(8, 1, |_, _, _| ()).unwrap();
+        let reduced = case.reduced(options.clone()).run(4, 1, |_, _, _| ()).unwrap();
+        let full = case.full(options).run(4, 1, |_, _, _| ()).unwrap();
         let mut worst = [0.0f64; 2];
         for (r, f) in reduced.positions.iter().zip(&full.positions) {
             worst[0] = worst[0].max((r.transmission_error / f.transmission_error - 1.0).abs());
