@@ -2,6 +2,7 @@
 //! column and key in it is written by one of them.
 
 use std::collections::BTreeSet;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::markdown::Page;
 use crate::quantities::{Documented, generalised, written_in};
@@ -49,6 +50,12 @@ const EXACT_MOTION: &str = "[pinion]\nteeth = 24\nhelix_angle_deg = 15.0\n[wheel
     face_width_mm = 6.0\n[operation]\ntorque_nm = 80.0\nspeed_rpm = 2000.0\n[contact]\nslices = 8\nflanks = \"driving\"\n\
     [analysis]\nkind = \"dynamic\"\ncycles = 1\n[motion]\nperiodic_tolerance = 1e-3\n[accuracy]\npeak_to_peak_dte = \"40 %\"\n";
 
+/// A command that ends as it should.
+fn done(scratch: &Scratch, words: &[String]) {
+    let done = scratch.command(&words.iter().map(String::as_str).collect::<Vec<_>>());
+    assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
+}
+
 /// One folder of every kind, in a folder of its own each.
 fn every_kind() -> Scratch {
     let scratch = Scratch::new()
@@ -62,10 +69,8 @@ fn every_kind() -> Scratch {
         .file("exact.toml", EXACT)
         .file("exact_motion.toml", EXACT_MOTION)
         .file("study.toml", STUDY);
-    let run = |words: &[&str]| {
-        let done = scratch.command(words);
-        assert_eq!(done.code, Some(0), "{words:?}: {}", done.stderr);
-    };
+    let mut runs: Vec<Vec<String>> = Vec::new();
+    let mut run = |words: &[&str]| runs.push(words.iter().map(ToString::to_string).collect());
     for scene in ["iso", "rest", "rated", "exact", "exact_motion", "span", "ramp", "resonance"] {
         run(&["run", &format!("{scene}.toml"), "--out", &format!("out-{scene}")]);
     }
@@ -125,7 +130,18 @@ fn every_kind() -> Scratch {
                 normal_module_mm = 2.0\nface_width_mm = 15.0\n[operation]\ntorque_nm = 100.0\n[analysis]\npositions_per_cycle = 2\n";
     std::fs::write(scratch.path().join("ring.toml"), ring).unwrap();
     run(&["run", "ring.toml", "--out", "out-ring"]);
-    run(&["compare", "out-iso", "out-rest", "--out", "out-compare"]);
+    // Much of a run is one thread's.
+    let (command, next) = (|words: &[String]| done(&scratch, words), AtomicUsize::new(0));
+    std::thread::scope(|scope| {
+        for _ in 0..2 {
+            scope.spawn(|| {
+                while let Some(words) = runs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                    command(words);
+                }
+            });
+        }
+    });
+    command(&["compare", "out-iso", "out-rest", "--out", "out-compare"].map(String::from));
     scratch
 }
 
