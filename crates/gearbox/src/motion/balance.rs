@@ -242,12 +242,14 @@ impl Mechanism for GearboxMechanism {
         Ok(())
     }
 
-    fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), GearboxError> {
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), GearboxError> {
         let [angle, _] = self.input(t, q, q);
         for i in 0..self.live.len() {
+            let cycles = self.cycles(i, angle);
+            self.live[i].check_pace(&self.meshes[i], cycles)?;
             let reach = self.go(i, angle, q)?.element().reach();
             self.reach[i] = self.reach[i].max(reach);
-            self.live[i].accept(&self.meshes[i])?;
+            self.live[i].accept(&self.meshes[i], v, &mut self.extremes[i])?;
         }
         self.varying.accept(t, self.nominal_turn(t)[0], q);
         Ok(())
@@ -256,5 +258,9 @@ impl Mechanism for GearboxMechanism {
     /// Has every mesh forget what it remembers of earlier places: what comes then depends on the state alone.
     fn forget(&mut self) {
         self.live.iter_mut().for_each(super::live_mesh::LiveMesh::forget);
+    }
+
+    fn end_cycle(&mut self, begin: f64, end: f64) {
+        self.add_throughput(begin, end);
     }
 }

@@ -1,6 +1,6 @@
 //! A mesh at its place between two bodies.
 
-use dynamics::{ElasticDisplacement, FlankStates};
+use dynamics::{ElasticDisplacement, Extremes, FlankStates, SideLoads};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use super::{
@@ -162,9 +162,19 @@ impl LiveMesh {
         self.element.energy_at(cycles, &at.d).map_err(|source| at_mesh(mesh, source))
     }
 
-    /// The end of a step where it was asked last: tooth changes are taken, and its forces are all there are.
-    pub fn accept(&mut self, mesh: &GearMesh) -> Result<(), GearboxError> {
-        if self.element.accept().map_err(|source| at_mesh(mesh, source))? {
+    /// Refuses a place that its teeth cannot be followed to.
+    pub fn check_pace(&self, mesh: &GearMesh, cycles: f64) -> Result<(), GearboxError> {
+        self.element.check_pace(cycles).map_err(|source| at_mesh(mesh, source))
+    }
+
+    /// The end of a step where it was asked last, with the coordinates moving at `v`: tooth changes are taken, and its forces
+    /// are all there are.
+    pub fn accept(&mut self, mesh: &GearMesh, v: &DVector<f64>, extremes: &mut Extremes) -> Result<(), GearboxError> {
+        let moving = || {
+            let rates = &self.to_gears * v;
+            Vector12::from_fn(|i, _| rates[i])
+        };
+        if self.element.accept(&moving, extremes).map_err(|source| at_mesh(mesh, source))? {
             self.last = None;
         }
         Ok(())
@@ -190,6 +200,11 @@ impl LiveMesh {
     pub fn forget(&mut self) {
         self.last = None;
         self.element.forget();
+    }
+
+    /// Loads on its flanks where it was asked last.
+    pub fn loads(&self) -> Vec<SideLoads<'_>> {
+        self.element.loads()
     }
 
     /// The element, standing where it was asked last.
