@@ -17,6 +17,11 @@ const SPAN: f64 = 1e-3;
 /// Size of a coordinate that the equilibrium does not move, over the largest of its kind.
 const LEAST: f64 = 1e-3;
 
+/// Round-off of places, in units of the last bit.
+const LAST_BITS: f64 = 256.0;
+/// A load that is not so many times what round-off makes has no digit.
+const ONE_DIGIT: f64 = 10.0;
+
 impl GearboxMechanism {
     /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly and its loads change; and
     /// modal damping about it from now on.
@@ -36,7 +41,7 @@ impl GearboxMechanism {
     /// As of [`Self::start`].
     pub fn start_at(&mut self, time: f64, modal_damping: f64) -> Result<State, GearboxError> {
         let [angle, speed] = self.nominal_turn(time);
-        let z = self.standing((angle, time), None)?;
+        let z = self.standing((angle, time), None).map_err(|e| self.too_light(time).unwrap_or(e))?;
         // Teeth near places that were looked at before are known less well: the search ends from its own end on.
         self.forget();
         let z = self.standing((angle, time), Some(&z))?;
@@ -69,6 +74,19 @@ impl GearboxMechanism {
         }
         self.forget();
         Ok(State::new(time, z, v))
+    }
+
+    /// That the load of a pair, of one mesh and one torque over time, is below what round-off of places makes of the stiffness
+    /// of its teeth; `None` where it is not.
+    fn too_light(&self, time: f64) -> Option<GearboxError> {
+        let ([mesh], [output]) = (&self.meshes[..], &self.operation.torques[..]) else { return None };
+        let driven = mesh.discs.iter().position(|disc| *disc == output.disc)?;
+        let base = [&mesh.pair.pinion, &mesh.pair.wheel][driven].base_radius();
+        let load_n = ((output.torque + self.varying.output(0, time)) / base).abs();
+        // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
+        let place = LAST_BITS * f64::EPSILON * mesh.pair.centre_distance().abs();
+        let lost_n = place * guessed_stiffness(&mesh.pair);
+        (load_n <= ONE_DIGIT * lost_n).then_some(GearboxError::LostLoad { load_n, lost_n })
     }
 
     /// Sizes of the coordinates: what deflections and turns are at `state`.
