@@ -30,7 +30,7 @@ pub fn stable_step(pair: &PairModel, scheme: Scheme) -> Result<Option<StepLimit>
         let z = match machine.standing_at(0, (cycles, time), from.as_ref()) {
             // The motion begins at the first phase. A later one where the search is lost tells nothing of the limit, which
             // each step is held against as well.
-            Err(GearboxError::NoEquilibrium { .. }) if phase > 0 => continue,
+            Err(GearboxError::NoEquilibrium { .. } | GearboxError::LostLoad { .. }) if phase > 0 => continue,
             found => found.map_err(fail)?,
         };
         machine.accepted(time, &z, &still).map_err(fail)?;

@@ -41,7 +41,7 @@ impl GearboxMechanism {
     /// As of [`Self::start`].
     pub fn start_at(&mut self, time: f64, modal_damping: f64) -> Result<State, GearboxError> {
         let [angle, speed] = self.nominal_turn(time);
-        let z = self.standing((angle, time), None).map_err(|e| self.too_light(time).unwrap_or(e))?;
+        let z = self.standing((angle, time), None)?;
         // Teeth near places that were looked at before are known less well: the search ends from its own end on.
         self.forget();
         let z = self.standing((angle, time), Some(&z))?;
@@ -191,8 +191,12 @@ impl GearboxMechanism {
                 }
             }
             Ok(left)
-        })?;
-        Ok(all(&found.displacements))
+        });
+        match found {
+            Ok(found) => Ok(all(&found.displacements)),
+            Err(lost @ GearboxError::NoEquilibrium { .. }) => Err(self.too_light(time).unwrap_or(lost)),
+            Err(other) => Err(other),
+        }
     }
 
     /// Coordinates that are no modes of gears, and for these K - df_mesh/dz at a place, symmetric, and the mass, with the modes
