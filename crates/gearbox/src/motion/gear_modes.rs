@@ -153,11 +153,6 @@ impl MovingGears {
         self.gears.iter().map(|gear| (gear.disc, &*gear.modes))
     }
 
-    /// Number of all modes.
-    pub fn count(&self) -> usize {
-        self.gears.iter().map(|gear| gear.modes.count()).sum()
-    }
-
     /// Whether no gear has modes.
     pub fn is_empty(&self) -> bool {
         self.gears.is_empty()

@@ -48,7 +48,7 @@ impl GearboxMechanism {
     /// The mechanism of a pair: gear 1 turns about the common z axis, gear 2 beside it along +x. The coordinate of the driven
     /// gear's turn is its lag on the base circle, mm: the transmission error itself, so that it keeps its digits however far
     /// the driver has turned. The turn of a driver that a torque drives is a coordinate beside its nominal one, the last of
-    /// all but modes.
+    /// all.
     ///
     /// # Errors
     /// As [`GearboxMechanism::new`].

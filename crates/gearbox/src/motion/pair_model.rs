@@ -238,7 +238,12 @@ impl PairModel {
         if deflection.is_finite() { lag.abs().max(deflection) } else { lag.abs() }
     }
 
-    /// Names of the coordinates but modes, in their order.
+    fn by_torque(&self) -> bool {
+        matches!(self.options.drive, Drive::Torque { .. })
+    }
+
+    /// Names of the coordinates but modes, in their order. Modes are the last, but for the turn of a driver that a torque
+    /// drives.
     pub fn names(&self) -> Vec<&'static str> {
         let driven = self.options.statics.driven();
         let mut names = Vec::new();
@@ -247,8 +252,7 @@ impl PairModel {
             names.extend(moves.map(|(name, _)| *name));
             names.extend((gear == driven).then_some("transmission error"));
         }
-        let by_torque = matches!(self.options.drive, Drive::Torque { .. });
-        names.extend(by_torque.then_some(NAMES[1 - driven][COORDINATES - 1]));
+        names.extend(self.by_torque().then_some(NAMES[1 - driven][COORDINATES - 1]));
         names
     }
 
@@ -263,7 +267,9 @@ impl PairModel {
         let lever = self.driven().base_radius().abs();
         let one = |name: &&str| if name.contains("tilt") || name.contains("turn") { length / lever } else { length };
         let sizes = self.flanks().map_or(&[][..], MeshFlanks::mode_sizes);
-        let all: Vec<f64> = self.names().iter().map(one).chain(sizes.iter().map(|size| length / size)).collect();
+        let mut all: Vec<f64> = self.names().iter().map(one).collect();
+        let modes = all.len() - usize::from(self.by_torque());
+        all.splice(modes..modes, sizes.iter().map(|size| length / size));
         DVector::from_vec(all)
     }
 

@@ -82,8 +82,7 @@ pub fn instants(
 /// modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
 pub fn compared(motion: &PairMotion) -> Compared<GearboxMechanism> {
     let system = motion.system();
-    let scale = motion.timetable().scale.rows(0, system.free.count() - system.gears.count()).into_owned();
-    Compared::States { scale, free: system.free.turn, period: 1 }
+    system.compared(motion.timetable().scale.clone(), 1)
 }
 
 /// Runs mesh cycles until the motion repeats itself within `tolerance`, until `most` are done at the most.
