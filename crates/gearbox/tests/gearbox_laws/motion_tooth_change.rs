@@ -9,7 +9,7 @@ use dynamics::{MeshDamping, MotionOptions};
 use fem::ElementOptions;
 use gearbox::{
     GearboxError,
-    motion::{GearboxMechanism, PairMotion, run_to_steady},
+    motion::{GearboxMechanism, PairMotion, PairSettings, run_to_steady},
 };
 use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Resumable, Scheme, StepControl};
@@ -83,6 +83,19 @@ fn the_spectrum_has_mesh_harmonics_alone() {
     let force = motion.system().extremes(0).largest_force;
     assert!(changes.jump < 1e-6 * force, "the force jumps by {:e} of {force} N at a change", changes.jump);
     assert!(between.0 < 1e-9, "{:e} mm at order {}", between.0, between.1 as f64 / cycles as f64);
+}
+
+/// Steps that end where a change is due take it there, whatever the last digits of the mesh cycles say.
+#[test]
+fn a_change_due_at_the_end_of_a_step_is_taken_there() {
+    let pair = pair();
+    let system = pair.system(SPEED_RATIO * pair.resonance_hz(), little_damping);
+    let settings = PairSettings { steps_per_resonance: 0, ..pair.settings(&system, Scheme::Newmark, 8) };
+    let mut motion = pair.motion(system, settings);
+    for cycle in 1..=24 {
+        rows(&mut motion, 1);
+        assert_eq!(motion.system().changes(0).count, cycle, "after as many mesh cycles");
+    }
 }
 
 /// A window that is one tooth wider changes half a cycle later, and has a tooth to spare: the motion is the same at all
