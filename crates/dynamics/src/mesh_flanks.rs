@@ -140,19 +140,21 @@ impl MeshFlanks {
         cycles: f64,
         at: &ElasticDisplacement,
         tangents: bool,
-    ) -> Result<SideContacts, StaticError> {
-        let serves = |last: &&SideContacts| last.at.0 == cycles && last.at.1 == *at && (last.tangents || !tangents);
-        if let Some(last) = self.last.as_ref().filter(serves) {
-            return Ok(last.clone());
+    ) -> Result<&SideContacts, StaticError> {
+        let serves = |last: &SideContacts| last.at.0 == cycles && last.at.1 == *at && (last.tangents || !tangents);
+        if !self.last.as_ref().is_some_and(serves) {
+            self.last = None;
         }
-        self.last = None;
-        let fail = at_station(cycles);
-        let driving = self.driving.evaluate(pair, cycles, at, tangents).map_err(fail)?;
-        let coast =
-            self.coast.as_mut().map(|side| side.evaluate(pair, cycles, at, tangents)).transpose().map_err(fail)?;
-        let found = SideContacts { at: (cycles, at.clone()), driving, coast, tangents };
-        self.last = Some(found.clone());
-        Ok(found)
+        match &mut self.last {
+            Some(known) => Ok(known),
+            unknown => {
+                let fail = at_station(cycles);
+                let driving = self.driving.evaluate(pair, cycles, at, tangents).map_err(fail)?;
+                let coast = self.coast.as_mut().map(|side| side.evaluate(pair, cycles, at, tangents));
+                let coast = coast.transpose().map_err(fail)?;
+                Ok(unknown.insert(SideContacts { at: (cycles, at.clone()), driving, coast, tangents }))
+            }
+        }
     }
 
     /// Forces on the gears and on their modes.
@@ -167,16 +169,18 @@ impl MeshFlanks {
         tangents: bool,
     ) -> Result<FlankForces, StaticError> {
         let SideContacts { driving, coast, .. } = self.contact(pair, cycles, at, tangents)?;
-        let SideForce { mut normal, mut friction, mut stiffness, mut modal } = driving;
+        let SideForce { normal, friction, stiffness, modal } = driving.clone();
+        let mut all = FlankForces { normal, friction, stiffness, sums: [0.0; 2], modal };
         if let Some(coast) = coast {
-            normal += coast.normal;
-            friction += coast.friction;
-            stiffness += coast.stiffness;
-            if let (Some(all), Some(own)) = (&mut modal, &coast.modal) {
+            all.normal += coast.normal;
+            all.friction += coast.friction;
+            all.stiffness += coast.stiffness;
+            if let (Some(all), Some(own)) = (&mut all.modal, &coast.modal) {
                 all.add(own);
             }
         }
-        Ok(FlankForces { normal, friction, stiffness, sums: self.sums(), modal })
+        all.sums = self.sums();
+        Ok(all)
     }
 
     /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2); empty without modes.

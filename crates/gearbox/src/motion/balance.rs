@@ -134,7 +134,8 @@ impl GearboxMechanism {
         let cycles = self.cycles(mesh, angle);
         let at = self.displaced(mesh, angle, q);
         let live = &mut self.live[mesh];
-        let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?.clone();
+        let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?;
+        let (force, tangent) = (reply.force, out.tangents.then(|| reply.tangent));
         let per_turn = live.cycles_per_turn;
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
@@ -146,7 +147,7 @@ impl GearboxMechanism {
             out.supplied += answer * self.push.dot(v);
         }
         let to_gears = &self.live[mesh].to_gears;
-        out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
+        out.conservative += to_gears.tr_mul(&(force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
         if let Some(i) = turn {
@@ -166,13 +167,13 @@ impl GearboxMechanism {
                 out.conservative[i] += along_modes;
             }
         }
-        if out.tangents {
+        if let Some(tangent) = tangent {
             match &modal {
                 Some(((ModalForce { stiffness: Some(stiffness), .. }, map), _)) => {
                     out.stiffness += with_modes(to_gears, map, stiffness);
                     out.stiffness += to_gears.tr_mul(&(losses.slope * to_gears));
                 }
-                _ => out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears)),
+                _ => out.stiffness += to_gears.tr_mul(&((losses.slope - tangent) * to_gears)),
             }
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
         }

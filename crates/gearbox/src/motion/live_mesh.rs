@@ -129,22 +129,19 @@ impl LiveMesh {
         tangents: bool,
     ) -> Result<&MeshForces, GearboxError> {
         let serves = |last: &Last| last.cycles == cycles && last.at == *at && (last.tangents || !tangents);
-        let last = match self.last.take().filter(serves) {
-            Some(known) => known,
-            None => {
-                let named = |source| at_mesh(mesh, source);
-                self.element.go_to(cycles).map_err(named)?;
-                self.deform(&at.q);
-                let answer = if tangents { self.element.evaluate(&at.d) } else { self.element.evaluate_forces(&at.d) };
-                Last { cycles, at: at.clone(), reply: answer.map_err(named)?, tangents }
+        if !self.last.as_ref().is_some_and(serves) {
+            self.last = None;
+        }
+        match &mut self.last {
+            Some(known) => Ok(&known.reply),
+            unknown => {
+                let (element, named) = (&mut *self.element, |source| at_mesh(mesh, source));
+                element.go_to(cycles).map_err(named)?;
+                deform(element, &at.q);
+                let answer = if tangents { element.evaluate(&at.d) } else { element.evaluate_forces(&at.d) };
+                let reply = answer.map_err(named)?;
+                Ok(&unknown.insert(Last { cycles, at: at.clone(), reply, tangents }).reply)
             }
-        };
-        Ok(&self.last.insert(last).reply)
-    }
-
-    fn deform(&mut self, amplitudes: &DVector<f64>) {
-        if !amplitudes.is_empty() {
-            self.element.deform(amplitudes);
         }
     }
 
@@ -158,7 +155,7 @@ impl LiveMesh {
     /// Energy at a place off the path of the motion; its last answer is lost.
     pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, at: &ElasticDisplacement) -> Result<f64, GearboxError> {
         self.last = None;
-        self.deform(&at.q);
+        deform(&mut *self.element, &at.q);
         self.element.energy_at(cycles, &at.d).map_err(|source| at_mesh(mesh, source))
     }
 
@@ -210,5 +207,11 @@ impl LiveMesh {
     /// The element, standing where it was asked last.
     pub fn element(&mut self) -> &mut dyn MovingMesh {
         &mut *self.element
+    }
+}
+
+fn deform(element: &mut dyn MovingMesh, amplitudes: &DVector<f64>) {
+    if !amplitudes.is_empty() {
+        element.deform(amplitudes);
     }
 }

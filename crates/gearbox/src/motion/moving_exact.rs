@@ -47,7 +47,9 @@ pub struct MovingExactMesh {
 #[derive(Debug)]
 struct Answer {
     displaced: ElasticDisplacement,
-    forces: FlankForces,
+    normal: Vector12,
+    friction: Vector12,
+    modal: Option<ModalForce>,
     tangents: bool,
 }
 
@@ -136,13 +138,9 @@ impl MovingExactMesh {
         self.at = None;
         let displaced = self.displaced(displacements);
         let forces = self.flanks.forces(&self.pair, self.cycles, &displaced, tangents)?;
-        let reply = MeshForces {
-            force: forces.normal + forces.friction,
-            tangent: -forces.stiffness,
-            normal_force: forces.sums[0] + forces.sums[1],
-        };
-        self.at = Some(Answer { displaced, forces, tangents });
-        Ok(reply)
+        let FlankForces { normal, friction, stiffness, sums, modal } = forces;
+        self.at = Some(Answer { displaced, normal, friction, modal, tangents });
+        Ok(MeshForces { force: normal + friction, tangent: -stiffness, normal_force: sums[0] + sums[1] })
     }
 
     /// Power of forces on both gears as these turn by a mesh cycle, N mm.
@@ -196,7 +194,7 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn on_modes(&self) -> Option<&ModalForce> {
-        self.at.as_ref()?.forces.modal.as_ref()
+        self.at.as_ref()?.modal.as_ref()
     }
 
     fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
@@ -214,7 +212,7 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn energy_rate(&self) -> f64 {
-        self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.forces.normal))
+        self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.normal))
     }
 
     fn energy_change(&mut self) -> Result<f64, GearboxError> {
@@ -227,8 +225,8 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
-        let Some(Answer { displaced, forces, tangents }) = &self.at else { return MeshLosses::default() };
-        let (friction, moving) = (forces.friction, (&displaced.d, rates));
+        let Some(Answer { displaced, friction, tangents, .. }) = &self.at else { return MeshLosses::default() };
+        let (friction, moving) = (*friction, (&displaced.d, rates));
         let dampers = self.flanks.damping(&self.pair, self.cycles, moving, self.damping_per_length, *tangents);
         let along_cycles = self.by_cycles(&friction);
         MeshLosses {
