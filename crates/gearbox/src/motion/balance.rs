@@ -5,7 +5,7 @@ use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    GearboxMechanism,
+    Drive, GearboxMechanism,
     gear_modes::with_modes,
     loops::{self, is_zero},
 };
@@ -59,6 +59,10 @@ impl GearboxMechanism {
         self.varying.forces(t).for_each(|(torque, along)| load(torque, along));
         if acceleration != 0.0 {
             load(-acceleration, &self.momentum);
+            // An input that balances accelerates the whole train.
+            if matches!(self.drive, Drive::Balanced(_)) {
+                load(acceleration * self.train_inertia(), &self.push);
+            }
         }
         Ok(())
     }

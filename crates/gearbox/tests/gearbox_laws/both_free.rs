@@ -107,6 +107,39 @@ fn momentum_of_the_common_motion_is_held() {
     assert!(torques.iter().all(|t| (t / TORQUE - 1.0).abs() < 1e-3), "{torques:?} N mm");
 }
 
+/// A torque that balances while the speed rises accelerates both gears: the mesh carries what the driven one takes of it, as
+/// it does where the driver's speed is given.
+#[test]
+fn a_balanced_torque_accelerates_the_driven_gear() {
+    let bench = bench();
+    let to = bench.speed(2000.0);
+    // In the middle of a smooth step.
+    let share = 0.2;
+    let steepest = share * TORQUE / bench.bodies[1].polar_inertia;
+    let duration = 1.5 * 0.5 * to / steepest;
+    let ramp = Speed::Ramp { from: 0.5 * to, to, start: 0.0, duration };
+    let means = [Drive::Balanced(ramp), Drive::Speed(ramp)].map(|drive| {
+        let system = bench.system(2000.0, |o| o.drive = drive);
+        let [first, last] = [0.4, 0.6].map(|part: f64| system.cycles_until(part * duration) as usize);
+        let settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
+        let mut motion = bench.motion(system, settings);
+        let mut forces = Vec::new();
+        let mut look = instants(|now: &PairInstant, _: &_, _: &_| forces.push(now.normal_forces()[0]));
+        for _ in 0..last {
+            motion.run_cycle(Some(&mut look)).unwrap_or_else(|e| panic!("{e}"));
+        }
+        drop(look);
+        let middle = &forces[first * ROWS..];
+        middle.iter().sum::<f64>() / middle.len() as f64
+    });
+    let wheel = &bench.case.pair.wheel;
+    let alone = TORQUE / (wheel.base_radius() * wheel.base_helix_angle().cos());
+    println!("{:.4} and {:.4} of the load's force", means[0] / alone, means[1] / alone);
+    assert!((means[0] / means[1] - 1.0).abs() < 5e-3, "{means:?} N");
+    // The smooth step is 4 % less steep a tenth of its duration off the middle.
+    assert!((means[0] / alone - 1.0 - share).abs() < 0.1 * share, "{means:?} N, {alone} N of the load");
+}
+
 /// What vibrates is one equation in the lag: with both gears free it has the equivalent mass of both, and in units of
 /// its own resonance the motion is the one with a driver whose angle is given.
 #[test]
