@@ -5,9 +5,8 @@
 use std::{f64::consts::TAU, time::Instant};
 
 use ale::Station;
-use dynamics::{
-    Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
-};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque};
+use gearbox::motion::{GearboxMechanism, PairModel};
 use integrate::{Integrator, Scheme, StepControl};
 use nalgebra::Matrix6;
 use testing::{default_data, quadratic};
@@ -65,14 +64,13 @@ fn run(free: [bool; 6], scheme: Scheme) -> [(f64, f64); 2] {
     };
     let means = [at_rest.tangent_stiffness, at_rest.contact_line_length];
     let gears = case.reduced_gears(&contact);
-    let mut system = PairMechanism::new(case.pair.clone(), gears, None, options, means).expect("a sound pair");
-    let size = at_rest.transmission_error;
-    let scale = system.coordinates().scales(size, case.pair.wheel.base_radius());
-    let mut state = quasi_static_start(&mut system, 0.0, size, &scale).expect("a balance");
+    let model = PairModel::new(case.pair.clone(), gears, None, options, means).expect("a sound pair");
+    let mut system = model.machine().expect("a sound pair");
+    let mut state = system.start(0.0).expect("a balance");
     let period = case.pair.pinion.pitch_angle() / speed;
     let step = StepControl::Fixed(period / STEPS_PER_CYCLE as f64);
-    let mut integrator = Integrator::new(scheme, step, scale);
-    let mut until = |cycles: usize, system: &mut PairMechanism| {
+    let mut integrator = Integrator::new(scheme, step, model.scale(at_rest.transmission_error));
+    let mut until = |cycles: usize, system: &mut GearboxMechanism| {
         let end = cycles as f64 * period;
         integrator.advance(system, &mut state, end, |_, _| ()).unwrap_or_else(|e| panic!("{e}"));
     };

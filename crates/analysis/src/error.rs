@@ -3,9 +3,8 @@
 use std::{path::Path, sync::Arc};
 
 use answer::{FailedCheck, TableError};
-use dynamics::PairMotionError;
 use files::{Located, Place};
-use gearbox::GearboxError;
+use gearbox::{GearboxError, motion::PairMotionError};
 use ltca::StaticError;
 use lumped::LumpedError;
 use mesh::MeshError;

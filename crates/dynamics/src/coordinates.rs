@@ -64,28 +64,6 @@ impl Coordinates {
         Self { map, names: columns.iter().map(|c| c.1).collect(), lag, driver_turn }
     }
 
-    /// Coordinates with the lag shared between both gears, so that it leaves the momentum of their common motion alone.
-    /// Theory (45a).
-    ///
-    /// ```text
-    /// x = x_driver - x_driven,   m_driver x_driver + m_driven x_driven = 0,   m = J / r_b^2
-    /// ```
-    /// x along the line of action, forwards. Without bodies that have inertia nothing changes.
-    #[must_use]
-    pub(super) fn sharing_the_lag(mut self, pair: &GearPair, options: &StaticOptions, bodies: &[RigidBody; 2]) -> Self {
-        let driven = options.driven();
-        let turn = |g: usize| COORDINATES * (g + 1) - 1;
-        let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
-        let mass = [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]));
-        let of_driver = mass[driven] / (mass[0] + mass[1]);
-        if of_driver.is_finite() {
-            // The driver runs ahead the way the driven gear lags: one turns against the other.
-            self.map[(turn(1 - driven), self.lag)] = of_driver * options.side().sign() / base[1 - driven];
-            self.map[(turn(driven), self.lag)] *= 1.0 - of_driver;
-        }
-        self
-    }
-
     /// Number of free coordinates n.
     pub fn count(&self) -> usize {
         self.map.ncols()
@@ -114,11 +92,6 @@ impl Coordinates {
             self.count(),
             self.names.iter().map(|n| if is_turn(n) { length / lever } else { length }),
         )
-    }
-
-    /// T, 12 x n.
-    pub(super) fn map(&self) -> &DMatrix<f64> {
-        &self.map
     }
 
     /// d = T q, and the same for velocities; what comes behind the first n is not looked at.

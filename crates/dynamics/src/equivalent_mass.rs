@@ -5,14 +5,14 @@ use geometry::GearPair;
 use crate::{Drive, MeshDamping, MotionOptions, RigidBody};
 
 /// Inertias of both gears on their base circles, J / r_b^2, t.
-pub(crate) fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
+pub fn masses_on_base_circles(pair: &GearPair, bodies: &[RigidBody; 2]) -> [f64; 2] {
     let base = [pair.pinion.base_radius(), pair.wheel.base_radius()];
     [0, 1].map(|i| bodies[i].polar_inertia / (base[i] * base[i]))
 }
 
 /// Reduced mass of the pair's turns on the base circles, t: the driven gear's alone where the driver's angle is
 /// prescribed.
-pub(crate) fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
+pub fn equivalent_mass_of(pair: &GearPair, options: &MotionOptions) -> f64 {
     let inertia = masses_on_base_circles(pair, &options.bodies);
     let driver = 1 - options.statics.driven();
     let held = matches!(options.drive, Drive::Speed(_));

@@ -1,8 +1,8 @@
-//! Extreme values of a motion.
+//! Extreme values of the flanks of a mesh in motion.
 
 use serde::{Deserialize, Serialize};
 
-/// Extreme values of a motion, updated at the end of every step.
+/// Extreme values of the flanks of a mesh, updated at the end of every step.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct Extremes {
     /// Least normal force of a slice in contact, damping included, N; none before the first step in contact. Below 0 a

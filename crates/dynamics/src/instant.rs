@@ -1,50 +1,41 @@
-//! One instant of a motion.
+//! Flanks at an instant of a motion.
 
-use crate::Displacement;
 use contact::SliceResult;
 use ltca::FilletStress;
 
-/// Quantities of one instant of a motion.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Instant {
-    /// Time, s.
-    pub time: f64,
-    /// Mesh cycles that the gears have turned since the start of counting.
-    pub cycles: f64,
-    /// Angular velocities of pinion and wheel about +z, rad/s.
-    pub speeds: [f64; 2],
-    /// Lag of the driven gear behind the nominal motion on its base circle, mm: the dynamic transmission error.
-    pub transmission_error: f64,
-    /// Rate of the transmission error, mm/s.
-    pub transmission_error_rate: f64,
-    /// Displacements of both gears.
-    pub displacement: Displacement,
-    /// Forces (N) and moments (N mm) of the mesh on both gears: normal, friction and damping.
-    pub mesh: Displacement,
-    /// Torque of the driver in the running sense, N mm: the given one, or the one that keeps the given speed.
-    pub drive_torque: f64,
-    /// Torque on the driven gear against its motion, N mm.
-    pub load_torque: f64,
-    /// Forces of the bearings on both gears.
-    pub bearing: Displacement,
-    /// Normal force of each pair of the window on the driving side, N, by running number from `first_pair` on; elastic
-    /// part.
+/// The flanks of one side at an instant; all zero of flanks that are not there.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct FlankInstant {
+    /// Sum of the normal forces, N, without damping.
+    pub force: f64,
+    /// Damping along the approach, N.
+    pub damping: f64,
+    /// Length of the loaded contact lines, mm.
+    pub line_length: f64,
+    /// Normal force of each pair of the window, N, by running number from `first_pair` on, without damping; empty of flanks
+    /// that know no pairs.
     pub pair_forces: Vec<f64>,
     /// Running number of the first pair of the window.
     pub first_pair: i64,
-    /// Sum of normal forces on driving and coast flanks, damping included, N.
-    pub normal_forces: [f64; 2],
-    /// Total length of the contact lines on the driving side, mm.
-    pub contact_line_length: f64,
-    /// Largest pressure, MPa.
-    pub max_pressure: f64,
+    /// Slices that carry load, pair by pair, ascending in z, without damping; empty of flanks that know none.
+    pub slices: Vec<LoadedSlice>,
     /// Tooth changes so far.
     pub tooth_changes: u64,
-    /// Slices that carry load on the driving side, pair by pair, ascending in z; elastic part of the force.
-    pub slices: Vec<LoadedSlice>,
-    /// Stress in the root fillets of the window's teeth on pinion and wheel, of the elastic forces on the driving side;
-    /// empty when not asked for ([`ltca::StaticOptions::root_stress`]).
+    /// Stress in the root fillets of the window's teeth on gear 1 and gear 2 under the forces without damping, of the
+    /// driving flanks; empty when not asked for ([`ltca::StaticOptions::root_stress`]).
     pub root_stress: [Vec<FilletStress>; 2],
+}
+
+impl FlankInstant {
+    /// Sum of the normal forces, damping included, N.
+    pub fn normal_force(&self) -> f64 {
+        self.force + self.damping
+    }
+
+    /// Largest pressure, MPa.
+    pub fn max_pressure(&self) -> f64 {
+        self.slices.iter().fold(0.0, |m: f64, s| m.max(s.slice.pressure))
+    }
 }
 
 /// A slice that carries load, with its pair.

@@ -1,53 +1,36 @@
-//! How does the pair move? Rigid bodies on bearings, drives and loads, and the contact of their elastic teeth between
-//! them.
+//! What moves a pair? Rigid bodies on bearings, drives and loads, and the contact of elastic teeth between them, as a
+//! machine of them (`gearbox::motion`) asks for it.
 
 mod body;
 mod coordinates;
 mod drive;
 mod elastic_displacement;
 mod equivalent_mass;
-mod error;
 mod extremes;
 mod flank_maps;
+mod gear_vibration;
 mod instant;
 mod low_frequency;
-mod mechanism;
 mod mesh_flanks;
 mod mesh_side;
-mod modal;
 mod nominal;
 mod options;
 mod rotation;
-mod run;
-mod shooting;
 mod side_loads;
-mod stable_step;
-mod stands;
-mod start;
-mod sweep;
 
 pub use body::{Bearing, COORDINATES, RigidBody};
 pub use coordinates::{Coordinates, Displacement};
 pub use drive::{Speed, Torque};
 pub use elastic_displacement::ElasticDisplacement;
-pub use equivalent_mass::{damping_per_length, equivalent_mass};
-pub use error::PairMotionError;
+pub use equivalent_mass::{damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles};
 pub use extremes::Extremes;
 pub use flank_maps::{MapFailure, MapRequest};
-pub use instant::{Instant, LoadedSlice};
+pub use gear_vibration::GearVibration;
+pub use instant::{FlankInstant, LoadedSlice};
 pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
-pub use mechanism::{MechanismState, PairMechanism};
 pub use mesh_flanks::{FlankDamping, FlankForces, FlankStates, MeshFlanks};
 pub use mesh_side::{ModalForce, SideState, ToothChanges};
-pub use modal::GearVibration;
 pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};
 pub use rotation::rotation_share;
-pub use run::{Motion, MotionSettings, compared, instants, run_to_steady};
-pub use shooting::{ShootingResult, shoot};
 pub use side_loads::SideLoads;
-pub use stable_step::stable_step;
-pub use start::quasi_static_start;
-pub use sweep::{
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
-};

@@ -7,7 +7,7 @@
 /// ```
 /// f_1 the gear's lowest frequency with its bore held and its flanks free. At r = 1/4 a gear gives way by 7 % more than
 /// at rest where all of its compliance is in its lowest mode, and less where it is not. What that does to the dynamic
-/// transmission error of two discs on thin shafts (`crates/dynamics/tests/dynamics_laws/modes_in_motion.rs`): 1 % at 0.1, 4 to 5 % at
+/// transmission error of two discs on thin shafts (`crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`): 1 % at 0.1, 4 to 5 % at
 /// 0.2, 7 to 8 % at the limit, 10 to 14 % at 0.3, all of it at 1. With the flanks held the lowest frequency of such
 /// gears is up to twice as high: as a bound it would warn too late.
 pub const LOW_FREQUENCY_LIMIT: f64 = 0.25;
@@ -39,7 +39,7 @@ pub struct MeshResonance {
 /// ```
 /// A_k harmonics of the quasi-static transmission error, f_0 mesh resonance, f_1 lowest elastic frequency: teeth and
 /// bodies give way by 1/(1 - r^2) times as much as at rest if all of their compliance is in the lowest mode, and a
-/// harmonic changes by that share of itself (measured beside it in `crates/dynamics/tests/dynamics_laws/modes_in_motion.rs`), wholly at
+/// harmonic changes by that share of itself (measured beside it in `crates/gearbox/tests/gearbox_laws/modes_in_motion.rs`), wholly at
 /// the most. Both largest values are over the mesh frequencies that the motion passes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ElasticChange {

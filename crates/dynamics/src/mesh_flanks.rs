@@ -5,12 +5,12 @@ use std::sync::Arc;
 use ale::Station;
 use contact::SliceResult;
 use geometry::GearPair;
-use ltca::{StaticError, StaticOptions};
+use ltca::{RootStress, StaticError, StaticOptions};
 use nalgebra::SMatrix;
 use reduction::{ElasticGear, GearModes};
 
 use crate::{
-    COORDINATES, Displacement, SideState, ToothChanges,
+    COORDINATES, Displacement, Extremes, FlankInstant, SideLoads, SideState,
     elastic_displacement::ElasticDisplacement,
     mesh_side::{MeshSide, ModalForce, SideContacts, SideForce},
 };
@@ -134,33 +134,27 @@ impl MeshFlanks {
     }
 
     /// Contact of both sides.
-    pub(crate) fn contact(
+    fn contact(
         &mut self,
         pair: &GearPair,
         cycles: f64,
         at: &ElasticDisplacement,
         tangents: bool,
-    ) -> Result<SideContacts, StaticError> {
-        let serves = |last: &&SideContacts| last.at.0 == cycles && last.at.1 == *at && (last.tangents || !tangents);
-        if let Some(last) = self.last.as_ref().filter(serves) {
-            return Ok(last.clone());
+    ) -> Result<&SideContacts, StaticError> {
+        let serves = |last: &SideContacts| last.at.0 == cycles && last.at.1 == *at && (last.tangents || !tangents);
+        if !self.last.as_ref().is_some_and(serves) {
+            self.last = None;
         }
-        self.last = None;
-        let fail = at_station(cycles);
-        let driving = self.driving.evaluate(pair, cycles, at, tangents).map_err(fail)?;
-        let coast =
-            self.coast.as_mut().map(|side| side.evaluate(pair, cycles, at, tangents)).transpose().map_err(fail)?;
-        let found = SideContacts { at: (cycles, at.clone()), driving, coast, tangents };
-        self.last = Some(found.clone());
-        Ok(found)
-    }
-
-    /// The sides with the forces of their last contact.
-    pub(crate) fn with_forces<'a>(
-        &'a self,
-        contacts: &'a SideContacts,
-    ) -> impl Iterator<Item = (&'a MeshSide, &'a SideForce)> {
-        std::iter::once((&self.driving, &contacts.driving)).chain(self.coast.as_ref().zip(contacts.coast.as_ref()))
+        match &mut self.last {
+            Some(known) => Ok(known),
+            unknown => {
+                let fail = at_station(cycles);
+                let driving = self.driving.evaluate(pair, cycles, at, tangents).map_err(fail)?;
+                let coast = self.coast.as_mut().map(|side| side.evaluate(pair, cycles, at, tangents));
+                let coast = coast.transpose().map_err(fail)?;
+                Ok(unknown.insert(SideContacts { at: (cycles, at.clone()), driving, coast, tangents }))
+            }
+        }
     }
 
     /// Forces on the gears and on their modes.
@@ -175,16 +169,18 @@ impl MeshFlanks {
         tangents: bool,
     ) -> Result<FlankForces, StaticError> {
         let SideContacts { driving, coast, .. } = self.contact(pair, cycles, at, tangents)?;
-        let SideForce { mut normal, mut friction, mut stiffness, mut modal } = driving;
+        let SideForce { normal, friction, stiffness, modal } = driving.clone();
+        let mut all = FlankForces { normal, friction, stiffness, sums: [0.0; 2], modal };
         if let Some(coast) = coast {
-            normal += coast.normal;
-            friction += coast.friction;
-            stiffness += coast.stiffness;
-            if let (Some(all), Some(own)) = (&mut modal, &coast.modal) {
+            all.normal += coast.normal;
+            all.friction += coast.friction;
+            all.stiffness += coast.stiffness;
+            if let (Some(all), Some(own)) = (&mut all.modal, &coast.modal) {
                 all.add(own);
             }
         }
-        Ok(FlankForces { normal, friction, stiffness, sums: self.sums(), modal })
+        all.sums = self.sums();
+        Ok(all)
     }
 
     /// Largest normal displacement of a flank by one unit of each mode, t^(-1/2); empty without modes.
@@ -258,23 +254,16 @@ impl MeshFlanks {
         [driving, coast]
     }
 
-    /// Moves the windows as far as the gears have turned (`turned`, mesh cycles) and outgoing teeth carry nothing;
-    /// whether one has moved. Several teeth may be due after a long step.
-    pub(crate) fn follow(
-        &mut self,
-        pair: &GearPair,
-        cycles: f64,
-        at: &ElasticDisplacement,
-        turned: f64,
-    ) -> Result<bool, StaticError> {
-        self.sides().try_for_each(|side| side.check_pace(turned))?;
+    /// Moves the windows as far as is due and outgoing teeth carry nothing; whether one has moved. Several teeth may be due
+    /// after a long step.
+    fn follow(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<bool, StaticError> {
         let mut any = false;
         loop {
             self.contact(pair, cycles, at, false)?;
             let sums = self.sums();
             let moved = [
-                self.driving.follow(pair, turned)?,
-                self.coast.as_mut().map_or(Ok(false), |side| side.follow(pair, turned))?,
+                self.driving.follow(pair, cycles)?,
+                self.coast.as_mut().map_or(Ok(false), |side| side.follow(pair, cycles))?,
             ];
             if moved == [false; 2] {
                 return Ok(any);
@@ -290,19 +279,89 @@ impl MeshFlanks {
         }
     }
 
-    /// At the end of a step: moves the windows as far as is due and outgoing teeth carry nothing, and refuses a state in
-    /// which teeth are where none can be, or a pair beside a window ought to carry load. Whether a window has moved.
+    /// Refuses gears that have turned past a whole window since it moved last.
     ///
     /// # Errors
-    /// [`StaticError::PassedThrough`], [`ale::AleError::Leapt`], [`ale::AleError::Starved`].
-    pub fn accept(&mut self, pair: &GearPair, cycles: f64, at: &ElasticDisplacement) -> Result<bool, StaticError> {
+    /// [`ale::AleError::Leapt`].
+    pub fn check_pace(&self, cycles: f64) -> Result<(), StaticError> {
+        self.sides().try_for_each(|side| side.check_pace(cycles))
+    }
+
+    /// At the end of a step with the gears moving at `rate`: moves the windows as far as is due and outgoing teeth carry
+    /// nothing, and refuses a state in which teeth are where none can be, or a pair beside a window ought to carry load;
+    /// adds the step to the extremes. Whether a window has moved.
+    ///
+    /// # Errors
+    /// [`StaticError::PassedThrough`], [`ale::AleError::Starved`].
+    pub fn accept(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        at: &ElasticDisplacement,
+        (rate, per_length): (&Displacement, f64),
+        extremes: &mut Extremes,
+    ) -> Result<bool, StaticError> {
         self.check_passage(pair, cycles, &at.d)?;
-        let moved = self.follow(pair, cycles, at, cycles)?;
-        for side in self.sides_mut().filter(|side| side.sum_of_forces() > 0.0) {
-            let poses = side.poses(pair, cycles, &at.d);
-            side.check_neighbours(pair, cycles, &poses)?;
+        let moved = self.follow(pair, cycles, at)?;
+        let mut least = f64::INFINITY;
+        for (coasts, side) in self.sides_mut().enumerate().filter(|(_, side)| side.presses()) {
+            let placed = side.placed(pair, cycles, &at.d);
+            side.check_neighbours(pair, cycles, &placed.poses)?;
+            let [sum, smallest] = side.normal_forces(&placed, rate, per_length);
+            least = least.min(smallest);
+            if coasts == 0 {
+                extremes.largest_force = extremes.largest_force.max(sum);
+            } else {
+                extremes.steps_on_coast += 1;
+            }
+        }
+        if !self.driving.presses() {
+            extremes.steps_apart += 1;
+            let gap = -self.driving.overlap(pair, cycles, at);
+            if !at.q.is_empty() {
+                self.last = None;
+            }
+            extremes.largest_gap = extremes.largest_gap.max(gap);
+        }
+        if least.is_finite() {
+            extremes.least_force = Some(extremes.least_force.map_or(least, |f| f.min(least)));
         }
         Ok(moved)
+    }
+
+    /// Both sides where they were evaluated last, with the gears moving at `rate`; `roots`: the fillets of the driving side,
+    /// where their stress is asked for.
+    ///
+    /// # Errors
+    /// [`StaticError`] of the root stress.
+    pub fn instants(
+        &mut self,
+        pair: &GearPair,
+        cycles: f64,
+        d: &Displacement,
+        (rate, per_length): (&Displacement, f64),
+        roots: Option<&RootStress>,
+    ) -> Result<[FlankInstant; 2], StaticError> {
+        let mut both = <[FlankInstant; 2]>::default();
+        for (out, side) in both.iter_mut().zip(self.sides_mut()) {
+            *out = side.instant(pair, &side.placed(pair, cycles, d), rate, per_length);
+        }
+        if let Some(roots) = roots {
+            let poses = self.driving.poses(pair, cycles, d);
+            both[0].root_stress = self.driving.root_stress(pair, &poses, roots)?;
+        }
+        Ok(both)
+    }
+
+    /// Loads on the flanks of each side that presses where they were evaluated last; the driving side always.
+    pub fn loads(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Vec<SideLoads<'_>> {
+        let pressed = self.sides().enumerate().filter(|(coasts, side)| *coasts == 0 || side.presses());
+        pressed.map(|(_, side)| side.loads(pair, cycles, d)).collect()
+    }
+
+    /// The fillets of the gears of the driving flanks.
+    pub fn root_fillets(&self, pair: &GearPair) -> RootStress {
+        self.driving.root_fillets(pair)
     }
 
     /// Refuses a state in which teeth are nearer by half a base pitch than flanks that touch, or farther apart by the
@@ -312,7 +371,7 @@ impl MeshFlanks {
     ///
     /// # Errors
     /// [`StaticError::PassedThrough`].
-    pub(crate) fn check_passage(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<(), StaticError> {
+    fn check_passage(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> Result<(), StaticError> {
         let thickness_mm = 0.5 * pair.transverse_base_pitch();
         let distance_mm = approach(pair, self.driving.flank_side().sign(), d);
         let apart = thickness_mm + pair.backlash().max(0.0);
@@ -326,11 +385,6 @@ impl MeshFlanks {
     /// Driving slices that carried load in the last contact.
     pub fn driving_slices(&self) -> Vec<SliceResult> {
         self.driving.loaded_slices().into_iter().map(|loaded| loaded.slice).collect()
-    }
-
-    /// Tooth changes of the driving flanks.
-    pub fn changes(&self) -> ToothChanges {
-        self.driving.state().changes
     }
 
     /// Windows of both sides, to be restored later.
@@ -355,11 +409,6 @@ impl MeshFlanks {
     /// alone, bit by bit.
     pub fn forget(&mut self) {
         self.sides_mut().for_each(MeshSide::forget);
-        self.last = None;
-    }
-
-    /// Forgets the last contact alone.
-    pub(crate) fn forget_last(&mut self) {
         self.last = None;
     }
 }

@@ -291,6 +291,14 @@ pub enum GearboxError {
         /// Last step over the displacements, in the norm of the stiffness.
         step: f64,
     },
+    /// A load below what round-off of places makes of the stiffness of teeth.
+    #[error("a load of {load_n:.3e} N on the flanks is below what round-off of places makes, {lost_n:.3e} N")]
+    LostLoad {
+        /// Force of the load on the flanks, N.
+        load_n: f64,
+        /// Force that round-off makes, N.
+        lost_n: f64,
+    },
     /// A torque over time on an input whose speed is given.
     #[error("a torque over time on an input whose speed is given: the torque there is a result")]
     GivenSpeed,
@@ -347,7 +355,10 @@ impl GearboxError {
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
-            Self::NoEquilibrium { .. } | Self::BeyondBacklash { .. } | Self::LostMode { .. } => true,
+            Self::NoEquilibrium { .. }
+            | Self::LostLoad { .. }
+            | Self::BeyondBacklash { .. }
+            | Self::LostMode { .. } => true,
             // What the contact is asked for a map is of the map's own choice.
             Self::Map(_) => true,
             Self::Motion(source) => match &**source {
@@ -463,6 +474,7 @@ impl GearboxError {
             Self::BeyondBacklash { .. } => {
                 "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
             }
+            Self::LostLoad { .. } => "give a larger torque: teeth that bear next to nothing are not known well enough",
             Self::GivenSpeed => "let a torque drive the input, or leave the torque over time out",
             Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
             Self::Motion(source) => match &**source {

@@ -170,6 +170,10 @@ impl StaticGearbox {
 }
 
 pub(crate) fn at_mesh(mesh: &GearMesh, source: GearboxError) -> GearboxError {
+    // That of a pair is the only one.
+    if mesh.name.is_empty() {
+        return source;
+    }
     GearboxError::AtMesh { mesh: mesh.name.clone(), source: Box::new(source) }
 }
 

@@ -117,7 +117,8 @@ impl Recurrence {
     }
 }
 
-/// Largest difference of two states over peak to peak values; for what is still, over its scale.
+/// Largest difference of two states over peak to peak values; for what is still, over its scale. What has no end of a scale
+/// is left out.
 pub fn difference(
     [now, before]: [&[DVector<f64>; 2]; 2],
     size: &[DVector<f64>; 2],
@@ -125,7 +126,7 @@ pub fn difference(
     free: Option<usize>,
 ) -> f64 {
     let mut worst = 0.0f64;
-    for k in 0..scale.len() {
+    for k in (0..scale.len()).filter(|k| scale[*k].is_finite()) {
         // A velocity is still when it belongs to a coordinate that is.
         let rate = if size[0][k] > 0.0 { size[1][k] / size[0][k] } else { 0.0 };
         let least = [STILL_AMPLITUDE * scale[k], STILL_AMPLITUDE * scale[k] * rate];

@@ -2,12 +2,10 @@
 
 use std::{ops::ControlFlow, sync::Arc};
 
-use dynamics::{
-    Bearing, Drive, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, RigidBody, Speed, SweepPlan,
-    SweepPoint, Torque, equivalent_mass, instants, quasi_static_start, sweep,
-};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque, equivalent_mass};
 use fem::Material;
-use integrate::Scheme;
+use gearbox::motion::{GearboxMechanism, PairModel, PairMotion, PairSettings, SweepPlan, SweepPoint, instants, sweep};
+use integrate::{Scheme, State};
 use ltca::{StaticOptions, StaticPosition};
 use mesh::MeshedGear;
 use reduction::ElasticGear;
@@ -87,42 +85,60 @@ impl MovingPair {
     }
 
     /// The wheel's turn is free, the driver keeps its speed, damping ratio 0.1.
-    pub fn system(&self, cycles_per_second: f64, change: impl FnOnce(&mut MotionOptions)) -> PairMechanism {
+    pub fn system(&self, cycles_per_second: f64, change: impl FnOnce(&mut MotionOptions)) -> PairModel {
         let speed = self.speed(cycles_per_second);
         let mut options = at_speed(self.contact.clone(), self.bodies, speed, self.contact.torque, 0.1);
         change(&mut options);
-        PairMechanism::new(self.case.pair.clone(), Arc::clone(&self.gears), None, options, self.means)
+        PairModel::new(self.case.pair.clone(), Arc::clone(&self.gears), None, options, self.means)
             .unwrap_or_else(|e| panic!("{e}"))
     }
 
     /// `rows` a mesh cycle, at least 12 steps in a period of the resonance.
-    pub fn settings(&self, system: &PairMechanism, scheme: Scheme, rows: usize) -> MotionSettings {
-        let scale = system.coordinates().scales(self.ste[0], self.case.pair.wheel.base_radius().abs());
-        MotionSettings { scheme, rows, steps_per_resonance: 12, tolerance: None, stop_at_events: false, scale }
+    pub fn settings(&self, pair: &PairModel, scheme: Scheme, rows: usize) -> PairSettings {
+        PairSettings {
+            scheme,
+            rows,
+            steps_per_resonance: 12,
+            resonance_hz: pair.mesh_resonance_hz(),
+            tolerance: None,
+            stop_at_events: false,
+            scale: pair.scale(self.ste[0]),
+        }
     }
 
     /// From quasi-static balance on.
-    pub fn motion(&self, mut system: PairMechanism, settings: MotionSettings) -> Motion {
-        let start =
-            quasi_static_start(&mut system, 0.0, self.ste[0], &settings.scale).unwrap_or_else(|e| panic!("{e}"));
-        Motion::new(system, settings, start)
+    pub fn motion(&self, pair: PairModel, settings: PairSettings) -> PairMotion {
+        let (machine, start) = started(&pair, 0.0);
+        PairMotion::new(machine, settings, start)
     }
 }
 
+/// The machine of a pair.
+pub fn machine(pair: &PairModel) -> GearboxMechanism {
+    pair.machine().unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// The machine of a pair, and where it stands in quasi-static balance at a time, s.
+pub fn started(pair: &PairModel, time: f64) -> (GearboxMechanism, State) {
+    let mut machine = machine(pair);
+    let start = machine.start_at(time, 0.0).unwrap_or_else(|e| panic!("{e}"));
+    (machine, start)
+}
+
 /// DTE row by row over `cycles` mesh cycles, mm.
-pub fn rows(motion: &mut Motion, cycles: u64) -> Vec<f64> {
+pub fn rows(motion: &mut PairMotion, cycles: u64) -> Vec<f64> {
     let mut all = Vec::new();
     for _ in 0..cycles {
         motion
-            .run_cycle(Some(&mut instants(|now, _, _| all.push(now.transmission_error))))
+            .run_cycle(Some(&mut instants(|now, _, _| all.push(now.mesh.transmission_error))))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     all
 }
 
 /// A sweep with an answer at every speed.
-pub fn swept(system: &PairMechanism, plan: &SweepPlan) -> Vec<SweepPoint> {
-    let outcomes = sweep(system, plan, &|_| ControlFlow::Continue(())).unwrap_or_else(|e| panic!("{e}"));
+pub fn swept(pair: &PairModel, plan: &SweepPlan) -> Vec<SweepPoint> {
+    let outcomes = sweep(pair, plan, &|_| ControlFlow::Continue(())).unwrap_or_else(|e| panic!("{e}"));
     outcomes.into_iter().map(|o| o.unwrap_or_else(|miss| panic!("{} rad/s: {}", miss.speed, miss.error))).collect()
 }
 

@@ -6,11 +6,13 @@
 
 use std::time::Instant;
 
-use dynamics::{damping_per_length, quasi_static_start};
 use fem::ElementOptions;
-use gearbox::motion::{GearboxMechanism, MappedMesh};
-use integrate::{Integrator, Scheme, State, StepControl};
-use testing::{Case, moving::MovingPair};
+use gearbox::motion::MappedMesh;
+use integrate::{Integrator, Scheme, StepControl};
+use testing::{
+    Case,
+    moving::{MovingPair, started},
+};
 
 const STEPS: usize = 64;
 
@@ -21,21 +23,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let contact = case.slice_options();
     let pair = MovingPair::new(case, contact, 32);
     let hz = rpm / 60.0 * f64::from(pair.case.pair.pinion.teeth());
-    let mut system = pair.system(hz, |_| ());
-    let scale = system.coordinates().scales(pair.ste[0], pair.case.pair.wheel.base_radius());
-    let start = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale)?;
+    let system = pair.system(hz, |_| ());
+    let (_, mut state) = started(&system, 0.0);
     let began = Instant::now();
-    let request = system.map_request(pair.ste[0], 4.0, [2e-4; 2])?;
-    let mesh = MappedMesh::new(system.flanks(), system.pair(), &request, &|_| {})?;
+    let request = system.map_request(4.0, [2e-4; 2])?;
+    let flanks = system.flanks().ok_or("flanks that are solved are wanted")?;
+    let mesh = MappedMesh::new(flanks, system.pair(), &request, &|_| {})?;
     println!("map in {:.2} s: {:?}", began.elapsed().as_secs_f64(), mesh.maps().next().map(|m| *m.certificate()));
-    let damping = damping_per_length(system.pair(), system.options(), system.means());
-    let mesh = mesh.with_damping(damping).with_driving_flanks_alone();
-    let mut map = GearboxMechanism::of_pair(system.pair(), system.options(), |_, _, _| Ok(Box::new(mesh.clone())))?;
-    // The coordinate of the pair is the lag of the wheel, that of the machine its turn.
-    let lag = map.error_slopes(0)[0];
-    let mut state = State::new(0.0, &start.q / lag, &start.v / lag);
+    let mut map = system.on_map(mesh).machine()?;
     let control = StepControl::Fixed(1.0 / hz / STEPS as f64);
-    let scale = scale / lag.abs();
+    let scale = system.scale(pair.ste[0]);
     let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, control, scale);
     let began = Instant::now();
     integrator.advance(&mut map, &mut state, cycles as f64 / hz, |_, _| ())?;
@@ -44,7 +41,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         "{rpm} 1/min, {cycles} cycles: {:.3} us a step, {:.2} times real time, lag {:.6} um",
         1e6 * spent / (cycles * STEPS) as f64,
         cycles as f64 / hz / spent,
-        1e3 * lag * state.q[0]
+        1e3 * state.q[0]
     );
     Ok(())
 }

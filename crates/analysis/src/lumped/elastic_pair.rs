@@ -4,17 +4,16 @@ use answer::Remark;
 use std::time::Instant;
 
 use contact_map::MapWatch;
-use dynamics::{COORDINATES, MapFailure, MapRequest, MeshResonance, PairMechanism, PairMotionError};
-use gearbox::motion::MappedMesh;
+use dynamics::{COORDINATES, MapFailure, MapRequest, MeshFlanks, MeshResonance};
+use gearbox::motion::{MappedMesh, PairModel, PairMotionError};
 use geometry::GearPair;
 use scene::{Model, MotionScene, Scene};
 
 use super::{
     LumpedHeadline,
     elastic_frame::ElasticFrame,
-    mapped::{MappedModel, MappedPair, WORST_MAP},
+    flank_pair::{FlankPair, WORST_MAP},
     mechanism::BoxedMechanism,
-    reduced::ReducedModel,
     row::{GearCoordinate, axis_number, gear_coordinates},
 };
 use crate::{
@@ -24,8 +23,8 @@ use crate::{
     failure::Failure,
     inputs::motion_of,
     motion::{
-        Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz, pair_drive,
-        prepare,
+        Elasticity, MotionInputs, NoMotionSink, Pace, PreparedMotion, StepDemand, Vibration, mesh_range_hz,
+        motion_length, pair_drive, prepare,
     },
     run_phase,
 };
@@ -40,19 +39,13 @@ const CONTACTS_OF_A_STEP: f64 = 3.0;
 
 /// The gears of a scene, of every speed; with the map of their contact where the model takes one.
 pub(crate) struct ElasticPair {
-    contact: PairContact,
+    pair: PairModel,
     resonance: MeshResonance,
     /// What is left out of quasi-static elasticity, and what a step with it costs; nothing where modes move.
     elasticity: Elasticity,
     pace: Pace,
     frame: ElasticFrame,
     pub remarks: Vec<Remark>,
-}
-
-/// How contact is found.
-enum PairContact {
-    Solved(Box<PairMechanism>),
-    Mapped(Box<MappedPair>),
 }
 
 impl ElasticPair {
@@ -63,31 +56,33 @@ impl ElasticPair {
     pub fn make(scene: &Scene, cache: &dyn GearCache, observer: &mut dyn Observer) -> Result<Self, AnalysisError> {
         let inputs = MotionInputs::new((scene, motion_of(scene)?), None, cache, observer)?;
         let ready = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e: Failure| e.into_error(scene))?;
-        let PreparedMotion { system, settings, quasi_static, elasticity, mut remarks, keys, .. } = ready;
+        let PreparedMotion { system, quasi_static, elasticity, mut remarks, keys, .. } = ready;
         let (resonance, lag) = (system.mesh_resonance(), quasi_static.mean_error());
+        let length = motion_length(&system, &quasi_static);
         let place = |c: &GearCoordinate| COORDINATES * c.gear + axis_number(c.axis);
         let free = gear_coordinates(scene).iter().map(place).collect();
-        let frame = ElasticFrame { lag, scale: settings.scale, free, at_rest: quasi_static.transmission_error };
+        let frame = ElasticFrame { length, free, at_rest: quasi_static.transmission_error };
         let began = Instant::now();
-        let (contact, contacts) = match scene.analysis.model {
+        let (pair, contacts) = match scene.analysis.model {
             Model::Mapped => {
-                let mut system = system;
-                let request = system.map_request(lag, OVERLOAD, [MAP_TOLERANCE, WORST_MAP]).map_err(in_scene(scene))?;
+                let request = system.map_request(OVERLOAD, [MAP_TOLERANCE, WORST_MAP]).map_err(in_scene(scene))?;
                 let asked = (OVERLOAD, MAP_TOLERANCE, WORST_MAP, lag);
                 let key = cache.is_on().then(|| MapKey::new(&keys, &map_words(scene, &inputs.pair, &asked)));
+                let flanks = solved_flanks(scene, &system)?;
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |progress| {
-                    mapped(scene, &system, (&request, &map_teller(progress, "")), (cache, key.as_ref()), &mut remarks)
+                    let watch = map_teller(progress, "");
+                    mapped(scene, (flanks, &inputs.pair), (&request, &watch), (cache, key.as_ref()), &mut remarks)
                 });
                 let made = made?;
-                let off = made.pitch_error(system.flanks(), system.pair(), &request).map_err(in_scene(scene))?;
+                let off = made.pitch_error(flanks, &inputs.pair, &request).map_err(in_scene(scene))?;
                 remarks.extend(off.zip(made.maps().next()).map(|(error, map)| pitch_errors_told(&error, map)));
                 let contacts: usize = made.maps().map(|map| map.certificate().contacts).sum();
-                (PairContact::Mapped(Box::new(MappedPair::new(&system, made))), contacts)
+                (system.on_map(made), contacts)
             }
-            _ => (PairContact::Solved(Box::new(system)), 0),
+            _ => (system, 0),
         };
         let pace = Pace::of(began.elapsed().as_secs_f64(), contacts as f64 / CONTACTS_OF_A_STEP);
-        Ok(Self { contact, resonance, elasticity, pace, frame, remarks })
+        Ok(Self { pair, resonance, elasticity, pace, frame, remarks })
     }
 
     /// What a user should hear of the elasticity of a motion: it is quasi-static but for modes that move.
@@ -105,31 +100,28 @@ impl ElasticPair {
     /// # Errors
     /// [`AnalysisError::Motion`].
     pub(super) fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(BoxedMechanism, f64), AnalysisError> {
-        let (drive, frame) = (pair_drive(scene, gears), self.frame.clone());
-        let model = match &self.contact {
-            PairContact::Mapped(pair) => {
-                BoxedMechanism::new(MappedModel::new(pair.with_drive(drive), frame).map_err(in_scene(scene))?)
-            }
-            PairContact::Solved(pair) => {
-                let pair = pair.with_drive(drive);
-                let pair = pair.map_err(|e| PairMotionError::contact(0.0, e)).map_err(in_scene(scene))?;
-                BoxedMechanism::new(ReducedModel::new(pair, frame))
-            }
-        };
-        Ok((model, self.resonance.hz))
+        let pair = self.pair.with_drive(pair_drive(scene, gears));
+        let model =
+            FlankPair::new(pair, self.frame.clone()).map_err(PairMotionError::at(0.0)).map_err(in_scene(scene))?;
+        Ok((BoxedMechanism::new(model), self.resonance.hz))
     }
+}
+
+/// The flanks of a pair that is to be mapped.
+fn solved_flanks<'a>(scene: &Scene, pair: &'a PairModel) -> Result<&'a MeshFlanks, AnalysisError> {
+    let none = MapFailure::Unmapped { what: "a pair without flanks that are solved" };
+    pair.flanks().ok_or_else(|| in_scene(scene)(PairMotionError::from(none)))
 }
 
 /// The flanks of a pair by their maps: those of the cache, or new ones.
 fn mapped(
     scene: &Scene,
-    system: &PairMechanism,
+    (flanks, pair): (&MeshFlanks, &GearPair),
     (request, watch): (&MapRequest, MapWatch<'_>),
     (cache, key): (&dyn GearCache, Option<&MapKey>),
     remarks: &mut Vec<Remark>,
 ) -> Result<MappedMesh, AnalysisError> {
     let complain = |e: MapFailure| in_scene(scene)(PairMotionError::from(e));
-    let (flanks, pair) = (system.flanks(), system.pair());
     flanks.check_mapped(pair, request).map_err(complain)?;
     if let Some(key) = key {
         let (kept, said) = cache.load_maps(key);

@@ -6,8 +6,10 @@ use std::{
 };
 
 use ::lumped::LumpedError;
-use dynamics::{MechanismState, MeshDamping, PairMechanism, PairMotionError, Speed, Torque};
-use gearbox::{GearboxError, motion::GearboxMemory};
+use gearbox::{
+    GearboxError,
+    motion::{GearboxMemory, PairMotionError},
+};
 use integrate::{Forces, Mechanism, MotionError, Resumable, State};
 use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
@@ -29,7 +31,7 @@ pub(crate) enum ModelFailure {
 impl ModelFailure {
     /// Contact at a time (s) that could not be solved.
     pub fn at(time: f64) -> impl Fn(StaticError) -> Self {
-        move |source| Self::Pair(PairMotionError::contact(time, source))
+        move |source| Self::Pair(PairMotionError::Contact { time, source })
     }
 
     /// With the scene that it is about.
@@ -89,7 +91,7 @@ impl OfContact for Infallible {
 }
 
 impl OfContact for GearboxError {
-    /// What a pair on maps can fail by on its way: numbers that are none.
+    /// What the machine of a pair can fail by on its way: its contact, and numbers that are none.
     fn of_contact(self) -> StaticError {
         match self {
             Self::AtMesh { source, .. } => source.of_contact(),
@@ -244,10 +246,8 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
 pub enum LumpedMemory {
     /// Nothing: its forces are formulas.
     Formulas,
-    /// How far the motion has gone beyond its map.
-    Map(GearboxMemory),
-    /// Teeth in the windows, and extremes.
-    Pair(MechanismState),
+    /// Teeth in the windows, extremes, and how far the motion has gone beyond its map.
+    Machine(GearboxMemory),
 }
 
 /// Another value of what a pair of reduced gears is driven by.
@@ -259,17 +259,6 @@ pub(crate) enum ParameterChange {
     Load(f64),
     /// Damping ratio of the mesh.
     Damping(f64),
-}
-
-impl ParameterChange {
-    /// Makes it.
-    pub(super) fn of_pair(self, system: &mut PairMechanism) {
-        match self {
-            Self::Speed(speed) => system.set_speed(Speed::Constant(speed)),
-            Self::Load(torque) => system.set_load(Torque::Constant(torque)),
-            Self::Damping(ratio) => system.set_damping(MeshDamping::Ratio(ratio)),
-        }
-    }
 }
 
 /// A model whose forces are formulas: nothing can fail.

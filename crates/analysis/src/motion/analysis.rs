@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ale::solve_widening;
 use answer::{Remark, RowStore};
-use dynamics::PairMechanism;
+use gearbox::motion::PairModel;
 use geometry::GearPair;
 use integrate::Periodicity;
 use mesh::Mesh;
@@ -17,7 +17,7 @@ use super::{
     course::{self, FinishedMotion, ResumedState, Span},
     headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
-    step_estimate::{Pace, StepDemand, fastest_hz},
+    step_estimate::{Pace, StepDemand},
     unresolved, window,
 };
 use crate::{
@@ -175,8 +175,8 @@ impl<'a> MotionAnalysis<'a> {
                 let span = Span { from: from.take(), stop_after };
                 let done = course::run((&scene, motion), &prepared, observer, sink, span)?;
                 let system = done.motion.system();
-                let force = system.extremes().largest_force;
-                match dropped_by(&prepared.system, system.changes().jump, force)
+                let force = system.extremes(0).largest_force;
+                match dropped_by(&prepared.system, system.changes(0).jump, force)
                     .filter(|e| inputs.wider(window, e).is_some())
                 {
                     Some(e) => Err(Failure::Static(e)),
@@ -281,7 +281,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
             Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?)
         }
     };
-    let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz, fastest_hz(&prepared.system));
+    let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
@@ -302,7 +302,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
 }
 
 /// Remark on the torque at the driven gear that the ramp of a scene takes.
-fn run_up_torque(scene: &Scene, system: &PairMechanism) -> Option<Remark> {
+fn run_up_torque(scene: &Scene, system: &PairModel) -> Option<Remark> {
     let driven = system.options().statics.driven();
     let gears = [&system.pair().pinion, &system.pair().wheel];
     let inertia = system.base_circle_masses()[driven] * gears[driven].base_radius().powi(2);

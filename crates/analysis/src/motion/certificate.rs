@@ -1,6 +1,6 @@
 //! What must hold of a motion.
 
-use dynamics::SweepPoint;
+use gearbox::motion::SweepPoint;
 use geometry::GearPair;
 use scene::Scene;
 

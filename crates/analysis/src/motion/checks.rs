@@ -1,7 +1,7 @@
 //! What must hold of any motion.
 
 use ale::AleError;
-use dynamics::PairMechanism;
+use gearbox::motion::PairModel;
 use geometry::GearPair;
 use ltca::StaticError;
 use scene::Scene;
@@ -44,7 +44,7 @@ pub fn force_jump_check(jump_n: f64, largest_n: f64) -> Check {
 }
 
 /// Tooth changes of a pair's window that set off such a jump, as an error: a wider window may do.
-pub fn dropped_by(system: &PairMechanism, jump_n: f64, largest_n: f64) -> Option<StaticError> {
+pub fn dropped_by(system: &PairModel, jump_n: f64, largest_n: f64) -> Option<StaticError> {
     let window = system.options().statics.window_teeth(system.pair());
     let holds = force_jump_check(jump_n, largest_n).holds();
     (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))

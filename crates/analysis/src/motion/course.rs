@@ -3,12 +3,15 @@
 use std::sync::Arc;
 
 use answer::RowStore;
-use dynamics::{
-    Motion, PairMechanism, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult, SideLoads, compared,
-    quasi_static_start, shoot,
+use dynamics::SideLoads;
+use gearbox::{
+    GearboxError,
+    motion::{
+        GearboxMechanism, GearboxMemory, PairModel, PairMotion, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult,
+        compared, shoot,
+    },
 };
-use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage, State};
-use ltca::StaticError;
+use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage};
 use scene::{MotionScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
@@ -21,21 +24,20 @@ use crate::{
 const TOLERANCE: f64 = 1e-6;
 
 /// What a scene asks of its motion.
-fn goal(scene: &Scene, motion: &MotionScene, begun: &Motion, stop_after: Option<u64>) -> Goal<PairMechanism> {
+fn goal(
+    (scene, motion): (&Scene, &MotionScene),
+    (pair, begun): (&PairModel, &PairMotion),
+    stop_after: Option<u64>,
+) -> Goal<GearboxMechanism> {
     let settles = matches!(motion.run, Run::Steady | Run::Shooting);
     let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
     let until = match (motion.run, motion.ramp, motion.duration_s) {
         (Run::Ramp, Some(ramp), _) => Some(ramp.before_s + ramp.duration_s + ramp.after_s),
         (_, _, duration) => duration,
     };
-    let system = begun.system();
     let cycles = match until {
         None => u64::from(scene.analysis.cycles),
-        Some(end) => {
-            let nominal = system.nominal();
-            let cycles = nominal.cycles(system.pair(), &system.options().statics, end) - nominal.start;
-            (cycles + 1e-9).floor().max(1.0) as u64
-        }
+        Some(end) => (pair.cycles_until(end) + 1e-9).floor().max(1.0) as u64,
     };
     Goal {
         compared: Some(compared(begun)),
@@ -50,7 +52,7 @@ fn goal(scene: &Scene, motion: &MotionScene, begun: &Motion, stop_after: Option<
 
 /// A motion at its end.
 pub(super) struct FinishedMotion {
-    pub motion: Motion,
+    pub motion: PairMotion,
     pub shooting: Option<ShootingResult>,
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
@@ -92,7 +94,7 @@ pub(super) fn run(
 ) -> Result<FinishedMotion, Failure> {
     let stop_after = span.stop_after;
     let (mut motion, shooting, mut told) = begin((scene, asked), prepared, (observer, sink), span)?;
-    let goal = goal(scene, asked, &motion, stop_after);
+    let goal = goal((scene, asked), (&prepared.system, &motion), stop_after);
     let clock = std::time::Instant::now();
     let mut stopped = false;
     if let (Some(settle), false) = (goal.settle, motion.stage().recording) {
@@ -111,7 +113,7 @@ pub(super) fn run(
     let wall_s = clock.elapsed().as_secs_f64();
     let Outcome { sink, layout, rows, pattern, .. } = told;
     sink.finish().map_err(AnalysisError::Sink)?;
-    let patterns = pattern.patterns(scene, motion.system().pair());
+    let patterns = pattern.patterns(scene, prepared.system.pair());
     Ok(FinishedMotion { motion, shooting, stopped, rows, layout, patterns, wall_s })
 }
 
@@ -122,12 +124,12 @@ fn begin<'a>(
     prepared: &PreparedMotion,
     (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
     Span { from, .. }: Span,
-) -> Result<(Motion, Option<ShootingResult>, Outcome<'a>), Failure> {
-    let PreparedMotion { system, settings, quasi_static, facts, .. } = prepared;
+) -> Result<(PairMotion, Option<ShootingResult>, Outcome<'a>), Failure> {
+    let PreparedMotion { system, settings, facts, .. } = prepared;
     let window = facts.window_teeth.unwrap_or(0) as usize;
     let layout = MotionLayout::of(scene, window);
     let fail = |e| failure(scene, e);
-    let mut own = system.with_drive(system.options().drive.clone())?;
+    let mut own = system.machine().map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
     sink.begin_rows(&layout, from.as_ref().map(|f| &f.checkpoint)).map_err(AnalysisError::Sink)?;
     let pattern = |grids| PatternRecord::new(scene, motion, system.pair(), grids).map_err(AnalysisError::from);
     if let Some(ResumedState { checkpoint, rows }) = from {
@@ -138,15 +140,14 @@ fn begin<'a>(
         return Ok((motion, None, Outcome { sink, window, layout, rows, pattern }));
     }
     let told = Outcome { sink, window, layout, rows: RowStore::default(), pattern: pattern(None)? };
-    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
-    let start =
-        run_phase(observer, "start", PhaseWork::Unknown, |_| quasi_static_start(&mut own, 0.0, guess, &settings.scale));
-    let mut begun = Motion::new(own, settings.clone(), start.map_err(fail)?);
+    let start = run_phase(observer, "start", PhaseWork::Unknown, |_| own.start(0.0));
+    let start = start.map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
+    let mut begun = PairMotion::new(own, settings.clone(), start);
     let mut shooting = None;
     if motion.run == Run::Shooting {
         let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
         let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-            shoot(&mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
+            shoot(system, &mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
         });
         shooting = Some(shot.map_err(fail)?);
     }
@@ -185,8 +186,8 @@ impl Ended {
     }
 }
 
-impl From<MotionError<StaticError>> for Ended {
-    fn from(e: MotionError<StaticError>) -> Self {
+impl From<MotionError<GearboxError>> for Ended {
+    fn from(e: MotionError<GearboxError>) -> Self {
         Self::Motion(e.into())
     }
 }
@@ -197,19 +198,18 @@ impl From<AnalysisError> for Ended {
     }
 }
 
-impl Follower<PairMechanism> for InPhase<'_, '_> {
+impl Follower<GearboxMechanism> for InPhase<'_, '_> {
     type Error = Ended;
 
-    fn row(&mut self, Row { system, state, ledger }: Row<'_, PairMechanism>) -> Result<(), Ended> {
+    fn row(&mut self, Row { system, state, ledger }: Row<'_, GearboxMechanism>) -> Result<(), Ended> {
         let Outcome { sink, layout, rows, pattern, .. } = &mut *self.told;
-        let State { time, q, v, .. } = state;
-        let contact = |source| Ended::Motion(PairMotionError::contact(*time, source));
-        let now = system.instant(*time, q, v).map_err(contact)?;
+        let failed = |e| Ended::Motion(PairMotionError::at(state.time)(e));
+        let now = system.pair_instant(state).map_err(failed)?;
         let row = layout.row(&now, ledger);
         pattern.push(&now);
         let index = rows.len() as u64;
         if sink.wants_fields(index) {
-            let sides: Vec<SideLoads<'_>> = system.side_loads(&now);
+            let sides: Vec<SideLoads<'_>> = system.loads(0);
             sink.fields(index, now.time, &sides).map_err(AnalysisError::Sink)?;
         }
         sink.row(&row).map_err(AnalysisError::Sink)?;
@@ -229,7 +229,7 @@ impl Follower<PairMechanism> for InPhase<'_, '_> {
         Ok(())
     }
 
-    fn checkpoint(&mut self, motion: Checkpoint<dynamics::MechanismState>) -> Result<(), Ended> {
+    fn checkpoint(&mut self, motion: Checkpoint<GearboxMemory>) -> Result<(), Ended> {
         let Outcome { sink, window, pattern, .. } = &mut *self.told;
         let state = MotionCheckpoint { window: *window, motion, patterns: pattern.grids().clone() };
         Ok(sink.checkpoint(state).map_err(AnalysisError::Sink)?)

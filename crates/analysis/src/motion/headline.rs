@@ -269,7 +269,7 @@ pub(super) fn headline(
         elasticity: prepared.elasticity.headline(&vibration),
         rows_per_cycle: motion.steps_per_mesh_cycle,
         cycles,
-        free_coordinates: system.coordinates().names().iter().map(|&n| n.to_owned()).collect(),
+        free_coordinates: system.names().into_iter().map(str::to_owned).collect(),
         mean_dte_um: of_dte.mean,
         rms_dte_um: root_mean_square(dte),
         peak_to_peak_dte_um: peak,
@@ -296,7 +296,7 @@ pub(super) fn headline(
         max_root_tension_mpa: tension.map(|of| of.map(|(stress, _)| stress)),
         max_root_tension_estimated_error_percent: tension.map(|of| of.map(|(_, error)| error)),
         max_pressure_at: survey.hardest(),
-        tooth_changes: done.motion.system().changes().count,
+        tooth_changes: done.motion.system().changes(0).count,
         ramp,
         critical_speeds: Vec::new(),
         certificate: certificate((done, &survey), prepared),
@@ -305,9 +305,9 @@ pub(super) fn headline(
 
 fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMotion) -> MotionCertificate {
     let motion = &done.motion;
-    let cos = motion.system().pair().base_helix_angle().cos();
+    let cos = prepared.system.pair().base_helix_angle().cos();
     let along_normal = 1e-3 * prepared.quasi_static.stiffness / (cos * cos);
-    let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(), motion.system().changes());
+    let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(0), motion.system().changes(0));
     let ledger = motion.ledger().copied().unwrap_or_default();
     let settled = done.motion.stage().periodicity;
     MotionCertificate {

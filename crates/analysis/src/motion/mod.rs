@@ -52,7 +52,8 @@ pub use setup::{
     scheme, speed, stated_body, steady_by, torque,
 };
 pub(crate) use setup::{
-    Elasticity, MotionInputs, PreparedMotion, Vibration, body, kept_modes, mesh_range_hz, pair_drive, prepare,
+    Elasticity, MotionInputs, PreparedMotion, Vibration, body, kept_modes, mesh_range_hz, motion_length, pair_drive,
+    prepare,
 };
 pub use sink::{MotionCheckpoint, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};

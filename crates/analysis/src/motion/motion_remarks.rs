@@ -1,7 +1,8 @@
 //! What a user should hear of a motion.
 
 use answer::Remark;
-use dynamics::{Drive, PairMechanism, stable_step};
+use dynamics::Drive;
+use gearbox::motion::{PairModel, stable_step};
 use geometry::GearPair;
 use ltca::StaticError;
 use scene::{Flanks, MotionScene, Run, Scene};
@@ -52,32 +53,29 @@ pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Opt
 /// # Errors
 /// [`crate::AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
 pub(super) fn unstable(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
-    let PreparedMotion { system, settings, quasi_static, .. } = prepared;
+    let PreparedMotion { system, settings, .. } = prepared;
     if settings.tolerance.is_some() || !settings.scheme.is_explicit() {
         return Ok(());
     }
-    let guess = quasi_static.transmission_error.first().copied().unwrap_or(0.0);
-    let limit = stable_step(system, settings.scheme, guess, &settings.scale).map_err(|e| failure(scene, e))?;
+    let limit = stable_step(system, settings.scheme).map_err(|e| failure(scene, e))?;
     let Some(limit) = limit else { return Ok(()) };
     let longest = longest_cycle(scene, system);
-    let step = settings.step(longest, system.mesh_resonance_hz());
+    let step = settings.step(longest);
     let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: fastest_hz(system) };
     Ok(refuse_unstable(scene, &limit, &steps)?)
 }
 
 /// Duration of the longest mesh cycle of a run, s: the slowest one.
-fn longest_cycle(scene: &Scene, system: &PairMechanism) -> f64 {
+fn longest_cycle(scene: &Scene, system: &PairModel) -> f64 {
     let motion = scene.motion.as_ref();
     let slowest = motion.and_then(|m| m.sweep.as_ref()).map(|s| s.from_rpm.min(s.to_rpm));
     let speed_rpm = slowest.unwrap_or(scene.operation.speed_rpm);
     let teeth = [scene.pinion.teeth, scene.wheel.teeth][1 - system.options().statics.driven()];
     let steady = 60.0 / (speed_rpm * f64::from(teeth));
-    let (pair, contact, nominal) = (system.pair(), &system.options().statics, system.nominal());
     let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
     // The first cycle of a run-up, the last one of a run-down.
-    let cycles = |t: f64| nominal.cycles(pair, contact, t) - nominal.start;
-    let last = cycles(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
-    let times = [0.0, 1.0, last - 1.0, last].map(|c| nominal.time_at(pair, contact, c).unwrap_or(f64::NAN));
+    let last = system.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
+    let times = [0.0, 1.0, last - 1.0, last].map(|c| system.time_of_cycles(c).unwrap_or(f64::NAN));
     (times[1] - times[0]).max(times[3] - times[2])
 }
 

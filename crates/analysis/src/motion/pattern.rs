@@ -1,6 +1,6 @@
 //! The pressure pattern that a motion leaves on the driving flank of one tooth of each gear.
 
-use dynamics::Instant;
+use gearbox::motion::PairInstant;
 use geometry::GearPair;
 use scene::{MotionScene, Scene};
 use study::{FlankPattern, StudyError, Touch};
@@ -37,10 +37,10 @@ impl PatternRecord {
     }
 
     /// A row of the cycle.
-    pub fn push(&mut self, now: &Instant) {
-        for pressed in &now.slices {
+    pub fn push(&mut self, now: &PairInstant) {
+        for pressed in now.flanks.iter().flat_map(|[driving, _]| &driving.slices) {
             // A tooth that is one pitch ahead in the sense of rotation is one cycle further.
-            let engagement = self.sense * pressed.pair as f64 + now.cycles;
+            let engagement = self.sense * pressed.pair as f64 + now.mesh.cycles;
             for (gear, touches) in self.touches.iter_mut().enumerate() {
                 touches.push(touch(&pressed.slice, gear, engagement));
             }

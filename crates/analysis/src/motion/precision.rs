@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use dynamics::{PairMechanism, PairMotionError, quasi_static_start, stable_step};
+use gearbox::motion::{PairMotionError, stable_step};
 use integrate::{Integrator, Scheme, State, StepControl, StepLimit};
 
 use scene::Scene;
@@ -123,21 +123,20 @@ struct Bench<'a> {
 
 impl<'a> Bench<'a> {
     fn new(scene: &Scene, prepared: &'a PreparedMotion) -> Result<Self, PairMotionError> {
-        let mut system = again(prepared)?;
-        let guess = prepared.quasi_static.transmission_error.first().copied().unwrap_or(0.0);
-        let start = quasi_static_start(&mut system, 0.0, guess, &prepared.settings.scale)?;
+        let fail = PairMotionError::at(0.0);
+        let start = prepared.system.machine().and_then(|mut machine| machine.start(0.0)).map_err(fail)?;
         let speed = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
         let mut limits = Vec::new();
         for (_, scheme) in METHODS {
-            limits.extend(stable_step(&system, scheme, guess, &prepared.settings.scale)?.map(|limit| (scheme, limit)));
+            limits.extend(stable_step(&prepared.system, scheme)?.map(|limit| (scheme, limit)));
         }
         Ok(Self { prepared, start, period: 1.0 / speed, limits })
     }
 
     /// DTE (mm) at the places of all mesh cycles, and the wall time of one, s.
     fn course(&self, scheme: Scheme, steps: u32) -> Result<(Vec<f64>, f64), PairMotionError> {
-        let mut system = again(self.prepared)?;
-        let (lag, mut state) = (system.coordinates().lag(), self.start.clone());
+        let mut system = self.prepared.system.machine().map_err(PairMotionError::at(0.0))?;
+        let (slopes, mut state) = (system.error_slopes(0), self.start.clone());
         let step = StepControl::Fixed(self.period / f64::from(steps));
         let mut integrator = Integrator::new(scheme, step, self.prepared.settings.scale.clone());
         let (mut all, mut done) = (Vec::new(), 0u32);
@@ -145,7 +144,7 @@ impl<'a> Bench<'a> {
         integrator.advance(&mut system, &mut state, f64::from(CYCLES) * self.period, |_, seen| {
             done += 1;
             if done.is_multiple_of(steps / PLACES) {
-                all.push(seen.state.q[lag]);
+                all.push(slopes.dot(&seen.state.q));
             }
         })?;
         Ok((all, clock.elapsed().as_secs_f64() / f64::from(CYCLES)))
@@ -167,10 +166,4 @@ impl<'a> Bench<'a> {
         };
         MotionPrecisionPoint { method, steps, error_um, cycle_s, note }
     }
-}
-
-/// The pair at its beginning.
-fn again(prepared: &PreparedMotion) -> Result<PairMechanism, PairMotionError> {
-    let drive = prepared.system.options().drive.clone();
-    prepared.system.with_drive(drive).map_err(|source| PairMotionError::contact(0.0, source))
 }

@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::{COORDINATES, Displacement, Instant};
+use dynamics::COORDINATES;
+use gearbox::motion::{FlankInstant, PairInstant};
 use integrate::Ledger;
 use ltca::FilletStress;
 use scene::{Axis, Scene};
@@ -167,41 +168,42 @@ impl MotionLayout {
     }
 
     /// The row of an instant.
-    pub fn row(&self, now: &Instant, ledger: &Ledger) -> MotionRow {
-        let cycle = cycle(now);
-        let gear = |all: &Displacement, i: usize| [0, 1, 2].map(|k| all[COORDINATES * i + k]);
-        let turn = |all: &Displacement, i: usize| [3, 4, 5].map(|k| all[COORDINATES * i + k]);
-        let stress = |i: usize| RootStressRow::of(&now.root_stress[i], now.normal_forces[1] == 0.0);
+    pub fn row(&self, now: &PairInstant, ledger: &Ledger) -> MotionRow {
+        let (cycle, none) = (cycle(now), FlankInstant::default());
+        let driving = now.flanks.as_ref().map_or(&none, |[driving, _]| driving);
+        let [normal_force_n, coast_normal_force_n] = now.normal_forces();
+        let of_gear = |i: usize, from: usize| std::array::from_fn(|k| now.mesh.wrench[COORDINATES * i + from + k]);
+        let stress = |i: usize| RootStressRow::of(&driving.root_stress[i], coast_normal_force_n == 0.0);
         MotionRow {
             time_s: now.time,
-            pinion_angle_deg: ((now.cycles - 0.5) * self.pitch).to_degrees(),
-            mesh_phase: (now.cycles - cycle).max(0.0),
+            pinion_angle_deg: ((now.mesh.cycles - 0.5) * self.pitch).to_degrees(),
+            mesh_phase: (now.mesh.cycles - cycle).max(0.0),
             speed_rpm: now.speeds.map(|w| w * 60.0 / TAU),
-            dte_um: 1e3 * now.transmission_error,
-            dte_rate_um_per_s: 1e3 * now.transmission_error_rate,
-            contact_line_length_mm: now.contact_line_length,
-            pairs_in_contact: now.pair_forces.iter().filter(|f| **f > 0.0).count() as u32,
-            force_n: [0, 1].map(|i| gear(&now.mesh, i)),
-            moment_nmm: [0, 1].map(|i| turn(&now.mesh, i)),
-            pair_normal_force_n: self.pairs().map(|pair| self.pair_force(now, pair)).collect(),
+            dte_um: 1e3 * now.mesh.transmission_error,
+            dte_rate_um_per_s: 1e3 * now.mesh.transmission_error_rate,
+            contact_line_length_mm: driving.line_length,
+            pairs_in_contact: driving.pair_forces.iter().filter(|f| **f > 0.0).count() as u32,
+            force_n: [0, 1].map(|i| of_gear(i, 0)),
+            moment_nmm: [0, 1].map(|i| of_gear(i, 3)),
+            pair_normal_force_n: self.pairs().map(|pair| self.pair_force((driving, cycle), pair)).collect(),
             bearing: [0, 1].map(|i| self.free[i].contains(&true).then(|| Box::new(BearingRow::of(now, i)))),
-            normal_force_n: now.normal_forces[0],
-            coast_normal_force_n: now.normal_forces[1],
+            normal_force_n,
+            coast_normal_force_n,
             drive_torque_nm: 1e-3 * now.drive_torque,
             load_torque_nm: 1e-3 * now.load_torque,
-            max_pressure_mpa: now.max_pressure,
-            max_pressure_at: PressureSpot::of(self.base_radius, now.slices.iter().map(|s| &s.slice)),
-            tooth_changes: now.tooth_changes,
+            max_pressure_mpa: driving.max_pressure(),
+            max_pressure_at: PressureSpot::of(self.base_radius, driving.slices.iter().map(|s| &s.slice)),
+            tooth_changes: driving.tooth_changes,
             root_stress: self.root_stress.then(|| Box::new([stress(0), stress(1)])),
             energy: EnergyRow::of(now.time, ledger),
         }
     }
 
     /// Normal force of a pair by its number within the mesh cycle, N; 0 outside of the window.
-    fn pair_force(&self, now: &Instant, pair: i64) -> f64 {
-        let running = self.sense * (pair - cycle(now) as i64);
-        let place = usize::try_from(running - now.first_pair).ok();
-        place.and_then(|i| now.pair_forces.get(i)).copied().unwrap_or(0.0)
+    fn pair_force(&self, (driving, cycle): (&FlankInstant, f64), pair: i64) -> f64 {
+        let running = self.sense * (pair - cycle as i64);
+        let place = usize::try_from(running - driving.first_pair).ok();
+        place.and_then(|i| driving.pair_forces.get(i)).copied().unwrap_or(0.0)
     }
 }
 
@@ -214,13 +216,13 @@ impl MotionRow {
 }
 
 impl BearingRow {
-    fn of(now: &Instant, gear: usize) -> Self {
-        let first = COORDINATES * gear;
+    fn of(now: &PairInstant, gear: usize) -> Self {
+        let (first, bearing) = (COORDINATES * gear, &now.bearings[gear]);
         Self {
-            force_n: [0, 1, 2].map(|k| now.bearing[first + k]),
-            moment_nmm: [3, 4].map(|k| now.bearing[first + k]),
-            displacement_um: [0, 1, 2].map(|k| now.displacement[first + k] * 1e3),
-            tilt_urad: [3, 4].map(|k| now.displacement[first + k] * 1e6),
+            force_n: bearing.force,
+            moment_nmm: [0, 1].map(|k| bearing.moment[k]),
+            displacement_um: [0, 1, 2].map(|k| now.displacements[first + k] * 1e3),
+            tilt_urad: [3, 4].map(|k| now.displacements[first + k] * 1e6),
         }
     }
 }
@@ -239,6 +241,6 @@ impl RootStressRow {
 }
 
 /// Whole mesh cycles. A row at the end of a cycle belongs to the next one, whatever the last bits say.
-fn cycle(now: &Instant) -> f64 {
-    (now.cycles + 1e-9).floor()
+fn cycle(now: &PairInstant) -> f64 {
+    (now.mesh.cycles + 1e-9).floor()
 }

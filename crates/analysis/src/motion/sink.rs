@@ -1,6 +1,7 @@
 //! Who gets the rows of a motion as they come, and the states that it can be resumed from.
 
-use dynamics::{MechanismState, SideLoads};
+use dynamics::SideLoads;
+use gearbox::motion::GearboxMemory;
 use integrate::Checkpoint;
 use ltca::{StaticModel, StaticPosition};
 use serde::{Deserialize, Serialize};
@@ -15,7 +16,7 @@ pub struct MotionCheckpoint {
     /// Teeth of the window.
     pub window: usize,
     /// The motion, and how far it has come.
-    pub motion: Checkpoint<MechanismState>,
+    pub motion: Checkpoint<GearboxMemory>,
     /// What the flanks were pressed by so far.
     pub patterns: [FlankPattern; 2],
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::PairMechanism;
+use gearbox::motion::PairModel;
 use scene::{MotionScene, Run, Scene};
 
 /// A step with twelve normal modes of either gear over one without: measured 2.8.
@@ -66,7 +66,7 @@ impl StepDemand {
     }
 
     /// As the scene has it, before it begins: steps of a cycle times cycles, the lowest mode dying out among them.
-    pub fn as_it_is(&self, system: &PairMechanism) -> StepEstimate {
+    pub fn as_it_is(&self, system: &PairModel) -> StepEstimate {
         let fastest = fastest_hz(system);
         let slowest = system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::min);
         StepEstimate { cost: 1.0, ..self.with_modes(fastest, slowest, true) }
@@ -74,7 +74,7 @@ impl StepDemand {
 }
 
 /// The fastest motion that steps have to show, Hz: the mesh resonance, or the highest mode that is kept.
-pub(crate) fn fastest_hz(system: &PairMechanism) -> f64 {
+pub(crate) fn fastest_hz(system: &PairModel) -> f64 {
     system.mode_frequencies_hz().into_iter().fold(system.mesh_resonance_hz(), f64::max)
 }
 

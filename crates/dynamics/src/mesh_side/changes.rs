@@ -8,6 +8,9 @@ use serde::{Deserialize, Serialize};
 
 use super::MeshSide;
 
+/// Round-off of mesh cycles: a change that is due where a step ends is taken there, whatever the last digits say.
+const LAST_DIGITS: f64 = 1e-9;
+
 /// Tooth changes of one side so far.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct ToothChanges {
@@ -85,7 +88,7 @@ impl MeshSide {
     /// The rigid coordinates and velocities do not depend on the window, and elastic ones follow from them: a change
     /// leaves no trace in the motion as long as no force is dropped.
     pub fn follow(&mut self, pair: &GearPair, cycles: f64) -> Result<bool, StaticError> {
-        let station = Station::at_cycles(cycles + self.ahead);
+        let station = Station::at_cycles(cycles + self.ahead + LAST_DIGITS);
         let Some(next) = self.window.due_change(station, &self.contact.force().pair_forces)? else { return Ok(false) };
         self.enter(pair, next, self.contact.contact_set().clone())?;
         self.changes.count += 1;

@@ -6,7 +6,7 @@ mod forces;
 
 use std::sync::Arc;
 
-use ale::{SlidingWindow, Station, ToothWindow};
+use ale::{SlidingWindow, Station};
 use contact::{
     ContactSet, Pose,
     pose::{displaced, frames, generalised, reference_angle},
@@ -18,7 +18,7 @@ use ltca::{FilletStress, RootStress, StaticError, StaticOptions, WindowedPair};
 use nalgebra::{SMatrix, Vector3};
 use reduction::{ElasticGear, GearModes};
 
-use super::{COORDINATES, Displacement, LoadedSlice};
+use super::{COORDINATES, Displacement, FlankInstant, LoadedSlice, SideLoads};
 
 pub use changes::{SideState, ToothChanges};
 pub use forces::ModalForce;
@@ -103,11 +103,6 @@ impl MeshSide {
     /// How much nearer pitch errors bring the flanks of this side, mm, tooth by tooth of both gears as they come.
     pub fn pitch_approaches(&self, pair: &GearPair) -> [Vec<f64>; 2] {
         pair.pitch_approaches(self.options.side(), self.options.contact.sense)
-    }
-
-    /// The reduced gears of these flanks.
-    pub fn gears(&self) -> &[ElasticGear; 2] {
-        &self.gears
     }
 
     /// The pinion's flanks of this side.
@@ -233,9 +228,32 @@ impl MeshSide {
         &self.contact
     }
 
-    /// The window, and how often it has moved.
-    pub fn window(&self) -> (&ToothWindow, u64) {
-        (self.window.window(), self.changes.count)
+    /// Whether a slice carried load in the last evaluation.
+    pub fn presses(&self) -> bool {
+        self.contact.solver().forces().iter().any(|f| *f > 0.0)
+    }
+
+    /// The flanks where they were evaluated last, with the gears moving at `rate`; without stress of the fillets.
+    pub fn instant(&self, pair: &GearPair, placed: &Placed, rate: &Displacement, per_length: f64) -> FlankInstant {
+        let force = self.sum_of_forces();
+        FlankInstant {
+            force,
+            damping: self.normal_forces(placed, rate, per_length)[0] - force,
+            line_length: self.contact.line_length(pair, &placed.poses),
+            pair_forces: self.contact.force().pair_forces.clone(),
+            first_pair: self.window.window().first(),
+            slices: self.loaded_slices(),
+            tooth_changes: self.changes.count,
+            root_stress: Default::default(),
+        }
+    }
+
+    /// Loads on the flanks in the last evaluation.
+    pub fn loads(&self, pair: &GearPair, cycles: f64, d: &Displacement) -> SideLoads<'_> {
+        let (poses, contact) = (self.poses(pair, cycles, d), &self.contact);
+        let (set, forces) = (contact.contact_set(), contact.solver().forces());
+        let rows = set.supported_rows(&poses, contact.rows(), contact.slices(), forces);
+        SideLoads { gears: &self.gears, set, poses, rows, forces }
     }
 }
 

@@ -3,7 +3,9 @@
 use std::{f64::consts::TAU, sync::Arc};
 
 use analysis::options;
-use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, Nominal, PairMechanism, RigidBody, Speed, Torque};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, Nominal, RigidBody, Speed, Torque};
+use gearbox::motion::PairModel;
+use integrate::State;
 use nalgebra::DVector;
 use scene::Scene;
 
@@ -55,16 +57,14 @@ fn forces(bench: &Bench, start: f64) -> Result<Vec<f64>, EnvelopeError> {
         damping: MeshDamping::Ratio(0.0),
         start_cycles: start,
     };
-    let mut system = PairMechanism::new(pair, Arc::clone(&gears), None, asked, [stiffness, length])
-        .map_err(EnvelopeError::of(piece))?;
-    let n = system.count();
+    let model = PairModel::new(pair, Arc::clone(&gears), None, asked, [stiffness, length]);
+    let mut system = model.and_then(|model| model.machine()).map_err(EnvelopeError::of(piece))?;
     let mut all = Vec::new();
     for k in 0..PHASES {
-        let mut q = DVector::zeros(n);
-        q[system.coordinates().lag()] = lag;
-        let instant =
-            system.instant(k as f64 / PHASES as f64, &q, &DVector::zeros(n)).map_err(EnvelopeError::of(piece))?;
-        all.push(instant.normal_forces[0]);
+        // The lag is the one coordinate that is free.
+        let state = State::new(k as f64 / PHASES as f64, DVector::from_element(1, lag), DVector::zeros(1));
+        let instant = system.pair_instant(&state).map_err(EnvelopeError::of(piece))?;
+        all.push(instant.normal_forces()[0]);
     }
     Ok(all)
 }

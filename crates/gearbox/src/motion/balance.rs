@@ -5,7 +5,7 @@ use integrate::{Forces, Mechanism};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
-    GearboxMechanism,
+    Drive, GearboxMechanism,
     gear_modes::with_modes,
     loops::{self, is_zero},
 };
@@ -59,6 +59,10 @@ impl GearboxMechanism {
         self.varying.forces(t).for_each(|(torque, along)| load(torque, along));
         if acceleration != 0.0 {
             load(-acceleration, &self.momentum);
+            // An input that balances accelerates the whole train.
+            if matches!(self.drive, Drive::Balanced(_)) {
+                load(acceleration * self.train_inertia(), &self.push);
+            }
         }
         Ok(())
     }
@@ -134,7 +138,8 @@ impl GearboxMechanism {
         let cycles = self.cycles(mesh, angle);
         let at = self.displaced(mesh, angle, q);
         let live = &mut self.live[mesh];
-        let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?.clone();
+        let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?;
+        let (force, tangent) = (reply.force, out.tangents.then(|| reply.tangent));
         let per_turn = live.cycles_per_turn;
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);
@@ -146,7 +151,7 @@ impl GearboxMechanism {
             out.supplied += answer * self.push.dot(v);
         }
         let to_gears = &self.live[mesh].to_gears;
-        out.conservative += to_gears.tr_mul(&(reply.force - losses.friction));
+        out.conservative += to_gears.tr_mul(&(force - losses.friction));
         out.other += to_gears.tr_mul(&(losses.friction + losses.force));
         out.dissipated += losses.dissipated;
         if let Some(i) = turn {
@@ -166,13 +171,13 @@ impl GearboxMechanism {
                 out.conservative[i] += along_modes;
             }
         }
-        if out.tangents {
+        if let Some(tangent) = tangent {
             match &modal {
                 Some(((ModalForce { stiffness: Some(stiffness), .. }, map), _)) => {
                     out.stiffness += with_modes(to_gears, map, stiffness);
                     out.stiffness += to_gears.tr_mul(&(losses.slope * to_gears));
                 }
-                _ => out.stiffness += to_gears.tr_mul(&((losses.slope - reply.tangent) * to_gears)),
+                _ => out.stiffness += to_gears.tr_mul(&((losses.slope - tangent) * to_gears)),
             }
             out.damping += to_gears.tr_mul(&(losses.rate_slope * to_gears));
         }
@@ -242,12 +247,14 @@ impl Mechanism for GearboxMechanism {
         Ok(())
     }
 
-    fn accepted(&mut self, t: f64, q: &DVector<f64>, _: &DVector<f64>) -> Result<(), GearboxError> {
+    fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), GearboxError> {
         let [angle, _] = self.input(t, q, q);
         for i in 0..self.live.len() {
+            let cycles = self.cycles(i, angle);
+            self.live[i].check_pace(&self.meshes[i], cycles)?;
             let reach = self.go(i, angle, q)?.element().reach();
             self.reach[i] = self.reach[i].max(reach);
-            self.live[i].accept(&self.meshes[i])?;
+            self.live[i].accept(&self.meshes[i], v, &mut self.extremes[i])?;
         }
         self.varying.accept(t, self.nominal_turn(t)[0], q);
         Ok(())
@@ -256,5 +263,9 @@ impl Mechanism for GearboxMechanism {
     /// Has every mesh forget what it remembers of earlier places: what comes then depends on the state alone.
     fn forget(&mut self) {
         self.live.iter_mut().for_each(super::live_mesh::LiveMesh::forget);
+    }
+
+    fn end_cycle(&mut self, begin: f64, end: f64) {
+        self.add_throughput(begin, end);
     }
 }

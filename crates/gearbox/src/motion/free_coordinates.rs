@@ -35,12 +35,20 @@ pub(super) struct FreeCoordinates {
     pub first_of_gears: usize,
 }
 
+/// How shafts are guided beside their turns, which are always free.
+pub(super) struct Guide<'a> {
+    /// Whether a shaft moves along or about an axis (0 .. 4).
+    pub moves: &'a dyn Fn(usize, usize) -> bool,
+    /// A shaft whose turn is told by a length, and that turn in rad a mm.
+    pub by_length: Option<(usize, f64)>,
+}
+
 impl FreeCoordinates {
     pub fn new(
         (assembly, bodies): (&Assembly, &ReducedBodies),
         (train, operation): (&Train, &Operation),
         drive: &Drive,
-        moves: &dyn Fn(usize, usize) -> bool,
+        guide: &Guide<'_>,
     ) -> Self {
         let n = bodies.size();
         let held = |shaft: usize| operation.held.contains(&shaft);
@@ -65,16 +73,17 @@ impl FreeCoordinates {
         }
         let is_of_gear = |i: usize| bodies.by_turn(i).is_some();
         let mut first_of_gears = columns.len();
-        let is_guided = |i: usize| bodies.axis(i).is_some_and(|axis| axis < 5 && !moves(bodies.shaft(i), axis));
+        let is_guided = |i: usize| bodies.axis(i).is_some_and(|axis| axis < 5 && !(guide.moves)(bodies.shaft(i), axis));
         let is_free = |i: &usize| (is_of_gear(*i) || !held(bodies.shaft(*i))) && !is_guided(*i);
         for i in (0..n).filter(|i| is_free(i) && *i != input_turn) {
             if !is_of_gear(i) {
                 first_of_gears = columns.len() + 1;
             }
+            let by_length = guide.by_length.filter(|own| bodies.axis(i) == Some(5) && own.0 == bodies.shaft(i));
             let mut column = DVector::zeros(n);
-            column[i] = 1.0;
+            column[i] = by_length.map_or(1.0, |own| own.1);
             columns.push(column);
-            turns.push(bodies.axis(i).is_some_and(|axis| axis > 2));
+            turns.push(by_length.is_none() && bodies.axis(i).is_some_and(|axis| axis > 2));
         }
         let turn = matches!(drive, Drive::Torque { .. }).then_some(columns.len());
         if turn.is_some() {
@@ -84,7 +93,7 @@ impl FreeCoordinates {
         // All coordinates that a column moves turn by one ratio.
         let ratio = |j: usize| {
             let moved = columns[j].iter().zip(rigid.iter()).find(|(x, _)| **x != 0.0);
-            moved.map_or(0.0, |(_, r)| if Some(j) == turn { 0.0 } else { *r })
+            moved.map_or(0.0, |(x, r)| if Some(j) == turn { 0.0 } else { r / x })
         };
         let turning = DVector::from_fn(columns.len(), |j, _| ratio(j));
         if matches!(drive, Drive::Balanced(_)) {

@@ -1,6 +1,6 @@
 //! A mesh at its place between two bodies.
 
-use dynamics::{ElasticDisplacement, FlankStates};
+use dynamics::{ElasticDisplacement, Extremes, FlankStates, SideLoads};
 use nalgebra::{DMatrix, DVector, Dyn, OMatrix, SMatrix, U12};
 
 use super::{
@@ -129,22 +129,19 @@ impl LiveMesh {
         tangents: bool,
     ) -> Result<&MeshForces, GearboxError> {
         let serves = |last: &Last| last.cycles == cycles && last.at == *at && (last.tangents || !tangents);
-        let last = match self.last.take().filter(serves) {
-            Some(known) => known,
-            None => {
-                let named = |source| at_mesh(mesh, source);
-                self.element.go_to(cycles).map_err(named)?;
-                self.deform(&at.q);
-                let answer = if tangents { self.element.evaluate(&at.d) } else { self.element.evaluate_forces(&at.d) };
-                Last { cycles, at: at.clone(), reply: answer.map_err(named)?, tangents }
+        if !self.last.as_ref().is_some_and(serves) {
+            self.last = None;
+        }
+        match &mut self.last {
+            Some(known) => Ok(&known.reply),
+            unknown => {
+                let (element, named) = (&mut *self.element, |source| at_mesh(mesh, source));
+                element.go_to(cycles).map_err(named)?;
+                deform(element, &at.q);
+                let answer = if tangents { element.evaluate(&at.d) } else { element.evaluate_forces(&at.d) };
+                let reply = answer.map_err(named)?;
+                Ok(&unknown.insert(Last { cycles, at: at.clone(), reply, tangents }).reply)
             }
-        };
-        Ok(&self.last.insert(last).reply)
-    }
-
-    fn deform(&mut self, amplitudes: &DVector<f64>) {
-        if !amplitudes.is_empty() {
-            self.element.deform(amplitudes);
         }
     }
 
@@ -158,13 +155,23 @@ impl LiveMesh {
     /// Energy at a place off the path of the motion; its last answer is lost.
     pub fn energy_at(&mut self, mesh: &GearMesh, cycles: f64, at: &ElasticDisplacement) -> Result<f64, GearboxError> {
         self.last = None;
-        self.deform(&at.q);
+        deform(&mut *self.element, &at.q);
         self.element.energy_at(cycles, &at.d).map_err(|source| at_mesh(mesh, source))
     }
 
-    /// The end of a step where it was asked last: tooth changes are taken, and its forces are all there are.
-    pub fn accept(&mut self, mesh: &GearMesh) -> Result<(), GearboxError> {
-        if self.element.accept().map_err(|source| at_mesh(mesh, source))? {
+    /// Refuses a place that its teeth cannot be followed to.
+    pub fn check_pace(&self, mesh: &GearMesh, cycles: f64) -> Result<(), GearboxError> {
+        self.element.check_pace(cycles).map_err(|source| at_mesh(mesh, source))
+    }
+
+    /// The end of a step where it was asked last, with the coordinates moving at `v`: tooth changes are taken, and its forces
+    /// are all there are.
+    pub fn accept(&mut self, mesh: &GearMesh, v: &DVector<f64>, extremes: &mut Extremes) -> Result<(), GearboxError> {
+        let moving = || {
+            let rates = &self.to_gears * v;
+            Vector12::from_fn(|i, _| rates[i])
+        };
+        if self.element.accept(&moving, extremes).map_err(|source| at_mesh(mesh, source))? {
             self.last = None;
         }
         Ok(())
@@ -192,8 +199,19 @@ impl LiveMesh {
         self.element.forget();
     }
 
+    /// Loads on its flanks where it was asked last.
+    pub fn loads(&self) -> Vec<SideLoads<'_>> {
+        self.element.loads()
+    }
+
     /// The element, standing where it was asked last.
     pub fn element(&mut self) -> &mut dyn MovingMesh {
         &mut *self.element
+    }
+}
+
+fn deform(element: &mut dyn MovingMesh, amplitudes: &DVector<f64>) {
+    if !amplitudes.is_empty() {
+        element.deform(amplitudes);
     }
 }

@@ -5,12 +5,12 @@ use std::sync::Arc;
 use contact_map::{
     ContactMap, MapContact, MapDamping, MapWatch, OffsetError, OffsetMap, PairOffsets, SplineCache, Wanted,
 };
-use dynamics::{MapRequest, MeshFlanks};
+use dynamics::{FlankInstant, MapRequest, MeshFlanks};
 use geometry::GearPair;
 use nalgebra::SMatrix;
 
 use super::{
-    FlankInstant, MeshLosses, MovingMesh,
+    MeshLosses, MovingMesh,
     lever_mesh::{LEVERS, LeverForces, LeverMesh},
 };
 use crate::{GearboxError, MeshElement, MeshForces, Vector12, mesh_element::finite_cycles};
@@ -232,12 +232,13 @@ impl MovingMesh for MappedMesh {
         all
     }
 
-    fn by_side(&mut self, rates: &Vector12) -> Option<[FlankInstant; 2]> {
+    fn by_side(&mut self, rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
         let of = |side: &MappedSide| {
             let found = side.damping(side.along(rates), self.damping_per_length);
-            FlankInstant { force: side.contact.force, damping: found.force[0], line_length: found.length }
+            let (force, damping, line_length) = (side.contact.force, found.force[0], found.length);
+            FlankInstant { force, damping, line_length, ..FlankInstant::default() }
         };
-        Some([0, 1].map(|i| self.sides.get(i).map_or_else(FlankInstant::default, of)))
+        Ok(Some([0, 1].map(|i| self.sides.get(i).map_or_else(FlankInstant::default, of))))
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {

@@ -1,11 +1,11 @@
 //! Bodies and meshes of a gearbox as one mechanism. Theory (91), (92), (93).
 
-use dynamics::{ElasticDisplacement, Speed, Torque};
+use dynamics::{ElasticDisplacement, Extremes, Speed, Torque};
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     Drive, MotionOptions, MovingMesh, ReducedBodies,
-    free_coordinates::FreeCoordinates,
+    free_coordinates::{FreeCoordinates, Guide},
     gear_modes::MovingGears,
     live_mesh::LiveMesh,
     rolling_supports::RollingSupports,
@@ -61,6 +61,10 @@ pub struct GearboxMechanism {
     pub(super) push: DVector<f64>,
     /// Most that each mesh has been used of what it holds, at the ends of steps.
     pub(super) reach: Vec<f64>,
+    /// Extremes of the flanks of each mesh, at the ends of steps.
+    pub(super) extremes: Vec<Extremes>,
+    /// Work that the torques of the outputs took in the nominal motion, over the cycles so far, N mm.
+    pub(super) throughput: f64,
     /// Mesh cycles with the input at its start.
     pub(super) start_cycles: Vec<f64>,
 }
@@ -78,15 +82,15 @@ impl GearboxMechanism {
         options: &MotionOptions,
         elements: impl FnMut(usize, &GearMesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
     ) -> Result<Self, GearboxError> {
-        Self::guided((structure, meshes, operation), options, &|_, _| true, elements)
+        let guide = Guide { moves: &|_, _| true, by_length: None };
+        Self::guided((structure, meshes, operation), options, &guide, elements)
     }
 
-    /// The same with shafts that move along and about some axes alone, beside their turn: `moves` tells it of a shaft and an
-    /// axis (0 .. 4).
+    /// The same with shafts that are guided.
     pub(super) fn guided(
         (structure, meshes, operation): (Structure, Vec<GearMesh>, Operation),
         options: &MotionOptions,
-        moves: &dyn Fn(usize, usize) -> bool,
+        guide: &Guide<'_>,
         mut elements: impl FnMut(usize, &GearMesh, &Meshing) -> Result<Box<dyn MovingMesh>, GearboxError>,
     ) -> Result<Self, GearboxError> {
         let train = Train::new(&structure, &meshes, &operation.keys, operation.input, operation.sense)?;
@@ -103,7 +107,7 @@ impl GearboxMechanism {
         }
         let gears = MovingGears::new(&assembly, (&meshes, &train), &all)?;
         let bodies = ReducedBodies::new(&assembly, &held, options.limit)?.with_gears(&assembly, gears.modes());
-        let free = FreeCoordinates::new((&assembly, &bodies), (&train, &operation), &options.drive, moves);
+        let free = FreeCoordinates::new((&assembly, &bodies), (&train, &operation), &options.drive, guide);
         let gears = gears.placed(&assembly, &bodies, &free);
         let mut outputs = DVector::zeros(bodies.size());
         let mut balancing = 0.0;
@@ -135,7 +139,7 @@ impl GearboxMechanism {
         let gyroscopic = free.of(&spin, false);
         let (mass, stiffness) = (free.of(&bodies.mass, true), free.of(&bodies.stiffness, false));
         let damping = free.of(&bodies.damping, false);
-        let (drive, reach) = (options.drive, vec![0.0; live.len()]);
+        let (drive, reach, extremes) = (options.drive, vec![0.0; live.len()], vec![Extremes::default(); live.len()]);
         Ok(Self {
             assembly,
             meshes,
@@ -160,6 +164,8 @@ impl GearboxMechanism {
             given,
             push,
             reach,
+            extremes,
+            throughput: 0.0,
             start_cycles,
         })
     }
@@ -303,6 +309,33 @@ impl GearboxMechanism {
         self.live.iter().map(|m| (m.cycles_per_turn * self.input_speed()).abs()).collect()
     }
 
+    /// Extremes of the flanks of a mesh since the start; of a mesh that does not tell them as they were there.
+    pub fn extremes(&self, mesh: usize) -> &Extremes {
+        &self.extremes[mesh]
+    }
+
+    /// Work that the torques of the outputs took in the nominal motion, over all cycles, N mm: what goes through the gearbox.
+    pub fn throughput(&self) -> f64 {
+        self.throughput
+    }
+
+    /// Torques of the outputs times the turns of their discs in the nominal motion, N mm/s.
+    fn power_through(&self, t: f64) -> f64 {
+        let of_outputs = self.outputs.dot(&self.free.rigid) - self.varying.balance(t);
+        (of_outputs * self.nominal_turn(t)[1]).abs()
+    }
+
+    /// Adds the work that has gone through in a cycle between two times (Simpson's rule).
+    pub(super) fn add_throughput(&mut self, begin: f64, end: f64) {
+        let of = |t: f64| self.power_through(t);
+        self.throughput += (end - begin) / 6.0 * (of(begin) + 4.0 * of(0.5 * (begin + end)) + of(end));
+    }
+
+    /// Time (s, >= 0) at which a mesh has gone on by so many cycles in the nominal motion; `None` where it stops before.
+    pub fn time_of_cycles(&self, mesh: usize, cycles: f64) -> Option<f64> {
+        self.drive.nominal().time_at(cycles / self.live[mesh].cycles_per_turn.abs())
+    }
+
     /// Angle (rad about +z) and speed of the input.
     #[inline]
     pub(super) fn input(&self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
@@ -384,7 +417,7 @@ impl GearboxMechanism {
     }
 
     /// Displacements of both gears of a mesh, or their rates, in its own axes.
-    pub(super) fn displacements(&self, mesh: usize, q: &DVector<f64>) -> Vector12 {
+    pub fn displacements(&self, mesh: usize, q: &DVector<f64>) -> Vector12 {
         let d = &self.live[mesh].to_gears * q;
         Vector12::from_fn(|i, _| d[i])
     }

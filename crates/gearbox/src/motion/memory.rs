@@ -1,10 +1,10 @@
 //! State of a gearbox in motion beside coordinates and velocities.
 
-use dynamics::FlankStates;
+use dynamics::{Extremes, FlankStates};
 use integrate::Resumable;
 use serde::{Deserialize, Serialize};
 
-use super::{GearboxMechanism, TorqueMemory};
+use super::{GearboxMechanism, TorqueMemory, live_mesh::LiveMesh};
 use crate::{GearboxError, static_gearbox::at_mesh};
 
 /// What a mesh in motion is beside its displacements.
@@ -12,6 +12,8 @@ use crate::{GearboxError, static_gearbox::at_mesh};
 pub struct MeshMemory {
     /// How much of what it holds the motion has used at most ([`super::MovingMesh::reach`]).
     pub reach: f64,
+    /// Extremes of its flanks.
+    pub extremes: Extremes,
     /// Windows of teeth and tooth changes, of a mesh that has some.
     pub windows: Option<FlankStates>,
 }
@@ -23,15 +25,29 @@ pub struct GearboxMemory {
     pub meshes: Vec<MeshMemory>,
     /// Torques that change with time.
     pub torques: TorqueMemory,
+    /// Work that has gone through in the nominal motion, N mm ([`GearboxMechanism::throughput`]).
+    pub throughput: f64,
+}
+
+impl GearboxMemory {
+    /// Running number of the window of a mesh that is farthest from the start of counting.
+    pub fn farthest_tooth(&self) -> u64 {
+        let of_meshes = self.meshes.iter().filter_map(|own| own.windows.as_ref());
+        of_meshes.map(FlankStates::farthest_tooth).fold(0, u64::max)
+    }
 }
 
 impl Resumable for GearboxMechanism {
     type Memory = GearboxMemory;
 
     fn memory(&self) -> GearboxMemory {
-        let all = self.live.iter().zip(&self.reach);
-        let meshes = all.map(|(live, &reach)| MeshMemory { reach, windows: live.windows() }).collect();
-        GearboxMemory { meshes, torques: self.varying.memory() }
+        let all = self.live.iter().zip(self.reach.iter().zip(&self.extremes));
+        let of = |(live, (&reach, &extremes)): (&LiveMesh, (&f64, &Extremes))| MeshMemory {
+            reach,
+            extremes,
+            windows: live.windows(),
+        };
+        GearboxMemory { meshes: all.map(of).collect(), torques: self.varying.memory(), throughput: self.throughput }
     }
 
     fn restore(&mut self, memory: &GearboxMemory) -> Result<(), GearboxError> {
@@ -40,8 +56,9 @@ impl Resumable for GearboxMechanism {
             return Err(GearboxError::OtherMeshes { checkpoint: found, motion: wanted });
         }
         self.varying.restore(&memory.torques);
-        for (i, MeshMemory { reach, windows }) in memory.meshes.iter().enumerate() {
-            self.reach[i] = *reach;
+        self.throughput = memory.throughput;
+        for (i, MeshMemory { reach, extremes, windows }) in memory.meshes.iter().enumerate() {
+            (self.reach[i], self.extremes[i]) = (*reach, *extremes);
             if let Some(windows) = windows {
                 self.live[i].restore(windows).map_err(|source| at_mesh(&self.meshes[i], source))?;
             }

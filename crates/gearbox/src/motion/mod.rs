@@ -8,7 +8,8 @@
 //! | `moving_mesh` | what a motion asks of a mesh; what answers: `spring_mesh` with `pitch_errors`, `tilting_spring` (from the contact: `contact_spring`), `mapped_mesh` (along its levers: `lever_mesh`), `moving_exact` |
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
-//! | `pair` | a pair alone: two rigid gears and one mesh |
+//! | `pair`, `pair_model` | a pair alone: two rigid gears and one mesh; what it is before it moves |
+//! | `pair_run`, `pair_shooting`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, onto its periodic state, speed by speed; how long explicit steps may be |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
@@ -33,6 +34,11 @@ mod moving_mesh;
 mod normal_damper;
 mod options;
 mod pair;
+mod pair_error;
+mod pair_model;
+mod pair_run;
+mod pair_shooting;
+mod pair_sweep;
 mod periodic_state;
 mod pitch_errors;
 mod plan;
@@ -41,14 +47,14 @@ mod rolling_supports;
 mod run;
 mod speed_family;
 mod spring_mesh;
+mod stable_step;
 mod start;
 mod tilting_spring;
 mod varying_torques;
 
 pub use branch::GearboxBranch;
 pub use contact_spring::ContactSpring;
-pub use dynamics::MapRequest;
-pub use dynamics::{GearVibration, Speed, Torque as TorqueOverTime};
+pub use dynamics::{Extremes, FlankInstant, GearVibration, MapRequest, Speed, Torque as TorqueOverTime};
 pub use energy::GearboxEnergy;
 pub use instant::{GearboxInstant, MeshInstant};
 pub use lever_mesh::{LEVERS, LeverForces, LeverMesh};
@@ -56,13 +62,21 @@ pub use mapped_mesh::MappedMesh;
 pub use mechanism::GearboxMechanism;
 pub use memory::{GearboxMemory, MeshMemory};
 pub use moving_exact::MovingExactMesh;
-pub use moving_mesh::{FlankInstant, MeshLosses, MovingMesh};
+pub use moving_mesh::{MeshLosses, MovingMesh};
 pub use options::{Drive, MotionOptions};
 pub use pair::PairInstant;
+pub use pair_error::PairMotionError;
+pub use pair_model::PairModel;
+pub use pair_run::{PairMotion, PairSettings, compared, instants, run_to_steady};
+pub use pair_shooting::{ShootingResult, shoot};
+pub use pair_sweep::{
+    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
+};
 pub use pitch_errors::PitchErrors;
 pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
 pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
 pub use spring_mesh::SpringMesh;
+pub use stable_step::stable_step;
 pub use tilting_spring::TiltingSpring;
 pub use varying_torques::TorqueMemory;

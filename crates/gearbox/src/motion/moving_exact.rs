@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use contact::SliceResult;
 use contact_map::PairOffsets;
-use dynamics::{ElasticDisplacement, FlankForces, FlankStates, GearVibration, MeshFlanks, ModalForce};
+use dynamics::{
+    ElasticDisplacement, Extremes, FlankForces, FlankInstant, FlankStates, GearVibration, MeshFlanks, ModalForce,
+    SideLoads,
+};
 use geometry::{Gear, GearPair};
-use ltca::StaticOptions;
+use ltca::{RootStress, StaticOptions};
 use nalgebra::DVector;
 use reduction::ElasticGear;
 
@@ -29,12 +32,14 @@ pub struct MovingExactMesh {
     damping_per_length: f64,
     /// Angles of gear 1 and gear 2 a mesh cycle, rad about +z.
     per_cycle: [f64; 2],
-    /// Backlash along the normal, mm.
-    backlash: f64,
+    /// Gap of the driving flanks (mm along the normal) beyond which others would touch that are not there.
+    room: Option<f64>,
     cycles: f64,
     /// Modes of both gears that are coordinates, and their amplitudes.
     modes: Option<[GearVibration; 2]>,
     amplitudes: DVector<f64>,
+    /// Fillets, where their stress is asked for; none with modes.
+    roots: Option<Arc<RootStress>>,
     at: Option<Answer>,
 }
 
@@ -42,7 +47,9 @@ pub struct MovingExactMesh {
 #[derive(Debug)]
 struct Answer {
     displaced: ElasticDisplacement,
-    forces: FlankForces,
+    normal: Vector12,
+    friction: Vector12,
+    modal: Option<ModalForce>,
     tangents: bool,
 }
 
@@ -65,20 +72,61 @@ impl MovingExactMesh {
         let flanks = MeshFlanks::new(&pair, driving, coast, &options, 0.0)?;
         let sense = options.contact.sense.sign() as f64;
         let per_cycle = [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()];
-        let backlash = pair.backlash() * pair.base_helix_angle().cos();
+        let room = (!flanks.has_coast_flanks()).then(|| pair.backlash() * pair.base_helix_angle().cos());
         let (modes, amplitudes) = (None, DVector::zeros(0));
-        Ok(Self { pair, flanks, damping_per_length, per_cycle, backlash, cycles: 0.0, modes, amplitudes, at: None })
+        let roots = options.root_stress.then(|| Arc::new(flanks.root_fillets(&pair)));
+        Ok(Self { pair, flanks, damping_per_length, per_cycle, room, cycles: 0.0, modes, amplitudes, roots, at: None })
+    }
+
+    /// The mesh at its beginning, with the same gears and tables, and another damper.
+    ///
+    /// # Errors
+    /// [`GearboxError::Contact`].
+    pub fn copy_at_start(&self, damping_per_length: f64) -> Result<Self, GearboxError> {
+        Ok(Self {
+            pair: self.pair.clone(),
+            flanks: self.flanks.copy_at_start(&self.pair)?,
+            damping_per_length,
+            per_cycle: self.per_cycle,
+            room: self.room,
+            cycles: 0.0,
+            modes: self.modes.clone(),
+            amplitudes: DVector::zeros(self.amplitudes.len()),
+            roots: self.roots.clone(),
+            at: None,
+        })
+    }
+
+    /// Mesh whose driving flanks may part as far as they like: there are no others.
+    #[must_use]
+    pub fn with_driving_flanks_alone(self) -> Self {
+        Self { room: None, ..self }
+    }
+
+    /// The flanks.
+    pub fn flanks(&self) -> &MeshFlanks {
+        &self.flanks
+    }
+
+    /// Elastic modes of gear 1 and gear 2 that are coordinates.
+    pub fn kept_modes(&self) -> Option<&[GearVibration; 2]> {
+        self.modes.as_ref()
     }
 
     /// The mesh with elastic modes of gear 1 and gear 2 as coordinates: their share of the compliance gets inertia, the rest
     /// stays quasi-static.
     ///
     /// # Errors
-    /// [`GearboxError::Contact`] for modes of other gears.
+    /// [`GearboxError::Contact`] for modes of other gears, [`GearboxError::OutOfRange`] for a damping ratio that is none.
     pub fn with_modes(mut self, modes: [GearVibration; 2]) -> Result<Self, GearboxError> {
+        if let Some(value) = modes.iter().map(|own| own.damping_ratio).find(|zeta| !zeta.is_finite() || *zeta < 0.0) {
+            return Err(GearboxError::OutOfRange { part: "gears".into(), quantity: "modal damping ratio", value });
+        }
         self.flanks.keep_modes(&modes.each_ref().map(|own| Arc::clone(&own.modes)))?;
         self.amplitudes = DVector::zeros(modes.iter().map(|own| own.modes.count()).sum());
         self.modes = Some(modes);
+        // What the modes bend is not in the forces of the flanks.
+        self.roots = None;
         Ok(self)
     }
 
@@ -90,13 +138,9 @@ impl MovingExactMesh {
         self.at = None;
         let displaced = self.displaced(displacements);
         let forces = self.flanks.forces(&self.pair, self.cycles, &displaced, tangents)?;
-        let reply = MeshForces {
-            force: forces.normal + forces.friction,
-            tangent: -forces.stiffness,
-            normal_force: forces.sums[0] + forces.sums[1],
-        };
-        self.at = Some(Answer { displaced, forces, tangents });
-        Ok(reply)
+        let FlankForces { normal, friction, stiffness, sums, modal } = forces;
+        self.at = Some(Answer { displaced, normal, friction, modal, tangents });
+        Ok(MeshForces { force: normal + friction, tangent: -stiffness, normal_force: sums[0] + sums[1] })
     }
 
     /// Power of forces on both gears as these turn by a mesh cycle, N mm.
@@ -150,7 +194,7 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn on_modes(&self) -> Option<&ModalForce> {
-        self.at.as_ref()?.forces.modal.as_ref()
+        self.at.as_ref()?.modal.as_ref()
     }
 
     fn evaluate_forces(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
@@ -168,7 +212,7 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn energy_rate(&self) -> f64 {
-        self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.forces.normal))
+        self.at.as_ref().map_or(0.0, |at| -self.by_cycles(&at.normal))
     }
 
     fn energy_change(&mut self) -> Result<f64, GearboxError> {
@@ -181,8 +225,8 @@ impl MovingMesh for MovingExactMesh {
     }
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
-        let Some(Answer { displaced, forces, tangents }) = &self.at else { return MeshLosses::default() };
-        let (friction, moving) = (forces.friction, (&displaced.d, rates));
+        let Some(Answer { displaced, friction, tangents, .. }) = &self.at else { return MeshLosses::default() };
+        let (friction, moving) = (*friction, (&displaced.d, rates));
         let dampers = self.flanks.damping(&self.pair, self.cycles, moving, self.damping_per_length, *tangents);
         let along_cycles = self.by_cycles(&friction);
         MeshLosses {
@@ -201,21 +245,36 @@ impl MovingMesh for MovingExactMesh {
         Ok(found.unwrap_or([f64::NEG_INFINITY; 2]))
     }
 
+    fn check_pace(&self, cycles: f64) -> Result<(), GearboxError> {
+        Ok(self.flanks.check_pace(cycles)?)
+    }
+
     /// Moves the windows; refuses one that is too narrow, teeth that have gone through each other, and a place at which
     /// coast flanks would touch that are not there.
-    fn accept(&mut self) -> Result<bool, GearboxError> {
+    fn accept(&mut self, rates: &dyn Fn() -> Vector12, extremes: &mut Extremes) -> Result<bool, GearboxError> {
         let Some(Answer { displaced, .. }) = &self.at else { return Ok(false) };
-        if !self.flanks.has_coast_flanks() {
+        if let Some(backlash_mm) = self.room {
             let gap_mm = -self.flanks.overlaps(&self.pair, self.cycles, displaced)[0];
-            if gap_mm > self.backlash {
-                return Err(GearboxError::BeyondBacklash { gap_mm, backlash_mm: self.backlash });
+            if gap_mm > backlash_mm {
+                return Err(GearboxError::BeyondBacklash { gap_mm, backlash_mm });
             }
         }
-        let moved = self.flanks.accept(&self.pair, self.cycles, displaced)?;
+        let moving = (&rates(), self.damping_per_length);
+        let moved = self.flanks.accept(&self.pair, self.cycles, displaced, moving, extremes)?;
         if moved {
             self.at = None;
         }
         Ok(moved)
+    }
+
+    fn by_side(&mut self, rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
+        let Some(Answer { displaced, .. }) = &self.at else { return Ok(None) };
+        let moving = (rates, self.damping_per_length);
+        Ok(Some(self.flanks.instants(&self.pair, self.cycles, &displaced.d, moving, self.roots.as_deref())?))
+    }
+
+    fn loads(&self) -> Vec<SideLoads<'_>> {
+        self.at.as_ref().map_or(Vec::new(), |at| self.flanks.loads(&self.pair, self.cycles, &at.displaced.d))
     }
 
     fn windows(&self) -> Option<FlankStates> {

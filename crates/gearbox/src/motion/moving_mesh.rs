@@ -1,6 +1,6 @@
 //! What a motion asks of a mesh beside its forces at rest: energy, losses, free flight, tooth changes. Theory (93).
 
-use dynamics::{FlankStates, GearVibration, ModalForce};
+use dynamics::{Extremes, FlankInstant, FlankStates, GearVibration, ModalForce, SideLoads};
 use nalgebra::{DVector, SMatrix};
 
 use super::lever_mesh::LeverMesh;
@@ -85,12 +85,21 @@ pub trait MovingMesh: MeshElement + Send {
     /// [`GearboxError`] when it is not known.
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError>;
 
-    /// Asked at the end of a step, after [`MeshElement::evaluate`]: takes the tooth changes that are due, which leave the
-    /// forces as they are, and tells whether there was one; the mesh then stands nowhere.
+    /// Refuses a place in the mesh cycles to which its teeth cannot be followed from where it stands.
+    ///
+    /// # Errors
+    /// [`GearboxError`] for gears that have turned past all teeth that it knows.
+    fn check_pace(&self, _cycles: f64) -> Result<(), GearboxError> {
+        Ok(())
+    }
+
+    /// Asked at the end of a step, after [`MeshElement::evaluate`], with the gears moving at `rates`: takes the tooth changes
+    /// that are due, which leave the forces as they are, and tells whether there was one; the mesh then stands nowhere. Adds
+    /// the step to the extremes of the flanks, if it knows them.
     ///
     /// # Errors
     /// [`GearboxError`] when the forces are not all there are.
-    fn accept(&mut self) -> Result<bool, GearboxError> {
+    fn accept(&mut self, _rates: &dyn Fn() -> Vector12, _extremes: &mut Extremes) -> Result<bool, GearboxError> {
         self.check()?;
         Ok(false)
     }
@@ -123,10 +132,19 @@ pub trait MovingMesh: MeshElement + Send {
         None
     }
 
-    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving at `rates`; all zero of
-    /// flanks that are not there, and `None` of a mesh that does not tell.
-    fn by_side(&mut self, _rates: &Vector12) -> Option<[FlankInstant; 2]> {
-        None
+    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving at `rates`; `None` of a
+    /// mesh that does not tell.
+    ///
+    /// # Errors
+    /// [`GearboxError`] where stress of the fillets is asked for and not found.
+    fn by_side(&mut self, _rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
+        Ok(None)
+    }
+
+    /// Loads on the flanks that press where they were evaluated last: the driving ones, and coast ones where these do; none
+    /// of a mesh without gears that deform.
+    fn loads(&self) -> Vec<SideLoads<'_>> {
+        Vec::new()
     }
 
     /// Mesh cycles after which this mesh comes back: 1 where the teeth of both gears are alike.
@@ -139,17 +157,6 @@ pub trait MovingMesh: MeshElement + Send {
     fn reach(&self) -> f64 {
         0.0
     }
-}
-
-/// The flanks of one side at an instant.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub struct FlankInstant {
-    /// Sum of the normal forces, N, without damping.
-    pub force: f64,
-    /// Damping along the approach, N.
-    pub damping: f64,
-    /// Length of the loaded contact lines, mm.
-    pub line_length: f64,
 }
 
 /// What friction and dampers of a mesh do.

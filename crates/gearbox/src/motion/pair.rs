@@ -1,20 +1,27 @@
 //! A pair alone as a machine: two rigid gears, each with its bearing and the axes in which it is free, and one mesh.
 //! Theory (45), (92).
 
-use dynamics::{COORDINATES, MotionOptions as PairOptions};
+use dynamics::{COORDINATES, MotionOptions as PairOptions, SideLoads, ToothChanges};
 use geometry::{Driver, GearPair};
 use integrate::State;
 use nalgebra::DVector;
 
-use super::{Drive, FlankInstant, GearboxMechanism, MeshInstant, MotionOptions, MovingMesh};
-use crate::{Bearing, Disc, GearMesh, GearboxError, Meshing, Operation, Shaft, Structure, Torque, Vector12};
+use super::{Drive, FlankInstant, GearboxMechanism, MeshInstant, MotionOptions, MovingMesh, free_coordinates::Guide};
+use crate::{
+    Bearing, BearingState, Disc, GearMesh, GearboxError, Meshing, Operation, Shaft, Structure, Torque, Vector12,
+};
 
-/// A mesh with both of its gears at an instant.
+/// Name of the mesh of a pair, whose errors need no name.
+const PAIR: &str = "";
+
+/// A pair at an instant of its motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PairInstant {
+    /// Time, s.
+    pub time: f64,
     /// The mesh.
     pub mesh: MeshInstant,
-    /// Displacements of both gears from their nominal motion, mm and rad, and their rates; the mesh's own axes.
+    /// Displacements of both gears from their nominal motion, mm and rad; the mesh's own axes.
     pub displacements: Vector12,
     /// Their rates.
     pub rates: Vector12,
@@ -22,11 +29,26 @@ pub struct PairInstant {
     pub speeds: [f64; 2],
     /// Driving and coast flanks, of a mesh that tells them apart.
     pub flanks: Option<[FlankInstant; 2]>,
+    /// Torque of the driver in the running sense, N mm: the given one, or the one that keeps the given speed.
+    pub drive_torque: f64,
+    /// Torque on the driven gear against its motion, N mm.
+    pub load_torque: f64,
+    /// Bearings of both gears, damping included; their forces are those on the gears.
+    pub bearings: [BearingState; 2],
+}
+
+impl PairInstant {
+    /// Sums of the normal forces on driving and coast flanks, damping included, N.
+    pub fn normal_forces(&self) -> [f64; 2] {
+        self.flanks.as_ref().map_or([0.0; 2], |sides| sides.each_ref().map(FlankInstant::normal_force))
+    }
 }
 
 impl GearboxMechanism {
-    /// The mechanism of a pair: gear 1 turns about the common z axis, gear 2 beside it along +x. The turn of a driver that a
-    /// torque drives is a coordinate beside its nominal one.
+    /// The mechanism of a pair: gear 1 turns about the common z axis, gear 2 beside it along +x. The coordinate of the driven
+    /// gear's turn is its lag on the base circle, mm: the transmission error itself, so that it keeps its digits however far
+    /// the driver has turned. The turn of a driver that a torque drives is a coordinate beside its nominal one, the last of
+    /// all.
     ///
     /// # Errors
     /// As [`GearboxMechanism::new`].
@@ -77,13 +99,20 @@ impl GearboxMechanism {
                 .into(),
             ..Structure::default()
         };
-        let meshes = vec![GearMesh { name: "the pair".into(), discs: [0, 1], pair: pair.clone() }];
+        let meshes = vec![GearMesh { name: PAIR.into(), discs: [0, 1], pair: pair.clone() }];
         let torques = vec![Torque { disc: driven, torque: 0.0 }];
         let operation = Operation { input: driver, sense: senses[driver], torques, keys, held: Vec::new() };
         let asked = MotionOptions { drive, modal_damping: 0.0, limit: 1.0 };
-        let moves = |gear: usize, axis: usize| options.free[gear][axis];
-        let made = Self::guided((structure, meshes, operation), &asked, &moves, element)?.beside_nominal();
+        let base = [&pair.pinion, &pair.wheel][driven].base_radius();
+        let guide = Guide {
+            moves: &|gear, axis| options.free[gear][axis],
+            by_length: Some((driven, statics.side().sign() / base)),
+        };
+        let made = Self::guided((structure, meshes, operation), &asked, &guide, element)?.beside_nominal();
         let mut made = made.with_torques(vec![(0, dynamics::Torque::Constant(0.0))])?;
+        // The place where the run begins, without the round-off of the ways to it.
+        made.start_cycles = vec![options.start_cycles];
+        made.live[0].element().begin_at(options.start_cycles)?;
         made.set_pair_load(&options.load);
         match torque {
             Some(torque) => made.with_input_torque(torque.clone().scaled(senses[driver].sign() as f64)),
@@ -93,10 +122,15 @@ impl GearboxMechanism {
 
     /// Gives the driven gear of a pair another load, N mm against its turn.
     pub fn set_pair_load(&mut self, load: &dynamics::Torque) {
-        let Some(own) = self.operation.torques.first() else { return };
-        let ratio = self.train.ratios()[self.assembly.structure().discs[own.disc].shaft];
-        let sense = self.operation.sense.sign() as f64 * ratio.signum();
-        self.set_torque(0, load.clone().scaled(-sense));
+        let against = self.against_turn();
+        self.set_torque(0, load.clone().scaled(against));
+    }
+
+    /// Sense of a load on the driven gear of a pair, about +z.
+    fn against_turn(&self) -> f64 {
+        let driven = self.operation.torques.first().map_or(0, |own| own.disc);
+        let ratio = self.train.ratios()[self.assembly.structure().discs[driven].shaft];
+        -(self.operation.sense.sign() as f64) * ratio.signum()
     }
 
     /// How the transmission error of a mesh follows the coordinates, mm/mm and mm/rad.
@@ -106,23 +140,44 @@ impl GearboxMechanism {
         for (gear, own) in [&pair.pinion, &pair.wheel].into_iter().enumerate() {
             lever[COORDINATES * (gear + 1) - 1] = meshing.side().sign() * own.base_radius();
         }
-        self.live[mesh].to_gears.tr_mul(&lever)
+        self.along(mesh, &lever)
     }
 
-    /// A mesh and its gears at a state.
+    /// How a combination of displacements of both gears of a mesh follows the coordinates.
+    pub fn along(&self, mesh: usize, lever: &Vector12) -> DVector<f64> {
+        self.live[mesh].to_gears.tr_mul(lever)
+    }
+
+    /// A pair at a state.
     ///
     /// # Errors
     /// [`GearboxError`] of the mesh.
-    pub fn pair_instant(&mut self, mesh: usize, state: &State) -> Result<PairInstant, GearboxError> {
+    pub fn pair_instant(&mut self, state: &State) -> Result<PairInstant, GearboxError> {
         let State { time, q, v, .. } = state;
-        let input = self.input(*time, q, v);
-        let (instant, _) = self.mesh_instant(mesh, input, q, v)?;
-        let [displacements, rates] = [q, v].map(|z| self.displacements(mesh, z));
-        let flanks = self.live[mesh].element().by_side(&rates);
-        let speeds = [0, 1].map(|g| {
-            let shaft = self.assembly.structure().discs[self.meshes[mesh].discs[g]].shaft;
-            self.train.ratios()[shaft] * input[1] + rates[COORDINATES * (g + 1) - 1]
-        });
-        Ok(PairInstant { mesh: instant, displacements, rates, speeds, flanks })
+        let whole = self.instant(state)?;
+        let [displacements, rates] = [q, v].map(|z| self.displacements(0, z));
+        let flanks = self.live[0].element().by_side(&rates)?;
+        let speeds = [0, 1].map(|g| self.train.ratios()[g] * whole.input[1] + rates[COORDINATES * (g + 1) - 1]);
+        Ok(PairInstant {
+            time: *time,
+            mesh: whole.meshes[0],
+            displacements,
+            rates,
+            speeds,
+            flanks,
+            drive_torque: self.operation.sense.sign() as f64 * whole.input_torque,
+            load_torque: self.against_turn() * self.varying.output(0, *time),
+            bearings: [0, 1].map(|g| whole.bearings[g]),
+        })
+    }
+
+    /// Loads on the flanks of a mesh that press where it was asked last ([`MovingMesh::loads`]).
+    pub fn loads(&self, mesh: usize) -> Vec<SideLoads<'_>> {
+        self.live[mesh].loads()
+    }
+
+    /// Tooth changes of the driving flanks of a mesh; none of one without teeth that change.
+    pub fn changes(&self, mesh: usize) -> ToothChanges {
+        self.live[mesh].windows().map_or(ToothChanges::default(), |own| own.driving.changes)
     }
 }

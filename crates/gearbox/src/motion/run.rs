@@ -2,8 +2,8 @@
 
 use dynamics::Speed;
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Method, Periodicity, Row, RowPlace, Settle, State,
-    StepControl, Stop, Timetable,
+    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Mechanism, Method, Periodicity, Row, RowPlace, Settle,
+    State, StepControl, Stop, Timetable,
 };
 use nalgebra::DVector;
 
@@ -161,12 +161,9 @@ impl GearboxMechanism {
                 if plan.shoots {
                     self.back_over(period)?;
                 }
-                let scale = self.scale(start).rows(0, self.free.first_of_gears).into_owned();
-                Some(Compared::States { scale, free: None, period })
+                Some(self.compared(self.scale(start), period))
             }
-            (Some(_), Some(period)) => {
-                Some(Compared::States { scale: self.scale(start), free: self.free.turn, period })
-            }
+            (Some(_), Some(period)) => Some(self.compared(self.scale(start), period)),
             _ => None,
         };
         Ok(Goal {
@@ -178,6 +175,12 @@ impl GearboxMechanism {
             checkpoint_every: 0,
             stop_after: None,
         })
+    }
+
+    /// What tells whether a motion repeats itself: all coordinates, of the given sizes, but amplitudes of modes.
+    pub(super) fn compared<M: Mechanism>(&self, mut scale: DVector<f64>, period: u64) -> Compared<M> {
+        self.gears.sizes(1.0).for_each(|(i, _)| scale[i] = f64::INFINITY);
+        Compared::States { scale, free: self.free.turn, period }
     }
 
     /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of

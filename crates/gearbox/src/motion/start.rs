@@ -17,9 +17,14 @@ const SPAN: f64 = 1e-3;
 /// Size of a coordinate that the equilibrium does not move, over the largest of its kind.
 const LEAST: f64 = 1e-3;
 
+/// Round-off of places, in units of the last bit.
+const LAST_BITS: f64 = 256.0;
+/// A load that is not so many times what round-off makes has no digit.
+const ONE_DIGIT: f64 = 10.0;
+
 impl GearboxMechanism {
-    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly; and modal damping
-    /// about it from now on.
+    /// State at t = 0 in equilibrium, with the rates at which it changes as the train turns slowly and its loads change; and
+    /// modal damping about it from now on.
     ///
     /// ```text
     /// C += M Phi diag(2 zeta omega) Phi' M,   (K - df_mesh/dz) Phi = M Phi omega^2
@@ -27,10 +32,19 @@ impl GearboxMechanism {
     /// # Errors
     /// [`GearboxError`] where there is no equilibrium.
     pub fn start(&mut self, modal_damping: f64) -> Result<State, GearboxError> {
-        let z = self.standing(0.0, None)?;
+        self.start_at(0.0, modal_damping)
+    }
+
+    /// The same at another time, s.
+    ///
+    /// # Errors
+    /// As of [`Self::start`].
+    pub fn start_at(&mut self, time: f64, modal_damping: f64) -> Result<State, GearboxError> {
+        let [angle, speed] = self.nominal_turn(time);
+        let z = self.standing((angle, time), None)?;
         // Teeth near places that were looked at before are known less well: the search ends from its own end on.
         self.forget();
-        let z = self.standing(0.0, Some(&z))?;
+        let z = self.standing((angle, time), Some(&z))?;
         if modal_damping > 0.0 {
             let (rigid, [k, mass]) = self.with_static_gears(&z)?;
             let modes = natural_modes(&k, &mass)?;
@@ -48,19 +62,31 @@ impl GearboxMechanism {
             }
         }
         let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let speed = self.input_speed();
         let mut v = DVector::zeros(z.len());
         if speed != 0.0 {
             let way = SPAN / fastest;
-            let after = self.standing(way, Some(&z))?;
-            let before = self.standing(-way, Some(&z))?;
+            let after = self.standing((angle + way, time + way / speed), Some(&z))?;
+            let before = self.standing((angle - way, time - way / speed), Some(&z))?;
             v = (after - before) * (speed / (2.0 * way));
         }
         if let Some(i) = self.free.turn.filter(|_| !self.beside_nominal) {
             v[i] = speed;
         }
         self.forget();
-        Ok(State::new(0.0, z, v))
+        Ok(State::new(time, z, v))
+    }
+
+    /// That the load of a pair, of one mesh and one torque over time, is below what round-off of places makes of the stiffness
+    /// of its teeth; `None` where it is not.
+    fn too_light(&self, time: f64) -> Option<GearboxError> {
+        let ([mesh], [output]) = (&self.meshes[..], &self.operation.torques[..]) else { return None };
+        let driven = mesh.discs.iter().position(|disc| *disc == output.disc)?;
+        let base = [&mesh.pair.pinion, &mesh.pair.wheel][driven].base_radius();
+        let load_n = ((output.torque + self.varying.output(0, time)) / base).abs();
+        // Places are known to some last bits of the distance of the axes, and teeth make a force of that.
+        let place = LAST_BITS * f64::EPSILON * mesh.pair.centre_distance().abs();
+        let lost_n = place * guessed_stiffness(&mesh.pair);
+        (load_n <= ONE_DIGIT * lost_n).then_some(GearboxError::LostLoad { load_n, lost_n })
     }
 
     /// Sizes of the coordinates: what deflections and turns are at `state`.
@@ -95,8 +121,27 @@ impl GearboxMechanism {
         self.meshes.iter().enumerate().map(of).fold(1e-6, f64::max)
     }
 
-    /// Equilibrium with the input turned by an angle (rad about +z); the turn itself is left at 0.
-    fn standing(&mut self, angle: f64, from: Option<&DVector<f64>>) -> Result<DVector<f64>, GearboxError> {
+    /// Equilibrium with a mesh gone on by so many cycles, under the loads of a time (s).
+    ///
+    /// # Errors
+    /// As of [`Self::start`].
+    pub fn standing_at(
+        &mut self,
+        mesh: usize,
+        (cycles, time): (f64, f64),
+        from: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, GearboxError> {
+        let angle = cycles / self.live[mesh].cycles_per_turn;
+        self.standing((angle, time), from)
+    }
+
+    /// Equilibrium with the input turned by an angle (rad about +z), under the loads of a time (s); the turn itself is left
+    /// at 0.
+    fn standing(
+        &mut self,
+        (angle, time): (f64, f64),
+        from: Option<&DVector<f64>>,
+    ) -> Result<DVector<f64>, GearboxError> {
         // The turn of the whole train comes last, if it is one.
         let count = self.count();
         let n = count - usize::from(self.free.turn.is_some());
@@ -105,7 +150,7 @@ impl GearboxMechanism {
         let stiffness = (&self.stiffness + of_modes).view((0, 0), (n, n)).into_owned();
         // What a torque gives to the turn itself is left out.
         let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
-        self.varying.forces(0.0).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
+        self.varying.forces(time).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
         let push = self.push.rows(0, n).into_owned();
         let balances = matches!(self.drive, Drive::Balanced(_));
         let mut guessed = stiffness.clone();
@@ -146,8 +191,12 @@ impl GearboxMechanism {
                 }
             }
             Ok(left)
-        })?;
-        Ok(all(&found.displacements))
+        });
+        match found {
+            Ok(found) => Ok(all(&found.displacements)),
+            Err(lost @ GearboxError::NoEquilibrium { .. }) => Err(self.too_light(time).unwrap_or(lost)),
+            Err(other) => Err(other),
+        }
     }
 
     /// Coordinates that are no modes of gears, and for these K - df_mesh/dz at a place, symmetric, and the mass, with the modes

@@ -75,6 +75,11 @@ impl VaryingTorques {
         self.all.is_empty() && self.input.is_none()
     }
 
+    /// Torque of an output at a time, N mm about +z, by its number among these.
+    pub fn output(&self, i: usize, t: f64) -> f64 {
+        self.all.get(i).map_or(0.0, |own| own.law.at(t))
+    }
+
     /// Torque on the input at a time, N mm about +z, where it has a law.
     pub fn input(&self, t: f64) -> Option<f64> {
         self.input.as_ref().map(|(law, _)| law.at(t))

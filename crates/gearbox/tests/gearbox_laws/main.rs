@@ -1,20 +1,34 @@
-//! Laws of shafts, bearings and gears that stand and swing together.
+//! Laws of shafts, bearings and gears that stand and swing together, and of a pair in motion: quasi-static and linear
+//! limits, jumps, tooth changes, integrators, modes, maps of the contact.
 
+mod both_free;
 mod elastic;
 mod exact;
+mod fed_ladder;
+mod fields;
 mod forced;
+mod internal_motion;
 mod mapped_pair;
+mod modes_in_motion;
 mod motion;
 mod motion_bores;
 mod motion_branch;
 mod motion_branch_mapped;
+mod motion_cells;
 mod motion_contact;
 mod motion_course;
 mod motion_flanks;
+mod motion_jump;
+mod motion_linear;
 mod motion_loads;
 mod motion_modes;
+mod motion_order;
 mod motion_pair;
+mod motion_tooth_change;
+mod one_energy;
 mod overhung;
+mod pair_course;
+mod pair_motion;
 mod pairs;
 mod rest;
 mod rolling;

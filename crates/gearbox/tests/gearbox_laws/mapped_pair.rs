@@ -3,13 +3,10 @@
 
 use std::{sync::OnceLock, time::Instant};
 
-use dynamics::{
-    Bearing, Drive, MapRequest, MeshDamping, MotionOptions, PairMechanism, Speed, Torque, damping_per_length,
-    quasi_static_start,
-};
+use dynamics::{Bearing, Drive, MapRequest, MeshDamping, MotionOptions, Speed, Torque};
 use gearbox::{
     GearboxError,
-    motion::{GearboxMechanism, MappedMesh},
+    motion::{GearboxMechanism, MappedMesh, PairModel},
 };
 use geometry::{Gear, GearModifications, GearPair};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
@@ -17,7 +14,7 @@ use ltca::StaticOptions;
 use mesh::Extent;
 use nalgebra::{DVector, Matrix6};
 use testing::{
-    moving::{MovingPair, peak_to_peak, rows, worst},
+    moving::{MovingPair, machine, peak_to_peak, rows, started, worst},
     of_order, planet_in_ring,
 };
 
@@ -45,17 +42,10 @@ fn on_bearings(o: &mut MotionOptions) {
 }
 
 /// What a map must hold of a pair, and the map.
-fn map_of(system: &mut PairMechanism, lag: f64, tolerance: f64) -> Result<(MapRequest, MappedMesh), GearboxError> {
-    let request = system.map_request(lag, 4.0, [tolerance; 2]).unwrap_or_else(|e| panic!("{e}"));
-    let mesh = MappedMesh::new(system.flanks(), system.pair(), &request, &|_| {})?;
-    let damping = damping_per_length(system.pair(), system.options(), system.means());
-    Ok((request, mesh.with_damping(damping).with_driving_flanks_alone()))
-}
-
-/// The pair as a machine on its map.
-fn machine(system: &PairMechanism, mesh: &MappedMesh) -> GearboxMechanism {
-    let made = GearboxMechanism::of_pair(system.pair(), system.options(), |_, _, _| Ok(Box::new(mesh.clone())));
-    made.unwrap_or_else(|e| panic!("{e}"))
+fn map_of(system: &PairModel, tolerance: f64) -> Result<(MapRequest, MappedMesh), GearboxError> {
+    let request = system.map_request(4.0, [tolerance; 2]).unwrap_or_else(|e| panic!("{e}"));
+    let mesh = MappedMesh::new(system.flanks().expect("they are solved"), system.pair(), &request, &|_| {})?;
+    Ok((request, mesh))
 }
 
 fn mapped(
@@ -64,35 +54,9 @@ fn mapped(
     tolerance: f64,
     change: impl FnOnce(&mut MotionOptions),
 ) -> (GearboxMechanism, MappedMesh) {
-    let mut system = bench.system(hz, change);
-    let (_, mesh) = map_of(&mut system, bench.ste[0], tolerance).unwrap_or_else(|e| panic!("{e}"));
-    (machine(&system, &mesh), mesh)
-}
-
-/// Lag of the driven gear (mm) by the coordinate of the machine that is its turn, which comes last here.
-fn lag_of(machine: &GearboxMechanism) -> f64 {
-    let slopes = machine.error_slopes(0);
-    slopes[slopes.len() - 1]
-}
-
-/// Coordinates of the machine for those of the pair, whose last one is the lag.
-fn of_pair(machine: &GearboxMechanism, q: &DVector<f64>) -> DVector<f64> {
-    let mut z = q.clone();
-    z[q.len() - 1] /= lag_of(machine);
-    z
-}
-
-/// Forces on the machine as those on the coordinates of the pair.
-fn on_pair(machine: &mut GearboxMechanism, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Forces {
-    let (z, rates, lag) = (of_pair(machine, q), of_pair(machine, v), lag_of(machine));
-    let mut out = forces(machine, t, &z, &rates);
-    let last = q.len() - 1;
-    [&mut out.conservative, &mut out.other].into_iter().for_each(|f| f[last] /= lag);
-    for matrix in [&mut out.stiffness, &mut out.damping] {
-        matrix.row_mut(last).scale_mut(1.0 / lag);
-        matrix.column_mut(last).scale_mut(1.0 / lag);
-    }
-    out
+    let system = bench.system(hz, change);
+    let (_, mesh) = map_of(&system, tolerance).unwrap_or_else(|e| panic!("{e}"));
+    (machine(&system.on_map(mesh.clone())), mesh)
 }
 
 fn forces<M: Mechanism>(system: &mut M, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Forces
@@ -124,9 +88,9 @@ fn has_the_forces_of_the_contact(bench: &MovingPair) {
     for i in 0..12 {
         // Within the first window: nothing moves it here.
         let (t, share) = (4e-5 * f64::from(i), 0.7 + 0.05 * f64::from(i));
-        let mut exact = bench.system(1000.0, |_| ());
+        let mut exact = machine(&bench.system(1000.0, |_| ()));
         let (q, v) = (DVector::from_element(n, bench.ste[0] * share), DVector::from_element(n, 1.0));
-        let [a, b] = [forces(&mut exact, t, &q, &v), on_pair(&mut map, t, &q, &v)];
+        let [a, b] = [forces(&mut exact, t, &q, &v), forces(&mut map, t, &q, &v)];
         let off = b.conservative[0] / a.conservative[0] - 1.0;
         let [k, c] = [b.stiffness[0] / a.stiffness[0] - 1.0, b.damping[0] / a.damping[0] - 1.0];
         println!("{:.3} N: {off:+.1e}, stiffness {k:+.1e}, damping {c:+.1e}", a.conservative[0]);
@@ -146,15 +110,15 @@ fn a_map_has_the_forces_of_gears_that_tilt() {
     let mut worst: f64 = 0.0;
     for i in 0..12 {
         let t = 4e-5 * f64::from(i);
-        let mut exact = bench.system(1000.0, on_bearings);
-        let scale = exact.coordinates().scales(bench.ste[0], bench.case.pair.wheel.base_radius());
-        let mut start = quasi_static_start(&mut exact, t, bench.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
+        let system = bench.system(1000.0, on_bearings);
+        let scale = system.scale(bench.ste[0]);
+        let (mut exact, mut start) = started(&system, t);
         for k in 0..start.q.len() {
             let part = ((7 * i + 3 * k as i32) % 5 - 2) as f64 / 20.0;
             start.q[k] += part * scale[k];
         }
         let still = DVector::zeros(start.q.len());
-        let [a, b] = [forces(&mut exact, t, &start.q, &still), on_pair(&mut map, t, &start.q, &still)];
+        let [a, b] = [forces(&mut exact, t, &start.q, &still), forces(&mut map, t, &start.q, &still)];
         let sized = |f: &Forces| (&f.conservative + &f.other).component_mul(&scale);
         let bearing = a.conservative.component_mul(&scale).amax();
         let load = (bench.contact.torque / bench.case.pair.wheel.base_radius() * scale[scale.len() - 1]).max(bearing);
@@ -166,15 +130,14 @@ fn a_map_has_the_forces_of_gears_that_tilt() {
 }
 
 fn map_rows(map: &mut GearboxMechanism, hz: f64, cycles: usize, start: &State) -> (Vec<f64>, f64) {
-    let lag = lag_of(map);
-    let scale = DVector::from_element(map.count(), 1e-3 / lag.abs());
-    let mut state = State::new(start.time, of_pair(map, &start.q), of_pair(map, &start.v));
+    let scale = DVector::from_element(map.count(), 1e-3);
+    let mut state = State::new(start.time, start.q.clone(), start.v.clone());
     let control = StepControl::Fixed(1.0 / hz / STEPS as f64);
     let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, control, scale);
     let mut out = Vec::new();
     let began = Instant::now();
     integrator
-        .advance(map, &mut state, cycles as f64 / hz, |_, progress| out.push(lag * progress.state.q[0]))
+        .advance(map, &mut state, cycles as f64 / hz, |_, progress| out.push(progress.state.q[0]))
         .unwrap_or_else(|e| panic!("{e}"));
     (out, began.elapsed().as_secs_f64())
 }
@@ -224,10 +187,11 @@ fn a_map_moves_as_the_contact_of_teeth_with_pitch_errors() {
     let bench = MovingPair::new(case, contact, 8);
     for share in [0.35, 1.0] {
         let hz = share * bench.resonance_hz();
-        let mut system = bench.system(hz, |_| ());
-        let (request, mesh) = map_of(&mut system, bench.ste[0], 2e-4).unwrap_or_else(|e| panic!("{e}"));
-        let mut map = machine(&system, &mesh);
-        let told = mesh.pitch_error(system.flanks(), system.pair(), &request).unwrap_or_else(|e| panic!("{e}"));
+        let system = bench.system(hz, |_| ());
+        let (request, mesh) = map_of(&system, 2e-4).unwrap_or_else(|e| panic!("{e}"));
+        let flanks = system.flanks().expect("they are solved");
+        let told = mesh.pitch_error(flanks, system.pair(), &request).unwrap_or_else(|e| panic!("{e}"));
+        let mut map = machine(&system.on_map(mesh));
         let told = told.expect("there are pitch errors");
         let mut settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, STEPS);
         settings.steps_per_resonance = 0;
@@ -256,14 +220,12 @@ fn energy_stays_on_a_map() {
         o.damping = MeshDamping::PerLength(0.0);
     });
     let step = 1.0 / bench.resonance_hz() / 23.7;
-    let lag = lag_of(&map);
-    let scale = DVector::from_element(1, 1e-3 / lag.abs());
+    let scale = DVector::from_element(1, 1e-3);
     let mut integrator = Integrator::new(Scheme::Energy, StepControl::Fixed(step), scale);
-    let mut state = State::new(0.0, DVector::from_element(1, 2.5 * bench.ste[0] / lag), DVector::zeros(1));
+    let mut state = State::new(0.0, DVector::from_element(1, 2.5 * bench.ste[0]), DVector::zeros(1));
     let (mut least, steps) = (f64::INFINITY, 1e6);
-    let apart = |state: &State| lag * state.q[0];
     integrator
-        .advance(&mut map, &mut state, steps * step, |_, progress| least = least.min(apart(progress.state)))
+        .advance(&mut map, &mut state, steps * step, |_, progress| least = least.min(progress.state.q[0]))
         .unwrap_or_else(|e| panic!("{e}"));
     let ledger = *integrator.ledger().expect("steps were taken");
     let drift = ledger.residual() / ledger.initial;
@@ -276,10 +238,10 @@ fn energy_stays_on_a_map() {
 #[test]
 fn what_no_map_holds_is_refused() {
     let bench = bench();
-    let mut rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
-    let error = map_of(&mut rubbing, bench.ste[0], 1e-3).expect_err("friction is in no map");
+    let rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
+    let error = map_of(&rubbing, 1e-3).expect_err("friction is in no map");
     assert!(error.to_string().contains("friction"), "{error}");
-    let mut idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
-    let error = idle.map_request(bench.ste[0], 4.0, [1e-3; 2]).expect_err("no load says what forces occur");
+    let idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
+    let error = idle.map_request(4.0, [1e-3; 2]).expect_err("no load says what forces occur");
     assert!(error.to_string().contains("load"), "{error}");
 }

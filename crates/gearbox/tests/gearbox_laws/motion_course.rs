@@ -7,8 +7,8 @@ use std::f64::consts::TAU;
 use gearbox::{
     Disc, GearMesh, GearboxError, Torque,
     motion::{
-        Drive, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun, MeshMemory, MotionOptions, MotionPlan,
-        MovingExactMesh, Speed, SpringMesh,
+        Drive, Extremes, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun, MeshMemory, MotionOptions,
+        MotionPlan, MovingExactMesh, Speed, SpringMesh,
     },
 };
 use geometry::Sense;
@@ -307,7 +307,7 @@ fn a_checkpoint_of_another_gearbox_is_refused() {
     course.run_cycle::<GearboxError>(None).unwrap();
     let state = course.checkpoint().unwrap();
     let mut meshes = state.clone();
-    meshes.memory.meshes.push(MeshMemory { reach: 0.0, windows: None });
+    meshes.memory.meshes.push(MeshMemory { reach: 0.0, extremes: Extremes::default(), windows: None });
     let mut coordinates = state;
     coordinates.state = start.clone();
     coordinates.state.q = coordinates.state.q.push(0.0);

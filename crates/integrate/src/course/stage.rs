@@ -37,7 +37,7 @@ impl Stage {
 pub enum Compared<M: Mechanism> {
     /// States at the ends of periods.
     States {
-        /// Sizes of the coordinates that are compared, from the first on.
+        /// Sizes of the coordinates; infinite of those that are not compared.
         scale: DVector<f64>,
         /// A coordinate that need not return: of it, only the velocity is compared.
         free: Option<usize>,

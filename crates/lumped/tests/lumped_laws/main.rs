@@ -1,7 +1,6 @@
 //! Laws of the lumped models, and the cases that they are held against.
 
 mod common;
-mod fed_ladder;
 mod gearbox;
 mod impact;
 mod impact_random;

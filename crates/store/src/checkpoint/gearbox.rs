@@ -36,8 +36,7 @@ impl StoredState for GearboxState {
         if !(self.motion.is_consistent() && crossings == 2 * self.motion.memory.meshes.len()) {
             return Err("velocities of other coordinates, or counts of other meshes");
         }
-        let windows = self.motion.memory.meshes.iter().filter_map(|mesh| mesh.windows);
-        if windows.into_iter().any(|own| own.farthest_tooth() > FARTHEST_TOOTH) {
+        if self.motion.memory.farthest_tooth() > FARTHEST_TOOTH {
             return Err("a window beyond all cycles");
         }
         Ok(())

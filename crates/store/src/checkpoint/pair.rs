@@ -1,7 +1,7 @@
 //! What a pair's motion keeps beside its rows.
 
 use analysis::{facts::MeshFacts, motion::MotionCheckpoint};
-use dynamics::MechanismState;
+use gearbox::motion::GearboxMemory;
 use integrate::Checkpoint;
 use scene::Scene;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ pub struct PairState {
     /// Teeth of the window.
     window: usize,
     /// The motion, and how far it has come.
-    motion: Checkpoint<MechanismState>,
+    motion: Checkpoint<GearboxMemory>,
     /// The files of rows.
     pub rows: [Kept; 2],
     /// What the flanks were pressed by so far.
@@ -62,7 +62,7 @@ impl StoredState for PairState {
         if !self.motion.is_consistent() {
             return Err("velocities of other coordinates");
         }
-        if self.motion.memory.flanks.farthest_tooth() > FARTHEST_TOOTH {
+        if self.motion.memory.farthest_tooth() > FARTHEST_TOOTH {
             return Err("a window beyond all cycles");
         }
         Ok(())

@@ -1,6 +1,7 @@
 //! Which inertia vibrates on the teeth, and at which frequency.
 
-use dynamics::{Drive, PairMechanism};
+use dynamics::Drive;
+use gearbox::motion::PairModel;
 use serde::Serialize;
 
 /// t in kg.
@@ -25,7 +26,7 @@ described::described! {
 
 impl InertiaHeadline {
     /// Of a pair.
-    pub fn of(system: &PairMechanism) -> Self {
+    pub fn of(system: &PairModel) -> Self {
         let driven = system.options().statics.driven();
         let moving_gears = match system.options().drive {
             Drive::Speed(_) => vec![["pinion", "wheel"][driven]],

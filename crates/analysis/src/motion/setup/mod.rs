@@ -13,7 +13,7 @@ pub(crate) use elasticity::{Elasticity, Vibration, kept_modes, mesh_range_hz};
 pub use inertia::InertiaHeadline;
 pub use options::{bearing, drive, motion_options, scheme, speed, stated_body, steady_by, torque};
 pub(crate) use options::{body, pair_drive};
-pub(crate) use prepare::{MotionInputs, PreparedMotion, prepare};
+pub(crate) use prepare::{MotionInputs, PreparedMotion, motion_length, prepare};
 pub use quasi_static::QuasiStatic;
 pub use scene::RPM;
 pub use stable::refuse_unstable;

@@ -1,6 +1,7 @@
 //! What a scene asks of motion, in the solvers' types and units.
 
-use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, SteadyBy, Torque};
+use dynamics::{Bearing, COORDINATES, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque};
+use gearbox::motion::SteadyBy;
 use geometry::GearPair;
 use integrate::Scheme;
 use nalgebra::Matrix6;

@@ -3,7 +3,10 @@
 use answer::Remark;
 use std::{ops::ControlFlow, sync::Arc};
 
-use dynamics::{MotionSettings, PairMechanism};
+use gearbox::{
+    GearboxError,
+    motion::{PairModel, PairMotionError, PairSettings},
+};
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
 use mesh::Mesh;
@@ -14,6 +17,7 @@ use super::{Elasticity, QuasiStatic, motion_options, scheme};
 use crate::{
     AnalysisError, GearCache, Observer, PhaseWork, body_remarks,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
+    error::in_scene,
     estimated_time::announced_seconds,
     facts::RunInfo,
     failure::Failure,
@@ -64,8 +68,8 @@ impl<'a> MotionInputs<'a> {
 
 /// A pair that is ready to move.
 pub(crate) struct PreparedMotion {
-    pub system: PairMechanism,
-    pub settings: MotionSettings,
+    pub system: PairModel,
+    pub settings: PairSettings,
     pub quasi_static: QuasiStatic,
     pub elasticity: Elasticity,
     pub facts: RunInfo,
@@ -136,11 +140,15 @@ pub(crate) fn prepare(
     let options = motion_options(scene, pair, meshes, contact)?;
     let means = [quasi_static.stiffness, quasi_static.line_length];
     let system = run_phase(observer, "mechanism", PhaseWork::Unknown, |_| {
-        let system = PairMechanism::new(pair.clone(), Arc::clone(&gears), coast.clone(), options, means)?;
+        let system = PairModel::new(pair.clone(), Arc::clone(&gears), coast.clone(), options, means)?;
         match elasticity.kept() {
             Some(modes) => system.with_modes(modes),
             None => Ok(system),
         }
+    });
+    let system = system.map_err(|e| match e {
+        GearboxError::Contact(source) => Failure::Static(source),
+        other => in_scene(scene)(PairMotionError::at(0.0)(other)).into(),
     })?;
     if cache.is_on() {
         run_phase(observer, "store", PhaseWork::Unknown, |_| {
@@ -150,7 +158,7 @@ pub(crate) fn prepare(
             }
         });
     }
-    let settings = settings(motion, pair, &system, &quasi_static);
+    let settings = settings(motion, &system, &quasi_static);
     let keys = [&keys].into_iter().chain(&coast_keys).flat_map(RecordKeys::keys).flatten().copied().collect();
     Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, remarks, keys })
 }
@@ -188,26 +196,25 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
 }
 
 /// How the scene wants the motion to be integrated.
-fn settings(
-    motion: &MotionScene,
-    pair: &GearPair,
-    system: &PairMechanism,
-    quasi_static: &QuasiStatic,
-) -> MotionSettings {
-    let driven = [&pair.pinion, &pair.wheel][system.options().statics.driven()];
-    let length = system.motion_size(quasi_static.mean_error()).max(1e-6);
-    MotionSettings {
+fn settings(motion: &MotionScene, system: &PairModel, quasi_static: &QuasiStatic) -> PairSettings {
+    PairSettings {
         scheme: scheme(motion),
         rows: motion.steps_per_mesh_cycle as usize,
         steps_per_resonance: steps_per_resonance(motion, system),
+        resonance_hz: system.mesh_resonance_hz(),
         tolerance: motion.error_tolerance,
         stop_at_events: motion.stop_at_events,
-        scale: system.scales(&system.coordinates().scales(length, driven.base_radius().abs()), length),
+        scale: system.scale(motion_length(system, quasi_static)),
     }
 }
 
+/// What counts as a large motion of the flanks, mm.
+pub(crate) fn motion_length(system: &PairModel, quasi_static: &QuasiStatic) -> f64 {
+    system.motion_size(quasi_static.mean_error()).max(1e-6)
+}
+
 /// Steps in a period of the mesh resonance that give the fastest motion as many as the scene asks for.
-fn steps_per_resonance(motion: &MotionScene, system: &PairMechanism) -> usize {
+fn steps_per_resonance(motion: &MotionScene, system: &PairModel) -> usize {
     let ratio = fastest_hz(system) / system.mesh_resonance_hz();
     (f64::from(motion.steps_per_resonance) * ratio).ceil() as usize
 }

@@ -2,7 +2,7 @@
 
 use ale::solve_widening;
 use answer::Remark;
-use dynamics::SweepOutcome;
+use gearbox::motion::SweepOutcome;
 use ltca::StaticError;
 use mesh::Mesh;
 use scene::{MotionScene, Scene, SweepScene};

@@ -1,6 +1,6 @@
 //! One row a speed and way of a sweep.
 
-use dynamics::{SweepMiss, SweepOutcome, SweepPoint};
+use gearbox::motion::{SweepMiss, SweepOutcome, SweepPoint};
 use geometry::GearPair;
 use integrate::SweepDirection;
 use scene::{MotionScene, Scene, SweepWay};

@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{PairMotionError, SteadyOptions, SweepOutcome, SweepPlan, SweepPoint};
+use gearbox::motion::{PairMotionError, SteadyOptions, SweepOutcome, SweepPlan, SweepPoint, sweep as swept};
 use integrate::SweepDirection;
 use ltca::StaticError;
 use scene::{MotionScene, Scene, SweepScene, SweepWay};
@@ -54,7 +54,6 @@ pub(super) fn run(
             most: u64::from(motion.warm_up_cycles.unwrap_or(1000)),
             cycles: u64::from(scene.analysis.cycles),
         },
-        guess: prepared.quasi_static.transmission_error.first().copied().unwrap_or(0.0),
         speeds,
     };
     let steps = (plan.speeds.len() * plan.ways.len()) as u64;
@@ -64,7 +63,7 @@ pub(super) fn run(
         dropped_by(&prepared.system, point.changes.jump, force).filter(wider)
     };
     let (outcomes, cancelled) = run_phase(observer, "sweep", PhaseWork::Steps(steps), |progress| {
-        let outcomes = dynamics::sweep(&prepared.system, &plan, &|outcome: &SweepOutcome| {
+        let outcomes = swept(&prepared.system, &plan, &|outcome: &SweepOutcome| {
             progress.tick();
             match outcome {
                 Ok(point) => progress.say(format!("{:.0}/min", point.speed / RPM)),

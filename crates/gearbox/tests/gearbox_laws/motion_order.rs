@@ -3,11 +3,17 @@
 
 use std::sync::OnceLock;
 
-use dynamics::{PairMechanism, quasi_static_start, stable_step};
 use fem::ElementOptions;
+use gearbox::{
+    GearboxError,
+    motion::{GearboxMechanism, stable_step},
+};
 use integrate::{Integrator, MotionError, Scheme, State, StepControl};
 use nalgebra::DVector;
-use testing::{Case, moving::MovingPair};
+use testing::{
+    Case,
+    moving::{MovingPair, machine, started},
+};
 
 const SCHEMES: [(&str, Scheme, f64); 5] = [
     ("generalised-alpha", Scheme::GeneralisedAlpha { rho: 0.8 }, 2.0),
@@ -31,13 +37,13 @@ fn pair() -> &'static MovingPair {
 
 /// Lag at `places` evenly spaced times up to `until`, in `steps` steps.
 fn course(
-    mut system: PairMechanism,
+    mut system: GearboxMechanism,
     mut state: State,
     scheme: Scheme,
     until: f64,
     steps: usize,
     places: usize,
-) -> Result<Vec<f64>, MotionError<ltca::StaticError>> {
+) -> Result<Vec<f64>, MotionError<GearboxError>> {
     let scale = DVector::from_element(1, pair().ste[0]);
     let mut integrator = Integrator::new(scheme, StepControl::Fixed(until / steps as f64), scale);
     let (mut all, mut done) = (Vec::new(), 0);
@@ -51,7 +57,7 @@ fn course(
 }
 
 /// Rows of the table: error (mm) at each number of steps, infinite where the method fails.
-fn table(system: &dyn Fn() -> (PairMechanism, State), until: f64, counts: &[usize], finest: usize) -> Vec<Row> {
+fn table(system: &dyn Fn() -> (GearboxMechanism, State), until: f64, counts: &[usize], finest: usize) -> Vec<Row> {
     let places = counts[0];
     let (mechanism, state) = system();
     let reference =
@@ -100,7 +106,7 @@ const FLOOR: f64 = 1e-11;
 fn orders_are_those_of_theory_where_forces_are_smooth() {
     let pair = pair();
     let start = || {
-        let system = pair.system(1e-9, |_| ());
+        let system = machine(&pair.system(1e-9, |_| ()));
         let at = DVector::from_element(1, pair.ste[0] + 3e-3);
         (system, State::new(0.0, at, DVector::zeros(1)))
     };
@@ -118,12 +124,7 @@ fn orders_are_those_of_theory_where_forces_are_smooth() {
 fn turning(ratio: f64, counts: &[usize], finest: usize) -> Vec<Row> {
     let pair = pair();
     let frequency = ratio * pair.resonance_hz();
-    let start = || {
-        let mut system = pair.system(frequency, |_| ());
-        let scale = DVector::from_element(1, pair.ste[0]);
-        let state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
-        (system, state)
-    };
+    let start = || started(&pair.system(frequency, |_| ()), 0.0);
     println!("f_m / f_0 = {ratio}");
     let rows = table(&start, 1.0 / frequency, counts, finest);
     show(counts, &rows);
@@ -151,12 +152,11 @@ fn orders_of_a_pair_that_turns() {
 
 /// Largest and smallest lag (mm) in the last four of eight cycles at a tenth of the resonance, in `steps` steps a
 /// cycle.
-fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<ltca::StaticError>> {
+fn swing(scheme: Scheme, steps: usize) -> Result<[f64; 2], MotionError<GearboxError>> {
     let pair = pair();
     let frequency = 0.1 * pair.resonance_hz();
-    let mut system = pair.system(frequency, |_| ());
+    let (mut system, mut state) = started(&pair.system(frequency, |_| ()), 0.0);
     let scale = DVector::from_element(1, pair.ste[0]);
-    let mut state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
     let control = StepControl::Fixed(1.0 / (frequency * steps as f64));
     let mut found = [f64::NEG_INFINITY, f64::INFINITY];
     Integrator::new(scheme, control, scale).advance(&mut system, &mut state, 8.0 / frequency, |_, seen| {
@@ -178,10 +178,9 @@ fn explicit_methods_hold_up_to_their_limit_and_no_farther() {
     let frequency = 0.1 * pair.resonance_hz();
     let deflection = pair.ste[0];
     let system = pair.system(frequency, |_| ());
-    let scale = DVector::from_element(1, deflection);
     let wanted = swing(Scheme::GeneralisedAlpha { rho: 0.8 }, 128).unwrap_or_else(|e| panic!("{e}"));
     for scheme in [Scheme::RungeKutta4, Scheme::DormandPrince] {
-        let limit = stable_step(&system, scheme, deflection, &scale).unwrap_or_else(|e| panic!("{e}")).unwrap();
+        let limit = stable_step(&system, scheme).unwrap_or_else(|e| panic!("{e}")).unwrap();
         let at_limit = 1.0 / (frequency * limit.step);
         let [below, beyond] = [(at_limit / 0.95).ceil(), (at_limit / 1.1).floor()].map(|n| {
             let found = swing(scheme, n as usize).unwrap_or_else(|e| {

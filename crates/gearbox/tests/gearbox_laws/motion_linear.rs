@@ -10,7 +10,8 @@
 //! and contact lines of constant length.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan};
+use dynamics::MeshDamping;
+use gearbox::motion::{PairSettings, SteadyBy, SteadyOptions, SweepPlan};
 use geometry::GearData;
 use integrate::{Scheme, SweepDirection};
 use ltca::StaticOptions;
@@ -66,16 +67,13 @@ fn a_heavily_loaded_pair_is_a_linear_oscillator() {
     );
     let ratios = [0.475, 0.5, 0.525, 0.95, 1.0, 1.05, 1.3];
     let system = pair.system(f_0, |o| o.damping = MeshDamping::Ratio(ZETA));
-    let settings = MotionSettings {
-        steps_per_resonance: 40,
-        ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 1.0 }, ROWS)
-    };
+    let settings =
+        PairSettings { steps_per_resonance: 40, ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 1.0 }, ROWS) };
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * f_0)).collect(),
         ways: vec![SweepDirection::Independent],
         settings,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-4, most: 100, cycles: 1 },
-        guess: pair.ste[0],
     };
     let points = swept(&system, &plan);
     let found: Vec<Vec<f64>> =

@@ -1,16 +1,16 @@
 //! The mesh cycles of a pair in motion, with their rows and steps; and what is read off them.
 
 use integrate::{
-    Compared, Course, CycleTimes, Goal, Ledger, Method, OnlyRows, Periodicity, Row, RowPlace, Scheme, Settle, State,
+    Compared, Course, CycleTimes, Goal, Ledger, Method, OnlyRows, Periodicity, Row, RowPlace, Scheme, Settle,
     StepControl, Stop, Timetable,
 };
 use nalgebra::DVector;
 
-use crate::{Instant, PairMechanism, PairMotionError};
+use super::{GearboxMechanism, PairInstant, PairMotionError};
 
 /// Settings of the integration of a pair's motion.
 #[derive(Debug, Clone, PartialEq)]
-pub struct MotionSettings {
+pub struct PairSettings {
     /// Method.
     pub scheme: Scheme,
     /// Rows of the results in a mesh cycle, evenly spaced in time, and least number of steps, >= 1.
@@ -18,6 +18,8 @@ pub struct MotionSettings {
     /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0:
     /// rows are the steps.
     pub steps_per_resonance: usize,
+    /// The mesh resonance, Hz.
+    pub resonance_hz: f64,
     /// Local error of a step over the coordinates' scales; `None`: steps of equal length.
     pub tolerance: Option<f64>,
     /// Ends a step wherever contact is lost or gained.
@@ -26,35 +28,35 @@ pub struct MotionSettings {
     pub scale: DVector<f64>,
 }
 
-impl MotionSettings {
-    /// Steps between two rows of a mesh cycle of `duration` (s), with the mesh resonance at `resonance_hz`.
-    fn steps_per_row(&self, duration: f64, resonance_hz: f64) -> usize {
-        let wanted = self.steps_per_resonance as f64 * resonance_hz * duration;
+impl PairSettings {
+    /// Steps between two rows of a mesh cycle of `duration` (s).
+    fn steps_per_row(&self, duration: f64) -> usize {
+        let wanted = self.steps_per_resonance as f64 * self.resonance_hz * duration;
         let steps = (wanted / self.rows.max(1) as f64).ceil();
         // More than this is a standstill, not a motion.
         if steps.is_finite() { (steps as usize).clamp(1, 1_000_000) } else { 1 }
     }
 
     /// Length of the steps in a mesh cycle of `duration` (s), s; the longest one with an error tolerance.
-    pub fn step(&self, duration: f64, resonance_hz: f64) -> f64 {
-        duration / (self.rows.max(1) * self.steps_per_row(duration, resonance_hz)) as f64
+    pub fn step(&self, duration: f64) -> f64 {
+        duration / (self.rows.max(1) * self.steps_per_row(duration)) as f64
     }
 }
 
 /// A pair's motion under way.
-pub type Motion = Course<PairMechanism, MotionSettings>;
+pub type PairMotion = Course<GearboxMechanism, PairSettings>;
 
-impl Timetable<PairMechanism> for MotionSettings {
-    fn method(&self, _: &PairMechanism) -> Method {
+impl Timetable<GearboxMechanism> for PairSettings {
+    fn method(&self, _: &GearboxMechanism) -> Method {
         let Self { scheme, ref scale, stop_at_events, .. } = *self;
         Method { scheme, scale: scale.clone(), stop_at_events, keep_stable: true }
     }
 
     /// A mesh cycle of the nominal motion; steps of equal length meet its rows by themselves.
-    fn cycle(&self, system: &PairMechanism, cycle: u64, begin: f64) -> Option<CycleTimes> {
-        let end = system.time_of_cycles((cycle + 1) as f64)?;
+    fn cycle(&self, system: &GearboxMechanism, cycle: u64, begin: f64) -> Option<CycleTimes> {
+        let end = system.time_of_cycles(0, (cycle + 1) as f64)?;
         let rows = self.rows.max(1);
-        let per_row = self.steps_per_row(end - begin, system.mesh_resonance_hz());
+        let per_row = self.steps_per_row(end - begin);
         let control = StepControl::new(self.tolerance, (end - begin) / (rows * per_row) as f64);
         if self.tolerance.is_none() && !self.stop_at_events {
             return Some(CycleTimes { stops: vec![Stop::row(end)], rows: RowPlace::Steps(per_row as u64), control });
@@ -67,11 +69,10 @@ impl Timetable<PairMechanism> for MotionSettings {
 
 /// Reads the instant of every row of a motion; `seen` gets it with the energy so far and the mechanism as it stands there.
 pub fn instants(
-    mut seen: impl FnMut(&Instant, &Ledger, &PairMechanism),
-) -> impl FnMut(Row<'_, PairMechanism>) -> Result<(), PairMotionError> {
+    mut seen: impl FnMut(&PairInstant, &Ledger, &GearboxMechanism),
+) -> impl FnMut(Row<'_, GearboxMechanism>) -> Result<(), PairMotionError> {
     move |Row { system, state, ledger }| {
-        let State { time, q, v, .. } = state;
-        let instant = system.instant(*time, q, v).map_err(|source| PairMotionError::contact(*time, source))?;
+        let instant = system.pair_instant(state).map_err(PairMotionError::at(state.time))?;
         seen(&instant, ledger, system);
         Ok(())
     }
@@ -79,24 +80,23 @@ pub fn instants(
 
 /// What tells whether a pair's motion repeats itself: all coordinates that come back with every mesh cycle, but the
 /// modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
-pub fn compared(motion: &Motion) -> Compared<PairMechanism> {
-    let coordinates = motion.system().coordinates();
-    let scale = motion.timetable().scale.rows(0, coordinates.count()).into_owned();
-    Compared::States { scale, free: coordinates.driver_turn(), period: 1 }
+pub fn compared(motion: &PairMotion) -> Compared<GearboxMechanism> {
+    let system = motion.system();
+    system.compared(motion.timetable().scale.clone(), 1)
 }
 
 /// Runs mesh cycles until the motion repeats itself within `tolerance`, until `most` are done at the most.
 ///
 /// # Errors
 /// [`PairMotionError`]. A motion that does not become periodic is none: its residual says so.
-pub fn run_to_steady(motion: &mut Motion, tolerance: f64, most: u64) -> Result<Periodicity, PairMotionError> {
+pub fn run_to_steady(motion: &mut PairMotion, tolerance: f64, most: u64) -> Result<Periodicity, PairMotionError> {
     let goal = steady_goal(motion, (tolerance, most), 0);
-    motion.settle(&goal, &mut OnlyRows(|_: Row<'_, PairMechanism>| Ok::<_, PairMotionError>(())))?;
+    motion.settle(&goal, &mut OnlyRows(|_: Row<'_, GearboxMechanism>| Ok::<_, PairMotionError>(())))?;
     Ok(motion.stage().periodicity.unwrap_or(Periodicity { period: 1, residual: f64::INFINITY }))
 }
 
 /// A motion that settles first and is looked at for so many mesh cycles then.
-pub(crate) fn steady_goal(motion: &Motion, (tolerance, most): (f64, u64), cycles: u64) -> Goal<PairMechanism> {
+pub(crate) fn steady_goal(motion: &PairMotion, (tolerance, most): (f64, u64), cycles: u64) -> Goal<GearboxMechanism> {
     Goal {
         compared: Some(compared(motion)),
         settle: Some(Settle { tolerance, most }),

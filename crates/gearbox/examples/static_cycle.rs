@@ -1,7 +1,7 @@
 //! Quasi-static contact of a helical pair over one mesh cycle: transmission error, contact-line length, load of each
 //! pair of teeth.
 //!
-//! `cargo run -p dynamics --example static_cycle`
+//! `cargo run -p gearbox --example static_cycle`
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use std::error::Error;

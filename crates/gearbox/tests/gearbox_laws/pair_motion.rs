@@ -2,14 +2,15 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use ale::Station;
-use dynamics::{MotionOptions, PairMechanism, equivalent_mass};
+use dynamics::{MotionOptions, equivalent_mass};
 use fem::ElementOptions;
+use gearbox::motion::PairModel;
 use integrate::{Integrator, Scheme, State, StepControl};
 use ltca::StaticOptions;
 use nalgebra::DVector;
 use testing::{
     Case,
-    moving::{at_speed, rigid_bodies},
+    moving::{at_speed, machine, rigid_bodies},
 };
 
 const TORQUE: f64 = 150e3;
@@ -43,8 +44,8 @@ fn slow_running_is_quasi_static() {
     let gears = case.reduced_gears(&contact);
     // 2 mesh cycles a second against a resonance of some kHz.
     let speed = 2.0 * case.pair.pinion.pitch_angle();
-    let mut system =
-        PairMechanism::new(case.pair.clone(), gears, None, options(&case, contact, speed, 0.1), means).unwrap();
+    let system = PairModel::new(case.pair.clone(), gears, None, options(&case, contact, speed, 0.1), means).unwrap();
+    let mut system = machine(&system);
     let mut state = State::new(0.0, DVector::from_element(1, ste[0]), DVector::zeros(1));
     let h = 0.5 / n as f64;
     // Large steps: what is faster than them is damped away in one.
@@ -83,7 +84,7 @@ fn resonance_is_where_stiffness_and_inertia_say() {
         still.bodies[i].polar_inertia / (base * base)
     });
     let expected = (means[0] / equivalent_mass(inertia, Some(0))).sqrt();
-    let mut system = PairMechanism::new(case.pair.clone(), gears, None, still, means).unwrap();
+    let mut system = machine(&PairModel::new(case.pair.clone(), gears, None, still, means).unwrap());
     let amplitude = 1e-3 * ste[0];
     let mut state = State::new(0.0, DVector::from_element(1, ste[0] + amplitude), DVector::zeros(1));
     let period = std::f64::consts::TAU / expected;

@@ -5,15 +5,19 @@
 use std::sync::{Arc, OnceLock};
 
 use ale::ToothWindow;
-use dynamics::{MeshDamping, MotionOptions, PairMechanism, quasi_static_start, run_to_steady};
+use dynamics::{MeshDamping, MotionOptions};
 use fem::ElementOptions;
+use gearbox::{
+    GearboxError,
+    motion::{GearboxMechanism, PairMotion, PairSettings, run_to_steady},
+};
 use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Resumable, Scheme, StepControl};
-use ltca::{StaticError, StaticOptions};
+use ltca::StaticOptions;
 use nalgebra::{DMatrix, DVector};
 use testing::{
     Case,
-    moving::{MovingPair, order, peak_to_peak, rows, worst},
+    moving::{MovingPair, order, peak_to_peak, rows, started, worst},
 };
 
 const ROWS: usize = 32;
@@ -42,7 +46,7 @@ fn between_changes(options: &mut MotionOptions) {
 }
 
 /// A motion at [`SPEED_RATIO`], run until it repeats itself to round-off.
-fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> dynamics::Motion {
+fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> PairMotion {
     let system = pair.system(SPEED_RATIO * resonance, change);
     let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
     let mut motion = pair.motion(system, settings);
@@ -57,9 +61,9 @@ fn the_spectrum_has_mesh_harmonics_alone() {
     let pair = pair();
     let mut motion = steady(pair, pair.resonance_hz(), between_changes);
     let cycles = 32;
-    let before = motion.system().changes().count;
+    let before = motion.system().changes(0).count;
     let dte = rows(&mut motion, cycles as u64);
-    let changes = motion.system().changes();
+    let changes = motion.system().changes(0);
     let between = (1..dte.len() / 2)
         .filter(|k| k % cycles != 0)
         .map(|k| (order(&dte, k), k))
@@ -76,9 +80,22 @@ fn the_spectrum_has_mesh_harmonics_alone() {
     assert_eq!(changes.count - before, cycles as u64, "a change a cycle");
     // Contact is solved anew on the new window; what was last solved on the old one may have been for its energy, to a
     // millionth of the approach.
-    let force = motion.system().extremes().largest_force;
+    let force = motion.system().extremes(0).largest_force;
     assert!(changes.jump < 1e-6 * force, "the force jumps by {:e} of {force} N at a change", changes.jump);
     assert!(between.0 < 1e-9, "{:e} mm at order {}", between.0, between.1 as f64 / cycles as f64);
+}
+
+/// Steps that end where a change is due take it there, whatever the last digits of the mesh cycles say.
+#[test]
+fn a_change_due_at_the_end_of_a_step_is_taken_there() {
+    let pair = pair();
+    let system = pair.system(SPEED_RATIO * pair.resonance_hz(), little_damping);
+    let settings = PairSettings { steps_per_resonance: 0, ..pair.settings(&system, Scheme::Newmark, 8) };
+    let mut motion = pair.motion(system, settings);
+    for cycle in 1..=24 {
+        rows(&mut motion, 1);
+        assert_eq!(motion.system().changes(0).count, cycle, "after as many mesh cycles");
+    }
 }
 
 /// A window that is one tooth wider changes half a cycle later, and has a tooth to spare: the motion is the same at all
@@ -104,7 +121,7 @@ fn a_wider_window_moves_alike() {
 
 /// The pair with a window that moves when it is told to, whatever the teeth carry.
 struct Forced {
-    pair: PairMechanism,
+    pair: GearboxMechanism,
     /// Part of a mesh cycle by which changes come early.
     early: f64,
     cycles_per_second: f64,
@@ -112,27 +129,28 @@ struct Forced {
 }
 
 impl Mechanism for Forced {
-    type Error = StaticError;
+    type Error = GearboxError;
 
     fn mass(&self) -> &DMatrix<f64> {
         self.pair.mass()
     }
 
-    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), StaticError> {
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), GearboxError> {
         self.pair.forces(t, q, v, out)
     }
 
-    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
+    fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
         self.pair.potential(t, q)
     }
 
-    fn accepted(&mut self, t: f64, _: &DVector<f64>, _: &DVector<f64>) -> Result<(), StaticError> {
+    fn accepted(&mut self, t: f64, _: &DVector<f64>, _: &DVector<f64>) -> Result<(), GearboxError> {
         // Counter-clockwise, pair 0 is in the middle of cycle 0, and numbers fall.
         let centre = 0.5 - (t * self.cycles_per_second + self.early);
         let due = ToothWindow::nominal_first(centre, self.teeth);
         let mut place = self.pair.memory();
-        if place.flanks.driving.first != due {
-            place.flanks.driving.first = due;
+        let first = &mut place.meshes[0].windows.as_mut().expect("teeth in a window").driving.first;
+        if *first != due {
+            *first = due;
             self.pair.restore(&place)?;
         }
         Ok(())
@@ -156,9 +174,9 @@ fn a_change_under_load_rings() {
     let resonance = pair.resonance_hz();
     let frequency = SPEED_RATIO * resonance;
     let course = |early: f64, of: &MovingPair, teeth: usize| {
-        let mut system = of.system(frequency, little_damping);
-        let scale = system.coordinates().scales(pair.ste[0], pair.case.pair.wheel.base_radius());
-        let mut state = quasi_static_start(&mut system, 0.0, pair.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
+        let model = of.system(frequency, little_damping);
+        let scale = model.scale(pair.ste[0]);
+        let (system, mut state) = started(&model, 0.0);
         let mut forced = Forced { pair: system, early, cycles_per_second: frequency, teeth };
         let h = 1.0 / (frequency * ROWS as f64);
         let mut integrator = Integrator::new(Scheme::GeneralisedAlpha { rho: 0.8 }, StepControl::Fixed(h), scale);
@@ -207,7 +225,7 @@ fn orbit_after(cycles: u64) {
     println!(
         "{cycles} cycles, {} turns of the pinion: off the hundredth by {off:.1e} of peak to peak at most (cycle {at}), at the end {last:.1e}; {:?}",
         cycles / u64::from(pair.case.pair.pinion.teeth()),
-        motion.system().changes()
+        motion.system().changes(0)
     );
     assert!(off < 1e-6, "{off:e} in cycle {at}");
 }

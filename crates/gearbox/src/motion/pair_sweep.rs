@@ -2,12 +2,13 @@
 
 use std::ops::ControlFlow;
 
+use dynamics::{Drive, Extremes, ToothChanges};
 use integrate::{Ledger, OnlyRows, Periodicity, State, SweepDirection};
 use ltca::StaticError;
 
-use crate::{
-    Drive, Extremes, Motion, MotionSettings, PairMechanism, PairMotionError, Speed, ToothChanges, instants,
-    quasi_static_start, run::steady_goal, shoot,
+use super::{
+    GearboxMechanism, PairInstant, PairModel, PairMotion, PairMotionError, PairSettings, instants,
+    pair_run::steady_goal, shoot,
 };
 
 /// Method that finds a steady state.
@@ -40,11 +41,9 @@ pub struct SweepPlan {
     /// Directions in which to go through them.
     pub ways: Vec<SweepDirection>,
     /// Method and rows.
-    pub settings: MotionSettings,
+    pub settings: PairSettings,
     /// Steady state.
     pub steady: SteadyOptions,
-    /// A near-by lag at the start, mm.
-    pub guess: f64,
 }
 
 /// Result at one speed.
@@ -100,7 +99,7 @@ pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 /// # Errors
 /// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
 pub fn sweep(
-    system: &PairMechanism,
+    system: &PairModel,
     plan: &SweepPlan,
     seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
 ) -> Result<Vec<SweepOutcome>, PairMotionError> {
@@ -117,27 +116,23 @@ pub fn sweep(
 }
 
 fn steady_state_at(
-    system: &PairMechanism,
+    system: &PairModel,
     plan: &SweepPlan,
     way: SweepDirection,
     speed: f64,
     state: Option<&State>,
 ) -> Result<(SweepPoint, State), PairMotionError> {
-    let time = 0.0;
-    let drive = match system.options().drive {
-        Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
-        _ => Drive::Speed(Speed::Constant(speed)),
-    };
-    let mut own = system.with_drive(drive).map_err(|source| PairMotionError::contact(time, source))?;
+    let own = system.at_speed(speed);
+    let mut machine = own.machine().map_err(PairMotionError::at(0.0))?;
     let own_start = state.is_none();
     let state = match state {
-        Some(before) => State::new(time, before.q.clone(), before.v.clone()),
-        None => quasi_static_start(&mut own, time, plan.guess, &plan.settings.scale)?,
+        Some(before) => State::new(0.0, before.q.clone(), before.v.clone()),
+        None => machine.start(0.0).map_err(PairMotionError::at(0.0))?,
     };
-    let mut motion = Motion::new(own, plan.settings.clone(), state);
+    let mut motion = PairMotion::new(machine, plan.settings.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
     if by == SteadyBy::Shooting {
-        shoot(&mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
+        shoot(&own, &mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
     }
     let goal = steady_goal(&motion, (tolerance, most), cycles);
     motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
@@ -156,17 +151,18 @@ fn steady_state_at(
         extremes: Extremes::default(),
         changes: ToothChanges::default(),
     };
-    let row = |now: &crate::Instant, _: &Ledger, _: &PairMechanism| {
-        point.transmission_error.push(now.transmission_error);
-        point.normal_force.push(now.normal_forces[0]);
-        point.coast_force = point.coast_force.max(now.normal_forces[1]);
-        for at in [0, crate::COORDINATES] {
-            point.bearing_force = point.bearing_force.max(now.bearing.fixed_rows::<3>(at).norm());
+    let row = |now: &PairInstant, _: &Ledger, _: &GearboxMechanism| {
+        let [driving, coast] = now.normal_forces();
+        point.transmission_error.push(now.mesh.transmission_error);
+        point.normal_force.push(driving);
+        point.coast_force = point.coast_force.max(coast);
+        for bearing in &now.bearings {
+            point.bearing_force = point.bearing_force.max(bearing.force.iter().map(|f| f * f).sum::<f64>().sqrt());
         }
     };
     motion.record(&goal, &mut OnlyRows(instants(row)))?;
     point.ledger = motion.ledger().copied().unwrap_or_default();
-    (point.extremes, point.changes) = (*motion.system().extremes(), motion.system().changes());
+    (point.extremes, point.changes) = (*motion.system().extremes(0), motion.system().changes(0));
     let end = motion.state().clone();
     Ok((point, end))
 }

@@ -4,14 +4,15 @@
 
 use std::sync::OnceLock;
 
-use dynamics::{MeshDamping, MotionSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint};
+use dynamics::MeshDamping;
 use fem::ElementOptions;
+use gearbox::motion::{PairSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint};
 use integrate::{Integrator, Scheme, State, StepControl, SweepDirection};
 use ltca::StaticOptions;
 use nalgebra::DVector;
 use testing::{
     Case,
-    moving::{MovingPair, peak_to_peak, swept},
+    moving::{MovingPair, machine, peak_to_peak, swept},
 };
 
 const ROWS: usize = 24;
@@ -33,16 +34,13 @@ fn both_ways(ratios: &[f64], tolerance: f64) -> [Vec<SweepPoint>; 2] {
     let pair = light_pair();
     let resonance = pair.resonance_hz();
     let system = pair.system(resonance, |o| o.damping = MeshDamping::Ratio(ZETA));
-    let settings = MotionSettings {
-        steps_per_resonance: 24,
-        ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS)
-    };
+    let settings =
+        PairSettings { steps_per_resonance: 24, ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS) };
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * resonance)).collect(),
         ways: vec![SweepDirection::Up, SweepDirection::Down],
         settings,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance, most: 240, cycles: 1 },
-        guess: pair.ste[0],
     };
     let mut points = swept(&system, &plan);
     let mut down = points.split_off(ratios.len());
@@ -104,10 +102,11 @@ fn the_band_in_small_steps() {
 /// Still gears, no damping: they swing about their loaded balance so far that the flanks part in every period.
 fn free_vibration(steps: usize) {
     let pair = light_pair();
-    let mut system = pair.system(1e-9, |o| o.damping = MeshDamping::Ratio(0.0));
+    let model = pair.system(1e-9, |o| o.damping = MeshDamping::Ratio(0.0));
+    let mut system = machine(&model);
     let balance = pair.ste[0];
     let force = TORQUE / pair.case.pair.wheel.base_radius();
-    let scale = system.coordinates().scales(balance, pair.case.pair.wheel.base_radius());
+    let scale = model.scale(balance);
     let begin = DVector::from_element(1, 2.2 * balance);
     let at = |q: f64| DVector::from_element(1, q);
     // What swings: the energy above that of the balance.
@@ -128,7 +127,7 @@ fn free_vibration(steps: usize) {
             booked = booked.max(l.parametric.abs());
         })
         .unwrap_or_else(|e| panic!("{e}"));
-    let extremes = system.extremes();
+    let extremes = system.extremes(0);
     println!(
         "{steps} steps: drift {:.1e} at most, {:.1e} at the end, of {above:.4} N mm; parametric {booked:.1e} N mm; residual {:.1e}; {extremes:?}; {:?}",
         drift / above,

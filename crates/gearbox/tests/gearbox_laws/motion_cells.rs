@@ -3,11 +3,14 @@
 
 use std::sync::OnceLock;
 
-use dynamics::PairMechanism;
 use fem::ElementOptions;
+use gearbox::motion::{GearboxMechanism, PairModel};
 use integrate::{Forces, Mechanism};
 use nalgebra::DVector;
-use testing::{Case, moving::MovingPair};
+use testing::{
+    Case,
+    moving::{MovingPair, machine},
+};
 
 fn pair() -> &'static MovingPair {
     static PAIR: OnceLock<MovingPair> = OnceLock::new();
@@ -21,21 +24,20 @@ fn pair() -> &'static MovingPair {
 const FREQUENCY: f64 = 500.0;
 
 /// Free to move along all axes, and to tilt if asked.
-fn system(tilts: bool) -> PairMechanism {
+fn system(tilts: bool) -> PairModel {
     pair().system(FREQUENCY, |options| options.free = [[true, true, true, tilts, tilts, false]; 2])
 }
 
 /// Displaced by some um from the quasi-static place, everywhere a little differently.
-fn place(system: &PairMechanism, i: usize) -> DVector<f64> {
-    let (n, lag) = (system.count(), system.coordinates().lag());
-    let scale = system.coordinates().scales(1e-3, pair().case.pair.wheel.base_radius());
-    DVector::from_fn(n, |j, _| {
+fn place(system: &PairModel, i: usize) -> DVector<f64> {
+    let (scale, lag) = (system.scale(1e-3), system.lag());
+    DVector::from_fn(scale.len(), |j, _| {
         let swing = ((i * 7 + j * 3) as f64 * 0.9).sin() * scale[j];
         if j == lag { pair().ste[0] + swing } else { 0.3 * swing }
     })
 }
 
-fn forces(system: &mut PairMechanism, t: f64, q: &DVector<f64>) -> Forces {
+fn forces(system: &mut GearboxMechanism, t: f64, q: &DVector<f64>) -> Forces {
     let mut out = Forces::zeros(q.len());
     system.forces(t, q, &DVector::zeros(q.len()), &mut out).unwrap_or_else(|e| panic!("{e}"));
     out
@@ -45,14 +47,15 @@ fn forces(system: &mut PairMechanism, t: f64, q: &DVector<f64>) -> Forces {
 /// same to the last bit.
 #[test]
 fn forces_do_not_depend_on_where_the_pair_has_been() {
-    let mut travelled = system(true);
+    let model = system(true);
+    let mut travelled = machine(&model);
     let time = |i: usize| i as f64 / (24.0 * FREQUENCY);
-    let visits: Vec<_> = (0..24).map(|i| (time(i), place(&travelled, i))).collect();
+    let visits: Vec<_> = (0..24).map(|i| (time(i), place(&model, i))).collect();
     let first: Vec<_> = visits.iter().map(|(t, q)| forces(&mut travelled, *t, q)).collect();
     for (i, (t, q)) in visits.iter().enumerate().rev() {
         travelled.forget();
         let again = forces(&mut travelled, *t, q);
-        let of_new = forces(&mut system(true), *t, q);
+        let of_new = forces(&mut machine(&model), *t, q);
         for (name, other) in [("first visit", &first[i]), ("a new pair", &of_new)] {
             assert_eq!(again.conservative, other.conservative, "forces at place {i} are not those of {name}");
             assert_eq!(again.stiffness, other.stiffness, "tangents at place {i} are not those of {name}");
@@ -64,9 +67,9 @@ fn forces_do_not_depend_on_where_the_pair_has_been() {
 /// some millionths: slices come and go on it.
 #[test]
 fn energy_is_what_the_forces_do() {
-    let mut system = system(false);
-    let q = place(&system, 5);
-    let scale = system.coordinates().scales(2.5e-4, pair().case.pair.wheel.base_radius());
+    let model = system(false);
+    let (mut system, q) = (machine(&model), place(&model, 5));
+    let scale = model.scale(2.5e-4);
     let (from, to) = (&q - &scale, &q + &scale);
     // The middle first: all of the way then belongs to what is found there.
     let [middle, start, end] = [&q, &from, &to].map(|q| forces(&mut system, 0.0, q).conservative);

@@ -1,6 +1,6 @@
 //! The pair in motion: a few mesh cycles at constant speed from quasi-static balance, with its ledger of energy.
 //!
-//! `cargo run -p dynamics --example dynamic_run`
+//! `cargo run -p gearbox --example dynamic_run`
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
 use std::{error::Error, f64::consts::TAU};
@@ -8,10 +8,9 @@ use std::{error::Error, f64::consts::TAU};
 mod pair;
 
 use ale::Station;
-use dynamics::{
-    Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Speed, Torque, quasi_static_start,
-};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque};
 use fem::{Material, mass_properties};
+use gearbox::motion::PairModel;
 use integrate::{Integrator, Scheme, StepControl};
 use ltca::{StaticModel, StaticOptions};
 
@@ -37,13 +36,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         start_cycles: 0.0,
     };
     let means = [at_rest.tangent_stiffness, at_rest.contact_line_length];
-    let mut system = PairMechanism::new(pair.clone(), statics.into_gears(), None, options, means)?;
-    let size = at_rest.transmission_error;
-    let scale = system.coordinates().scales(size, pair.wheel.base_radius());
-    let mut state = quasi_static_start(&mut system, 0.0, size, &scale)?;
+    let model = PairModel::new(pair.clone(), statics.into_gears(), None, options, means)?;
+    let mut system = model.machine()?;
+    let mut state = system.start(0.0)?;
 
     let period = pair.pinion.pitch_angle() / speed;
-    let mut integrator = Integrator::new(Scheme::Energy, StepControl::Fixed(period / 64.0), scale);
+    let mut integrator =
+        Integrator::new(Scheme::Energy, StepControl::Fixed(period / 64.0), model.scale(at_rest.transmission_error));
     println!("{:>6} {:>10} {:>14}", "cycle", "DTE, um", "rate, um/ms");
     for eighth in 0..=32 {
         println!("{:>6.3} {:>10.4} {:>14.4}", f64::from(eighth) / 8.0, 1e3 * state.q[0], state.v[0]);

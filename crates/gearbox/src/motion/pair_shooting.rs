@@ -4,7 +4,7 @@
 //! P(x) - x = 0,   (1 - dP/dx) dx = P(x) - x,   x = (q, v) at the start of a mesh cycle
 //! ```
 //! P is the motion over a period, with the gears' own frames turned back by as many pitches: amplitudes of modes are in
-//! those frames (`PairMechanism::back_over`). With generalised-alpha the
+//! those frames (`GearboxMechanism::back_over`). With generalised-alpha the
 //! integrator's own acceleration is a third part of x, because it is carried from step to step. dP/dx comes from finite
 //! differences, one period for each column, on all cores. Where damping is weak or a speed lies near a fold, shooting
 //! takes far fewer periods than waiting. It also finds unstable solutions, which waiting never does.
@@ -14,7 +14,7 @@ use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-use crate::{MechanismState, Motion, PairMotionError};
+use super::{GearboxMemory, PairModel, PairMotion, PairMotionError};
 
 /// Differences of coordinates over their scales.
 const STEP: f64 = 1e-4;
@@ -43,17 +43,21 @@ pub struct ShootingResult {
 /// [`PairMotionError::FreeDriver`] where a torque drives: speed and position of the driver are free then.
 /// [`PairMotionError::ModesWithoutPeriod`] with modes of a gear that is not known by sectors.
 /// [`PairMotionError::ShootingStart`] where the motion has begun. [`PairMotionError::Integration`].
-pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> Result<ShootingResult, PairMotionError> {
-    if motion.system().coordinates().driver_turn().is_some() {
+pub fn shoot(
+    pair: &PairModel,
+    motion: &mut PairMotion,
+    period: u64,
+    tolerance: f64,
+    most: usize,
+) -> Result<ShootingResult, PairMotionError> {
+    if motion.system().free.turn.is_some() {
         return Err(PairMotionError::FreeDriver);
     }
     if period == 0 || motion.cycle() != 0 {
         return Err(PairMotionError::ShootingStart { cycle: motion.cycle(), period });
     }
-    let Some(back) = motion.system().back_over(period) else {
-        return Err(PairMotionError::ModesWithoutPeriod);
-    };
-    let mut search = Search { start: motion.system().memory(), period, back, periods: 0 };
+    let back = motion.system().back_over(period).map_err(PairMotionError::at(motion.state().time))?;
+    let mut search = Search { pair, start: motion.system().memory(), period, back, periods: 0 };
     // Where the search begins, the integrator's own acceleration is the true one.
     let mut here = motion.state().clone();
     motion.rewind(&search.start, here.clone())?;
@@ -69,7 +73,7 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
             .lu()
             .solve(&rest)
             .filter(|s| s.iter().all(|x| x.is_finite()))
-            .ok_or(MotionError::Singular { time: here.time, which: "period" })?;
+            .ok_or(PairMotionError::Integration(MotionError::Singular { time: here.time, which: "period" }))?;
         let mut share = 1.0;
         for halving in 0..=HALVINGS {
             let next = moved(&here, &(share * &step));
@@ -98,11 +102,12 @@ pub fn shoot(motion: &mut Motion, period: u64, tolerance: f64, most: usize) -> R
 }
 
 /// The map over a period.
-struct Search {
-    start: MechanismState,
+struct Search<'a> {
+    pair: &'a PairModel,
+    start: GearboxMemory,
     period: u64,
-    /// Turn of the coordinates back by a period.
-    back: DMatrix<f64>,
+    /// Turn of the coordinates back by a period; none where they repeat themselves.
+    back: Option<DMatrix<f64>>,
     periods: usize,
 }
 
@@ -112,27 +117,26 @@ struct End {
     residual: f64,
 }
 
-impl Search {
-    fn map(&mut self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
+impl Search<'_> {
+    fn map(&mut self, motion: &mut PairMotion, from: &State) -> Result<End, PairMotionError> {
         self.periods += 1;
         self.over_period(motion, from)
     }
 
     /// dP/dx, column by column.
-    fn monodromy(&mut self, motion: &Motion, here: &State, end: &End) -> Result<DMatrix<f64>, PairMotionError> {
+    fn monodromy(&mut self, motion: &PairMotion, here: &State, end: &End) -> Result<DMatrix<f64>, PairMotionError> {
         let (n, parts) = (here.q.len(), parts(motion));
         self.periods += parts * n;
-        let scale = &motion.timetable().scale;
-        let omega = std::f64::consts::TAU * motion.system().mesh_resonance_hz();
+        let timetable = motion.timetable();
+        let (scale, omega) = (&timetable.scale, std::f64::consts::TAU * timetable.resonance_hz);
         let base = stacked(&end.state, parts);
         let column = |j: usize| {
             // Coordinates, velocities and accelerations of a vibration at the mesh resonance.
             let size = STEP * scale[j % n] * omega.powi((j / n) as i32);
             let mut offset = DVector::zeros(parts * n);
             offset[j] = size;
-            let system = motion.system().with_drive(motion.system().options().drive.clone());
-            let system = system.map_err(|source| PairMotionError::contact(here.time, source))?;
-            let mut own = Motion::new(system, motion.timetable().clone(), here.clone());
+            let system = self.pair.machine().map_err(PairMotionError::at(here.time))?;
+            let mut own = PairMotion::new(system, timetable.clone(), here.clone());
             let there = self.over_period(&mut own, &moved(here, &offset))?;
             Ok::<_, PairMotionError>((stacked(&there.state, parts) - &base) / size)
         };
@@ -140,7 +144,7 @@ impl Search {
         Ok(DMatrix::from_columns(&columns))
     }
 
-    fn over_period(&self, motion: &mut Motion, from: &State) -> Result<End, PairMotionError> {
+    fn over_period(&self, motion: &mut PairMotion, from: &State) -> Result<End, PairMotionError> {
         motion.rewind(&self.start, from.clone())?;
         let mut size: Option<[DVector<f64>; 2]> = None;
         for _ in 0..self.period {
@@ -151,8 +155,10 @@ impl Search {
             });
         }
         let mut state = motion.state().clone();
-        for part in [&mut state.q, &mut state.v, &mut state.averaged] {
-            *part = &self.back * &*part;
+        if let Some(back) = &self.back {
+            for part in [&mut state.q, &mut state.v, &mut state.averaged] {
+                *part = back * &*part;
+            }
         }
         let both = [[state.q.clone(), state.v.clone()], [from.q.clone(), from.v.clone()]];
         let scale = &motion.timetable().scale;
@@ -162,7 +168,7 @@ impl Search {
 }
 
 /// Parts of x: coordinates, velocities, and the integrator's own acceleration where it has one.
-fn parts(motion: &Motion) -> usize {
+fn parts(motion: &PairMotion) -> usize {
     if motion.timetable().scheme.carries_acceleration() { 3 } else { 2 }
 }
 

@@ -4,16 +4,16 @@
 
 use std::sync::OnceLock;
 
-use dynamics::{
-    Bearing, Drive, MechanismState, MeshDamping, Motion, MotionOptions, MotionSettings, PairMechanism, PairMotionError,
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepPlan, Torque, instants, quasi_static_start, run_to_steady,
-    shoot,
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, Torque};
+use gearbox::motion::{
+    GearboxMemory, PairModel, PairMotion, PairMotionError, PairSettings, SHOOTING_NEWTON_STEPS, SteadyBy,
+    SteadyOptions, SweepPlan, instants, run_to_steady, shoot,
 };
 use geometry::{Driver, Sense};
 use integrate::{Checkpoint, Scheme, SweepDirection};
 use ltca::StaticError;
 use nalgebra::Matrix6;
-use testing::moving::{MovingPair, rows, swept, worst};
+use testing::moving::{MovingPair, machine, rows, started, swept, worst};
 
 const TORQUE: f64 = 150e3;
 const ROWS: usize = 32;
@@ -33,11 +33,11 @@ pub fn bench() -> &'static MovingPair {
     BENCH.get_or_init(|| tiny(Driver::Pinion, Sense::Ccw))
 }
 
-fn settings(bench: &MovingPair, system: &PairMechanism, scheme: Scheme) -> MotionSettings {
-    MotionSettings { steps_per_resonance: 8, ..bench.settings(system, scheme, ROWS) }
+fn settings(bench: &MovingPair, system: &PairModel, scheme: Scheme) -> PairSettings {
+    PairSettings { steps_per_resonance: 8, ..bench.settings(system, scheme, ROWS) }
 }
 
-fn motion(bench: &MovingPair, system: PairMechanism, scheme: Scheme) -> Motion {
+fn motion(bench: &MovingPair, system: PairModel, scheme: Scheme) -> PairMotion {
     let settings = settings(bench, &system, scheme);
     bench.motion(system, settings)
 }
@@ -51,13 +51,12 @@ fn the_start_sets_nothing_off() {
     let mut motion = motion(bench, bench.system(50.0, slow), Scheme::Energy);
     let (first, start) = (bench.ste[0], motion.state().clone());
     assert!((start.q[0] / first - 1.0).abs() < 1e-6, "begins at {} mm, STE is {first} mm", start.q[0]);
-    let scale = motion.timetable().scale.clone();
     let mut seen = Vec::new();
-    motion.run_cycle(Some(&mut instants(|now, _, _| seen.push((now.time, now.transmission_error))))).unwrap();
-    let mut still = bench.system(50.0, slow);
+    motion.run_cycle(Some(&mut instants(|now, _, _| seen.push((now.time, now.mesh.transmission_error))))).unwrap();
+    let still = bench.system(50.0, slow);
     // Later on slices that come into contact, one after the other, strike the undamped mesh near its resonance.
     let off = seen.iter().take(4).map(|(time, error)| {
-        let balance = quasi_static_start(&mut still, *time, *error, &scale).unwrap();
+        let (_, balance) = started(&still, *time);
         (balance.q[0] - error).abs()
     });
     let off = off.fold(0.0, f64::max) / first;
@@ -75,8 +74,9 @@ fn shooting_finds_what_waiting_finds() {
         let found = run_to_steady(&mut waited, 1e-7, 2000).unwrap();
         let cycles = waited.cycle();
         assert!(found.residual <= 1e-7, "{scheme:?}: off by {found:?} after {cycles} cycles");
-        let mut shot_at = motion(bench, bench.system(1500.0, weak), scheme);
-        let shot = shoot(&mut shot_at, 1, 1e-8, SHOOTING_NEWTON_STEPS).unwrap();
+        let model = bench.system(1500.0, weak);
+        let mut shot_at = motion(bench, model.clone(), scheme);
+        let shot = shoot(&model, &mut shot_at, 1, 1e-8, SHOOTING_NEWTON_STEPS).unwrap();
         let [a, b] = [rows(&mut waited, 1), rows(&mut shot_at, 1)];
         let off = worst(&a, &b) / bench.ste[0];
         println!(
@@ -97,10 +97,10 @@ fn a_checkpoint_holds_all_there_is() {
         let mut whole = motion(bench, bench.system(700.0, |_| ()), scheme);
         rows(&mut whole, 3);
         let text = serde_json::to_string(&whole.checkpoint().unwrap()).unwrap();
-        let back: Checkpoint<MechanismState> = serde_json::from_str(&text).unwrap();
+        let back: Checkpoint<GearboxMemory> = serde_json::from_str(&text).unwrap();
         let system = bench.system(700.0, |_| ());
         let settings = settings(bench, &system, scheme);
-        let mut resumed = Motion::resume(system, settings, back).unwrap();
+        let mut resumed = PairMotion::resume(machine(&system), settings, back).unwrap();
         assert!(rows(&mut whole, 2) == rows(&mut resumed, 2), "{scheme:?}: the rows differ");
         assert!(whole.checkpoint() == resumed.checkpoint(), "{scheme:?}: the states differ");
     }
@@ -119,7 +119,7 @@ fn energy_closes_with_bearings_and_friction() {
         o.free = [[true, true, true, true, true, false]; 2];
         o.statics.contact.friction = 0.04;
     });
-    assert_eq!(system.coordinates().count(), 11);
+    assert_eq!(system.names().len(), 11);
     let mut motion = motion(bench, system, Scheme::Energy);
     let mut bearings = [0.0; 2];
     let mut driven = 0.0;
@@ -127,16 +127,16 @@ fn energy_closes_with_bearings_and_friction() {
         motion
             .run_cycle(Some(&mut instants(|now, _, _| {
                 for (sum, at) in bearings.iter_mut().zip([1, 7]) {
-                    *sum += now.bearing[at] / (2.0 * ROWS as f64);
+                    *sum += now.bearings[at / 6].force[1] / (2.0 * ROWS as f64);
                 }
-                driven += now.mesh[7] / (2.0 * ROWS as f64);
+                driven += now.mesh.wrench[7] / (2.0 * ROWS as f64);
             })))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     let ledger = *motion.ledger().unwrap();
     println!("{ledger:?}: open by {:.1e} of the turnover", ledger.relative_residual());
     assert!(ledger.relative_residual().abs() < 1e-6, "{ledger:?}");
-    assert!(motion.system().extremes().least_force.unwrap() >= 0.0);
+    assert!(motion.system().extremes(0).least_force.unwrap() >= 0.0);
     assert!((bearings[1] / -driven - 1.0).abs() < 0.02, "bearing {} N against mesh {driven} N", bearings[1]);
     assert!((bearings[0] / bearings[1] + 1.0).abs() < 0.02, "{bearings:?} N");
 }
@@ -156,7 +156,7 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     let (mut last, mut turned) = ([0.0; 2], 0.0);
     for _ in 0..6 {
         motion
-            .run_cycle(Some(&mut instants(|now, _, _| (last, turned) = ([now.time, now.speeds[0]], now.cycles))))
+            .run_cycle(Some(&mut instants(|now, _, _| (last, turned) = ([now.time, now.speeds[0]], now.mesh.cycles))))
             .unwrap_or_else(|e| panic!("{e}"));
     }
     let expected = start + excess / inertia * last[0];
@@ -164,7 +164,7 @@ fn a_torque_that_is_too_strong_speeds_the_pair_up() {
     println!("{:.2} rad/s, {expected:.2} expected; {turned:.4} mesh cycles, {cycles:.4} expected", last[1]);
     assert!((last[1] / expected - 1.0).abs() < 5e-3, "{} rad/s, not {expected}", last[1]);
     assert!((turned - cycles).abs() < 0.05, "{turned} mesh cycles, not {cycles}");
-    assert!(turned > 7.0 && motion.system().changes().count as f64 > turned - 2.0, "{:?}", motion.system().changes());
+    assert!(turned > 7.0 && motion.system().changes(0).count as f64 > turned - 2.0, "{:?}", motion.system().changes(0));
 }
 
 /// Either driver, either sense: the same motion, mirrored.
@@ -194,7 +194,6 @@ fn a_sweep_is_the_same_from_either_side() {
         ways: vec![SweepDirection::Up, SweepDirection::Down, SweepDirection::Independent],
         settings: settings(bench, &system, Scheme::GeneralisedAlpha { rho: 0.9 }),
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-6, most: 300, cycles: 1 },
-        guess: bench.ste[0],
     };
     let with = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();

@@ -1,7 +1,7 @@
 //! Fields in motion: the loads on the flanks that a row hands on bend the teeth as they do at rest.
 
 use ale::Station;
-use dynamics::quasi_static_start;
+use testing::moving::started;
 
 use crate::pair_course::bench;
 
@@ -10,11 +10,9 @@ use crate::pair_course::bench;
 #[test]
 fn slow_gears_bend_as_gears_at_rest() {
     let bench = bench();
-    let mut system = bench.system(1e-3, |_| ());
-    let scale = system.coordinates().scales(bench.ste[0], bench.case.pair.wheel.base_radius());
-    let start = quasi_static_start(&mut system, 0.0, bench.ste[0], &scale).unwrap_or_else(|e| panic!("{e}"));
-    let now = system.instant(0.0, &start.q, &start.v).unwrap_or_else(|e| panic!("{e}"));
-    let sides = system.side_loads(&now);
+    let (mut system, start) = started(&bench.system(1e-3, |_| ()), 0.0);
+    system.pair_instant(&start).unwrap_or_else(|e| panic!("{e}"));
+    let sides = system.loads(0);
     let [driving] = &sides[..] else { panic!("{} sides press", sides.len()) };
     let moving = driving.displacements().unwrap();
     let mut model = bench.case.reduced(bench.contact.clone());

@@ -1,26 +1,40 @@
 //! Why the motion of a pair could not go on, or could not begin.
 
+use std::convert::Infallible;
+
+use dynamics::MapFailure;
 use integrate::MotionError;
 use ltca::StaticError;
 
-use crate::MapFailure;
+use crate::GearboxError;
+
+/// What often keeps a motion within reach of the contact search.
+const SMALLER_STEPS: &str = "see the message; a smaller step often keeps the motion within reach of the contact search";
 
 /// The motion of a pair could not go on, or what was asked of it has no meaning.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PairMotionError {
-    /// The integrator stopped: for a reason of its own, or because contact could not be solved.
+    /// The integrator stopped.
     #[error(transparent)]
-    Integration(#[from] MotionError<StaticError>),
+    Integration(#[from] MotionError<Infallible>),
+    /// Contact could not be solved.
+    #[error("at {time:.9} s: {source}")]
+    Contact {
+        /// Time, s.
+        time: f64,
+        /// Error of the contact.
+        source: StaticError,
+    },
     /// There is no equilibrium to begin with.
     #[error(
-        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {change:.3e} of the motion's scale"
+        "at {time:.9} s: no equilibrium to begin with; the last step of the search was {step:.3e} of the displacements"
     )]
     NoStart {
         /// Time, s.
         time: f64,
-        /// Last change, relative.
-        change: f64,
+        /// Last step, relative.
+        step: f64,
     },
     /// A load below what round-off of places makes of the stiffness of teeth.
     #[error(
@@ -60,18 +74,29 @@ pub enum PairMotionError {
     /// The flanks have no maps.
     #[error(transparent)]
     Unmapped(#[from] MapFailure),
+    /// The machine of the pair cannot be put together, or does not know where it is.
+    #[error("{0}")]
+    Machine(Box<GearboxError>),
 }
 
 impl PairMotionError {
-    /// Contact at time `time` (s) that could not be solved.
-    pub fn contact(time: f64, source: StaticError) -> Self {
-        Self::Integration(MotionError::Mechanism { time, source })
+    /// What went wrong at a time, s.
+    pub fn at(time: f64) -> impl Fn(GearboxError) -> Self + Copy {
+        move |source| match source {
+            GearboxError::Contact(source) => Self::Contact { time, source },
+            GearboxError::AtMesh { source, .. } => Self::at(time)(*source),
+            GearboxError::Motion(source) => (*source).into(),
+            GearboxError::NoEquilibrium { step, .. } => Self::NoStart { time, step },
+            GearboxError::LostLoad { load_n, lost_n } => Self::LostLoad { time, load_n, lost_n },
+            GearboxError::ModesWithoutPeriod { .. } => Self::ModesWithoutPeriod,
+            other => Self::Machine(Box::new(other)),
+        }
     }
 
     /// The error of the contact, where it is what stopped the motion.
     pub fn contact_error(&self) -> Option<&StaticError> {
         match self {
-            Self::Integration(MotionError::Mechanism { source, .. }) => Some(source),
+            Self::Contact { source, .. } => Some(source),
             _ => None,
         }
     }
@@ -79,9 +104,8 @@ impl PairMotionError {
     /// Hint: an action that cures the error.
     pub fn hint(&self) -> String {
         match self {
-            Self::Integration(source) => {
-                self.contact_error().and_then(StaticError::hint).unwrap_or_else(|| source.hint().into())
-            }
+            Self::Integration(source) => source.hint().into(),
+            Self::Contact { source, .. } => source.hint().unwrap_or_else(|| SMALLER_STEPS.into()),
             Self::NoStart { .. } => {
                 "give bearings that hold the gears in mesh under the load (stiffnesses in N/mm and N mm/rad), and `flanks = \"both\"` where a torque presses the coast flanks".into()
             }
@@ -91,9 +115,19 @@ impl PairMotionError {
             Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
                 "wait for the motion to settle instead of shooting for its periodic state".into()
             }
+            Self::Machine(source) => source.hint().unwrap_or_default(),
             Self::Unmapped(MapFailure::Map(_)) => "allow a larger error of the map, or use the model \"reduced\"".into(),
             Self::Unmapped(_) => "use the model \"reduced\", which solves the contact itself".into(),
             Self::SweepByTorque => "give the driver a speed, or let its torque balance the load".into(),
+        }
+    }
+}
+
+impl From<MotionError<GearboxError>> for PairMotionError {
+    fn from(source: MotionError<GearboxError>) -> Self {
+        match source.of_integrator() {
+            Ok(own) => Self::Integration(own),
+            Err((time, source)) => Self::at(time)(source),
         }
     }
 }

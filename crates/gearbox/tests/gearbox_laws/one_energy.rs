@@ -2,17 +2,18 @@
 //! ledger to round-off.
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
-use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, PairMechanism, RigidBody, Torque};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Torque};
 use fem::ElementOptions;
+use gearbox::motion::{GearboxMechanism, PairModel};
 use integrate::{Forces, Mechanism};
 use nalgebra::{DVector, Matrix6, Vector6};
-use testing::Case;
+use testing::{Case, moving::machine};
 
 const TORQUE: f64 = 150e3;
 const TILT_RAD: f64 = 1e-3;
 
 /// All twelve rigid coordinates are free, on bearings that couple displacements and tilts.
-fn free_pair(friction: f64) -> PairMechanism {
+fn free_pair(friction: f64) -> PairModel {
     let case = Case::read("coarse_hex8_pinion.msh", "coarse_hex8_wheel.msh", ElementOptions::default());
     let mut statics = case.slice_options();
     (statics.torque, statics.contact.friction) = (TORQUE, friction);
@@ -30,21 +31,22 @@ fn free_pair(friction: f64) -> PairMechanism {
         statics,
     };
     let gears = case.reduced_gears(&options.statics);
-    PairMechanism::new(case.pair, gears, None, options, [4e5, 30.0]).unwrap_or_else(|e| panic!("{e}"))
+    PairModel::new(case.pair, gears, None, options, [4e5, 30.0]).unwrap_or_else(|e| panic!("{e}"))
 }
 
 /// Both gears are displaced and tilted, and the flanks press.
-fn place(system: &PairMechanism) -> DVector<f64> {
+fn place(system: &PairModel) -> DVector<f64> {
     let tilted = |name: &&str| if name.contains("tilt") { TILT_RAD } else { 0.0 };
-    let mut q = DVector::from_iterator(system.count(), system.coordinates().names().iter().map(tilted));
+    let names = system.names();
+    let mut q = DVector::from_iterator(names.len(), names.iter().map(tilted));
     for (i, x) in q.iter_mut().enumerate() {
         // No coordinate stays where it is special, and no two are alike.
         *x += [2e-3, -3e-3, 5e-3][i % 3] * if *x == 0.0 { 1.0 } else { 0.1 };
     }
-    if let Some(i) = system.coordinates().driver_turn() {
+    if let Some(i) = names.iter().position(|name| name.contains("turn")) {
         q[i] = 1e-4;
     }
-    q[system.coordinates().lag()] = 0.03;
+    q[system.lag()] = 0.03;
     q
 }
 
@@ -53,12 +55,13 @@ fn place(system: &PairMechanism) -> DVector<f64> {
 /// how the teeth's compliance follows the place of contact, which forces leave out: 1e-5 at several times the load.
 #[test]
 fn forces_of_tilted_gears_are_the_slope_of_the_energy() {
-    let mut system = free_pair(0.0);
-    let (n, q) = (system.count(), place(&system));
+    let model = free_pair(0.0);
+    let (mut system, q) = (machine(&model), place(&model));
+    let n = q.len();
     assert_eq!(n, 12);
     let mut forces = Forces::zeros(n);
     system.forces(0.0, &q, &DVector::zeros(n), &mut forces).unwrap();
-    forces_are_slopes(&mut system, &q, &forces);
+    forces_are_slopes((&mut system, &model.names()), &q, &forces);
 }
 
 /// Whether a rigid coordinate of this name is an angle.
@@ -67,8 +70,8 @@ pub fn is_angle(name: &str) -> bool {
 }
 
 /// That f = -dV/dq in every coordinate, over the largest force or moment.
-pub fn forces_are_slopes(system: &mut PairMechanism, q: &DVector<f64>, forces: &Forces) {
-    let (n, names) = (q.len(), system.coordinates().names().to_vec());
+pub fn forces_are_slopes((system, names): (&mut GearboxMechanism, &[&str]), q: &DVector<f64>, forces: &Forces) {
+    let n = q.len();
     // Largest force, and largest moment: those of one gear have one size.
     let sizes = [false, true].map(|angle| {
         let own = (0..n).filter(|&i| is_angle(names[i]) == angle);
@@ -77,7 +80,7 @@ pub fn forces_are_slopes(system: &mut PairMechanism, q: &DVector<f64>, forces: &
     assert!(sizes[0] > 1e3 && sizes[1] > 1e4, "{sizes:?}");
     for (i, name) in names.iter().enumerate() {
         let h = if is_angle(name) { 2e-8 } else { 1e-6 };
-        let energy = |system: &mut PairMechanism, sign: f64| {
+        let energy = |system: &mut GearboxMechanism, sign: f64| {
             let mut there = q.clone();
             there[i] += sign * h;
             system.potential(0.0, &there).unwrap()
@@ -92,8 +95,9 @@ pub fn forces_are_slopes(system: &mut PairMechanism, q: &DVector<f64>, forces: &
 /// Power of friction, dampers, drive and load is what the ledger supplies less what it takes.
 #[test]
 fn all_power_on_tilted_gears_is_in_the_ledger() {
-    let mut system = free_pair(0.06);
-    let (n, q) = (system.count(), place(&system));
+    let model = free_pair(0.06);
+    let (mut system, q) = (machine(&model), place(&model));
+    let n = q.len();
     let v = DVector::from_fn(n, |i, _| [0.3, -0.2, 0.5, 0.1][i % 4]);
     let mut forces = Forces::zeros(n);
     system.forces(0.0, &q, &v, &mut forces).unwrap();

@@ -2,8 +2,9 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use ale::Station;
-use dynamics::{PairMechanism, RigidBody, equivalent_mass};
+use dynamics::{RigidBody, equivalent_mass};
 use fem::ElementOptions;
+use gearbox::motion::PairModel;
 use geometry::{Driver, Sense};
 use integrate::{Integrator, Scheme, State, StepControl};
 use lumped::{
@@ -15,7 +16,7 @@ use lumped::{
 use nalgebra::DVector;
 use testing::{
     Case,
-    moving::{at_speed, rigid_bodies},
+    moving::{at_speed, machine, rigid_bodies},
 };
 
 const TORQUE: f64 = 150e3;
@@ -30,7 +31,7 @@ fn reduced(case: &Case, bodies: [RigidBody; 2], speed: f64, start: f64, means: [
     let contact = case.slice_options();
     let gears = case.reduced_gears(&contact);
     let options = at_speed(contact, bodies, speed, TORQUE, ZETA);
-    let mut system = PairMechanism::new(case.pair.clone(), gears, None, options, means).unwrap();
+    let mut system = machine(&PairModel::new(case.pair.clone(), gears, None, options, means).unwrap());
     let mut state = State::new(0.0, DVector::from_element(1, start), DVector::zeros(1));
     let period = case.pair.pinion.pitch_angle() / speed;
     let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
