@@ -38,7 +38,9 @@ mod position;
 mod rigid_motions;
 pub mod rolling_bearing;
 mod search;
+mod seat_error;
 mod seats;
+mod shafts_in_shafts;
 mod solve;
 mod static_gearbox;
 mod static_result;
@@ -59,6 +61,7 @@ pub use mesh_bears::MeshBears;
 pub use mesh_element::{LinearMesh, MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_torques::mesh_torques;
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
+pub use seat_error::SeatError;
 pub use static_gearbox::{Operation, StaticGearbox, Torque};
 pub use static_result::{
     BearingState, GearboxCertificate, GearboxPosition, MeshState, ShaftLine, face_load_factor, line_load,
