@@ -16,6 +16,7 @@ mod motion_modes;
 mod motion_pair;
 mod overhung;
 mod pairs;
+mod planets;
 mod rest;
 mod rolling;
 mod rolling_gearbox;
