@@ -4,9 +4,7 @@ use toml::Spanned;
 
 use super::accuracy::accuracy;
 use super::bearing::bearing;
-use super::file::{
-    Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, called, mid_face_offset,
-};
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, mid_face_offset};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::modes::modes;
@@ -46,15 +44,9 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
     let called_meshes: Vec<String> = raw.mesh.iter().map(|table| mesh_name(table.get_ref())).collect();
-    let means = |own: &PairSetting, mesh: usize| {
-        // A mesh of planets is called as the file calls it as well: all of them then.
-        let one = called(&own.mesh, called_meshes.iter().map(String::as_str));
-        one.map_or_else(|| written.mesh_in_file(mesh) == own.mesh, |one| one == mesh)
-    };
+    let means = |own: &PairSetting, mesh: usize| written.means(&own.mesh, mesh, &called_meshes[mesh]);
     if let Some(none) = of_pairs.iter().find(|own| !(0..called_meshes.len()).any(|mesh| means(own, mesh))) {
-        let names: Vec<String> =
-            called_meshes.iter().enumerate().map(|(i, name)| format!("{i} (\"{name}\")")).collect();
-        let what = format!("there is no mesh `{}`; there are {}", none.mesh, names.join(", "));
+        let what = format!("there is no mesh `{}`; there are {}", none.mesh, written.mesh_names());
         return Err(SceneError::Setting { label: format!("--set {}", none.key), what });
     }
     let mut meshes = Vec::new();

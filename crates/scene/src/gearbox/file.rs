@@ -69,16 +69,22 @@ pub(super) fn mid_face_offset(shafts: &[GearboxShaft], all: &[GearboxGear], gear
 }
 
 impl Gearbox {
-    /// The mesh that a part of a key means: by its number from 0, else by its name.
-    pub fn mesh_called(&self, which: &str) -> Option<usize> {
-        called(which, self.meshes.iter().map(|mesh| mesh.name.as_str()))
+    /// All meshes that planets have in common, with their planets, in the order of the file.
+    pub fn meshes_of_planets(&self) -> impl Iterator<Item = (&GearboxPlanets, &PlanetMesh)> {
+        self.planets.iter().flat_map(|planets| planets.meshes.iter().map(move |mesh| (planets, mesh)))
     }
-}
 
-/// The place that a part of a key means among entries of these names: by its number from 0, else by its name.
-pub(super) fn called<'a>(which: &str, mut names: impl ExactSizeIterator<Item = &'a str>) -> Option<usize> {
-    let number = which.parse().ok().filter(|i| *i < names.len());
-    number.or_else(|| names.position(|name| name == which))
+    /// The mesh that a part of a key means: by its number in the file from 0, else by its name; the first one where planets
+    /// have it in common.
+    pub fn mesh_called(&self, which: &str) -> Option<usize> {
+        let is_copy = |i: &usize| self.meshes_of_planets().any(|(_, own)| own.of_planets[1..].contains(i));
+        let mut in_file = (0..self.meshes.len()).filter(|i| !is_copy(i));
+        let number = which.parse().ok().and_then(|n| in_file.nth(n));
+        let named = || self.meshes.iter().position(|mesh| mesh.name == which);
+        let of_planets =
+            || self.meshes_of_planets().find(|(_, own)| own.name == which).map(|(_, own)| own.of_planets[0]);
+        number.or_else(named).or_else(of_planets)
+    }
 }
 
 /// A shaft.
@@ -107,12 +113,19 @@ pub struct GearboxShaft {
 pub struct GearboxPlanets {
     /// Name of the shaft of the first one in the file.
     pub name: String,
-    /// Names of their meshes in the file.
-    pub names: Vec<String>,
-    /// Of each of these the meshes of all planets, in their order.
-    pub meshes: Vec<Vec<usize>>,
+    /// Meshes that each of them has.
+    pub meshes: Vec<PlanetMesh>,
     /// Angle of each planet from the first, rad about +z.
     pub angles: Vec<f64>,
+}
+
+/// A mesh that each planet of a stage has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanetMesh {
+    /// Name in the file.
+    pub name: String,
+    /// Meshes of the planets, in their order.
+    pub of_planets: Vec<usize>,
 }
 
 /// Operation that meshes and bearings are rated for.

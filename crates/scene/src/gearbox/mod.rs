@@ -25,6 +25,7 @@ mod of_pair;
 mod pair_setting;
 mod parts;
 mod planets;
+mod planets_fit;
 mod rating;
 mod read;
 mod rolling;
@@ -36,7 +37,7 @@ mod vibration;
 
 pub use file::{
     AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxPlanets, GearboxRating,
-    GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
+    GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, PlanetMesh, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
 pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};

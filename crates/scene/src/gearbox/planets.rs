@@ -1,11 +1,11 @@
 //! Planets of a gearbox file: parts of the first planet stand for all of a stage, seen from its carrier.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use toml::Spanned;
 
 use super::{
-    file::{GearboxBearing, GearboxGear, GearboxMesh, GearboxPlanets, GearboxShaft},
+    file::{GearboxBearing, GearboxGear, GearboxMesh, GearboxPlanets, GearboxShaft, PlanetMesh},
     parts::all,
     schema::{RawBearing, RawGear, RawGearbox, RawMesh, RawPlanets, RawShaft},
     values::{Checked, given, list, missing, needed_word, row},
@@ -15,36 +15,40 @@ use crate::{Source, Word};
 /// Errors of pins at the most, um.
 const ERROR: f64 = 1e4;
 /// Distance from the axis below which a planet is on it, mm.
-const ON_AXIS: f64 = 1e-6;
-/// Share of a pitch by which teeth may miss each other: digits of stated angles.
-const MISSED: f64 = 1e-4;
+pub(super) const ON_AXIS: f64 = 1e-6;
 
 /// The planets of one table.
-struct Group {
+pub(super) struct Group {
     /// Names of the shafts of the first planet.
     shafts: Vec<String>,
     /// Name of the shaft whose axis they stand around.
-    around: String,
+    pub around: String,
     /// Angle of each planet from the first, rad.
-    angles: Vec<f64>,
+    pub angles: Vec<f64>,
     /// Errors of the pins along the circle and away from its centre, mm.
     errors: Vec<[f64; 2]>,
 }
 
 /// A copy: of which group, and of which of its planets.
 #[derive(Clone, Copy)]
-struct Planet {
-    group: usize,
-    planet: usize,
+pub(super) struct Planet {
+    pub group: usize,
+    pub planet: usize,
 }
 
 /// Where the parts of a file come from, once its planets are written out.
 pub(super) struct WrittenOut {
-    groups: Vec<Group>,
-    shafts: Vec<Option<Planet>>,
+    pub groups: Vec<Group>,
+    pub shafts: Vec<Option<Planet>>,
     bearings: Vec<Option<Planet>>,
-    /// With the name of the mesh in the file.
-    meshes: Vec<(Option<Planet>, String)>,
+    pub meshes: Vec<MeshInFile>,
+}
+
+/// Where a mesh comes from: its number and its name in the file.
+pub(super) struct MeshInFile {
+    pub planet: Option<Planet>,
+    place: usize,
+    name: String,
 }
 
 /// The file with the parts of all planets in place of those of the first ones.
@@ -114,7 +118,7 @@ pub(super) fn written_out(s: &Source<'_>, raw: RawGearbox) -> Checked<(RawGearbo
             written.gear.push(copy(own, named));
         }
     }
-    for own in &raw.mesh {
+    for (place, own) in raw.mesh.iter().enumerate() {
         let of = [of_gear(&own.get_ref().pinion), of_gear(&own.get_ref().wheel)];
         let group = of[0].or(of[1]);
         if let [Some(a), Some(b)] = of
@@ -132,7 +136,8 @@ pub(super) fn written_out(s: &Source<'_>, raw: RawGearbox) -> Checked<(RawGearbo
                 ..raw.clone()
             };
             written.mesh.push(copy(own, named));
-            out.meshes.push((group.map(|group| Planet { group, planet }), super::check::mesh_name(own.get_ref())));
+            let name = super::check::mesh_name(own.get_ref());
+            out.meshes.push(MeshInFile { planet: group.map(|group| Planet { group, planet }), place, name });
         }
     }
     out.groups = groups;
@@ -176,14 +181,13 @@ fn group(s: &Source<'_>, table: &Spanned<RawPlanets>, file: &RawGearbox) -> Chec
     };
     let count = count as usize;
     let even = (0..count).map(|k| TAU * k as f64 / count as f64).collect();
-    let angles: Vec<f64> = match list(s, "angles_deg", &raw.angles_deg, count, [-3600.0, 3600.0])? {
-        Some(stated) => stated.into_iter().map(f64::to_radians).collect(),
-        None => even,
-    };
-    if let (Some(first), Some(own)) = (angles.first().filter(|a| **a != 0.0), &raw.angles_deg) {
-        let said = format!("the first planet is {} degrees from itself", first.to_degrees());
+    let stated = list(s, "angles_deg", &raw.angles_deg, count, [-3600.0, 3600.0])?;
+    if let (Some(first), Some(own)) = (stated.as_ref().map(|all| all[0]).filter(|a| *a != 0.0), &raw.angles_deg) {
+        let said = format!("the first planet is {first} degrees from itself");
         return Err(s.conflict(&own.span(), said, "angles count from the first planet: begin with 0"));
     }
+    let in_rad = |all: Vec<f64>| all.into_iter().map(f64::to_radians).collect();
+    let angles: Vec<f64> = stated.map_or(even, in_rad);
     let of = |key: &str, values| -> Checked<Vec<f64>> {
         Ok(list(s, key, values, count, [-ERROR, ERROR])?.unwrap_or_else(|| vec![0.0; count]))
     };
@@ -200,9 +204,19 @@ fn turned([x, y]: [f64; 2], angle: f64) -> [f64; 2] {
 }
 
 impl WrittenOut {
-    /// What a mesh is called in the file; one that is written out has a number behind it.
-    pub fn mesh_in_file(&self, mesh: usize) -> &str {
-        &self.meshes[mesh].1
+    /// Whether a part of a key means a mesh of a name: by its number in the file from 0, by its name, or by the name that
+    /// all planets have in common.
+    pub fn means(&self, which: &str, mesh: usize, name: &str) -> bool {
+        let own = &self.meshes[mesh];
+        let number = which.parse().ok().filter(|n| self.meshes.iter().any(|own| own.place == *n));
+        number.map_or_else(|| which == name || which == own.name, |n: usize| n == own.place)
+    }
+
+    /// Numbers and names of the meshes in the file.
+    pub fn mesh_names(&self) -> String {
+        let first = |own: &&MeshInFile| own.planet.is_none_or(|p| p.planet == 0);
+        let named = |own: &MeshInFile| format!("{} (\"{}\")", own.place, own.name);
+        self.meshes.iter().filter(first).map(named).collect::<Vec<_>>().join(", ")
     }
 
     /// Puts shafts and bearings of all planets in their places.
@@ -234,6 +248,11 @@ impl WrittenOut {
         for (own, bearing) in self.bearings.iter().zip(bearings.iter_mut()) {
             let Some(Planet { group, planet }) = *own else { continue };
             let angle = self.groups[group].angles[planet];
+            if bearing.damping[0] != bearing.damping[1] {
+                let said = format!("\"{}\" is of a planet, and its damping along x and y differs", bearing.name);
+                let advice = "planets stand all round: give the first two numbers of `damping_n_s_per_mm` one value";
+                return Err(s.conflict(&tables[group].span(), said, advice));
+            }
             bearing.turn_about(angle);
             // A seat in the planet itself stands where that does.
             if bearing.in_shaft.is_some_and(|seat| self.shafts[seat].is_some()) {
@@ -261,127 +280,22 @@ impl WrittenOut {
         for (g, group) in self.groups.iter().enumerate() {
             let of_planet =
                 |own: &Option<Planet>, planet: usize| own.is_some_and(|p| p.group == g && p.planet == planet);
-            let first = |mesh: &usize| of_planet(&self.meshes[*mesh].0, 0);
+            let first = |mesh: &usize| of_planet(&self.meshes[*mesh].planet, 0);
             let count = group.angles.len();
             // Copies of a mesh stand one after the other.
-            let of_meshes: Vec<Vec<usize>> =
-                (0..meshes.len()).filter(first).map(|mesh| (mesh..mesh + count).collect()).collect();
+            let mesh = |mesh: usize| PlanetMesh {
+                name: self.meshes[mesh].name.clone(),
+                of_planets: (mesh..mesh + count).collect(),
+            };
+            let of_meshes = (0..meshes.len()).filter(first).map(mesh).collect();
             self.apart(s, &tables[g], g, (shafts, gears, meshes))?;
             self.go_in(s, &tables[g], g, (shafts, gears, meshes))?;
-            let names = of_meshes.iter().map(|own| self.meshes[own[0]].1.clone()).collect();
             found.push(GearboxPlanets {
                 name: group.shafts[0].clone(),
-                names,
                 meshes: of_meshes,
                 angles: group.angles.clone(),
             });
         }
         Ok(found)
     }
-
-    /// That gears of two planets of a group do not touch.
-    fn apart(
-        &self,
-        s: &Source<'_>,
-        table: &Spanned<RawPlanets>,
-        group: usize,
-        (shafts, gears, meshes): (&[GearboxShaft], &[GearboxGear], &[GearboxMesh]),
-    ) -> Checked<()> {
-        let own = |shaft: usize| self.shafts[shaft].filter(|p| p.group == group);
-        for (i, mesh) in meshes.iter().enumerate() {
-            if self.meshes[i].0.is_none_or(|p| p.group != group || p.planet != 0) {
-                continue;
-            }
-            let pair = mesh.scene.gear_pair()?;
-            for (gear, shape) in mesh.gears.into_iter().zip([&pair.pinion, &pair.wheel]) {
-                let Some(Planet { .. }) = own(gears[gear].shaft) else { continue };
-                // The same gear of the other planets.
-                let same = (0..gears.len()).filter(|g| {
-                    own(gears[*g].shaft).is_some() && gears[*g].position == gears[gear].position && *g != gear
-                });
-                let place = |g: usize| shafts[gears[g].shaft].origin;
-                for other in same {
-                    let [a, b] = [place(gear), place(other)];
-                    let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
-                    let tip = 2.0 * shape.tip_radius();
-                    if apart <= tip && apart > ON_AXIS {
-                        let said = format!(
-                            "\"{}\" and \"{}\" run into each other: their axes are {apart:.3} mm apart, the tip diameter is {tip:.3} mm",
-                            gears[gear].name, gears[other].name
-                        );
-                        return Err(s.conflict(
-                            &table.span(),
-                            said,
-                            "fewer planets, other `angles_deg`, or smaller gears",
-                        ));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// That teeth of every planet meet gaps of all gears in the middle.
-    ///
-    /// ```text
-    /// psi (z_a z_pb - z_b z_pa)/(2 pi gcd(z_pa, z_pb)) whole        z_b < 0 of a ring; z_p: teeth of the planet in mesh a and b
-    /// ```
-    fn go_in(
-        &self,
-        s: &Source<'_>,
-        table: &Spanned<RawPlanets>,
-        group: usize,
-        (shafts, gears, meshes): (&[GearboxShaft], &[GearboxGear], &[GearboxMesh]),
-    ) -> Checked<()> {
-        let Group { around, angles, .. } = &self.groups[group];
-        let Some(middle) = shafts.iter().find(|own| own.name == *around) else { return Ok(()) };
-        let is_planet = |gear: usize| self.shafts[gears[gear].shaft].is_some_and(|p| p.group == group);
-        let is_central = |gear: usize| {
-            let at = shafts[gears[gear].shaft].origin;
-            (at[0] - middle.origin[0]).hypot(at[1] - middle.origin[1]) < ON_AXIS
-        };
-        // Teeth of the central gear, signed, of the planet, and the name of the central gear.
-        let central = |(i, mesh): (usize, &GearboxMesh)| {
-            self.meshes[i].0.filter(|p| p.group == group && p.planet == 0)?;
-            let planet = mesh.gears.iter().position(|g| is_planet(*g))?;
-            let other = 1 - planet;
-            let teeth = |k: usize| {
-                let own = [&mesh.scene.pinion, &mesh.scene.wheel][k];
-                let teeth = i64::from(own.teeth);
-                if own.is_internal() { -teeth } else { teeth }
-            };
-            is_central(mesh.gears[other]).then(|| (teeth(other), teeth(planet), gears[mesh.gears[other]].name.as_str()))
-        };
-        let all: Vec<(i64, i64, &str)> = meshes.iter().enumerate().filter_map(central).collect();
-        for (i, a) in all.iter().enumerate() {
-            for b in &all[i + 1..] {
-                let steps = (a.0 * b.1 - b.0 * a.1) as f64 / gcd(a.1, b.1) as f64;
-                for (planet, angle) in angles.iter().enumerate() {
-                    let turns = angle * steps / TAU;
-                    let missed = turns - turns.round();
-                    if missed.abs() > MISSED {
-                        let said = format!(
-                            "planet {} at {:.4} degrees does not go in: with its teeth in \"{}\" it misses those of \"{}\" by {:.2} pitches",
-                            planet + 1,
-                            angle.to_degrees(),
-                            a.2,
-                            b.2,
-                            missed.abs()
-                        );
-                        let step = 360.0 / steps.abs();
-                        let nearest = (2.0 * PI * turns.round() / steps).to_degrees();
-                        let advice = format!(
-                            "angles are multiples of {step:.6} degrees, the nearest is {nearest:.6} (`angles_deg`); or take other teeth"
-                        );
-                        return Err(s.conflict(&table.span(), said, advice));
-                    }
-                }
-            }
-        }
-        Ok(())
-    }
-}
-
-fn gcd(a: i64, b: i64) -> i64 {
-    if b == 0 { a.abs() } else { gcd(b, a % b) }
 }
