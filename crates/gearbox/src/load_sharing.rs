@@ -1,4 +1,4 @@
-//! How planets share the load of a mesh that each of them has. Theory (85a).
+//! How planets share the load of a mesh that each of them has. Theory (85a), (85b).
 
 use crate::{GearboxPosition, mesh_numbers::mean};
 

@@ -4,12 +4,12 @@
 use std::f64::consts::TAU;
 
 use gearbox::{
-    Bearing, Disc, GearMesh, GearboxError, GearboxPosition, LoadSharing, Operation, SeatError, Shaft, StaticGearbox,
-    Structure, Torque,
+    Assembly, Bearing, Disc, GearMesh, GearboxError, GearboxPosition, LoadSharing, MeshSpring, Operation, Rotors,
+    SeatError, Shaft, StaticGearbox, Structure, Torque,
     rolling_bearing::{AxialSetting, RollingElements, Row},
 };
 use geometry::{Gear, GearData, GearPair, Sense};
-use nalgebra::Vector3;
+use nalgebra::{Vector3, Vector6};
 
 use crate::pairs::{operation, shaft, springs};
 use crate::rolling::{balls_209, made};
@@ -304,6 +304,86 @@ fn the_load_sharing_factor_is_a_hyperbola_over_the_torque() {
     assert!(forces[0] == 0.0 && idle.planets[0].mean == 0.0, "{forces:?}");
     assert!(idle.factor.unwrap() >= 1.5 - 1e-12, "{idle:?}");
     assert_eq!(LoadSharing::of(&[], &[0, 2]).factor, None);
+}
+
+/// Natural frequencies of Lin and Parker's stage (1999), a carrier at rest: rotational modes once, translational ones twice,
+/// planet modes N - 3 times, to the printed digits. Axial and tilting motions are beyond; what holds the carrier's turn here,
+/// and not there, is so soft that 0 Hz becomes 1.
+#[test]
+fn lin_and_parkers_stage_has_the_printed_frequencies() {
+    let rotational = [[1475.7, 1930.3, 2658.3, 7462.8, 11775.3], [1536.5, 1970.6, 2625.7, 7773.6, 13071.1]];
+    let translational =
+        [[743.2, 1102.4, 1896.0, 2276.4, 6986.3, 9647.9], [727.3, 1091.2, 1892.8, 2342.5, 7189.9, 10437.6]];
+    let of_planets = [vec![], vec![1808.2, 5963.8, 6981.7]];
+    for (k, count) in [3, 4].into_iter().enumerate() {
+        let mut wanted = [&rotational[k][..], &translational[k], &translational[k], &of_planets[k]].concat();
+        wanted.sort_by(f64::total_cmp);
+        let rest = Rotors::new(Assembly::new(lin_and_parker(count)).unwrap()).unwrap();
+        let found: Vec<f64> = rest.modes_at_rest().frequencies.iter().map(|w| w / TAU).collect();
+        println!("{count} planets: {:.2?}", &found[..=wanted.len()]);
+        assert!(found[0] < 2.0 && found[wanted.len() + 1] > 2e4, "{found:?}");
+        for (found, wanted) in found[1..].iter().zip(&wanted) {
+            // Half a unit of the last digit.
+            assert!((found - wanted).abs() < 0.051, "{count} planets: {found} beside {wanted} Hz");
+        }
+    }
+}
+
+/// Masses, I/r^2 (kg) and stiffnesses (N/m) of the paper; radii drop out.
+fn lin_and_parker(count: usize) -> Structure {
+    let (bearings_k, mesh_k, ring_turn, angle) = (1e5, 5e5, 1e6, 24.6f64.to_radians());
+    // Base radii of sun, ring and planet, and the circle of the pins, mm.
+    let [sun_r, ring_r, planet_r, arm] = [20.0, 80.0, 30.0, 50.0 / angle.cos()];
+    let mut structure = Structure { standing: vec![2], ..Structure::default() };
+    let mut body = |name: String, [x, y]: [f64; 2], [mass, inertia]: [f64; 2], radius: f64| {
+        let shaft = structure.shafts.len();
+        structure.shafts.push(Shaft {
+            name: name.clone(),
+            origin: [x, y, 0.0],
+            pieces: Vec::new(),
+            longest_element: 1.0,
+        });
+        let polar_inertia = 1e-3 * inertia * radius * radius;
+        structure.discs.push(Disc {
+            mass: 1e-3 * mass,
+            diametral_inertia: 1.0,
+            polar_inertia,
+            ..Disc::seat(name, shaft, 0.0)
+        });
+        shaft
+    };
+    body("sun".into(), [0.0; 2], [0.4, 0.39], sun_r);
+    body("ring".into(), [0.0; 2], [2.35, 3.0], ring_r);
+    body("carrier".into(), [0.0; 2], [5.43, 6.29], arm);
+    let psi = |n: usize| TAU * n as f64 / count as f64;
+    for n in 0..count {
+        body(format!("planet {n}"), [arm * psi(n).cos(), arm * psi(n).sin()], [0.66, 0.61], planet_r);
+    }
+    let held = |name: &str, shaft: usize, turn: f64| {
+        Bearing::diagonal(name, shaft, 0.0, [bearings_k, bearings_k, 5e8, 1e11, 1e11, turn])
+    };
+    structure.bearings =
+        vec![held("sun", 0, 0.0), held("ring", 1, ring_turn * ring_r * ring_r), held("carrier", 2, 1e3)];
+    for n in 0..count {
+        structure.bearings.push(held("planet", 3 + n, 0.0).in_shaft(2));
+        let across = |x: f64, y: f64, turn: f64| Vector6::new(x, y, 0.0, 0.0, 0.0, turn);
+        let ((sin, cos), (tilt_s, tilt_c)) = (psi(n).sin_cos(), angle.sin_cos());
+        // Of zeta and eta.
+        let planet = |zeta: f64, eta: f64, turn: f64| across(zeta * cos - eta * sin, zeta * sin + eta * cos, turn);
+        let (at_sun, at_ring) = ((psi(n) - angle).sin_cos(), (psi(n) + angle).sin_cos());
+        let meshes = [
+            ("sun", 0, across(-at_sun.0, at_sun.1, sun_r), planet(-tilt_s, -tilt_c, planet_r)),
+            ("ring", 1, across(-at_ring.0, at_ring.1, ring_r), planet(tilt_s, -tilt_c, -planet_r)),
+        ];
+        let spring = |(name, gear, own, of_planet): (&str, usize, Vector6<f64>, Vector6<f64>)| MeshSpring {
+            name: name.into(),
+            discs: [gear, 3 + n],
+            levers: [own, of_planet],
+            stiffness: mesh_k,
+        };
+        structure.springs.extend(meshes.into_iter().map(spring));
+    }
+    structure
 }
 
 /// What cannot be is told, with names and numbers.

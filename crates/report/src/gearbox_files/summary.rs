@@ -278,7 +278,7 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 12] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 13] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),

@@ -61,7 +61,7 @@ impl WrittenOut {
         Ok(())
     }
 
-    /// That teeth of every planet meet gaps of all gears in the middle.
+    /// That teeth of every planet meet gaps of all gears in the middle. Theory (85c).
     ///
     /// ```text
     /// psi (z_a z_pb - z_b z_pa)/(2 pi gcd(z_pa, z_pb)) whole        z_b < 0 of a ring; z_p: teeth of the planet in mesh a and b
