@@ -321,7 +321,7 @@ fn lin_and_parkers_stage_has_the_printed_frequencies() {
         let rest = Rotors::new(Assembly::new(lin_and_parker(count)).unwrap()).unwrap();
         let found: Vec<f64> = rest.modes_at_rest().frequencies.iter().map(|w| w / TAU).collect();
         println!("{count} planets: {:.2?}", &found[..=wanted.len()]);
-        assert!(found[0] < 2.0 && found[wanted.len() + 1] > 2e4, "{found:?}");
+        assert!(found[0] < 2.0 && found[wanted.len() + 1] > 1.5e4, "{found:?}");
         for (found, wanted) in found[1..].iter().zip(&wanted) {
             // Half a unit of the last digit.
             assert!((found - wanted).abs() < 0.051, "{count} planets: {found} beside {wanted} Hz");
