@@ -23,8 +23,8 @@ fn read(changes: &[(&str, &str)]) -> Result<Gearbox, SceneError> {
     Gearbox::parse(&text(changes), &file())
 }
 
-const COUNT: &str = "count = 3\n";
-const ERRORS: &str = "tangential_errors_um = [10.0, 0.0, 0.0]\n";
+const COUNT: &str = "count = 3\nangles_deg = [0.0, 120.0, 240.0]    # multiples of 360/(21 + 81): teeth meet gaps\n";
+const ERRORS: &str = "tangential_errors_um = [10.0, 0.0, 0.0]\nradial_errors_um = [0.0, 0.0, 5.0]\n";
 const SHAFTS: &str = "shafts = [\"planet\", \"pin\"]\n";
 
 /// One planet stands for three: shafts and bearings around the carrier, turned with their seats, meshes of all of them, and

@@ -182,6 +182,39 @@ fn the_load_sharing_factor_falls_with_the_torque() {
     assert!(all[0] > 0.01 && all[0] < all[1] && all[1] < all[2] && all[2] < 1.1 * all[0], "{all:?}");
 }
 
+/// A pin goes through its planet, and a carrier around them: they are joined by bearings, and nothing is said of that. A part
+/// of the carrier that the sun runs through is told, for nothing joins these.
+#[test]
+fn carriers_and_pins_are_not_said_to_collide() {
+    let stage = |inner: f64| {
+        let text = STAGE.text();
+        let planet = "shaft = \"planet\"\nposition_mm";
+        assert_eq!(text.matches(planet).count(), 3);
+        // Both bearings, not the gear.
+        let text = text.replacen(planet, "shaft = \"planet\"\nin_shaft = \"pin\"\nposition_mm", 2);
+        let text = text.replace("shafts = [\"planet\"]", "shafts = [\"planet\", \"pin\"]");
+        let held = "stiffness_n_per_mm = [1e6, 1e6, 1e6]\ntilt_stiffness_nm_per_rad = [1e5, 1e5]\n\
+                    turn_stiffness_nm_per_rad = 1e6\n";
+        let standing = |name: &str, x: f64, [outer, inner]: [f64; 2], seat: &str| {
+            format!(
+                "[[shaft]]\nname = \"{name}\"\nstands = true\norigin_mm = [{x:?}, 0.0, 0.0]\n[[shaft.section]]\nlength_mm = 60.0\n\
+                 outer_diameter_mm = {outer:?}\ninner_diameter_mm = {inner:?}\n[[bearing]]\nname = \"of {name}\"\n\
+                 shaft = \"{name}\"\n{seat}position_mm = 30.0\n{held}"
+            )
+        };
+        let text = text
+            + &standing("pin", 0.5 * MODULE * 51.0, [20.0, 0.0], "in_shaft = \"carrier\"\n")
+            + &standing("carrier", 0.0, [200.0, inner], "");
+        let file = Gearbox::parse(&text, Path::new("stage.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).unwrap();
+        found.remarks.iter().filter(|r| r.code() == "parts_collide").map(|r| r.text()).collect::<Vec<String>>()
+    };
+    let (wide, narrow) = (stage(180.0), stage(40.0));
+    println!("{wide:?}, {narrow:?}");
+    assert!(!wide.iter().chain(&narrow).any(|r| r.contains("planet") || r.contains("pin")), "{wide:?} {narrow:?}");
+    assert!(narrow.iter().any(|r| r.contains("carrier") && r.contains("sun")), "{narrow:?}");
+}
+
 /// A pin so far off that its planet carries nothing: the others do, and all is in balance.
 #[test]
 fn a_planet_that_carries_nothing_is_in_balance() {
