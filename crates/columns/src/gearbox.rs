@@ -6,7 +6,7 @@ use std::{f64::consts::TAU, sync::Arc};
 use analysis::gearbox::{GearboxResult, MeshResult};
 use answer::{OfRow, RowColumn, RowStore, Table, TableError, Values};
 use gearbox::{
-    BearingState, GearboxPosition, ShaftLine, line_load,
+    BearingState, GearboxPosition, ShaftLine, line_load, load_shares,
     motion::{GearboxInstant, MeshInstant},
     rolling_bearing::RollingState,
 };
@@ -41,6 +41,14 @@ pub fn positions(file: &Gearbox, rows: &[GearboxPosition]) -> Table {
         push(name("max_pressure_mpa"), "largest contact pressure", &|p| {
             p.meshes[i].slices.iter().map(|s| s.pressure).fold(0.0, f64::max)
         });
+    }
+    for (_, mesh) in file.meshes_of_planets() {
+        for (n, i) in mesh.of_planets.iter().enumerate() {
+            let meaning = "share of this planet's mesh in the normal forces of those of all planets; 0 without load";
+            push(format!("mesh_{}_load_share", i + 1), meaning, &|p| {
+                load_shares(p, &mesh.of_planets).map_or(0.0, |shares| shares[n])
+            });
+        }
     }
     for i in 0..file.bearings.len() {
         bearing(i).for_each(|(name, meaning, of)| push(name, meaning, &|p| of(&p.bearings[i])));

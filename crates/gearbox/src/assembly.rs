@@ -1,9 +1,9 @@
-//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79), (79a).
+//! Matrices of shafts, discs, bearings and meshes in the coordinates of all nodes. Theory (78), (79), (79a), (79c).
 
 use fem::beam::{BeamLine, BeamTheory, NODE_COORDINATES};
-use nalgebra::{ComplexField, DMatrix, DVector};
+use nalgebra::{ComplexField, DMatrix, DVector, Matrix6};
 
-use crate::{Disc, ElasticBody, GearboxError, Structure, Supports};
+use crate::{Disc, ElasticBody, GearboxError, Structure, Supports, shafts_in_shafts::rigid};
 
 /// A structure cut into beam elements; six coordinates a node (displacements x, y, z in mm, turns about them in rad),
 /// shaft after shaft.
@@ -22,6 +22,9 @@ pub struct Assembly {
     first: Vec<usize>,
     discs: Vec<usize>,
     bearings: Vec<usize>,
+    /// Of bearings in other shafts: first coordinate of the seat's node, and what its six coordinates take off the
+    /// displacement of the bearing.
+    outer: Vec<Option<(usize, Matrix6<f64>)>>,
     /// First coordinates of the nodes whose disc has a reach, and the reach, mm.
     reaches: Vec<(usize, f64)>,
     supports: Supports,
@@ -38,7 +41,9 @@ impl Assembly {
         for (i, shaft) in structure.shafts.iter().enumerate() {
             let of_discs = structure.discs.iter().filter(|d| d.shaft == i).map(Disc::seat_position);
             let of_bearings = structure.bearings.iter().filter(|b| b.shaft == i).map(|b| b.position);
-            let places: Vec<f64> = of_discs.chain(of_bearings).collect();
+            let in_it = structure.bearings.iter().filter(|b| b.outer == Some(i));
+            let of_seats = in_it.filter_map(|b| structure.seat(b)).map(|[_, _, z]| z);
+            let places: Vec<f64> = of_discs.chain(of_bearings).chain(of_seats).collect();
             if shaft.pieces.is_empty() {
                 lines.push(BeamLine::point());
                 continue;
@@ -53,9 +58,16 @@ impl Assembly {
         let node = |shaft: usize, z: f64| first[shaft] + NODE_COORDINATES * lines[shaft].node_at(z);
         let discs: Vec<usize> = structure.discs.iter().map(|d| node(d.shaft, d.seat_position())).collect();
         let bearings: Vec<usize> = structure.bearings.iter().map(|b| node(b.shaft, b.position)).collect();
-        let reaches = reaches(&structure, &discs, &bearings)?;
+        let outer: Vec<Option<(usize, Matrix6<f64>)>> = (structure.bearings.iter())
+            .map(|b| {
+                b.outer.zip(structure.seat(b)).map(|(shaft, seat)| (node(shaft, seat[2]), -moved(seat, &lines[shaft])))
+            })
+            .collect();
+        let seated = structure.bearings.iter().zip(&bearings).map(|(b, node)| (&b.name, *node));
+        let in_shafts = structure.bearings.iter().zip(&outer).filter_map(|(b, own)| Some((&b.name, own.as_ref()?.0)));
+        let reaches = reaches(&structure, &discs, &seated.chain(in_shafts).collect::<Vec<_>>())?;
         let supports = Supports::new(&structure)?;
-        Ok(Self { structure, lines, first, discs, bearings, reaches, supports })
+        Ok(Self { structure, lines, first, discs, bearings, outer, reaches, supports })
     }
 
     /// Structure that the assembly was made from.
@@ -145,13 +157,24 @@ impl Assembly {
 
     /// Displacements at the bearings out of those of all nodes, six a bearing, and those of open seats.
     pub(crate) fn at_bearings(&self, q: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(self.supports.stiffness.nrows(), |i, _| q[self.of_support(i)])
+        let of = |i: usize| self.of_support(i).map(|(at, share)| share * q[at]).sum();
+        DVector::from_fn(self.supports.stiffness.nrows(), |i, _| of(i))
     }
 
-    /// Index of a coordinate of the supports among all coordinates.
-    fn of_support(&self, i: usize) -> usize {
+    /// What a coordinate of the supports is made of: indices among all coordinates, and the share of each.
+    fn of_support(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
         let shafts = 6 * self.bearings.len();
-        if i < shafts { self.bearings[i / 6] + i % 6 } else { self.nodes() + i - shafts }
+        let open = (i >= shafts).then(|| (self.nodes() + i - shafts, 1.0));
+        let ends = (i < shafts).then(|| self.bearing_ends(i / 6)).into_iter().flatten();
+        let shares = ends.flat_map(move |(node, own)| (0..6).map(move |k| (node + k, own[(i % 6, k)])));
+        shares.filter(|(_, share)| *share != 0.0).chain(open)
+    }
+
+    /// What moves a bearing: first coordinates of nodes, and what their six add to the displacement of its shaft against its
+    /// seat; its own shaft first.
+    pub(crate) fn bearing_ends(&self, bearing: usize) -> impl Iterator<Item = (usize, &Matrix6<f64>)> {
+        let outer = self.outer[bearing].as_ref().map(|(node, own)| (*node, own));
+        [(self.bearings[bearing], &ITSELF)].into_iter().chain(outer)
     }
 
     /// First coordinate of a bearing's open seat.
@@ -163,7 +186,9 @@ impl Assembly {
     /// Forces of preloaded bearings on all coordinates with nothing displaced, N, N mm.
     pub(crate) fn preload(&self) -> DVector<f64> {
         let mut all = DVector::zeros(self.size());
-        self.supports.preload.iter().enumerate().for_each(|(i, f)| all[self.of_support(i)] += f);
+        for (i, force) in self.supports.preload.iter().enumerate() {
+            self.of_support(i).for_each(|(at, share)| all[at] += share * force);
+        }
         all
     }
 
@@ -344,22 +369,45 @@ impl Assembly {
     }
 
     fn add_supports(&self, all: &mut DMatrix<f64>, own: &DMatrix<f64>) {
-        for i in 0..own.nrows() {
-            for j in 0..own.ncols() {
-                all[(self.of_support(i), self.of_support(j))] += own[(i, j)];
+        let shares: Vec<Vec<(usize, f64)>> = (0..own.nrows()).map(|i| self.of_support(i).collect()).collect();
+        for (i, rows) in shares.iter().enumerate() {
+            for (j, columns) in shares.iter().enumerate() {
+                for ((a, left), (b, right)) in rows.iter().flat_map(|x| columns.iter().map(move |y| (x, y))) {
+                    all[(*a, *b)] += left * right * own[(i, j)];
+                }
             }
         }
     }
 }
 
+/// The displacement of a shaft at its own node.
+const ITSELF: Matrix6<f64> = Matrix6::new(
+    1.0, 0.0, 0.0, 0.0, 0.0, 0.0, //
+    0.0, 1.0, 0.0, 0.0, 0.0, 0.0, //
+    0.0, 0.0, 1.0, 0.0, 0.0, 0.0, //
+    0.0, 0.0, 0.0, 1.0, 0.0, 0.0, //
+    0.0, 0.0, 0.0, 0.0, 1.0, 0.0, //
+    0.0, 0.0, 0.0, 0.0, 0.0, 1.0,
+);
+
+/// Displacements and turns at a place of a shaft's body (mm from its origin) by those of the node of its height; a rigid
+/// body has one node alone, at its z = 0.
+fn moved([x, y, z]: [f64; 3], line: &BeamLine) -> Matrix6<f64> {
+    rigid([x, y, if line.positions().len() > 1 { 0.0 } else { z }])
+}
+
 /// Reach of the disc at each node that has one. Nothing else may be there: it would have to know which coordinates
 /// those of the node are.
-fn reaches(structure: &Structure, discs: &[usize], bearings: &[usize]) -> Result<Vec<(usize, f64)>, GearboxError> {
+fn reaches(
+    structure: &Structure,
+    discs: &[usize],
+    bearings: &[(&String, usize)],
+) -> Result<Vec<(usize, f64)>, GearboxError> {
     let with_reach = structure.discs.iter().enumerate().filter(|(_, d)| d.reach != 0.0);
     let one = |(i, disc): (usize, &Disc)| {
         let other_disc = structure.discs.iter().zip(discs).enumerate().find(|(j, (_, n))| *j != i && **n == discs[i]);
-        let other_bearing = structure.bearings.iter().zip(bearings).find(|(_, n)| **n == discs[i]);
-        match other_disc.map(|(_, (d, _))| &d.name).or(other_bearing.map(|(b, _)| &b.name)) {
+        let other_bearing = bearings.iter().find(|(_, node)| *node == discs[i]);
+        match other_disc.map(|(_, (d, _))| &d.name).or(other_bearing.map(|(name, _)| *name)) {
             Some(other) => Err(GearboxError::SharedSeat { disc: disc.name.clone(), other: other.clone() }),
             None => Ok((discs[i], disc.reach)),
         }

@@ -88,9 +88,17 @@ pub(crate) fn balances(
             sums.push(sum);
             continue;
         }
-        for (i, state) in bearings.iter().enumerate().filter(|(i, _)| structure.bearings[*i].shaft == shaft) {
-            let height = height(gearbox, shaft, gearbox.assembly.bearing(i));
-            sum.add(height, state.force.into(), state.moment.into());
+        for (i, (bearing, state)) in structure.bearings.iter().zip(bearings).enumerate() {
+            let (force, moment) = (Vector3::from(state.force), Vector3::from(state.moment));
+            if bearing.shaft == shaft {
+                sum.add(height(gearbox, shaft, gearbox.assembly.bearing(i)), force, moment);
+            }
+            // The other way round on the shaft that its seat is part of.
+            if let (Some(outer), Some([x, y, z])) = (bearing.outer, structure.seat(bearing))
+                && outer == shaft
+            {
+                sum.add(z, -force, -moment - Vector3::new(x, y, 0.0).cross(&force));
+            }
         }
         held.push(None);
         sums.push(sum);

@@ -1,13 +1,13 @@
-//! Bearings: springs and dampers, or rolling elements whose force follows a law. Theory (79), (101).
+//! Bearings: springs and dampers, or rolling elements whose force follows a law. Theory (79), (79c), (101).
 
 use std::sync::Arc;
 
-use nalgebra::{Matrix6, Vector6};
+use nalgebra::{Matrix6, Vector3, Vector6};
 
 use crate::rolling_bearing::RollingBearing;
 
-/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, or the ground without one; or
-/// rolling elements.
+/// A bearing: springs and dampers between a place of a shaft and its seat in the housing, in another shaft or, without
+/// both, in the ground; or rolling elements.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bearing {
     /// Name for messages and tables.
@@ -16,6 +16,10 @@ pub struct Bearing {
     pub shaft: usize,
     /// Position of its middle, mm from the shaft's z = 0.
     pub position: f64,
+    /// Shaft that its seat is part of, from 0: a carrier, a pin, a shaft within the shaft. `None`: the housing, or the ground.
+    pub outer: Option<usize>,
+    /// How far its seat stands from its nominal place, mm: an error of a bore, or of a pin.
+    pub offset: Vector3<f64>,
     /// Stiffness for displacements x, y, z and turns about them, symmetric: N/mm, N, N mm. A 5x5 matrix has a zero row
     /// and column for the turn about z.
     pub stiffness: Matrix6<f64>,
@@ -23,9 +27,9 @@ pub struct Bearing {
     pub damping: Matrix6<f64>,
     /// Rolling elements beside that stiffness, at rest and in motion; a vibration has springs in their place.
     pub law: Option<Arc<RollingBearing>>,
-    /// Force (N) and moment (N mm) on the shaft with nothing displaced: of a spring about a loaded state.
+    /// Force (N) and moment (N mm) on the shaft with nothing displaced and no offset: of a spring about a loaded state.
     pub preload: Vector6<f64>,
-    /// Energy with nothing displaced, N mm.
+    /// Energy there, N mm.
     pub stored: f64,
 }
 
@@ -38,13 +42,44 @@ impl Bearing {
 
     /// A bearing of a stiffness, without damping.
     pub fn linear(name: impl Into<String>, shaft: usize, position: f64, stiffness: Matrix6<f64>) -> Self {
-        let (damping, preload) = (Matrix6::zeros(), Vector6::zeros());
-        Self { name: name.into(), shaft, position, stiffness, damping, law: None, preload, stored: 0.0 }
+        let (damping, preload, offset) = (Matrix6::zeros(), Vector6::zeros(), Vector3::zeros());
+        let (outer, law, stored) = (None, None, 0.0);
+        Self { name: name.into(), shaft, position, outer, offset, stiffness, damping, law, preload, stored }
+    }
+
+    /// The bearing with its seat in another shaft.
+    pub fn in_shaft(self, outer: usize) -> Self {
+        Self { outer: Some(outer), ..self }
     }
 
     /// A rolling bearing, without damping.
     pub fn rolling(name: impl Into<String>, shaft: usize, position: f64, law: RollingBearing) -> Self {
         Self { law: Some(Arc::new(law)), ..Self::linear(name, shaft, position, Matrix6::zeros()) }
+    }
+
+    /// Force (N) and moment (N mm) of its springs on the shaft with nothing displaced.
+    ///
+    /// ```text
+    /// g = g_0 + K_b e,   V = V_0 + g_0 . e + e' K_b e/2        e: offset of the seat
+    /// ```
+    pub(crate) fn force_at_rest(&self) -> Vector6<f64> {
+        self.preload + self.stiffness * self.offset6()
+    }
+
+    /// Energy of its springs with nothing displaced, N mm.
+    pub(crate) fn energy_at_rest(&self) -> f64 {
+        let e = self.offset6();
+        self.stored + self.preload.dot(&e) + 0.5 * e.dot(&(self.stiffness * e))
+    }
+
+    /// Offset of its seat along the six axes.
+    pub(crate) fn offset6(&self) -> Vector6<f64> {
+        Vector6::from_fn(|k, _| if k < 3 { self.offset[k] } else { 0.0 })
+    }
+
+    /// Whether its springs press with nothing displaced.
+    pub(crate) fn is_pressed(&self) -> bool {
+        self.force_at_rest().amax() > 0.0
     }
 
     /// Stiffness of its size, before anything is known of its load but a force (N).

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DMatrix, DVector, Vector5, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix6, Vector5, Vector6};
 
 use crate::{
     Assembly, Structure, Supports,
@@ -10,14 +10,17 @@ use crate::{
     seats::Seats,
 };
 
-/// A rolling bearing between a seat of its shaft and an open seat of the housing, or the ground.
+/// A rolling bearing between a seat of its shaft and an open seat of the housing, a seat of another shaft, or the ground.
 pub(crate) struct CompliantBearing {
     /// Number of the bearing.
     pub bearing: usize,
     law: Arc<RollingBearing>,
-    /// First coordinates of both among those of the seats.
-    shaft: usize,
+    /// First coordinates of what moves it among those of the seats, and what each adds to its displacement.
+    ends: Vec<(usize, Matrix6<f64>)>,
+    /// First coordinate of its open seat.
     housing: Option<usize>,
+    /// Offset of its seat.
+    offset: Vector6<f64>,
 }
 
 impl CompliantBearing {
@@ -27,9 +30,10 @@ impl CompliantBearing {
         let moving = own.filter(|(_, b)| !held[b.shaft]);
         let one = |(bearing, b): (usize, &crate::Bearing)| {
             let law = Arc::clone(b.law.as_ref()?);
-            let shaft = seats.of_node(assembly.bearing(bearing))?;
             let housing = assembly.open_seat(bearing).and_then(|at| seats.of_open(assembly, at));
-            Some(Self { bearing, law, shaft, housing })
+            let of_nodes = assembly.bearing_ends(bearing).map(|(node, own)| Some((seats.of_node(node)?, *own)));
+            let ends = of_nodes.chain(housing.map(|at| Some((at, -Matrix6::identity())))).collect::<Option<_>>()?;
+            Some(Self { bearing, law, ends, housing, offset: b.offset6() })
         };
         moving.filter_map(one).collect()
     }
@@ -41,7 +45,9 @@ impl CompliantBearing {
             let law = Arc::clone(b.law.as_ref()?);
             let open = supports.open().iter().position(|i| *i == bearing);
             let housing = open.map(|at| 6 * (structure.bearings.len() + at));
-            Some(Self { bearing, law, shaft: 6 * bearing, housing })
+            let own = [(6 * bearing, Matrix6::identity())].into_iter();
+            let ends = own.chain(housing.map(|at| (at, -Matrix6::identity()))).collect();
+            Some(Self { bearing, law, ends, housing, offset: b.offset6() })
         };
         own.filter_map(one).collect()
     }
@@ -53,39 +59,38 @@ impl CompliantBearing {
         }
     }
 
-    /// Displacement of the shaft against the housing at those of the seats.
+    /// Displacement of the shaft against its seat, where that stands, at those of all seats.
     pub fn relative(&self, y: &DVector<f64>) -> Vector6<f64> {
-        Vector6::from_fn(|k, _| y[self.shaft + k] - self.housing.map_or(0.0, |at| y[at + k]))
+        self.moved(y) - self.offset
+    }
+
+    /// The same against the seat's nominal place.
+    fn moved(&self, y: &DVector<f64>) -> Vector6<f64> {
+        self.ends.iter().map(|(at, own)| own * y.fixed_rows::<6>(*at)).sum()
     }
 
     /// Adds its forces and -dV2/dy2 to those of the seats.
     pub fn add(&self, y: &DVector<f64>, forces: &mut DVector<f64>, slopes: &mut DMatrix<f64>) -> RollingReply {
         let u = self.relative(y);
         let reply = self.law.evaluate(&Vector5::from_fn(|k, _| u[k]));
-        for (at, sign) in self.ends() {
-            for k in 0..5 {
-                forces[at + k] += sign * reply.force[k];
-            }
+        for (at, own) in &self.ends {
+            let mut rows = forces.fixed_rows_mut::<6>(*at);
+            rows += own.transpose() * reply.force6();
         }
         self.add_stiffness(&(-reply.stiffness6()), slopes);
         reply
     }
 
     /// Adds a stiffness between both ends.
-    pub fn add_stiffness(&self, own: &nalgebra::Matrix6<f64>, all: &mut DMatrix<f64>) {
-        for ((a, sign), (b, other)) in self.ends().flat_map(|x| self.ends().map(move |y| (x, y))) {
-            for (i, j) in (0..6).flat_map(|i| (0..6).map(move |j| (i, j))) {
-                all[(a + i, b + j)] += sign * other * own[(i, j)];
-            }
+    pub fn add_stiffness(&self, own: &Matrix6<f64>, all: &mut DMatrix<f64>) {
+        for ((a, left), (b, right)) in self.ends.iter().flat_map(|x| self.ends.iter().map(move |y| (x, y))) {
+            let mut block = all.fixed_view_mut::<6, 6>(*a, *b);
+            block += left.transpose() * own * right;
         }
     }
 
     /// What is told of it after a last step of the seats from where `reply` was.
     pub fn state(&self, reply: &RollingReply, y: &DVector<f64>, step: &DVector<f64>) -> RollingState {
-        RollingState::new(reply, self.relative(y), &self.relative(step))
-    }
-
-    fn ends(&self) -> impl Iterator<Item = (usize, f64)> + use<> {
-        [(self.shaft, 1.0)].into_iter().chain(self.housing.map(|at| (at, -1.0)))
+        RollingState::new(reply, self.relative(y), &self.moved(step))
     }
 }

@@ -8,7 +8,7 @@ use lumped::LumpedError;
 use periodic::PeriodicError;
 use reduction::ReductionError;
 
-use crate::rolling_bearing::RollingBearingError;
+use crate::{SeatError, rolling_bearing::RollingBearingError};
 
 /// Why shafts, bearings and gears cannot be put together or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -302,6 +302,9 @@ pub enum GearboxError {
     /// A torque over time on an input whose speed is given.
     #[error("a torque over time on an input whose speed is given: the torque there is a result")]
     GivenSpeed,
+    /// A bearing between shafts, or a shaft that does not turn.
+    #[error(transparent)]
+    Seat(#[from] SeatError),
     /// A bearing that holds a shaft which has to turn.
     #[error("{bearing} has stiffness or damping for the turn about its axis: its shaft could not run")]
     HeldTurn {
@@ -476,6 +479,7 @@ impl GearboxError {
             }
             Self::LostLoad { .. } => "give a larger torque: teeth that bear next to nothing are not known well enough",
             Self::GivenSpeed => "let a torque drive the input, or leave the torque over time out",
+            Self::Seat(source) => source.hint(),
             Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
             Self::Motion(source) => match &**source {
                 MotionError::Mechanism { source, .. } => return source.hint(),

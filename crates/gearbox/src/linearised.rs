@@ -21,6 +21,7 @@ impl Structure {
                 positions.iter().filter_map(|p| p.rolling.get(i).copied().flatten()).collect();
             let missing = GearboxError::Count { what: "states of a bearing", found: states.len(), wanted: 1 };
             let own = Tangent::about(&states).ok_or(missing)?;
+            // States count from where the seat stands, as the preload of a bearing does.
             bearing.stiffness += own.stiffness;
             bearing.preload += own.preload;
             bearing.stored += own.stored;

@@ -39,11 +39,14 @@ impl Seats {
             }
         }
         for (i, bearing) in assembly.structure().bearings.iter().enumerate() {
-            let node = assembly.bearing(i);
-            let acts = bearing.law.is_some() || bearing.preload.amax() > 0.0;
-            if acts && !nodes.contains(&node) {
-                nodes.push(node);
-                shafts.push(bearing.shaft);
+            let acts = bearing.law.is_some() || bearing.is_pressed();
+            for ((node, _), shaft) in
+                assembly.bearing_ends(i).zip([Some(bearing.shaft), bearing.outer].into_iter().flatten())
+            {
+                if acts && !nodes.contains(&node) {
+                    nodes.push(node);
+                    shafts.push(shaft);
+                }
             }
         }
         let open = assembly.supports().open();

@@ -183,8 +183,10 @@ pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation)
     if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
         return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
     }
+    structure.check_held_seats(operation)?;
     for torque in &operation.torques {
         structure.has_discs("a torque", [torque.disc; 2])?;
+        structure.turns("a torque", torque.disc)?;
         let disc = &structure.discs[torque.disc];
         let (part, value) = (disc.name.clone(), torque.torque);
         if !value.is_finite() {

@@ -100,6 +100,8 @@ pub struct Structure {
     pub bodies: Vec<ElasticBody>,
     /// Machines at the ends of the train.
     pub machines: Vec<Machine>,
+    /// Shafts that do not turn, whose bearings hold their turn as well: carriers seen from themselves, and pins.
+    pub standing: Vec<usize>,
 }
 
 impl Disc {
@@ -189,7 +191,11 @@ impl Structure {
             for value in bearing.preload.iter().chain([&bearing.stored]) {
                 finite(&bearing.name, "preload, N, N mm", *value)?;
             }
+            for value in &bearing.offset {
+                finite(&bearing.name, "offset of its seat, mm", *value)?;
+            }
         }
+        self.check_seats()?;
         if let Some(housing) = &self.housing {
             let (bearings, wanted) = (self.bearings.len(), 6 * self.bearings.len());
             if let Some(&found) = [housing.nrows(), housing.ncols()].iter().find(|n| **n != wanted) {
@@ -263,10 +269,14 @@ impl Structure {
         }
     }
 
-    fn on_shaft(&self, part: &str, shaft: usize, position_mm: f64) -> Result<(), GearboxError> {
-        let Some(on) = self.shafts.get(shaft) else {
-            return Err(GearboxError::NoShaft { part: part.into(), shaft, count: self.shafts.len() });
-        };
+    /// Checks that a shaft exists.
+    pub(crate) fn has_shaft(&self, part: &str, shaft: usize) -> Result<&Shaft, GearboxError> {
+        let none = || GearboxError::NoShaft { part: part.into(), shaft, count: self.shafts.len() };
+        self.shafts.get(shaft).ok_or_else(none)
+    }
+
+    pub(crate) fn on_shaft(&self, part: &str, shaft: usize, position_mm: f64) -> Result<(), GearboxError> {
+        let on = self.has_shaft(part, shaft)?;
         let length_mm: f64 = on.pieces.iter().map(|p| p.length).sum();
         let near = 1e-9 * length_mm;
         if (-near..=length_mm + near).contains(&position_mm) {

@@ -1,11 +1,12 @@
-//! Bearings in series with the housing: what holds the shafts at their bearing seats. Theory (79).
+//! Bearings in series with the housing: what holds the shafts at their bearing seats. Theory (79), (79c).
 
 use nalgebra::{Cholesky, DMatrix, DVector};
 
 use crate::{GearboxError, Structure};
 
-/// Stiffness of bearings and housing, seen from the shafts; six coordinates a bearing. The seats of rolling bearings
-/// in a housing stay coordinates of their own: six more each, in the order of the bearings.
+/// Stiffness of bearings and housing, seen from the shafts; six coordinates a bearing: displacement of its shaft, against
+/// that of the shaft its seat is part of where it is. The seats of rolling bearings in a housing stay coordinates of their
+/// own: six more each, in the order of the bearings.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
     /// Stiffness for displacements of the shafts at the bearings, and of open seats.
@@ -46,17 +47,20 @@ impl Supports {
         bearings = 0.5 * (&bearings + bearings.transpose());
         dampers = 0.5 * (&dampers + dampers.transpose());
         let housing = structure.housing.as_ref().map(|k| 0.5 * (k + k.transpose()));
-        let is_open = |i: &usize| housing.is_some() && structure.bearings[*i].law.is_some();
+        let in_housing = |i: usize| structure.bearings[i].outer.is_none();
+        let is_open = |i: &usize| housing.is_some() && in_housing(*i) && structure.bearings[*i].law.is_some();
         let open: Vec<usize> = (0..structure.bearings.len()).filter(is_open).collect();
         let all = n + 6 * open.len();
-        let stated = DVector::from_fn(n, |i, _| structure.bearings[i / 6].preload[i % 6]);
+        let at_rest: Vec<_> = structure.bearings.iter().map(crate::Bearing::force_at_rest).collect();
+        let stated = DVector::from_fn(n, |i, _| at_rest[i / 6][i % 6]);
         let (mut seats, mut given) = (DMatrix::zeros(n, all), DVector::zeros(n));
         for (at, &i) in open.iter().enumerate() {
             (0..6).for_each(|k| seats[(6 * i + k, n + 6 * at + k)] = 1.0);
         }
         if let Some(housing) = &housing {
             let sum = &bearings + housing;
-            let held: Vec<usize> = (0..n).filter(|&i| !open.contains(&(i / 6)) && sum[(i, i)] > 0.0).collect();
+            let gives = |i: &usize| in_housing(i / 6) && !open.contains(&(i / 6)) && sum[(*i, *i)] > 0.0;
+            let held: Vec<usize> = (0..n).filter(gives).collect();
             let scale: Vec<f64> = held.iter().map(|&i| sum[(i, i)].sqrt().recip()).collect();
             let own = DMatrix::from_fn(held.len(), held.len(), |i, j| sum[(held[i], held[j])] * scale[i] * scale[j]);
             let right = DMatrix::from_fn(held.len(), all, |i, j| {

@@ -74,13 +74,15 @@ impl Train {
         if let Some((disc, &value)) = structure.discs.iter().zip(keys).find(|(_, k)| !k.is_finite()) {
             return Err(GearboxError::OutOfRange { part: disc.name.clone(), quantity: "key, rad", value });
         }
+        structure.turns("the input", input)?;
         let mut walk = Walk::new(structure, meshes, (keys, sense))?;
         walk.ratios[structure.discs[input].shaft] = Some(1.0);
         while walk.goes_on()? {}
-        let ratio = |(shaft, r): (&crate::Shaft, Option<f64>)| {
-            r.ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
+        let ratio = |(i, (shaft, r)): (usize, (&crate::Shaft, Option<f64>))| {
+            let at_rest = structure.stands(i).then_some(0.0);
+            r.or(at_rest).ok_or_else(|| GearboxError::NotDriven { shaft: shaft.name.clone() })
         };
-        let ratios = structure.shafts.iter().zip(walk.ratios).map(ratio).collect::<Result<Vec<_>, _>>()?;
+        let ratios = structure.shafts.iter().zip(walk.ratios).enumerate().map(ratio).collect::<Result<Vec<_>, _>>()?;
         // Where every shaft is driven, every mesh has been reached.
         let meshing: Vec<Meshing> = walk.found.into_iter().flatten().collect();
         let middle =
@@ -94,7 +96,7 @@ impl Train {
         &self.meshes
     }
 
-    /// Turns of each shaft a turn of the input shaft, negative against it.
+    /// Turns of each shaft a turn of the input shaft, negative against it; 0 of shafts that stand.
     pub fn ratios(&self) -> &[f64] {
         &self.ratios
     }
@@ -210,6 +212,7 @@ impl Meshing {
 /// Direction from gear 1's axis to the contact, where the gears of a mesh stand as the pair was made to.
 fn direction(structure: &Structure, mesh: &GearMesh) -> Result<f64, GearboxError> {
     structure.has_discs(&mesh.name, mesh.discs)?;
+    mesh.discs.iter().try_for_each(|disc| structure.turns(&structure.discs[*disc].name, *disc))?;
     let centre = |disc: usize| {
         let disc = &structure.discs[disc];
         let [x, y, z] = structure.shafts[disc.shaft].origin;

@@ -1,10 +1,11 @@
 //! Shafts that nothing holds against a rigid motion: named before a matrix would only say a number.
 
-use nalgebra::{DMatrix, DVector, Matrix5, SMatrix, SymmetricEigen, Vector6};
+use nalgebra::{DMatrix, DVector, Matrix5, Matrix6, SymmetricEigen, Vector6};
 
 use crate::{
     GearMesh, GearboxError, Structure, Train,
     even_mesh::{guessed_lever, guessed_stiffness, turn},
+    shafts_in_shafts::rigid,
 };
 
 /// Share of a scaled stiffness that is round-off.
@@ -20,7 +21,7 @@ const MOTIONS: [&str; 5] = ["along x", "along y", "along z", "tilting about x", 
 /// ```text
 /// K = sum T_b' K_b T_b + sum k_m l l',   u = T (x, y, z, theta_x, theta_y, theta_z)      from the middle of each shaft
 /// ```
-/// l: what rigid motions compress a mesh by. A loaded mesh holds one motion of its two shafts: beside their turn two meshes
+/// T_b: of both shafts where a bearing is between two. l: what rigid motions compress a mesh by. A loaded mesh holds one motion of its two shafts: beside their turn two meshes
 /// of opposite hands hold a shaft along its axis. Most shafts are held by their own bearings; only where one is not are all
 /// looked at together. Rolling bearings count with all their elements pressed, whatever their clearance. Housings are in
 /// series with the bearings: what these do not hold, no housing does. The turn of the `input` disc is given.
@@ -33,7 +34,9 @@ pub(crate) fn check_held(
     (meshes, train): (&[GearMesh], &Train),
     input: usize,
 ) -> Result<(), GearboxError> {
-    let by_bearings: Vec<Matrix5<f64>> = (0..structure.shafts.len()).map(|i| of_bearings(structure, i)).collect();
+    let whole_by_bearings: Vec<Matrix6<f64>> = (0..structure.shafts.len()).map(|i| of_bearings(structure, i)).collect();
+    let by_bearings: Vec<Matrix5<f64>> =
+        whole_by_bearings.iter().map(|own| own.fixed_view::<5, 5>(0, 0).into_owned()).collect();
     let is_loose = |i: &usize| !held[*i] && free(&by_bearings[*i]).is_some();
     let loose: Vec<usize> = (0..by_bearings.len()).filter(is_loose).collect();
     let Some(&first) = loose.first() else { return Ok(()) };
@@ -42,13 +45,26 @@ pub(crate) fn check_held(
     let mut whole = DMatrix::zeros(n, n);
     for (i, own) in by_bearings.iter().enumerate() {
         whole.view_mut((6 * i, 6 * i), (5, 5)).copy_from(own);
+        if structure.stands(i) {
+            whole.view_mut((6 * i, 6 * i), (6, 6)).copy_from(&whole_by_bearings[i]);
+        }
+    }
+    for bearing in &structure.bearings {
+        let (Some(outer), Some([x, y, z])) = (bearing.outer, structure.seat(bearing)) else { continue };
+        let moves = rigid([0.0, 0.0, bearing.position - half(structure, bearing.shaft)]);
+        let seat = -rigid([x, y, z - half(structure, outer)]);
+        let ends = [(6 * bearing.shaft, moves), (6 * outer, seat)];
+        for ((a, left), (b, right)) in ends.iter().flat_map(|x| ends.iter().map(move |y| (x, y))) {
+            let mut block = whole.view_mut((*a, *b), (6, 6));
+            block += left.transpose() * bearing.rough_stiffness(1.0) * right;
+        }
     }
     for (mesh, meshing) in meshes.iter().zip(train.meshing()) {
         let lever = turn(meshing.direction) * guessed_lever(mesh, meshing)?;
         let mut all = DVector::zeros(n);
         for (k, &disc) in mesh.discs.iter().enumerate() {
             let disc = &structure.discs[disc];
-            let moves = rigid(disc.position - half(structure, disc.shaft));
+            let moves = rigid([0.0, 0.0, disc.position - half(structure, disc.shaft)]);
             let own: Vector6<f64> = lever.fixed_rows::<6>(6 * k).into_owned();
             let mut at = all.rows_mut(6 * disc.shaft, 6);
             at += moves.transpose() * own;
@@ -102,23 +118,15 @@ fn half(structure: &Structure, shaft: usize) -> f64 {
     0.5 * structure.shafts[shaft].pieces.iter().map(|p| p.length).sum::<f64>()
 }
 
-/// Stiffness by which a shaft's own bearings hold it.
-fn of_bearings(structure: &Structure, shaft: usize) -> Matrix5<f64> {
+/// Stiffness by which a shaft's own bearings in housing or ground hold it.
+fn of_bearings(structure: &Structure, shaft: usize) -> Matrix6<f64> {
     let half = half(structure, shaft);
-    let mut stiffness = Matrix5::zeros();
-    for bearing in structure.bearings.iter().filter(|b| b.shaft == shaft) {
-        let moves = rigid(bearing.position - half).fixed_columns::<5>(0).into_owned();
+    let mut stiffness = Matrix6::zeros();
+    for bearing in structure.bearings.iter().filter(|b| b.shaft == shaft && b.outer.is_none()) {
+        let moves = rigid([0.0, 0.0, bearing.position - half]);
         stiffness += moves.transpose() * bearing.rough_stiffness(1.0) * moves;
     }
     0.5 * (stiffness + stiffness.transpose())
-}
-
-/// Displacements and turns at height z by the rigid motions of a shaft.
-fn rigid(z: f64) -> SMatrix<f64, 6, 6> {
-    let mut moves = SMatrix::identity();
-    moves[(0, 4)] = z;
-    moves[(1, 3)] = -z;
-    moves
 }
 
 /// The motion that a stiffness does not hold; about a point off the middle a shaft tilts and shifts at once.

@@ -95,8 +95,10 @@ pub(super) struct BearingTurns {
 impl BearingTurns {
     /// How a bearing turns at a speed of the input, 1/min; `None` where it stands, or carries nothing as those of held shafts.
     pub fn of((file, train): (&Gearbox, &Train), bearing: usize, input_speed_rpm: f64) -> Option<Self> {
-        let shaft = file.bearings[bearing].shaft;
-        let speed_rpm = input_speed_rpm * train.ratios()[shaft].abs();
+        let GearboxBearing { shaft, in_shaft, .. } = file.bearings[bearing];
+        // Its rings turn against each other.
+        let seat = in_shaft.map_or(0.0, |seat| train.ratios()[seat]);
+        let speed_rpm = input_speed_rpm * (train.ratios()[shaft] - seat).abs();
         let asked = file.rating.as_ref().filter(|_| speed_rpm > 0.0 && !file.shafts[shaft].held)?;
         Some(Self { speed_rpm, viscosity: asked.viscosity, contamination_factor: asked.contamination_factor })
     }
@@ -170,6 +172,8 @@ pub(super) fn bearings(file: &Gearbox) -> Result<Vec<Bearing>, GearboxError> {
 fn bearing(own: &GearboxBearing) -> Result<Bearing, GearboxError> {
     let stiffness = Matrix6::from_fn(|i, j| own.stiffness[i][j]);
     let linear = Bearing {
+        outer: own.in_shaft,
+        offset: own.seat_offset.into(),
         damping: Matrix6::from_fn(|i, j| if i == j && i < 3 { own.damping[i] } else { 0.0 }),
         ..Bearing::linear(&own.name, own.shaft, own.position, stiffness)
     };

@@ -32,12 +32,30 @@ pub(super) fn clearance_remarks(file: &Gearbox, pairs: &[GearPair]) -> Vec<Remar
         }
     }
     let bodies: Vec<Vec<Body<'_>>> = (0..file.shafts.len()).map(|i| bodies(file, i, &exact)).collect();
+    let joined = joined(file);
     for a in 0..bodies.len() {
-        for b in a + 1..bodies.len() {
+        for b in (a + 1..bodies.len()).filter(|b| !within(file, &joined, [a, *b])) {
             said.extend(between(file, [a, b], [&bodies[a], &bodies[b]]));
         }
     }
     said
+}
+
+/// For each shaft the first one of those that bearings join it to.
+fn joined(file: &Gearbox) -> Vec<usize> {
+    let mut first: Vec<usize> = (0..file.shafts.len()).collect();
+    for (own, seat) in file.bearings.iter().filter_map(|b| Some((b.shaft, b.in_shaft?))) {
+        let [a, b] = [first[own], first[seat]];
+        first.iter_mut().filter(|shaft| **shaft == a.max(b)).for_each(|shaft| *shaft = a.min(b));
+    }
+    first
+}
+
+/// Whether one of two shafts is made to go around the other: bearings join them, and they have one axis, or one is a
+/// carrier or a pin, whose sections as tubes and rods are not its shape.
+fn within(file: &Gearbox, joined: &[usize], pair: [usize; 2]) -> bool {
+    let [a, b] = pair.map(|shaft| &file.shafts[shaft]);
+    joined[pair[0]] == joined[pair[1]] && (a.stands || b.stands || a.origin[..2] == b.origin[..2])
 }
 
 /// A gear as the first pair that it is in knows it.

@@ -1,6 +1,7 @@
 //! The numbers that a gearbox is judged, varied and compared by.
 
 use described::Key;
+use gearbox::LoadSharing;
 use rating::SpectrumRating;
 use scene::gearbox::Gearbox;
 use serde_json::{Map, Value, json};
@@ -19,6 +20,7 @@ enum Of {
     Meshes(fn(&MeshResult) -> Option<f64>),
     Outputs(fn(&OutputResult) -> f64),
     Bearings(fn(&BearingLoad) -> f64),
+    Planets(fn(&LoadSharing) -> Option<f64>),
     MeshesRated(fn(&RatingHeadline) -> Option<f64>),
     BearingsRated(fn(&BearingLife) -> Option<f64>),
     BearingsLosing(fn(&RollingLoad) -> Option<f64>),
@@ -49,7 +51,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 35] = [
+const NUMBERS: [Number; 36] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -81,6 +83,11 @@ const NUMBERS: [Number; 35] = [
         "mean_bearing_force_n",
         "size of the mean force of each bearing",
         Of::Bearings(|b| b.force[0].hypot(b.force[1]).hypot(b.force[2])),
+    ),
+    list(
+        "load_sharing_factor",
+        "K_gamma of each mesh that planets have in common, in the order of the file: the largest share of a planet over that of an even load, over all positions; with `[[planets]]`",
+        Of::Planets(|p| p.factor),
     ),
     list(
         "least_pitting_safety",
@@ -241,6 +248,7 @@ impl GearboxResult {
                 Of::Meshes(own) => self.meshes.iter().map(own).collect(),
                 Of::Outputs(own) => self.outputs.iter().map(own).collect(),
                 Of::Bearings(own) => self.bearings.iter().map(own).collect(),
+                Of::Planets(own) => (!self.planets.is_empty()).then(|| self.planets.iter().map(own).collect())?,
                 Of::MeshesRated(own) => {
                     let of = |m: &MeshResult| m.rating.as_ref().and_then(own);
                     self.rates.meshes.then(|| self.meshes.iter().map(of).collect())?
@@ -286,11 +294,13 @@ impl GearboxResult {
     pub fn headline_keys(file: &Gearbox) -> Vec<(&'static str, Option<usize>)> {
         let rates = Rates::of(file);
         let (vibrates, moves) = (file.vibration.is_some(), file.motion.is_some());
+        let of_planets = file.meshes_of_planets().count();
         let count = |of: Of| match of {
             Of::Whole(_) => Some(None),
             Of::Meshes(_) => Some(Some(file.meshes.len())),
             Of::Outputs(_) => Some(Some(file.torques.len())),
             Of::Bearings(_) => Some(Some(file.bearings.len())),
+            Of::Planets(_) => (of_planets > 0).then_some(Some(of_planets)),
             Of::MeshesRated(_) => rates.meshes.then_some(Some(file.meshes.len())),
             Of::Efficient => rates.efficiency.then_some(None),
             Of::BearingsLosing(_) => rates.bearing_losses.then_some(Some(file.bearings.len())),

@@ -35,8 +35,18 @@ pub(super) fn structure(file: &Gearbox) -> Result<Structure, GearboxError> {
         |(i, t): (usize, &scene::gearbox::GearboxTorque)| Disc::seat(format!("torque {}", i + 1), t.shaft, t.position);
     discs.extend(file.torques.iter().enumerate().map(torque));
     let bearings = bearings(file)?;
-    let housing = file.housing.as_ref().map(|rows| DMatrix::from_fn(rows.len(), rows.len(), |i, j| rows[i][j]));
-    Ok(Structure { shafts, discs, bearings, housing, ..Structure::default() })
+    // Bearings in other shafts have no seat in the housing.
+    let housed = || (0..bearings.len()).filter(|i| bearings[*i].outer.is_none()).enumerate();
+    let housing = file.housing.as_ref().map(|rows| {
+        let mut all = DMatrix::zeros(6 * bearings.len(), 6 * bearings.len());
+        for ((i, a), (j, b)) in housed().flat_map(|x| housed().map(move |y| (x, y))) {
+            let own = nalgebra::Matrix6::from_fn(|k, m| rows[6 * i + k][6 * j + m]);
+            all.fixed_view_mut::<6, 6>(6 * a, 6 * b).copy_from(&own);
+        }
+        all
+    });
+    let standing = file.shafts.iter().enumerate().filter(|(_, s)| s.stands).map(|(i, _)| i).collect();
+    Ok(Structure { shafts, discs, bearings, housing, standing, ..Structure::default() })
 }
 
 /// Disc of the input, its sense, and the keys of all discs.

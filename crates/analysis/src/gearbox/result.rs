@@ -4,7 +4,7 @@ use gearbox::mesh_numbers::{MeshNumbers, mean, mean_force, peak_to_peak};
 use std::f64::consts::TAU;
 
 use answer::Remark;
-use gearbox::{GearMesh, GearboxPosition, Structure, Train};
+use gearbox::{GearMesh, GearboxPosition, LoadSharing, Structure, Train};
 use geometry::{GearPair, Side};
 use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
 
@@ -36,6 +36,8 @@ pub struct GearboxResult {
     pub bearings: Vec<BearingLoad>,
     /// Outputs, in the order of the torques.
     pub outputs: Vec<OutputResult>,
+    /// How planets share the load of each mesh that they have in common ([`Gearbox::meshes_of_planets`]).
+    pub planets: Vec<LoadSharing>,
     /// Mean torque at the input, N mm about +z.
     pub input_torque: f64,
     /// Worst of all positions: residual, balance of bodies.
@@ -246,6 +248,7 @@ pub(super) fn result(
         meshes: of_meshes,
         bearings,
         outputs: (0..file.torques.len()).map(output).collect(),
+        planets: file.meshes_of_planets().map(|(_, mesh)| LoadSharing::of(all, &mesh.of_planets)).collect(),
         input_torque: mean(all.iter().map(|p| p.input_torque)),
         certificate: [worst(&|p| p.certificate.residual), worst(&|p| p.certificate.body_balance)],
         pairs,

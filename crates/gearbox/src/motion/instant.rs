@@ -1,7 +1,7 @@
 //! Quantities of an instant of the motion.
 
 use integrate::State;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView, Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
@@ -147,7 +147,7 @@ impl GearboxMechanism {
         y: &DVector<f64>,
         rates: &DVector<f64>,
     ) -> Result<Vec<BearingState>, GearboxError> {
-        let (u, du) = (self.at_bearings(y), self.at_bearings(rates));
+        let (u, du) = (self.at_bearings(&y.as_view()), self.at_bearings(&rates.as_view()));
         let supports = self.assembly.supports();
         let [relative, elastic] = match &self.rolling {
             Some(rolling) => rolling.standing(&rolling.at(supports, q)?),
@@ -165,7 +165,7 @@ impl GearboxMechanism {
     /// Twice the strain energy of the springs of bearings and housing at a state, N mm.
     pub(super) fn springs_energy(&self, q: &DVector<f64>) -> f64 {
         let y = self.free.deviations(q);
-        let (bearings, housing) = self.assembly.supports().energies(&self.at_bearings(&y));
+        let (bearings, housing) = self.assembly.supports().energies(&self.at_bearings(&y.as_view()));
         bearings.iter().sum::<f64>() + housing.unwrap_or(0.0)
     }
 
@@ -187,16 +187,16 @@ impl GearboxMechanism {
 
     /// Energy that springs store with nothing displaced, N mm.
     fn stored(&self) -> f64 {
-        let of_bearings: f64 = self.assembly.structure().bearings.iter().map(|b| b.stored).sum();
+        let of_bearings: f64 = self.assembly.structure().bearings.iter().map(crate::Bearing::energy_at_rest).sum();
         self.assembly.supports().pressed_energy() + of_bearings
     }
 
-    /// Reduced coordinate of a shaft at a bearing, six a bearing.
-    pub(super) fn at_bearing(&self, i: usize) -> usize {
-        self.bodies.of_node(self.assembly.bearing(i / 6)) + i % 6
-    }
-
-    fn at_bearings(&self, y: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(6 * self.assembly.structure().bearings.len(), |i, _| y[self.at_bearing(i)])
+    /// Displacements of the bearings by reduced coordinates, six a bearing: of its shaft, against that of the shaft its seat is
+    /// part of.
+    pub(super) fn at_bearings(&self, y: &DVectorView<'_, f64>) -> DVector<f64> {
+        let of_node = |(node, own): (usize, &Matrix6<f64>)| own * y.fixed_rows::<6>(self.bodies.of_node(node));
+        let all = 0..self.assembly.structure().bearings.len();
+        let each: Vec<Vector6<f64>> = all.map(|i| self.assembly.bearing_ends(i).map(of_node).sum()).collect();
+        DVector::from_iterator(6 * each.len(), each.iter().flat_map(|own| own.iter().copied()))
     }
 }

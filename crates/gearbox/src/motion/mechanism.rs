@@ -185,8 +185,8 @@ impl GearboxMechanism {
             let mut held = vec![false; structure.shafts.len()];
             self.operation.held.iter().for_each(|&shaft| held[shaft] = true);
             let deviations = self.free.of_deviations();
-            let to_bearings =
-                DMatrix::from_fn(6 * found, deviations.ncols(), |i, j| deviations[(self.at_bearing(i), j)]);
+            let columns: Vec<_> = deviations.column_iter().map(|own| self.at_bearings(&own)).collect();
+            let to_bearings = DMatrix::from_fn(6 * found, columns.len(), |i, j| columns[j][i]);
             let force = guessed_force(&self.meshes, &self.operation);
             self.rolling = Some(RollingSupports::new(structure, &held, force, to_bearings)?);
         }
@@ -441,7 +441,7 @@ fn check_motion(structure: &Structure, options: &MotionOptions) -> Result<(), Ge
     if let Some((quantity, value)) = values.into_iter().find(|(_, x)| !(x.is_finite() && *x >= 0.0)) {
         return Err(GearboxError::OutOfRange { part: "the motion".into(), quantity, value });
     }
-    for bearing in &structure.bearings {
+    for bearing in structure.bearings.iter().filter(|b| !structure.stands(b.shaft)) {
         let turning = |m: &nalgebra::Matrix6<f64>| m.row(5).amax().max(m.column(5).amax());
         if turning(&bearing.stiffness) > 0.0 || turning(&bearing.damping) > 0.0 {
             return Err(GearboxError::HeldTurn { bearing: bearing.name.clone() });

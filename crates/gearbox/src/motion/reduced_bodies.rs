@@ -225,7 +225,11 @@ impl ReducedBodies {
 fn nodes(assembly: &Assembly) -> Vec<(usize, usize)> {
     let structure = assembly.structure();
     let discs = structure.discs.iter().enumerate().filter_map(|(i, d)| Some((assembly.disc(i)?, d.shaft)));
-    let bearings = structure.bearings.iter().enumerate().map(|(i, b)| (assembly.bearing(i), b.shaft));
+    let ends = |(i, b): (usize, &crate::Bearing)| {
+        let shafts = [Some(b.shaft), b.outer].into_iter().flatten();
+        assembly.bearing_ends(i).map(|(node, _)| node).zip(shafts).collect::<Vec<_>>()
+    };
+    let bearings = structure.bearings.iter().enumerate().flat_map(ends);
     let mut all: Vec<(usize, usize)> = discs.chain(bearings).collect();
     all.sort_unstable();
     all.dedup();

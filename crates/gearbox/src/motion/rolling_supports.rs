@@ -76,7 +76,8 @@ impl RollingSupports {
         }
         let seats: Vec<usize> = (to_bearings.nrows()..all).filter(|&i| rough[(i, i)] > 0.0).collect();
         let rough = block(&rough, &seats, &seats);
-        let stored = supports.pressed_energy() + structure.bearings.iter().map(|b| b.stored).sum::<f64>();
+        let stored =
+            supports.pressed_energy() + structure.bearings.iter().map(crate::Bearing::energy_at_rest).sum::<f64>();
         Ok(Self { supports, bearings, seats, rough, stored, to_bearings })
     }
 

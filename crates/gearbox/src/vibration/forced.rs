@@ -113,8 +113,12 @@ impl Vibration {
         let heavy = structure.discs.iter().enumerate().filter(|(_, d)| d.polar_inertia > 0.0).map(|(i, _)| i);
         let discs = self.meshes.iter().flat_map(|m| m.discs).chain(heavy).filter_map(|d| assembly.disc(d));
         let held = structure.bearings.iter().enumerate().flat_map(|(i, bearing)| {
-            let at = assembly.bearing(i);
-            (0..6).filter(|k| bearing.stiffness[(*k, *k)] > 0.0).map(move |k| at + k)
+            let of = |(node, own): (usize, &nalgebra::Matrix6<f64>)| {
+                // Coordinates of the node that compress a spring of the bearing.
+                let pressed = own.transpose() * bearing.stiffness * own;
+                (0..6).filter(move |k| pressed[(*k, *k)] > 0.0).map(move |k| node + k)
+            };
+            assembly.bearing_ends(i).flat_map(of).collect::<Vec<_>>()
         });
         let mut at: Vec<usize> = discs.flat_map(|d| d..d + 6).chain(held).chain(assembly.modes()).collect();
         at.sort_unstable();

@@ -30,6 +30,7 @@ mod overhung;
 mod pair_course;
 mod pair_motion;
 mod pairs;
+mod planets;
 mod rest;
 mod rolling;
 mod rolling_gearbox;

@@ -4,9 +4,9 @@ use std::borrow::Cow;
 
 use analysis::gearbox::{BearingLife, BearingLoad, GearboxResult};
 use answer::Answer;
-use gearbox::{GearboxPosition, ShaftLine, line_load};
+use gearbox::{GearboxPosition, LoadSharing, PlanetShare, ShaftLine, line_load, load_shares};
 use minijinja::context;
-use scene::gearbox::Gearbox;
+use scene::gearbox::{Gearbox, GearboxPlanets, PlanetMesh};
 
 use super::{branch, motion, norm, space::BoxInSpace, vibration};
 use crate::{
@@ -40,6 +40,7 @@ pub(super) fn gearbox_page(file: &Gearbox, result: &GearboxResult, answer: &Answ
     page.push(Part::more().with(Content::Html(render("gearbox_view.html", view)?)));
     page.push(meshes(result));
     page.push(pairs(file, result));
+    planets(file, result).into_iter().for_each(|part| page.push(part));
     let rated = result.meshes.iter().filter_map(|m| Some((m.name.as_str(), m.rating.as_ref()?)));
     rated.flat_map(|(name, own)| rating::parts(own, Some(name))).for_each(|part| page.push(part));
     page.push(shafts(file, result));
@@ -81,6 +82,28 @@ fn meshes(result: &GearboxResult) -> Part {
          and across the plane of action) is that by shafts, bearings and housing alone, over the face width, positive where \
          the gap opens as z grows. K_Hbeta is that of the solved load distribution.",
     )
+}
+
+/// How planets share the load, where there are some.
+fn planets(file: &Gearbox, result: &GearboxResult) -> Option<Part> {
+    let of_mesh = |((own, mesh), sharing): ((&GearboxPlanets, &PlanetMesh), &LoadSharing)| {
+        let mean = |share: &PlanetShare| 100.0 * share.mean;
+        let means = sharing.planets.iter().map(|share| crate::tables::fixed(mean(share), 2));
+        vec![
+            Cell::text(&mesh.name),
+            Cell::count(own.angles.len()),
+            Cell::count(means.collect::<Vec<_>>().join(", ")),
+            Cell::number(sharing.factor, 4),
+        ]
+    };
+    let rows = file.meshes_of_planets().zip(&result.planets).map(of_mesh);
+    let head = ["mesh", "planets", "mean shares %", "K_gamma"];
+    (!result.planets.is_empty()).then(|| {
+        Part::new("Planets").closing().grid(Grid::new(head).rows(rows)).note(
+            "Share of each planet in the normal forces of all. K_gamma: the largest share at any position over that of an \
+             even load.",
+        )
+    })
 }
 
 fn pairs(file: &Gearbox, result: &GearboxResult) -> Part {
@@ -221,6 +244,14 @@ fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
         .map(|(i, o)| over(&output(file, i), &|p| 1e6 * (p.output_lags[i] - o.mean)));
     let loads = (result.meshes.iter().enumerate())
         .map(|(i, m)| Curve { label: m.name.clone(), points: line_load(&result.positions, i) });
+    let shares = file.meshes_of_planets().flat_map(|(own, mesh)| {
+        let curve = move |n: usize| {
+            let share = |p: &GearboxPosition| load_shares(p, &mesh.of_planets).map_or(0.0, |all| all[n]);
+            let even = own.angles.len() as f64;
+            over(&format!("{} {}", mesh.name, n + 1), &|p| even * share(p))
+        };
+        (0..own.angles.len()).map(curve)
+    });
     let lines = (file.shafts.iter().enumerate()).map(|(i, s)| Curve { label: s.name.clone(), points: bent(result, i) });
     let all = [
         (
@@ -228,6 +259,13 @@ fn charts(file: &Gearbox, result: &GearboxResult) -> Vec<String> {
             angle,
             "STE less its mean [um]",
             ste.collect::<Vec<_>>(),
+            false,
+        ),
+        (
+            "Load of each planet over that of an even load",
+            angle,
+            "share times number of planets",
+            shares.collect(),
             false,
         ),
         ("From input to output", angle, "lag less its mean [urad]", lags.collect(), false),

@@ -7,9 +7,9 @@ use analysis::gearbox::{BearingLoad, GearboxResult, MeshResult, RollingLoad, Vib
 use analysis::pair_rating::RatingHeadline;
 use answer::keyed;
 use described::Key;
-use gearbox::rolling_bearing::RollingElements;
+use gearbox::{LoadSharing, PlanetShare, rolling_bearing::RollingElements};
 use geometry::GearPair;
-use scene::gearbox::{Gearbox, GearboxVibration};
+use scene::gearbox::{Gearbox, GearboxPlanets, GearboxVibration, PlanetMesh};
 use serde::Serialize;
 use serde_json::{Map, Value};
 
@@ -31,6 +31,9 @@ described::described! {
         bearings: Vec<BearingSummary<'a>>,
         /// outputs, in the order of the torques
         outputs: Vec<OutputSummary>,
+        /// how planets share the load of each mesh that they have in common; missing without `[[planets]]`
+        #[serde(skip_serializing_if = "Vec::is_empty")]
+        planets: Vec<PlanetsSummary<'a>>,
         /// number of positions
         positions: usize,
         /// bounds of the numbers; missing without `[accuracy]`
@@ -89,6 +92,25 @@ described::described! {
         rating: Option<&'a RatingHeadline>,
         /// angle by which the wheel has to be set against its key where the train closes a ring, so that all flanks touch; 0 otherwise
         timing_deg: f64,
+    }
+
+    /// A mesh that planets have in common, over all positions.
+    #[derive(Serialize)]
+    struct PlanetsSummary<'a> {
+        /// name of the first shaft of the planets
+        planets: &'a str,
+        /// name of the mesh in the file
+        mesh: &'a str,
+        /// K_gamma: the largest share of a planet over that of an even load; `null` without load
+        load_sharing_factor: Option<f64>,
+        /// angle of each planet from the first one about +z
+        angles_deg: Vec<f64>,
+        /// mean share of each planet in the load of all; empty without load
+        mean_load_share: Vec<f64>,
+        /// smallest share of each planet
+        min_load_share: Vec<f64>,
+        /// largest share of each planet
+        max_load_share: Vec<f64>,
     }
 
     /// A bearing over all positions.
@@ -256,10 +278,11 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 12] = [
+pub(super) const OBJECTS: [(&str, &[Key]); 13] = [
     ("the summary of a gearbox", GearboxSummary::KEYS),
     ("shafts", ShaftSummary::KEYS),
     ("meshes, a gearbox", MeshSummary::KEYS),
+    ("planets", PlanetsSummary::KEYS),
     ("bearings, a gearbox", BearingSummary::KEYS),
     ("rolling", RollingSummary::KEYS),
     ("life", LifeSummary::KEYS),
@@ -283,11 +306,25 @@ pub(super) fn info(file: &Gearbox, result: &GearboxResult) -> Map<String, Value>
         outputs: outputs
             .map(|o| OutputSummary { mean_lag_urad: 1e6 * o.mean, peak_to_peak_lag_urad: 1e6 * o.peak_to_peak })
             .collect(),
+        planets: file.meshes_of_planets().zip(&result.planets).map(planets).collect(),
         positions: result.positions.len(),
         motion: summary(file, result),
         branch: result.branch.as_ref().map(|own| BranchSummary::new(result, own)),
         vibration: file.vibration.as_ref().zip(result.vibration.as_ref()).map(|own| vibration(file, own)),
     })
+}
+
+fn planets<'a>(((own, mesh), sharing): ((&'a GearboxPlanets, &'a PlanetMesh), &LoadSharing)) -> PlanetsSummary<'a> {
+    let share = |of: fn(&PlanetShare) -> f64| sharing.planets.iter().map(of).collect();
+    PlanetsSummary {
+        planets: &own.name,
+        mesh: &mesh.name,
+        load_sharing_factor: sharing.factor,
+        angles_deg: own.angles.iter().map(|angle| angle.to_degrees()).collect(),
+        mean_load_share: share(|s| s.mean),
+        min_load_share: share(|s| s.least),
+        max_load_share: share(|s| s.largest),
+    }
 }
 
 fn bearing(load: &BearingLoad) -> BearingSummary<'_> {

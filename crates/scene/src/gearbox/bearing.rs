@@ -4,10 +4,10 @@ use toml::Spanned;
 
 use super::{
     file::GearboxBearing,
-    parts::place,
+    parts::{place, shaft_called},
     rolling::{TYPED, rolling},
     schema::RawBearing,
-    values::{Checked, missing, numbers, square},
+    values::{Checked, given, list, missing, numbers, row, square},
 };
 use crate::Source;
 
@@ -36,7 +36,10 @@ pub(super) fn bearing(
             (stiffness(s, table, &name)?, None)
         }
     };
-    Ok(GearboxBearing { name, shaft, position, stiffness, damping, rolling })
+    let in_shaft = raw.in_shaft.as_ref().map(|word| shaft_called(s, "in_shaft", word, shafts)).transpose()?;
+    let offset = list(s, "seat_offset_um", &raw.seat_offset_um, 3, [-1e4, 1e4])?;
+    let seat_offset = offset.map_or([0.0; 3], |own| [1e-3 * own[0], 1e-3 * own[1], 1e-3 * own[2]]);
+    Ok(GearboxBearing { name, shaft, position, in_shaft, seat_offset, stiffness, damping, rolling })
 }
 
 /// A rolling bearing has no stiffness of its own.
@@ -44,6 +47,7 @@ fn apart(s: &Source<'_>, raw: &RawBearing) -> Checked<()> {
     let stated = [
         ("stiffness_n_per_mm", raw.stiffness_n_per_mm.as_ref().map(Spanned::span)),
         ("tilt_stiffness_nm_per_rad", raw.tilt_stiffness_nm_per_rad.as_ref().map(Spanned::span)),
+        ("turn_stiffness_nm_per_rad", raw.turn_stiffness_nm_per_rad.as_ref().map(Spanned::span)),
         ("matrix_n_mm_rad", raw.matrix_n_mm_rad.as_ref().map(Spanned::span)),
     ];
     match stated.into_iter().find_map(|(key, span)| Some((key, span?))) {
@@ -60,7 +64,8 @@ fn stiffness(s: &Source<'_>, table: &Spanned<RawBearing>, name: &str) -> Checked
     let mut stiffness = [[0.0; 6]; 6];
     match &raw.matrix_n_mm_rad {
         Some(rows) => {
-            let apart = raw.stiffness_n_per_mm.is_some() || raw.tilt_stiffness_nm_per_rad.is_some();
+            let single = [raw.stiffness_n_per_mm.is_some(), raw.tilt_stiffness_nm_per_rad.is_some()];
+            let apart = single.contains(&true) || raw.turn_stiffness_nm_per_rad.is_some();
             if apart {
                 let said = format!("{name} has its stiffness twice");
                 return Err(s.conflict(&rows.span(), said, "give the matrix or the single values, not both"));
@@ -83,6 +88,7 @@ fn stiffness(s: &Source<'_>, table: &Spanned<RawBearing>, name: &str) -> Checked
             let tilts = numbers::<2>(s, "tilt_stiffness_nm_per_rad", &raw.tilt_stiffness_nm_per_rad, 1e15)?;
             let diagonal = shifts.into_iter().chain(tilts.unwrap_or_default().map(|t| 1e3 * t));
             diagonal.enumerate().for_each(|(i, value)| stiffness[i][i] = value);
+            stiffness[5][5] = 1e3 * given!(s, BEARING, raw.turn_stiffness_nm_per_rad)?.unwrap_or(0.0);
         }
     }
     Ok(stiffness)

@@ -4,17 +4,17 @@ use toml::Spanned;
 
 use super::accuracy::accuracy;
 use super::bearing::bearing;
-use super::file::{
-    Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, called, mid_face_offset,
-};
+use super::file::{Gearbox, GearboxGear, GearboxInput, GearboxMesh, GearboxShaft, GearboxTorque, mid_face_offset};
 use super::housing::housing;
 use super::loads::{apart, loaded};
 use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
 use super::parts::{all, distinct, few, place, place_of_gear};
+use super::planets::written_out;
 use super::rating::rating;
 use super::schema::{GearboxDrive, MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
+use super::seats::seats;
 use super::shaft::{length, shaft};
 use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
@@ -29,28 +29,29 @@ use crate::{
 const SETTINGS: usize = 1000;
 
 pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -> Checked<Gearbox> {
+    let (raw, written) = written_out(s, raw)?;
     few(s, "shafts", &raw.shaft)?;
     few(s, "bearings", &raw.bearing)?;
     few(s, "gears", &raw.gear)?;
     few(s, "meshes", &raw.mesh)?;
     few(s, "torques", &raw.torque)?;
-    let shafts = all(&raw.shaft, |t| shaft(s, t))?;
+    let mut shafts = all(&raw.shaft, |t| shaft(s, t))?;
     let names: Vec<(String, f64)> = shafts.iter().map(|x| (x.name.clone(), length(x))).collect();
     distinct(s, "shafts", &raw.shaft, names.iter().map(|n| n.0.as_str()))?;
-    let bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
+    let mut bearings = all(&raw.bearing, |t| bearing(s, t, &names))?;
+    written.place(s, &raw.planets, &mut shafts, &mut bearings)?;
+    seats(s, &raw, (&shafts, &bearings))?;
     let gears = all(&raw.gear, |t| gear(s, t, &names))?;
     distinct(s, "gears", &raw.gear, gears.iter().map(|g| g.name.as_str()))?;
     let called_meshes: Vec<String> = raw.mesh.iter().map(|table| mesh_name(table.get_ref())).collect();
-    let place = |own: &PairSetting| called(&own.mesh, called_meshes.iter().map(String::as_str));
-    if let Some(none) = of_pairs.iter().find(|own| place(own).is_none()) {
-        let names: Vec<String> =
-            called_meshes.iter().enumerate().map(|(i, name)| format!("{i} (\"{name}\")")).collect();
-        let what = format!("there is no mesh `{}`; there are {}", none.mesh, names.join(", "));
+    let means = |own: &PairSetting, mesh: usize| written.means(&own.mesh, mesh, &called_meshes[mesh]);
+    if let Some(none) = of_pairs.iter().find(|own| !(0..called_meshes.len()).any(|mesh| means(own, mesh))) {
+        let what = format!("there is no mesh `{}`; there are {}", none.mesh, written.mesh_names());
         return Err(SceneError::Setting { label: format!("--set {}", none.key), what });
     }
     let mut meshes = Vec::new();
     for (i, table) in raw.mesh.iter().enumerate() {
-        let own = of_pairs.iter().filter(|own| place(own) == Some(i)).map(|own| own.setting.clone());
+        let own = of_pairs.iter().filter(|own| means(own, i)).map(|own| own.setting.clone());
         meshes.push(mesh(s, table, &gears, own.collect())?);
     }
     distinct(s, "meshes", &raw.mesh, meshes.iter().map(|m| m.name.as_str()))?;
@@ -67,8 +68,10 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     meshes.iter_mut().zip(&raw.mesh).try_for_each(|(mesh, table)| place_axes(s, table, mesh, (&shafts, &gears)))?;
     loaded(s, &raw.mesh, (&meshes, &gears), (&input, &torques))?;
     in_mesh(s, &raw.gear, &gears, &meshes)?;
+    let planets = written.planets(s, &raw.planets, (&shafts, &gears, &meshes))?;
     let parts = [meshes.len(), bearings.len()];
-    let housing = raw.housing.as_ref().map(|table| housing(s, table, bearings.len())).transpose()?;
+    let housed = bearings.iter().filter(|b| b.in_shaft.is_none()).count();
+    let housing = raw.housing.as_ref().map(|table| housing(s, table, housed)).transpose()?;
     let rating = rating(s, &raw, (&meshes, &bearings))?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
@@ -92,6 +95,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
         meshes,
         input,
         torques,
+        planets,
         housing,
         positions_per_cycle: row!(s, ANALYSIS, analysis.positions_per_cycle)?,
         cycles: row!(s, ANALYSIS, analysis.cycles)?,
@@ -145,7 +149,7 @@ fn without_friction(
 }
 
 /// What a mesh is called.
-fn mesh_name(raw: &RawMesh) -> String {
+pub(super) fn mesh_name(raw: &RawMesh) -> String {
     let word = |word: &Word| word.as_ref().map_or("", |w| w.get_ref().as_str()).to_owned();
     match &raw.name {
         Some(own) => own.get_ref().clone(),

@@ -31,7 +31,9 @@ pub struct Gearbox {
     pub input: GearboxInput,
     /// Loads.
     pub torques: Vec<GearboxTorque>,
-    /// Rows of the stiffness of the housing between the bearing seats, N, mm, rad; none: rigid.
+    /// Planets of stages, written out among shafts, bearings, gears and meshes.
+    pub planets: Vec<GearboxPlanets>,
+    /// Rows of the stiffness of the housing between the seats of the bearings in it, N, mm, rad; none: rigid.
     pub housing: Option<Vec<Vec<f64>>>,
     /// Positions a cycle of the first mesh.
     pub positions_per_cycle: u32,
@@ -67,16 +69,22 @@ pub(super) fn mid_face_offset(shafts: &[GearboxShaft], all: &[GearboxGear], gear
 }
 
 impl Gearbox {
-    /// The mesh that a part of a key means: by its number from 0, else by its name.
-    pub fn mesh_called(&self, which: &str) -> Option<usize> {
-        called(which, self.meshes.iter().map(|mesh| mesh.name.as_str()))
+    /// All meshes that planets have in common, with their planets, in the order of the file.
+    pub fn meshes_of_planets(&self) -> impl Iterator<Item = (&GearboxPlanets, &PlanetMesh)> {
+        self.planets.iter().flat_map(|planets| planets.meshes.iter().map(move |mesh| (planets, mesh)))
     }
-}
 
-/// The place that a part of a key means among entries of these names: by its number from 0, else by its name.
-pub(super) fn called<'a>(which: &str, mut names: impl ExactSizeIterator<Item = &'a str>) -> Option<usize> {
-    let number = which.parse().ok().filter(|i| *i < names.len());
-    number.or_else(|| names.position(|name| name == which))
+    /// The mesh that a part of a key means: by its number in the file from 0, else by its name; the first one where planets
+    /// have it in common.
+    pub fn mesh_called(&self, which: &str) -> Option<usize> {
+        let is_copy = |i: &usize| self.meshes_of_planets().any(|(_, own)| own.of_planets[1..].contains(i));
+        let mut in_file = (0..self.meshes.len()).filter(|i| !is_copy(i));
+        let number = which.parse().ok().and_then(|n| in_file.nth(n));
+        let named = || self.meshes.iter().position(|mesh| mesh.name == which);
+        let of_planets =
+            || self.meshes_of_planets().find(|(_, own)| own.name == which).map(|(_, own)| own.of_planets[0]);
+        number.or_else(named).or_else(of_planets)
+    }
 }
 
 /// A shaft.
@@ -96,6 +104,28 @@ pub struct GearboxShaft {
     pub density: f64,
     /// Rigid in rigid bearings.
     pub held: bool,
+    /// Whether it does not turn.
+    pub stands: bool,
+}
+
+/// Planets of a stage.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxPlanets {
+    /// Name of the shaft of the first one in the file.
+    pub name: String,
+    /// Meshes that each of them has.
+    pub meshes: Vec<PlanetMesh>,
+    /// Angle of each planet from the first, rad about +z.
+    pub angles: Vec<f64>,
+}
+
+/// A mesh that each planet of a stage has.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlanetMesh {
+    /// Name in the file.
+    pub name: String,
+    /// Meshes of the planets, in their order.
+    pub of_planets: Vec<usize>,
 }
 
 /// Operation that meshes and bearings are rated for.
@@ -131,12 +161,42 @@ pub struct GearboxBearing {
     pub shaft: usize,
     /// Middle of the bearing, mm from the shaft's z = 0.
     pub position: f64,
+    /// Shaft that its seat is part of; none: the housing.
+    pub in_shaft: Option<usize>,
+    /// How far its seat stands off, mm.
+    pub seat_offset: [f64; 3],
     /// Stiffness for displacements x, y, z and turns about them: N/mm, N, N mm.
     pub stiffness: [[f64; 6]; 6],
     /// Damping along x, y, z, N s/mm.
     pub damping: [f64; 3],
     /// Rolling elements in place of the stiffness, which is zero then.
     pub rolling: Option<GearboxRolling>,
+}
+
+impl GearboxBearing {
+    /// Turns the bearing with its seat about z, rad.
+    pub(super) fn turn_about(&mut self, angle: f64) {
+        let k = self.stiffness;
+        let turns_alike = |i: usize| k[i][i] == k[i + 1][i + 1] && k[i][i + 1] == 0.0 && k[i + 1][i] == 0.0;
+        let apart = (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).all(|(i, j)| i == j || k[i][j] == 0.0);
+        // Round-off would be the only change.
+        if !(apart && turns_alike(0) && turns_alike(3)) {
+            let (sin, cos) = angle.sin_cos();
+            let mut turn = [[0.0; 6]; 6];
+            for at in [0, 3] {
+                (turn[at][at], turn[at][at + 1], turn[at + 1][at], turn[at + 1][at + 1]) = (cos, -sin, sin, cos);
+                turn[at + 2][at + 2] = 1.0;
+            }
+            let entry = |i: usize, j: usize| -> f64 {
+                let pairs = (0..6).flat_map(|a| (0..6).map(move |b| (a, b)));
+                pairs.map(|(a, b)| turn[i][a] * k[a][b] * turn[j][b]).sum()
+            };
+            self.stiffness = std::array::from_fn(|i| std::array::from_fn(|j| entry(i, j)));
+        }
+        let (sin, cos) = angle.sin_cos();
+        let [x, y, z] = self.seat_offset;
+        self.seat_offset = [x * cos - y * sin, x * sin + y * cos, z];
+    }
 }
 
 /// A rolling bearing whose stiffness follows its load.

@@ -8,7 +8,8 @@
 //! | `accuracy` | how exact its numbers are to be |
 //! | `rating` | whether it will hold, at which speed |
 //! | `shaft` | sections of the file, or of a REXS file |
-//! | `bearing`, `rolling` | bearings of a stiffness, and those with rolling elements |
+//! | `bearing`, `rolling`, `seats` | bearings of a stiffness, and those with rolling elements; where they sit |
+//! | `planets` | parts of one planet, written out for all |
 //! | `of_pair` | the gearbox that a pair is the short form of |
 //! | `schema`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
@@ -23,17 +24,20 @@ mod motion;
 mod of_pair;
 mod pair_setting;
 mod parts;
+mod planets;
+mod planets_fit;
 mod rating;
 mod read;
 mod rolling;
 mod schema;
+mod seats;
 mod shaft;
 mod values;
 mod vibration;
 
 pub use file::{
-    AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxRating, GearboxRolling,
-    GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, RollingSize, ThrustSeat,
+    AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxPlanets, GearboxRating,
+    GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, PlanetMesh, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
 pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};

@@ -76,7 +76,17 @@ fn shaft_of<R>(
     shaft: &Word,
     shafts: &[(String, f64)],
 ) -> Checked<usize> {
-    let known: Vec<(&str, usize)> = shafts.iter().enumerate().map(|(i, x)| (x.0.as_str(), i)).collect();
     let Some(word) = shaft else { return Err(missing(s, table, name, "shaft", "the name of a shaft")) };
-    s.one_of("shaft", word, &known)
+    shaft_called(s, "shaft", word, shafts)
+}
+
+/// Number of the shaft that a word names.
+pub(super) fn shaft_called(
+    s: &Source<'_>,
+    key: &str,
+    word: &Spanned<String>,
+    shafts: &[(String, f64)],
+) -> Checked<usize> {
+    let known: Vec<(&str, usize)> = shafts.iter().enumerate().map(|(i, x)| (x.0.as_str(), i)).collect();
+    s.one_of(key, word, &known)
 }

@@ -17,6 +17,7 @@ table! {
         mesh: list(MESH: RawMesh);
         input: table(INPUT: RawInput);
         torque: list(TORQUE: RawTorque);
+        planets: list(PLANETS: RawPlanets);
         housing: table(HOUSING: RawHousing);
         accuracy: table(GEARBOX_ACCURACY: RawGearboxAccuracy);
         rating: table(GEARBOX_RATING: RawGearboxRating);
@@ -40,6 +41,7 @@ table! {
         poisson: bare(0.0, 0.499), "Poisson's ratio; default: 0.3, or the REXS file's";
         density_kg_m3: bare(1e-9, 1e5), "density, kg/m^3, for vibration and motion; next to nothing where gears have all mass; default: 7850, or the REXS file's";
         held: switch(false), "whether it is rigid in rigid bearings. It turns about its axis and does nothing else; a pair alone is two of these";
+        stands: switch(false), "whether it does not turn: a carrier seen from itself, or its pin. One of its bearings holds its turn (`turn_stiffness_nm_per_rad`)";
     }
 }
 
@@ -104,12 +106,15 @@ choices! {
 
 table! {
     /// `[[bearing]]`
-    BEARING, RawBearing: "a bearing between a shaft and the housing: single values, a matrix, or the `type` of a rolling bearing", needed ["shaft", "position_mm"]; {
+    BEARING, RawBearing: "a bearing between a shaft and the housing, or another shaft: single values, a matrix, or the `type` of a rolling bearing", needed ["shaft", "position_mm"]; {
         name: text(), "name for tables; default: its place";
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where its middle is, mm from the shaft's z = 0, up to its length";
+        in_shaft: text(), "name of the shaft that its seat is part of: a shaft of the same axis, or one that stands, as a carrier; default: the housing";
+        seat_offset_um: numbers(), "how far its seat stands off along x, y and z, um, up to 10000 either way: an error of a bore; default: 0, 0, 0";
         stiffness_n_per_mm: numbers(), "stiffness along x, y and z, N/mm, 0 .. 1e15 each; needed where there is no matrix and no `type`";
         tilt_stiffness_nm_per_rad: numbers(), "stiffness of the turns about x and y, N m/rad, 0 .. 1e15 each; default: 0, 0";
+        turn_stiffness_nm_per_rad: bare(0.0, 1e15), "stiffness of the turn about z, N m/rad, of a shaft that stands; default: 0";
         matrix_n_mm_rad: rows(0), "5 or 6 rows for x, y, z and the turns about x, y (and z): N/mm, N/rad and N mm/mm, N mm/rad; symmetric, no negative stiffness";
         damping_n_s_per_mm: numbers(), "damping along x, y and z, N s/mm, 0 .. 1e12 each, for vibration and motion; default: 0, 0, 0";
         r#type: bare_word(RollingKind), "what rolls in it; default: a bearing of a stiffness. Needle rollers are cylindrical ones; there is no law of spherical, toroidal, self-aligning, thrust, four-point contact and plain bearings: give their stiffness";
@@ -190,12 +195,24 @@ table! {
 }
 
 table! {
+    /// `[[planets]]`
+    PLANETS, RawPlanets: "planets of a stage, seen from their carrier: the shafts of the first one with their bearings and gears, and the meshes of these, are written once and stand for all. Copies have a number behind their names: \"planet 1\", \"planet 2\"", needed ["shafts", "around", "count"]; {
+        shafts: texts(), "names of the shafts of the first planet: its own, and its pin where that is one";
+        around: text(), "name of the shaft whose axis they stand around: carrier, sun or ring";
+        count: bare_whole(2, 24), "how many there are";
+        angles_deg: numbers(), "angle of each from the first one about +z, degrees, which is 0; default: evenly spaced. Teeth must go in: multiples of 360/(z_sun + z_ring) where a planet has one set of teeth";
+        tangential_errors_um: numbers(), "how far the pin of each stands off along the circle, about +z, um; default: 0. They move the seats of its bearings, and share the load unevenly";
+        radial_errors_um: numbers(), "how far the pin of each stands off away from the middle, um; default: 0";
+    }
+}
+
+table! {
     /// `[housing]`
     HOUSING, RawHousing: "stiffness between the bearing seats, foundation included; left out: rigid"; {
-        matrix_n_mm_rad: rows(0), "six rows a bearing, in their order; symmetric";
+        matrix_n_mm_rad: rows(0), "six rows a bearing in the housing, in their order; symmetric";
         file: text(), "path of the file of another program that has it, in N and mm, condensed to the seats alone. `.mtx`: the substructure matrix of CalculiX; all others: `DMIG` entries as Nastran punches them, real, square or symmetric";
         matrix: text(), "name of the DMIG matrix in that file; default: the first one";
-        nodes: wholes(), "with a file: node of each bearing's seat, in the order of the bearings";
+        nodes: wholes(), "with a file: node of the seat of each bearing in the housing, in their order";
         turn_nodes: wholes(), "nodes whose directions 1 to 3 are the turns, in CalculiX those after `ROT NODE`; default: directions 4 to 6 of nodes";
     }
 }

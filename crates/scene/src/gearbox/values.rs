@@ -49,6 +49,27 @@ pub(super) fn numbers<const N: usize>(
     Ok(Some(all))
 }
 
+/// So many numbers within a range.
+pub(super) fn list(
+    s: &Source<'_>,
+    key: &str,
+    list: &Numbers,
+    wanted: usize,
+    [low, high]: [f64; 2],
+) -> Checked<Option<Vec<f64>>> {
+    let Some(own) = list else { return Ok(None) };
+    let found = own.get_ref().len();
+    if found != wanted {
+        let said = format!("`{key}` has {found} numbers");
+        return Err(s.conflict(&own.span(), said, format!("give {wanted}")));
+    }
+    own.get_ref()
+        .iter()
+        .map(|value| s.number(key, &Some(value.clone()), 0.0, low, high))
+        .collect::<Checked<_>>()
+        .map(Some)
+}
+
 pub(super) fn needed_word<R>(
     s: &Source<'_>,
     table: &Spanned<R>,

@@ -1,0 +1,74 @@
+//! Errors of bearings between shafts, and of shafts that do not turn.
+
+/// Why a bearing cannot sit in a shaft, or a shaft not stand.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SeatError {
+    /// A bearing between a shaft and itself.
+    #[error("{bearing} is between shaft {shaft} and itself")]
+    Itself {
+        /// Name of the bearing.
+        bearing: String,
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// A seat beside the axis of a shaft that turns.
+    #[error("the seat of {bearing} is {arm_mm} mm beside the axis of shaft {shaft}, which turns")]
+    Turns {
+        /// Name of the bearing.
+        bearing: String,
+        /// Name of the shaft that the seat is part of.
+        shaft: String,
+        /// Distance from its axis, mm.
+        arm_mm: f64,
+    },
+    /// A bearing between shafts of which one is held.
+    #[error("{bearing} is between two shafts, and shaft {shaft} is held: bearings of held shafts are rigid")]
+    Held {
+        /// Name of the bearing.
+        bearing: String,
+        /// Name of the held shaft.
+        shaft: String,
+    },
+    /// A shaft that stands and that nothing keeps from turning.
+    #[error("shaft {shaft} stands, and none of its bearings holds its turn")]
+    Free {
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// A part of a shaft that stands where one has to turn.
+    #[error("{part} is on shaft {shaft}, which stands")]
+    Stands {
+        /// Gear, input or torque.
+        part: String,
+        /// Name of the shaft.
+        shaft: String,
+    },
+    /// A shaft that stands and is held.
+    #[error("shaft {shaft} stands and is held: nothing of it moves")]
+    Nothing {
+        /// Name of the shaft.
+        shaft: String,
+    },
+}
+
+impl SeatError {
+    /// What the user can do next.
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Itself { .. } => {
+                "name another shaft with `in_shaft`, or leave it out: the seat is in the housing then"
+            }
+            Self::Turns { .. } => {
+                "shafts within turning shafts have one axis: give both the same x and y in `origin_mm`; or let the outer one \
+                 stand (`stands = true`), as a carrier seen from itself"
+            }
+            Self::Held { .. } => "leave `held` out and give that shaft bearings, or seat this one in the housing",
+            Self::Free { .. } => {
+                "give one of its bearings `turn_stiffness_nm_per_rad`: what holds the carrier where it is seen from"
+            }
+            Self::Stands { .. } => "leave `stands` out, or put it on a shaft that turns",
+            Self::Nothing { .. } => "leave the shaft out and seat its bearings in the housing",
+        }
+    }
+}

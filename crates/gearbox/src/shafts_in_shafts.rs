@@ -1,0 +1,88 @@
+//! Bearings whose seats are part of other shafts, and shafts that do not turn: carriers and their pins. Theory (79c).
+
+use nalgebra::Matrix6;
+
+use crate::{Bearing, GearboxError, Operation, SeatError, Structure};
+
+/// Distance between two axes that is none: round-off of their places, mm.
+const ONE_AXIS: f64 = 1e-9;
+
+impl Structure {
+    /// Whether a shaft does not turn.
+    pub fn stands(&self, shaft: usize) -> bool {
+        self.standing.contains(&shaft)
+    }
+
+    /// Place of a bearing from the origin of the shaft that its seat is part of, mm; `None` in the housing.
+    pub(crate) fn seat(&self, bearing: &Bearing) -> Option<[f64; 3]> {
+        let [outer, own] = [bearing.outer?, bearing.shaft].map(|shaft| self.shafts.get(shaft));
+        let (outer, own) = (outer?.origin, own?.origin);
+        Some([own[0] - outer[0], own[1] - outer[1], own[2] + bearing.position - outer[2]])
+    }
+
+    /// Checks bearings between shafts, and that bearings hold the turn of every shaft that stands.
+    pub(crate) fn check_seats(&self) -> Result<(), GearboxError> {
+        let name = |shaft: usize| self.shafts[shaft].name.clone();
+        for bearing in &self.bearings {
+            let Some(outer) = bearing.outer else { continue };
+            self.has_shaft(&bearing.name, outer)?;
+            let part = bearing.name.clone();
+            if outer == bearing.shaft {
+                return Err(SeatError::Itself { bearing: part, shaft: name(outer) }.into());
+            }
+            let Some([x, y, z]) = self.seat(bearing) else { continue };
+            if x.hypot(y) > ONE_AXIS && !self.stands(outer) {
+                return Err(SeatError::Turns { bearing: part, shaft: name(outer), arm_mm: x.hypot(y) }.into());
+            }
+            // A rigid body has room for it wherever it is.
+            if !self.shafts[outer].pieces.is_empty() {
+                self.on_shaft(&part, outer, z)?;
+            }
+        }
+        for &shaft in &self.standing {
+            self.has_shaft("what stands", shaft)?;
+            let holds = |b: &&Bearing| (b.shaft == shaft || b.outer == Some(shaft)) && b.stiffness[(5, 5)] > 0.0;
+            if !self.bearings.iter().any(|b| holds(&b)) {
+                return Err(SeatError::Free { shaft: name(shaft) }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// Checks that a part is on a shaft that turns.
+    pub(crate) fn turns(&self, part: &str, disc: usize) -> Result<(), GearboxError> {
+        let shaft = self.discs[disc].shaft;
+        if !self.stands(shaft) {
+            return Ok(());
+        }
+        Err(SeatError::Stands { part: part.into(), shaft: self.shafts[shaft].name.clone() }.into())
+    }
+
+    /// Checks that no shaft of an operation that is held stands, or has a bearing in common with another one.
+    pub(crate) fn check_held_seats(&self, operation: &Operation) -> Result<(), GearboxError> {
+        let held = |shaft: usize| operation.held.contains(&shaft);
+        let name = |shaft: usize| self.shafts[shaft].name.clone();
+        if let Some(&shaft) = self.standing.iter().find(|shaft| held(**shaft)) {
+            return Err(SeatError::Nothing { shaft: name(shaft) }.into());
+        }
+        for bearing in &self.bearings {
+            let Some(outer) = bearing.outer else { continue };
+            if let Some(shaft) = [bearing.shaft, outer].into_iter().find(|shaft| held(*shaft)) {
+                return Err(SeatError::Held { bearing: bearing.name.clone(), shaft: name(shaft) }.into());
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Displacements and turns at a place (mm) from where a rigid body's six coordinates are.
+///
+/// ```text
+/// u_place = u + turn x r,   turn_place = turn
+/// ```
+pub(crate) fn rigid([x, y, z]: [f64; 3]) -> Matrix6<f64> {
+    let mut moves = Matrix6::identity();
+    let arm = [(0, 4, z), (0, 5, -y), (1, 3, -z), (1, 5, x), (2, 3, y), (2, 4, -x)];
+    arm.into_iter().for_each(|(i, j, r)| moves[(i, j)] = r);
+    moves
+}
