@@ -57,14 +57,21 @@ impl GearboxMechanism {
         };
         self.loads.iter().for_each(|own| load(1.0, own));
         self.varying.forces(t).for_each(|(torque, along)| load(torque, along));
-        if acceleration != 0.0 {
-            load(-acceleration, &self.momentum);
-            // An input that balances accelerates the whole train.
-            if matches!(self.drive, Drive::Balanced(_)) {
-                load(acceleration * self.train_inertia(), &self.push);
-            }
+        for (size, along) in self.of_acceleration(acceleration).into_iter().flatten() {
+            load(size, along);
         }
         Ok(())
+    }
+
+    /// Loads by a given acceleration of the input: sizes, and what they do to the coordinates. Inertia of what follows the
+    /// input, and the torque of an input that balances and accelerates the whole train.
+    pub(super) fn of_acceleration(&self, acceleration: f64) -> Option<[(f64, &DVector<f64>); 2]> {
+        if acceleration == 0.0 {
+            return None;
+        }
+        let balances = matches!(self.drive, Drive::Balanced(_));
+        let torque = if balances { acceleration * self.train_inertia() } else { 0.0 };
+        Some([(-acceleration, &self.momentum), (torque, &self.push)])
     }
 
     /// Elastic energy of shafts, bearings and housing, but what preloads of bearings do as loads, N mm.
@@ -139,7 +146,7 @@ impl GearboxMechanism {
         let at = self.displaced(mesh, angle, q);
         let live = &mut self.live[mesh];
         let reply = live.reply(&self.meshes[mesh], cycles, &at, out.tangents)?;
-        let (force, tangent) = (reply.force, out.tangents.then(|| reply.tangent));
+        let (force, tangent) = (reply.force, out.tangents.then_some(reply.tangent));
         let per_turn = live.cycles_per_turn;
         let passing = per_turn * speed;
         let losses = live.element().losses(&rates, passing);

@@ -135,8 +135,8 @@ impl GearboxMechanism {
         self.standing((angle, time), from)
     }
 
-    /// Equilibrium with the input turned by an angle (rad about +z), under the loads of a time (s); the turn itself is left
-    /// at 0.
+    /// Equilibrium with the input turned by an angle (rad about +z), under the loads and the acceleration of a time (s); the
+    /// turn itself is left at 0.
     fn standing(
         &mut self,
         (angle, time): (f64, f64),
@@ -151,6 +151,8 @@ impl GearboxMechanism {
         // What a torque gives to the turn itself is left out.
         let mut load = (&self.loads[0] + &self.loads[1]).rows(0, n).into_owned();
         self.varying.forces(time).for_each(|(torque, along)| load.axpy(torque, &along.rows(0, n), 1.0));
+        let accelerating = self.of_acceleration(self.acceleration(time));
+        accelerating.into_iter().flatten().for_each(|(size, along)| load.axpy(size, &along.rows(0, n), 1.0));
         let push = self.push.rows(0, n).into_owned();
         let balances = matches!(self.drive, Drive::Balanced(_));
         let mut guessed = stiffness.clone();
