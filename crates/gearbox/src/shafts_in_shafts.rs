@@ -2,7 +2,7 @@
 
 use nalgebra::Matrix6;
 
-use crate::{Bearing, GearboxError, Operation, SeatError, Structure};
+use crate::{Bearing, GearboxError, SeatError, Structure};
 
 /// Distance between two axes that is none: round-off of their places, mm.
 const ONE_AXIS: f64 = 1e-9;
@@ -58,9 +58,9 @@ impl Structure {
         Err(SeatError::Stands { part: part.into(), shaft: self.shafts[shaft].name.clone() }.into())
     }
 
-    /// Checks that no shaft of an operation that is held stands, or has a bearing in common with another one.
-    pub(crate) fn check_held_seats(&self, operation: &Operation) -> Result<(), GearboxError> {
-        let held = |shaft: usize| operation.held.contains(&shaft);
+    /// Checks that no shaft that is held stands, or has a bearing in common with another one.
+    pub(crate) fn check_held_seats(&self, held: &[usize]) -> Result<(), GearboxError> {
+        let held = |shaft: usize| held.contains(&shaft);
         let name = |shaft: usize| self.shafts[shaft].name.clone();
         if let Some(&shaft) = self.standing.iter().find(|shaft| held(**shaft)) {
             return Err(SeatError::Nothing { shaft: name(shaft) }.into());

@@ -183,7 +183,7 @@ pub(crate) fn check(structure: &Structure, train: &Train, operation: &Operation)
     if let Some(&shaft) = operation.held.iter().find(|s| **s >= count) {
         return Err(GearboxError::NoShaft { part: "what is held".into(), shaft, count });
     }
-    structure.check_held_seats(operation)?;
+    structure.check_held_seats(&operation.held)?;
     for torque in &operation.torques {
         structure.has_discs("a torque", [torque.disc; 2])?;
         structure.turns("a torque", torque.disc)?;

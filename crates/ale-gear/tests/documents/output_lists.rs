@@ -104,7 +104,10 @@ fn checks() -> Listed {
 
 fn all() -> Vec<Listed> {
     let scene = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(100.0);
-    let gearbox = Gearbox::read(&repository().join("scenes/gearbox/rolling_bearings.toml")).unwrap();
+    let of_gearbox = |name: &str| Gearbox::read(&repository().join("scenes/gearbox").join(name)).unwrap();
+    // Columns of rolling bearings and of planets: there are no rows.
+    let planets = of_gearbox("planetary_stage.toml").planets;
+    let gearbox = Gearbox { planets, ..of_gearbox("rolling_bearings.toml") };
     let tables = documented_tables(&scene.build().unwrap(), &gearbox).unwrap();
     let (of_envelope, keys_of_envelope) = envelope::files::documented();
     let tables = tables.into_iter().chain(of_envelope.into_iter().map(|table| (table.name.to_string(), table)));

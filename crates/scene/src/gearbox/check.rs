@@ -10,7 +10,7 @@ use super::loads::{apart, loaded};
 use super::modes::modes;
 use super::motion::{Asked, GearboxMotion, asked};
 use super::pair_setting::PairSetting;
-use super::parts::{all, distinct, few, place, place_of_gear};
+use super::parts::{all, distinct, few, mesh_name, place, place_of_gear};
 use super::planets::written_out;
 use super::rating::rating;
 use super::schema::{GearboxDrive, MeshModel, RawGear, RawGearbox, RawInput, RawMesh, RawTorque, TORQUE};
@@ -146,15 +146,6 @@ fn without_friction(
     let said = format!("the pair of mesh \"{}\" has friction, and {what}", mesh.name);
     let span = table.get_ref().scene.as_ref().map_or(table.span(), Spanned::span);
     Err(s.conflict(&span, said, "leave `friction` out, or `set` it to 0"))
-}
-
-/// What a mesh is called.
-pub(super) fn mesh_name(raw: &RawMesh) -> String {
-    let word = |word: &Word| word.as_ref().map_or("", |w| w.get_ref().as_str()).to_owned();
-    match &raw.name {
-        Some(own) => own.get_ref().clone(),
-        None => format!("{}/{}", word(&raw.pinion), word(&raw.wheel)),
-    }
 }
 
 /// `more`: keys of its scene that are set beside the file.

@@ -2,7 +2,10 @@
 
 use toml::Spanned;
 
-use super::values::{Checked, missing, needed_number};
+use super::{
+    schema::RawMesh,
+    values::{Checked, missing, needed_number},
+};
 use crate::{Number, Source, Word};
 
 /// Parts of a kind at the most: the matrices are dense.
@@ -21,6 +24,15 @@ pub(super) fn few<R>(s: &Source<'_>, what: &str, tables: &[Spanned<R>]) -> Check
             Err(s.conflict(&table.span(), said, format!("list {PARTS} at the most")))
         }
         None => Ok(()),
+    }
+}
+
+/// What a mesh is called.
+pub(super) fn mesh_name(raw: &RawMesh) -> String {
+    let word = |word: &Word| word.as_ref().map_or("", |w| w.get_ref().as_str()).to_owned();
+    match &raw.name {
+        Some(own) => own.get_ref().clone(),
+        None => format!("{}/{}", word(&raw.pinion), word(&raw.wheel)),
     }
 }
 

@@ -6,7 +6,7 @@ use toml::Spanned;
 
 use super::{
     file::{GearboxBearing, GearboxGear, GearboxMesh, GearboxPlanets, GearboxShaft, PlanetMesh},
-    parts::all,
+    parts::{all, mesh_name},
     schema::{RawBearing, RawGear, RawGearbox, RawMesh, RawPlanets, RawShaft},
     values::{Checked, given, list, missing, needed_word, row},
 };
@@ -136,7 +136,7 @@ pub(super) fn written_out(s: &Source<'_>, raw: RawGearbox) -> Checked<(RawGearbo
                 ..raw.clone()
             };
             written.mesh.push(copy(own, named));
-            let name = super::check::mesh_name(own.get_ref());
+            let name = mesh_name(own.get_ref());
             out.meshes.push(MeshInFile { planet: group.map(|group| Planet { group, planet }), place, name });
         }
     }
