@@ -4,7 +4,7 @@
 //!
 //! | what | how |
 //! |---|---|
-//! | [`read_regular_file`], [`read_regular_text`] | regular files alone, up to a size that the kind of file may have ([`most`]) |
+//! | [`read_regular_file`], [`read_regular_text`], [`open_regular_file`] | regular files alone, up to a size that the kind of file may have ([`most`]) |
 //! | [`write_file`], [`write_new_file`] | one file: written beside its place, synchronised, renamed |
 //! | [`WorkFolder`] | the folder beside a target in which it grows; those of killed processes go with the next run |
 //! | [`Lock`] | a file that one run uses at a time |
@@ -24,6 +24,6 @@ mod write;
 pub use located::{Line, Located, Place};
 pub use lock::Lock;
 pub use partial::{Partial, hold_still};
-pub use read::{no_text, read_regular_file, read_regular_text, regular};
+pub use read::{no_text, open_regular_file, read_regular_file, read_regular_text, regular};
 pub use work_folder::{Judge, Kind, Scratch, WorkFolder, is_left_over, is_work_folder, stranger, take_away_left_overs};
 pub use write::{behind_links, write_file, write_new_file};

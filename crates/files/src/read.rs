@@ -15,19 +15,25 @@ use std::{
 /// [`ErrorKind::InvalidInput`] for what is no regular file, [`ErrorKind::FileTooLarge`] for a larger one,
 /// [`ErrorKind::OutOfMemory`], else as [`fs::read`].
 pub fn read_regular_file(path: &Path, most: u64) -> Result<Vec<u8>> {
+    let (file, length) = open_regular_file(path, most)?;
+    let mut bytes = Vec::new();
+    bytes.try_reserve_exact(length as usize).map_err(|_| ErrorKind::OutOfMemory)?;
+    // One that grows meanwhile ends, too.
+    file.take(most + 1).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
+}
+
+/// A regular file that has no more than `most` bytes, and their number, for one who reads it part by part.
+///
+/// # Errors
+/// As [`read_regular_file`].
+pub fn open_regular_file(path: &Path, most: u64) -> Result<(File, u64)> {
     regular(&fs::metadata(path)?)?;
     let file = File::open(path)?;
     // Somebody may have put something else there meanwhile.
     let found = file.metadata()?;
     regular(&found)?;
-    if found.len() > most {
-        return Err(too_large(most));
-    }
-    let mut bytes = Vec::new();
-    bytes.try_reserve_exact(found.len() as usize).map_err(|_| ErrorKind::OutOfMemory)?;
-    // One that grows meanwhile ends, too.
-    file.take(most + 1).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most { Err(too_large(most)) } else { Ok(bytes) }
+    if found.len() > most { Err(too_large(most)) } else { Ok((file, found.len())) }
 }
 
 /// Reads a regular file as text.

@@ -1,6 +1,7 @@
 //! From a window's coordinates to fields, mass and stress of the gear.
 
-use faer::Mat;
+use faer::{Mat, MatRef};
+use fem::dense;
 use nalgebra::{Rotation3, Vector3};
 
 use crate::{
@@ -20,48 +21,53 @@ impl GearReducer {
     /// [`ReductionError::WrongLength`]; [`ReductionError::NotPositiveDefinite`] where forces do not follow from
     /// coordinates: a grid with more nodes than the mesh can tell apart.
     pub fn expand(&self, window: &Window, u: &[f64]) -> Result<Vec<[f64; 3]>, ReductionError> {
-        Ok(self.field(window, &[u], None)?.pop().unwrap_or_default())
+        check_length(window, u)?;
+        let u = MatRef::from_column_major_slice(u, u.len(), 1);
+        let forces = || window.reduced.forces_of(u).ok_or_else(|| singular(window));
+        Ok(self.field(window, None, || u.to_owned(), forces)?.pop().unwrap_or_default())
     }
 
-    /// Displacement at some nodes of the mesh, in their order, for several `u` of one window at once: of a cyclic gear
-    /// only the sectors that hold the nodes are gone through, of any other the branches of the factor that do, and the
-    /// factor once for all.
+    /// Displacement at some nodes of the mesh, in their order, for several `forces` (N) on the coordinates of one window
+    /// at once: of a cyclic gear only the sectors that hold the nodes are gone through, of any other the branches of the
+    /// factor that do, and the factor once for all. Where u = C f it is that of [`GearReducer::expand`] without C^-1.
     ///
     /// # Errors
-    /// As [`GearReducer::expand`]; [`ReductionError::Fem`] when the mesh does not have a node.
-    pub fn expand_at(
+    /// [`ReductionError::WrongLength`]; [`ReductionError::Fem`] when the mesh does not have a node.
+    pub fn expand_under(
         &self,
         window: &Window,
-        u: &[&[f64]],
+        forces: &[&[f64]],
         nodes: &[u32],
     ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
-        self.field(window, u, Some(nodes))
+        forces.iter().try_for_each(|f| check_length(window, f))?;
+        let forces = Mat::from_fn(window.reduced.coordinates(), forces.len(), |i, j| forces[j][i]);
+        let moved = || dense::product(window.reduced.compliance.as_ref(), forces.as_ref());
+        self.field(window, Some(nodes), moved, || Ok(forces.clone()))
     }
 
+    /// At some nodes (`None`: all) for coordinates of the window (mm), or for the forces (N) that hold these,
+    /// whichever the method goes by; one column a field.
     fn field(
         &self,
         window: &Window,
-        u: &[&[f64]],
         nodes: Option<&[u32]>,
+        coordinates: impl Fn() -> Mat<f64>,
+        forces: impl Fn() -> Result<Mat<f64>, ReductionError>,
     ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
-        let n = window.reduced.coordinates();
-        u.iter().try_for_each(|u| check_length(window, u))?;
-        let columns = |of: &[&[f64]]| Mat::from_fn(n, of.len(), |i, j| of[j][i]);
-        let forces = || window.reduced.forces_of(columns(u).as_ref()).ok_or_else(|| singular(window));
         match self.method()? {
             Method::Cyclic(cyclic) => cyclic.expand(forces()?.as_ref(), window.shift, nodes),
             Method::General(general, turn) => {
                 let loads = if self.is_last(window) { None } else { Some(self.loads(window)?) };
-                let (seen, forces) = match &loads {
-                    None => (Seen::Last, Mat::zeros(0, u.len())),
-                    Some(loads) => (Seen::Loads(loads), forces()?),
+                let (seen, coordinates, forces) = match &loads {
+                    None => (Seen::Last, coordinates(), Mat::new()),
+                    Some(loads) => (Seen::Loads(loads), Mat::new(), forces()?),
                 };
                 let turn = turn.as_ref().filter(|_| window.shift > 0);
                 if let (Some(nodes), None) = (nodes, turn) {
-                    return general.fields_at((seen, nodes), &columns(u), &forces);
+                    return general.fields_at((seen, nodes), &coordinates, &forces);
                 }
-                let fields = general.fields(seen, &columns(u), &forces)?;
-                (0..u.len()).map(|j| self.some_of(window, fields.col_as_slice(j), turn, nodes)).collect()
+                let fields = general.fields(seen, &coordinates, &forces)?;
+                (0..fields.ncols()).map(|j| self.some_of(window, fields.col_as_slice(j), turn, nodes)).collect()
             }
         }
     }

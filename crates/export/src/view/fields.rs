@@ -134,7 +134,7 @@ fn all_fields(
 /// Whether two positions have loaded windows with the same matrices.
 fn shared_window(a: &RecordedGear, b: &RecordedGear) -> bool {
     let same = a.window.as_ref().zip(b.window.as_ref()).is_some_and(|(a, b)| Arc::ptr_eq(&a.reduced, &b.reduced));
-    same && !a.displacements.is_empty() && !b.displacements.is_empty()
+    same && !a.loads.is_empty() && !b.loads.is_empty()
 }
 
 /// Displacement of the piece's nodes in the frame of the matrices (mm) at positions that share a window, or at one.
@@ -145,16 +145,16 @@ fn displacements(
 ) -> Result<Vec<Vec<[f64; 3]>>, ExportError> {
     let Some(first) = group.first() else { return Ok(Vec::new()) };
     match (gear, &first.window) {
-        _ if first.displacements.is_empty() => Ok(vec![vec![[0.0; 3]; piece.nodes.len()]; group.len()]),
+        _ if first.loads.is_empty() => Ok(vec![vec![[0.0; 3]; piece.nodes.len()]; group.len()]),
         (ElasticGear::Reduced(r), Some(window)) => {
             let own = Window { reduced: window.reduced.clone(), shift: 0 };
-            let u: Vec<&[f64]> = group.iter().map(|at| &at.displacements[..]).collect();
-            Ok(r.expand_at(&own, &u, &piece.nodes)?)
+            let forces: Vec<&[f64]> = group.iter().map(|at| &at.loads[..]).collect();
+            Ok(r.expand_under(&own, &forces, &piece.nodes)?)
         }
         (ElasticGear::Reduced(_), None) => Err(ExportError::NoWindow),
         (ElasticGear::Full(f), _) => {
             let of = |at: &&RecordedGear| -> Result<Vec<[f64; 3]>, ExportError> {
-                let all = f.dofs.to_nodes(&at.displacements)?;
+                let all = f.dofs.to_nodes(&at.loads)?;
                 Ok(piece.nodes.iter().map(|&n| all[n as usize]).collect())
             };
             group.iter().map(of).collect()

@@ -31,24 +31,22 @@ impl Piece {
     /// The elements whose middle is nearest to one of `teeth` (0 .. z-1). `None` where the mesh has none.
     pub(super) fn new(gear: &MeshedGear, exact: &Gear, teeth: &BTreeSet<u32>) -> Option<Self> {
         let whole = gear.mesh();
-        let mut nodes = BTreeSet::new();
+        let mut used = vec![false; whole.nodes.len()];
         let mut chosen: Vec<Vec<bool>> = Vec::new();
         for block in &whole.blocks {
-            let inside = |e: &[u32]| teeth.contains(&tooth_of(whole, e, exact));
-            let of_block: Vec<bool> = block.elements().map(inside).collect();
+            let of_block: Vec<bool> = block.elements().map(|e| teeth.contains(&tooth_of(whole, e, exact))).collect();
             let own = block.elements().zip(&of_block).filter(|(_, inside)| **inside);
-            own.for_each(|(element, _)| nodes.extend(element));
+            own.flat_map(|(e, _)| e).for_each(|&n| used[n as usize] = true);
             chosen.push(of_block);
         }
-        let nodes: Vec<u32> = nodes.into_iter().collect();
-        let number = |n: u32| nodes.binary_search(&n).unwrap_or_default() as u32;
+        let nodes: Vec<u32> = (0..whole.nodes.len() as u32).filter(|&n| used[n as usize]).collect();
+        let mut numbers = vec![0; whole.nodes.len()];
+        nodes.iter().zip(0..).for_each(|(&n, number)| numbers[n as usize] = number);
+        let number = |n: u32| numbers[n as usize];
         let blocks = whole.blocks.iter().zip(&chosen).map(|(block, chosen)| {
-            let own = || block.elements().zip(chosen).enumerate().filter(|(_, (_, inside))| **inside);
-            ElementBlock {
-                kind: block.kind,
-                connectivity: own().flat_map(|(_, (e, _))| e.iter().map(|&n| number(n))).collect(),
-                tags: own().map(|(i, _)| block.tags[i]).collect(),
-            }
+            let mut own = part(block, |i, _| chosen[i]);
+            own.connectivity.iter_mut().for_each(|n| *n = number(*n));
+            own
         });
         let mesh = Mesh {
             nodes: nodes.iter().map(|&n| whole.nodes[n as usize]).collect(),
@@ -58,8 +56,17 @@ impl Piece {
         };
         let cuts: BTreeSet<[u32; 4]> =
             gear.cuts().into_iter().flatten().flat_map(|c| &c.faces).map(Face::corner_key).collect();
-        let boundary = FaceTable::new(whole).boundary().into_iter();
-        let own = boundary.filter(|o| chosen[usize::from(o.block)][o.element as usize]).map(|o| o.face(whole));
+        // No element but those that touch the piece shares a face with it.
+        let touches = |e: &[u32]| e.iter().any(|&n| used[n as usize]);
+        let about = whole.blocks.iter().map(|block| part(block, |_, e| touches(e)));
+        let about = Mesh { blocks: about.collect(), ..Mesh::default() };
+        let inside = |block: (&ElementBlock, &Vec<bool>)| -> Vec<bool> {
+            let near = block.0.elements().zip(block.1).filter(|(e, _)| touches(e));
+            near.map(|(_, inside)| *inside).collect()
+        };
+        let inside: Vec<Vec<bool>> = whole.blocks.iter().zip(&chosen).map(inside).collect();
+        let boundary = FaceTable::new(&about).boundary().into_iter();
+        let own = boundary.filter(|o| inside[usize::from(o.block)][o.element as usize]).map(|o| o.face(&about));
         let mut corners = Vec::new();
         for face in own.filter(|f| !cuts.contains(&f.corner_key())) {
             let c: Vec<u32> = face.corners().iter().map(|&n| number(n)).collect();
@@ -71,6 +78,16 @@ impl Piece {
         let radius = |&n: &u32| mesh.nodes[n as usize][0].hypot(mesh.nodes[n as usize][1]);
         let at_root = points.iter().map(|n| sign * radius(n) <= upper).collect();
         (!triangles.is_empty()).then_some(Self { mesh, nodes, points, triangles, at_root })
+    }
+}
+
+/// Elements of a block, by place and nodes.
+fn part(block: &ElementBlock, is_in: impl Fn(usize, &[u32]) -> bool) -> ElementBlock {
+    let own = || block.elements().enumerate().filter(|(i, e)| is_in(*i, e));
+    ElementBlock {
+        kind: block.kind,
+        connectivity: own().flat_map(|(_, e)| e).copied().collect(),
+        tags: own().map(|(i, _)| block.tags[i]).collect(),
     }
 }
 
@@ -108,7 +125,9 @@ fn coarse_enough(nodes: &[[f64; 3]], corners: Vec<[u32; 3]>) -> (Vec<u32>, Vec<[
 
 /// Nodes that triangles use, ascending, and the triangles in places of that list.
 fn numbered(corners: Vec<[u32; 3]>) -> (Vec<u32>, Vec<[u32; 3]>) {
-    let points: Vec<u32> = corners.iter().flatten().copied().collect::<BTreeSet<_>>().into_iter().collect();
+    let mut points: Vec<u32> = corners.iter().flatten().copied().collect();
+    points.sort_unstable();
+    points.dedup();
     let place = |n: u32| points.binary_search(&n).unwrap_or_default() as u32;
     let triangles = corners.into_iter().map(|t| t.map(place)).collect();
     (points, triangles)

@@ -34,8 +34,9 @@ pub(super) struct RecordedGear {
     pub window: Option<Window>,
     /// Teeth of the window in the frame of the matrices.
     pub teeth: Vec<u32>,
-    /// Displacements of the boundary coordinates, or of all free ones, mm; none without load.
-    pub displacements: Vec<f64>,
+    /// Forces on the boundary coordinates, N, or of a whole gear the displacements of all free ones, mm; none without
+    /// load.
+    pub loads: Vec<f64>,
     /// Pressure (MPa) at nodes of the mesh; where contact is made of slices, their bands say more.
     pub pressure: Vec<(u32, f64)>,
 }
@@ -52,9 +53,9 @@ impl ViewRecorder {
         if index >= self.per_cycle || !index.is_multiple_of(self.every) {
             return;
         }
-        let displacements = model.last().map(|e| e.displacements_on(model.contact_set())).unwrap_or_default();
-        let mut displacements = displacements.into_iter();
-        let gears = [0, 1].map(|i| RecordedGear::new(i, position, model, displacements.next().unwrap_or_default()));
+        let loads = model.last().map(|e| e.loads_on(model.contact_set())).unwrap_or_default();
+        let mut loads = loads.into_iter();
+        let gears = [0, 1].map(|i| RecordedGear::new(i, position, model, loads.next().unwrap_or_default()));
         self.positions.push(Recorded {
             phase: position.mesh_phase,
             pinion_angle: position.pinion_angle,
@@ -65,7 +66,7 @@ impl ViewRecorder {
 }
 
 impl RecordedGear {
-    fn new(i: usize, position: &StaticPosition, model: &StaticModel, displacements: Vec<f64>) -> Self {
+    fn new(i: usize, position: &StaticPosition, model: &StaticModel, loads: Vec<f64>) -> Self {
         let window = model.contact_set().windows().map(|w| w[i].clone());
         let (first, z) = (model.contact_set().first_teeth()[i], model.gears()[i].gear().tooth_count());
         let teeth = match &window {
@@ -77,7 +78,7 @@ impl RecordedGear {
             Some(e) => pressures(i, model, e, window.as_ref()),
             None => Vec::new(),
         };
-        Self { window, teeth, displacements, pressure }
+        Self { window, teeth, loads, pressure }
     }
 }
 

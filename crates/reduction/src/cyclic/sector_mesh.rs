@@ -71,7 +71,7 @@ impl SectorMesh {
             let away = |e: u32| (centre.pitches_from(mesh, elements[e as usize]) - TIE).abs();
             let mut part = ElementBlock { kind: block.kind, connectivity: Vec::new(), tags: Vec::new() };
             for orbit in orbits(images, teeth)? {
-                let own = orbit.iter().copied().min_by(|&a, &b| away(a).total_cmp(&away(b)))?;
+                let (_, own) = orbit.iter().map(|&e| (away(e), e)).min_by(|a, b| a.0.total_cmp(&b.0))?;
                 part.connectivity.extend_from_slice(elements[own as usize]);
                 part.tags.push(block.tags[own as usize]);
             }

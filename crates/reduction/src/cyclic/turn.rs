@@ -40,16 +40,20 @@ impl PitchTurn {
         let nodes = node_images(&mesh.nodes, pitch, tolerance)?;
         let mut elements = Vec::with_capacity(mesh.blocks.len());
         for block in &mesh.blocks {
-            let mut keys: Vec<(Vec<u32>, u32)> = block.elements().map(sorted).zip(0..).collect();
-            keys.sort_unstable();
-            let images: Option<Vec<u32>> = block
-                .elements()
-                .map(|element| {
-                    let image = sorted(&element.iter().map(|&n| nodes[n as usize]).collect::<Vec<_>>());
-                    keys.binary_search_by(|(key, _)| key.cmp(&image)).ok().map(|at| keys[at].1)
-                })
-                .collect();
-            elements.push(images?);
+            // Elements by their nodes in ascending order.
+            let size = block.kind.node_count();
+            let mut keys = block.connectivity.clone();
+            keys.chunks_exact_mut(size).for_each(<[u32]>::sort_unstable);
+            let key = |element: u32| &keys[element as usize * size..][..size];
+            let mut ordered: Vec<u32> = (0..block.len() as u32).collect();
+            ordered.sort_unstable_by(|&a, &b| key(a).cmp(key(b)));
+            let mut image = vec![0; size];
+            let mut image_of = |element: &[u32]| {
+                image.iter_mut().zip(element).for_each(|(to, &n)| *to = nodes[n as usize]);
+                image.sort_unstable();
+                ordered.binary_search_by(|&other| key(other).cmp(&image)).ok().map(|at| ordered[at])
+            };
+            elements.push(block.elements().map(&mut image_of).collect::<Option<Vec<u32>>>()?);
         }
         Some(Self { nodes, elements })
     }
@@ -72,10 +76,12 @@ fn sorted(nodes: &[u32]) -> Vec<u32> {
 fn node_images(nodes: &[[f64; 3]], pitch: f64, tolerance: f64) -> Option<Vec<u32>> {
     let cell = 4.0 * tolerance;
     let key = |p: [f64; 3], shift: [i64; 3]| [0, 1, 2].map(|k| (p[k] / cell).floor() as i64 + shift[k]);
-    // Looked up only, never walked through: the order of the map does not matter.
-    let mut grid: HashMap<[i64; 3], Vec<u32>> = HashMap::with_capacity(nodes.len());
-    for (i, &p) in nodes.iter().enumerate() {
-        grid.entry(key(p, [0; 3])).or_default().push(i as u32);
+    // Looked up only, never walked through: the order of the map does not matter. The first node of each cell, and after
+    // each node the next one of its cell.
+    let mut grid: HashMap<[i64; 3], u32> = HashMap::with_capacity(nodes.len());
+    let mut next: Vec<Option<u32>> = vec![None; nodes.len()];
+    for (i, &p) in nodes.iter().enumerate().rev() {
+        next[i] = grid.insert(key(p, [0; 3]), i as u32);
     }
     let (sin, cos) = pitch.sin_cos();
     let mut taken = vec![false; nodes.len()];
@@ -85,8 +91,8 @@ fn node_images(nodes: &[[f64; 3]], pitch: f64, tolerance: f64) -> Option<Vec<u32
             let image = [cos * x - sin * y, sin * x + cos * y, z];
             // Mostly it is in the cell itself, the middle one of those about it.
             let near = std::iter::once(13).chain(0..27).find_map(|s: i64| {
-                let around = grid.get(&key(image, [s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1]))?;
-                around.iter().copied().find(|&j| {
+                let first = grid.get(&key(image, [s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1])).copied();
+                std::iter::successors(first, |&j| next[j as usize]).find(|&j| {
                     let q = nodes[j as usize];
                     (0..3).all(|k| (q[k] - image[k]).abs() <= tolerance)
                 })

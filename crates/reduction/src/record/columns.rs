@@ -25,16 +25,16 @@ impl ToothColumns {
     /// # Errors
     /// [`RecordError`]: any changed, missing or added byte is noticed.
     pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
-        let mut cursor = opened(bytes, COLUMNS, key)?;
-        let tooth = cursor.count()? as u32;
-        let (partners, sizes) = (cursor.list()?, cursor.list()?);
-        let own = partners.binary_search(&tooth).ok().and_then(|at| sizes.get(at));
-        let Some(own) = own.filter(|_| partners.len() == sizes.len() && partners.is_sorted_by(|a, b| a < b)) else {
-            return Err(cursor.wrong("teeth that do not fit together"));
-        };
-        let rows = sizes.iter().map(|&size| size as usize).sum();
-        let compliance = cursor.matrix((rows, *own as usize))?;
-        cursor.ended()?;
-        Ok(Self { tooth, partners, sizes, compliance })
+        opened(bytes, bytes.len(), (COLUMNS, key), |cursor| {
+            let tooth = cursor.count()? as u32;
+            let (partners, sizes) = (cursor.list()?, cursor.list()?);
+            let own = partners.binary_search(&tooth).ok().and_then(|at| sizes.get(at));
+            let Some(own) = own.filter(|_| partners.len() == sizes.len() && partners.is_sorted_by(|a, b| a < b)) else {
+                return Err(cursor.wrong("teeth that do not fit together"));
+            };
+            let rows = sizes.iter().map(|&size| size as usize).sum();
+            let compliance = cursor.matrix((rows, *own as usize))?;
+            Ok(Self { tooth, partners, sizes, compliance })
+        })
     }
 }

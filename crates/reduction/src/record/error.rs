@@ -24,6 +24,12 @@ pub enum RecordError {
         /// Bytes that the header announces.
         wanted: u64,
     },
+    /// The bytes do not come.
+    #[error("cannot be read: {what}")]
+    Unreadable {
+        /// What the system says.
+        what: String,
+    },
     /// The checksum does not fit the bytes.
     #[error("is damaged: its checksum is wrong")]
     Damaged,

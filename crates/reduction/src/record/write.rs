@@ -72,7 +72,7 @@ pub(super) fn sealed(magic: [u8; 16], key: &RecordKey, size: usize, payload: imp
 }
 
 /// BLAKE3 of a file's bytes without those of the checksum itself.
-pub(super) fn checksum(bytes: &[u8]) -> [u8; 32] {
+fn checksum(bytes: &[u8]) -> [u8; 32] {
     let mut hasher = blake3::Hasher::new();
     hasher.update(&bytes[..HEADER - 32]);
     hasher.update(&bytes[HEADER..]);

@@ -9,7 +9,7 @@ use faer::Mat;
 use fem::Material;
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GroupNames, Mesh, MeshedGear, RootFillets};
-use reduction::{FlankGrid, FlankGrids, GearReducer, ReductionError, ReductionOptions, ReductionWay};
+use reduction::{FlankGrid, FlankGrids, GearReducer, ReducedGear, ReductionError, ReductionOptions, ReductionWay};
 
 /// Two elements along every edge of the tooth.
 fn meshed(gear: &Gear, order: u32, extent: Extent) -> MeshedGear {
@@ -30,6 +30,14 @@ fn loads(n: usize) -> Vec<f64> {
 fn pressed(compliance: &Mat<f64>) -> Vec<f64> {
     let f = loads(compliance.nrows());
     (0..f.len()).map(|i| (0..f.len()).map(|j| compliance[(i, j)] * f[j]).sum()).collect()
+}
+
+/// Forces that hold the coordinates of a window at `u`.
+fn holding(window: &ReducedGear, u: &[f64]) -> Vec<f64> {
+    let (k, u) = (window.stiffness().unwrap(), Mat::from_fn(u.len(), 1, |i, _| u[i]));
+    let f = k * &u;
+    let f = &f + k * (&u - &window.compliance * &f);
+    f.col_as_slice(0).to_vec()
 }
 
 fn field_off(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
@@ -70,13 +78,15 @@ fn compare(name: &str, mesh: MeshedGear, exact: &Gear, options: &ReductionOption
         assert_eq!(v.shift, w.shift, "{name}, tooth {first}");
         let fields = [cyclic.expand(&v, &u).unwrap(), general.expand(&w, &u).unwrap()];
         field = field.max(field_off(&fields[0], &fields[1]));
-        // Some nodes alone, in any order, for several displacements at once, are those of the whole field.
+        // Some nodes alone, in any order, under several forces at once, are those of the whole field that these hold.
         let some: Vec<u32> = (0..fields[0].len() as u32).rev().step_by(17).collect();
-        let twice: Vec<f64> = u.iter().map(|x| 2.0 * x).collect();
-        let several = [&u[..], &twice];
-        for (all, found) in
-            fields.iter().zip([cyclic.expand_at(&v, &several, &some), general.expand_at(&w, &several, &some)])
-        {
+        for (all, (gear, window)) in fields.iter().zip([(&cyclic, &v), (&general, &w)]) {
+            let f = holding(&window.reduced, &u);
+            let twice: Vec<f64> = f.iter().map(|x| 2.0 * x).collect();
+            let several = [&f[..], &twice];
+            let found = gear.expand_under(window, &several, &some);
+            let beyond = gear.expand_under(window, &several, &[u32::MAX]);
+            assert!(beyond.is_err(), "{name}: a node that the mesh does not have");
             for (factor, found) in [1.0, 2.0].into_iter().zip(found.unwrap()) {
                 let wanted: Vec<[f64; 3]> = some.iter().map(|&n| all[n as usize].map(|x| factor * x)).collect();
                 // Over the largest of all: some nodes may be held.
@@ -87,7 +97,6 @@ fn compare(name: &str, mesh: MeshedGear, exact: &Gear, options: &ReductionOption
                 assert!(off < 1e-11, "{name}, tooth {first}: some nodes differ from all by {off:e}");
             }
         }
-        assert!(cyclic.expand_at(&v, &several, &[u32::MAX]).is_err(), "{name}: a node that the mesh does not have");
         let from = [&cyclic, &general].map(|r| r.window(options.first + 2).unwrap());
         let x = cyclic.carry(&from[0], &v, &u).unwrap();
         let y = general.carry(&from[1], &w, &u).unwrap();

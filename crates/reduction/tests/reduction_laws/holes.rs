@@ -220,11 +220,11 @@ fn fields_at_some_nodes_are_those_of_the_whole() {
             let window = gear.window(first).unwrap();
             let force = |j: usize| (0..window.reduced.coordinates()).map(move |i| (0.7 * i as f64 + j as f64).sin());
             let force = Mat::from_fn(window.reduced.coordinates(), 2, |i, j| force(j).nth(i).unwrap());
-            let moved = &window.reduced.compliance * force;
-            let columns: Vec<&[f64]> = (0..2).map(|j| moved.col_as_slice(j)).collect();
-            let near = gear.expand_at(&window, &columns, &nodes).unwrap();
-            for (column, near) in columns.iter().zip(&near) {
-                let whole = gear.expand(&window, column).unwrap();
+            let moved = &window.reduced.compliance * &force;
+            let forces: Vec<&[f64]> = (0..2).map(|j| force.col_as_slice(j)).collect();
+            let near = gear.expand_under(&window, &forces, &nodes).unwrap();
+            for (column, near) in moved.col_iter().zip(&near) {
+                let whole = gear.expand(&window, column.try_as_col_major().unwrap().as_slice()).unwrap();
                 let largest = whole.iter().flatten().fold(0.0, |most: f64, u| most.max(u.abs()));
                 for (&node, own) in nodes.iter().zip(near) {
                     let apart = [0, 1, 2].map(|axis| (own[axis] - whole[node as usize][axis]).abs());
@@ -232,7 +232,7 @@ fn fields_at_some_nodes_are_those_of_the_whole() {
                 }
             }
             let beyond = gear.gear().mesh().nodes.len() as u32;
-            assert!(gear.expand_at(&window, &columns, &[beyond]).is_err());
+            assert!(gear.expand_under(&window, &forces, &[beyond]).is_err());
         }
     }
 }

@@ -13,7 +13,7 @@ use analysis::{
     remark::{self, Remark},
 };
 use contact_map::ContactMap;
-use files::{Kind, most, read_regular_file, take_away_left_overs, write_file};
+use files::{Kind, most, open_regular_file, read_regular_file, take_away_left_overs, write_file};
 use reduction::{ColumnFault, ColumnStore, RecordKey, ReductionRecord, ToothColumns};
 
 /// A folder of reduced gears and maps, or none.
@@ -89,12 +89,12 @@ impl GearCache for Cache {
 
     fn load(&self, key: &RecordKey) -> (Option<Kept<RecordKey, ReductionRecord>>, Option<Remark>) {
         let Some(file) = self.file(key) else { return (None, None) };
-        let bytes = match read_regular_file(&file, most::RECORD) {
-            Ok(bytes) => bytes,
+        let (from, length) = match open_regular_file(&file, most::RECORD) {
+            Ok(opened) => opened,
             Err(e) if e.kind() == ErrorKind::NotFound => return (None, None),
             Err(e) => return (None, Some(remark::gear_not_loaded(file.display().to_string(), e.to_string()))),
         };
-        match ReductionRecord::from_bytes(&bytes, key) {
+        match ReductionRecord::read(from, length as usize, key) {
             Ok(record) => {
                 touch(&file);
                 (Some(Kept::new(*key, record)), None)
