@@ -25,6 +25,8 @@ fn read(changes: &[(&str, &str)]) -> Result<Gearbox, SceneError> {
 
 const COUNT: &str = "count = 3\nangles_deg = [0.0, 120.0, 240.0]    # multiples of 360/(21 + 81): teeth meet gaps\n";
 const ERRORS: &str = "tangential_errors_um = [10.0, 0.0, 0.0]\nradial_errors_um = [0.0, 0.0, 5.0]\n";
+const PIN: &str = "origin_mm = [76.5, 0.0, -24.0]";
+const LOAD: &str = "torque_nm = 810.0";
 const SHAFTS: &str = "shafts = [\"planet\", \"pin\"]\n";
 
 /// One planet stands for three: shafts and bearings around the carrier, turned with their seats, meshes of all of them, and
@@ -128,6 +130,15 @@ fn mistakes_are_told_with_their_place() {
             "run into each other: their axes are 0.000 mm apart",
             "",
         ),
+        (
+            COUNT,
+            "count = 3\nangles_deg = [0.0, 120.0, -240.0]\n",
+            "run into each other: their axes are 0.000 mm apart",
+            "",
+        ),
+        (SHAFTS, "shafts = [\"planet\"]\n", "turns on \"pin\", which is no part of the planet", "name it in `shafts`"),
+        (PIN, "origin_mm = [60.0, 0.0, -24.0]", "whose axis is 16.500 mm beside its own", "`origin_mm`"),
+        (LOAD, "torque_nm = 0.0", "carries no load", "above 0"),
         (
             COUNT,
             "count = 3\nangles_deg = [0.0, 121.0, 240.0]\n",

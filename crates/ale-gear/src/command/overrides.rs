@@ -42,6 +42,19 @@ impl Overrides {
         Ok(all)
     }
 
+    /// The words of the command line once more, each behind a space, as a shell takes them.
+    pub fn again(&self) -> String {
+        let plain = |c: char| c.is_ascii_alphanumeric() || "_-+.,:/=".contains(c);
+        let word = |own: &String| {
+            if own.chars().all(plain) { own.clone() } else { format!("'{}'", own.replace('\'', "'\\''")) }
+        };
+        let all = |option: &str, words: &[String]| -> String {
+            words.iter().map(|own| format!(" {option} {}", word(own))).collect()
+        };
+        let torque = self.torque_nm.map_or_else(String::new, |torque| format!(" --torque-nm {torque}"));
+        format!("{}{torque}{}", all("--set", &self.set), all("--accuracy", &self.accuracy))
+    }
+
     /// Whether a torque is set by a word of its own.
     pub fn has_torque(&self) -> bool {
         self.torque_nm.is_some()

@@ -250,9 +250,10 @@ impl RunArgs {
         match outcome {
             Outcome::Stopped { cycles } if self.json => Ok(format!("{{\"stopped_after_cycles\": {cycles}}}\n").into()),
             Outcome::Stopped { cycles } => Ok(format!(
-                "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {}{} --out {} --resume\n",
+                "stopped after {cycles} mesh cycles; go on with\n  ale-gear run {}{}{} --out {} --resume\n",
                 self.file.display(),
                 self.case.map_or_else(String::new, |case| format!(" --case {case}")),
+                self.overrides.again(),
                 self.out.display()
             )
             .into()),

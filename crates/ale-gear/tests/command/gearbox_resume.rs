@@ -61,6 +61,17 @@ fn a_motion_in_parts_is_the_one_in_a_piece() {
     }
 }
 
+/// The command that goes on sets what the one that stopped had set, in words that a shell takes.
+#[test]
+fn the_command_that_goes_on_is_whole() {
+    let scratch = two_stages("mesh = \"spring\"\ndrive = \"torque\"\ncycles = 4\nsteps_per_cycle = 20\n");
+    let set = ["--set", "motion.cycles=6", "--set", "motion.method=\"generalised-alpha\"", "--stop-after-cycles", "2"];
+    let stopped = run(&scratch, "o", &set);
+    let again =
+        "ale-gear run box.toml --set motion.cycles=6 --set 'motion.method=\"generalised-alpha\"' --out o --resume";
+    assert!(stopped.stdout.contains(again), "{}{}", stopped.stdout, stopped.stderr);
+}
+
 /// What is not the same any more is refused and named; a motion at a steady speed may be made longer.
 #[test]
 fn a_motion_is_not_gone_on_with_as_another_one() {

@@ -47,7 +47,8 @@ pub(super) struct Dissection {
 pub(super) const SEPARATOR: u32 = u32::MAX;
 
 /// Fill-reducing order of the graph's groups, and the `pieces` (a power of 2) that its first cuts leave: no two of them
-/// have a common edge. The order does not depend on their number.
+/// have a common edge. The order does not depend on their number as long as each has more than the 120 groups below which
+/// METIS looks for no cut of its own.
 ///
 /// `METIS_NodeNDP` makes the order of `METIS_NodeND`, the entry that most programs take. That one catches
 /// SIGTERM and SIGABRT for the whole process while it works, and its handler jumps into the stack of whatever thread
@@ -233,7 +234,8 @@ mod tests {
             let common = by_the_common_entry(&graph);
             for pieces in [1, 2, 8] {
                 let own = nested_dissection(&graph, pieces).unwrap();
-                assert!(own.order == common, "{size:?}, {pieces} pieces");
+                let are_small = pieces > 1 && graph.group_count() < 240 * pieces;
+                assert!(are_small || own.order == common, "{size:?}, {pieces} pieces");
                 are_apart(&graph, &own, pieces);
             }
         }

@@ -47,11 +47,13 @@ pub(super) fn loaded(
         all
     };
     let driven = reached(None);
+    // Meshes on several ways of the power, as of planets, are none of them alone.
+    let unloaded = torques.iter().all(|t| t.torque == 0.0);
     for (i, mesh) in meshes.iter().enumerate() {
         let still = reached(Some(i));
         let beyond = |shaft: &usize| driven.contains(shaft) && !still.contains(shaft);
         let alone = driven.iter().any(&beyond);
-        if alone && !torques.iter().any(|t| t.torque > 0.0 && beyond(&t.shaft)) {
+        if unloaded || alone && !torques.iter().any(|t| t.torque > 0.0 && beyond(&t.shaft)) {
             let said = format!("the mesh \"{}\" carries no load: no torque acts on the shafts beyond it", mesh.name);
             let advice =
                 "load them, as [[torque]] with `shaft`, `position_mm` and `torque_nm` above 0; or leave the mesh out";

@@ -254,11 +254,32 @@ impl WrittenOut {
                 return Err(s.conflict(&tables[group].span(), said, advice));
             }
             bearing.turn_about(angle);
-            // A seat in the planet itself stands where that does.
-            if bearing.in_shaft.is_some_and(|seat| self.shafts[seat].is_some()) {
-                continue;
-            }
             let place = shafts[bearing.shaft].origin;
+            let beside = |seat: usize, [x, y]: [f64; 2]| {
+                let at = shafts[seat].origin;
+                (at[0] - x).hypot(at[1] - y)
+            };
+            let refused = |said: String, advice: &str| Err(s.conflict(&tables[group].span(), said, advice));
+            if let Some(seat) = bearing.in_shaft {
+                let [own, of] = [&shafts[bearing.shaft].name, &shafts[seat].name];
+                // A seat in the planet itself stands where that does.
+                if self.shafts[seat].is_some() {
+                    let off = beside(seat, [place[0], place[1]]);
+                    if off > ON_AXIS {
+                        let said = format!("\"{own}\" turns on \"{of}\", whose axis is {off:.3} mm beside its own");
+                        return refused(said, "give both shafts of the planet one place across the axis (`origin_mm`)");
+                    }
+                    continue;
+                }
+                let off = beside(seat, middles[group]);
+                if off > ON_AXIS {
+                    let said = format!(
+                        "\"{own}\" turns on \"{of}\", which is no part of the planet and {off:.3} mm beside the axis of \"{}\"",
+                        self.groups[group].around
+                    );
+                    return refused(said, "each planet has its own pin: name it in `shafts` too");
+                }
+            }
             let arm = [place[0] - middles[group][0], place[1] - middles[group][1]];
             let length = arm[0].hypot(arm[1]);
             let [along, away] = self.groups[group].errors[planet];

@@ -26,7 +26,7 @@ impl WrittenOut {
     ) -> Checked<()> {
         let own = |shaft: usize| self.shafts[shaft].filter(|p| p.group == group);
         for (i, mesh) in meshes.iter().enumerate() {
-            if self.meshes[i].planet.is_none_or(|p| p.group != group || p.planet != 0) {
+            if self.meshes[i].planet.is_none_or(|p| p.group != group) {
                 continue;
             }
             let pair = mesh.scene.gear_pair()?;
