@@ -9,7 +9,7 @@ pub enum Drive {
     /// as infinite.
     Speed(Speed),
     /// Prescribed speed of the turn of the whole train, rad/s at the input: deviations have no momentum along it, and the
-    /// torque of the input balances loads and losses at every instant. Theory (92a), of a pair (45b).
+    /// torque of the input balances loads and losses at every instant. Theory (92a), (45b).
     Balanced(Speed),
     /// A torque on the input, which starts at a speed.
     Torque {
