@@ -252,6 +252,9 @@ answer::remarks! {
         "shaft {shaft} is {shaft_mm:.3} mm thick where gear {gear} has a root circle of {root_circle_mm:.3} mm", "";
     parts_collide(kind, part, other_kind, other, overlap_mm)
         "{kind} {part} and {other_kind} {other} reach into each other by {overlap_mm:.3} mm", "";
+    planets_without_play(planets, lost_mm, first, second, play_mm)
+        "errors of the pins of \"{planets}\" take {lost_mm:.3} mm along the lines of action, \"{first}\" and \"{second}\" have {play_mm:.3} mm of backlash: flanks on the other side touch, and their forces are missing",
+        "smaller `tangential_errors_um`, or more backlash";
 
     unlikely_shaft_modulus(shaft, young_mpa, than, other)
         "`young_mpa` of the shaft \"{shaft}\" is {young_mpa}, {than}", "{other}";

@@ -58,7 +58,7 @@ pub use elastic_body::ElasticBody;
 pub use elastic_gears::elastic_gears;
 pub use error::GearboxError;
 pub use exact_mesh::ExactMesh;
-pub use load_sharing::{LoadSharing, PlanetShare, load_shares};
+pub use load_sharing::{LoadSharing, PlanetShare, load_shares, planet_play};
 pub use mesh_bears::MeshBears;
 pub use mesh_element::{LinearMesh, MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_torques::mesh_torques;

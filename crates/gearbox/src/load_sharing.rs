@@ -1,6 +1,8 @@
-//! How planets share the load of a mesh that each of them has. Theory (85a), (85b).
+//! How planets share the load of a mesh that each of them has, and the play that they have for it. Theory (85a), (85b).
 
-use crate::{GearboxPosition, mesh_numbers::mean};
+use nalgebra::Vector3;
+
+use crate::{GearMesh, GearboxPosition, Structure, mesh_numbers::mean};
 
 /// A planet's share of the load of all planets, over some positions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -49,4 +51,38 @@ pub fn load_shares(position: &GearboxPosition, meshes: &[usize]) -> Option<Vec<f
     let forces = || meshes.iter().filter_map(|mesh| position.meshes.get(*mesh)).map(|mesh| mesh.normal_force);
     let sum: f64 = forces().sum();
     (sum > 0.0 && forces().count() == meshes.len()).then(|| forces().map(|force| force / sum).collect())
+}
+
+/// Play of planets between two central gears, mm along the lines of action: what errors of seats take of it, and what there
+/// is before flanks on the other side touch; `None` where the meshes have no two central gears in common.
+///
+/// ```text
+/// (max e_n - min e_n) (cos a_1 + cos a_2) <= j_1 + j_2        e_n: along the circle, mm; j: backlash on the line of action, mm
+/// ```
+/// Teeth and shafts do not yield. `meshes`: of all planets, in their order, with either central gear. Theory (85d).
+pub fn planet_play(structure: &Structure, all: &[GearMesh], meshes: [&[usize]; 2]) -> Option<[f64; 2]> {
+    let shafts = |mesh: &usize| Some(all.get(*mesh)?.discs.map(|disc| structure.discs[disc].shaft));
+    let planets: Vec<usize> = (meshes[0].iter().zip(meshes[1]))
+        .map(|(a, b)| {
+            let other = shafts(b)?;
+            shafts(a)?.into_iter().find(|shaft| other.contains(shaft))
+        })
+        .collect::<Option<_>>()?;
+    let central = |mesh: &usize, planet: usize| shafts(mesh)?.into_iter().find(|shaft| *shaft != planet);
+    for of in meshes {
+        let gears = of.iter().zip(&planets).map(|(mesh, planet)| central(mesh, *planet)).collect::<Option<Vec<_>>>()?;
+        if gears.iter().any(|gear| *gear != gears[0] || planets.contains(gear)) {
+            return None;
+        }
+    }
+    let middle = structure.shafts[central(&meshes[0][0], planets[0])?].origin;
+    let along = planets.iter().map(|&planet| {
+        let arm = Vector3::from(structure.shafts[planet].origin) - Vector3::from(middle);
+        let off = structure.seat_offset(planet, structure.shafts.len());
+        (arm.x * off.y - arm.y * off.x) / arm.x.hypot(arm.y)
+    });
+    let (least, most) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), e| (a.min(e), b.max(e)));
+    let pairs = meshes.map(|of| &all[of[0]].pair);
+    let cosines: f64 = pairs.iter().map(|pair| pair.working_pressure_angle().cos()).sum();
+    Some([(most - least) * cosines, pairs.iter().map(|pair| pair.backlash()).sum()])
 }

@@ -1,6 +1,6 @@
 //! Bearings whose seats are part of other shafts, and shafts that do not turn: carriers and their pins. Theory (79c).
 
-use nalgebra::Matrix6;
+use nalgebra::{Matrix6, Vector3};
 
 use crate::{Bearing, GearboxError, SeatError, Structure};
 
@@ -18,6 +18,17 @@ impl Structure {
         let [outer, own] = [bearing.outer?, bearing.shaft].map(|shaft| self.shafts.get(shaft));
         let (outer, own) = (outer?.origin, own?.origin);
         Some([own[0] - outer[0], own[1] - outer[1], own[2] + bearing.position - outer[2]])
+    }
+
+    /// How far the seats of a shaft stand from their nominal places, mm, in the mean of its bearings: with those of the shafts
+    /// that they are part of, through at most so many.
+    pub(crate) fn seat_offset(&self, shaft: usize, through: usize) -> Vector3<f64> {
+        let own = || self.bearings.iter().filter(|b| b.shaft == shaft);
+        let of = |b: &Bearing| {
+            let outer = b.outer.filter(|_| through > 0);
+            b.offset + outer.map_or_else(Vector3::zeros, |outer| self.seat_offset(outer, through - 1))
+        };
+        own().map(of).sum::<Vector3<f64>>() / own().count().max(1) as f64
     }
 
     /// Checks bearings between shafts, and that bearings hold the turn of every shaft that stands.

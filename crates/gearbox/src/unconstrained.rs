@@ -21,7 +21,8 @@ const MOTIONS: [&str; 5] = ["along x", "along y", "along z", "tilting about x", 
 /// ```text
 /// K = sum T_b' K_b T_b + sum k_m l l',   u = T (x, y, z, theta_x, theta_y, theta_z)      from the middle of each shaft
 /// ```
-/// T_b: of both shafts where a bearing is between two. l: what rigid motions compress a mesh by. A loaded mesh holds one motion of its two shafts: beside their turn two meshes
+/// T_b: of both shafts where a bearing is between two. l: what rigid motions compress a mesh by. A loaded mesh holds one
+/// motion of its two shafts: beside their turn two meshes
 /// of opposite hands hold a shaft along its axis. Most shafts are held by their own bearings; only where one is not are all
 /// looked at together. Rolling bearings count with all their elements pressed, whatever their clearance. Housings are in
 /// series with the bearings: what these do not hold, no housing does. The turn of the `input` disc is given.

@@ -2,6 +2,7 @@
 
 use crate::remark;
 use answer::Remark;
+use gearbox::{GearMesh, Structure, planet_play};
 use geometry::{Gear, GearPair};
 use scene::gearbox::{Gearbox, GearboxGear, GearboxSection};
 
@@ -36,6 +37,23 @@ pub(super) fn clearance_remarks(file: &Gearbox, pairs: &[GearPair]) -> Vec<Remar
     for a in 0..bodies.len() {
         for b in (a + 1..bodies.len()).filter(|b| !within(file, &joined, [a, *b])) {
             said.extend(between(file, [a, b], [&bodies[a], &bodies[b]]));
+        }
+    }
+    said
+}
+
+/// Warnings of planets whose flanks on the other side touch by errors of their pins.
+pub(super) fn play_remarks(file: &Gearbox, structure: &Structure, meshes: &[GearMesh]) -> Vec<Remark> {
+    let mut said = Vec::new();
+    for own in &file.planets {
+        for (i, a) in own.meshes.iter().enumerate() {
+            for b in &own.meshes[i + 1..] {
+                let play = planet_play(structure, meshes, [&a.of_planets, &b.of_planets]);
+                let [lost, room] = play.unwrap_or_default();
+                if lost > room {
+                    said.push(remark::planets_without_play(&*own.name, lost, &*a.name, &*b.name, room));
+                }
+            }
         }
     }
     said

@@ -11,7 +11,7 @@ use scene::gearbox::{Gearbox, GearboxBearing, GearboxMesh};
 use super::{
     GearboxBranchResult, GearboxMotionResult, RollingLoad, VibrationResult,
     bearings::{BearingTurns, LifeLimits, rolling_load},
-    clearance::clearance_remarks,
+    clearance::{clearance_remarks, play_remarks},
     meshes::ReducedMesh,
     spectrum::SolvedSpectrum,
 };
@@ -236,6 +236,7 @@ pub(super) fn result(
         remarks.extend(load.rolling.iter().flat_map(told));
     }
     remarks.extend(clearance_remarks(file, &pairs).into_iter().chain(deflections(&of_meshes, &pairs)));
+    remarks.extend(play_remarks(file, structure, &meshes));
     for (i, pair) in pairs.iter().enumerate() {
         let slices = || all.iter().flat_map(move |p| &p.meshes[i].slices);
         let widest = slices().map(|s| s.half_width).fold(0.0, f64::max);

@@ -226,3 +226,27 @@ fn a_planet_that_carries_nothing_is_in_balance() {
     assert!(found.planets.iter().all(|own| own.factor.is_some_and(|k| k > 1.49)), "{:?}", found.planets);
     assert!(found.checks().failed().is_none(), "{:?}", found.checks().failed());
 }
+
+/// A pin so far ahead that flanks on the other side would touch is told, with the play that there is; one that stands as far
+/// back takes as much, and all pins off alike take none.
+#[test]
+fn pins_beyond_the_backlash_are_told() {
+    let told = |errors: &str| {
+        let text =
+            STAGE.text().replace("tangential_errors_um = [0.0, 0.0, 0.0]", &format!("tangential_errors_um = {errors}"));
+        let file = Gearbox::parse(&text, Path::new("stage.toml")).unwrap_or_else(|e| panic!("{e}"));
+        let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished).unwrap();
+        let said =
+            found.remarks.iter().filter(|r| r.code() == "planets_without_play").map(|r| r.text()).collect::<Vec<_>>();
+        let play: f64 = [found.pairs[0].backlash(), found.pairs[3].backlash()].into_iter().sum();
+        let cosines: f64 = [0, 3].iter().map(|i| found.pairs[*i].working_pressure_angle().cos()).sum();
+        (said, 1e3 * play / cosines)
+    };
+    let (none, limit) = told("[10.0, 0.0, 0.0]");
+    println!("{limit} um of {none:?}");
+    assert!(none.is_empty() && limit > 10.0);
+    assert!(told(&format!("[{}, 0.0, 0.0]", 0.99 * limit)).0.is_empty());
+    assert_eq!(told(&format!("[{}, 0.0, 0.0]", 1.01 * limit)).0.len(), 1);
+    assert_eq!(told(&format!("[0.0, {}, 0.0]", -1.01 * limit)).0.len(), 1);
+    assert_eq!(told(&format!("[{0}, {0}, {0}]", 1.01 * limit)).0, Vec::<String>::new());
+}
