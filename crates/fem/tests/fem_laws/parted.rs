@@ -57,38 +57,24 @@ fn few(n: usize, boundary: &[usize]) -> Vec<Vec<(usize, f64)>> {
     ends.into_iter().chain(boundary.iter().take(2).map(|&row| vec![(row, 1.0)])).collect()
 }
 
-/// Everything that a factor in pieces can be asked for.
-fn answers(factor: &PartedFactor) -> Vec<Mat<f64>> {
-    let (n, boundary) = (factor.n(), factor.boundary());
-    let (wanted, given) = (wanted(n, boundary), wavy(boundary.len(), 70));
-    let mut x = wavy(n, 130);
-    factor.solve(x.as_mut()).unwrap();
-    vec![
-        factor.compliance(),
-        factor.expand(given.as_ref()).unwrap(),
-        factor.condense(wavy(n, 70).as_ref()).unwrap(),
-        x,
-        factor.solve_rows(wavy(n, 3).as_ref(), &wanted).unwrap(),
-        factor.expand_rows(given.as_ref(), &wanted).unwrap(),
-        factor.solve_few(&few(n, boundary), &wanted).unwrap(),
-    ]
-}
-
-/// The same of one factor.
-fn expected(factor: &BoundaryLastFactor) -> Vec<Mat<f64>> {
-    let (n, boundary) = (factor.n(), factor.boundary());
-    let (wanted, given) = (wanted(n, boundary), wavy(boundary.len(), 70));
-    let mut x = wavy(n, 130);
-    factor.solve(x.as_mut()).unwrap();
-    vec![
-        factor.compliance(),
-        factor.expand(given.as_ref()).unwrap(),
-        factor.condense(wavy(n, 70).as_ref()).unwrap(),
-        x,
-        factor.solve_rows(wavy(n, 3).as_ref(), &wanted).unwrap(),
-        factor.expand_rows(given.as_ref(), &wanted).unwrap(),
-        factor.solve_few(&few(n, boundary), &wanted).unwrap(),
-    ]
+/// Everything that a factor can be asked for, in pieces or in one.
+macro_rules! answers {
+    ($factor:expr) => {{
+        let factor = $factor;
+        let (n, boundary) = (factor.n(), factor.boundary());
+        let (wanted, given) = (wanted(n, boundary), wavy(boundary.len(), 70));
+        let mut x = wavy(n, 130);
+        factor.solve(x.as_mut()).unwrap();
+        [
+            factor.compliance(),
+            factor.expand(given.as_ref()).unwrap(),
+            factor.condense(wavy(n, 70).as_ref()).unwrap(),
+            x,
+            factor.solve_rows(wavy(n, 3).as_ref(), &wanted).unwrap(),
+            factor.expand_rows(given.as_ref(), &wanted).unwrap(),
+            factor.solve_few(&few(n, boundary), &wanted).unwrap(),
+        ]
+    }};
 }
 
 /// The beam makes 10^4 of each unit of round-off in the matrix: 3e-12 is what both are from the exact answers.
@@ -98,11 +84,11 @@ fn pieces_have_the_answers_of_the_whole() {
         let (k, boundary) = beam(kind, cells, true);
         assert!(boundary.len() > 20);
         for boundary in [&boundary[..], &[]] {
-            let whole = expected(&BoundaryLastFactor::new(&k, boundary).unwrap());
+            let whole = answers!(BoundaryLastFactor::new(&k, boundary).unwrap());
             for times in [0, 1, 2, 3] {
                 let parted = PartedFactor::halved(k.clone(), boundary, times, &|| true).unwrap();
                 assert_eq!((parted.n(), parted.boundary()), (k.n(), boundary));
-                for (i, (own, whole)) in answers(&parted).iter().zip(&whole).enumerate() {
+                for (i, (own, whole)) in answers!(&parted).iter().zip(&whole).enumerate() {
                     let apart = difference(own.as_ref(), whole.as_ref());
                     assert!(apart < 1e-11, "{kind:?}, halved {times} times, answer {i}: {apart:e}");
                 }
