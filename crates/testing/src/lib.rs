@@ -13,6 +13,7 @@
 //! ```
 
 mod case;
+mod cases;
 mod holes;
 pub mod moving;
 mod programs;
@@ -26,6 +27,7 @@ pub use case::{
     Case, default_data, default_pair, generated, mean_and_peak_to_peak, meshes_folder, modified, of_order, of_widths,
     planet_in_ring, quadratic, scaled, structured,
 };
+pub use cases::{ALL_CASES, cases};
 pub use holes::with_holes;
 pub use programs::{browser, program, python};
 pub use random::Random;

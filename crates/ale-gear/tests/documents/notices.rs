@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::util::{Scratch, repository};
 
-const AGAIN: &str = "write it again: `cargo fetch && cargo fetch --manifest-path python/Cargo.toml && .ci/notices`";
+const AGAIN: &str = "write it again: `cargo fetch && .ci/notices`";
 
 /// Name and version of every package of a lock file.
 fn locked(file: &str) -> Vec<String> {
@@ -62,7 +62,7 @@ fn everything_that_is_carried_is_named_with_its_licence() {
         let named = |line: &&str| line[3..line.len() - 1].split(", ").any(|name| name == package);
         assert!(of.iter().any(named), "no text of {package}: {AGAIN}");
     }
-    let known = [locked("Cargo.lock"), locked("python/Cargo.lock")].concat();
+    let known = locked("Cargo.lock");
     let lines = list.lines().filter(|line| !line.ends_with("in the pages of reports"));
     let packages = lines.filter_map(|line| line.split_once(": ")).map(|(name, _)| name);
     for package in packages.filter(|name| name.split(' ').count() == 2) {

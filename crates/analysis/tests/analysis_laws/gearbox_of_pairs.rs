@@ -93,7 +93,7 @@ fn differences(mesh: &MeshState, wanted: &StaticPosition) -> Vec<(&'static str, 
 }
 
 /// Shafts held, every pair of the scenes at rest is its own gearbox to 1e-9: transmission error, forces, moments
-/// and pressure at every position, K_Hbeta.
+/// and pressure at every position, K_Hbeta. (Every other pair, unless all cases are tried.)
 #[test]
 fn every_pair_of_the_scenes_is_a_gearbox_of_held_shafts() {
     let mut worst = ("", 0.0, String::new());
@@ -110,6 +110,9 @@ fn every_pair_of_the_scenes_is_a_gearbox_of_held_shafts() {
         }
         let text = pair_at_rest(&path);
         if !seen.insert(text.lines().filter(|line| !line.starts_with("name")).collect::<Vec<_>>().join("\n")) {
+            continue;
+        }
+        if seen.len() % testing::cases(2, 1) != 0 {
             continue;
         }
         let found = beside(&text, &SharedModels::new(&records)).unwrap_or_else(|said| panic!("{name}: {said}"));

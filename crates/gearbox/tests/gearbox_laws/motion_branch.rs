@@ -136,7 +136,7 @@ pub fn folds_and_jumps(mechanism: &mut GearboxMechanism, found: &GearboxBranch) 
     };
     let mut jumps = Vec::new();
     for (fold, way, is_upper) in [(at[0], -1.0, true), (at[1], 1.0, false)] {
-        let first = nearest(fold * (1.0 - 0.006 * way), is_upper);
+        let first = nearest(fold * (1.0 - 0.003 * way), is_upper);
         let (motion, whole) = (&found.branch.motions[first], &found.motions[first]);
         let mut state = GearboxMechanism::state_of(whole, motion.period, 0.0);
         let (mut speed, mut before) = (motion.parameter, peak_to_peak(mechanism, motion, whole, 0));

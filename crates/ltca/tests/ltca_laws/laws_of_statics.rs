@@ -17,7 +17,8 @@ fn small_case(beta_deg: f64) -> Case {
 /// piece of 0.2 mm is missed at one of them.
 #[test]
 fn contact_line_length_tends_to_the_analytic_one() {
-    for (beta, allowed) in [(0.0, 1e-3), (10.0, 1e-3), (-20.0, 1e-3), (30.0, 1e-2)] {
+    let angles = [(-20.0, 1e-3), (30.0, 1e-2), (0.0, 1e-3), (10.0, 1e-3)];
+    for &(beta, allowed) in &angles[..testing::cases(2, angles.len())] {
         let case = small_case(beta);
         for slices in [12, 48] {
             let mut options = case.options();
