@@ -403,6 +403,9 @@ impl GearboxError {
         let text = match self {
             Self::NoShafts => "give one shaft at least",
             Self::Shaft { source, .. } => return source.hint(),
+            Self::Loose { motion: "about its own axis", .. } => {
+                "give a bearing between it and the ground `turn_stiffness_nm_per_rad`"
+            }
             Self::Loose { .. } => {
                 "give it bearings that do, `stiffness_n_per_mm` in x, y and z, two of them or one with \
                  `tilt_stiffness_nm_per_rad`; or hold it (`held = true`). Along z two meshes of opposite hands \

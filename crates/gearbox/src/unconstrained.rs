@@ -92,8 +92,15 @@ pub(crate) fn check_held(
     if value >= NOTHING {
         return Ok(());
     }
-    // Of all shafts that move, the one that its bearings leave free and that moves most.
     let moved = eigenvectors.column(least);
+    // A shaft that stands and turns off, whatever it takes along: nothing holds its turn.
+    let (furthest, _) = moved.abs().argmax();
+    if let (shaft, 5) = (left[furthest] / 6, left[furthest] % 6)
+        && structure.stands(shaft)
+    {
+        return Err(GearboxError::Loose { shaft: structure.shafts[shaft].name.clone(), motion: "about its own axis" });
+    }
+    // Of all shafts that move, the one that its bearings leave free and that moves most.
     let most = |shaft: usize| {
         let own = left.iter().zip(moved.iter()).filter(|(c, _)| **c / 6 == shaft && **c % 6 < 5);
         own.map(|(_, share)| share.abs()).fold(0.0, f64::max)

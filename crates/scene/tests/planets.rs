@@ -113,12 +113,12 @@ fn planets_go_in_where_teeth_meet_gaps() {
 #[test]
 fn mistakes_are_told_with_their_place() {
     let cases: &[(&str, &str, &str, &str)] = &[
-        (SHAFTS, "shafts = [\"plant\", \"pin\"]\n", "\"plant\"", "did you mean \"planet\"?"),
+        (SHAFTS, "shafts = [\"plant\", \"pin\"]\n", "`shafts` is \"plant\"", "did you mean \"planet\"?"),
         (SHAFTS, "", "[[planets]] has no `shafts`", "names of the shafts"),
         (SHAFTS, "shafts = []\n", "[[planets]] has no `shafts`", ""),
         (SHAFTS, "shafts = [\"planet\", \"planet\"]\n", "\"planet\" is in [[planets]] twice", "one planet"),
         ("around = \"carrier\"", "around = \"pin\"", "\"pin\" is in [[planets]] twice", "around itself"),
-        ("around = \"carrier\"", "around = \"carier\"", "\"carier\"", "did you mean \"carrier\"?"),
+        ("around = \"carrier\"", "around = \"carier\"", "`around` is \"carier\"", "did you mean \"carrier\"?"),
         ("around = \"carrier\"\n", "", "[[planets]] has no `around`", "they stand around"),
         (COUNT, "", "[[planets]] has no `count`", "how many"),
         (COUNT, "count = 1\n", "`count`", "2 .. 24"),
@@ -189,7 +189,7 @@ fn mistakes_are_told_with_their_place() {
             "`seat_offset_um` has 1 numbers",
             "give 3",
         ),
-        ("in_shaft = \"pin\"", "in_shaft = \"pins\"", "\"pins\"", "did you mean \"pin 3\"?"),
+        ("in_shaft = \"pin\"", "in_shaft = \"pins\"", "`in_shaft` is \"pins\"", "did you mean \"pin\"?"),
         ("in_shaft = \"pin\"", "in_shaft = \"planet\"", "is between \"planet 1\" and itself", "another shaft"),
         (
             "in_shaft = \"pin\"",

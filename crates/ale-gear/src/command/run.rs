@@ -63,7 +63,7 @@ pub(super) struct RunArgs {
     #[arg(long, help_heading = "Checkpoints")]
     resume: bool,
     /// Stop after so many mesh cycles in all and leave a checkpoint (motions)
-    #[arg(long, value_name = "N", help_heading = "Checkpoints")]
+    #[arg(long, value_name = "N", help_heading = "Checkpoints", value_parser = clap::value_parser!(u64).range(1..))]
     stop_after_cycles: Option<u64>,
 }
 
@@ -227,7 +227,7 @@ impl RunArgs {
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
             return refuse(
                 "this analysis has no checkpoints",
-                "`--resume` and `--stop-after-cycles` belong to motions of the model \"reduced\" with `run` \"steady\", \"span\" or \"ramp\", without [accuracy]",
+                "`--resume` and `--stop-after-cycles` belong to motions of the models \"reduced\" and \"reduced+modes\" with `run` \"steady\", \"span\" or \"ramp\", without [accuracy]",
             );
         }
         let in_parts = self.resume || self.stop_after_cycles.is_some();

@@ -77,11 +77,11 @@ fn the_command_that_goes_on_is_whole() {
 fn a_motion_is_not_gone_on_with_as_another_one() {
     let scratch = two_stages("mesh = \"spring\"\ncycles = 4\nsteps_per_cycle = 16\n");
     let none = run(&scratch, "o", &["--resume"]);
-    assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: cannot be read"), "{}", none.stderr);
+    assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: there is no checkpoint: "), "{}", none.stderr);
     assert_eq!(run(&scratch, "o", &["--stop-after-cycles", "2"]).code, Some(0));
     let kept = scratch.read("o.checkpoint/rows.jsonl");
     let other = "ale-gear: box.toml: the checkpoint belongs to another gearbox file\n\
-                 hint: run without `--resume` to start from the beginning\n";
+                 hint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n";
     for set in ["torque.0.torque_nm=700", "shaft.0.section.0.outer_diameter_mm=26", "mesh.0.set=[\"contact.slices=9\"]"]
     {
         let refused = run(&scratch, "o", &["--resume", "--set", set]);

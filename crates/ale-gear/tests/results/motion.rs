@@ -315,13 +315,13 @@ fn fields_come_with_the_rows() {
 fn a_foreign_checkpoint_is_refused() {
     let scratch = Scratch::new().file("a.toml", scene(2, ""));
     let none = scratch.command(&["run", "a.toml", "--out", "o", "--resume"]);
-    assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: cannot be read"), "{}", none.stderr);
+    assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: there is no checkpoint: "), "{}", none.stderr);
     assert_eq!(none.code, Some(2));
     assert_eq!(scratch.command(&["run", "a.toml", "--out", "o", "--stop-after-cycles", "1"]).code, Some(0));
     let scratch = scratch.file("a.toml", scene(2, "mesh_damping_ratio = 0.07\n"));
     let other = scratch.command(&["run", "a.toml", "--out", "o", "--resume"]);
     assert_eq!(
         other.stderr,
-        "ale-gear: a.toml: the checkpoint belongs to another scene\nhint: run without `--resume` to start from the beginning\n"
+        "ale-gear: a.toml: the checkpoint belongs to another scene\nhint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n"
     );
 }

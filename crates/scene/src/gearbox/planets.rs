@@ -86,6 +86,11 @@ pub(super) fn written_out(s: &Source<'_>, raw: RawGearbox) -> Checked<(RawGearbo
         }
     }
     for own in &raw.bearing {
+        if !groups.is_empty() {
+            for (key, word) in [("shaft", &own.get_ref().shaft), ("in_shaft", &own.get_ref().in_shaft)] {
+                word.as_ref().map(|word| known_shaft(s, &raw, key, word)).transpose()?;
+            }
+        }
         let (group, seat) = (of_shaft(&own.get_ref().shaft), of_shaft(&own.get_ref().in_shaft));
         if let (Some(_), true, Some(word)) = (seat, group != seat, &own.get_ref().in_shaft) {
             let said =
@@ -154,20 +159,22 @@ fn numbered(word: &Word, group: Option<usize>, planet: usize) -> Word {
     Some(Spanned::new(own.span(), format!("{} {}", own.get_ref(), planet + 1)))
 }
 
+/// The name of a shaft of the file, as it is written there: copies have names that nobody wrote.
+fn known_shaft(s: &Source<'_>, file: &RawGearbox, key: &str, word: &Spanned<String>) -> Checked<String> {
+    let names = file.shaft.iter().filter_map(|t| Some(t.get_ref().name.as_ref()?.get_ref().as_str()));
+    let known: Vec<(&str, &str)> = names.map(|name| (name, name)).collect();
+    s.one_of(key, word, &known).map(str::to_owned)
+}
+
 fn group(s: &Source<'_>, table: &Spanned<RawPlanets>, file: &RawGearbox) -> Checked<Group> {
     let raw = table.get_ref();
-    let known = |word: &Spanned<String>| -> Checked<String> {
-        let names: Vec<&str> =
-            file.shaft.iter().filter_map(|t| Some(t.get_ref().name.as_ref()?.get_ref().as_str())).collect();
-        let known: Vec<(&str, &str)> = names.into_iter().map(|name| (name, name)).collect();
-        s.one_of("shaft", word, &known).map(str::to_owned)
-    };
+    let known = |key: &str, word: &Spanned<String>| known_shaft(s, file, key, word);
     let Some(words) = raw.shafts.as_ref().filter(|words| !words.is_empty()) else {
         return Err(missing(s, table, "[[planets]]", "shafts", "names of the shafts of the first planet"));
     };
-    let shafts = words.iter().map(known).collect::<Checked<Vec<_>>>()?;
+    let shafts = words.iter().map(|word| known("shafts", word)).collect::<Checked<Vec<_>>>()?;
     needed_word(s, table, "[[planets]]", "around", &raw.around, "the name of the shaft they stand around")?;
-    let around = raw.around.as_ref().map(known).transpose()?.unwrap_or_default();
+    let around = raw.around.as_ref().map(|word| known("around", word)).transpose()?.unwrap_or_default();
     let taken = |name: &String| {
         let of = |t: &Spanned<RawPlanets>| t.get_ref().shafts.iter().flatten().filter(|w| w.get_ref() == name).count();
         file.planets.iter().map(of).sum::<usize>() > 1 || *name == around

@@ -32,7 +32,7 @@ pub enum CheckpointError {
         folder: PathBuf,
     },
     /// There is no checkpoint.
-    #[error("{}: cannot be read: {cause}", file.display())]
+    #[error("{}: there is no checkpoint: {cause}", file.display())]
     None {
         /// The file that should be there.
         file: PathBuf,
@@ -55,11 +55,14 @@ impl CheckpointError {
         let beginning = "run without `--resume` to start from the beginning";
         let said = match self {
             Self::OtherFile { .. } => format!("put that one back, or {beginning}"),
-            Self::Foreign { .. } | Self::Damaged { .. } => beginning.to_owned(),
+            Self::Foreign { .. } => {
+                format!("go on with what it belongs to, give another `--out`, or {beginning}")
+            }
+            Self::Damaged { .. } => beginning.to_owned(),
             Self::InUse { .. } => "wait for its end, or give another `--out`".to_owned(),
             Self::NotOurs { .. } => "checkpoints of a run go there: give another `--out`, or move it away".to_owned(),
             Self::None { .. } => {
-                "`--resume` goes on from a run with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder"
+                "a run that has come to its end leaves none; `--resume` goes on from one with `checkpoint_every_cycles` or `--stop-after-cycles` into the same folder"
                     .to_owned()
             }
         };
