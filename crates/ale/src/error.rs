@@ -91,11 +91,11 @@ impl AleError {
             )),
             Self::WrongCount { .. } => None,
             Self::Starved { window, .. } | Self::Dropped { window, .. } => Some(format!(
-                "set analysis.window_teeth to {} (the meshes must have that many teeth), or lower the torque",
+                "set analysis.window_teeth of the pair to {} (the meshes must have that many teeth), or lower the torque",
                 window + 1
             )),
             Self::Leapt { .. } => Some(
-                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them; \
+                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`; of a gearbox `steps_per_cycle`), or let an `error_tolerance` choose them; \
                  is every torque in N m, and the inertia in kg m^2?"
                     .into(),
             ),

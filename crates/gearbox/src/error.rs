@@ -318,7 +318,7 @@ pub enum GearboxError {
     #[error(transparent)]
     Map(Box<contact_map::MapError<StaticError>>),
     /// A mesh that no map holds.
-    #[error("a map does not hold {what}")]
+    #[error("this model of the mesh does not hold {what}")]
     Unmapped {
         /// What.
         what: &'static str,

@@ -159,7 +159,7 @@ impl<E> MotionError<E> {
                 "loosen the `error_tolerance`; take an implicit `method` where bearings, dampers or friction are stiff; solve statics where the gears hardly turn"
             }
             Self::Unstable { .. } => {
-                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), let an `error_tolerance` choose them, or take an implicit `method`"
+                "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`; of a gearbox `steps_per_cycle`), let an `error_tolerance` choose them, or take an implicit `method`"
             }
             Self::Singular { .. } => "every free coordinate needs mass, and stiffness or damping must not be infinite",
             Self::Lengths { .. } => "give one scale, one coordinate and one velocity for each row of the mass matrix",

@@ -98,8 +98,7 @@ pub enum StaticError {
     },
 }
 
-const SMALLER_STEPS: &str =
-    "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`), or let an `error_tolerance` choose them";
+const SMALLER_STEPS: &str = "take smaller steps (`steps_per_mesh_cycle`, `steps_per_resonance`; of a gearbox `steps_per_cycle`), or let an `error_tolerance` choose them";
 
 impl From<std::convert::Infallible> for StaticError {
     fn from(never: std::convert::Infallible) -> Self {

@@ -252,6 +252,18 @@ fn a_carrier_that_turns_off_is_named() {
     );
 }
 
+/// A stage seen from its carrier vibrates; what stands in it turns with no order.
+#[test]
+fn a_planetary_stage_vibrates() {
+    let text = std::fs::read_to_string(repository().join("scenes/gearbox/planetary_stage.toml")).unwrap();
+    let vibration = "[vibration]\nfrom_rpm = 500.0\nto_rpm = 2000.0\nspeeds = 4\norders = 2\n";
+    let scratch = Scratch::new().file("stage.toml", text + vibration);
+    let run = scratch.ale_gear(["run", "stage.toml", "--out", "o", "--set", "analysis.positions_per_cycle=8"]);
+    assert_eq!(run.code, Some(0), "{}", run.stderr);
+    let campbell = scratch.read("o/campbell.csv");
+    assert!(campbell.contains("shaft_1") && !campbell.contains("shaft_4"), "{campbell}");
+}
+
 /// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,
 /// run up; a housing out of CalculiX, driven by a torque on maps; an overhung pinion, settled by steps as short as need be.
 #[test]

@@ -37,7 +37,7 @@ impl GearboxResult {
             all.push(Check::new(name("pressure_over_modulus"), pressure, PRESSURE, SMALL));
         }
         if let Some(motion) = &self.motion {
-            let hint = "take more `steps_per_cycle`, or `method = \"energy\"`";
+            let hint = "take more `steps_per_cycle`, a smaller `error_tolerance` where one is stated, or `method = \"energy\"`";
             all.push(Check::new("energy_residual", motion.energy.open_over_vibration, ENERGY, hint));
         }
         let of_motion = self.motion.as_ref().map(|own| (&own.reach, &own.reduction));

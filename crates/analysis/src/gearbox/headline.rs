@@ -169,22 +169,22 @@ const NUMBERS: [Number; 36] = [
     ),
     list(
         "peak_to_peak_dte_um",
-        "peak to peak of the dynamic transmission error of each mesh, second half of the rows; with `[motion]`",
+        "peak to peak of the dynamic transmission error of each mesh over all rows; with `[motion]`",
         Of::MeshesMoving(|m, i| m.reached.dte_um[i].span()),
     ),
     list(
         "min_normal_force_n",
-        "smallest normal force of each mesh, second half of the rows; with `[motion]`",
+        "smallest normal force of each mesh over all rows; with `[motion]`",
         Of::MeshesMoving(|m, i| m.reached.normal_force[i].least),
     ),
     list(
         "max_normal_force_n",
-        "largest normal force of each mesh, second half of the rows; with `[motion]`",
+        "largest normal force of each mesh over all rows; with `[motion]`",
         Of::MeshesMoving(|m, i| m.reached.normal_force[i].largest),
     ),
     list(
         "max_radial_bearing_force_n",
-        "largest radial force of each bearing, second half of the rows; with `[motion]`",
+        "largest radial force of each bearing over all rows; with `[motion]`",
         Of::BearingsMoving(|m, i| m.reached.radial_force[i].largest),
     ),
     Number {

@@ -108,11 +108,11 @@ impl Range {
 /// What the rows of a motion reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReachedByRows {
-    /// Dynamic transmission error of each mesh in the second half of the rows, um: what settles is in the first.
+    /// Dynamic transmission error of each mesh in all rows, um.
     pub dte_um: Vec<Range>,
-    /// Normal force of each mesh in that half, N.
+    /// Normal force of each mesh in all rows, N.
     pub normal_force: Vec<Range>,
-    /// Radial force of each bearing in that half, N.
+    /// Radial force of each bearing in all rows, N.
     pub radial_force: Vec<Range>,
     /// Size of the speed of the input in all rows, rad/s.
     pub input_speed: Range,
@@ -126,22 +126,19 @@ impl ReachedByRows {
         let fastest = (0..mesh_frequencies.len()).max_by(|&a, &b| mesh_frequencies[a].total_cmp(&mesh_frequencies[b]));
         let mut cycles = Vec::with_capacity(rows.len());
         let [mut meshes, mut bearings]: [Vec<[Running; 2]>; 2] = Default::default();
-        let (mut speed, mut row_number) = (Running::default(), 0);
+        let mut speed = Running::default();
         rows.for_each(0..rows.len(), |row| {
             cycles.push(fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles));
             speed.push(row.input[1].abs());
             meshes.resize(row.meshes.len(), Default::default());
             bearings.resize(row.bearings.len(), Default::default());
-            if row_number >= rows.len() / 2 {
-                for ([dte, force], mesh) in meshes.iter_mut().zip(&row.meshes) {
-                    dte.push(1e3 * mesh.transmission_error);
-                    force.push(mesh.normal_force);
-                }
-                for ([radial, _], bearing) in bearings.iter_mut().zip(&row.bearings) {
-                    radial.push(bearing.force[0].hypot(bearing.force[1]));
-                }
+            for ([dte, force], mesh) in meshes.iter_mut().zip(&row.meshes) {
+                dte.push(1e3 * mesh.transmission_error);
+                force.push(mesh.normal_force);
             }
-            row_number += 1;
+            for ([radial, _], bearing) in bearings.iter_mut().zip(&row.bearings) {
+                radial.push(bearing.force[0].hypot(bearing.force[1]));
+            }
         })?;
         let (first, last) = (cycles.first().copied().unwrap_or(0.0), cycles.last().copied().unwrap_or(0.0));
         let sense = if last < first { -1.0 } else { 1.0 };

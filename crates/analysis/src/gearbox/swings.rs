@@ -147,13 +147,14 @@ pub(super) fn gear_frequencies(count: usize, modes: &GearModesOfDiscs) -> Vec<Op
     (0..count).map(|i| modes.get(i).and_then(Option::as_ref).map(of)).collect()
 }
 
-/// Mesh orders and turns of shafts as lines of excitation.
+/// Mesh orders and turns of shafts as lines of excitation; what stands excites nothing.
 pub(super) fn lines(vibration: &Vibration, ratios: &[f64], orders: u32) -> Vec<ExcitationLine> {
     let meshes = vibration.mesh_orders().into_iter().enumerate().flat_map(move |(i, order)| {
         (1..=orders)
             .map(move |k| ExcitationLine { name: format!("mesh_{}_order_{k}", i + 1), order: f64::from(k) * order })
     });
     let shafts = ratios.iter().enumerate();
+    let shafts = shafts.filter(|(_, ratio)| **ratio != 0.0);
     let shafts = shafts.map(|(i, ratio)| ExcitationLine { name: format!("shaft_{}", i + 1), order: ratio.abs() });
     meshes.chain(shafts).collect()
 }

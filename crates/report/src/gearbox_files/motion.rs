@@ -58,11 +58,11 @@ described::described! {
         mean_mesh_stiffness_n_per_um: f64,
         /// damping along the normal
         mesh_damping_n_s_per_mm: f64,
-        /// peak to peak of the dynamic transmission error, second half of the rows
+        /// peak to peak of the dynamic transmission error over all rows
         peak_to_peak_dte_um: f64,
-        /// smallest normal force, second half of the rows
+        /// smallest normal force over all rows
         min_normal_force_n: f64,
-        /// largest normal force, second half of the rows
+        /// largest normal force over all rows
         max_normal_force_n: f64,
         /// losses of contact of the driving flanks
         separations: u64,
@@ -77,9 +77,9 @@ described::described! {
     struct BearingMotion<'a> {
         /// name of the bearing
         name: &'a str,
-        /// smallest radial force, second half of the rows
+        /// smallest radial force over all rows
         min_radial_force_n: f64,
-        /// largest radial force, second half of the rows
+        /// largest radial force over all rows
         max_radial_force_n: f64,
     }
 
@@ -220,7 +220,7 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 /// [`ReportError`] where rows cannot be read back.
 pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Vec<Part>, ReportError> {
     let Some(motion) = &result.motion else { return Ok(Vec::new()) };
-    let words = "Least and largest forces are of the second half.";
+    let words = "Least and largest are those of all rows.";
     let words = if is_run_up(motion) {
         format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
     } else {

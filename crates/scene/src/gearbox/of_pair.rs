@@ -150,7 +150,8 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         if gear.is_internal() { format!("{:?}\ninner_diameter_mm = {bore:?}", 1.1 * bore) } else { format!("{bore:?}") }
     });
     let mut text = format!(
-        "# Gearbox of one pair on two held shafts: it computes what the pair alone does.\n\
+        "# Gearbox of one pair on two held shafts: at rest it computes what the pair alone does without friction.\n\
+         # Bodies, bearings, friction and motion of the scene are not in it.\n\
          # To let a shaft deflect, take `held = true` out of it, state its sections, and add its bearings:\n\
          # [[bearing]]\n# shaft = \"pinion\"\n# position_mm = 5.0\n# stiffness_n_per_mm = [2.0e5, 2.0e5, 8.0e4]\n\
          name = {}\n",

@@ -72,7 +72,7 @@ impl VaryArgs {
         if !vary.is_empty() || asks {
             return refuse(
                 "a scene is varied by `--vary`, and `--output` says what is wanted of each case",
-                "as `--vary 'operation.torque_nm=50:200:7' --output peak_to_peak_ste_um`; or give a plan file",
+                "as `--vary 'operation.torque_nm=50:200:7' --output peak_to_peak_ste_um` of a pair, `--vary 'torque.0.torque_nm=50:200:7' --output peak_to_peak_ste_um.0` of a gearbox; or give a plan file",
             );
         }
         if design.is_some() || samples.is_some() || seed.is_some() {
