@@ -151,10 +151,11 @@ impl Forces {
 
     /// All to zero but what is wanted.
     pub fn clear(&mut self) {
-        self.conservative.fill(0.0);
-        self.other.fill(0.0);
-        self.stiffness.fill(0.0);
-        self.damping.fill(0.0);
+        // Of few numbers: an iterator of nalgebra takes longer than they do.
+        self.conservative.as_mut_slice().fill(0.0);
+        self.other.as_mut_slice().fill(0.0);
+        self.stiffness.as_mut_slice().fill(0.0);
+        self.damping.as_mut_slice().fill(0.0);
         (self.supplied, self.parametric, self.dissipated) = (0.0, 0.0, 0.0);
     }
 

@@ -52,8 +52,8 @@ impl GearboxMechanism {
             }
         }
         let mut load = |size: f64, along: &DVector<f64>| {
-            out.other.axpy(size, along, 1.0);
-            out.supplied += size * along.dot(v);
+            loops::add(size, along, &mut out.other);
+            out.supplied += size * loops::along(along, v);
         };
         self.loads.iter().for_each(|own| load(1.0, own));
         self.varying.forces(t).for_each(|(torque, along)| load(torque, along));

@@ -1,4 +1,4 @@
-//! Sums over so few coordinates that a product of nalgebra takes longer to call than to do.
+//! Sums over so few coordinates that a product of nalgebra, or its iterator, takes longer to call than to do.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 #[inline]
 pub(super) fn along(a: &DVector<f64>, x: &DVector<f64>) -> f64 {
     let mut sum = 0.0;
-    for (a, x) in a.iter().zip(x) {
+    for (a, x) in a.as_slice().iter().zip(x.as_slice()) {
         sum += a * x;
     }
     sum
@@ -15,7 +15,7 @@ pub(super) fn along(a: &DVector<f64>, x: &DVector<f64>) -> f64 {
 /// out += scale a.
 #[inline]
 pub(super) fn add(scale: f64, a: &DVector<f64>, out: &mut DVector<f64>) {
-    for (sum, a) in out.iter_mut().zip(a) {
+    for (sum, a) in out.as_mut_slice().iter_mut().zip(a.as_slice()) {
         *sum += scale * a;
     }
 }
@@ -27,8 +27,8 @@ pub(super) fn add_product(scale: f64, a: &DVector<f64>, b: &DVector<f64>, out: &
         return;
     }
     // Columns stand one behind the other.
-    for (column, b) in out.as_mut_slice().chunks_exact_mut(a.len().max(1)).zip(b) {
-        for (sum, a) in column.iter_mut().zip(a) {
+    for (column, b) in out.as_mut_slice().chunks_exact_mut(a.len().max(1)).zip(b.as_slice()) {
+        for (sum, a) in column.iter_mut().zip(a.as_slice()) {
             *sum += scale * b * a;
         }
     }
@@ -37,5 +37,5 @@ pub(super) fn add_product(scale: f64, a: &DVector<f64>, b: &DVector<f64>, out: &
 /// Whether a matrix does nothing.
 #[inline]
 pub(super) fn is_zero(matrix: &DMatrix<f64>) -> bool {
-    matrix.iter().all(|x| *x == 0.0)
+    matrix.as_slice().iter().all(|x| *x == 0.0)
 }

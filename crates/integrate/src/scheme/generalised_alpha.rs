@@ -73,12 +73,14 @@ impl Coefficients {
             newton.prepare(forces);
             system.forces(time, &to.q, &to.v, forces).map_err(|source| MotionError::Mechanism { time, source })?;
             rest.gemv(1.0, system.mass(), &to.a, 0.0);
-            *rest -= &forces.conservative;
-            *rest -= &forces.other;
+            for (i, rest) in rest.as_mut_slice().iter_mut().enumerate() {
+                *rest = *rest - forces.conservative[i] - forces.other[i];
+            }
             let matrix = |forces: &Forces, sum: &mut DMatrix<f64>| {
                 let damping_share = gamma / (beta * h);
-                sum.copy_from(&forces.stiffness);
-                sum.zip_zip_apply(system.mass(), &forces.damping, |k, m, c| *k += mass_share * m + damping_share * c);
+                let own = system.mass().as_slice().iter().zip(forces.damping.as_slice());
+                let own = sum.as_mut_slice().iter_mut().zip(forces.stiffness.as_slice()).zip(own);
+                own.for_each(|((sum, k), (m, c))| *sum = k + (mass_share * m + damping_share * c));
             };
             let singular = MotionError::Singular { time, which: "iteration" };
             to.q -= newton.step(forces, matrix, rest, iteration).ok_or(singular)?;
