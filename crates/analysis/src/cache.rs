@@ -4,7 +4,7 @@ use answer::Remark;
 use std::{fmt, sync::Arc};
 
 use contact_map::ContactMap;
-use reduction::{ColumnStore, RecordKey, ReductionRecord};
+use reduction::{PartStore, RecordKey, ReductionRecord};
 
 /// A store of reduced gears and of maps.
 ///
@@ -20,8 +20,9 @@ pub trait GearCache: Sync {
     /// Keeps a record; a warning says why it could not be done.
     fn save(&self, key: &RecordKey, record: &ReductionRecord) -> Option<Remark>;
 
-    /// Where the columns of the teeth of a gear are kept as soon as they are made. A store need not keep them.
-    fn columns(&self, _: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
+    /// Where parts of a gear are kept beside its record: columns of its teeth as soon as they are made, the factor of its
+    /// sector. A store need not keep them.
+    fn parts(&self, _: &RecordKey) -> Option<Arc<dyn PartStore>> {
         None
     }
 
@@ -133,8 +134,8 @@ impl<T: GearCache + ?Sized> GearCache for &T {
         (**self).save(key, record)
     }
 
-    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
-        (**self).columns(key)
+    fn parts(&self, key: &RecordKey) -> Option<Arc<dyn PartStore>> {
+        (**self).parts(key)
     }
 
     fn is_sound(&self, key: &SoundKey) -> bool {

@@ -6,7 +6,7 @@ use geometry::GearPair;
 use ltca::{StaticModel, StaticOptions};
 use mesh::MeshedGear;
 use reduction::{
-    ColumnFault, ElasticGear, FullGear, GearReducer, LayerStack, RecordKey, ReductionOptions, ReductionStage,
+    ElasticGear, FullGear, GearReducer, LayerStack, PartFault, RecordKey, ReductionOptions, ReductionStage,
     ReductionWatch, record_key,
 };
 
@@ -50,13 +50,22 @@ impl RecordKeys {
                 ElasticGear::Full(_) => None,
             })
         };
+        reducers().for_each(|(_, reducer)| reducer.keep_parts());
         let records = reducers().filter_map(|(key, reducer)| cache.save(key, &reducer.record()?));
-        records.chain(reducers().flat_map(|(_, reducer)| reducer.column_faults()).map(of_columns)).collect()
+        records.chain(part_faults(gears)).collect()
     }
 }
 
-/// What a user hears of a file of columns.
-fn of_columns(ColumnFault { file, what, writing }: ColumnFault) -> Remark {
+/// What a user hears of files of parts since the last call.
+pub fn part_faults(gears: &[ElasticGear; 2]) -> impl Iterator<Item = Remark> {
+    let of = |gear: &ElasticGear| match gear {
+        ElasticGear::Reduced(reducer) => reducer.part_faults(),
+        ElasticGear::Full(_) => Vec::new(),
+    };
+    gears.iter().flat_map(of).map(of_part)
+}
+
+fn of_part(PartFault { file, what, writing }: PartFault) -> Remark {
     if writing { remark::gear_not_stored(file, what) } else { remark::gear_not_loaded(file, what) }
 }
 
@@ -162,8 +171,8 @@ fn one(
         Err(error) if error.is_unwanted() => Err(AnalysisError::Cancelled),
         gear => {
             let gear = gear.map_err(|e| blame(scene, mesh, i, e))?;
-            let gear = match key.as_ref().filter(|_| !gear.is_cyclic()).and_then(|key| cache.columns(key)) {
-                Some(store) => gear.with_columns(store),
+            let gear = match key.as_ref().and_then(|key| cache.parts(key)) {
+                Some(store) => gear.with_parts(store),
                 None => gear,
             };
             Ok((ElasticGear::Reduced(gear), key, warning.or(said)))

@@ -51,7 +51,12 @@ impl NamedFlanks<'_> {
     pub fn lie_on_the_gear(&self) -> Result<(), AnalysisError> {
         let Self { file, whose, found, exact, .. } = *self;
         let allowed = DEFAULT_TOLERANCE_MODULES * exact.data().normal_module;
+        // Faces share nodes.
+        let mut checked = vec![None; found.mesh().nodes.len()];
         for (tooth, side, node) in self.nodes() {
+            if checked[node as usize].replace((tooth, side)) == Some((tooth, side)) {
+                continue;
+            }
             let off = self.distance(side, i64::from(tooth), self.point(node));
             if off > allowed {
                 let far = if off.is_finite() { format!("{off:.3} mm") } else { "far".into() };
@@ -108,7 +113,7 @@ impl NamedFlanks<'_> {
                     "name both flanks of a tooth, or neither; the program finds unnamed ones",
                 ));
             }
-            let area: f64 = faces.iter().map(|face| found.mesh().area(face)).sum();
+            let area = found.mesh().areas(faces);
             if area < COVERED * whole {
                 let said = format!(
                     "the faces of the {} flank of tooth {tooth} cover {:.0} % of the {whose}'s flank, {area:.2} of \

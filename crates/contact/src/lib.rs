@@ -33,7 +33,7 @@ mod window;
 
 pub use bracketing::last_inside;
 pub(crate) use complementarity::SavedSolution;
-pub(crate) use compliance::{BulkCompliance, FullContact, TablePoint};
+pub(crate) use compliance::{BulkBody, FullContact, TablePoint};
 pub use compliance::{BulkTable, Condensed, ModalFlanks, ModalForces, TableWork, opening};
 pub use elastic_contact::{CandidateRows, ElasticContact, WarmStart, warm_start};
 pub use error::ContactError;

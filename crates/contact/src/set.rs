@@ -312,7 +312,7 @@ impl ContactSet {
     /// the nodes that they rest on; `None` where no matrices of flanks are known, or not of their whole width.
     pub fn displacements_under(&self, rows: &[ContactRow], forces: &[f64]) -> Option<[Vec<f64>; 2]> {
         let [a, b] = self.windows.as_ref()?;
-        let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+        let compliance = [a.reduced.compliance().as_ref(), b.reduced.compliance().as_ref()];
         if compliance.iter().any(|c| c.ncols() < c.nrows()) {
             return None;
         }
@@ -330,7 +330,7 @@ impl ContactSet {
     pub(crate) fn exact_compliance(&self, rows: &[ContactRow], out: &mut Vec<f64>) {
         out.clear();
         if let Some([a, b]) = &self.windows {
-            let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+            let compliance = [a.reduced.compliance().as_ref(), b.reduced.compliance().as_ref()];
             let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
             Condensed::new(rows, compliance).corrected(correction).matrix(out);
         }
@@ -345,7 +345,7 @@ impl ContactSet {
         let correction = self.shared.slices.as_ref().map(|s| s.correction(rows));
         match (&self.windows, gears) {
             (Some([a, b]), _) => {
-                let compliance = [a.reduced.compliance.as_ref(), b.reduced.compliance.as_ref()];
+                let compliance = [a.reduced.compliance().as_ref(), b.reduced.compliance().as_ref()];
                 Ok(Box::new(Condensed::new(rows, compliance).corrected(correction)))
             }
             (None, [ElasticGear::Full(a), ElasticGear::Full(b)]) => {

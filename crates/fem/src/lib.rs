@@ -37,7 +37,7 @@ pub use element_matrices::{
     ElementOptions, IncompatibleModes, Integration, element_mass, element_stiffness, locks_from,
 };
 pub use error::{FemError, Wanted, unless_unwanted};
-pub use factor::{BoundaryLastFactor, PartedFactor};
+pub use factor::{BoundaryLastFactor, KeptFactor, PartedFactor};
 pub use indefinite::IndefiniteFactor;
 pub use mass_properties::{MassProperties, mass_properties};
 pub use material::Material;

@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use crate::quality::{element_volume, positions};
-use crate::{Face, GroupNames, Mesh, SurfaceGroup};
+use crate::{Face, GroupNames, Mesh, SurfaceGroup, element::FaceQuadraturePoint};
 
 /// Summary of a mesh. Lengths in mm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -139,12 +139,24 @@ impl Mesh {
     /// A = sum over the points of w |dx/dxi x dx/deta|
     /// ```
     pub fn area(&self, face: &Face) -> f64 {
-        let mut dn = [[0.0; 2]; 9];
-        face.kind
-            .quadrature()
-            .iter()
-            .map(|q| {
-                face.kind.shape_gradient(q.xi, &mut dn);
+        self.areas(std::slice::from_ref(face))
+    }
+
+    /// [`Mesh::area`] of some faces together: what belongs to the kind of face is found once.
+    pub fn areas(&self, faces: &[Face]) -> f64 {
+        let mut slopes: Vec<[[f64; 2]; 9]> = Vec::new();
+        let mut of = None;
+        let area = |face: &Face| {
+            let points = face.kind.quadrature();
+            if of.replace(face.kind) != Some(face.kind) {
+                slopes.clear();
+                for q in points {
+                    let mut dn = [[0.0; 2]; 9];
+                    face.kind.shape_gradient(q.xi, &mut dn);
+                    slopes.push(dn);
+                }
+            }
+            let at = |(q, dn): (&FaceQuadraturePoint, &[[f64; 2]; 9])| {
                 let mut t = [nalgebra::Vector3::zeros(); 2];
                 for (g, &node) in dn.iter().zip(face.nodes()) {
                     let x = nalgebra::Vector3::from(self.nodes[node as usize]);
@@ -152,8 +164,10 @@ impl Mesh {
                     t[1] += g[1] * x;
                 }
                 q.weight * t[0].cross(&t[1]).norm()
-            })
-            .sum()
+            };
+            points.iter().zip(&slopes).map(at).sum::<f64>()
+        };
+        faces.iter().map(area).sum()
     }
 }
 

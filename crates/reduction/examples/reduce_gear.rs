@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let node = window.reduced.nodes.len() / 2;
     println!("compliance of a flank node, um/kN:");
     for row in 0..3 {
-        let entry = |column: usize| 1e6 * window.reduced.compliance[(3 * node + row, 3 * node + column)];
+        let entry = |column: usize| 1e6 * window.reduced.compliance()[(3 * node + row, 3 * node + column)];
         println!("  {:9.3} {:9.3} {:9.3}", entry(0), entry(1), entry(2));
     }
 

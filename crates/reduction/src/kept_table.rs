@@ -25,6 +25,8 @@ impl fmt::Display for TableKey {
 pub struct KeptTable {
     /// Error of what is read from it, relative.
     pub error: f64,
-    /// What it consists of.
-    pub values: Arc<Vec<f64>>,
+    /// Its part along the normals, which contact without friction reads alone.
+    pub normal: Arc<Vec<f64>>,
+    /// The rest, where it is at hand; else it may be in a file of its own.
+    pub others: Option<Arc<Vec<f64>>>,
 }

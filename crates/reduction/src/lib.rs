@@ -32,14 +32,18 @@ mod window;
 
 pub use elastic::{ElasticGear, FullGear};
 pub use error::ReductionError;
+pub use fem::KeptFactor;
 pub use kept_table::{KeptTable, TableKey};
 pub use layer_profile::LayerProfile;
 pub use load::{FlankGrid, FlankGrids};
 pub use local_compliance::LocalCompliance;
 pub use modes::{GearModes, LowestFrequencies, ModeChoice, StandingModes};
-pub use record::{RECORD_VERSION, RecordError, RecordKey, ReductionRecord, record_key};
-pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
+pub use record::{
+    RECORD_VERSION, RecordError, RecordKey, ReductionRecord, factor_bytes, read_factor, read_table, record_key,
+    table_bytes,
+};
+pub use reducer::{GearReducer, ReductionOptions, ReductionStage, ReductionWatch, ReductionWay, TablePart};
 pub use stack::LayerStack;
 pub use stress_modes::StressModes;
-pub use teeth::{ColumnFault, ColumnStore, ToothColumns};
+pub use teeth::{PartFault, PartStore, ToothColumns};
 pub use window::{ReducedGear, Window};

@@ -41,7 +41,7 @@ impl GearReducer {
     ) -> Result<Vec<Vec<[f64; 3]>>, ReductionError> {
         forces.iter().try_for_each(|f| check_length(window, f))?;
         let forces = Mat::from_fn(window.reduced.coordinates(), forces.len(), |i, j| forces[j][i]);
-        let moved = || dense::product(window.reduced.compliance.as_ref(), forces.as_ref());
+        let moved = || dense::product(window.reduced.compliance().as_ref(), forces.as_ref());
         self.field(window, Some(nodes), moved, || Ok(forces.clone()))
     }
 

@@ -89,7 +89,7 @@ impl StressModes {
             KnownStress::Sectors(sectors) => by_sectors(sectors, forces),
             KnownStress::Displacements(modes) => {
                 let forces = MatRef::from_column_major_slice(forces, forces.len(), 1);
-                let moved = dense::product(self.reduced.compliance.as_ref(), forces);
+                let moved = dense::product(self.reduced.compliance().as_ref(), forces);
                 Ok(applied(modes, moved.col_as_slice(0)))
             }
         }

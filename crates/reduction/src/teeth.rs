@@ -11,6 +11,9 @@
 use std::sync::Arc;
 
 use faer::Mat;
+use fem::KeptFactor;
+
+use crate::TableKey;
 
 /// Teeth around a gear, and the first window of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -81,25 +84,58 @@ impl ToothColumns {
     }
 }
 
-/// Where columns of teeth are kept as soon as they are made: a run that is stopped need not make them again.
-pub trait ColumnStore: std::fmt::Debug + Send + Sync {
+/// Where parts of a gear are kept beside its record: columns of its teeth as soon as they are made, so that a run that is
+/// stopped need not make them again, the factor of its sector, what contact along the normals does not ask of its tables.
+pub trait PartStore: std::fmt::Debug + Send + Sync {
     /// Columns of a tooth, if they are there.
     ///
     /// # Errors
-    /// [`ColumnFault`] of a file that cannot be used.
-    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, ColumnFault>;
+    /// [`PartFault`] of a file that cannot be used.
+    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, PartFault>;
 
     /// Keeps columns of a tooth.
     ///
     /// # Errors
-    /// [`ColumnFault`] where that cannot be done.
-    fn save(&self, columns: &ToothColumns) -> Result<(), ColumnFault>;
+    /// [`PartFault`] where that cannot be done.
+    fn save(&self, columns: &ToothColumns) -> Result<(), PartFault>;
+
+    /// The factor of the sector, if it is there. A store need not keep it.
+    ///
+    /// # Errors
+    /// As [`PartStore::load`].
+    fn load_factor(&self) -> Result<Option<KeptFactor>, PartFault> {
+        Ok(None)
+    }
+
+    /// Keeps the factor of the sector.
+    ///
+    /// # Errors
+    /// As [`PartStore::save`].
+    fn save_factor(&self, _: &KeptFactor) -> Result<(), PartFault> {
+        Ok(())
+    }
+
+    /// A table but for its part along the normals, if it is there. A store need not keep it.
+    ///
+    /// # Errors
+    /// As [`PartStore::load`].
+    fn load_table(&self, _: &TableKey) -> Result<Option<Vec<f64>>, PartFault> {
+        Ok(None)
+    }
+
+    /// Keeps a table but for its part along the normals.
+    ///
+    /// # Errors
+    /// As [`PartStore::save`].
+    fn save_table(&self, _: &TableKey, _: &[f64]) -> Result<(), PartFault> {
+        Ok(())
+    }
 }
 
-/// What was wrong with a file of columns. No result depends on it: the columns are made again.
+/// What was wrong with the file of a part. No result depends on it: the part is made again.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{file}: {what}")]
-pub struct ColumnFault {
+pub struct PartFault {
     /// The file.
     pub file: String,
     /// What was wrong.
@@ -114,7 +150,7 @@ pub(crate) struct KnownColumns {
     /// By tooth; whether a store has them too.
     columns: Vec<(Arc<ToothColumns>, bool)>,
     /// Faults of the store.
-    pub faults: Vec<ColumnFault>,
+    pub faults: Vec<PartFault>,
     /// Teeth whose columns were made by solves.
     pub made: usize,
 }
@@ -124,7 +160,7 @@ impl KnownColumns {
     pub fn of<E>(
         &mut self,
         (tooth, partners, sizes): (u32, &[u32], &[u32]),
-        store: Option<&dyn ColumnStore>,
+        store: Option<&dyn PartStore>,
         make: impl FnOnce() -> Result<Mat<f64>, E>,
     ) -> Result<Arc<ToothColumns>, E> {
         if let Some((found, _)) = self.columns.iter().find(|(c, _)| c.tooth == tooth) {

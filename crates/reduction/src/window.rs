@@ -6,6 +6,16 @@ use faer::{Mat, MatRef};
 use fem::dense;
 use geometry::Side;
 
+use crate::cyclic::ToothBlocks;
+
+/// Compliance of a window.
+pub(crate) enum Compliance {
+    /// As it is.
+    Whole(Mat<f64>),
+    /// Of teeth that are all alike.
+    Teeth(ToothBlocks),
+}
+
 /// A gear reduced to the flanks of some neighbouring teeth.
 #[derive(Debug, Clone)]
 pub struct ReducedGear {
@@ -16,15 +26,31 @@ pub struct ReducedGear {
     /// Boundary nodes, numbers of the mesh, ascending (of a gear reduced to grids: 0, 1, ... through its grids in
     /// turn); coordinate 3 i + axis belongs to `nodes[i]`.
     pub nodes: Vec<u32>,
-    /// C, mm/N, 3 n x 3 n; of a gear condensed by its layers ([`crate::LayerStack`]) only the columns of its first
-    /// tooth, which the first nodes are on.
-    pub compliance: Mat<f64>,
+    compliance: OnceLock<Mat<f64>>,
+    /// What C is made of, where its teeth are all alike.
+    blocks: Option<ToothBlocks>,
     stiffness: OnceLock<Option<Mat<f64>>>,
 }
 
 impl ReducedGear {
-    pub(crate) fn new(teeth: Vec<u32>, sides: Vec<Side>, nodes: Vec<u32>, compliance: Mat<f64>) -> Self {
-        Self { teeth, sides, nodes, compliance, stiffness: OnceLock::new() }
+    pub(crate) fn new(teeth: Vec<u32>, sides: Vec<Side>, nodes: Vec<u32>, compliance: Compliance) -> Self {
+        let (compliance, blocks) = match compliance {
+            Compliance::Whole(compliance) => (OnceLock::from(compliance), None),
+            Compliance::Teeth(blocks) => (OnceLock::new(), Some(blocks)),
+        };
+        Self { teeth, sides, nodes, compliance, blocks, stiffness: OnceLock::new() }
+    }
+
+    /// C, mm/N, 3 n x 3 n; of a gear condensed by its layers ([`crate::LayerStack`]) only the columns of its first
+    /// tooth, which the first nodes are on. Of alike teeth it is made when first asked for: contact by tables does not.
+    pub fn compliance(&self) -> &Mat<f64> {
+        let joined = || self.blocks.as_ref().map(|blocks| blocks.columns(self.nodes.len())).unwrap_or_else(Mat::new);
+        self.compliance.get_or_init(joined)
+    }
+
+    /// What C is made of, where the teeth are all alike.
+    pub(crate) fn blocks(&self) -> Option<&ToothBlocks> {
+        self.blocks.as_ref()
     }
 
     /// Number of coordinates, three a boundary node.
@@ -42,10 +68,10 @@ impl ReducedGear {
     /// `None` where C is singular (a grid with more nodes than the mesh can tell apart), or not known as a whole.
     pub fn stiffness(&self) -> Option<&Mat<f64>> {
         let inverse = || {
-            if self.compliance.ncols() < self.compliance.nrows() {
+            if self.compliance().ncols() < self.compliance().nrows() {
                 return None;
             }
-            let factor = dense::cholesky(self.compliance.as_ref()).ok()?;
+            let factor = dense::cholesky(self.compliance().as_ref()).ok()?;
             Some(dense::inverse_of_product(factor.as_ref()))
         };
         self.stiffness.get_or_init(inverse).as_ref()
@@ -62,7 +88,7 @@ impl ReducedGear {
     pub(crate) fn forces_of(&self, u: MatRef<'_, f64>) -> Option<Mat<f64>> {
         let stiffness = self.stiffness()?;
         let mut f = dense::product(stiffness.as_ref(), u);
-        let left = u - dense::product(self.compliance.as_ref(), f.as_ref());
+        let left = u - dense::product(self.compliance().as_ref(), f.as_ref());
         f += dense::product(stiffness.as_ref(), left.as_ref());
         Some(f)
     }

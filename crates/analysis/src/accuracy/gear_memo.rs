@@ -7,7 +7,7 @@ use std::{
 };
 
 use contact_map::ContactMap;
-use reduction::{ColumnStore, RecordKey, ReductionRecord};
+use reduction::{PartStore, RecordKey, ReductionRecord};
 
 use crate::{GearCache, Kept, MapKey, SoundKey};
 
@@ -54,8 +54,8 @@ impl GearCache for GearMemo<'_> {
         if self.store.is_on() { self.store.save(key, record) } else { None }
     }
 
-    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
-        self.store.columns(key)
+    fn parts(&self, key: &RecordKey) -> Option<Arc<dyn PartStore>> {
+        self.store.parts(key)
     }
 
     fn is_sound(&self, key: &SoundKey) -> bool {

@@ -8,7 +8,7 @@ use geometry::{Gear, GearPair, Side};
 use reduction::{ElasticGear, LayerStack, LocalCompliance, Window};
 
 use crate::{
-    Bulk, BulkCompliance, BulkTable, ContactError, ContactOptions, Pose,
+    Bulk, BulkBody, BulkTable, ContactError, ContactOptions, Pose,
     compliance::Keeper,
     flank::FlankPatch,
     nodal::{ContactRow, Support},
@@ -109,23 +109,20 @@ impl SliceSet {
         };
         if let (Some(tolerance), Some(windows)) = (tolerance, windows) {
             let table = |i: usize| {
-                let bulk = |patches| BulkCompliance {
-                    whole: windows[i].reduced.compliance.as_ref(),
-                    local: self.bodies[i].iter().map(|h| (&h.boundary[..], h.local.compliance.as_ref())).collect(),
-                    patches,
-                };
+                let local = self.bodies[i].iter().map(|half| (half.boundary.clone(), half.local.clone()));
+                let body = Arc::new(BulkBody { reduced: windows[i].reduced.clone(), local: local.collect() });
                 match flanks[i] {
                     TableFlanks::Whole { patches, alike } => {
-                        let bulk = bulk(patches);
+                        let bulk = body.with(patches);
                         let keeper = match &gears[i] {
-                            ElasticGear::Reduced(gear) => Some(Keeper { gear, window: &windows[i] }),
+                            ElasticGear::Reduced(gear) => Some(Keeper { gear, window: &windows[i], body: &body }),
                             ElasticGear::Full(_) => None,
                         };
                         let whole = BulkTable::new(&bulk, tolerance, keeper);
                         Ok(whole.or_else(|| alike.then(|| BulkTable::of_teeth_alike(&bulk, tolerance)).flatten()))
                     }
                     TableFlanks::Layers { condensed, stack, whole } => {
-                        BulkTable::of_layers(&bulk(condensed), stack, whole, tolerance).map(Some)
+                        BulkTable::of_layers(&body.with(condensed), stack, whole, tolerance).map(Some)
                     }
                 }
             };

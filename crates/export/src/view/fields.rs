@@ -29,7 +29,9 @@ const CHEAP_AGAIN: usize = 300_000;
 impl ViewRecorder {
     /// [`ViewRecorder::view`]; a picture that does not come out is a warning.
     pub fn view_or_remark(self, scene: &Scene, model: &StaticModel, remarks: &mut Vec<answer::Remark>) -> Option<View> {
-        self.view(scene, model).map_err(|e| remarks.push(analysis::remark::no_view(e.to_string()))).ok()
+        let view = self.view(scene, model);
+        remarks.extend(analysis::elastic_gears::part_faults(model.gears()));
+        view.map_err(|e| remarks.push(analysis::remark::no_view(e.to_string()))).ok()
     }
 
     /// What was remembered, with fields where they cost little beside what was solved.

@@ -83,18 +83,21 @@ impl Piece {
 
 /// Elements of a block, by place and nodes.
 fn part(block: &ElementBlock, is_in: impl Fn(usize, &[u32]) -> bool) -> ElementBlock {
-    let own = || block.elements().enumerate().filter(|(i, e)| is_in(*i, e));
-    ElementBlock {
-        kind: block.kind,
-        connectivity: own().flat_map(|(_, e)| e).copied().collect(),
-        tags: own().map(|(i, _)| block.tags[i]).collect(),
+    let mut part = ElementBlock { kind: block.kind, connectivity: Vec::new(), tags: Vec::new() };
+    for ((_, element), tag) in block.elements().enumerate().zip(&block.tags).filter(|((i, e), _)| is_in(*i, e)) {
+        part.connectivity.extend_from_slice(element);
+        part.tags.push(*tag);
     }
+    part
 }
 
 /// Tooth, 0 .. z-1, about whose centre line the middle of an element lies.
 fn tooth_of(mesh: &Mesh, element: &[u32], exact: &Gear) -> u32 {
     let mut sum = [0.0; 3];
-    element.iter().for_each(|&n| sum.iter_mut().zip(mesh.nodes[n as usize]).for_each(|(s, x)| *s += x));
+    for &node in element {
+        let [x, y, z] = mesh.nodes[node as usize];
+        sum = [sum[0] + x, sum[1] + y, sum[2] + z];
+    }
     let z = sum[2] / element.len().max(1) as f64;
     let pitches = (sum[1].atan2(sum[0]) - exact.twist() * z) / TAU * exact.signed_teeth();
     (pitches.round() as i64).rem_euclid(i64::from(exact.teeth())) as u32

@@ -9,11 +9,14 @@
 //! so that K^ and C come without a single solve, and interior displacements by back substitution alone.
 //! Source: the Schur complement of Guyan, AIAA J. 3(2), 1965; multifrontal view of Liu, SIAM Review 34, 1992.
 
+mod kept;
 mod part;
 mod parted;
 mod solves;
+mod structure;
 mod substitution;
 
+pub use kept::KeptFactor;
 pub use parted::PartedFactor;
 
 use std::borrow::Cow;
@@ -26,9 +29,7 @@ use faer::{
         SparseColMat,
         linalg::cholesky::{
             SymbolicCholesky,
-            supernodal::{
-                SupernodalLltRef, factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch,
-            },
+            supernodal::{factorize_supernodal_numeric_llt, factorize_supernodal_numeric_llt_scratch},
         },
     },
 };
@@ -38,6 +39,7 @@ use crate::{
     ordering::{Ordering, supernodal, try_zeroed},
     unless_unwanted,
 };
+use structure::Structure;
 
 /// A pivot this small against its diagonal entry is round-off of a body that can move freely.
 ///
@@ -49,7 +51,7 @@ const SMALLEST_PIVOT_RATIO: f64 = 1e-12;
 /// All results are the same bits for any number of threads. Columns are in the order of `boundary`.
 pub struct BoundaryLastFactor {
     ordering: Ordering,
-    symbolic: SymbolicCholesky<usize>,
+    structure: Structure,
     values: Vec<f64>,
     boundary: Vec<usize>,
 }
@@ -114,6 +116,7 @@ impl BoundaryLastFactor {
         diagonal: &[f64],
     ) -> Result<Self, FemError> {
         let mut values = try_zeroed(symbolic.len_val())?;
+        let structure = supernodal(&symbolic).map(Structure::of).unwrap_or_default();
         if let Some(structure) = supernodal(&symbolic) {
             // sequential inside: two gears are factored side by side instead, and the bits stay the same
             let scratch = factorize_supernodal_numeric_llt_scratch::<usize, f64>(structure, Par::Seq, Spec::default());
@@ -136,10 +139,14 @@ impl BoundaryLastFactor {
             }
         }
         drop(permuted);
-        let boundary = ordering.forward[ordering.interior..].to_vec();
-        let factor = Self { ordering, symbolic, values, boundary };
+        let factor = Self::assembled(ordering, structure, values);
         factor.check_pivots(diagonal)?;
         Ok(factor)
+    }
+
+    fn assembled(ordering: Ordering, structure: Structure, values: Vec<f64>) -> Self {
+        let boundary = ordering.forward[ordering.interior..].to_vec();
+        Self { ordering, structure, values, boundary }
     }
 
     /// Finds pivots that are positive by luck of round-off.
@@ -214,15 +221,7 @@ impl BoundaryLastFactor {
 
     /// The supernodes in order of elimination.
     fn supernodes(&self) -> impl DoubleEndedIterator<Item = Supernode<'_>> {
-        let structure = supernodal(&self.symbolic);
-        structure.into_iter().flat_map(move |structure| {
-            let factor = SupernodalLltRef::<usize, f64>::new(structure, &self.values);
-            (0..structure.n_supernodes()).map(move |k| {
-                let node = factor.supernode(k);
-                let values = node.val();
-                Supernode { index: k, start: node.start(), columns: values.ncols(), pattern: node.pattern(), values }
-            })
-        })
+        self.structure.supernodes(&self.values)
     }
 }
 

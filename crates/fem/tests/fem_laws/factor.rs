@@ -88,6 +88,29 @@ fn a_held_boundary_leaves_the_interior_its_forces() {
     assert!(matches!(factor.solve_held(force.as_ref(), wavy(3, 70).as_ref()), Err(FemError::Shape { .. })));
 }
 
+/// A factor that is made of its parts again has the same bits; parts that do not fit together make none.
+#[test]
+fn a_factor_comes_back_from_its_parts() {
+    let (mesh, dofs, k) = clamped(ElementKind::Hex20, [5, 4, 4]);
+    let boundary = top_rows(&mesh, &dofs, 3.7);
+    let factor = BoundaryLastFactor::new(&k, &boundary).unwrap();
+    let kept = factor.to_kept().unwrap();
+    assert_eq!(kept.values.len(), factor.nonzeros());
+    let again = BoundaryLastFactor::from_kept(&kept).unwrap();
+    assert_eq!((again.n(), again.boundary(), again.to_kept()), (factor.n(), factor.boundary(), Some(kept.clone())));
+    let (force, held) = (wavy(k.n(), 3), wavy(boundary.len(), 3));
+    let solve = |f: &BoundaryLastFactor| f.solve_held(force.as_ref(), held.as_ref()).unwrap();
+    assert!(solve(&factor) == solve(&again) && factor.boundary_factor() == again.boundary_factor());
+    let mut wrong = [kept.clone(), kept.clone(), kept.clone(), kept.clone(), kept.clone(), kept];
+    wrong[0].values.pop();
+    wrong[1].order[1] = wrong[1].order[0];
+    wrong[2].widths[0] += 1;
+    wrong[3].rows[0].reverse();
+    wrong[4].interior = u32::MAX;
+    wrong[5].rows.pop();
+    assert!(wrong.iter().all(|kept| BoundaryLastFactor::from_kept(kept).is_none()));
+}
+
 /// Dense kernels against the plain products, over more than one block of columns.
 #[test]
 fn dense_kernels_agree_with_plain_products() {

@@ -91,7 +91,7 @@ fn stress_modes_agree_with_calculix_under_the_same_forces() {
         for &i in &on {
             for axis in 0..3 {
                 let force = 1000.0 * direction[axis] / on.len() as f64;
-                u.iter_mut().zip(reduced.compliance.col(3 * i + axis).iter()).for_each(|(u, c)| *u += force * c);
+                u.iter_mut().zip(reduced.compliance().col(3 * i + axis).iter()).for_each(|(u, c)| *u += force * c);
             }
         }
         let fillets = RootFillets::new(gear.gear(), &pair.pinion);

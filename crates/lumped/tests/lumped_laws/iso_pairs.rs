@@ -106,7 +106,7 @@ fn measured(drawn: &Drawn, counts: [u32; 5]) -> Measured {
             let windows = model.contact_set().windows().unwrap();
             let matrices = matrices.get_or_insert_with(|| {
                 let dense = |m: &Mat<f64>| DMatrix::from_fn(m.nrows(), m.ncols(), |r, c| m[(r, c)]);
-                [0, 1].map(|i| (dense(&windows[i].reduced.compliance), dense(windows[i].reduced.stiffness().unwrap())))
+                [0, 1].map(|i| (dense(windows[i].reduced.compliance()), dense(windows[i].reduced.stiffness().unwrap())))
             });
             for i in 0..2 {
                 let (c, k) = &matrices[i];

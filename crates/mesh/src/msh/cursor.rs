@@ -168,6 +168,24 @@ impl<'a> Cursor<'a> {
         })
     }
 
+    /// So many integers of 4 bytes that must not be negative, appended to `into`.
+    pub fn naturals(&mut self, count: usize, expected: &str, into: &mut Vec<u64>) -> Result<(), MshError> {
+        into.reserve(count);
+        if self.binary
+            && let Some((numbers, [])) = self.rest().get(..4 * count).map(<[u8]>::as_chunks::<4>)
+        {
+            let before = into.len();
+            into.extend(numbers.iter().map(|bytes| u64::from(u32::from_le_bytes(*bytes))));
+            if into[before..].iter().all(|value| i32::try_from(*value).is_ok()) {
+                self.at += 4 * count;
+                return Ok(());
+            }
+            into.truncate(before);
+        }
+        // One by one, to where it goes wrong.
+        (0..count).try_for_each(|_| self.natural(expected).map(|value| into.push(value)))
+    }
+
     /// An unsigned integer: text, or 8 bytes. Counts and tags of format 4.1.
     pub fn size(&mut self, expected: &str) -> Result<u64, MshError> {
         if self.binary { Ok(u64::from_le_bytes(self.raw(expected)?)) } else { self.text(expected) }

@@ -106,9 +106,7 @@ fn body(
         }
     }
     let block = sorter.block(shape, group);
-    for _ in 0..shape.node_count() {
-        block.nodes.push(c.natural("a node tag")?);
-    }
+    c.naturals(shape.node_count(), "a node tag", &mut block.nodes)?;
     block.tags.push(tag);
     block.places.push(place);
     Ok(())

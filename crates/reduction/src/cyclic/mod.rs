@@ -13,6 +13,7 @@
 //! B_d = B_-d', which one tooth's loads tell. The result is the condensation of the whole gear to round-off, at the
 //! cost of one sector. Nothing is approximated: cuts are eliminated as any other freedom is.
 
+mod blocks;
 mod chain;
 mod placement;
 mod recovery;
@@ -25,10 +26,11 @@ mod vibration;
 use std::collections::BTreeMap;
 
 use faer::{Mat, MatRef};
-use fem::{ElementOptions, Material, Wanted, dense, unless_unwanted};
+use fem::{BoundaryLastFactor, ElementOptions, Material, Wanted, dense, unless_unwanted};
 use mesh::Origin;
 
 use crate::{ReductionError, load::Load};
+pub(crate) use blocks::ToothBlocks;
 use chain::{Chain, stacked};
 use placement::{Placed, arc, placed};
 use sector::Sector;
@@ -57,7 +59,7 @@ pub(crate) struct CyclicGear {
 
 impl CyclicGear {
     /// Condenses the sector and closes the ring; `loads` are on nodes of the larger mesh, those on single nodes if
-    /// `keep`.
+    /// `keep`. The sector's factor may be `known`.
     ///
     /// `None` when a load lies on a cut or reaches over one, or the sector is alone: then it is not one for these loads.
     pub(crate) fn new(
@@ -65,18 +67,23 @@ impl CyclicGear {
         material: &Material,
         elements: &ElementOptions,
         loads: &[Load],
-        keep: bool,
+        (keep, known): (bool, Option<BoundaryLastFactor>),
         wanted: Wanted<'_>,
     ) -> Result<Option<Self>, ReductionError> {
         let Some(Placed { coordinates, own }) = placed(&part, loads) else { return Ok(None) };
         let Some(others) = part.teeth.checked_sub(1).filter(|&others| others > 0) else { return Ok(None) };
         let (first, count) = arc(coordinates.iter().map(|c| c.0), part.teeth);
-        let sector = Sector::new(&part, material, elements, &own, keep, wanted)?;
+        let sector = Sector::new(&part, material, elements, &own, (keep, known), wanted)?;
         let chain = Chain::new(&sector.stiffness, others as usize, wanted)?;
         unless_unwanted(wanted)?;
         let ring = ring(&sector, &chain)?;
         let (material, elements) = (*material, *elements);
         Ok(Some(Self { part, sector, material, elements, coordinates, first, count, chain, ring }))
+    }
+
+    /// The sector's factor.
+    pub(crate) fn factor(&self) -> &BoundaryLastFactor {
+        self.sector.factor()
     }
 
     /// Free degrees of freedom of the whole gear.
@@ -111,54 +118,14 @@ impl CyclicGear {
         placed(&self.part, loads).map(|p| p.own).unwrap_or_default()
     }
 
-    /// C (mm/N), in the frame of copy 0.
-    pub(crate) fn compliance(&self) -> Mat<f64> {
-        self.columns(self.coordinates.len())
-    }
-
-    /// Columns of C (mm/N) by forces on the first `count` coordinate nodes, in the frame of copy 0.
-    pub(crate) fn columns(&self, count: usize) -> Mat<f64> {
-        let blocks = self.blocks();
-        // Coordinates and loads of each copy.
-        let mut of_copy = vec![Vec::new(); blocks.len()];
-        self.coordinates.iter().enumerate().for_each(|(i, &(copy, load))| of_copy[self.offset(copy)].push((i, load)));
-        let mut columns = Mat::<f64>::zeros(3 * self.coordinates.len(), 3 * count);
-        let counted = |of: &[(usize, usize)]| of.iter().any(|(i, _)| *i < count);
-        for (low, loaded) in of_copy.iter().enumerate() {
-            for (high, moved) in of_copy.iter().enumerate().skip(low).filter(|(_, of)| counted(of) || counted(loaded)) {
-                let block = self.turned(&blocks[high - low], [high, low].map(|j| self.angle(self.first + j as u32)));
-                for &(j, load) in loaded {
-                    for &(i, at) in moved.iter().filter(|(i, _)| high > low || *i >= j) {
-                        for (a, b) in (0..3).flat_map(|b| (0..3).map(move |a| (a, b))) {
-                            let value = block[(3 * at + a, 3 * load + b)];
-                            // C is symmetric to the bit.
-                            if j < count && (i != j || a >= b) {
-                                columns[(3 * i + a, 3 * j + b)] = value;
-                            }
-                            if i < count && (i != j || a >= b) {
-                                columns[(3 * j + b, 3 * i + a)] = value;
-                            }
-                        }
-                    }
-                }
-            }
+    /// C (mm/N), in the frame of copy 0, tooth by tooth.
+    pub(crate) fn compliance(&self) -> ToothBlocks {
+        let place = |&(copy, load): &(u32, usize)| [self.offset(copy) as u32, load as u32];
+        ToothBlocks {
+            blocks: self.blocks(),
+            places: self.coordinates.iter().map(place).collect(),
+            angles: (0..self.count).map(|j| self.angle(self.first + j)).collect(),
         }
-        columns
-    }
-
-    /// A block with its rows and columns turned from the frames of their copies by these angles, rad.
-    fn turned(&self, block: &Mat<f64>, angles: [f64; 2]) -> Mat<f64> {
-        angles.into_iter().fold(block.clone(), |mut block, angle| {
-            let (sin, cos) = angle.sin_cos();
-            for mut column in block.col_iter_mut() {
-                for i in (0..column.nrows()).step_by(3) {
-                    let (x, y) = (column[i], column[i + 1]);
-                    column[i] = cos * x - sin * y;
-                    column[i + 1] = sin * x + cos * y;
-                }
-            }
-            block.transpose().to_owned()
-        })
     }
 
     /// B_d, d = 0 .. w - 1: displacements under the loads of the d-th sector on, in its frame, by unit loads on one in

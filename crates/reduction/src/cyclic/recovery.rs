@@ -54,17 +54,26 @@ impl CyclicGear {
         copies.sort_unstable();
         copies.dedup();
         let fields = self.fields(&copies, forces)?;
-        let at = |p: &mesh::Origin, i: usize| {
-            let column = k * copies.partition_point(|&c| c < loaded(p.copy)) + i;
-            self.at(p.node, p.copy, fields.as_ref(), column)
+        // Of each copy its turn and its first column.
+        let turned: Vec<([[f64; 3]; 3], usize)> =
+            (0..z).map(|copy| (self.turn(copy), k * copies.partition_point(|&c| c < loaded(copy)))).collect();
+        let rows = |node: u32| [0, 1, 2].map(|axis| self.sector.dofs.dof(node, axis));
+        let known: Vec<[Option<usize>; 3]> = (0..self.part.mesh.nodes.len() as u32).map(rows).collect();
+        let of_column = |i: usize| {
+            let at = |p: &Origin| {
+                let (turn, first) = &turned[p.copy as usize];
+                let field = fields.col_as_slice(first + i);
+                turned_by(turn, known[p.node as usize].map(|row| row.map_or(0.0, |row| field[row])))
+            };
+            places.iter().map(at).collect()
         };
-        Ok((0..k).map(|i| places.iter().map(|p| at(p, i)).collect()).collect())
+        Ok((0..k).map(of_column).collect())
     }
 
     /// Displacement of a sector's node in one column of its fields, turned by so many pitches.
     fn at(&self, node: u32, pitches: u32, fields: MatRef<'_, f64>, column: usize) -> [f64; 3] {
         let u = [0, 1, 2].map(|axis| self.sector.dofs.dof(node, axis).map_or(0.0, |row| fields[(row, column)]));
-        self.turn(pitches).map(|row| (0..3).map(|k| row[k] * u[k]).sum())
+        turned_by(&self.turn(pitches), u)
     }
 
     /// Coordinates of the window that stands `pitches` on, in its own frame, under forces on those of this one.
@@ -153,4 +162,8 @@ impl CyclicGear {
         }
         Ok(Mat::from_fn(mass.nrows(), mass.ncols(), |i, j| 0.5 * (mass[(i, j)] + mass[(j, i)])))
     }
+}
+
+fn turned_by(turn: &[[f64; 3]; 3], u: [f64; 3]) -> [f64; 3] {
+    turn.map(|[a, b, c]| a * u[0] + b * u[1] + c * u[2])
 }

@@ -44,13 +44,14 @@ pub(super) struct Sector {
 }
 
 impl Sector {
-    /// Factors a sector under loads on nodes of its inside; each load on one node makes that node a kept one.
+    /// Factors a sector under loads on nodes of its inside; each load on one node makes that node a kept one. A factor
+    /// that is `known` is not made again.
     pub(super) fn new(
         part: &SectorMesh,
         material: &Material,
         elements: &ElementOptions,
         loads: &[Load],
-        keep: bool,
+        (keep, known): (bool, Option<BoundaryLastFactor>),
         wanted: Wanted<'_>,
     ) -> Result<Self, ReductionError> {
         let dofs = DofMap::new(part.mesh.nodes.len(), &part.held);
@@ -66,9 +67,13 @@ impl Sector {
         boundary.extend(rows(&mut free.iter().map(|c| c[0])));
         boundary.extend(rows(&mut free.iter().map(|c| c[1])));
         let cut = 3 * free.len();
-        let factor = {
-            let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
-            BoundaryLastFactor::in_place_of(stiffness, &boundary, wanted)?
+        let fits = |known: &BoundaryLastFactor| known.n() == dofs.free_count() && known.boundary() == boundary;
+        let factor = match known.filter(fits) {
+            Some(known) => known,
+            None => {
+                let stiffness = fem::assemble_stiffness(&part.mesh, material, &dofs, elements)?;
+                BoundaryLastFactor::in_place_of(stiffness, &boundary, wanted)?
+            }
         };
         let spread = if keep { Vec::new() } else { loads.to_vec() };
         let (sin, cos) = (part.way * (std::f64::consts::TAU / f64::from(part.teeth))).sin_cos();
@@ -121,6 +126,11 @@ impl Sector {
         self.own = Mat::from_fn(count, count, |i, j| 0.5 * (own[(i, j)] + own[(j, i)]));
         self.transfer = transfer;
         Ok(())
+    }
+
+    /// The factor, cuts and kept nodes last.
+    pub(super) fn factor(&self) -> &BoundaryLastFactor {
+        &self.factor
     }
 
     /// Freedoms of the loads, 3m.

@@ -1,6 +1,9 @@
 //! Is a gear the same after a turn by one pitch?
 
-use std::collections::HashMap;
+use std::{
+    collections::HashMap,
+    hash::{BuildHasherDefault, Hasher},
+};
 
 use geometry::Side;
 use mesh::{Face, Mesh, MeshedGear};
@@ -73,12 +76,36 @@ fn sorted(nodes: &[u32]) -> Vec<u32> {
     nodes
 }
 
+/// Mixes the three numbers of a cell (Fibonacci hashing, and the rotation of Fx). A mesh made to have many cells of one
+/// hash would be slow, not wrong.
+#[derive(Default)]
+struct CellHasher(u64);
+
+impl Hasher for CellHasher {
+    fn finish(&self) -> u64 {
+        self.0 ^ self.0 >> 32
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        for part in bytes.chunks(8) {
+            let mut word = [0; 8];
+            word[..part.len()].copy_from_slice(part);
+            self.write_u64(u64::from_le_bytes(word));
+        }
+    }
+
+    fn write_u64(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    }
+}
+
 fn node_images(nodes: &[[f64; 3]], pitch: f64, tolerance: f64) -> Option<Vec<u32>> {
     let cell = 4.0 * tolerance;
     let key = |p: [f64; 3], shift: [i64; 3]| [0, 1, 2].map(|k| (p[k] / cell).floor() as i64 + shift[k]);
     // Looked up only, never walked through: the order of the map does not matter. The first node of each cell, and after
     // each node the next one of its cell.
-    let mut grid: HashMap<[i64; 3], u32> = HashMap::with_capacity(nodes.len());
+    let mut grid: HashMap<[i64; 3], u32, BuildHasherDefault<CellHasher>> =
+        HashMap::with_capacity_and_hasher(nodes.len(), BuildHasherDefault::default());
     let mut next: Vec<Option<u32>> = vec![None; nodes.len()];
     for (i, &p) in nodes.iter().enumerate().rev() {
         next[i] = grid.insert(key(p, [0; 3]), i as u32);

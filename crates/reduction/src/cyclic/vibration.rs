@@ -33,7 +33,7 @@ impl VibratingSector {
         material: &Material,
         elements: &ElementOptions,
     ) -> Result<Self, ReductionError> {
-        let sector = Sector::new(part, material, elements, &[], false, &|| true)?;
+        let sector = Sector::new(part, material, elements, &[], (false, None), &|| true)?;
         let mass = fem::assemble_mass(&part.mesh, material, &sector.dofs)?;
         Ok(Self { sector, mass, teeth: part.teeth, way: part.way })
     }

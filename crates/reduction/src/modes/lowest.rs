@@ -37,7 +37,7 @@ impl GearReducer {
         let free = self.modes(ModeChoice::Count(1))?;
         let flanks_free_hz = free.frequencies_hz().first().copied().unwrap_or(f64::INFINITY);
         let window = Window { reduced: self.base.clone(), shift: 0 };
-        let (loads, compliance) = (self.loads(&window)?, &window.reduced.compliance);
+        let (loads, compliance) = (self.loads(&window)?, window.reduced.compliance());
         let square = match self.method()? {
             Method::Cyclic(cyclic) => {
                 let sector = cyclic.vibrating()?;

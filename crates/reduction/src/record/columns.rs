@@ -25,7 +25,15 @@ impl ToothColumns {
     /// # Errors
     /// [`RecordError`]: any changed, missing or added byte is noticed.
     pub fn from_bytes(bytes: &[u8], key: &RecordKey) -> Result<Self, RecordError> {
-        opened(bytes, bytes.len(), (COLUMNS, key), |cursor| {
+        Self::read(bytes, bytes.len(), key)
+    }
+
+    /// The columns in a file of `length` bytes, if they belong to the gear of `key`.
+    ///
+    /// # Errors
+    /// As [`ToothColumns::from_bytes`]; [`RecordError::Unreadable`].
+    pub fn read(from: impl std::io::Read, length: usize, key: &RecordKey) -> Result<Self, RecordError> {
+        opened(from, length, (COLUMNS, key), |cursor| {
             let tooth = cursor.count()? as u32;
             let (partners, sizes) = (cursor.list()?, cursor.list()?);
             let own = partners.binary_search(&tooth).ok().and_then(|at| sizes.get(at));

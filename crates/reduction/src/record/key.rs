@@ -6,6 +6,7 @@ use blake3::Hasher;
 use fem::Material;
 use geometry::{Gear, Side};
 use mesh::{BoreCoupling, MeshedGear};
+use pulp::bytemuck;
 
 use super::{MAGIC, RECORD_VERSION};
 use crate::ReductionOptions;
@@ -100,11 +101,13 @@ fn numbers(hasher: &mut Hasher, values: &[u32]) {
     update(hasher, values, |v| v.to_le_bytes());
 }
 
-/// Bytes of values, so many at a time that they stay near.
-fn update<T: Copy, const N: usize>(hasher: &mut Hasher, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
-    let mut near = [[0; N]; 512];
-    for part in values.chunks(near.len()) {
-        near.iter_mut().zip(part).for_each(|(to, value)| *to = bytes(*value));
-        hasher.update(near[..part.len()].as_flattened());
+/// Bytes of values, little-endian.
+fn update<T: bytemuck::NoUninit, const N: usize>(hasher: &mut Hasher, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
+    if cfg!(target_endian = "little") {
+        hasher.update(bytemuck::cast_slice(values));
+    } else {
+        values.iter().for_each(|value| {
+            hasher.update(&bytes(*value));
+        });
     }
 }

@@ -2,8 +2,10 @@
 
 mod columns;
 mod error;
+mod factor;
 mod key;
 mod read;
+mod table;
 mod write;
 
 use std::sync::Arc;
@@ -13,21 +15,28 @@ use geometry::Side;
 use crate::{KeptTable, LocalCompliance, ReducedGear, TableKey, reducer::Summary};
 
 pub use error::RecordError;
+pub use factor::{factor_bytes, read_factor};
 pub use key::{RecordKey, record_key};
+pub use table::{read_table, table_bytes};
 
 /// Version of the file format, of what the numbers in it mean and of the code that makes them; another one is never read,
 /// and it is in every key. A test (`a_record_of_another_code_has_another_version`) notices when it must be raised.
-pub const RECORD_VERSION: u32 = 6;
+pub const RECORD_VERSION: u32 = 7;
 
 /// First bytes of a file.
 const MAGIC: [u8; 16] = *b"ale-gear reduced";
 /// First bytes of a file of columns of a tooth.
 const COLUMNS: [u8; 16] = *b"ale-gear columns";
+/// First bytes of a file of a table's other directions.
+const TABLE: [u8; 16] = *b"ale-gear table  ";
+/// First bytes of a file of the factor of a sector.
+const FACTOR: [u8; 16] = *b"ale-gear factor ";
 /// Bytes before the payload: magic, version, key, length of the payload, checksum.
 const HEADER: usize = 16 + 4 + 32 + 8 + 32;
 
 /// What contact takes of a reduced gear: matrices of its first window, half teeth, tables made of them; and its lowest elastic frequency. Not the
-/// factor, which a reducer from a record makes again when displacement fields or stress modes are asked for.
+/// factor: a reducer from a record asks a [`PartStore`](crate::PartStore) for it, or makes it again, when displacement fields or stress modes
+/// are asked for.
 ///
 /// File, little-endian, `docs/cache.md`:
 ///

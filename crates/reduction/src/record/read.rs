@@ -5,9 +5,13 @@ use std::{io::Read, sync::Arc};
 use blake3::Hasher;
 use faer::Mat;
 use geometry::Side;
+use pulp::bytemuck;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordError, RecordKey, ReductionRecord};
-use crate::{KeptTable, LayerProfile, LocalCompliance, ReducedGear, ReductionWay, TableKey, reducer::Summary};
+use crate::{
+    KeptTable, LayerProfile, LocalCompliance, ReducedGear, ReductionWay, TableKey, cyclic::ToothBlocks,
+    reducer::Summary, window::Compliance,
+};
 
 /// Bytes that are read and hashed at a time: they stay in the cache of a processor until they are numbers.
 const BLOCK: usize = 1 << 18;
@@ -125,33 +129,40 @@ impl<R: Read> Cursor<R> {
     }
 
     /// The next few bytes.
-    fn few<const N: usize>(&mut self) -> Result<[u8; N], RecordError> {
-        self.room(N, 1)?;
+    pub(super) fn few<const N: usize>(&mut self) -> Result<[u8; N], RecordError> {
         let mut few = [0; N];
-        for byte in &mut few {
-            if self.next == self.block.len() {
-                self.fill()?;
-            }
-            *byte = self.block[self.next];
-            self.next += 1;
-        }
+        self.bytes(&mut few)?;
         Ok(few)
     }
 
-    /// The next numbers, as many as there is room for in `to`.
-    fn numbers<const N: usize, T>(&mut self, to: &mut [T], number: impl Fn([u8; N]) -> T) -> Result<(), RecordError> {
-        let mut done = 0;
-        while done < to.len() {
-            let (whole, _) = self.block[self.next..].as_chunks::<N>();
-            let count = whole.len().min(to.len() - done);
-            to[done..].iter_mut().zip(whole).for_each(|(to, bytes)| *to = number(*bytes));
-            self.next += N * count;
-            done += count;
-            // One that begins in this block and ends in the next.
-            if let Some(split) = to.get_mut(done) {
-                *split = number(self.few()?);
-                done += 1;
+    /// The next bytes, as many as there is room for in `to`: many of them straight from the file.
+    fn bytes(&mut self, mut to: &mut [u8]) -> Result<(), RecordError> {
+        self.room(to.len(), 1)?;
+        while !to.is_empty() {
+            let near = &self.block[self.next..];
+            let count = near.len().min(to.len());
+            let (own, rest) = to.split_at_mut(count);
+            own.copy_from_slice(&near[..count]);
+            self.next += count;
+            to = rest;
+            if to.len() >= BLOCK {
+                let (own, rest) = to.split_at_mut(BLOCK);
+                self.from.read_exact(own).map_err(unreadable)?;
+                self.hasher.update(own);
+                self.unread -= BLOCK;
+                to = rest;
+            } else if !to.is_empty() {
+                self.fill()?;
             }
+        }
+        Ok(())
+    }
+
+    /// The next numbers, as many as there is room for in `to`.
+    fn reals(&mut self, to: &mut [f64]) -> Result<(), RecordError> {
+        self.bytes(bytemuck::cast_slice_mut(to))?;
+        if cfg!(target_endian = "big") {
+            to.iter_mut().for_each(|x| *x = f64::from_bits(x.to_bits().swap_bytes()));
         }
         Ok(())
     }
@@ -169,14 +180,15 @@ impl<R: Read> Cursor<R> {
         let count = self.count()?;
         self.room(count, 4)?;
         let mut list = vec![0; count];
-        self.numbers(&mut list, u32::from_le_bytes)?;
+        self.bytes(bytemuck::cast_slice_mut(&mut list))?;
+        list.iter_mut().for_each(|value| *value = u32::from_le(*value));
         Ok(list)
     }
 
-    fn values(&mut self, count: usize) -> Result<Vec<f64>, RecordError> {
+    pub(super) fn values(&mut self, count: usize) -> Result<Vec<f64>, RecordError> {
         self.room(count, 8)?;
         let mut values = vec![0.0; count];
-        self.numbers(&mut values, f64::from_le_bytes)?;
+        self.reals(&mut values)?;
         Ok(values)
     }
 
@@ -189,7 +201,7 @@ impl<R: Read> Cursor<R> {
         self.room(rows.saturating_mul(columns), 8)?;
         let mut matrix = Mat::zeros(rows, columns);
         for j in 0..columns {
-            self.numbers(matrix.col_as_slice_mut(j), f64::from_le_bytes)?;
+            self.reals(matrix.col_as_slice_mut(j))?;
         }
         Ok(matrix)
     }
@@ -217,7 +229,7 @@ impl<R: Read> Cursor<R> {
             let key = TableKey(self.few()?);
             let error = self.values(1)?[0];
             let count = self.count()?;
-            tables.push((key, KeptTable { error, values: Arc::new(self.values(count)?) }));
+            tables.push((key, KeptTable { error, normal: Arc::new(self.values(count)?), others: None }));
         }
         Ok(ReductionRecord { summary, lowest_hz, window, halves, tables })
     }
@@ -229,8 +241,28 @@ impl<R: Read> Cursor<R> {
             sides.push(self.side()?);
         }
         let nodes = self.nodes()?;
-        let compliance = self.matrix((3 * nodes.len(), 3 * nodes.len()))?;
+        let compliance = if self.byte(1)? == 0 {
+            Compliance::Whole(self.matrix((3 * nodes.len(), 3 * nodes.len()))?)
+        } else {
+            Compliance::Teeth(self.blocks(nodes.len())?)
+        };
         Ok(ReducedGear::new(teeth, sides, nodes, compliance))
+    }
+
+    /// Compliance of so many nodes, tooth by tooth.
+    fn blocks(&mut self, nodes: usize) -> Result<ToothBlocks, RecordError> {
+        let count = self.count()?;
+        let angles = self.values(count)?;
+        let list = self.list()?;
+        let (places, []) = list.as_chunks::<2>() else { return Err(self.wrong("half a place")) };
+        let places = places.to_vec();
+        let loads = places.iter().map(|place| 3 * (place[1] as usize + 1)).max().unwrap_or(0);
+        let mut blocks = Vec::new();
+        for _ in 0..count {
+            blocks.push(self.matrix((loads, loads))?);
+        }
+        let blocks = ToothBlocks { blocks, places, angles };
+        if blocks.fit(nodes) { Ok(blocks) } else { Err(self.wrong("teeth that do not fit together")) }
     }
 
     /// Node numbers, which are looked up by bisection.

@@ -2,9 +2,10 @@
 
 use faer::Mat;
 use geometry::Side;
+use pulp::bytemuck;
 
 use super::{HEADER, MAGIC, RECORD_VERSION, RecordKey, ReductionRecord};
-use crate::{KeptTable, ReductionWay, reducer::Summary};
+use crate::{KeptTable, ReductionWay, cyclic::ToothBlocks, reducer::Summary};
 
 impl ReductionRecord {
     /// The content of a file; the same record gives the same bytes.
@@ -14,9 +15,13 @@ impl ReductionRecord {
 
     /// About the length of the payload.
     fn size(&self) -> usize {
-        let window = 8 * self.window.coordinates().pow(2) + 8 * self.window.nodes.len();
+        let window = match self.window.blocks() {
+            None => 8 * self.window.coordinates().pow(2),
+            Some(teeth) => teeth.blocks.iter().map(|block| 8 * block.nrows() * block.ncols() + 64).sum(),
+        };
+        let window = window + 16 * self.window.nodes.len();
         let halves = self.halves.iter().map(|(_, h)| 8 * h.compliance.ncols().pow(2) + 4096);
-        let tables = self.tables.iter().map(|(_, table)| 8 * table.values.len() + 64);
+        let tables = self.tables.iter().map(|(_, table)| 8 * table.normal.len() + 64);
         window + halves.sum::<usize>() + tables.sum::<usize>() + 4096
     }
 
@@ -31,7 +36,18 @@ impl ReductionRecord {
         put(bytes, window.sides.len());
         bytes.extend(window.sides.iter().map(|s| side_byte(*s)));
         list(bytes, &window.nodes);
-        matrix(bytes, &window.compliance);
+        match window.blocks() {
+            None => {
+                bytes.push(0);
+                matrix(bytes, window.compliance());
+            }
+            Some(ToothBlocks { blocks, places, angles }) => {
+                bytes.push(1);
+                numbers(bytes, angles);
+                list(bytes, places.as_flattened());
+                blocks.iter().for_each(|block| matrix(bytes, block));
+            }
+        }
         put(bytes, self.halves.len());
         for ((tooth, side), half) in &self.halves {
             bytes.extend(tooth.to_le_bytes());
@@ -41,17 +57,15 @@ impl ReductionRecord {
             bytes.extend(half.overshoot.to_le_bytes());
             let (lists, values) = half.layer.parts();
             for list in lists {
-                put(bytes, list.len());
-                list.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+                numbers(bytes, list);
             }
-            values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+            reals(bytes, &values);
         }
         put(bytes, self.tables.len());
-        for (key, KeptTable { error, values }) in &self.tables {
+        for (key, KeptTable { error, normal, .. }) in &self.tables {
             bytes.extend(key.0);
             bytes.extend(error.to_le_bytes());
-            put(bytes, values.len());
-            bytes.extend(values.iter().flat_map(|v| v.to_le_bytes()));
+            numbers(bytes, normal);
         }
     }
 }
@@ -93,11 +107,25 @@ pub(super) fn list(bytes: &mut Vec<u8>, values: &[u32]) {
     values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
 }
 
+/// Numbers with their count before them.
+pub(super) fn numbers(bytes: &mut Vec<u8>, values: &[f64]) {
+    put(bytes, values.len());
+    reals(bytes, values);
+}
+
+fn reals(bytes: &mut Vec<u8>, values: &[f64]) {
+    if cfg!(target_endian = "little") {
+        bytes.extend_from_slice(bytemuck::cast_slice(values));
+    } else {
+        values.iter().for_each(|v| bytes.extend(v.to_le_bytes()));
+    }
+}
+
 /// Rows, columns, then column by column.
 pub(super) fn matrix(bytes: &mut Vec<u8>, m: &Mat<f64>) {
     put(bytes, m.nrows());
     put(bytes, m.ncols());
     for j in 0..m.ncols() {
-        bytes.extend(m.col_as_slice(j).iter().flat_map(|v| v.to_le_bytes()));
+        reals(bytes, m.col_as_slice(j));
     }
 }

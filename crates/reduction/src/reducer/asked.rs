@@ -7,7 +7,7 @@ use std::{
 
 use geometry::Side;
 
-use super::{Summary, tooth_windows::ToothWindows};
+use super::{Summary, parts::Parts, tooth_windows::ToothWindows};
 use crate::{KeptTable, LocalCompliance, ReducedGear, ReductionRecord, TableKey};
 
 type Halves = BTreeMap<(u32, Side), Arc<LocalCompliance>>;
@@ -20,6 +20,8 @@ pub(super) struct Asked {
     pub(super) lowest_hz: OnceLock<f64>,
     /// Windows but the first one, of a gear that is not cyclic.
     pub(super) others: ToothWindows,
+    /// What is kept beside the record.
+    pub(super) parts: Arc<Parts>,
     halves: Mutex<Halves>,
     tables: Mutex<Tables>,
     /// Half teeth, frequencies and tables that came from a record, so many.
@@ -36,6 +38,7 @@ impl Asked {
         let asked = Self {
             lowest_hz: lowest_hz.map_or_else(OnceLock::new, OnceLock::from),
             others: ToothWindows::default(),
+            parts: Arc::new(Parts::of_tables(tables.iter().map(|(key, _)| *key))),
             halves: Mutex::new(halves.into_iter().collect()),
             tables: Mutex::new(tables.into_iter().collect()),
             recorded: None,

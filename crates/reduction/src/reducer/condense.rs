@@ -2,8 +2,7 @@
 
 use std::sync::Arc;
 
-use faer::Mat;
-use fem::{Material, unless_unwanted};
+use fem::{BoundaryLastFactor, Material, unless_unwanted};
 use mesh::{BoreCoupling, MeshedGear};
 
 use super::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
@@ -12,6 +11,7 @@ use crate::{
     cyclic::{CyclicGear, PitchTurn, SectorMesh},
     general::{GeneralGear, Seen},
     load::{Coordinates, Load},
+    window::Compliance,
 };
 
 /// The condensed gear.
@@ -60,7 +60,7 @@ impl Condensed {
         coordinates: Coordinates,
         options: &ReductionOptions,
         first: Opened,
-        (method, compliance): (Method, Mat<f64>),
+        (method, compliance): (Method, Compliance),
     ) -> (Self, Method) {
         let base = Arc::new(first.reduced(options, compliance));
         (Self { gear, coordinates, summary: method.summary(), base }, method)
@@ -85,37 +85,46 @@ pub(super) fn condense<E: From<ReductionError>>(
     first_tooth: bool,
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<(Condensed, Method), E> {
-    let ready = ready(gear, material, options, (general, watch), coordinates)?;
+    let ready = ready(gear, material, options, (general, watch), &|| None, coordinates)?;
     let Ready { gear, coordinates, first, method } = ready;
     let compliance = match &method {
-        Method::Cyclic(cyclic) if first_tooth => cyclic.columns(first.of_first_tooth(&gear, &coordinates, options)?),
-        Method::Cyclic(cyclic) => cyclic.compliance(),
+        Method::Cyclic(cyclic) if first_tooth => {
+            let count = first.of_first_tooth(&gear, &coordinates, options)?;
+            Compliance::Whole(cyclic.compliance().columns(count))
+        }
+        Method::Cyclic(cyclic) => Compliance::Teeth(cyclic.compliance()),
         Method::General(..) if first_tooth => return Err(ReductionError::NoSectorOfLayers.into()),
         Method::General(factor, _) => {
             (watch.tell)(ReductionStage::Compliance);
             let seen = if coordinates.are_nodes() { Seen::Last } else { Seen::Loads(&first.loads) };
-            factor.compliance(seen, watch.wanted)?
+            Compliance::Whole(factor.compliance(seen, watch.wanted)?)
         }
     };
     Ok(Condensed::new(gear, coordinates, options, first, (method, compliance)))
 }
 
-/// The method of a gear that was condensed to its flank nodes before, without its compliance, which is known.
+/// The method of a gear that was condensed to its flank nodes before, without its compliance, which is known; `factor` is
+/// asked for that of its sector.
 pub(super) fn method_again(
     gear: MeshedGear,
     material: &Material,
     options: &ReductionOptions,
     general: bool,
+    factor: KnownFactor<'_>,
 ) -> Result<Method, ReductionError> {
     let nodes = |_: &MeshedGear| Ok::<_, ReductionError>(Coordinates::FlankNodes);
-    Ok(ready(gear, material, options, (general, ReductionWatch::IDLE), nodes)?.method)
+    Ok(ready(gear, material, options, (general, ReductionWatch::IDLE), factor, nodes)?.method)
 }
+
+/// Who may have the factor of a sector.
+type KnownFactor<'a> = &'a dyn Fn() -> Option<BoundaryLastFactor>;
 
 fn ready<E: From<ReductionError>>(
     gear: MeshedGear,
     material: &Material,
     options: &ReductionOptions,
     (general, watch): (bool, ReductionWatch<'_>),
+    factor: KnownFactor<'_>,
     coordinates: impl Fn(&MeshedGear) -> Result<Coordinates, E>,
 ) -> Result<Ready, E> {
     let mut turn = PitchTurn::of_gear(&gear);
@@ -127,8 +136,8 @@ fn ready<E: From<ReductionError>>(
         let coordinates = coordinates(seen)?;
         let first = Opened::new(seen, &coordinates, options)?;
         (watch.tell)(ReductionStage::Sector);
-        let nodes = coordinates.are_nodes();
-        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, nodes, watch.wanted)?;
+        let kept = (coordinates.are_nodes(), factor());
+        let cyclic = CyclicGear::new(part, material, &options.elements, &first.loads, kept, watch.wanted)?;
         if let Some(cyclic) = cyclic {
             unless_unwanted(watch.wanted).map_err(ReductionError::from)?;
             let method = Method::Cyclic(Box::new(cyclic));
@@ -195,7 +204,7 @@ impl Opened {
     }
 
     /// The window with its compliance.
-    pub(super) fn reduced(self, options: &ReductionOptions, compliance: Mat<f64>) -> ReducedGear {
+    pub(super) fn reduced(self, options: &ReductionOptions, compliance: Compliance) -> ReducedGear {
         ReducedGear::new(self.teeth, options.sides.clone(), self.nodes, compliance)
     }
 }

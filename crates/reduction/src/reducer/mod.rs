@@ -3,6 +3,7 @@
 mod asked;
 mod condense;
 mod options;
+mod parts;
 mod recorded;
 mod tooth_windows;
 mod windows;
@@ -18,6 +19,7 @@ use asked::Asked;
 use condense::{Condensed, condense, method_again};
 
 pub use options::{ReductionOptions, ReductionStage, ReductionWatch, ReductionWay};
+pub use parts::TablePart;
 
 pub(crate) use condense::{Method, Summary};
 
@@ -27,7 +29,7 @@ pub(crate) use condense::{Method, Summary};
 /// coarse grids ([`FlankGrid`]). They are known from one sector where the gear is cyclic to round-off, else from one
 /// factor of the whole gear ([`ReductionWay`]); the matrices are the same to 1e-9. A cyclic gear has the same matrices
 /// for all windows, in frames turned by whole pitches; for any other gear further windows are selections of the columns
-/// of their teeth, which come from solves with the same factor and may be kept in a [`ColumnStore`](crate::ColumnStore).
+/// of their teeth, which come from solves with the same factor and may be kept in a [`PartStore`](crate::PartStore).
 ///
 /// A periodic sector of one tooth is never unrolled to the whole gear: [`GearReducer::gear`] then is the sectors of the
 /// first window and one more on either side, in the frame of the matrices.
@@ -166,7 +168,9 @@ impl GearReducer {
         let again = || {
             let gear = self.given.as_ref().unwrap_or(&self.gear).clone();
             let general = self.summary.way == ReductionWay::General;
-            method_again(gear, &self.material, &self.options, general)
+            let method = method_again(gear, &self.material, &self.options, general, &|| self.kept_factor())?;
+            self.keep_factor(&method);
+            Ok(method)
         };
         self.method.get_or_init(again).as_ref().map_err(Clone::clone)
     }

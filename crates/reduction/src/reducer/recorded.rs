@@ -51,7 +51,7 @@ impl GearReducer {
 
     /// What a later run needs of this gear: the first window, half teeth, tables and lowest frequency that were asked for so
     /// far;
-    /// further windows are in a [`ColumnStore`](crate::ColumnStore).
+    /// further windows, and tables but for their part along the normals, are in a [`PartStore`](crate::PartStore).
     /// `None` when a record has it all already, and for a gear reduced to grids or by its layers.
     pub fn record(&self) -> Option<ReductionRecord> {
         let record = || self.asked.record(self.summary, &self.base);
@@ -67,7 +67,8 @@ impl GearReducer {
     /// two, are not kept.
     pub fn keep_table(&self, key: TableKey, table: &KeptTable) {
         let mut tables = self.asked.tables();
-        if tables.len() < MOST_TABLES && table.values.len() <= MOST_VALUES {
+        let values = table.normal.len() + table.others.as_ref().map_or(0, |others| others.len());
+        if tables.len() < MOST_TABLES && values <= MOST_VALUES {
             tables.insert(key, table.clone());
         }
     }

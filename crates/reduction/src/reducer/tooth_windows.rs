@@ -1,6 +1,6 @@
 //! Windows of a gear that is not cyclic, each a selection of the columns of its teeth.
 
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError, Weak};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, Weak};
 
 use faer::Mat;
 use geometry::Side;
@@ -10,7 +10,8 @@ use crate::{
     ReducedGear, ReductionError,
     general::{GeneralGear, symmetric},
     load::{Coordinates, missing},
-    teeth::{ColumnFault, ColumnStore, KnownColumns, ToothColumns, ToothRing},
+    teeth::{KnownColumns, PartFault, ToothColumns, ToothRing},
+    window::Compliance,
 };
 
 /// Windows that are kept though nobody holds them: one that slides back finds its own again.
@@ -19,7 +20,6 @@ const KEPT: usize = 3;
 /// Windows but the first one, and the columns that they are made of.
 #[derive(Debug, Default)]
 pub(super) struct ToothWindows {
-    store: OnceLock<Arc<dyn ColumnStore>>,
     known: Mutex<Known>,
 }
 
@@ -55,21 +55,13 @@ impl Known {
 }
 
 impl GearReducer {
-    /// This gear with a store for the columns of its teeth.
-    #[must_use]
-    pub fn with_columns(self, store: Arc<dyn ColumnStore>) -> Self {
-        // One that it has already stays.
-        let _ = self.asked.others.store.set(store);
-        self
-    }
-
     /// Teeth whose columns were made by solves so far, beside those of the first window. Of a cyclic gear 0.
     pub fn teeth_solved(&self) -> usize {
         self.asked.others.known().columns.made
     }
 
     /// What was wrong with files of columns since the last call.
-    pub fn column_faults(&self) -> Vec<ColumnFault> {
+    pub(super) fn column_faults(&self) -> Vec<PartFault> {
         std::mem::take(&mut self.asked.others.known().columns.faults)
     }
 
@@ -86,7 +78,7 @@ impl GearReducer {
         let opened = Opened::new(&self.gear, &self.coordinates, &options)?;
         let places = self.places(opened.teeth(), opened.nodes())?;
         let base = self.places(&self.base.teeth, &self.base.nodes)?;
-        let size = 3 * opened.nodes().len();
+        let (size, base_compliance) = (3 * opened.nodes().len(), self.base.compliance());
         let mut compliance = Mat::<f64>::zeros(size, size);
         for (a, b) in (0..window as usize).flat_map(|a| (a..window as usize).map(move |b| (a, b))) {
             let pair = [opened.teeth()[a], opened.teeth()[b]];
@@ -94,7 +86,7 @@ impl GearReducer {
                 None => {
                     let of = pair.map(|tooth| self.base.teeth.iter().position(|&t| t == tooth));
                     let [Some(i), Some(j)] = of else { return Err(self.no_flank(pair[0])) };
-                    let value = |i: usize, j: usize| self.base.compliance[(i, j)];
+                    let value = |i: usize, j: usize| base_compliance[(i, j)];
                     put(&mut compliance, [&places[a], &places[b]], |r, c| value(base[i][r], base[j][c]));
                 }
                 Some(owner) => {
@@ -106,7 +98,7 @@ impl GearReducer {
                 }
             }
         }
-        let window = Arc::new(opened.reduced(&options, compliance));
+        let window = Arc::new(opened.reduced(&options, Compliance::Whole(compliance)));
         known.keep(first, &window);
         Ok(window)
     }
@@ -138,7 +130,7 @@ impl GearReducer {
         let partners: Vec<u32> = ring.partners(tooth).into_iter().filter(|&t| loads(t).is_ok()).collect();
         let of: Vec<_> = partners.iter().map(|&t| loads(t)).collect::<Result<_, _>>()?;
         let sizes: Vec<u32> = of.iter().map(|own| 3 * own.len() as u32).collect();
-        let store = self.asked.others.store.get().map(|store| &**store);
+        let store = self.asked.parts.store();
         known.of((tooth, &partners, &sizes), store, || {
             let general = self.general_factor()?;
             let mut made = general.compliance_between(&of.concat(), &loads(tooth)?, &|| true)?;

@@ -36,7 +36,7 @@ fn pressed(compliance: &Mat<f64>) -> Vec<f64> {
 fn holding(window: &ReducedGear, u: &[f64]) -> Vec<f64> {
     let (k, u) = (window.stiffness().unwrap(), Mat::from_fn(u.len(), 1, |i, _| u[i]));
     let f = k * &u;
-    let f = &f + k * (&u - &window.compliance * &f);
+    let f = &f + k * (&u - window.compliance() * &f);
     f.col_as_slice(0).to_vec()
 }
 
@@ -67,10 +67,10 @@ fn compare(name: &str, mesh: MeshedGear, exact: &Gear, options: &ReductionOption
     assert_eq!(cyclic.free_count(), general.free_count(), "{name}");
     let [a, b] = [&cyclic, &general].map(|r| r.window(options.first).unwrap().reduced);
     assert_eq!((&a.teeth, &a.nodes), (&b.teeth, &b.nodes), "{name}");
-    let c = off(&a.compliance, &b.compliance);
+    let c = off(a.compliance(), b.compliance());
     let k = off(a.stiffness().unwrap(), b.stiffness().unwrap());
     let m = off(&cyclic.condensed_mass().unwrap(), &general.condensed_mass().unwrap());
-    let u = pressed(&b.compliance);
+    let u = pressed(b.compliance());
     let mut field = 0.0f64;
     let mut carried = 0.0f64;
     for first in [options.first, options.first + 1, options.first + z - 1, options.first + z / 2] {
@@ -181,9 +181,9 @@ fn a_periodic_sector_is_not_unrolled() {
         let number = |n: u32| windows[1].reduced.position(partner(n) as u32).unwrap();
         let order: Vec<usize> = windows[0].reduced.nodes.iter().map(|&n| number(n)).collect();
         let n = windows[0].reduced.coordinates();
-        let there = &windows[1].reduced.compliance;
+        let there = windows[1].reduced.compliance();
         let sorted = Mat::from_fn(n, n, |i, j| there[(3 * order[i / 3] + i % 3, 3 * order[j / 3] + j % 3)]);
-        let c = off(&windows[0].reduced.compliance, &sorted);
+        let c = off(windows[0].reduced.compliance(), &sorted);
         // A field and the stress in the fillets under the same load.
         let u = pressed(&sorted);
         let mut v = vec![0.0; n];
@@ -235,10 +235,10 @@ fn grids_go_both_ways() {
         });
         assert_eq!([cyclic.way(), general.way()], [ReductionWay::CyclicSector, ReductionWay::General]);
         let [a, b] = [&cyclic, &general].map(|r| r.window(first).unwrap());
-        let c = off(&a.reduced.compliance, &b.reduced.compliance);
+        let c = off(a.reduced.compliance(), b.reduced.compliance());
         let k = off(a.reduced.stiffness().unwrap(), b.reduced.stiffness().unwrap());
         let m = off(&cyclic.condensed_mass().unwrap(), &general.condensed_mass().unwrap());
-        let u = pressed(&b.reduced.compliance);
+        let u = pressed(b.reduced.compliance());
         let field = field_off(&cyclic.expand(&a, &u).unwrap(), &general.expand(&b, &u).unwrap());
         let nodes = fillet_nodes(&cyclic, &exact, first, window as u32);
         let [x, y] = [(&cyclic, &a), (&general, &b)].map(|(r, w)| r.stress_modes(w, &nodes).unwrap().matrix().unwrap());
@@ -279,7 +279,7 @@ fn threads_change_nothing() {
         pool.install(|| {
             let reducer =
                 GearReducer::new(sector.clone(), Material::STEEL, options(&[Side::Left, Side::Right], 3, 5)).unwrap();
-            (reducer.window(5).unwrap().reduced.compliance.clone(), reducer.condensed_mass().unwrap())
+            (reducer.window(5).unwrap().reduced.compliance().clone(), reducer.condensed_mass().unwrap())
         })
     };
     assert!(compliance(1) == compliance(2), "the matrices depend on the number of threads");

@@ -9,7 +9,7 @@ use faer::Mat;
 use fem::Material;
 use geometry::{Gear, Side};
 use mesh::{BoreCoupling, Extent, GroupNames, MeshedGear, StructuredOptions};
-use reduction::{ColumnFault, ColumnStore, GearReducer, ReducedGear, ReductionWay, ToothColumns, record_key};
+use reduction::{GearReducer, PartFault, PartStore, ReducedGear, ReductionWay, ToothColumns, record_key};
 use testing::with_holes;
 
 use crate::common::{gear, options};
@@ -56,7 +56,7 @@ fn difference(a: &Mat<f64>, b: &Mat<f64>) -> f64 {
 }
 
 fn bits(window: &ReducedGear) -> Vec<u64> {
-    window.compliance.col_iter().flat_map(|c| c.iter().map(|v| v.to_bits())).collect()
+    window.compliance().col_iter().flat_map(|c| c.iter().map(|v| v.to_bits())).collect()
 }
 
 /// Every window around the gear, made of columns of teeth, is that window reduced alone; the matrix is symmetric to the
@@ -76,11 +76,11 @@ fn a_window_of_columns_is_that_window_alone() {
             let own = whole.window(first).unwrap().reduced;
             let alone = reducer(&mesh, sides, window, first).window(first).unwrap().reduced;
             assert_eq!((&own.teeth, &own.nodes), (&alone.teeth, &alone.nodes));
-            largest = largest.max(difference(&own.compliance, &alone.compliance));
-            let n = own.compliance.nrows();
-            assert!((0..n).all(|i| (0..i).all(|j| own.compliance[(i, j)] == own.compliance[(j, i)])));
+            largest = largest.max(difference(own.compliance(), alone.compliance()));
+            let n = own.compliance().nrows();
+            assert!((0..n).all(|i| (0..i).all(|j| own.compliance()[(i, j)] == own.compliance()[(j, i)])));
         }
-        let [a, b] = [4, 8].map(|first| whole.window(first).unwrap().reduced.compliance.norm_max());
+        let [a, b] = [4, 8].map(|first| whole.window(first).unwrap().reduced.compliance().norm_max());
         assert!((a / b - 1.0).abs() > 1e-3, "the holes are not felt");
     }
     assert!(largest < 1e-10, "{largest:e}");
@@ -110,7 +110,7 @@ fn windows_share_the_columns_of_their_teeth() {
                 assert_eq!(3 * shared.len(), 2 * next.nodes.len(), "two of three teeth stay");
                 for (&(i, i0), &(j, j0)) in shared.iter().flat_map(|a| shared.iter().map(move |b| (a, b))) {
                     for axis in 0..3 {
-                        let at = |w: &ReducedGear, i: usize, j: usize| w.compliance[(3 * i + axis, 3 * j)].to_bits();
+                        let at = |w: &ReducedGear, i: usize, j: usize| w.compliance()[(3 * i + axis, 3 * j)].to_bits();
                         assert_eq!(at(&next, i, j), at(&before, i0, j0), "window {first}");
                     }
                 }
@@ -129,12 +129,12 @@ fn windows_share_the_columns_of_their_teeth() {
 #[derive(Debug, Default)]
 struct Files(Mutex<BTreeMap<u32, ToothColumns>>);
 
-impl ColumnStore for Files {
-    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, ColumnFault> {
+impl PartStore for Files {
+    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, PartFault> {
         Ok(self.0.lock().unwrap().get(&tooth).cloned())
     }
 
-    fn save(&self, columns: &ToothColumns) -> Result<(), ColumnFault> {
+    fn save(&self, columns: &ToothColumns) -> Result<(), PartFault> {
         self.0.lock().unwrap().insert(columns.tooth, columns.clone());
         Ok(())
     }
@@ -144,13 +144,13 @@ impl ColumnStore for Files {
 #[derive(Debug)]
 struct Broken;
 
-impl ColumnStore for Broken {
-    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, ColumnFault> {
-        Err(ColumnFault { file: format!("{tooth}.columns"), what: "is damaged".into(), writing: false })
+impl PartStore for Broken {
+    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, PartFault> {
+        Err(PartFault { file: format!("{tooth}.columns"), what: "is damaged".into(), writing: false })
     }
 
-    fn save(&self, columns: &ToothColumns) -> Result<(), ColumnFault> {
-        Err(ColumnFault { file: format!("{}.columns", columns.tooth), what: "disk full".into(), writing: true })
+    fn save(&self, columns: &ToothColumns) -> Result<(), PartFault> {
+        Err(PartFault { file: format!("{}.columns", columns.tooth), what: "disk full".into(), writing: true })
     }
 }
 
@@ -159,7 +159,7 @@ impl ColumnStore for Broken {
 #[test]
 fn columns_are_kept_as_soon_as_they_are_made() {
     let (_, mesh) = wheel();
-    let gear = |store: Arc<dyn ColumnStore>| reducer(&mesh, &[Side::Left], 3, 2).with_columns(store);
+    let gear = |store: Arc<dyn PartStore>| reducer(&mesh, &[Side::Left], 3, 2).with_parts(store);
     let files = Arc::new(Files::default());
     let wanted = |gear: &GearReducer| [3, 4, 5, 6].map(|first| bits(&gear.window(first).unwrap().reduced));
     let whole = wanted(&reducer(&mesh, &[Side::Left], 3, 2));
@@ -180,9 +180,9 @@ fn columns_are_kept_as_soon_as_they_are_made() {
     assert_eq!(again.teeth_solved(), 1);
     let broken = gear(Arc::new(Broken));
     assert_eq!(wanted(&broken), whole);
-    let faults = broken.column_faults();
+    let faults = broken.part_faults();
     assert_eq!((faults.len(), faults.iter().filter(|f| f.writing).count()), (8, 4), "{faults:?}");
-    assert!(broken.column_faults().is_empty(), "told once");
+    assert!(broken.part_faults().is_empty(), "told once");
 }
 
 /// A file of columns comes back to the bit, and no turned bit, cut end or other gear is taken for it.
@@ -190,7 +190,7 @@ fn columns_are_kept_as_soon_as_they_are_made() {
 fn a_file_of_columns_is_believed_after_checks_alone() {
     let (geometry, mesh) = wheel();
     let files = Arc::new(Files::default());
-    reducer(&mesh, &[Side::Left], 3, 2).with_columns(files.clone()).window(3).unwrap();
+    reducer(&mesh, &[Side::Left], 3, 2).with_parts(files.clone()).window(3).unwrap();
     let columns = files.0.lock().unwrap()[&5].clone();
     assert_eq!(columns.partners, [3, 4, 5]);
     let key = |first| record_key(&mesh, &geometry, &Material::STEEL, &options(&[Side::Left], 3, first), "auto");
@@ -220,7 +220,7 @@ fn fields_at_some_nodes_are_those_of_the_whole() {
             let window = gear.window(first).unwrap();
             let force = |j: usize| (0..window.reduced.coordinates()).map(move |i| (0.7 * i as f64 + j as f64).sin());
             let force = Mat::from_fn(window.reduced.coordinates(), 2, |i, j| force(j).nth(i).unwrap());
-            let moved = &window.reduced.compliance * &force;
+            let moved = window.reduced.compliance() * &force;
             let forces: Vec<&[f64]> = (0..2).map(|j| force.col_as_slice(j)).collect();
             let near = gear.expand_under(&window, &forces, &nodes).unwrap();
             for (column, near) in moved.col_iter().zip(&near) {

@@ -3,7 +3,12 @@
 use fem::Material;
 use geometry::{Gear, GearData, Side};
 use mesh::{Extent, GroupNames, MeshedGear};
-use reduction::{GearReducer, RECORD_VERSION, RecordError, RecordKey, ReductionOptions, ReductionRecord, record_key};
+use std::sync::{Arc, Mutex};
+
+use reduction::{
+    GearReducer, KeptFactor, PartFault, PartStore, RECORD_VERSION, RecordError, RecordKey, ReductionOptions,
+    ReductionRecord, ToothColumns, factor_bytes, read_factor, record_key,
+};
 
 struct Sample {
     geometry: Gear,
@@ -46,13 +51,16 @@ impl Sample {
 
 /// Record of the sample: version, digest of its code without comments, and what it holds: count, sum of sizes and sum
 /// weighted by place of the numbers of a window and of a half tooth.
-const RECORD: (u32, &str, usize, f64, f64) = (6, "3c84edec6ec26e0e", 7290, 0.0032079394506089438, 11.442760429138692);
+const RECORD: (u32, &str, usize, f64, f64) = (7, "befdc95cb9e2ffcb", 7290, 0.0032079394506089438, 11.442760429138692);
 
 /// A record of before must not be taken for one of today: its version goes up with what its code does.
 #[test]
 fn a_record_of_another_code_has_another_version() {
     let sources = [
         include_str!("../../src/record/columns.rs"),
+        include_str!("../../src/record/factor.rs"),
+        include_str!("../../src/record/table.rs"),
+        include_str!("../../src/cyclic/blocks.rs"),
         include_str!("../../src/record/mod.rs"),
         include_str!("../../src/record/key.rs"),
         include_str!("../../src/record/read.rs"),
@@ -69,7 +77,7 @@ fn a_record_of_another_code_has_another_version() {
     let reducer = sample.reducer();
     let window = reducer.window(11).unwrap().reduced;
     let half = reducer.local_compliance(&sample.geometry, 11, Side::Left).unwrap();
-    let matrices = [&window.compliance, &half.compliance];
+    let matrices = [window.compliance(), &half.compliance];
     let numbers: Vec<f64> = matrices.iter().flat_map(|m| m.col_iter().flat_map(|c| c.iter().copied())).collect();
     let sum: f64 = numbers.iter().map(|v| v.abs()).sum();
     let weighted: f64 = numbers.iter().enumerate().map(|(i, v)| (i + 1) as f64 * v.abs()).sum();
@@ -98,8 +106,8 @@ fn a_record_comes_back_to_the_bit() {
     assert_eq!(stored.free_count(), reducer.free_count());
     let (a, b) = (stored.window(11).unwrap().reduced, reducer.window(11).unwrap().reduced);
     assert_eq!((&a.teeth, &a.sides, &a.nodes), (&b.teeth, &b.sides, &b.nodes));
-    assert_eq!(a.compliance.ncols(), 3 * a.nodes.len());
-    for (x, y) in a.compliance.col_iter().zip(b.compliance.col_iter()) {
+    assert_eq!(a.compliance().ncols(), 3 * a.nodes.len());
+    for (x, y) in a.compliance().col_iter().zip(b.compliance().col_iter()) {
         assert!(x.iter().zip(y.iter()).all(|(x, y)| x.to_bits() == y.to_bits()));
     }
     for tooth in [11, 0, 1] {
@@ -111,6 +119,73 @@ fn a_record_comes_back_to_the_bit() {
     // A half tooth that the record does not have is condensed, and is something new to write.
     stored.local_compliance(&sample.geometry, 11, Side::Right).unwrap();
     assert!(stored.record().is_some());
+}
+
+/// The file of a factor, less the disk; it counts how often it was asked.
+#[derive(Debug, Default)]
+struct FactorFile(Mutex<(Option<KeptFactor>, usize)>);
+
+impl PartStore for FactorFile {
+    fn load(&self, _: u32) -> Result<Option<ToothColumns>, PartFault> {
+        Ok(None)
+    }
+
+    fn save(&self, _: &ToothColumns) -> Result<(), PartFault> {
+        Ok(())
+    }
+
+    fn load_factor(&self) -> Result<Option<KeptFactor>, PartFault> {
+        let mut file = self.0.lock().unwrap();
+        file.1 += 1;
+        Ok(file.0.clone())
+    }
+
+    fn save_factor(&self, factor: &KeptFactor) -> Result<(), PartFault> {
+        self.0.lock().unwrap().0 = Some(factor.clone());
+        Ok(())
+    }
+}
+
+/// A gear from its record recovers fields with the factor that was kept beside it, to the bit; without it, or with that of
+/// another mesh, it makes its own. A file of the factor is believed after checks alone.
+#[test]
+fn fields_come_from_the_factor_that_was_kept() {
+    let sample = Sample::new();
+    let (key, reducer) = (sample.key(), sample.reducer());
+    let file = Arc::new(FactorFile::default());
+    let reducer = reducer.with_parts(file.clone());
+    reducer.keep_parts();
+    let factor = file.0.lock().unwrap().0.clone().unwrap();
+    let field = |gear: &GearReducer| {
+        let window = gear.window(11).unwrap();
+        let u: Vec<f64> = (0..window.reduced.coordinates()).map(|i| 1e-3 * (i as f64).sin()).collect();
+        gear.expand(&window, &u).unwrap()
+    };
+    let wanted = field(&reducer);
+    let record = ReductionRecord::from_bytes(&reducer.record().unwrap().to_bytes(&key), &key).unwrap();
+    let stored = sample.stored(record.clone()).with_parts(file.clone());
+    assert!(field(&stored) == wanted, "fields of a kept factor");
+    stored.keep_parts();
+    assert_eq!(file.0.lock().unwrap().1, 1, "the factor is read once");
+
+    let bytes = factor_bytes(&factor, &key);
+    assert_eq!(read_factor(&bytes[..], bytes.len(), &key).unwrap(), factor);
+    let mut damaged = bytes.clone();
+    damaged[200] ^= 4;
+    assert!(matches!(read_factor(&damaged[..], damaged.len(), &key), Err(RecordError::Damaged)));
+    let other = Sample::meshed(Extent::Periodic).key();
+    assert!(matches!(read_factor(&bytes[..], bytes.len(), &other), Err(RecordError::OtherGear)));
+
+    for wrong in
+        [KeptFactor { values: Vec::new(), ..factor.clone() }, KeptFactor { interior: factor.interior - 3, ..factor }]
+    {
+        let file = Arc::new(FactorFile::default());
+        file.save_factor(&wrong).unwrap();
+        assert!(
+            field(&sample.stored(record.clone()).with_parts(file)) == wanted,
+            "a factor of something else was taken"
+        );
+    }
 }
 
 /// The lowest frequency that a run has asked for is in the record: a later run knows it, and has nothing new to write.

@@ -50,7 +50,7 @@ fn fillet_nodes(gear: &GearReducer, window: &Window) -> Vec<u32> {
 fn pressed(window: &Window) -> Vec<f64> {
     let n = window.reduced.coordinates();
     let load: Vec<f64> = (0..n).map(|i| if i % 3 == 1 { -5.0 } else { 2.0 * (0.3 * i as f64).sin() }).collect();
-    (0..n).map(|i| (0..n).map(|j| window.reduced.compliance[(i, j)] * load[j]).sum()).collect()
+    (0..n).map(|i| (0..n).map(|j| window.reduced.compliance()[(i, j)] * load[j]).sum()).collect()
 }
 
 /// Largest difference of the stress tensors, turned into the gear's own frame, over the largest stress.
@@ -167,7 +167,7 @@ fn stress_is_linear_in_the_coordinates() {
     // Forces move the coordinates by C f.
     let pressing: Vec<f64> = (0..u.len()).map(|i| (0.7 * i as f64).cos()).collect();
     let moved: Vec<f64> =
-        (0..u.len()).map(|i| (0..u.len()).map(|j| window.reduced.compliance[(i, j)] * pressing[j]).sum()).collect();
+        (0..u.len()).map(|i| (0..u.len()).map(|j| window.reduced.compliance()[(i, j)] * pressing[j]).sum()).collect();
     let [by_force, by_motion] = [modes.stress_under(&pressing).unwrap(), modes.stress(&moved).unwrap()];
     let largest = by_motion.iter().flatten().fold(0.0f64, |m, s| m.max(s.abs()));
     for (a, b) in by_force.iter().flatten().zip(by_motion.iter().flatten()) {

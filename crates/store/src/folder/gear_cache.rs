@@ -14,7 +14,10 @@ use analysis::{
 };
 use contact_map::ContactMap;
 use files::{Kind, most, open_regular_file, read_regular_file, take_away_left_overs, write_file};
-use reduction::{ColumnFault, ColumnStore, RecordKey, ReductionRecord, ToothColumns};
+use reduction::{
+    KeptFactor, PartFault, PartStore, RecordError, RecordKey, ReductionRecord, TableKey, ToothColumns, factor_bytes,
+    read_factor, read_table, table_bytes,
+};
 
 /// A folder of reduced gears and maps, or none.
 ///
@@ -27,9 +30,11 @@ pub struct Cache {
 
 /// What the folder may hold, bytes; the files that were not used for the longest time go first.
 const LIMIT: u64 = 4_000_000_000;
-/// Suffixes of the files: of gears, of columns of their teeth, of maps.
+/// Suffixes of the files: of gears, of columns of their teeth, of factors of their sectors, of tables, of maps.
 const SUFFIX: &str = "reduced";
 const COLUMNS_SUFFIX: &str = "columns";
+const FACTOR_SUFFIX: &str = "factor";
+const TABLE_SUFFIX: &str = "table";
 const MAP_SUFFIX: &str = "map";
 /// Suffix of a file that says that a mesh is sound, and its first words.
 const SOUND_SUFFIX: &str = "sound";
@@ -109,8 +114,8 @@ impl GearCache for Cache {
         written.err().map(|e| remark::gear_not_stored(file.display().to_string(), e.to_string()))
     }
 
-    fn columns(&self, key: &RecordKey) -> Option<Arc<dyn ColumnStore>> {
-        self.folder.is_some().then(|| Arc::new(TeethOnDisk { cache: self.clone(), key: *key }) as Arc<dyn ColumnStore>)
+    fn parts(&self, key: &RecordKey) -> Option<Arc<dyn PartStore>> {
+        self.folder.is_some().then(|| Arc::new(PartsOnDisk { cache: self.clone(), key: *key }) as Arc<dyn PartStore>)
     }
 
     fn is_sound(&self, key: &SoundKey) -> bool {
@@ -154,39 +159,73 @@ impl GearCache for Cache {
     }
 }
 
-/// Columns of the teeth of one gear, a file each.
+/// Columns of the teeth of one gear, a file each, the factor of its sector, tables.
 #[derive(Debug)]
-struct TeethOnDisk {
+struct PartsOnDisk {
     cache: Cache,
     key: RecordKey,
 }
 
-impl TeethOnDisk {
+impl PartsOnDisk {
     fn file(&self, tooth: u32) -> PathBuf {
-        let name = format!("{}-{tooth}.{COLUMNS_SUFFIX}", self.key);
+        self.named(format!("{}-{tooth}.{COLUMNS_SUFFIX}", self.key))
+    }
+
+    fn factor_file(&self) -> PathBuf {
+        self.named(format!("{}.{FACTOR_SUFFIX}", self.key))
+    }
+
+    fn table_file(&self, table: &TableKey) -> PathBuf {
+        self.named(format!("{}-{table}.{TABLE_SUFFIX}", self.key))
+    }
+
+    fn named(&self, name: String) -> PathBuf {
         self.cache.folder.as_deref().unwrap_or(Path::new("")).join(name)
+    }
+
+    fn write_part(&self, file: &Path, bytes: &[u8]) -> Result<(), PartFault> {
+        let written = self.cache.write(file, bytes);
+        written.map_err(|e| PartFault { file: file.display().to_string(), what: e.to_string(), writing: true })
     }
 }
 
-impl ColumnStore for TeethOnDisk {
-    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, ColumnFault> {
-        let file = self.file(tooth);
-        let fault = |what: String| ColumnFault { file: file.display().to_string(), what, writing: false };
-        let bytes = match read_regular_file(&file, most::RECORD) {
-            Ok(bytes) => bytes,
-            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
-            Err(e) => return Err(fault(e.to_string())),
-        };
-        let columns = ToothColumns::from_bytes(&bytes, &self.key).map_err(|e| fault(e.to_string()))?;
-        touch(&file);
-        Ok(Some(columns))
+impl PartStore for PartsOnDisk {
+    fn load(&self, tooth: u32) -> Result<Option<ToothColumns>, PartFault> {
+        read_part(&self.file(tooth), |from, length| ToothColumns::read(from, length, &self.key))
     }
 
-    fn save(&self, columns: &ToothColumns) -> Result<(), ColumnFault> {
-        let file = self.file(columns.tooth);
-        let written = self.cache.write(&file, &columns.to_bytes(&self.key));
-        written.map_err(|e| ColumnFault { file: file.display().to_string(), what: e.to_string(), writing: true })
+    fn save(&self, columns: &ToothColumns) -> Result<(), PartFault> {
+        self.write_part(&self.file(columns.tooth), &columns.to_bytes(&self.key))
     }
+
+    fn load_factor(&self) -> Result<Option<KeptFactor>, PartFault> {
+        read_part(&self.factor_file(), |from, length| read_factor(from, length, &self.key))
+    }
+
+    fn save_factor(&self, factor: &KeptFactor) -> Result<(), PartFault> {
+        self.write_part(&self.factor_file(), &factor_bytes(factor, &self.key))
+    }
+
+    fn load_table(&self, table: &TableKey) -> Result<Option<Vec<f64>>, PartFault> {
+        read_part(&self.table_file(table), |from, length| read_table(table, from, length, &self.key))
+    }
+
+    fn save_table(&self, table: &TableKey, values: &[f64]) -> Result<(), PartFault> {
+        self.write_part(&self.table_file(table), &table_bytes(table, values, &self.key))
+    }
+}
+
+/// What a file has, if it is there.
+fn read_part<T>(file: &Path, read: impl FnOnce(File, usize) -> Result<T, RecordError>) -> Result<Option<T>, PartFault> {
+    let fault = |what: String| PartFault { file: file.display().to_string(), what, writing: false };
+    let (from, length) = match open_regular_file(file, most::RECORD) {
+        Ok(opened) => opened,
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(e) => return Err(fault(e.to_string())),
+    };
+    let found = read(from, length as usize).map_err(|e| fault(e.to_string()))?;
+    touch(file);
+    Ok(Some(found))
 }
 
 /// What a file says of a sound mesh.
@@ -235,11 +274,13 @@ fn touch(file: &Path) {
 fn is_record(path: &Path) -> bool {
     let suffix = path.extension().and_then(|e| e.to_str());
     let stem = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default();
+    let is_key = |key: &str| key.len() == 64 && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b));
     let (key, known) = match stem.split_once('-') {
+        Some((key, part)) if suffix == Some(TABLE_SUFFIX) => (key, is_key(part)),
         Some((key, tooth)) => (key, suffix == Some(COLUMNS_SUFFIX) && tooth.parse::<u32>().is_ok()),
-        None => (stem, suffix.is_some_and(|e| [SUFFIX, MAP_SUFFIX, SOUND_SUFFIX].contains(&e))),
+        None => (stem, suffix.is_some_and(|e| [SUFFIX, FACTOR_SUFFIX, MAP_SUFFIX, SOUND_SUFFIX].contains(&e))),
     };
-    known && key.len() == 64 && key.bytes().all(|b| b.is_ascii_digit() || (b'a'..=b'f').contains(&b))
+    known && is_key(key)
 }
 
 /// Removes the least recently used files until the rest is within the limit; `newest` stays.

@@ -4,17 +4,28 @@ use std::sync::Arc;
 
 use reduction::{GearReducer, KeptTable, TableKey, Window};
 
-use super::{DIRECTIONS, mirror};
+use super::{
+    BulkBody, DIRECTIONS,
+    triangles::{packed, unpacked},
+    whole::{Source, WholeEntries},
+};
 use crate::{flank::FlankPatch, nodal::Support};
 
 /// The code that makes a table and reads it: with any other, even in a comment, a table is made again.
-const CODE: [&str; 3] = [include_str!("mod.rs"), include_str!("keep.rs"), include_str!("../bulk_grid.rs")];
+const CODE: [&str; 5] = [
+    include_str!("mod.rs"),
+    include_str!("keep.rs"),
+    include_str!("triangles.rs"),
+    include_str!("whole.rs"),
+    include_str!("../bulk_grid.rs"),
+];
 
 /// The gear that keeps the tables of a window.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Keeper<'a> {
     pub gear: &'a GearReducer,
     pub window: &'a Window,
+    pub body: &'a Arc<BulkBody>,
 }
 
 impl Keeper<'_> {
@@ -46,31 +57,24 @@ impl Keeper<'_> {
         TableKey::of(&content)
     }
 
-    /// Error and entries of a table of `count` points along each direction, if it is kept.
-    pub(super) fn table(&self, key: &TableKey, count: usize) -> Option<(f64, Vec<f64>)> {
-        let KeptTable { error, values } = self.gear.kept_table(key)?;
-        let mut left = &values[..];
-        let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
-        for (block, column) in columns(count) {
-            let (own, rest) = left.split_at_checked(count - column)?;
-            table[(block * count + column) * count + column..][..own.len()].copy_from_slice(own);
-            left = rest;
-        }
-        mirror(&mut table, count);
-        left.is_empty().then_some((error, table))
+    /// Error and entries of a table of points at `supports`, if it is kept.
+    pub(super) fn table(
+        &self,
+        key: &TableKey,
+        supports: &[Option<[Support; DIRECTIONS]>],
+    ) -> Option<(f64, WholeEntries)> {
+        let KeptTable { error, normal, others } = self.gear.kept_table(key)?;
+        let count = supports.len();
+        let normal = unpacked(&normal, count, 0..1)?;
+        let part = self.gear.table_part(key, others);
+        let source = Source { part, body: self.body.clone(), supports: supports.to_vec() };
+        Some((error, WholeEntries::kept(normal, source)))
     }
 
     /// Keeps a table: of each block the lower triangle, which tells the rest.
     pub(super) fn keep(&self, key: TableKey, error: f64, table: &[f64], count: usize) {
-        let mut values = Vec::with_capacity(DIRECTIONS * DIRECTIONS * count * (count + 1) / 2);
-        for (block, column) in columns(count) {
-            values.extend_from_slice(&table[(block * count + column) * count + column..][..count - column]);
-        }
-        self.gear.keep_table(key, &KeptTable { error, values: Arc::new(values) });
+        let of = |blocks| Arc::new(packed(table, count, blocks));
+        let (normal, others) = (of(0..1), Some(of(1..DIRECTIONS * DIRECTIONS)));
+        self.gear.keep_table(key, &KeptTable { error, normal, others });
     }
-}
-
-/// Block and column of everything that is kept.
-fn columns(count: usize) -> impl Iterator<Item = (usize, usize)> {
-    (0..DIRECTIONS * DIRECTIONS).flat_map(move |block| (0..count).map(move |column| (block, column)))
 }

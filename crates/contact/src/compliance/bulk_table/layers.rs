@@ -5,7 +5,7 @@ use reduction::LayerStack;
 
 use super::{
     BulkCompliance, BulkTable, DIRECTIONS, Entries, FlankGridLines, NodeBlocks, Pole, RUN, RUNS, first_points,
-    grid_supports, rows::TilePoints,
+    grid_supports, whole::TilePoints,
 };
 use crate::{ContactError, flank::FlankPatch, nodal::Support};
 

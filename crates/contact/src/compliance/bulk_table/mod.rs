@@ -4,11 +4,14 @@
 mod keep;
 mod layers;
 mod rows;
+mod triangles;
+mod whole;
 
-use std::borrow::Cow;
+use std::{borrow::Cow, sync::Arc};
 
 use faer::{ColRef, MatRef};
 use nalgebra::Matrix3;
+use reduction::{LocalCompliance, ReducedGear};
 
 use crate::{
     Vec3,
@@ -20,14 +23,32 @@ use crate::{
 
 pub(crate) use keep::Keeper;
 use layers::LayerEntries;
+use whole::WholeEntries;
 
 pub use rows::TableWork;
 
 /// One body's compliance, and what is to be taken away of it.
+#[derive(Debug)]
+pub(crate) struct BulkBody {
+    /// Its W, mm/N, 3n x 3n, node by node x, y, z.
+    pub reduced: Arc<ReducedGear>,
+    /// W_c of each patch with the numbers its nodes have in W, ascending.
+    pub local: Vec<(Vec<u32>, Arc<LocalCompliance>)>,
+}
+
+impl BulkBody {
+    /// With the body's patches.
+    pub(crate) fn with<'a>(&'a self, patches: &'a [FlankPatch]) -> BulkCompliance<'a> {
+        let local = self.local.iter().map(|(numbers, half)| (&numbers[..], half.compliance.as_ref())).collect();
+        BulkCompliance { whole: &self.reduced, local, patches }
+    }
+}
+
+/// One body's compliance, and what is to be taken away of it, borrowed.
 #[derive(Debug, Clone)]
 pub(crate) struct BulkCompliance<'a> {
-    /// W, mm/N, 3n x 3n, node by node x, y, z.
-    pub whole: MatRef<'a, f64>,
+    /// It has W.
+    pub whole: &'a ReducedGear,
     /// W_c of each patch with the numbers its nodes have in W, ascending.
     pub local: Vec<(&'a [u32], MatRef<'a, f64>)>,
     /// The body's patches.
@@ -55,9 +76,8 @@ pub struct BulkTable {
 /// T of a table.
 #[derive(Debug, Clone)]
 enum Entries {
-    /// mm/N, in blocks: openings along the normal, then along the profile, then along the generator by loads along the
-    /// normal, and so on; each block column by column. Contact without friction reads the first block alone.
-    Whole(Vec<f64>),
+    /// Of all pairs of points.
+    Whole(WholeEntries),
     /// By teeth apart, on the shorter gear of a wide one.
     Layers(LayerEntries),
 }
@@ -96,7 +116,7 @@ impl BulkCompliance<'_> {
     fn displacements(&self, support: &Support, columns: &mut [Vec<f64>; 3], out: &mut NodeBlocks) {
         for (k, column) in columns.iter_mut().enumerate() {
             column.clear();
-            column.resize(self.whole.nrows(), 0.0);
+            column.resize(self.whole.coordinates(), 0.0);
             for (&node, &w) in support.nodes[..support.count].iter().zip(&support.weights).filter(|(_, w)| **w != 0.0) {
                 self.add_column((node, k), w, column);
             }
@@ -109,14 +129,14 @@ impl BulkCompliance<'_> {
     /// D a for a unit force, mm/N.
     fn displacement(&self, support: &Support, out: &mut Vec<f64>) {
         out.clear();
-        out.resize(self.whole.nrows(), 0.0);
+        out.resize(self.whole.coordinates(), 0.0);
         load_columns(support, |dof, f| self.add_column(((dof / 3) as u32, dof % 3), f, out));
     }
 
     /// Adds the displacements by a force at a node along an axis.
     #[inline(always)]
     fn add_column(&self, (node, axis): (u32, usize), force: f64, out: &mut [f64]) {
-        let column = contiguous(self.whole.col(3 * node as usize + axis));
+        let column = contiguous(self.whole.compliance().col(3 * node as usize + axis));
         out.iter_mut().zip(&*column).for_each(|(o, w)| *o += force * w);
         let blocks = out.as_chunks_mut::<3>().0;
         for (numbers, local) in &self.local {
@@ -198,18 +218,27 @@ impl pulp::NullaryFnOnce for Filling<'_> {
                 }
             }
         }
-        mirror(table, count);
+        mirror(table, count, 0);
     }
+}
+
+/// T between all points, all directions: in blocks, openings along the normal, then along the profile, then along the
+/// generator by loads along the normal, and so on; each block column by column.
+fn filled(bulk: &BulkCompliance<'_>, supports: &[Option<[Support; DIRECTIONS]>]) -> Vec<f64> {
+    let mut table = vec![0.0; (DIRECTIONS * supports.len()).pow(2)];
+    pulp::Arch::new().dispatch(Filling { bulk, supports, table: &mut table });
+    table
 }
 
 /// Side of the tiles in which a triangle of a table is copied, points.
 const TILE: usize = 32;
 
 /// The other triangle: T_pq = T_qp, of points as filled for p >= q; of one point with itself as the later direction sees
-/// the earlier one.
-fn mirror(table: &mut [f64], count: usize) {
+/// the earlier one. Blocks before number `from` are not there, or as many as fill the table.
+fn mirror(table: &mut [f64], count: usize, from: usize) {
     let at = |d: usize, q: usize, e: usize, p: usize| ((DIRECTIONS * d + e) * count + q) * count + p;
-    for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+    let blocks = (0..DIRECTIONS * DIRECTIONS).take(table.len() / (count * count).max(1)).skip(from);
+    for (d, e) in blocks.map(|block| (block / DIRECTIONS, block % DIRECTIONS)) {
         for first in (0..count).step_by(TILE) {
             for other in (0..=first).step_by(TILE) {
                 for p in first..count.min(first + TILE) {
@@ -272,15 +301,16 @@ impl BulkTable {
         let count = first.last().copied().unwrap_or(0);
         let supports = grid_supports(&lines, bulk.patches);
         let kept = keeper.map(|keeper| (keeper, keeper.key(&supports, bulk.patches)));
-        if let Some((error, table)) = kept.and_then(|(keeper, key)| keeper.table(&key, count)) {
-            return Self { lines, first, entries: Entries::Whole(table), error };
+        if let Some((keeper, key)) = kept
+            && let Some((error, entries)) = keeper.table(&key, &supports)
+        {
+            return Self { lines, first, entries: Entries::Whole(entries), error };
         }
-        let mut table = vec![0.0; (DIRECTIONS * count).pow(2)];
-        pulp::Arch::new().dispatch(Filling { bulk, supports: &supports, table: &mut table });
-        let mut made = Self { lines, first, entries: Entries::Whole(table), error: 0.0 };
+        let table = filled(bulk, &supports);
+        let mut made = Self { lines, first, entries: Entries::Whole(WholeEntries::new(table, count)), error: 0.0 };
         made.error = made.measured(bulk, bulk.patches.len());
-        if let (Some((keeper, key)), Entries::Whole(table)) = (kept, &made.entries) {
-            keeper.keep(key, made.error, table, count);
+        if let (Some((keeper, key)), Entries::Whole(entries)) = (kept, &made.entries) {
+            keeper.keep(key, made.error, entries.table(), count);
         }
         made
     }
@@ -359,7 +389,7 @@ impl BulkTable {
     pub(crate) fn entry(&self, first: &TablePoint, second: &TablePoint) -> f64 {
         let count = self.points() / DIRECTIONS;
         let at = |[d, q]: [usize; 2], [e, p]: [usize; 2]| match &self.entries {
-            Entries::Whole(table) => table[((DIRECTIONS * d + e) * count + q) * count + p],
+            Entries::Whole(table) => table.at([d, e], q, p),
             Entries::Layers(layers) => layers.at(d * count + q, e * count + p),
         };
         let between = |e: usize, d: usize| {

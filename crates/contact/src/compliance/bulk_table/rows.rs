@@ -4,7 +4,10 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
-use super::{BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint};
+use super::{
+    BulkTable, DIRECTIONS, Entries, RUN, RUNS, TablePoint,
+    whole::{Block, TilePoints},
+};
 use crate::lanes::{self, Four};
 
 /// Loads that a tile of the table is multiplied with in one pass over it.
@@ -86,7 +89,13 @@ impl WithSimd for Interpolation<'_> {
                     let along = if swapped { [e, d] } else { [d, e] };
                     let own;
                     let tile = match entries {
-                        Entries::Whole(table) => Tile::in_table(table, count, along, [load, opening]),
+                        Entries::Whole(table) => match table.block(along) {
+                            Block::Whole(block) => Tile::in_block(block, count, [load, opening]),
+                            Block::Packed(packed) => {
+                                own = table.tile(packed, along, [load.runs, opening.runs]);
+                                Tile::of(&own)
+                            }
+                        },
                         Entries::Layers(layers) => {
                             let point = |b: usize, first: u32| along[b] * count + first as usize;
                             own = layers.tile(load.runs.map(|p| point(0, p)), opening.runs.map(|p| point(1, p)));
@@ -113,9 +122,6 @@ impl WithSimd for Interpolation<'_> {
     }
 }
 
-/// T between the points of two cells, column by column.
-pub(super) type TilePoints = [[f64; RUNS * RUN]; RUNS * RUN];
-
 /// What the loads of one group do at the points of another, along one direction each.
 struct Tile<'a> {
     /// Columns of the table at the runs of the loads, four each.
@@ -126,10 +132,9 @@ struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    /// A tile of a whole table with `count` points along each direction: of a load and an opening, along a direction each.
+    /// A tile of a block of a whole table: of a load and an opening.
     #[inline(always)]
-    fn in_table(table: &'a [f64], count: usize, [d, e]: [usize; 2], [load, opening]: [&Group; 2]) -> Self {
-        let block = &table[(DIRECTIONS * d + e) * count * count..][..count * count];
+    fn in_block(block: &'a [f64], count: usize, [load, opening]: [&Group; 2]) -> Self {
         let columns = load.runs.map(|first| &block[first as usize * count..][..RUN * count]);
         Self { columns, count, runs: opening.runs.map(|first| first as usize) }
     }
@@ -209,6 +214,7 @@ impl TableWork {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::compliance::bulk_table::whole::WholeEntries;
 
     /// Points of a direction.
     const COUNT: usize = 40;
@@ -222,7 +228,12 @@ mod tests {
                 table[((DIRECTIONS * d + e) * COUNT + q) * COUNT + p] = at(d * COUNT + q, e * COUNT + p);
             }
         }
-        BulkTable { lines: Vec::new(), first: vec![0, COUNT], entries: Entries::Whole(table), error: 0.0 }
+        BulkTable {
+            lines: Vec::new(),
+            first: vec![0, COUNT],
+            entries: Entries::Whole(WholeEntries::new(table, COUNT)),
+            error: 0.0,
+        }
     }
 
     /// Rows of a contact line, some of a cell together; `along`: directions that they are loaded along.
