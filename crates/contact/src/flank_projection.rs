@@ -24,10 +24,15 @@ pub struct FlankProjection {
     pub approach: Displacement,
     /// b.
     pub tilt: Displacement,
+    /// What friction does that slides across the path of contact, by a unit of force on the pinion, of
+    /// its moment by the place along the path, and of its moment by the place over the face. Theory (75a).
+    pub friction: [Displacement; 3],
     /// Pitch point in the middle of the common face, mm.
     point: Vector3<f64>,
     /// Direction of zeta.
     across: Vector3<f64>,
+    /// Transverse line of action.
+    along: Vector3<f64>,
 }
 
 impl FlankProjection {
@@ -44,15 +49,38 @@ impl FlankProjection {
         let out_of_plane = along.cross(&Vector3::z());
         let centres = [Vector3::zeros(), Vector3::new(pair.centre_distance(), 0.0, pair.mid_face_offset())];
         let [mut approach, mut tilt] = [Displacement::zeros(); 2];
+        let (slide, mut friction) = (Vector3::z().cross(&along), [Displacement::zeros(); 3]);
         for (g, sign) in [1.0, -1.0].into_iter().enumerate() {
-            let moment = (point - centres[g]).cross(&normal);
+            let arm = point - centres[g];
+            let (moment, of_slide) = (arm.cross(&normal), arm.cross(&slide));
             for i in 0..3 {
+                friction[0][COORDINATES * g + i] = sign * slide[i];
+                friction[0][COORDINATES * g + 3 + i] = sign * of_slide[i];
+                friction[2][COORDINATES * g + 3 + i] = -sign * along[i];
                 approach[COORDINATES * g + i] = sign * normal[i];
                 approach[COORDINATES * g + 3 + i] = sign * moment[i];
                 tilt[COORDINATES * g + 3 + i] = -sign * out_of_plane[i];
             }
         }
-        Self { approach, tilt, point, across: out_of_plane.cross(&normal) }
+        for (i, sign) in [(COORDINATES - 1, 1.0), (2 * COORDINATES - 1, -1.0)] {
+            friction[1][i] = sign;
+        }
+        Self { approach, tilt, friction, point, across: out_of_plane.cross(&normal), along }
+    }
+
+    /// Friction on the pinion at a place: along the sliding (N), and its moments along the path of contact and over the face
+    /// (N mm).
+    pub fn rubbing(&self, position: &Vector3<f64>, force: &Vector3<f64>) -> [f64; 3] {
+        let moment = (position - self.point).cross(force);
+        [Vector3::z().cross(&self.along).dot(force), moment.z, -moment.dot(&self.along)]
+    }
+
+    /// Stiffness along the approach of the normal forces alone, N/mm, by the slopes of all forces (-d/dd) over the wheel's
+    /// turn: friction has no part along the line of action.
+    pub fn normal_stiffness(&self, over_turn: &Displacement) -> f64 {
+        let normal = self.approach.fixed_rows::<2>(0);
+        let along = normal.dot(&over_turn.fixed_rows::<2>(0));
+        along / (normal.norm_squared() * self.approach[2 * COORDINATES - 1])
     }
 
     /// Place of a point of contact across the normal, mm.

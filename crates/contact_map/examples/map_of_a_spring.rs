@@ -20,15 +20,22 @@ impl PhaseContact for Spring {
 
     fn sample(&mut self, approach: f64, _: f64) -> Result<ContactSample, Infallible> {
         let force = self.stiffness * (approach - self.gap).max(0.0);
-        let slices = vec![LoadedSlice { force, length: 10.0, lever: 0.0, pair: 0 }];
+        let slices = vec![LoadedSlice { force, length: 10.0, lever: 0.0, pair: 0, friction: [0.0; 3] }];
         let stiffness = if force > 0.0 { self.stiffness } else { 0.0 };
         Ok(ContactSample { force, stiffness, slices })
     }
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let plan =
-        MapPlan { mean_force: 1000.0, largest_force: 4000.0, tilt: None, width: 10.0, tolerance: 1e-4, worst: 1e-4 };
+    let plan = MapPlan {
+        mean_force: 1000.0,
+        largest_force: 4000.0,
+        tilt: None,
+        width: 10.0,
+        half_path: None,
+        tolerance: 1e-4,
+        worst: 1e-4,
+    };
     let map = ContactMap::build(&plan, &|_| {}, |phase| {
         Ok::<_, Infallible>(Spring { stiffness: 2e5 * (1.0 + 0.2 * (TAU * phase).cos()), gap: 1e-3 })
     })?;

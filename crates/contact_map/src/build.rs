@@ -9,10 +9,12 @@ use rayon::prelude::*;
 
 use crate::{
     ContactMap, MapError, PhaseContact,
+    certificate::MapCertificate,
     column::{Node, column},
     damping_table::DampingTable,
+    errors::{checks, errors},
+    friction::FrictionTable,
     load_axis::LoadAxis,
-    map::{MapCertificate, Wanted},
     pair_shares::PairShares,
     spline::Axis,
 };
@@ -28,6 +30,9 @@ pub struct MapPlan {
     pub tilt: Option<[f64; 2]>,
     /// Width of face, mm.
     pub width: f64,
+    /// Half of the path of contact, mm, of flanks with friction: errors of the moment that friction has by its place
+    /// there are told over it. `None` without friction.
+    pub half_path: Option<f64>,
     /// Root mean square of the approach's error, over the mean approach, that is aimed at.
     pub tolerance: f64,
     /// Error with which a map is taken as well, where a finer one would cost too many contacts; no less than that.
@@ -55,8 +60,6 @@ const SHARES: usize = 16;
 const FEW_CONTACTS: usize = 10_000;
 /// Contacts that it may take at all.
 const MOST_CONTACTS: usize = 200_000;
-/// Places at which a map is held against the contact.
-const CHECKS: usize = 64;
 
 /// All nodes of a map, by phase as a fraction of [`PHASES`]'s largest.
 type Columns = BTreeMap<usize, Vec<Vec<Node>>>;
@@ -89,19 +92,21 @@ impl ContactMap {
             let deflection = deflection(&map, plan);
             map.certificate = MapCertificate {
                 contacts,
-                checks: CHECKS,
-                rms_error_mm: all[0],
-                largest_error_mm: all[1],
+                checks: checks(plan),
+                rms_error_mm: all.approach[0],
+                largest_error_mm: all.approach[1],
                 deflection_mm: deflection,
+                friction: map.friction.is_some().then_some(all.friction),
                 ..map.certificate
             };
-            let error = all[0] / deflection;
+            let along = along.map(|own| own.relative(deflection));
+            let error = all.relative(deflection);
             if error <= plan.tolerance {
                 return Ok(map);
             }
             let good = error <= plan.worst;
             let most = if good { FEW_CONTACTS } else { MOST_CONTACTS };
-            let Some(finer) = size.finer(along.map(|of| of[0])).filter(|finer| finer.contacts() <= most) else {
+            let Some(finer) = size.finer(along).filter(|finer| finer.contacts() <= most) else {
                 let coarse = MapError::Coarse { phases: size.phases, loads: size.loads, error, allowed: plan.worst };
                 return if good { Ok(map) } else { Err(coarse) };
             };
@@ -146,6 +151,7 @@ fn check_plan<E>(plan: &MapPlan) -> Result<(), MapError<E>> {
         ("width of face [mm]", plan.width),
         ("tolerance of the contact map", plan.tolerance),
         ("worst error of the contact map", plan.worst),
+        ("half of the path of contact [mm]", plan.half_path.unwrap_or(1.0)),
     ];
     for (name, value) in positive {
         if !(value.is_finite() && value > 0.0) {
@@ -229,11 +235,13 @@ fn assemble(plan: &MapPlan, columns: &Columns, size: MapSize) -> ContactMap {
         .flat_map(|i| columns[&(i * step)][tilts / 2].iter().flat_map(|node| node.shares.iter().copied()))
         .collect();
     let nodes: Vec<_> = (0..phases).map(|i| &columns[&(i * step)]).collect();
+    let of_way = |values: Vec<f64>| coefficients(values, &[axes[1], axes[2]]);
     ContactMap {
         phases,
         loads,
         tilts,
-        pairs: PairShares::new(&nodes, |parts| coefficients(parts, &[axes[1], axes[2]])),
+        pairs: PairShares::new(&nodes, |node, i| node.parts[i].1, of_way),
+        friction: plan.half_path.map(|_| FrictionTable::new(&nodes, of_way)),
         force: plan.largest_force,
         tilt: plan.tilt.unwrap_or([0.0, 1.0]),
         approach: of(&|node: &Node| node.approach),
@@ -251,6 +259,7 @@ fn assemble(plan: &MapPlan, columns: &Columns, size: MapSize) -> ContactMap {
             rms_error_mm: f64::NAN,
             largest_error_mm: f64::NAN,
             deflection_mm: f64::NAN,
+            friction: None,
         },
     }
 }
@@ -289,75 +298,4 @@ fn deflection(map: &ContactMap, plan: &MapPlan) -> f64 {
         map.approach(phase, tilt, plan.mean_force) - map.approach(phase, tilt, 0.0)
     };
     (0..map.phases).map(of).sum::<f64>() / map.phases as f64
-}
-
-/// Root mean square and largest error of the approach (mm) at places all over the map, at places between its phases
-/// alone, between its forces alone and between its tilts alone.
-fn errors<C, E>(
-    map: &ContactMap,
-    plan: &MapPlan,
-    at: &(impl Fn(f64) -> Result<C, E> + Sync),
-    contacts: &mut usize,
-) -> Result<[[f64; 2]; 4], MapError<E>>
-where
-    C: PhaseContact<Error = E>,
-    E: Send,
-{
-    let mut all = [[0.0; 2]; 4];
-    let kinds = if map.tilts == 0 { 3 } else { 4 };
-    for (kind, out) in all.iter_mut().enumerate().take(kinds) {
-        let off: Vec<f64> = (0..CHECKS)
-            .into_par_iter()
-            .map(|i| {
-                let [p, l, t] = [2, 3, 5].map(|base| halton(i + 1, base));
-                let on_grid = |part: f64, n: usize| (part * n as f64).floor().max(1.0);
-                // Forces as they occur: around the mean, up to twice that, seldom more.
-                let places = map.loads as f64;
-                let reach = map.load_axis().place((2.0 * plan.mean_force).min(plan.largest_force));
-                let load = if i % 4 == 0 { l * places } else { (0.25 + 0.75 * l) * reach };
-                let phase = if kind > 1 { on_grid(p, map.phases) / map.phases as f64 } else { p };
-                let load = if kind == 1 || kind == 3 { on_grid(load / places, map.loads) } else { load };
-                let t = if kind == 1 || kind == 2 { on_grid(t, map.tilts.max(1)) / map.tilts.max(1) as f64 } else { t };
-                let tilt = map.tilts().map_or(0.0, |[low, high]| low + t * (high - low));
-                error_at(map, at, (phase, load, tilt))
-            })
-            .collect::<Result<_, MapError<E>>>()?;
-        *contacts += CHECKS;
-        let squares = off.iter().map(|e| e * e).sum::<f64>() / CHECKS as f64;
-        *out = [squares.sqrt(), off.iter().fold(0.0, |m: f64, e| m.max(e.abs()))];
-    }
-    Ok(all)
-}
-
-/// Error of the approach at one place, mm.
-fn error_at<C, E>(
-    map: &ContactMap,
-    at: &(impl Fn(f64) -> Result<C, E> + Sync),
-    (phase, load, tilt): (f64, f64, f64),
-) -> Result<f64, MapError<E>>
-where
-    C: PhaseContact<Error = E>,
-{
-    let force = map.load_axis().force(load);
-    let approach = map.approach(phase, tilt, force);
-    let fail = |source| MapError::Contact { phase, approach_um: 1e3 * approach, source };
-    let mut contact = at(phase).map_err(fail)?;
-    let sample = contact.sample(approach, tilt).map_err(fail)?;
-    if sample.stiffness > 0.0 {
-        return Ok((sample.force - force) / sample.stiffness);
-    }
-    // Apart where the map presses: by the gap, and what its own force needs.
-    let own = map.at(phase, approach, tilt, Wanted::default());
-    Ok(contact.overlap(approach, tilt) - own.force / own.stiffness[0][0].max(f64::MIN_POSITIVE))
-}
-
-/// Van der Corput's sequence: places that fill 0 .. 1 evenly, whatever their number.
-pub(crate) fn halton(mut i: usize, base: usize) -> f64 {
-    let (mut sum, mut part) = (0.0, 1.0);
-    while i > 0 {
-        part /= base as f64;
-        sum += part * (i % base) as f64;
-        i /= base;
-    }
-    sum
 }

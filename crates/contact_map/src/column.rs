@@ -13,6 +13,8 @@ pub(crate) struct Node {
     pub shares: Vec<f64>,
     /// Pairs of teeth that carry, and their parts of the force.
     pub parts: Vec<(i64, f64)>,
+    /// Friction of each of these pairs, and moment of its normal forces along the tilt, over the force of all.
+    pub rubs: Vec<[f64; 4]>,
 }
 
 /// Forces this near to the one that is wanted (relative) are made into it by the tangent: what that leaves is the
@@ -113,12 +115,21 @@ fn node(approach: f64, slices: &[LoadedSlice], shares: usize) -> Node {
         slices.iter().map(|s| (w * s.length).min(s.force)).sum::<f64>() / (force * sigma)
     };
     let mut parts: Vec<(i64, f64)> = Vec::new();
+    let mut rubs: Vec<[f64; 4]> = Vec::new();
     for slice in slices {
-        let part = slice.force / force;
-        match parts.iter_mut().find(|own| own.0 == slice.pair) {
-            Some(own) => own.1 += part,
-            None => parts.push((slice.pair, part)),
-        }
+        let at = parts.iter().position(|own| own.0 == slice.pair).unwrap_or_else(|| {
+            parts.push((slice.pair, 0.0));
+            rubs.push([0.0; 4]);
+            parts.len() - 1
+        });
+        parts[at].1 += slice.force / force;
+        rubs[at].iter_mut().zip(rubbing(slice)).for_each(|(sum, own)| *sum += own / force);
     }
-    Node { approach, lengths, shares: (0..=shares).map(share).collect(), parts }
+    Node { approach, lengths, shares: (0..=shares).map(share).collect(), parts, rubs }
+}
+
+/// Friction of a slice, and the moment of its normal force along the tilt.
+pub(crate) fn rubbing(slice: &LoadedSlice) -> [f64; 4] {
+    let [force, along, over] = slice.friction;
+    [force, along, over, slice.force * slice.lever]
 }

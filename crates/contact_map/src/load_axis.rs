@@ -77,6 +77,11 @@ impl LoadCurve {
         }
     }
 
+    /// Adds a constant.
+    pub fn raise(&mut self, constant: f64) {
+        self.coefficients.iter_mut().for_each(|k| *k += constant);
+    }
+
     /// Sums up the integrals of whole intervals, from their moments over the place: the curve is whole.
     pub fn close(&mut self) {
         let Self { axis, coefficients, before } = self;

@@ -3,7 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    beyond::Beyond,
+    certificate::MapCertificate,
     damping_table::DampingTable,
+    friction::FrictionTable,
     load_axis::{LoadAxis, LoadCurve, knot},
     pair_shares::{PairPlace, PairShares},
     spline::{Axis, Splines},
@@ -31,28 +34,8 @@ pub struct ContactMap {
     pub(crate) approach: Vec<f64>,
     pub(crate) damping: DampingTable,
     pub(crate) pairs: PairShares,
+    pub(crate) friction: Option<FrictionTable>,
     pub(crate) certificate: MapCertificate,
-}
-
-/// Certificate of a map: errors and cost.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct MapCertificate {
-    /// Phases of a mesh cycle.
-    pub phases: usize,
-    /// Forces.
-    pub loads: usize,
-    /// Tilts.
-    pub tilts: usize,
-    /// Contacts that were solved for it.
-    pub contacts: usize,
-    /// Places at which it was held against the contact itself.
-    pub checks: usize,
-    /// Root mean square of the approach's error there, mm.
-    pub rms_error_mm: f64,
-    /// Largest error of the approach there, mm.
-    pub largest_error_mm: f64,
-    /// Mean approach under the mean force, from first touch, mm: what errors are relative to.
-    pub deflection_mm: f64,
 }
 
 /// The contact at one state.
@@ -91,6 +74,8 @@ pub struct CutPlace {
     pub at: [f64; 2],
     pub(crate) phase: Splines,
     pub(crate) tilt: Splines,
+    /// Beyond the tilts of the map.
+    pub(crate) beyond: Option<Beyond>,
     /// Approach at which flanks touch first, mm.
     pub(crate) begin: f64,
     /// Whether the curves are those of this place: flanks that are apart need none.
@@ -108,6 +93,7 @@ impl Default for CutPlace {
             at: [f64::NAN; 2],
             phase: Splines::NONE,
             tilt: Splines::NONE,
+            beyond: None,
             begin: f64::NAN,
             has_curves: false,
             curve: LoadCurve::default(),
@@ -157,11 +143,15 @@ impl ContactMap {
     pub(crate) fn move_place(&self, place: &mut CutPlace, [phase, tilt]: [f64; 2]) {
         let tilt_place = if self.tilts == 0 { 0.0 } else { (tilt - self.tilt[0]) * self.per_tilt() };
         let p = Axis::Periodic(self.phases).splines_at((phase - phase.floor()) * self.phases as f64);
-        let t = self.tilt_axis().splines_at(tilt_place);
+        let end = tilt_place.clamp(0.0, self.tilts as f64);
+        let t = self.tilt_axis().splines_at(end);
         place.at = [phase, tilt];
-        (place.phase, place.tilt, place.has_curves) = (p, t, false);
+        (place.phase, place.tilt, place.has_curves, place.beyond) = (p, t, false, None);
+        if tilt_place != end {
+            self.go_beyond(place, tilt_place - end);
+        }
         let [k0, k1, k2, _] = self.in_cell(&self.approach, place, 0);
-        place.begin = knot([k0, k1, k2]);
+        place.begin = knot([k0, k1, k2]) + place.beyond.map_or(0.0, |on| on.edge * on.factors[0]);
     }
 
     /// Makes the curves over load of a place, where it has none.
@@ -169,13 +159,14 @@ impl ContactMap {
         if place.has_curves {
             return;
         }
-        let CutPlace { phase: p, tilt: t, curve, by_tilt, has_curves, .. } = place;
-        self.sum(curve, &self.approach, [p, t], [&p.values, &t.values]);
+        let CutPlace { phase: p, tilt: t, beyond, curve, by_tilt, has_curves, .. } = place;
+        let [by_edge, by_edge_tilt, by_edge_bend] = beyond.map_or([0.0; 3], |on| on.factors.map(|f| f * on.edge));
+        self.sum(curve, by_edge, [p, t], [&p.values, &t.values]);
         // Without a tilt nobody asks for slopes over it.
         if self.tilts > 0 {
             let [first, second] = &mut **by_tilt.get_or_insert_default();
-            self.sum(first, &self.approach, [p, t], [&p.values, &t.slopes]);
-            self.sum(second, &self.approach, [p, t], [&p.values, &t.curvatures]);
+            self.sum(first, by_edge_tilt, [p, t], [&p.values, &t.slopes]);
+            self.sum(second, by_edge_bend, [p, t], [&p.values, &t.curvatures]);
         }
         *has_curves = true;
     }
@@ -204,11 +195,11 @@ impl ContactMap {
         (!apart).then(|| place.curve.solve(approach))
     }
 
-    /// Makes a curve over load the sum of a table over phases and tilts with weights.
+    /// Makes a curve over load the sum of the approaches over phases and tilts with weights, and of a constant.
     fn sum(
         &self,
         curve: &mut LoadCurve,
-        table: &[f64],
+        constant: f64,
         [phase, tilt]: [&Splines; 2],
         [of_phase, of_tilt]: [&[f64; 4]; 2],
     ) {
@@ -217,9 +208,12 @@ impl ContactMap {
         for (j, of_tilt) in of_tilt.iter().enumerate().take(tilt.count) {
             let row = |i: usize| {
                 let at = ((phase.first + i) * tilts + tilt.first + j) * loads;
-                &table[at..at + loads]
+                &self.approach[at..at + loads]
             };
             curve.add(&of_phase.map(|w| w * of_tilt), [row(0), row(1), row(2), row(3)]);
+        }
+        if constant != 0.0 {
+            curve.raise(constant);
         }
         curve.close();
     }
@@ -228,7 +222,8 @@ impl ContactMap {
     pub(crate) fn by_phase(&self, place: &CutPlace) -> LoadCurve {
         let mut by_phase = LoadCurve::default();
         let weights = [&place.phase.slopes, &place.tilt.values];
-        self.sum(&mut by_phase, &self.approach, [&place.phase, &place.tilt], weights);
+        let by_edge = place.beyond.map_or(0.0, |on| on.factors[0] * on.edge_by_phase);
+        self.sum(&mut by_phase, by_edge, [&place.phase, &place.tilt], weights);
         by_phase
     }
 

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::{
     ContactMap, CutPlace, MapContact, MapError, PhaseContact, Wanted,
-    build::halton,
+    errors::halton,
     pair_shares::{PairPlace, PartsWanted},
     pair_sums::PairSums,
 };
@@ -115,7 +115,7 @@ impl OffsetMap {
     /// Makes a place one for another phase (mesh cycles) and tilt (rad), in its own memory, without curves.
     pub(crate) fn move_place(&self, place: &mut CutPlace, at: [f64; 2]) {
         self.map.move_place(place, at);
-        if self.offsets.is_some() {
+        if self.offsets.is_some() || self.map.friction.is_some() {
             self.map.pairs.places(self.map.phases, at[0], &mut place.pairs);
         }
     }
@@ -137,7 +137,7 @@ impl OffsetMap {
     }
 
     /// Pairs with their offsets, mm.
-    fn pairs<'a>(&'a self, place: &'a CutPlace) -> impl Iterator<Item = (&'a PairPlace, f64)> {
+    pub(crate) fn pairs<'a>(&'a self, place: &'a CutPlace) -> impl Iterator<Item = (&'a PairPlace, f64)> {
         let cycle = place.at[0].floor() as i64;
         let all = self.offsets.iter().flat_map(move |o| place.pairs.iter().map(move |own| (own, o)));
         all.map(move |(own, offsets)| (own, offsets.of(cycle + own.pair)))

@@ -42,22 +42,26 @@ pub(crate) type CellParts = [[f64; 4]; 4];
 const NOTHING: f64 = 1e-13;
 
 impl PairShares {
-    /// Table of the parts at the nodes of a map: phase by phase, tilt by tilt, load by load; `interpolate` gives the
-    /// coefficients over tilts and loads of a place of the way.
-    pub(crate) fn new(columns: &[&Vec<Vec<Node>>], interpolate: impl Fn(Vec<f64>) -> Vec<f64>) -> Self {
+    /// Table of what pairs have at the nodes of a map, by their place among those of a node: phase by phase, tilt by tilt,
+    /// load by load; `interpolate` gives the coefficients over tilts and loads of a place of the way.
+    pub(crate) fn new(
+        columns: &[&Vec<Vec<Node>>],
+        of: impl Fn(&Node, usize) -> f64,
+        interpolate: impl Fn(Vec<f64>) -> Vec<f64>,
+    ) -> Self {
         let numbers = || columns.iter().flat_map(|c| c.iter().flatten()).flat_map(|n| n.parts.iter().map(|p| p.0));
         let (first, last) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
         let count = (last - first) as usize + 1;
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for pair in (first..=last).rev() {
             for nodes in columns {
-                let part = |node: &Node| node.parts.iter().find(|p| p.0 == pair).map_or(0.0, |p| p.1);
+                let part = |node: &Node| node.parts.iter().position(|p| p.0 == pair).map_or(0.0, |i| of(node, i));
                 rows.push(interpolate(nodes.iter().flatten().map(part).collect()));
             }
         }
         let coefficients = periodic_coefficients(&rows);
-        let of = |rows: &[Vec<f64>]| rows.iter().flatten().any(|k| k.abs() > NOTHING);
-        Self { count, last, carries: coefficients.windows(4).map(of).collect(), table: coefficients.concat() }
+        let any = |rows: &[Vec<f64>]| rows.iter().flatten().any(|k| k.abs() > NOTHING);
+        Self { count, last, carries: coefficients.windows(4).map(any).collect(), table: coefficients.concat() }
     }
 
     /// Splines over the way of a pair at a phase, 0 .. 1.

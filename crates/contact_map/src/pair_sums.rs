@@ -3,7 +3,7 @@
 use crate::{
     ContactMap, CutPlace,
     load_axis::LoadCurve,
-    pair_shares::{CellParts, PairPlace, PartsWanted},
+    pair_shares::{CellParts, PairPlace, PairShares, PartsWanted},
     spline::{Splines, splines},
 };
 
@@ -152,8 +152,19 @@ impl ContactMap {
     /// Parts of a pair under a load, and the slope of its part over that; beyond the largest force of the map the parts
     /// stay. In the order of [`CellParts`].
     pub(crate) fn held(&self, own: &PairPlace, tilt: &Splines, load: f64, wanted: PartsWanted) -> ([f64; 4], f64) {
+        self.held_of(&self.pairs, (own, tilt), load, wanted)
+    }
+
+    /// The same of another table of what pairs have.
+    pub(crate) fn held_of(
+        &self,
+        table: &PairShares,
+        (own, tilt): (&PairPlace, &Splines),
+        load: f64,
+        wanted: PartsWanted,
+    ) -> ([f64; 4], f64) {
         let cell = (load as usize).min(self.loads - 1);
-        let parts = self.parts(own, tilt, cell, wanted);
+        let parts = table.parts(own, (tilt, cell), [self.tilt_axis().coefficients(), self.loads + 3], wanted);
         if load > self.loads as f64 {
             return (parts.map(|own| at_end(&own)), 0.0);
         }

@@ -37,4 +37,7 @@ pub struct LoadedSlice {
     pub lever: f64,
     /// Number of its pair of teeth: at a phase one cycle later pair m + 1 stands where pair m stands now.
     pub pair: i64,
+    /// Friction there: force on gear 1 along the sliding, N, its moment by the place along the path of contact and its
+    /// moment by the place over the face, N mm. Theory (74b).
+    pub friction: [f64; 3],
 }

@@ -160,6 +160,14 @@ pub(crate) fn periodic_coefficients(rows: &[Vec<f64>]) -> Vec<Vec<f64>> {
 impl Splines {
     /// None at all.
     pub(crate) const NONE: Self = Self { first: 0, count: 0, values: [0.0; 4], slopes: [0.0; 4], curvatures: [0.0; 4] };
+
+    /// Those of a function whose value goes on from here by so many slopes, and whose own first and second derivatives are
+    /// as many as `rates`.
+    pub(crate) fn go_on(&mut self, slopes: f64, rates: [f64; 2]) {
+        let own = self.slopes;
+        self.values.iter_mut().zip(own).for_each(|(value, slope)| *value += slopes * slope);
+        [self.slopes, self.curvatures] = rates.map(|rate| own.map(|slope| rate * slope));
+    }
 }
 
 /// The four cubic B-splines of an interval at `s`, 0 .. 1.

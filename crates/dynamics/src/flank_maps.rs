@@ -15,6 +15,8 @@ use crate::{COORDINATES, Displacement, MeshFlanks, elastic_displacement::Elastic
 pub struct MapRequest {
     /// Displacements of the gears in the mesh's own axes at rest, one entry a position: the maps are made about their mean.
     pub stands: Vec<Displacement>,
+    /// The same with the load on the coast flanks, whose map is made about these; empty: that is made about the others too.
+    pub coast_stands: Vec<Displacement>,
     /// Whether the gears can tilt against each other: between held shafts a map needs no tilt.
     pub tilts: bool,
     /// Sum of the normal forces there, N.
@@ -27,6 +29,10 @@ pub struct MapRequest {
     /// would cost too much to refine.
     pub worst: f64,
 }
+
+/// Loads at rest up to which gears tilt in a map of flanks that strike: tilts of larger ones would leave all loads as they
+/// mostly occur to few places of the map.
+const TILTING_LOADS: f64 = 4.0;
 
 /// Why the flanks of a mesh have no maps.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -46,17 +52,33 @@ pub enum MapFailure {
 }
 
 impl MapRequest {
-    /// Mean displacements at rest.
-    fn about(&self) -> Displacement {
-        self.stands.iter().sum::<Displacement>() / self.stands.len() as f64
+    /// Displacements at rest with the load on the driving (0) or on the coast flanks (1).
+    fn stands_of(&self, side: usize) -> &[Displacement] {
+        if side == 0 || self.coast_stands.is_empty() { &self.stands } else { &self.coast_stands }
     }
 
-    /// Tilts of the gears at rest, and as much on either side as half a deflection over the face width makes.
-    fn tilt_range(&self, projection: &FlankProjection, width: f64) -> [f64; 2] {
-        let all = || self.stands.iter().map(|d| projection.tilt.dot(d));
-        let deflection = self.stands.iter().map(|d| projection.approach.dot(d).abs()).fold(0.0, f64::max);
+    /// Mean displacements at rest.
+    fn about(&self, side: usize) -> Displacement {
+        let stands = self.stands_of(side);
+        stands.iter().sum::<Displacement>() / stands.len() as f64
+    }
+
+    /// Tilts of the gears at rest, and as much on either side as half a deflection over the face width makes. Of flanks that
+    /// strike behind their backlash: those from no load to the largest force or [`TILTING_LOADS`] of the load, and half as
+    /// much on either side.
+    fn tilt_range(&self, side: usize, projection: &FlankProjection, width: f64) -> [f64; 2] {
+        let stands = self.stands_of(side);
+        let all = || stands.iter().map(|d| projection.tilt.dot(d));
+        let deflection = stands.iter().map(|d| projection.approach.dot(d).abs()).fold(0.0, f64::max);
         let [low, high] = [all().fold(f64::MAX, f64::min), all().fold(f64::MIN, f64::max)];
-        let margin = (0.5 * deflection / width).max(2.0 * (high - low));
+        let apart = 0.5 * deflection / width;
+        if self.coast_stands.is_empty() {
+            let margin = apart.max(2.0 * (high - low));
+            return [low - margin, high + margin];
+        }
+        let loads = self.overload.min(TILTING_LOADS);
+        let [low, high] = [loads * low.min(0.0), loads * high.max(0.0)];
+        let margin = (loads * apart).max(0.5 * (high - low));
         [low - margin, high + margin]
     }
 }
@@ -66,7 +88,7 @@ impl MeshFlanks {
     /// their nominal places. `watch` hears how far each is.
     ///
     /// # Errors
-    /// [`MapFailure`]: friction, normal modes, flanks by tooth, no load; where no map is good enough.
+    /// [`MapFailure`]: normal modes, flanks by tooth, no load; where no map is good enough.
     pub fn maps(
         &self,
         pair: &GearPair,
@@ -74,14 +96,16 @@ impl MeshFlanks {
         watch: MapWatch<'_>,
     ) -> Result<Vec<ContactMap>, MapFailure> {
         self.check_mapped(pair, request)?;
-        let (alike, about) = (pair.without_pitch_errors(), request.about());
-        let one = |side: &MeshSide| {
+        let alike = pair.without_pitch_errors();
+        let one = |(i, side): (usize, &MeshSide)| {
+            let about = request.about(i);
             let projection = FlankProjection::new(&alike, side.flank_side());
             let plan = MapPlan {
                 mean_force: request.mean_force,
                 largest_force: request.overload * request.mean_force,
-                tilt: request.tilts.then(|| request.tilt_range(&projection, alike.face_width())),
+                tilt: request.tilts.then(|| request.tilt_range(i, &projection, alike.face_width())),
                 width: alike.face_width(),
+                half_path: (side.friction_coefficient() != 0.0).then(|| half_path(&alike)),
                 tolerance: request.tolerance,
                 worst: request.worst,
             };
@@ -89,7 +113,7 @@ impl MeshFlanks {
             let at = |phase: f64| SidePhase::new(&side, &alike, phase, (&projection, &about));
             ContactMap::build(&plan, watch, at).map_err(|e| MapFailure::Map(Box::new(e)))
         };
-        self.sides().map(one).collect()
+        self.sides().enumerate().map(one).collect()
     }
 
     /// What displacements do to the flanks of each side, and what pitch errors offset their pairs of teeth by.
@@ -111,7 +135,7 @@ impl MeshFlanks {
         map: &OffsetMap,
         request: &MapRequest,
     ) -> Result<Option<OffsetError>, MapFailure> {
-        let (projection, about) = (FlankProjection::new(pair, self.driving.flank_side()), request.about());
+        let (projection, about) = (FlankProjection::new(pair, self.driving.flank_side()), request.about(0));
         let at = |cycles: f64| SidePhase::new(&self.driving, pair, cycles, (&projection, &about));
         map.error(request.mean_force, at).map_err(|e| MapFailure::Map(Box::new(e)))
     }
@@ -123,8 +147,6 @@ impl MeshFlanks {
     pub fn check_mapped(&self, pair: &GearPair, request: &MapRequest) -> Result<(), MapFailure> {
         let what = if self.driving.contact().modes().is_some() {
             "normal modes of the gears: the contact then depends on their amplitudes"
-        } else if self.driving.friction_coefficient() > 0.0 {
-            "friction: it turns round with the sliding"
         } else if [&pair.pinion, &pair.wheel].iter().any(|g| g.has_own_flanks()) {
             "flanks by tooth: the contact then comes back after whole turns, not after a mesh cycle"
         } else if request.stands.is_empty() || !(request.mean_force > 0.0 && request.mean_force.is_finite()) {
@@ -134,6 +156,12 @@ impl MeshFlanks {
         };
         Err(MapFailure::Unmapped { what })
     }
+}
+
+/// Half of the path of contact, mm.
+fn half_path(pair: &GearPair) -> f64 {
+    let [begin, end] = pair.path_of_contact();
+    0.5 * (end - begin).abs()
 }
 
 /// One side of the teeth at one phase, as a map asks for it.
@@ -177,16 +205,19 @@ impl PhaseContact for SidePhase<'_> {
         let force = self.side.evaluate(self.pair, self.cycles, &at, true)?;
         let turn = 2 * COORDINATES - 1;
         let per_turn = self.projection.approach[turn];
-        let slices = self.side.pressed().map(|(position, force, length, pair)| LoadedSlice {
+        let rubs = self.side.friction_coefficient() != 0.0;
+        let slices = self.side.pressed().map(|(position, force, friction, length, pair)| LoadedSlice {
             force,
             length,
             lever: self.projection.lever(&position),
             pair,
+            friction: if rubs { self.projection.rubbing(&position, &friction) } else { [0.0; 3] },
         });
-        Ok(ContactSample {
-            force: -force.normal[turn] / per_turn,
-            stiffness: force.stiffness[(turn, turn)] / (per_turn * per_turn),
-            slices: slices.collect(),
-        })
+        let stiffness = if rubs {
+            self.projection.normal_stiffness(&force.stiffness.column(turn).into_owned())
+        } else {
+            force.stiffness[(turn, turn)] / (per_turn * per_turn)
+        };
+        Ok(ContactSample { force: -force.normal[turn] / per_turn, stiffness, slices: slices.collect() })
     }
 }

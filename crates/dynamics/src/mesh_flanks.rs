@@ -128,6 +128,16 @@ impl MeshFlanks {
         std::iter::once(&mut self.driving).chain(self.coast.as_mut())
     }
 
+    /// Coefficient of friction.
+    pub fn friction_coefficient(&self) -> f64 {
+        self.driving.friction_coefficient()
+    }
+
+    /// Turns of pinion and wheel in a mesh cycle, rad about +z.
+    pub fn turns_per_cycle(&self, pair: &GearPair) -> [f64; 2] {
+        self.driving.turns_per_cycle(pair)
+    }
+
     /// Whether the coast flanks may touch.
     pub fn has_coast_flanks(&self) -> bool {
         self.coast.is_some()

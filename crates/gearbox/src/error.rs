@@ -478,7 +478,7 @@ impl GearboxError {
             Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
             Self::Unmapped { .. } => "take the mesh as \"exact\"",
             Self::BeyondBacklash { .. } => {
-                "take the mesh as \"spring\", which has flanks on both sides, or let it run with more load or damping"
+                "give `flanks = \"both\"` in [contact] of the pair, take the mesh as \"spring\", or let it run with more load or damping"
             }
             Self::LostLoad { .. } => "give a larger torque: teeth that bear next to nothing are not known well enough",
             Self::GivenSpeed => "let a torque drive the input, or leave the torque over time out",

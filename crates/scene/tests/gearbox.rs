@@ -108,7 +108,7 @@ fn a_motion_settles_where_it_can() {
     assert!(error.to_string().contains("rows of 3 steps do not meet the ends of cycles of 40"), "{error}");
 }
 
-/// Friction is in the contact itself: at rest, and in a motion that has it.
+/// Friction is in the contact itself, at rest and in motion, and in its maps.
 #[test]
 fn friction_is_for_the_contact_itself() {
     let rough = text().replacen("set = [\"contact.slices=16\"]", "set = [\"contact.friction=0.05\"]", 1);
@@ -117,12 +117,11 @@ fn friction_is_for_the_contact_itself() {
     let (before, after) = rough.split_once("[vibration]").unwrap();
     let rough = format!("{before}[motion]{}", after.split_once("[motion]").unwrap().1);
     let error = read(&rough).unwrap_err();
-    assert!(
-        error.to_string().contains("\"first\" has friction, and a motion has it with `mesh = \"exact\"`"),
-        "{error}"
-    );
-    let exact = read(&rough.replacen("mesh = \"spring\"", "mesh = \"exact\"", 1)).unwrap();
-    assert_eq!(exact.meshes[0].scene.contact.friction, 0.05);
+    assert!(error.to_string().contains("\"first\" has friction, and springs have none"), "{error}");
+    for mesh in ["exact", "mapped"] {
+        let found = read(&rough.replacen("mesh = \"spring\"", &format!("mesh = \"{mesh}\""), 1)).unwrap();
+        assert_eq!(found.meshes[0].scene.contact.friction, 0.05);
+    }
 }
 
 /// A mistake is told with its line, what is allowed, and what to do.

@@ -9,9 +9,15 @@ use crate::{
 /// A shipped gearbox after its run: its file, the folder with the result `o`, what the summary says of the motion, and the
 /// energy that it leaves over.
 fn moved(name: &str) -> (String, Scratch, serde_json::Value, f64) {
+    moved_with(name, &[])
+}
+
+/// The same with keys that are set beside the file.
+fn moved_with(name: &str, keys: &[&str]) -> (String, Scratch, serde_json::Value, f64) {
     let file = repository().join("scenes/gearbox").join(name).display().to_string();
     let scratch = Scratch::new();
-    let run = scratch.ale_gear(["run", &file, "--out", "o", "--no-cache"]);
+    let words: Vec<&str> = keys.iter().flat_map(|key| ["--set", key]).collect();
+    let run = scratch.command(&[&["run", &file, "--out", "o", "--no-cache"], &words[..]].concat());
     assert_eq!(run.code, Some(0), "{}", run.stderr);
     let told: serde_json::Value = serde_json::from_str(&scratch.read("o/summary.json")).unwrap();
     let left = told["motion"]["energy"]["relative_residual"].as_f64().unwrap();
@@ -49,6 +55,33 @@ fn an_engine_lets_the_teeth_rattle() {
         let run = scratch.command(&[&["run", &file, "--out", "w"], &words[..]].concat());
         assert!(run.code == Some(2) && run.stderr.contains(said), "{keys:?}: {}", run.stderr);
     }
+}
+
+/// On maps, and with friction on all flanks, torque goes back as in the contact itself: flanks part on both sides, strike as
+/// hard, lose as much, and the energy is accounted for.
+#[test]
+fn torque_reverses_on_maps_as_in_the_contact() {
+    let rough = ["mesh.0.scene.contact.friction=0.05", "mesh.1.scene.contact.friction=0.05"];
+    let [exact, mapped] = ["exact", "mapped"].map(|mesh| {
+        let mesh = format!("motion.mesh={mesh}");
+        moved_with("reversal.toml", &[&[mesh.as_str()], &rough[..]].concat())
+    });
+    assert!(mapped.3.abs() < 1e-9, "{}", mapped.3);
+    for mesh in 0..2 {
+        let of = |told: &serde_json::Value, key: &str| told["meshes"][mesh][key].as_f64().unwrap();
+        for key in ["separations", "coast_separations"] {
+            assert!(of(&mapped.2, key) > 0.0, "mesh {mesh}: {key}");
+        }
+        assert!(of(&mapped.2, "map_use") < 1.0, "mesh {mesh} uses {} of its map", of(&mapped.2, "map_use"));
+        for (key, allowed) in [("max_normal_force_n", 2e-2), ("peak_to_peak_dte_um", 5e-3)] {
+            let [a, b] = [&exact.2, &mapped.2].map(|told| of(told, key));
+            println!("mesh {mesh}, {key}: {a}, on maps {b}");
+            assert!((b / a - 1.0).abs() < allowed, "mesh {mesh}, {key}: {a}, on maps {b}");
+        }
+    }
+    let [a, b] = [&exact.2, &mapped.2].map(|told| told["energy"]["dissipated_mj"].as_f64().unwrap());
+    println!("lost {a} mJ, on maps {b} mJ");
+    assert!((b / a - 1.0).abs() < 1e-2, "lost {a} mJ, on maps {b} mJ");
 }
 
 /// A load that becomes a drive sends torque back through the backlash of both stages: all flanks part, the coast flanks

@@ -30,6 +30,8 @@ pub(super) struct AtRest<'a> {
     pub train: &'a Train,
     pub reduced: &'a [ReducedMesh],
     pub positions: &'a [GearboxPosition],
+    /// Positions with the load on the coast flanks, where maps of these are made; else none.
+    pub on_coast: &'a [GearboxPosition],
     /// Elastic modes of the gears that move with the meshes.
     pub modes: &'a GearModesOfDiscs,
     /// Keeps maps of the contact between runs.
@@ -72,7 +74,7 @@ impl AtRest<'_> {
 
     /// Displacements of a mesh at all positions.
     pub fn stands(&self, mesh: usize) -> Vec<Vector12> {
-        self.positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
+        stands(self.positions, mesh)
     }
 
     pub fn spring(&self, mesh: usize) -> Result<ContactSpring, GearboxError> {
@@ -173,6 +175,7 @@ impl AtRest<'_> {
                 let lever = driven.base_radius().abs() * own.pair.base_helix_angle().cos();
                 let request = MapRequest {
                     stands: self.stands(mesh),
+                    coast_stands: stands(self.on_coast, mesh),
                     tilts: !self.file.meshes[mesh].gears.into_iter().all(held),
                     mean_force: self.torque(mesh) / lever,
                     overload: asked.map_overload,
@@ -190,4 +193,9 @@ impl AtRest<'_> {
         let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
         a.iter().zip(&b).map(|(a, b)| (b - a).abs() * speed).fold(0.0, f64::max)
     }
+}
+
+/// Displacements of a mesh at positions.
+fn stands(positions: &[GearboxPosition], mesh: usize) -> Vec<Vector12> {
+    positions.iter().map(|p| Vector12::from(p.meshes[mesh].displacements)).collect()
 }

@@ -144,6 +144,23 @@ impl ReducedMesh {
         Some(said.about(&mesh.name))
     }
 
+    /// Whether its gears are reduced for both flanks, and these may touch.
+    pub fn has_coast_flanks(&self) -> bool {
+        self.options.contact.both_flanks
+    }
+
+    /// Its contact with the gears turning and loaded the other way round: on the coast flanks.
+    pub fn turned_round(
+        &self,
+        mesh: &GearMesh,
+        (meshing, wheel_turn): (&Meshing, f64),
+    ) -> Result<Box<dyn MeshElement>, GearboxError> {
+        let options = self.options.clone().with_contact(|contact| {
+            (contact.driver, contact.sense, contact.wheel_turn) = (meshing.driver, meshing.sense, wheel_turn);
+        });
+        Ok(Box::new(ExactMesh::new(mesh.pair.clone(), self.gears(), options)?))
+    }
+
     /// Its contact.
     pub fn element(&self, mesh: &GearMesh) -> Result<Box<dyn MeshElement>, GearboxError> {
         Ok(Box::new(self.exact(mesh)?))
@@ -172,7 +189,7 @@ impl ReducedMesh {
     /// the gears are reduced for both.
     pub fn moving(&self, mesh: &GearMesh, damping_per_length: f64) -> Result<MovingExactMesh, GearboxError> {
         let gears = &self.pair.gears;
-        let coast = self.options.contact.both_flanks.then(|| Arc::clone(gears));
+        let coast = self.has_coast_flanks().then(|| Arc::clone(gears));
         MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
     }
 
@@ -213,8 +230,9 @@ impl ReducedMesh {
         (cache, progress, remarks): (&dyn GearCache, &dyn Progress, &mut Vec<Remark>),
     ) -> Result<MappedMesh, GearboxError> {
         let turn = self.options.contact.wheel_turn;
+        let coast = self.has_coast_flanks().then(|| self.gears());
         let options = self.options.clone().with_contact(|contact| contact.both_flanks = false);
-        let flanks = MeshFlanks::new(&mesh.pair, self.gears(), None, &options, 0.0)?;
+        let flanks = MeshFlanks::new(&mesh.pair, self.gears(), coast, &options, 0.0)?;
         let key =
             cache.is_on().then(|| self.pair.map_key(&map_words(&self.scene, &mesh.pair, &(request, turn)))).flatten();
         let known = key.as_ref().and_then(|key| {

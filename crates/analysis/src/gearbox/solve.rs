@@ -1,7 +1,10 @@
 //! A gearbox solved once, with the settings of its document: equilibrium, then vibration and motion where they are asked.
 
 use gearbox::{GearboxError, Train};
-use scene::{DataFile, Scene, gearbox::Gearbox};
+use scene::{
+    DataFile, Scene,
+    gearbox::{Gearbox, MeshModel},
+};
 
 use super::{
     GearboxResult, GearboxSink,
@@ -10,7 +13,7 @@ use super::{
     meshes::{self, ReducedMesh, widening},
     motion::{self, Span},
     parts, rating, result,
-    solved_positions::{at_all_angles, count},
+    solved_positions::{at_all_angles, count, on_coast_flanks},
     spectrum::SolvedSpectrum,
     vibration::{self, Parts},
 };
@@ -123,6 +126,17 @@ pub(super) fn solve(
         }
     };
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
+    let asked = file.motion.as_ref().or(file.branch.as_ref().map(|own| &own.motion));
+    let maps = asked.is_some_and(|own| own.mesh == MeshModel::Mapped);
+    let on_coast = if maps && reduced.iter().all(ReducedMesh::has_coast_flanks) {
+        widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
+            run_phase(observer, "stand on coast flanks", PhaseWork::Unknown, |progress| {
+                on_coast_flanks(&parts, reduced, progress)
+            })
+        })?
+    } else {
+        Vec::new()
+    };
     let rest = AtRest {
         file,
         structure: &structure,
@@ -132,6 +146,7 @@ pub(super) fn solve(
         train: &train,
         reduced: &reduced,
         positions: &positions,
+        on_coast: &on_coast,
         modes: &modes,
         cache: models.cache(),
     };

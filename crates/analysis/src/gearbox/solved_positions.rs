@@ -2,10 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use gearbox::{GearboxError, GearboxPosition, MeshSample, StaticGearbox, Train};
+use gearbox::{GearboxError, GearboxPosition, MeshSample, Operation, StaticGearbox, Torque, Train};
 use scene::gearbox::Gearbox;
 
-use super::{meshes::ReducedMesh, vibration::Parts};
+use super::{
+    meshes::{ReducedMesh, wheel_turns},
+    vibration::Parts,
+};
 use crate::{AnalysisError, Progress, unless_cancelled};
 
 /// Positions of a gearbox under the torques of its operation, and what a vibration reads of its meshes.
@@ -35,6 +38,33 @@ pub(super) fn at_all_angles(
         unless_cancelled(progress)?;
     }
     Ok((positions, samples))
+}
+
+/// Positions of a gearbox that turns the other way round under torques the other way round: its coast flanks press. Of
+/// meshes whose gears are reduced for both flanks.
+///
+/// # Errors
+/// As of [`at_all_angles`].
+pub(super) fn on_coast_flanks(
+    parts: &Parts<'_>,
+    reduced: &[ReducedMesh],
+    progress: &dyn Progress,
+) -> Result<Vec<GearboxPosition>, AnalysisError> {
+    let Parts { file, structure, meshes, operation, .. } = *parts;
+    let failed = |source: GearboxError| AnalysisError::from(source).in_file(&file.file);
+    let torques = operation.torques.iter().map(|own| Torque { torque: -own.torque, ..*own }).collect();
+    let operation = Operation { sense: operation.sense.opposite(), torques, ..operation.clone() };
+    let train = Train::new(structure, meshes, &operation.keys, operation.input, operation.sense).map_err(failed)?;
+    let turns = wheel_turns(file, &train);
+    let made = StaticGearbox::new(structure.clone(), meshes.to_vec(), operation, |i, mesh, meshing| {
+        reduced[i].turned_round(mesh, (meshing, turns[i]))
+    });
+    let mut gearbox = made.map_err(failed)?;
+    let one = |angle: f64| {
+        unless_cancelled(progress)?;
+        gearbox.solve(angle).map_err(failed)
+    };
+    angles(file, &train).map(one).collect()
 }
 
 /// Positions at which a gearbox is solved.

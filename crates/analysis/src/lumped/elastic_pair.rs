@@ -12,7 +12,7 @@ use scene::{Model, MotionScene, Scene};
 use super::{
     LumpedHeadline,
     elastic_frame::ElasticFrame,
-    flank_pair::{FlankPair, WORST_MAP},
+    flank_pair::{FlankPair, worst_map},
     mechanism::BoxedMechanism,
     row::{GearCoordinate, axis_number, gear_coordinates},
 };
@@ -65,8 +65,9 @@ impl ElasticPair {
         let began = Instant::now();
         let (pair, contacts) = match scene.analysis.model {
             Model::Mapped => {
-                let request = system.map_request(OVERLOAD, [MAP_TOLERANCE, WORST_MAP]).map_err(in_scene(scene))?;
-                let asked = (OVERLOAD, MAP_TOLERANCE, WORST_MAP, lag);
+                let worst = worst_map(scene.contact.friction);
+                let request = system.map_request(OVERLOAD, [MAP_TOLERANCE, worst]).map_err(in_scene(scene))?;
+                let asked = (OVERLOAD, MAP_TOLERANCE, worst, lag);
                 let key = cache.is_on().then(|| MapKey::new(&keys, &map_words(scene, &inputs.pair, &asked)));
                 let flanks = solved_flanks(scene, &system)?;
                 let made = run_phase(observer, "contact map", PhaseWork::Unknown, |progress| {

@@ -14,6 +14,7 @@ fn plan(tolerance: f64) -> MapPlan {
         largest_force: 4.0 * MEAN_FORCE,
         tilt: None,
         width: 20.0,
+        half_path: None,
         tolerance,
         worst: tolerance,
     }
@@ -52,7 +53,15 @@ fn the_certificate_tells_the_error() {
 #[test]
 fn forces_are_derivatives_of_the_energy() {
     let map = tilted();
-    for (phase, force, tilt) in [(0.11, 0.4, 2e-5), (0.52, 1.0, -6e-5), (0.77, 2.3, 9e-5), (0.3, 5.0, 0.0)] {
+    for (phase, force, tilt) in [
+        (0.11, 0.4, 2e-5),
+        (0.52, 1.0, -6e-5),
+        (0.77, 2.3, 9e-5),
+        (0.3, 5.0, 0.0),
+        (0.3, 1.0, 1.7e-4),
+        (0.6, 2.0, 9e-4),
+        (0.9, 0.5, -1.2e-3),
+    ] {
         let x = map.approach(phase, tilt, force * MEAN_FORCE);
         let at = |dp: f64, dx: f64, dt: f64| map.at(phase + dp, x + dx, tilt + dt, ALL);
         let here = at(0.0, 0.0, 0.0);
@@ -61,7 +70,7 @@ fn forces_are_derivatives_of_the_energy() {
         let near = |a: f64, b: f64, scale: f64, what: &str| {
             assert!((a - b).abs() < 1e-6 * scale, "{place}: {what} is {a:e}, by differences {b:e}");
         };
-        let (hx, ht, hp) = (1e-6, 1e-7, 1e-5);
+        let (hx, ht, hp) = (1e-6, 1e-8, 1e-5);
         let energy = here.energy;
         near(here.force, slope(&|h| at(0.0, h, 0.0).energy, hx), here.force, "force");
         near(here.moment, -slope(&|h| at(0.0, 0.0, h).energy, ht), 20.0 * here.force, "moment");
@@ -71,6 +80,25 @@ fn forces_are_derivatives_of_the_energy() {
         near(xt, slope(&|h| at(0.0, 0.0, h).force, ht), 20.0 * xx, "force over tilt");
         near(tt, -slope(&|h| at(0.0, 0.0, h).moment, ht), 400.0 * xx, "moment over tilt");
         assert_eq!(xt, tx, "{place}: the stiffness is not symmetric");
+    }
+}
+
+/// Far beyond its tilts a map goes on: a force that grows with the approach, with a moment at the end of the line.
+#[test]
+fn a_map_goes_on_beyond_its_tilts() {
+    let map = tilted();
+    for i in 0..100 {
+        let (phase, tilt) = (0.13 * f64::from(i), [-1e-4, 1.5e-4][i as usize % 2] * (1.0 + 0.2 * f64::from(i)));
+        let touch = map.first_touch(&map.place(phase, tilt));
+        let mut last = 0.0;
+        for step in 1..40 {
+            let here = map.at(phase, touch + 5e-4 * f64::from(step), tilt, ALL);
+            assert!(here.force > last && here.energy > 0.0, "tilt {tilt:e}: {} N after {last} N", here.force);
+            // The end of the line that tilts nearer presses.
+            let lever = -here.moment / here.force * tilt.signum();
+            assert!(lever > 0.0 && lever < 15.0, "tilt {tilt:e}: {lever} mm");
+            last = here.force;
+        }
     }
 }
 

@@ -27,7 +27,7 @@ impl Pairs<'_> {
             (0..SLICES).map(move |i| {
                 let lever = WIDTH * ((i as f64 + 0.5) / SLICES as f64 - 0.5);
                 let force = k / SLICES as f64 * (approach + e + lever * tilt);
-                LoadedSlice { force, length: WIDTH / SLICES as f64, lever, pair }
+                LoadedSlice { force, length: WIDTH / SLICES as f64, lever, pair, friction: [0.0; 3] }
             })
         };
         (cycle - 1..=cycle + 1).flat_map(of).filter(|slice| slice.force > 0.0).collect()
@@ -60,6 +60,7 @@ fn pairs_that_do_not_feel_each_other_are_exact() {
         largest_force: 4.0 * MEAN_FORCE,
         tilt: None,
         width: WIDTH,
+        half_path: None,
         tolerance: 1e-4,
         worst: 1e-4,
     };
@@ -100,7 +101,8 @@ fn a_common_offset_is_an_approach() {
     let none = PairOffsets::default();
     let (tolerance, worst) = (1e-3, 1e-2);
     let tilt = Some([-1e-4, 1e-4]);
-    let plan = MapPlan { mean_force: MEAN_FORCE, largest_force: 9e3, tilt, width: WIDTH, tolerance, worst };
+    let plan =
+        MapPlan { mean_force: MEAN_FORCE, largest_force: 9e3, tilt, width: WIDTH, half_path: None, tolerance, worst };
     let at = |phase: f64| Ok::<_, Infallible>(Pairs { cycles: phase, offsets: &none });
     let map = std::sync::Arc::new(ContactMap::build(&plan, &|_| {}, at).unwrap_or_else(|e| panic!("{e}")));
     let alike = OffsetMap::new(map.clone(), none.clone());

@@ -42,7 +42,7 @@ impl Row {
         let length = WIDTH / SLICES as f64;
         let all = self.slices().map(|(z, gap)| {
             let force = self.stiffness * length * (approach + z * tilt - gap);
-            LoadedSlice { force, length, lever: z, pair: 0 }
+            LoadedSlice { force, length, lever: z, pair: 0, friction: [0.0; 3] }
         });
         all.filter(|s| s.force > 0.0).collect()
     }

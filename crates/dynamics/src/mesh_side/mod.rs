@@ -115,6 +115,12 @@ impl MeshSide {
         self.options.contact.friction
     }
 
+    /// Turns of pinion and wheel in a mesh cycle, rad about +z.
+    pub fn turns_per_cycle(&self, pair: &GearPair) -> [f64; 2] {
+        let sense = self.options.contact.sense.sign() as f64;
+        [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()]
+    }
+
     /// A copy of the side at a phase, in mesh cycles; gears and tables are shared.
     pub fn copy_at(&self, pair: &GearPair, cycles: f64) -> Result<Self, StaticError> {
         let mut copy = self.copy_at_start(pair)?;
@@ -141,15 +147,15 @@ impl MeshSide {
         self.contact.overlap(poses)
     }
 
-    /// Place (mm), normal force (N), length (mm) and number of the pair of teeth, in the order in which pairs come, of the
-    /// slices that carried load in the last evaluation.
-    pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, f64, i64)> {
+    /// Place (mm), normal force (N), friction on the pinion (N), length (mm) and number of the pair of teeth, in the order in
+    /// which pairs come, of the slices that carried load in the last evaluation.
+    pub fn pressed(&self) -> impl Iterator<Item = (Vector3<f64>, f64, Vector3<f64>, f64, i64)> {
         let (set, window) = (self.contact.contact_set(), self.window.window());
         let sign = self.options.contact.sense.sign();
         let rows = self.contact.rows().iter().zip(self.contact.slices()).zip(self.contact.solver().forces());
         rows.filter(|(_, f)| **f > 0.0).map(move |((row, slice), &f)| {
             let pair = -sign * (window.first() + set.pair_of(row.patches.0) as i64);
-            (row.position, f, slice.length, pair)
+            (row.position, f, f * (row.traction - row.normal), slice.length, pair)
         })
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use contact_map::{
-    ContactMap, MapContact, MapDamping, MapWatch, OffsetError, OffsetMap, PairOffsets, SplineCache, Wanted,
+    ContactMap, MapContact, MapDamping, MapFriction, MapWatch, OffsetError, OffsetMap, PairOffsets, SplineCache, Wanted,
 };
 use dynamics::{FlankInstant, MapRequest, MeshFlanks};
 use geometry::GearPair;
@@ -24,6 +24,8 @@ pub struct MappedMesh {
     damping_per_length: f64,
     /// Gap of the driving flanks (mm along the normal) beyond which others would touch that are not there.
     room: Option<f64>,
+    /// Angles of gear 1 and gear 2 a mesh cycle, rad about +z.
+    per_cycle: [f64; 2],
     cycles: f64,
 }
 
@@ -33,10 +35,13 @@ struct MappedSide {
     map: OffsetMap,
     /// What displacements bring the flanks nearer by, and tilt them by where the map has tilts.
     levers: Vec<Vector12>,
+    /// What the parts of friction do to both gears; none of flanks without friction.
+    rubs: Vec<Vector12>,
     kept: SplineCache,
     /// Approach (mm) and tilt (rad), 0 without one.
     at: [f64; 2],
     contact: MapContact,
+    friction: MapFriction,
 }
 
 impl MappedSide {
@@ -66,6 +71,22 @@ impl MappedSide {
     fn find(&mut self, phase_rate: bool) {
         let wanted = Wanted { energy: false, phase_rate };
         self.contact = self.map.contact(self.kept.last(), self.at[0], wanted);
+    }
+
+    /// Friction where the contact was found, as forces on both gears.
+    fn friction(&self) -> Vector12 {
+        self.rubs.iter().zip(self.friction.force).map(|(lever, force)| force * lever).sum()
+    }
+
+    /// How friction follows the displacements.
+    fn friction_slope(&self) -> SMatrix<f64, 12, 12> {
+        let mut all = SMatrix::zeros();
+        for (rubs, slopes) in self.rubs.iter().zip(self.friction.slopes) {
+            for (lever, slope) in self.levers.iter().zip(slopes) {
+                all += slope * rubs * lever.transpose();
+            }
+        }
+        all
     }
 
     #[inline]
@@ -100,7 +121,7 @@ impl MappedMesh {
     /// Maps the contact of flanks about where their gears stand; `watch` hears how far a map is.
     ///
     /// # Errors
-    /// [`GearboxError::Unmapped`] for teeth that are not alike and for friction, [`GearboxError::Map`] where no map is
+    /// [`GearboxError::Unmapped`] for teeth that are not alike, [`GearboxError::Map`] where no map is
     /// good enough.
     pub fn new(
         flanks: &MeshFlanks,
@@ -124,19 +145,28 @@ impl MappedMesh {
     ) -> Result<Self, GearboxError> {
         flanks.check_mapped(pair, request)?;
         let of_sides: Vec<_> = flanks.mapped_sides(pair).collect();
-        if of_sides.len() != maps.len() || maps.iter().any(|map| map.tilts().is_some() != request.tilts) {
+        let rubs = flanks.friction_coefficient() != 0.0;
+        let other = |map: &ContactMap| map.tilts().is_some() != request.tilts || map.has_friction() != rubs;
+        if of_sides.len() != maps.len() || maps.iter().any(other) {
             return Err(GearboxError::Unmapped { what: "a mesh that these maps were not made for" });
         }
         let one = |((projection, offsets), map): ((contact::FlankProjection, PairOffsets), ContactMap)| MappedSide {
             map: OffsetMap::new(Arc::new(map), offsets),
             levers: std::iter::once(projection.approach).chain(request.tilts.then_some(projection.tilt)).collect(),
+            rubs: projection
+                .friction
+                .into_iter()
+                .chain(request.tilts.then_some(projection.tilt))
+                .filter(|_| rubs)
+                .collect(),
             kept: SplineCache::default(),
             at: [0.0; 2],
             contact: MapContact::default(),
+            friction: MapFriction::default(),
         };
         let sides: Vec<_> = of_sides.into_iter().zip(maps).map(one).collect();
         let room = (sides.len() == 1).then(|| pair.backlash() * pair.base_helix_angle().cos());
-        Ok(Self { sides, damping_per_length: 0.0, room, cycles: 0.0 })
+        Ok(Self { sides, damping_per_length: 0.0, room, per_cycle: flanks.turns_per_cycle(pair), cycles: 0.0 })
     }
 
     /// Mesh with dampers on the contact lines, N s/mm a mm, each limited to the force there.
@@ -190,6 +220,11 @@ impl MeshElement for MappedMesh {
                     all.tangent -= *stiffness * a * b.transpose();
                 }
             }
+            if side.map.map().has_friction() {
+                side.friction = side.map.friction(side.kept.last(), side.at[0], &side.contact);
+                all.force += side.friction();
+                all.tangent += side.friction_slope();
+            }
         }
         Ok(all)
     }
@@ -215,8 +250,12 @@ impl MovingMesh for MappedMesh {
         self.sides.iter().map(|side| side.contact.phase_rate).sum()
     }
 
-    fn losses(&mut self, rates: &Vector12, _cycles: f64) -> MeshLosses {
+    fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
         let mut all = MeshLosses::default();
+        all.friction = self.sides.iter().map(MappedSide::friction).sum();
+        all.along_cycles = all.friction[5] * self.per_cycle[0] + all.friction[11] * self.per_cycle[1];
+        // Of the whole sliding, that of the nominal turn and that of the deviations.
+        all.dissipated = 0.0 - (all.friction.dot(rates) + all.along_cycles * cycles);
         for side in &self.sides {
             let own = side.along(rates);
             let found = side.damping(own, self.damping_per_length);
@@ -246,11 +285,14 @@ impl MovingMesh for MappedMesh {
     }
 
     fn levers(&self) -> Option<Vec<Vector12>> {
-        Some(self.sides.iter().flat_map(|side| side.levers.iter().copied()).collect())
+        // Friction acts along levers of its own, those along the tilt are there.
+        let of = |side: &MappedSide| side.levers.iter().chain(side.rubs.iter().take(3)).copied().collect::<Vec<_>>();
+        Some(self.sides.iter().flat_map(of).collect())
     }
 
     fn by_levers(&mut self) -> Option<&mut dyn LeverMesh> {
-        Some(self)
+        let rubs = self.sides.iter().any(|side| side.map.map().has_friction());
+        (!rubs).then_some(self as &mut dyn LeverMesh)
     }
 
     fn reach(&self) -> f64 {

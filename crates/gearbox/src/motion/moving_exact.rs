@@ -70,8 +70,7 @@ impl MovingExactMesh {
         // Each side is a contact of its own.
         let options = options.clone().with_contact(|c| c.both_flanks = false);
         let flanks = MeshFlanks::new(&pair, driving, coast, &options, 0.0)?;
-        let sense = options.contact.sense.sign() as f64;
-        let per_cycle = [sense * pair.pinion.pitch_angle(), -sense * pair.wheel.pitch_angle()];
+        let per_cycle = flanks.turns_per_cycle(&pair);
         let room = (!flanks.has_coast_flanks()).then(|| pair.backlash() * pair.base_helix_angle().cos());
         let (modes, amplitudes) = (None, DVector::zeros(0));
         let roots = options.root_stress.then(|| Arc::new(flanks.root_fillets(&pair)));

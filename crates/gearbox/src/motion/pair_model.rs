@@ -303,6 +303,6 @@ impl PairModel {
         // Force along the normal of a force on the base circle.
         let on_base_circle = mean.abs() / self.driven().base_radius().abs();
         let mean_force = on_base_circle / self.pair.base_helix_angle().cos();
-        Ok(MapRequest { stands, tilts, mean_force, overload, tolerance, worst })
+        Ok(MapRequest { stands, coast_stands: Vec::new(), tilts, mean_force, overload, tolerance, worst })
     }
 }

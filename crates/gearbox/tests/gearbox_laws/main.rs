@@ -8,6 +8,7 @@ mod fed_ladder;
 mod fields;
 mod forced;
 mod internal_motion;
+mod mapped_friction;
 mod mapped_pair;
 mod modes_in_motion;
 mod motion;

@@ -238,9 +238,6 @@ fn energy_stays_on_a_map() {
 #[test]
 fn what_no_map_holds_is_refused() {
     let bench = bench();
-    let rubbing = bench.system(1000.0, |o| o.statics.contact.friction = 0.05);
-    let error = map_of(&rubbing, 1e-3).expect_err("friction is in no map");
-    assert!(error.to_string().contains("friction"), "{error}");
     let idle = bench.system(1000.0, |o| o.load = Torque::Constant(0.0));
     let error = idle.map_request(4.0, [1e-3; 2]).expect_err("no load says what forces occur");
     assert!(error.to_string().contains("load"), "{error}");

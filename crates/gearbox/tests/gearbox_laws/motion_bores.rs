@@ -71,6 +71,7 @@ impl Bored {
         let mut rest = self.at_rest();
         let positions: Vec<_> = (0..8).map(|i| rest.solve(TAU / 23.0 * f64::from(i) / 8.0).unwrap()).collect();
         let request = MapRequest {
+            coast_stands: Vec::new(),
             tilts: true,
             stands: positions.iter().map(|p| Vector12::from(p.meshes[0].displacements)).collect(),
             mean_force: positions.iter().map(|p| p.meshes[0].normal_force).sum::<f64>() / 8.0,

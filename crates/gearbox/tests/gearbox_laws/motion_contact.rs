@@ -70,6 +70,7 @@ impl Box1 {
 
     fn request(&self) -> MapRequest {
         MapRequest {
+            coast_stands: Vec::new(),
             tilts: true,
             stands: self.stands.clone(),
             mean_force: self.mean_force,

@@ -31,7 +31,7 @@ fn with_backlash(gears: &GearPair) -> GearPair {
 }
 
 /// Options of a mesh as it runs with friction, and its gears, reduced for both sides.
-fn both_flanks(pair: &GearPair, meshing: &Meshing, friction: f64) -> (StaticOptions, Arc<[ElasticGear; 2]>) {
+pub fn both_flanks(pair: &GearPair, meshing: &Meshing, friction: f64) -> (StaticOptions, Arc<[ElasticGear; 2]>) {
     let options = options(pair, meshing, 1e5).with_contact(|c| c.friction = friction);
     let gears = reduced(pair, &options.clone().with_contact(|c| c.both_flanks = true));
     (options, gears)
@@ -118,7 +118,7 @@ fn plan(scheme: Scheme) -> MotionPlan {
 }
 
 /// Two stages on shafts that bend, gears with mass, a heavy machine at the output, flanks on both sides.
-fn two_stage_box() -> (Structure, Vec<GearMesh>, Operation) {
+pub fn two_stage_box() -> (Structure, Vec<GearMesh>, Operation) {
     let (mut structure, mut meshes) = two_stages();
     for (mesh, outer) in meshes.iter_mut().zip([[50.0, 155.0], [55.0, 140.0]]) {
         mesh.pair = with_backlash(&mesh.pair);

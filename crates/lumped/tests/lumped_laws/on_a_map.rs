@@ -31,7 +31,11 @@ impl PhaseContact for Teeth {
     fn sample(&mut self, approach: f64, _: f64) -> Result<ContactSample, Infallible> {
         let force = self.stiffness * (approach - self.gap).max(0.0);
         let stiffness = if force > 0.0 { self.stiffness } else { 0.0 };
-        Ok(ContactSample { force, stiffness, slices: vec![LoadedSlice { force, length: 10.0, lever: 0.0, pair: 0 }] })
+        Ok(ContactSample {
+            force,
+            stiffness,
+            slices: vec![LoadedSlice { force, length: 10.0, lever: 0.0, pair: 0, friction: [0.0; 3] }],
+        })
     }
 }
 
@@ -50,6 +54,7 @@ impl OnMap {
             largest_force: 400.0 * force,
             tilt: None,
             width: 10.0,
+            half_path: None,
             tolerance: 1e-7,
             worst: 1e-7,
         };

@@ -129,7 +129,7 @@ fn gear(s: &Source<'_>, table: &Spanned<RawGear>, shafts: &[(String, f64)]) -> C
     Ok(GearboxGear { name, shaft, position, seat, key, inertia })
 }
 
-/// That no mesh has friction where what is asked for has none: the contact itself has, at rest and in motion.
+/// That no mesh has friction where what is asked for has none: the contact itself has, at rest and in motion, and its maps.
 fn without_friction(
     s: &Source<'_>,
     (tables, meshes): (&[Spanned<RawMesh>], &[GearboxMesh]),
@@ -138,7 +138,7 @@ fn without_friction(
 ) -> Checked<()> {
     let what = match motion {
         _ if vibrates => "[vibration] has none",
-        Some(motion) if motion.mesh != MeshModel::Exact => "a motion has it with `mesh = \"exact\"` alone",
+        Some(motion) if motion.mesh == MeshModel::Spring => "springs have none",
         _ => return Ok(()),
     };
     let rough = |(_, mesh): &(&Spanned<RawMesh>, &GearboxMesh)| mesh.scene.contact.friction != 0.0;

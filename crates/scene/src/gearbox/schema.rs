@@ -326,7 +326,7 @@ table! {
         to_speed_rpm: bare(1e-3, 1e7), "speed of the input at the end of all cycles, 1/min, to which it goes by the smooth step 3 x^2 - 2 x^3 (drive speed and balanced); default: speed_rpm. Steps are then turns of the input that are alike. Of a continuation the speed where the branch ends, above or below";
         drive: word(GearboxDrive), "what drives. speed: the input keeps its speed, as of a machine of any inertia; balanced: the common turn of the whole train keeps it, every part is free to vibrate against the others, and the torque of the input is in balance with loads and losses at every instant; torque: a torque acts on the input from that speed on";
         input_torque_nm: bare(0.0, 1e12), "torque on the input, N m (drive torque); default: what balances the loads by the numbers of teeth";
-        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth and friction and, with `flanks = \"both\"` in the scene of the pair, has flanks on both sides. Else mapped and exact have the driving flanks alone: a motion that goes through the backlash is refused";
+        mesh: word(MeshModel), "what stands for the meshes. mapped: maps of the exact contact over phase, approach and tilt, some ten seconds each; spring: springs over the phase for approach and tilt, by the exact contact about the mean displacement at rest, with flanks on both sides (`map_use` above 1: the tilt has changed the stiffness by more than half, and the rows hold no more); exact: the exact contact at every step, as a pair in motion has it, the one that takes flanks by tooth. mapped and exact have friction and, with `flanks = \"both\"` in the scene of the pair, flanks on both sides; else the driving flanks alone: a motion that goes through the backlash is refused";
         cycles: whole(1, 1_000_000, 50), "cycles of the fastest mesh";
         steps_per_cycle: whole(8, 10_000, 64), "steps a cycle of the fastest mesh";
         steps_per_row: whole(1, 1_000_000, 1), "steps a row; up to 500000 rows";
@@ -341,8 +341,8 @@ table! {
         mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
         modal_damping_ratio: number(0.0, 1.0, 0.02), "damping ratio of every elastic mode about the equilibrium, beside that of bearings and meshes";
         highest_frequency_hz: bare(1.0, 1e7), "highest frequency that shafts must show, Hz; default: four times that of the fastest mesh. Modes with seats held are kept up to twice that, and more until natural frequencies up to it are off by half a per cent at the most";
-        map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at, over the mean approach";
-        map_overload: number(1.0, 1000.0, 4.0), "largest force of maps over the mean at rest";
+        map_tolerance: number(1e-6, 0.5, 2e-3), "error of maps that is aimed at: of the approach over the mean approach, and of friction over the force";
+        map_overload: number(1.0, 1000.0, 4.0), "largest force of maps over the mean at rest. Flanks on both sides have tilts of the gears up to there, of four times the mean at most";
         checkpoint_every_cycles: whole(0, 1_000_000, 0), "a checkpoint every so many cycles of the fastest mesh; 0: none";
         continuation: table(CONTINUATION: RawContinuation);
     }

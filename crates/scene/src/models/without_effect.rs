@@ -232,11 +232,10 @@ fn torques(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked
 /// Friction where there is none, or of another kind.
 fn friction(s: &Source<'_>, raw: &RawScene, scene: &Scene, rung: Rung) -> Checked<()> {
     match &raw.contact.friction {
-        Some(friction) if !rung.lines && scene.contact.friction != 0.0 => {
+        Some(friction) if !rung.lines && scene.analysis.model != Model::Mapped && scene.contact.friction != 0.0 => {
             let what = format!("`friction` means nothing to the model \"{}\"", rung.name);
             let advice = match scene.analysis.model {
                 Model::Impact => "give `static_friction` and `dynamic_friction` in [impact]",
-                Model::Mapped => "leave it out, or use the model \"reduced\": friction turns round with the sliding",
                 _ => "leave it out: this model has none",
             };
             Err(s.conflict(&friction.span(), what, advice))

@@ -85,7 +85,7 @@ table! {
         gap: word(Gap) => Some, "surface that the gaps come from (method nodal). smooth: the exact involute; facet: the flat faces of the mesh, to show what facets do, not for engineering";
         points_per_face_edge: whole(1, 20, 6) => Some, "quadrature points along each edge of a flank face (method nodal)";
         flanks: bare_word(Flanks), "which flanks may touch; default: driving, in time both";
-        friction: number(0.0, 1.0, 0.0), "Coulomb's coefficient of friction (reduced, lumped8, lumped12)";
+        friction: number(0.0, 1.0, 0.0), "Coulomb's coefficient of friction (reduced, mapped, lumped8, lumped12)";
         corner_contact: switch(true) => Some, "whether tip edges may press off the line of action, as deflected teeth do (method slice). false is for study: the transmission error then has steps under load";
     }
 }
