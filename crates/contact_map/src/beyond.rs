@@ -1,16 +1,9 @@
 //! A map beyond the ends of its tilts. Theory (73a).
 
-use crate::{ContactMap, CutPlace, load_axis::knot};
-
-/// What is added to curves beyond the tilts of a map.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Beyond {
-    /// Slope of the approach at first touch over the tilt, per unit of its spacing, and how it follows the phase.
-    pub edge: f64,
-    pub edge_by_phase: f64,
-    /// How often it is in the approach and in its first and second slope over the tilt.
-    pub factors: [f64; 3],
-}
+use crate::{
+    load_axis::knot,
+    map::{Beyond, ContactMap, CutPlace},
+};
 
 impl ContactMap {
     /// Goes on from an end of the tilts by `way` of their spacing. A cubic would go anywhere there. The slope over tilt turns

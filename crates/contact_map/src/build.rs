@@ -8,36 +8,16 @@ use std::{
 use rayon::prelude::*;
 
 use crate::{
-    ContactMap, MapError, PhaseContact,
+    ContactMap, MapError, MapPlan, PhaseContact,
     certificate::MapCertificate,
     column::{Node, column},
     damping_table::DampingTable,
     errors::{checks, errors},
-    friction::FrictionTable,
+    friction_table::FrictionTable,
     load_axis::LoadAxis,
     pair_shares::PairShares,
     spline::Axis,
 };
-
-/// Plan of a map: range and tolerances.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MapPlan {
-    /// Force that the pair carries on average, N: errors are relative to the mean approach under it.
-    pub mean_force: f64,
-    /// Largest force, N.
-    pub largest_force: f64,
-    /// Least and largest tilt, rad; `None` where the scene has none.
-    pub tilt: Option<[f64; 2]>,
-    /// Width of face, mm.
-    pub width: f64,
-    /// Half of the path of contact, mm, of flanks with friction: errors of the moment that friction has by its place
-    /// there are told over it. `None` without friction.
-    pub half_path: Option<f64>,
-    /// Root mean square of the approach's error, over the mean approach, that is aimed at.
-    pub tolerance: f64,
-    /// Error with which a map is taken as well, where a finer one would cost too many contacts; no less than that.
-    pub worst: f64,
-}
 
 /// How far a map is made: contacts solved so far, and about how many it takes until it is held against the contact next.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

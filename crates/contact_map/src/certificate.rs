@@ -2,7 +2,15 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::friction::FrictionError;
+/// Error of the friction of a map, over the force there or the mean one where that is more; moments over half of the path of
+/// contact and over the width of face beside.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+pub struct FrictionError {
+    /// Root mean square of the largest of its four parts.
+    pub rms: f64,
+    /// Largest.
+    pub largest: f64,
+}
 
 /// Certificate of a map: errors and cost.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use crate::{ContactMap, MapError, MapPlan, PhaseContact, friction::FrictionError, map::Wanted};
+use crate::{ContactMap, MapError, MapPlan, PhaseContact, certificate::FrictionError, map::Wanted};
 
 /// Places at which a map is held against the contact; of flanks with friction, which turns round within a few hundredths of
 /// a cycle.

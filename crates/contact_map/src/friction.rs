@@ -1,35 +1,11 @@
 //! Friction between flanks that press. Theory (74b).
 
-use serde::{Deserialize, Serialize};
-
 use crate::{
     ContactMap, CutPlace, LoadedSlice, MapContact, OffsetMap,
-    column::{Node, rubbing},
-    pair_shares::{PairPlace, PairShares, PartsWanted},
+    column::rubbing,
+    friction_table::FrictionTable,
+    pair_shares::{PairPlace, PartsWanted},
 };
-
-/// Friction of each pair of teeth, over the force of all.
-///
-/// ```text
-/// T_k = F sum over m of t_k(c - m, tilt, F),   k = 0: force along the sliding, 1: its moment along the path of contact,
-///       2: its moment over the face, 3: moment of the normal forces along the tilt
-/// ```
-/// Friction bends teeth as well, by a matrix that is not symmetric: normal forces then have a moment that no potential
-/// gives, and the last one tells it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub(crate) struct FrictionTable {
-    columns: [PairShares; 4],
-}
-
-/// Error of the friction of a map, over the force there or the mean one where that is more; moments over half of the path of
-/// contact and over the width of face beside.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
-pub struct FrictionError {
-    /// Root mean square of the largest of its four parts.
-    pub rms: f64,
-    /// Largest.
-    pub largest: f64,
-}
 
 /// Friction at one state.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -42,12 +18,6 @@ pub struct MapFriction {
 }
 
 const PARTS: PartsWanted = PartsWanted { phase: false, tilt: true };
-
-impl FrictionTable {
-    pub(crate) fn new(columns: &[&Vec<Vec<Node>>], interpolate: impl Fn(Vec<f64>) -> Vec<f64> + Copy) -> Self {
-        Self { columns: [0, 1, 2, 3].map(|k| PairShares::new(columns, |node, i| node.rubs[i][k], interpolate)) }
-    }
-}
 
 impl ContactMap {
     /// Whether its flanks have friction.

@@ -3,10 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    beyond::Beyond,
     certificate::MapCertificate,
     damping_table::DampingTable,
-    friction::FrictionTable,
+    friction_table::FrictionTable,
     load_axis::{LoadAxis, LoadCurve, knot},
     pair_shares::{PairPlace, PairShares},
     spline::{Axis, Splines},
@@ -62,6 +61,16 @@ pub struct Wanted {
     pub energy: bool,
     /// [`MapContact::phase_rate`].
     pub phase_rate: bool,
+}
+
+/// What is added to curves beyond the tilts of a map.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Beyond {
+    /// Slope of the approach at first touch over the tilt, per unit of its spacing, and how it follows the phase.
+    pub edge: f64,
+    pub edge_by_phase: f64,
+    /// How often it is in the approach and in its first and second slope over the tilt.
+    pub factors: [f64; 3],
 }
 
 /// A map at one phase and tilt: what is left is a function of the approach. Whoever asks for several approaches there

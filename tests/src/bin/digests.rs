@@ -1,6 +1,6 @@
 //! Results of the small documents as they are recorded in `tests/data/digests.toml`.
 //!
-//! `cargo run --profile test -p verification --bin digests` writes the file again: after a change of results that was
+//! `cargo run --profile test --bin digests` writes the file again: after a change of results that was
 //! decided.
 #![allow(clippy::print_stdout, reason = "what has changed is what one wants to see")]
 

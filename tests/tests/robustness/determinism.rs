@@ -67,7 +67,7 @@ fn bytes_do_not_depend_on_a_stop_on_the_way() {
 }
 
 const AGAIN: &str = "results changed: if someone decided that, write tests/data/digests.toml again by \
-                     `cargo run --profile test -p verification --bin digests`";
+                     `cargo run --profile test --bin digests`";
 
 #[test]
 fn results_are_those_that_were_recorded() {
