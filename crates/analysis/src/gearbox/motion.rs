@@ -10,8 +10,7 @@ use gearbox::{
         MotionOptions, MotionPlan, ReductionCertificate,
     },
 };
-use integrate::{Follower, MotionError, Periodicity, Row, Stage, State};
-use nalgebra::DVector;
+use integrate::{Ahead, Follower, MotionError, Periodicity, Row, Stage, State};
 use scene::gearbox::{GearboxDrive, GearboxMotion};
 
 use super::{
@@ -250,8 +249,7 @@ pub(super) fn run(
     let frequencies = mechanism.mesh_frequencies();
     let reduction = *mechanism.bodies().certificate();
     let mut course = mechanism.course(&start, &plan, from).map_err(failed)?;
-    let scale = course.timetable().scale().clone();
-    let mut told = Outcome { rows, sink, plan, scale };
+    let mut told = Outcome { rows, sink, plan };
     let mut stopped = false;
     if let (Some(settle), false) = (plan.settle, course.stage().recording) {
         stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
@@ -284,7 +282,7 @@ pub(super) fn run(
                 let fastest = frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
                 let steps = (even.max(1) - 1) as f64 * plan.steps_per_row as f64;
                 let found = done.periodicity.filter(|_| plan.settle.is_some());
-                let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
+                let window = window(found, plan.periodic_tolerance(), plan.cycles);
                 spectrum((&rows, even), (steps / plan.steps_per_cycle as f64, fastest), window)?
             }
         },
@@ -314,8 +312,6 @@ struct Outcome<'a> {
     rows: RowStore<GearboxInstant>,
     sink: &'a mut dyn GearboxSink,
     plan: MotionPlan,
-    /// Sizes of the coordinates.
-    scale: DVector<f64>,
 }
 
 /// The same in one phase of the analysis.
@@ -375,13 +371,8 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
         self.told.plan.seeks(found)
     }
 
-    fn nearer(
-        &mut self,
-        system: &mut &mut GearboxMechanism,
-        state: &State,
-        _: Periodicity,
-    ) -> Result<Option<State>, Ended> {
-        system.nearer(state, &self.told.plan, &self.told.scale).map_err(Ended::Motion)
+    fn nearer(&mut self, system: &mut &mut GearboxMechanism, period: &Ahead) -> Result<Option<State>, Ended> {
+        system.nearer(period, self.told.plan.periodic_tolerance()).map_err(Ended::Motion)
     }
 
     fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {

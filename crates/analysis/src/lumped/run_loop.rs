@@ -1,11 +1,11 @@
 //! A run of a model: its mesh cycles, and what is read off them.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::sync::Arc;
 
 use answer::{RowStore, TableError};
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
-    Settle, State, StepControl, Stop, Timetable,
+    Ahead, Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row,
+    RowPlace, Settle, State, StepControl, Stop, Timetable,
 };
 use ltca::StaticError;
 use periodic::Shooting;
@@ -14,7 +14,7 @@ use scene::{Analysis, MotionScene, Run, Scene};
 use super::{
     LumpedRow,
     free_turn::free_turn,
-    integration::{MeshFrequencies, integrator, method},
+    integration::{MeshFrequencies, method},
     mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
     survey::RowSurvey,
 };
@@ -234,28 +234,22 @@ impl RunPlan<'_> {
         })
     }
 
-    /// The periodic state near a state: of one mesh cycle, else of as many as the motion looks like having.
-    fn periodic_state(
-        &self,
-        model: &mut BoxedMechanism,
-        state: &State,
-        (period, tolerance): (usize, f64),
-    ) -> Result<Option<State>, ModelFailure> {
-        let Self { motion, frequencies, .. } = *self;
+    /// The periodic state near where the next cycles begin: of one mesh cycle, else of all of them.
+    fn periodic_state(&self, model: &mut BoxedMechanism, period: &Ahead) -> Result<Option<State>, ModelFailure> {
+        let motion = self.motion;
         let free = free_turn(model)?;
-        let search = |model: &mut BoxedMechanism, period: usize| {
+        let time = period.state.time;
+        let mut search = |period: &Ahead| {
             let shooting = Shooting {
-                period: period as f64 / frequencies.mesh_hz,
-                tolerance,
-                scale: model.scale(),
-                frequency: TAU * frequencies.mesh_hz.max(frequencies.resonance_hz),
+                period,
+                tolerance: motion.periodic_tolerance.unwrap_or(0.0),
                 free: free.as_ref(),
                 back: None,
             };
-            shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
+            shooting.near(model).map_err(ModelFailure::at(time))
         };
-        let once = search(model, 1)?;
-        Ok(if once.is_some() || period == 1 { once } else { search(model, period)? })
+        let once = search(&Ahead { cycles: period.cycles[..1].to_vec(), ..period.clone() })?;
+        Ok(if once.is_some() || period.cycles.len() == 1 { once } else { search(period)? })
     }
 }
 
@@ -290,13 +284,7 @@ impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
         model.shoots() && found.residual <= SETTLING
     }
 
-    fn nearer(
-        &mut self,
-        model: &mut &mut BoxedMechanism,
-        state: &State,
-        found: Periodicity,
-    ) -> Result<Option<State>, RunFailure> {
-        let tolerance = self.plan.motion.periodic_tolerance.unwrap_or(0.0);
-        Ok(self.plan.periodic_state(model, state, (found.period, tolerance))?)
+    fn nearer(&mut self, model: &mut &mut BoxedMechanism, period: &Ahead) -> Result<Option<State>, RunFailure> {
+        Ok(self.plan.periodic_state(model, period)?)
     }
 }

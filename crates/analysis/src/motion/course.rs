@@ -6,12 +6,10 @@ use answer::RowStore;
 use dynamics::SideLoads;
 use gearbox::{
     GearboxError,
-    motion::{
-        GearboxMechanism, GearboxMemory, PairModel, PairMotion, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult,
-        compared, shoot,
-    },
+    motion::{GearboxMechanism, GearboxMemory, PairModel, PairMotion, PairMotionError, compared, shoot},
 };
 use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage};
+use periodic::Shot;
 use scene::{MotionScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
@@ -53,7 +51,7 @@ fn goal(
 /// A motion at its end.
 pub(super) struct FinishedMotion {
     pub motion: PairMotion,
-    pub shooting: Option<ShootingResult>,
+    pub shooting: Option<Shot>,
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
     /// All rows, those before a checkpoint among them.
@@ -124,7 +122,7 @@ fn begin<'a>(
     prepared: &PreparedMotion,
     (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
     Span { from, .. }: Span,
-) -> Result<(PairMotion, Option<ShootingResult>, Outcome<'a>), Failure> {
+) -> Result<(PairMotion, Option<Shot>, Outcome<'a>), Failure> {
     let PreparedMotion { system, settings, facts, .. } = prepared;
     let window = facts.window_teeth.unwrap_or(0) as usize;
     let layout = MotionLayout::of(scene, window);
@@ -146,9 +144,7 @@ fn begin<'a>(
     let mut shooting = None;
     if motion.run == Run::Shooting {
         let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
-        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-            shoot(system, &mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
-        });
+        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| shoot(&mut begun, tolerance));
         shooting = Some(shot.map_err(fail)?);
     }
     Ok((begun, shooting, told))

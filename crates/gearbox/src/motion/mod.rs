@@ -9,7 +9,7 @@
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
 //! | `pair`, `pair_model` | a pair alone: two rigid gears and one mesh; what it is before it moves |
-//! | `pair_run`, `pair_shooting`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, onto its periodic state, speed by speed; how long explicit steps may be |
+//! | `pair_run`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, speed by speed; how long explicit steps may be |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
@@ -37,7 +37,6 @@ mod pair;
 mod pair_error;
 mod pair_model;
 mod pair_run;
-mod pair_shooting;
 mod pair_sweep;
 mod periodic_state;
 mod pitch_errors;
@@ -68,10 +67,8 @@ pub use pair::PairInstant;
 pub use pair_error::PairMotionError;
 pub use pair_model::PairModel;
 pub use pair_run::{PairMotion, PairSettings, compared, instants, run_to_steady};
-pub use pair_shooting::{ShootingResult, shoot};
-pub use pair_sweep::{
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
-};
+pub use pair_sweep::{SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep};
+pub use periodic_state::shoot;
 pub use pitch_errors::PitchErrors;
 pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};

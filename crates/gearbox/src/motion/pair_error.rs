@@ -51,16 +51,6 @@ pub enum PairMotionError {
     /// Shooting with a driver whose speed is free.
     #[error("a driver that a torque turns has no period of its own: shooting needs a given speed")]
     FreeDriver,
-    /// Shooting from the middle of a motion, or over no period at all.
-    #[error(
-        "shooting begins at the start of a motion and takes a period of one mesh cycle or more: the motion stands at cycle {cycle}, the period is {period}"
-    )]
-    ShootingStart {
-        /// Mesh cycles that the motion has done.
-        cycle: u64,
-        /// Period asked for, mesh cycles.
-        period: u64,
-    },
     /// Shooting with normal modes that do not go over into each other from tooth to tooth.
     #[error(
         "shooting with normal modes needs gears that are known by sectors, whose teeth are all alike, and whole pairs of modes of one frequency"
@@ -112,7 +102,7 @@ impl PairMotionError {
             Self::LostLoad { .. } => {
                 "give a larger torque: teeth that bear next to nothing are not known well enough to move under it".into()
             }
-            Self::FreeDriver | Self::ShootingStart { .. } | Self::ModesWithoutPeriod => {
+            Self::FreeDriver | Self::ModesWithoutPeriod => {
                 "wait for the motion to settle instead of shooting for its periodic state".into()
             }
             Self::Machine(source) => source.hint().unwrap_or_default(),

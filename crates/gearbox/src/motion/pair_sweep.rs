@@ -132,7 +132,7 @@ fn steady_state_at(
     let mut motion = PairMotion::new(machine, plan.settings.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
     if by == SteadyBy::Shooting {
-        shoot(&own, &mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
+        shoot(&mut motion, tolerance)?;
     }
     let goal = steady_goal(&motion, (tolerance, most), cycles);
     motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
@@ -166,6 +166,3 @@ fn steady_state_at(
     let end = motion.state().clone();
     Ok((point, end))
 }
-
-/// Newton steps of shooting before waiting takes over.
-pub const SHOOTING_NEWTON_STEPS: usize = 12;

@@ -36,6 +36,11 @@ impl MotionPlan {
         Self { scheme, step, cycles, steps_per_cycle, steps_per_row, tolerance, stop_at_events, settle, shoots }
     }
 
+    /// Difference after a period, over the peak to peak, that counts as none; 0 of a motion that does not settle.
+    pub fn periodic_tolerance(&self) -> f64 {
+        self.settle.map_or(0.0, |settle| settle.tolerance)
+    }
+
     /// Whether a motion that repeats itself so nearly is to be taken to its periodic state at once.
     pub fn seeks(&self, found: Periodicity) -> bool {
         self.shoots && found.residual <= SETTLING

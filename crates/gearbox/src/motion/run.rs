@@ -30,11 +30,6 @@ pub struct GearboxTimes {
 }
 
 impl GearboxTimes {
-    /// Sizes of the coordinates.
-    pub fn scale(&self) -> &DVector<f64> {
-        &self.scale
-    }
-
     fn is_ramp(&self) -> bool {
         matches!(self.drive.nominal(), Speed::Ramp { .. })
     }
@@ -115,12 +110,11 @@ impl GearboxMechanism {
     ) -> Result<GearboxRun, GearboxError> {
         let goal = self.goal(start, plan)?;
         let mut course = self.course(start, plan, None)?;
-        let scale = course.timetable().scale().clone();
         let rows = |row: Row<'_, &mut Self>| {
             seen(&row.system.instant(row.state)?);
             Ok::<_, GearboxError>(())
         };
-        course.run(&goal, &mut Settling { rows, plan: *plan, scale })?;
+        course.run(&goal, &mut Settling { rows, plan: *plan })?;
         GearboxRun::of(course, start)
     }
 
@@ -169,7 +163,7 @@ impl GearboxMechanism {
         Ok(Goal {
             compared,
             settle: plan.settle,
-            tolerance: plan.settle.map_or(0.0, |settle| settle.tolerance),
+            tolerance: plan.periodic_tolerance(),
             cycles: plan.cycles,
             starts_with_row: true,
             checkpoint_every: 0,

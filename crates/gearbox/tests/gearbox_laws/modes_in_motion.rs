@@ -252,7 +252,7 @@ fn shooting_finds_what_waiting_finds() {
         let (system, state) = started(&model, 0.0);
         let mut motion = PairMotion::new(system, settings, state);
         let periods = if shooting {
-            let shot = shoot(&model, &mut motion, 1, 1e-7, 12).unwrap_or_else(|e| panic!("{e}"));
+            let shot = shoot(&mut motion, 1e-7).unwrap_or_else(|e| panic!("{e}"));
             assert!(shot.residual < 1e-7 && shot.multiplier < 1.0, "{shot:?}");
             shot.periods as u64
         } else {

@@ -6,8 +6,8 @@ use std::sync::OnceLock;
 
 use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, Torque};
 use gearbox::motion::{
-    GearboxMemory, PairModel, PairMotion, PairMotionError, PairSettings, SHOOTING_NEWTON_STEPS, SteadyBy,
-    SteadyOptions, SweepPlan, instants, run_to_steady, shoot,
+    GearboxMemory, PairModel, PairMotion, PairMotionError, PairSettings, SteadyBy, SteadyOptions, SweepPlan, instants,
+    run_to_steady, shoot,
 };
 use geometry::{Driver, Sense};
 use integrate::{Checkpoint, Scheme, SweepDirection};
@@ -74,14 +74,13 @@ fn shooting_finds_what_waiting_finds() {
         let found = run_to_steady(&mut waited, 1e-7, 2000).unwrap();
         let cycles = waited.cycle();
         assert!(found.residual <= 1e-7, "{scheme:?}: off by {found:?} after {cycles} cycles");
-        let model = bench.system(1500.0, weak);
-        let mut shot_at = motion(bench, model.clone(), scheme);
-        let shot = shoot(&model, &mut shot_at, 1, 1e-8, SHOOTING_NEWTON_STEPS).unwrap();
+        let mut shot_at = motion(bench, bench.system(1500.0, weak), scheme);
+        let shot = shoot(&mut shot_at, 1e-8).unwrap();
         let [a, b] = [rows(&mut waited, 1), rows(&mut shot_at, 1)];
         let off = worst(&a, &b) / bench.ste[0];
         println!(
             "{scheme:?}: {cycles} cycles waited, {} shot ({} steps); multiplier {:.4}; off by {off:.1e}",
-            shot.periods, shot.iterations, shot.multiplier
+            shot.periods, shot.steps, shot.multiplier
         );
         assert!(shot.residual <= 1e-8 && shot.multiplier < 1.0, "{shot:?}");
         assert!((shot.periods as u64) < cycles, "{} periods, waiting took {cycles}", shot.periods);
