@@ -7,6 +7,7 @@ mod folders;
 mod gearbox;
 mod gearbox_loads;
 mod gearbox_pitch_errors;
+mod gearbox_planets;
 mod gearbox_resume;
 mod messages;
 mod mistakes;

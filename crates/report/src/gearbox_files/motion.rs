@@ -220,7 +220,7 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 /// [`ReportError`] where rows cannot be read back.
 pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Vec<Part>, ReportError> {
     let Some(motion) = &result.motion else { return Ok(Vec::new()) };
-    let words = "Least and largest are those of all rows.";
+    let words = "Least and largest forces and peaks to peaks are those of all rows.";
     let words = if is_run_up(motion) {
         format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
     } else {
