@@ -10,24 +10,21 @@ if [ "${1:-}" != --benches ]; then
     for scene in default:helical-30x30-beta20 iso_tr_6336_30:iso-tr-6336-30; do
         out=out/chart-${scene%%:*}
         "$program" chart "scenes/${scene%%:*}.toml" --out "$out" --into docs/performance.md "$@"
-        for kind in svg png; do
-            cp "$out/work_precision.$kind" "docs/performance/${scene##*:}.$kind"
-        done
+        cp "$out/work_precision.svg" "docs/performance/${scene##*:}.svg"
         cp "$out/chart.csv" "docs/performance/${scene##*:}.csv"
     done
     out=out/chart-motion
     "$program" chart --methods scenes/motion.toml --out "$out" --into docs/performance.md
-    for kind in svg png csv; do
+    for kind in svg csv; do
         cp "$out/motion_precision.$kind" "docs/performance/helical-30x30-beta20-motion.$kind"
     done
     out=out/chart-resonance
     "$program" chart --resonance scenes/resonance.toml --out "$out" --into docs/performance.md \
         --set motion.sweep.speeds=11 --set 'motion.sweep.ways=["up"]' --set motion.mesh_damping_ratio=0.05
-    for kind in svg png; do
+    cp "$out/resonance_curves.svg" docs/performance/helical-30x30-beta20-resonance-curves.svg
+    for kind in svg csv; do
         cp "$out/resonance_precision.$kind" "docs/performance/helical-30x30-beta20-resonance.$kind"
-        cp "$out/resonance_curves.$kind" "docs/performance/helical-30x30-beta20-resonance-curves.$kind"
     done
-    cp "$out/resonance_precision.csv" docs/performance/helical-30x30-beta20-resonance.csv
 fi
 
 # Puts what a bench prints between the marks `<!-- NAME -->` and `<!-- end NAME -->` of docs/performance.md.
@@ -44,3 +41,5 @@ put offline table cargo bench -p benches --bench offline -- --largest
 put ways text cargo bench -p benches --bench reduction
 put contact text cargo bench -p benches --bench contact_solve
 put motion table cargo bench -p benches --bench dynamic_step
+# Where Python has PARDISO (`pip install pypardiso`).
+if "${PYTHON:-python3}" -c 'import pypardiso' 2>/dev/null; then put factor table cargo bench -p benches --bench factor; fi
