@@ -10,7 +10,7 @@
 //! | `checks` | what must hold |
 //! | `headline` | the numbers that it is judged by |
 //! | `at_rest` | its meshes at rest as a motion begins with them: stiffness, damping, springs and maps |
-//! | `motion`, `reached`, `orders`, `sink` | from rest on, in time; what its rows reach, orders of its meshes and waterfall; who gets rows and checkpoints |
+//! | `motion`, `moved`, `reached`, `orders`, `sink` | from rest on, in time; what that comes to, what its rows reach, orders of its meshes and waterfall; who gets rows and checkpoints |
 //! | `motion_checks`, `motion_remarks` | what must hold of a motion, what is said of it |
 //! | `branch` | its periodic motions over the speed, stable and unstable |
 //! | `rating` | whether its meshes will hold |
@@ -31,6 +31,7 @@ mod meshes;
 mod motion;
 mod motion_checks;
 mod motion_remarks;
+mod moved;
 mod orders;
 mod parts;
 mod rating;
@@ -55,8 +56,8 @@ use crate::{
 use accuracy::solve_accurately;
 pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
-pub use motion::GearboxMotionResult;
 use motion::Span;
+pub use moved::GearboxMotionResult;
 pub use orders::MotionOrder;
 pub use reached::{Range, ReachedByMesh, ReachedByRows};
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};

@@ -6,7 +6,7 @@ use answer::{Remark, RowStore, TableError};
 use gearbox::motion::GearboxInstant;
 use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 
-use super::{GearboxMotionResult, at_rest::AtRest, swings::few_modes};
+use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
     in_motion::{
         MeshInMotion, MeshRecord, Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open,
