@@ -36,9 +36,10 @@ const AT_REST: &str = "positions at rest; the quasi-static cycle of a motion or 
 const IN_MOTION: &str = "motions of `reduced`, `reduced+modes` and `mapped`; each speed of a sweep";
 const REDUCED: &str = "motions of `reduced` and `reduced+modes`";
 const GEARBOX_IN_MOTION: &str = "motions of gearboxes";
+const EXACT_IN_MOTION: &str = "motions of gearboxes in exact contact";
 
 /// All kinds of checks; a test holds their bounds against those of runs.
-pub const CHECKS: [CheckKind; 28] = [
+pub const CHECKS: [CheckKind; 33] = [
     kind("torque_residual", "1e-8", AT_REST, "largest relative difference of contact torque and applied torque"),
     kind(
         "complementarity_residual",
@@ -143,10 +144,30 @@ pub const CHECKS: [CheckKind; 28] = [
     ),
     kind("mesh_<k>_pressure_over_modulus", "0.3", "gearboxes", "largest pressure of the mesh over E*"),
     kind(
-        "map_use",
+        "mesh_<k>_dynamic_deflection_over_module",
         "1",
         GEARBOX_IN_MOTION,
-        "largest share of the forces and tilts that maps and springs of the contact hold for",
+        "`dynamic_deflection_over_module` of the mesh, shafts and bearings included",
+    ),
+    kind(
+        "mesh_<k>_dynamic_pressure_over_modulus",
+        "0.3",
+        EXACT_IN_MOTION,
+        "`dynamic_pressure_over_modulus` of the mesh, coast flanks among it",
+    ),
+    kind("mesh_<k>_pulling_force", "1e-6", EXACT_IN_MOTION, "`pulling_force` of the mesh"),
+    kind("mesh_<k>_force_jump", "1e-4", EXACT_IN_MOTION, "`force_jump` of the mesh"),
+    kind(
+        "mesh_<k>_map_error",
+        "10 times `map_tolerance`, 0.5 at the most",
+        "motions and continuations of gearboxes on maps",
+        "`map_error` of the mesh",
+    ),
+    kind(
+        "mesh_<k>_map_excess",
+        "1",
+        "motions and continuations of gearboxes on maps and springs",
+        "`map_excess` of the mesh; of a spring the change of its stiffness by the tilt over half of it",
     ),
     kind(
         "shaft_frequency_error",

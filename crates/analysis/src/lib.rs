@@ -46,6 +46,7 @@ mod gear_dofs;
 pub mod gearbox;
 pub mod gears;
 mod headline_keys;
+pub mod in_motion;
 pub mod in_time;
 mod inputs;
 mod interest;

@@ -15,6 +15,7 @@ use crate::{
     facts::{MeshFacts, RunInfo},
     gearbox::GearboxResult,
     gears::GeometryFacts,
+    in_motion::FlankCertificate,
     iso_model::IsoFacts,
     iso_root::{IsoGearRoot, IsoRootStress},
     lumped::{
@@ -83,7 +84,7 @@ pub fn objects() -> Vec<(&'static str, Vec<Key>)> {
         of("mesh_loss", MeshLoss::KEYS),
         of("tooth_change", ToothChangeHeadline::KEYS),
         of("headline, a motion of reduced gears", MotionHeadline::KEYS),
-        of("certificate, a motion of reduced gears", MotionCertificate::KEYS),
+        ("certificate, a motion of reduced gears", [MotionCertificate::KEYS, FlankCertificate::KEYS].concat()),
         of("inertia", InertiaHeadline::KEYS),
         of("elasticity", ElasticHeadline::KEYS),
         of("kept_modes", KeptModes::KEYS),

@@ -114,9 +114,9 @@ answer::remarks! {
         "";
 
     // Motion.
-    coarse_steps(steps_in_period, motion, frequency_hz, or)
+    coarse_steps(steps_in_period, motion, frequency_hz, cure)
         "a step is 1/{steps_in_period:.1} of the period of the {motion} ({frequency_hz:.0} Hz), which it cannot show",
-        "take more `steps_per_mesh_cycle` or `steps_per_resonance`{or}";
+        "take {cure}";
     slow_pair(periods, fastest_hz, steps)
         "a mesh cycle lasts {periods:.0} periods of the fastest motion that steps have to show ({fastest_hz:.3e} Hz), so it takes {steps:.0} steps; so slow a pair has nearly the answer of `kind = \"static\"`",
         "";
@@ -153,12 +153,12 @@ answer::remarks! {
     speed_has_changed(mean_rpm, start_rpm)
         "the driver's mean speed is {mean_rpm:.1}/min, it began with {start_rpm:.1}/min: mesh cycles, and orders of the spectrum, are those of the start",
         "";
-    few_rows(rows, share_percent, from_order, to_order, limit_percent)
+    few_rows(rows, share_percent, from_order, to_order, limit_percent, cure)
         "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (reported from {limit_percent:.0} % on); peaks fall between the rows",
-        "take more `steps_per_mesh_cycle`";
-    few_steps(steps_in_period, order, share_percent, steps_enough)
+        "take {cure}";
+    few_steps(steps_in_period, order, share_percent, steps_enough, cure)
         "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (reported below 1/{steps_enough:.0})",
-        "take more `steps_per_mesh_cycle` or `steps_per_resonance`";
+        "take {cure}";
     fast_rotation(share_percent, limit_percent)
         "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (reported from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",
         "";
@@ -171,8 +171,8 @@ answer::remarks! {
     run_up_torque(duration_s, inertia_torque_nm, place, share_percent, load_torque_nm, cure)
         "the run-up lasts {duration_s:.3} s: its acceleration takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";
-    coarse_order_cut(points, cut, order, speed_rpm, points_enough, cure)
-        "the peak of order {order}{cut} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",
+    coarse_order_cut(points, order, speed_rpm, points_enough, cure)
+        "the peak of order {order} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",
         "{cure}";
     impact_exponent(stiffness_n_per_mm_to_1_5, exponent)
         "the impact stiffness of {stiffness_n_per_mm_to_1_5:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {exponent}",
@@ -214,6 +214,9 @@ answer::remarks! {
     branch_linear_bearings()
         "along the branch rolling bearings are springs about their mean equilibrium; motions integrated in time follow the laws of the bearings",
         "";
+    vibration_beyond_load(force_n, speed_rpm, order, exciting, load_n, speeds, of_speeds, listed)
+        "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0}/min, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration does not know; so at {speeds} of {of_speeds} speeds ({listed})",
+        "a motion at these speeds knows the loss of contact (`[motion]` with `mesh = \"mapped\"`)";
     bearing_estimated(bearing, elements)
         "bearing {bearing}: its inside is estimated from bore, outer diameter and static rating: {elements} a row",
         "state `elements` and their sizes where they are known";

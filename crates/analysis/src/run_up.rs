@@ -67,9 +67,9 @@ pub(crate) fn cut_peak(amplitudes: &[f64]) -> Option<CutPeak> {
     Some(CutPeak { at, points: last - first - 1 })
 }
 
-/// Remark on a peak that too few points of its order cut show; `of`: which cut, with its speed (1/min).
-pub(crate) fn coarse_cut(peak: CutPeak, (of, order): (&str, usize), speed_rpm: f64, cure: &str) -> Option<Remark> {
-    (peak.points < POINTS).then(|| remark::coarse_order_cut(peak.points, of, order, speed_rpm, POINTS, cure))
+/// Remark on a peak that too few points of the cut of an order show, with its speed (1/min).
+pub(crate) fn coarse_cut(peak: CutPeak, order: usize, speed_rpm: f64, cure: &str) -> Option<Remark> {
+    (peak.points < POINTS).then(|| remark::coarse_order_cut(peak.points, order, speed_rpm, POINTS, cure))
 }
 
 #[cfg(test)]

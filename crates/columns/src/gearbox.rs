@@ -142,7 +142,10 @@ pub fn motion(file: &Gearbox, rows: &Arc<RowStore<GearboxInstant>>) -> Table {
         mesh("dte_um", meaning, |m| 1e3 * m.transmission_error);
         let meaning = "rate of the dynamic transmission error";
         mesh("dte_rate_um_per_s", meaning, |m| 1e3 * m.transmission_error_rate);
-        mesh("normal_force_n", "sum of the normal forces, without damping", |m| m.normal_force);
+        let meaning = "sum of the normal forces on the driving flanks, damping included";
+        mesh("normal_force_n", meaning, |m| m.normal_force);
+        let meaning = "sum of the normal forces on the coast flanks, damping included";
+        mesh("coast_normal_force_n", meaning, |m| m.coast_normal_force);
     }
     for i in 0..file.bearings.len() {
         bearing(i).for_each(|(name, meaning, of)| push(name, meaning, Box::new(move |p| of(&p.bearings[i]))));

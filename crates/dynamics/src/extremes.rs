@@ -17,3 +17,13 @@ pub struct Extremes {
     /// Steps whose end has contact on the coast flanks.
     pub steps_on_coast: u64,
 }
+
+impl Extremes {
+    /// Adds the end of a step at which the undeformed flanks overlap by so much on the driving and on the coast side, mm along
+    /// the normal; negative where they are apart.
+    pub fn see(&mut self, [driving, coast]: [f64; 2]) {
+        self.steps_apart += u64::from(driving <= 0.0);
+        self.largest_gap = self.largest_gap.max(-driving);
+        self.steps_on_coast += u64::from(coast > 0.0);
+    }
+}

@@ -10,7 +10,7 @@ pub struct FlankInstant {
     pub force: f64,
     /// Damping along the approach, N.
     pub damping: f64,
-    /// Length of the loaded contact lines, mm.
+    /// Length of the loaded contact lines, mm; 0 of flanks that know none.
     pub line_length: f64,
     /// Normal force of each pair of the window, N, by running number from `first_pair` on, without damping; empty of flanks
     /// that know no pairs.

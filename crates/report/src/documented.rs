@@ -42,12 +42,12 @@ pub fn documented_tables(scene: &Scene, gearbox: &Gearbox) -> Result<Vec<(String
         plan_files::documented(),
     ]);
     let (of_gearbox, _) = gearbox_files::documented(gearbox);
-    let of_gearbox = of_gearbox.into_iter().map(|table| match &*table.name {
-        name @ ("campbell" | "motion" | "spectrum" | "waterfall" | "branch" | "bifurcations" | "in_time") => {
-            (format!("{name}, a gearbox"), table)
-        }
-        name => (name.to_owned(), table),
-    });
+    let of_gearbox =
+        of_gearbox.into_iter().map(|table| match &*table.name {
+            name @ ("campbell" | "cycles" | "motion" | "spectrum" | "waterfall" | "branch" | "bifurcations"
+            | "in_time") => (format!("{name}, a gearbox"), table),
+            name => (name.to_owned(), table),
+        });
     let named = [
         ("history, derivatives", derivative_columns()),
         ("campbell, a motion of reduced gears", rows::campbell(&campbell())),

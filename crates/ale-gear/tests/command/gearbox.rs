@@ -197,7 +197,7 @@ fn a_branch_over_the_speed_is_written() {
     let [found, wanted] =
         ["mesh_1_peak_to_peak_dte_um", "mesh_1_branch_peak_to_peak_dte_um"].map(|name| column(&in_time, name));
     assert!(found.len() == 4 && found.iter().zip(&wanted).all(|(a, b)| (a / b - 1.0).abs() < 0.02), "{in_time}");
-    for check in ["harmonic_residual", "harmonic_tail", "range_left_out", "multiplier_error", "map_use"] {
+    for check in ["harmonic_residual", "harmonic_tail", "range_left_out", "multiplier_error", "mesh_1_map_excess"] {
         assert!(told["certificate_checks"][check]["value"].is_f64(), "{check}: {}", told["certificate_checks"]);
     }
     assert!(run.stdout.contains("motions with loss of contact"), "{}", run.stdout);

@@ -30,7 +30,7 @@ fn moved_with(name: &str, keys: &[&str]) -> (String, Scratch, serde_json::Value,
 fn an_engine_lets_the_teeth_rattle() {
     let (file, scratch, told, left) = moved("engine.toml");
     assert!(left.abs() < 1e-9, "{left}");
-    let parted = ["separations", "coast_separations"].map(|key| told["meshes"][0][key].as_u64().unwrap());
+    let parted = ["contact_losses", "coast_contacts"].map(|key| told["meshes"][0][key].as_u64().unwrap());
     println!("energy left {left:e}, contact lost {parted:?} times");
     assert!(parted.iter().all(|n| *n > 0), "{parted:?}");
     let rows = scratch.read("o/motion.csv");
@@ -69,10 +69,10 @@ fn torque_reverses_on_maps_as_in_the_contact() {
     assert!(mapped.3.abs() < 1e-9, "{}", mapped.3);
     for mesh in 0..2 {
         let of = |told: &serde_json::Value, key: &str| told["meshes"][mesh][key].as_f64().unwrap();
-        for key in ["separations", "coast_separations"] {
+        for key in ["contact_losses", "coast_contacts"] {
             assert!(of(&mapped.2, key) > 0.0, "mesh {mesh}: {key}");
         }
-        assert!(of(&mapped.2, "map_use") < 1.0, "mesh {mesh} uses {} of its map", of(&mapped.2, "map_use"));
+        assert!(of(&mapped.2, "map_excess") < 1.0, "mesh {mesh} uses {} of its map", of(&mapped.2, "map_excess"));
         for (key, allowed) in [("max_normal_force_n", 2e-2), ("peak_to_peak_dte_um", 5e-3)] {
             let [a, b] = [&exact.2, &mapped.2].map(|told| of(told, key));
             println!("mesh {mesh}, {key}: {a}, on maps {b}");
@@ -94,7 +94,7 @@ fn a_load_that_reverses_goes_through_the_backlash_of_both_stages() {
     let rows = scratch.read("o/motion.csv");
     for mesh in 0..2 {
         let count = |key: &str| told["meshes"][mesh][key].as_u64().unwrap();
-        let parted = [count("separations"), count("coast_separations")];
+        let parted = [count("contact_losses"), count("coast_contacts")];
         assert!(parted.iter().all(|n| *n > 0), "mesh {mesh}: {parted:?}");
         // Both flanks of a pair stand 0.06 mm and more apart.
         let te = column(&rows, &format!("mesh_{}_dte_um", mesh + 1));

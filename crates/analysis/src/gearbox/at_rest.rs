@@ -1,23 +1,30 @@
 //! A gearbox at rest as its motion begins with it: plan, mean stiffness, damping and elements of its meshes.
 
-use std::f64::consts::TAU;
+use std::{f64::consts::TAU, sync::Arc};
 
 use answer::Remark;
-use dynamics::{RigidBody, Speed};
+use dynamics::{MeshResonance, RigidBody, Speed};
 use gearbox::{
     GearMesh, GearboxError, GearboxPosition, Meshing, Operation, Structure, Train, Vector12,
     motion::{ContactSpring, GearVibration, MapRequest, MotionPlan, MovingMesh},
 };
 use integrate::Settle;
+use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxDamping, GearboxDrive, GearboxMotion, MeshModel};
 
 use super::{meshes::ReducedMesh, swings::GearModesOfDiscs};
-use crate::{AnalysisError, GearCache, Progress, motion::QuasiStatic};
+use crate::{
+    AnalysisError, GearCache, Progress,
+    motion::{Elasticity, OF_GEARBOX, QuasiStatic},
+};
 
 /// Error with which a map is taken, over that aimed at.
 const WORST: f64 = 10.0;
 /// Phases of a cycle at which the contact is looked at for its mean stiffness.
 const PHASES: usize = 32;
+
+/// A mesh in motion; of a map its error over the mean approach, beside the most with which it is taken.
+pub(super) type MadeMesh = (Box<dyn MovingMesh>, Option<[f64; 2]>);
 
 /// What is known of the gearbox at rest when its motion begins.
 pub(super) struct AtRest<'a> {
@@ -34,6 +41,8 @@ pub(super) struct AtRest<'a> {
     pub on_coast: &'a [GearboxPosition],
     /// Elastic modes of the gears that move with the meshes.
     pub modes: &'a GearModesOfDiscs,
+    /// Lowest elastic frequency of both gears of each mesh, bore held and flanks free, Hz; none where nothing moves.
+    pub lowest_hz: &'a [[f64; 2]],
     /// Keeps maps of the contact between runs.
     pub cache: &'a dyn GearCache,
 }
@@ -117,6 +126,36 @@ impl AtRest<'_> {
             GearboxDamping::Ratio(ratio) => ratio,
             GearboxDamping::PerLength(per_length) => return per_length * cycle.line_length,
         };
+        let mobility = self.mobility(mesh, bodies, asked);
+        if mobility.is_finite() { 2.0 * ratio * (self.normal_stiffness(mesh, cycle) / mobility).sqrt() } else { 0.0 }
+    }
+
+    /// Both gears of a mesh turning against each other on its mean stiffness, with a damper along the normal (N s/mm).
+    ///
+    /// ```text
+    /// f = sqrt(k / m_e) / (2 pi),   zeta = c / (2 sqrt(k m_e))
+    /// ```
+    pub fn resonance(
+        &self,
+        mesh: usize,
+        bodies: &[RigidBody],
+        (cycle, damping): (&QuasiStatic, f64),
+        asked: &GearboxMotion,
+    ) -> MeshResonance {
+        let (stiffness, mobility) = (self.normal_stiffness(mesh, cycle), self.mobility(mesh, bodies, asked));
+        MeshResonance {
+            hz: (stiffness * mobility).sqrt() / TAU,
+            damping: 0.5 * damping * (mobility / stiffness).sqrt(),
+        }
+    }
+
+    /// Mean stiffness of a mesh along the normal, N/mm.
+    fn normal_stiffness(&self, mesh: usize, cycle: &QuasiStatic) -> f64 {
+        cycle.stiffness / self.meshes[mesh].pair.base_helix_angle().cos().powi(2)
+    }
+
+    /// 1/m_e of both gears turning against each other along the normal, 1/t.
+    fn mobility(&self, mesh: usize, bodies: &[RigidBody], asked: &GearboxMotion) -> f64 {
         let inertia = |gear: usize| {
             let (file, shaft) = (self.file, self.file.gears[gear].shaft);
             if !file.shafts[shaft].held {
@@ -133,19 +172,36 @@ impl AtRest<'_> {
         let pair = &self.meshes[mesh].pair;
         let lever = [&pair.pinion, &pair.wheel].map(|g| g.base_radius() * pair.base_helix_angle().cos());
         let turns = |i: usize| lever[i] * lever[i] / inertia(self.file.meshes[mesh].gears[i]);
-        let mobility = turns(0) + turns(1);
-        // Of the base circle, and along the normal.
-        let stiffness = cycle.stiffness / pair.base_helix_angle().cos().powi(2);
-        if mobility.is_finite() { 2.0 * ratio * (stiffness / mobility).sqrt() } else { 0.0 }
+        turns(0) + turns(1)
     }
 
+    /// What the elasticity of the gears of a mesh leaves out, of one that goes through `cycle` at rest.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Statistics`] for a transmission error that is no number.
+    pub fn elasticity(&self, mesh: usize, cycle: &QuasiStatic) -> Result<Elasticity, AnalysisError> {
+        let kept = self.meshes[mesh].discs.map(|disc| self.modes.get(disc).cloned().flatten());
+        let lowest = self.lowest_hz.get(mesh).copied().unwrap_or([f64::INFINITY; 2]);
+        Elasticity::of((&self.reduced[mesh].scene, OF_GEARBOX), lowest, cycle, self.vibrating(kept))
+    }
+
+    /// Modes of both gears of a mesh with their damping.
+    fn vibrating(&self, kept: [Option<Arc<GearModes>>; 2]) -> Option<[GearVibration; 2]> {
+        let damping_ratio = self.file.modes.map_or(0.0, |asked| asked.damping_ratio);
+        match kept.map(|modes| modes.map(|modes| GearVibration { modes, damping_ratio })) {
+            [Some(a), Some(b)] => Some([a, b]),
+            _ => None,
+        }
+    }
+
+    /// A mesh in motion; of a map its error over the mean approach beside the most with which it is taken.
     pub fn element(
         &self,
         mesh: usize,
         asked: &GearboxMotion,
         (spring, cycle, damping): (&ContactSpring, &QuasiStatic, f64),
         (progress, remarks): (&dyn Progress, &mut Vec<Remark>),
-    ) -> Result<Box<dyn MovingMesh>, GearboxError> {
+    ) -> Result<MadeMesh, GearboxError> {
         let (own, meshing): (&GearMesh, &Meshing) = (&self.meshes[mesh], &self.train.meshing()[mesh]);
         // Shared over the mean length of the contact lines.
         let per_length = if cycle.line_length > 0.0 { damping / cycle.line_length } else { 0.0 };
@@ -159,15 +215,15 @@ impl AtRest<'_> {
             MeshModel::Exact => {
                 let moving = self.reduced[mesh].moving(own, per_length)?;
                 let kept = own.discs.map(|disc| self.modes.get(disc).cloned().flatten());
-                let damping_ratio = self.file.modes.map_or(0.0, |asked| asked.damping_ratio);
-                match kept.map(|modes| modes.map(|modes| GearVibration { modes, damping_ratio })) {
-                    [Some(a), Some(b)] => Box::new(moving.with_modes([a, b])?),
-                    _ => Box::new(moving),
-                }
+                let moving = match self.vibrating(kept) {
+                    Some(modes) => moving.with_modes(modes)?,
+                    None => moving,
+                };
+                (Box::new(moving), None)
             }
             MeshModel::Spring => {
                 alike()?;
-                Box::new(spring.mesh(own, meshing)?.with_damping(damping))
+                (Box::new(spring.mesh(own, meshing)?.with_damping(damping)), None)
             }
             MeshModel::Mapped => {
                 let held = |gear: usize| self.file.shafts[self.file.gears[gear].shaft].held;
@@ -183,15 +239,21 @@ impl AtRest<'_> {
                     worst: (WORST * asked.map_tolerance).min(0.5),
                 };
                 let map = self.reduced[mesh].map(own, &request, (self.cache, progress, remarks))?;
-                Box::new(map.with_damping(per_length))
+                let error = [map.error(), request.worst];
+                (Box::new(map.with_damping(per_length)), Some(error))
             }
         })
     }
 
     /// Highest mesh frequency, Hz.
     pub fn fastest(&self, speed: f64) -> f64 {
+        self.cycles_per_turn().into_iter().map(|cycles| cycles * speed).fold(0.0, f64::max)
+    }
+
+    /// Mesh cycles of each mesh a radian of the input.
+    pub fn cycles_per_turn(&self) -> Vec<f64> {
         let (a, b) = (self.train.cycles(0.0), self.train.cycles(1.0));
-        a.iter().zip(&b).map(|(a, b)| (b - a).abs() * speed).fold(0.0, f64::max)
+        a.iter().zip(&b).map(|(a, b)| (b - a).abs()).collect()
     }
 }
 

@@ -12,8 +12,11 @@ use periodic::{FourierSeries, PeriodicError, PeriodicMotion};
 use scene::gearbox::{GearboxBranch, GearboxMotion};
 use study::extent;
 
-use super::at_rest::AtRest;
-use super::motion::{Ready, ready};
+use super::{
+    at_rest::AtRest,
+    motion::{Ready, ready},
+    motion_checks::{self, Contact},
+};
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
     branch::{BranchFigures, BranchPoint, BranchTurn, BranchWords, ROWS, ReadOff, TimePoint, checks, stable_ones},
@@ -70,7 +73,7 @@ pub(super) fn branch(
     let range = [asked.motion.speed_rpm, asked.to_speed_rpm];
     let [begin, fastest] = [range[0], range[0].max(range[1])].map(|speed| speed * RPM);
     let drive = Drive::Speed(Speed::Constant(begin));
-    let Ready { mut mechanism, start, stiffness, damping, map_remarks } =
+    let Ready { mut mechanism, start, stiffness, damping, map_errors, map_remarks, .. } =
         ready(rest, &asked.motion, (drive, fastest), observer)?;
     let plan = BranchWords {
         range,
@@ -111,9 +114,21 @@ pub(super) fn branch(
     let rolls = rest.structure.bearings.iter().any(|b| b.law.is_some());
     let springs = rolls.then(remark::branch_linear_bearings);
     let of_branch = figures.remarks(("periods", 2 * asked.periods));
+    let contacts = map_errors.iter().zip(&reach).map(|(&map_error, &reach)| Contact {
+        model: asked.motion.mesh,
+        map_error,
+        reach,
+        on_branch: true,
+    });
+    let of_machine = motion_checks::of_branch(contacts, &reduction);
     Ok(GearboxBranchResult {
-        remarks: map_remarks.into_iter().chain(springs).chain(of_branch).collect(),
-        checks: checks(&found.branch, &plan).and(Checks::new([modes_left_out(&found)])),
+        remarks: map_remarks
+            .into_iter()
+            .chain(springs)
+            .chain([remark::inertia_not_judged()])
+            .chain(of_branch)
+            .collect(),
+        checks: of_machine.and(checks(&found.branch, &plan)).and(Checks::new([modes_left_out(&found)])),
         figures,
         turns,
         in_time,

@@ -3,10 +3,10 @@
 use described::Key;
 use gearbox::LoadSharing;
 use rating::SpectrumRating;
-use scene::gearbox::Gearbox;
+use scene::gearbox::{Gearbox, MeshModel};
 use serde_json::{Map, Value, json};
 
-use crate::{pair_rating::RatingHeadline, run_up::RunUpTorque};
+use crate::{motion::RunUpHeadline, pair_rating::RatingHeadline, run_up::RunUpTorque};
 
 use super::{
     BearingLife, BearingLoad, GearboxBranchResult, GearboxMotionResult, GearboxResult, MeshResult, OutputResult, Rates,
@@ -31,6 +31,8 @@ enum Of {
     BearingsVibrating(fn(&VibrationResult, usize) -> f64),
     RunUp(fn(RunUpTorque) -> f64),
     MeshesMoving(fn(&GearboxMotionResult, usize) -> f64),
+    MeshesPressed(fn(&GearboxMotionResult, usize) -> f64),
+    MeshesOverSpeed(fn(&RunUpHeadline) -> f64),
     BearingsMoving(fn(&GearboxMotionResult, usize) -> f64),
     Branch(fn(&GearboxBranchResult) -> f64),
     MeshesOnBranch(fn(&GearboxBranchResult, usize) -> f64),
@@ -51,7 +53,7 @@ const fn list(name: &'static str, meaning: &'static str, of: Of) -> Number {
 }
 
 /// Every number once; those of meshes, outputs and bearings are lists in the order of the file.
-const NUMBERS: [Number; 36] = [
+const NUMBERS: [Number; 42] = [
     one("mean_input_torque_nm", "mean torque that holds the input, about +z", |r| 1e-3 * r.input_torque),
     list(
         "mean_ste_um",
@@ -169,23 +171,53 @@ const NUMBERS: [Number; 36] = [
     ),
     list(
         "peak_to_peak_dte_um",
-        "peak to peak of the dynamic transmission error of each mesh over all rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.reached.dte_um[i].span()),
+        "largest minus smallest dynamic transmission error of a mesh cycle of each mesh, averaged over its cycles; with `to_speed_rpm` the largest of a cycle; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].peak_to_peak_dte_um),
+    ),
+    list(
+        "min_dte_um",
+        "smallest dynamic transmission error of each mesh over all rows; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].dte_um.least),
+    ),
+    list(
+        "max_dte_um",
+        "largest dynamic transmission error of each mesh over all rows; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].dte_um.largest),
     ),
     list(
         "min_normal_force_n",
-        "smallest normal force of each mesh over all rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.reached.normal_force[i].least),
+        "smallest sum of the normal forces on the driving flanks of each mesh over all rows, damping included; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].normal_force.least),
     ),
     list(
         "max_normal_force_n",
-        "largest normal force of each mesh over all rows; with `[motion]`",
-        Of::MeshesMoving(|m, i| m.reached.normal_force[i].largest),
+        "largest sum of the normal forces on the driving flanks of each mesh over all rows, damping included; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].normal_force.largest),
+    ),
+    list(
+        "max_coast_normal_force_n",
+        "largest sum of the normal forces on the coast flanks of each mesh over all rows, damping included; with `[motion]`",
+        Of::MeshesMoving(|m, i| m.reached.meshes[i].coast_normal_force),
+    ),
+    list(
+        "max_dynamic_pressure_mpa",
+        "largest contact pressure of each mesh over all rows, on driving or coast flanks; with `[motion]` and `mesh = \"exact\"`",
+        Of::MeshesPressed(|m, i| m.reached.meshes[i].max_pressure),
     ),
     list(
         "max_radial_bearing_force_n",
         "largest radial force of each bearing over all rows; with `[motion]`",
         Of::BearingsMoving(|m, i| m.reached.radial_force[i].largest),
+    ),
+    list(
+        "run_up_resonance_rpm",
+        "speed of the input at the largest peak to peak of the dynamic transmission error of a cycle of each mesh; with `to_speed_rpm`",
+        Of::MeshesOverSpeed(|h| h.peak_to_peak_dte_um.driver_speed_rpm),
+    ),
+    list(
+        "run_up_max_force_rpm",
+        "speed of the input at the largest sum of the normal forces on the driving flanks of each mesh; with `to_speed_rpm`",
+        Of::MeshesOverSpeed(|h| h.normal_force_n.driver_speed_rpm),
     ),
     Number {
         key: Key::new("run_up_s", "f64", "duration of the run-up; with `to_speed_rpm`"),
@@ -280,6 +312,14 @@ impl GearboxResult {
                 }
                 Of::RunUp(own) => json!(own(self.motion.as_ref()?.run_up?)),
                 Of::MeshesMoving(own) => self.motion.as_ref().map(|m| meshes.clone().map(|i| own(m, i)).collect())?,
+                Of::MeshesOverSpeed(own) => {
+                    let all = &self.motion.as_ref().filter(|m| m.run_up.is_some())?.run_ups;
+                    all.iter().map(|of| of.headline().as_ref().map(own)).collect()
+                }
+                Of::MeshesPressed(own) => {
+                    let solved = self.motion.as_ref().filter(|m| m.knows_pressure)?;
+                    meshes.clone().map(|i| own(solved, i)).collect()
+                }
                 Of::Branch(own) => json!(own(self.branch.as_ref()?)),
                 Of::MeshesOnBranch(own) => self.branch.as_ref().map(|b| meshes.clone().map(|i| own(b, i)).collect())?,
                 Of::BearingsMoving(own) => {
@@ -311,6 +351,14 @@ impl GearboxResult {
             Of::BearingsVibrating(_) => vibrates.then_some(Some(file.bearings.len())),
             Of::RunUp(_) => file.motion.as_ref().and_then(|m| m.to_speed_rpm).map(|_| None),
             Of::MeshesMoving(_) => moves.then_some(Some(file.meshes.len())),
+            Of::MeshesOverSpeed(_) => {
+                let led = file.motion.as_ref().is_some_and(|m| m.to_speed_rpm.is_some());
+                led.then_some(Some(file.meshes.len()))
+            }
+            Of::MeshesPressed(_) => {
+                let solved = file.motion.as_ref().is_some_and(|m| m.mesh == MeshModel::Exact);
+                solved.then_some(Some(file.meshes.len()))
+            }
             Of::Branch(_) => file.branch.map(|_| None),
             Of::MeshesOnBranch(_) => file.branch.map(|_| Some(file.meshes.len())),
             Of::BearingsMoving(_) => moves.then_some(Some(file.bearings.len())),
@@ -329,7 +377,16 @@ impl GearboxResult {
         let of = NUMBERS.iter().find(|n| n.key.name == key).map(|n| n.of);
         [
             matches!(of, Some(Of::MeshesVibrating(_) | Of::BearingsVibrating(_))),
-            matches!(of, Some(Of::MeshesMoving(_) | Of::BearingsMoving(_) | Of::RunUp(_))),
+            matches!(
+                of,
+                Some(
+                    Of::MeshesMoving(_)
+                        | Of::MeshesPressed(_)
+                        | Of::BearingsMoving(_)
+                        | Of::RunUp(_)
+                        | Of::MeshesOverSpeed(_)
+                )
+            ),
             matches!(of, Some(Of::Branch(_) | Of::MeshesOnBranch(_))),
             matches!(of, Some(Of::BearingsUnderSpectrum(_) | Of::MeshesUnderSpectrum(_))),
         ]

@@ -12,7 +12,7 @@ use gearbox::{
     motion::{MapRequest, MappedMesh, MovingExactMesh},
 };
 use ltca::{StaticModel, StaticOptions};
-use reduction::{ElasticGear, GearModes};
+use reduction::{ElasticGear, GearModes, GearReducer};
 use scene::{
     Scene,
     gearbox::{Gearbox, GearboxGear, GearboxMesh, MeshTiming},
@@ -21,7 +21,8 @@ use scene::{
 use crate::{
     AnalysisError, GearCache, NoObserver, Progress, SharedModels,
     contact_maps::{map_teller, map_words, pitch_errors_told},
-    gears,
+    error::failed_modes,
+    gear_dofs, gears,
     inputs::resolved_scene,
     meshes::SceneMesh,
     motion::{QuasiStatic, body},
@@ -175,6 +176,19 @@ impl ReducedMesh {
         Ok(Box::new(self.exact(mesh)?.with_modes(modes)?))
     }
 
+    /// Lowest elastic frequency of both gears, bore held and flanks free, Hz; infinite of gears that are not reduced.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Reduction`].
+    pub fn lowest_hz(&self) -> Result<[f64; 2], AnalysisError> {
+        let of = |i: usize| {
+            let found =
+                gear_dofs::reduced(&self.pair.gears[i]).map_or(Ok(f64::INFINITY), GearReducer::lowest_elastic_hz);
+            found.map_err(|e| failed_modes(&self.scene, i, e))
+        };
+        Ok([of(0)?, of(1)?])
+    }
+
     /// Its gears.
     pub fn gears(&self) -> Arc<[ElasticGear; 2]> {
         Arc::clone(&self.pair.gears)
@@ -190,7 +204,9 @@ impl ReducedMesh {
     pub fn moving(&self, mesh: &GearMesh, damping_per_length: f64) -> Result<MovingExactMesh, GearboxError> {
         let gears = &self.pair.gears;
         let coast = self.has_coast_flanks().then(|| Arc::clone(gears));
-        MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &self.options, damping_per_length)
+        // Rows have no stress of fillets.
+        let options = StaticOptions { root_stress: false, ..self.options.clone() };
+        MovingExactMesh::new(mesh.pair.clone(), Arc::clone(gears), coast, &options, damping_per_length)
     }
 
     /// The mesh alone through its own cycle at rest: `torque` (N mm) on the driven gear, axes displaced by `about` in the

@@ -10,7 +10,8 @@
 //! | `checks` | what must hold |
 //! | `headline` | the numbers that it is judged by |
 //! | `at_rest` | its meshes at rest as a motion begins with them: stiffness, damping, springs and maps |
-//! | `motion`, `orders`, `sink`, `motion_remarks` | from rest on, in time, orders of its meshes and waterfall; who gets rows and checkpoints; what is said of it |
+//! | `motion`, `moved`, `reached`, `orders`, `sink` | from rest on, in time; what that comes to, what its rows reach, orders of its meshes and waterfall; who gets rows and checkpoints |
+//! | `motion_checks`, `motion_remarks` | what must hold of a motion, what is said of it |
 //! | `branch` | its periodic motions over the speed, stable and unstable |
 //! | `rating` | whether its meshes will hold |
 //! | `result` | what is read off all positions, and what is said of large deflections |
@@ -28,10 +29,13 @@ mod inertia;
 mod loads;
 mod meshes;
 mod motion;
+mod motion_checks;
 mod motion_remarks;
+mod moved;
 mod orders;
 mod parts;
 mod rating;
+mod reached;
 mod result;
 mod sink;
 mod solve;
@@ -53,8 +57,9 @@ use accuracy::solve_accurately;
 pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
 use motion::Span;
-pub use motion::{GearboxMotionResult, Range, ReachedByRows};
+pub use moved::GearboxMotionResult;
 pub use orders::MotionOrder;
+pub use reached::{Range, ReachedByMesh, ReachedByRows};
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;

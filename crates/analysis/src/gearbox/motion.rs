@@ -2,32 +2,37 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use answer::{Remark, RowStore, TableError};
+use answer::{Checks, Remark, RowStore};
+use dynamics::MeshResonance;
 use gearbox::{
     GearboxError,
     motion::{
-        ContactSpring, Drive, GearboxCheckpoint, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxRun,
-        MotionOptions, MotionPlan, ReductionCertificate,
+        ContactSpring, Drive, FlankCourse, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun,
+        MotionOptions, MotionPlan,
     },
 };
 use integrate::{Follower, MotionError, Periodicity, Row, Stage, State};
 use nalgebra::DVector;
-use scene::gearbox::{GearboxDrive, GearboxMotion};
+use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
+use study::Window;
 
 use super::{
     at_rest::AtRest,
     inertia,
-    orders::{MotionOrder, orders, spectrum, waterfall},
+    motion_remarks::Judged,
+    moved::GearboxMotionResult,
+    orders::{cuts, orders, spectrum, waterfall},
     parts::{input_over_time, over_time},
+    reached::ReachedByRows,
     sink::GearboxSink,
-    swings::{GearFrequencies, gear_frequencies},
+    swings::gear_frequencies,
 };
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
-    motion::{MotionSpectrum, QuasiStatic, Waterfall, window},
+    in_motion::FlankCertificate,
+    motion::{Elasticity, QuasiStatic, RunUp, RunUpCycle, window},
     run_phase,
     run_up::RunUpTorque,
-    running::Running,
     unless_cancelled,
 };
 
@@ -43,118 +48,6 @@ pub(super) struct Span {
     pub stop_after: Option<u64>,
 }
 
-/// A gearbox in motion, run.
-#[derive(Debug, Clone)]
-pub struct GearboxMotionResult {
-    /// Rows, the start among them.
-    pub rows: Arc<RowStore<GearboxInstant>>,
-    /// What they reach.
-    pub reached: ReachedByRows,
-    /// Frequency of each mesh at the speed of the start, Hz.
-    pub mesh_frequencies: Vec<f64>,
-    /// Mean stiffness of each mesh along its normal, N/mm, about where it stands.
-    pub stiffness: Vec<f64>,
-    /// Damping of each mesh along its normal, N s/mm.
-    pub damping: Vec<f64>,
-    /// Length of a step, s.
-    pub step: f64,
-    /// Steps taken, and those that were divided.
-    pub steps: [u64; 2],
-    /// Where the energy went.
-    pub energy: GearboxEnergy,
-    /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
-    pub separations: Vec<[u64; 2]>,
-    /// How much of its map each mesh has used at most; 0 for others.
-    pub reach: Vec<f64>,
-    /// Orders of every mesh, stretch by stretch.
-    pub orders: Vec<MotionOrder>,
-    /// Spectra of a motion whose speed is led from one to another: transmission error (um) and normal force (N) of each
-    /// mesh, then the force of each bearing (N).
-    pub waterfall: Option<Waterfall>,
-    /// Spectra of a motion whose speed is not led: what a waterfall has, over all rows.
-    pub spectrum: Option<MotionSpectrum>,
-    /// Cycles of the fastest mesh after which all meshes are where they began; `None` where that takes more than 100,000.
-    pub common_period: Option<u64>,
-    /// Elastic modes of the gears, in their order; `None` of gears that are rigid beside their teeth.
-    pub gear_modes: Vec<Option<GearFrequencies>>,
-    /// How well the shafts were reduced.
-    pub reduction: ReductionCertificate,
-    /// Cycles of the fastest mesh before the rows.
-    pub warm_up_cycles: u64,
-    /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where it need not.
-    pub periodicity: Option<Periodicity>,
-    /// What the acceleration of a run-up takes at the input: of all that the meshes drive, beside their loads.
-    pub run_up: Option<RunUpTorque>,
-    /// What was said of files of maps.
-    pub(super) map_remarks: Vec<Remark>,
-}
-
-/// Least and largest value.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Range {
-    /// Least.
-    pub least: f64,
-    /// Largest.
-    pub largest: f64,
-}
-
-impl Range {
-    /// From the one to the other.
-    pub fn span(self) -> f64 {
-        self.largest - self.least
-    }
-}
-
-/// What the rows of a motion reach.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReachedByRows {
-    /// Dynamic transmission error of each mesh in all rows, um.
-    pub dte_um: Vec<Range>,
-    /// Normal force of each mesh in all rows, N.
-    pub normal_force: Vec<Range>,
-    /// Radial force of each bearing in all rows, N.
-    pub radial_force: Vec<Range>,
-    /// Size of the speed of the input in all rows, rad/s.
-    pub input_speed: Range,
-    /// Cycles of the fastest mesh since the first row, row by row, above 0 in the sense in which it goes on.
-    pub cycles: Vec<f64>,
-}
-
-impl ReachedByRows {
-    /// Of rows, with the frequencies of the meshes (Hz).
-    fn of(rows: &RowStore<GearboxInstant>, mesh_frequencies: &[f64]) -> Result<Self, TableError> {
-        let fastest = (0..mesh_frequencies.len()).max_by(|&a, &b| mesh_frequencies[a].total_cmp(&mesh_frequencies[b]));
-        let mut cycles = Vec::with_capacity(rows.len());
-        let [mut meshes, mut bearings]: [Vec<[Running; 2]>; 2] = Default::default();
-        let mut speed = Running::default();
-        rows.for_each(0..rows.len(), |row| {
-            cycles.push(fastest.map_or(0.0, |mesh| row.meshes[mesh].cycles));
-            speed.push(row.input[1].abs());
-            meshes.resize(row.meshes.len(), Default::default());
-            bearings.resize(row.bearings.len(), Default::default());
-            for ([dte, force], mesh) in meshes.iter_mut().zip(&row.meshes) {
-                dte.push(1e3 * mesh.transmission_error);
-                force.push(mesh.normal_force);
-            }
-            for ([radial, _], bearing) in bearings.iter_mut().zip(&row.bearings) {
-                radial.push(bearing.force[0].hypot(bearing.force[1]));
-            }
-        })?;
-        let (first, last) = (cycles.first().copied().unwrap_or(0.0), cycles.last().copied().unwrap_or(0.0));
-        let sense = if last < first { -1.0 } else { 1.0 };
-        cycles.iter_mut().for_each(|own| *own = sense * (*own - first));
-        let range = |of: &Running| Range { least: of.ends[0], largest: of.ends[1] };
-        let ranges = |all: &[[Running; 2]], k: usize| all.iter().map(|own| range(&own[k])).collect();
-        Ok(Self {
-            dte_um: ranges(&meshes, 0),
-            normal_force: ranges(&meshes, 1),
-            radial_force: ranges(&bearings, 0),
-            input_speed: range(&speed),
-            cycles,
-        })
-    }
-}
-
 /// A gearbox that is ready to move, with what its meshes are.
 pub(super) struct Ready {
     pub mechanism: GearboxMechanism,
@@ -164,6 +57,12 @@ pub(super) struct Ready {
     pub stiffness: Vec<f64>,
     /// Damping of each mesh along its normal, N s/mm.
     pub damping: Vec<f64>,
+    /// Each mesh through its own cycle at rest.
+    pub cycles: Vec<QuasiStatic>,
+    /// Both gears of each mesh turning against each other.
+    pub resonances: Vec<MeshResonance>,
+    /// Error of the map of each mesh, beside the most with which it is taken.
+    pub map_errors: Vec<Option<[f64; 2]>>,
     /// What was said of files of maps.
     pub map_remarks: Vec<Remark>,
 }
@@ -184,6 +83,8 @@ pub(super) fn ready(
     });
     let (springs, cycles): (Vec<_>, Vec<_>) = looked?.into_iter().unzip();
     let damping: Vec<f64> = cycles.iter().enumerate().map(|(i, own)| rest.damping(i, &bodies, own, asked)).collect();
+    let resonance = |(i, own): (usize, &QuasiStatic)| rest.resonance(i, &bodies, (own, damping[i]), asked);
+    let resonances = cycles.iter().enumerate().map(resonance).collect();
     let mut map_remarks = Vec::new();
     let elements = run_phase(observer, "make meshes", PhaseWork::Steps(rest.meshes.len() as u64), |progress| {
         let one = |i: usize| {
@@ -196,6 +97,7 @@ pub(super) fn ready(
     .map_err(failed)?;
     let limit = TAU * asked.highest_frequency_hz.unwrap_or_else(|| BEYOND * rest.fastest(fastest));
     let options = MotionOptions { drive, modal_damping: asked.modal_damping_ratio, limit };
+    let (elements, map_errors): (Vec<_>, Vec<_>) = elements.into_iter().unzip();
     let mut elements = elements.into_iter();
     let (meshes, operation) = (rest.meshes.to_vec(), rest.operation.clone());
     let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, _| {
@@ -212,7 +114,7 @@ pub(super) fn ready(
     let mut mechanism = made.map_err(failed)?;
     let start = mechanism.start(options.modal_damping).map_err(failed)?;
     let stiffness = springs.iter().map(|s| s.stiffness().mean).collect();
-    Ok(Ready { mechanism, start, stiffness, damping, map_remarks })
+    Ok(Ready { mechanism, start, stiffness, damping, cycles, resonances, map_errors, map_remarks })
 }
 
 /// Runs a gearbox as its file asks for; the cycles of the fastest mesh after which it was stopped, where it was.
@@ -230,7 +132,7 @@ pub(super) fn run(
         GearboxDrive::Torque => Drive::Torque { start: speed, torque: asked.input_torque },
     };
     let fastest = speed.max(asked.to_speed_rpm.unwrap_or(0.0) * TAU / 60.0);
-    let Ready { mut mechanism, start, stiffness, damping, map_remarks } =
+    let Ready { mut mechanism, start, stiffness, damping, cycles, resonances, map_errors, map_remarks } =
         ready(rest, asked, (drive, fastest), observer)?;
     let run_up = match drive {
         Drive::Speed(speed) | Drive::Balanced(speed) => {
@@ -269,8 +171,30 @@ pub(super) fn run(
     // The last row of a motion may be no whole row behind the one before.
     let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
     let even = rows.len().min(even as usize + 1);
-    let result = GearboxMotionResult {
-        orders: orders(&rows, asked.waterfall_cycles)?,
+    let found = done.periodicity.filter(|_| plan.settle.is_some());
+    let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
+    let at_rest: Vec<f64> = cycles.iter().map(|own| own.normal_force).collect();
+    let reached = ReachedByRows::of(&rows, &frequencies, asked.to_speed_rpm.map(|_| &at_rest[..]))?;
+    let orders = orders(&rows, asked.waterfall_cycles)?;
+    let over_speed = |(mesh, all): (usize, &Vec<RunUpCycle>)| RunUp { cycles: all.clone(), cuts: cuts(&orders, mesh) };
+    let is_led = asked.to_speed_rpm.is_some();
+    let run_ups = reached.cycles_of_meshes.iter().enumerate().filter(|_| is_led).map(over_speed).collect();
+    let on_flanks = |(i, own): (usize, &FlankCourse)| {
+        let both = reached.meshes.get(i).map_or_else(Default::default, |mesh| mesh.both);
+        FlankCertificate::new(own, both, stiffness[i])
+    };
+    let mut result = GearboxMotionResult {
+        ledger_residual_over_work: done.ledger.residual() / done.throughput.max(f64::MIN_POSITIVE),
+        flanks: done.flanks.iter().enumerate().map(on_flanks).collect(),
+        reach: done.flanks.iter().map(|own| own.reach).collect(),
+        map_errors,
+        resonances,
+        elasticity: Vec::new(),
+        knows_pressure: asked.mesh == MeshModel::Exact,
+        even_rows: even,
+        comes_back: window == Window::Rectangular,
+        orders,
+        run_ups,
         waterfall: match asked.to_speed_rpm {
             Some(_) => waterfall((&rows, even), asked.waterfall_cycles)?,
             None => None,
@@ -280,13 +204,11 @@ pub(super) fn run(
             None => {
                 let fastest = frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
                 let steps = (even.max(1) - 1) as f64 * plan.steps_per_row as f64;
-                let found = done.periodicity.filter(|_| plan.settle.is_some());
-                let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
                 spectrum((&rows, even), (steps / plan.steps_per_cycle as f64, fastest), window)?
             }
         },
         common_period: done.common_period,
-        reached: ReachedByRows::of(&rows, &frequencies)?,
+        reached,
         rows: Arc::new(rows),
         mesh_frequencies: frequencies,
         stiffness,
@@ -294,15 +216,25 @@ pub(super) fn run(
         step: plan.step,
         steps: [done.steps, done.divided],
         energy: done.energy,
-        separations: done.separations,
-        reach: done.reach,
         gear_modes: gear_frequencies(rest.file.gears.len(), rest.modes),
         reduction,
         warm_up_cycles: done.warm_up,
-        periodicity: done.periodicity.filter(|_| plan.settle.is_some()),
+        periodicity: found,
         run_up,
-        map_remarks,
+        checks: Checks::default(),
+        remarks: map_remarks,
     };
+    // What was stopped on the way is gone on with before it is judged.
+    if stopped.is_none() {
+        let each = cycles.iter().enumerate().map(|(i, own)| rest.elasticity(i, own));
+        let elasticity = each.collect::<Result<Vec<_>, AnalysisError>>()?;
+        let judged = Judged { rest, asked, elasticity: &elasticity, moved: &result };
+        let of_mesh = |(i, own): (usize, &Elasticity)| own.headline(&judged.vibration(i));
+        let (headlines, checks, remarks) =
+            (elasticity.iter().enumerate().map(of_mesh).collect(), judged.checks(), judged.remarks()?);
+        (result.elasticity, result.checks) = (headlines, checks);
+        result.remarks.extend(remarks);
+    }
     Ok((result, stopped))
 }
 

@@ -1,71 +1,168 @@
-//! What a user should hear of a gearbox in motion.
+//! What a user should hear of a gearbox in motion: of every mesh what is said of a pair.
 
 use std::f64::consts::TAU;
 
-use answer::Remark;
-use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion};
+use answer::{Remark, RowStore, TableError};
+use gearbox::motion::GearboxInstant;
+use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 
-use super::{GearboxMotionResult, orders::MotionOrder, swings::few_modes};
+use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
+    in_motion::{
+        MeshInMotion, MeshRecord, Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open,
+    },
+    motion::{Elasticity, Pace, StepDemand, Vibration},
     remark,
-    run_up::{coarse_cut, cut_peak},
 };
 
-impl GearboxMotionResult {
-    /// What a user should hear of the motion; meshes by their names.
-    pub(super) fn remarks(&self, file: &Gearbox, asked: &GearboxMotion) -> Vec<Remark> {
-        let torque = self.run_up.and_then(|run_up| run_up.remark("the input", "more `cycles` make it gentler"));
-        let cut = self.run_up.and_then(|_| self.coarse_cut(file));
-        // A motion that a torque drives has no given speed at which it could come back.
-        let alone =
-            (self.common_period.is_none() && asked.drive != GearboxDrive::Torque).then(remark::no_common_period);
-        let own = self.map_remarks.iter().cloned().chain(self.unsettled(asked));
-        let growth = asked.to_speed_rpm.map_or(1.0, |to| (to / asked.speed_rpm).max(1.0));
-        let fastest = growth * self.mesh_frequencies.iter().fold(0.0, |m: f64, hz| m.max(*hz));
-        let few = few_modes(file, &self.gear_modes, fastest);
-        own.chain(torque).chain(cut).chain(alone).chain(few).collect()
+/// What shows a resonance better over the speed.
+const CUT: &str = "more `cycles` or fewer `waterfall_cycles` show it better";
+
+/// A gearbox in motion that is judged.
+#[derive(Clone, Copy)]
+pub(super) struct Judged<'a> {
+    pub rest: &'a AtRest<'a>,
+    pub asked: &'a GearboxMotion,
+    /// What the elasticity of the gears of each mesh leaves out.
+    pub elasticity: &'a [Elasticity],
+    pub moved: &'a GearboxMotionResult,
+}
+
+impl Judged<'_> {
+    /// Whether the coast flanks of a mesh are there to press.
+    fn has_coast_flanks(&self, mesh: usize) -> bool {
+        self.asked.mesh == MeshModel::Spring || self.rest.reduced[mesh].has_coast_flanks()
     }
 
-    /// The order cut with fewest points across its peak: of each mesh the order with the largest amplitude of its own
-    /// transmission error.
-    fn coarse_cut(&self, file: &Gearbox) -> Option<Remark> {
-        let largest = |mesh: usize| {
-            let cut = |order: usize| -> Vec<&MotionOrder> {
-                self.orders.iter().filter(|o| (o.mesh, o.order) == (mesh, order)).collect()
-            };
-            let peak =
-                |cut: &[&MotionOrder]| cut_peak(&cut.iter().map(|o| o.transmission_errors[mesh]).collect::<Vec<_>>());
-            let orders = self.orders.iter().filter(|o| o.mesh == mesh).map(|o| o.order).max().unwrap_or(0);
-            let all = (1..=orders).filter_map(|order| {
-                let cut = cut(order);
-                let peak = peak(&cut)?;
-                Some((peak, cut[peak.at]))
-            });
-            all.max_by(|a, b| a.1.transmission_errors[mesh].total_cmp(&b.1.transmission_errors[mesh]))
+    /// A mesh as checks and remarks see it.
+    pub fn mesh(&self, i: usize) -> MeshInMotion<'_> {
+        let reached = &self.moved.reached.meshes[i];
+        MeshInMotion {
+            scene: &self.rest.reduced[i].scene,
+            pair: &self.rest.meshes[i].pair,
+            flanks: &self.moved.flanks[i],
+            has_coast_flanks: self.has_coast_flanks(i),
+            errors_um: [reached.dte_um.least, reached.dte_um.largest],
+            peak_to_peak_um: reached.peak_to_peak_dte_um,
+            force_n: reached.normal_force.largest.max(reached.coast_normal_force),
+            pressure_mpa: (self.asked.mesh == MeshModel::Exact).then_some(reached.max_pressure),
+        }
+    }
+
+    /// What a user should hear; meshes by their names.
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn remarks(&self) -> Result<Vec<Remark>, TableError> {
+        let Self { rest, asked, moved, .. } = *self;
+        let mut said: Vec<Remark> =
+            self.settled().into_iter().chain(work_open(moved.ledger_residual_over_work)).collect();
+        if asked.drive == GearboxDrive::Torque {
+            said.extend(speed_changed(moved.reached.mean_input_speed * 60.0 / TAU, asked.speed_rpm));
+        }
+        said.extend(moved.run_up.and_then(|run_up| run_up.remark("the input", "more `cycles` make it gentler")));
+        // A motion that a torque drives has no given speed at which it could come back.
+        let alone = moved.common_period.is_none() && asked.drive != GearboxDrive::Torque;
+        said.extend(alone.then(remark::no_common_period));
+        let fastest = self.mesh_hz().into_iter().map(|[_, most]| most).fold(0.0, f64::max);
+        said.extend(few_modes(rest.file, &moved.gear_modes, fastest));
+        for (i, mesh) in rest.meshes.iter().enumerate() {
+            said.extend(self.of_mesh(i)?.into_iter().map(|own| own.about(&mesh.name)));
+        }
+        Ok(said)
+    }
+
+    /// What is said of a mesh.
+    fn of_mesh(&self, i: usize) -> Result<Vec<Remark>, TableError> {
+        let Self { rest, asked, moved, .. } = *self;
+        let parting = if self.has_coast_flanks(i) { Parting::CoastFlanks } else { Parting::End };
+        let mut said: Vec<Remark> = no_backlash(&rest.meshes[i].pair, parting).into_iter().collect();
+        if asked.to_speed_rpm.is_none() {
+            let resonance = moved.resonances[i].hz;
+            let in_period = 1.0 / (moved.step * resonance);
+            let of_resonance = || coarse_steps(in_period, ("mesh resonance", resonance), (StepKeys::GEARBOX, ""));
+            said.extend(asked.error_tolerance.is_none().then(of_resonance).flatten());
+            said.extend(self.unresolved(i)?);
+        }
+        said.extend(moved.run_ups.get(i).and_then(|own| own.coarse_cut(CUT)));
+        said.extend(self.mesh(i).remarks());
+        let found = self.vibration(i);
+        said.extend(self.elasticity[i].warning(&found, &self.demand(), Pace { step_s: None }));
+        said.extend(self.elasticity[i].rotation_warning(&found));
+        Ok(said)
+    }
+
+    /// What has been found of a mesh, to be held against the elastic frequencies of its gears.
+    pub fn vibration(&self, i: usize) -> Vibration {
+        Vibration {
+            mesh_hz: self.mesh_hz()[i],
+            resonance: self.moved.resonances[i],
+            peak_to_peak_um: self.moved.reached.meshes[i].peak_to_peak_dte_um,
+        }
+    }
+
+    /// Least and highest frequency of each mesh, Hz: of the speeds that are given, or that came of a torque.
+    fn mesh_hz(&self) -> Vec<[f64; 2]> {
+        let from = self.asked.speed_rpm * TAU / 60.0;
+        let to = self.asked.to_speed_rpm.map_or(from, |rpm| rpm * TAU / 60.0);
+        let reached = self.moved.reached.input_speed;
+        let speeds = match self.asked.drive {
+            GearboxDrive::Torque => [reached.least.min(from), reached.largest.max(from)],
+            GearboxDrive::Speed | GearboxDrive::Balanced => [from.min(to), from.max(to)],
         };
-        let (peak, at) = (0..file.meshes.len()).filter_map(largest).min_by_key(|(peak, _)| peak.points)?;
-        let of = format!(" of mesh {}", file.meshes[at.mesh].name);
-        coarse_cut(
-            peak,
-            (&of, at.order),
-            at.speed.abs() * 60.0 / TAU,
-            "more `cycles` or fewer `waterfall_cycles` show it better",
-        )
+        self.rest.cycles_per_turn().into_iter().map(|cycles| speeds.map(|speed| cycles * speed)).collect()
+    }
+
+    /// Steps of a longer analysis.
+    fn demand(&self) -> StepDemand {
+        let [_, mesh_hz] = self.mesh_hz().into_iter().fold([0.0; 2], |[l, h]: [f64; 2], [a, b]| [l.max(a), h.max(b)]);
+        let cycles = f64::from(self.asked.cycles) + self.moved.warm_up_cycles as f64;
+        StepDemand::of_gearbox((self.rest.file, self.asked), cycles, mesh_hz)
+    }
+
+    /// Rows and steps of a mesh that do not show what moves.
+    fn unresolved(&self, i: usize) -> Result<Vec<Remark>, TableError> {
+        let Self { asked, moved, .. } = *self;
+        // The first row is the start, and the last one may be no whole row behind the one before.
+        let count = moved.even_rows.max(1) - 1;
+        let whole = moved.reached.meshes[i].cycles * count as f64 / (moved.rows.len().max(2) - 1) as f64;
+        let cycles = (whole + 1e-6).floor();
+        if cycles < 1.0 {
+            return Ok(Vec::new());
+        }
+        let samples = errors_um(&moved.rows, i, count)?;
+        let per_cycle = count as f64 / whole;
+        let used = ((cycles * per_cycle).round() as usize).min(count);
+        let record = MeshRecord {
+            samples: &samples[count - used..],
+            cycles,
+            steps: match asked.error_tolerance {
+                None => per_cycle * f64::from(asked.steps_per_row),
+                Some(_) => f64::INFINITY,
+            },
+            comes_back: moved.comes_back,
+            keys: StepKeys::GEARBOX,
+        };
+        Ok(record.unresolved())
     }
 
     /// What a user should hear of a motion that was to settle.
-    fn unsettled(&self, asked: &GearboxMotion) -> Option<Remark> {
+    fn settled(&self) -> Option<Remark> {
+        let Self { asked, moved, .. } = *self;
         let (tolerance, most) = asked.settle?;
-        let found = self.periodicity?;
-        let early = self.warm_up_cycles < u64::from(most);
-        if found.residual <= tolerance {
-            return None;
-        }
-        Some(if early {
-            remark::repeats_and_drifts(tolerance, self.warm_up_cycles, found.residual)
-        } else {
-            let why = "it may be chaotic, have pitch errors, or need more `warm_up_cycles`";
-            remark::not_periodic(self.warm_up_cycles, found.residual, tolerance, why)
-        })
+        let settled = Settled {
+            tolerance,
+            found: moved.periodicity?,
+            waited: moved.warm_up_cycles,
+            most: u64::from(most),
+            common: moved.common_period.map_or(usize::MAX, |period| period as usize),
+            why: "it may be chaotic, have pitch errors, or need more `warm_up_cycles`",
+        };
+        settled.remark()
     }
+}
+
+/// Transmission error of a mesh at so many rows behind the first, um.
+fn errors_um(rows: &RowStore<GearboxInstant>, mesh: usize, count: usize) -> Result<Vec<f64>, TableError> {
+    rows.series(1..count + 1, |row| 1e3 * row.meshes[mesh].transmission_error)
 }

@@ -8,7 +8,7 @@ use study::{StudyError, Window, order_amplitude};
 
 use crate::{
     AnalysisError,
-    motion::{MotionSpectrum, RPM, Stretches, Waterfall, waterfall as order_spectra},
+    motion::{MotionSpectrum, OrderCut, RPM, Stretches, Waterfall, waterfall as order_spectra},
 };
 
 /// Orders of each mesh.
@@ -54,6 +54,18 @@ pub(super) fn orders(rows: &RowStore<GearboxInstant>, cycles: u32) -> Result<Vec
         stretch(&rows.part(from..from + length)?, &mut all)?;
     }
     Ok(all)
+}
+
+/// Amplitudes of the orders of a mesh in its own transmission error, stretch by stretch.
+pub(super) fn cuts(orders: &[MotionOrder], mesh: usize) -> Vec<OrderCut> {
+    let own: Vec<&MotionOrder> = orders.iter().filter(|o| o.mesh == mesh).collect();
+    let cut = |of: &[&MotionOrder]| OrderCut {
+        time_s: of[0].time,
+        driver_speed_rpm: of[0].speed.abs() / RPM,
+        mesh_frequency_hz: of[0].frequency / of[0].order as f64,
+        amplitudes_um: of.iter().map(|o| 1e3 * o.transmission_errors[mesh]).collect(),
+    };
+    own.chunk_by(|a, b| a.time == b.time).map(cut).collect()
 }
 
 /// Order spectra of every mesh and bearing over the same stretches, of a motion whose first rows, so many, are evenly spaced

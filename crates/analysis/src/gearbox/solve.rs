@@ -121,9 +121,22 @@ pub(super) fn solve(
                 vibration::vibration(&parts, asked, (reduced, &modes), &samples, observer)
             });
             let found = found?;
-            remarks.extend(found.remarks(file));
+            let load = |i: usize| gearbox::mesh_numbers::mean(positions.iter().map(|p| p.meshes[i].normal_force));
+            remarks.extend(found.remarks(file, &(0..meshes.len()).map(load).collect::<Vec<_>>()));
             Some(found)
         }
+    };
+    let lowest_hz = match &file.motion {
+        None => Vec::new(),
+        Some(_) => run_phase(observer, "frequencies", PhaseWork::Steps(reduced.len() as u64), |progress| {
+            let one = |own: &ReducedMesh| {
+                unless_cancelled(progress)?;
+                let found = own.lowest_hz();
+                progress.tick();
+                found
+            };
+            reduced.iter().map(one).collect::<Result<Vec<_>, AnalysisError>>()
+        })?,
     };
     remarks.extend(reduced.iter().flat_map(|own| own.save(models.cache())));
     let asked = file.motion.as_ref().or(file.branch.as_ref().map(|own| &own.motion));
@@ -148,13 +161,12 @@ pub(super) fn solve(
         positions: &positions,
         on_coast: &on_coast,
         modes: &modes,
+        lowest_hz: &lowest_hz,
         cache: models.cache(),
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
     let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
-    remarks.extend(
-        moved.as_ref().zip(file.motion.as_ref()).map(|(moved, asked)| moved.remarks(file, asked)).into_iter().flatten(),
-    );
+    remarks.extend(moved.iter().flat_map(|own| own.remarks.iter().cloned()));
     let branch = file.branch.as_ref().map(|asked| branch::branch(&rest, asked, observer)).transpose()?;
     remarks.extend(branch.iter().flat_map(|own| own.remarks.iter().cloned()));
     let (ratings, said) = rating::ratings((file, &train), &meshes, &reduced, (&positions, loads.as_ref()))?;

@@ -1,15 +1,18 @@
 //! What is found of a gearbox that swings about where it stands.
 
-use std::sync::Arc;
+use std::{f64::consts::TAU, sync::Arc};
 
 use dynamics::RigidBody;
 use gearbox::{Harmonic, Vibration, WhirlModes, rms};
 use nalgebra::Complex;
 use reduction::GearModes;
-use scene::gearbox::{Gearbox, GearboxGear};
+use scene::gearbox::{Gearbox, GearboxGear, GearboxMesh};
 use study::Campbell;
 
-use crate::remark::{self, Remark};
+use crate::{
+    motion::RPM,
+    remark::{self, Remark},
+};
 
 /// Elastic modes of the gear on every disc; `None` where it is in no mesh, and nothing where none are kept.
 pub(super) type GearModesOfDiscs = Vec<Option<Arc<GearModes>>>;
@@ -111,14 +114,40 @@ impl SpeedRms {
 }
 
 impl VibrationResult {
-    /// What a user should hear of the modes of gears.
-    pub(super) fn remarks(&self, file: &Gearbox) -> Vec<Remark> {
+    /// Meshes whose linear vibration takes more than their mean load (N) off them at some speed: flanks would lose contact.
+    fn beyond_load(&self, file: &Gearbox, loads: &[f64]) -> Vec<Remark> {
+        let one = |(i, (mesh, &load)): (usize, (&GearboxMesh, &f64))| {
+            let forces: Vec<f64> = self.orders.iter().map(|orders| taken_off(orders, i)).collect();
+            let beyond = |at: &usize| forces[*at] > load;
+            let worst = (0..forces.len()).filter(beyond).max_by(|&a, &b| forces[a].total_cmp(&forces[b]))?;
+            let size = |own: &&OrderForces| own.mesh_forces[i].norm();
+            let most = self.orders[worst].iter().max_by(|a, b| size(a).total_cmp(&size(b)))?;
+            let listed = ranges(&forces.iter().map(|force| *force > load).collect::<Vec<_>>());
+            let rpm = |at: usize| format!("{:.0}", self.speeds[at] / RPM);
+            let words = listed.iter().map(|&[a, b]| if a == b { rpm(a) } else { format!("{} to {}", rpm(a), rpm(b)) });
+            let said = remark::vibration_beyond_load(
+                forces[worst],
+                self.speeds[worst] / RPM,
+                most.order,
+                &*file.meshes[most.mesh].name,
+                load,
+                listed.iter().map(|[a, b]| b - a + 1).sum::<usize>(),
+                forces.len(),
+                format!("1/min: {}", words.take(LISTED).collect::<Vec<_>>().join(", ")),
+            );
+            Some(said.about(&mesh.name))
+        };
+        file.meshes.iter().zip(loads).enumerate().filter_map(one).collect()
+    }
+
+    /// What a user should hear: of vibration beyond the mean load of each mesh (N), of the modes of gears.
+    pub(super) fn remarks(&self, file: &Gearbox, loads: &[f64]) -> Vec<Remark> {
         let orders = self.orders.iter().flatten().map(|order| order.frequency_hz);
         let still = file.gears.iter().zip(&self.gear_modes).filter_map(|(gear, own)| {
             own.as_ref().filter(|own| !own.by_sectors).map(|_| remark::gear_modes_do_not_travel(&*gear.name))
         });
         let few = few_modes(file, &self.gear_modes, orders.fold(0.0, f64::max));
-        few.into_iter().chain(still).collect()
+        self.beyond_load(file, loads).into_iter().chain(few).chain(still).collect()
     }
 
     /// Speed (rad/s) at which a root mean square is largest, and its value there; `None` without speeds.
@@ -126,6 +155,42 @@ impl VibrationResult {
         let all = self.speeds.iter().zip(&self.rms).map(|(speed, rms)| (*speed, of(rms)));
         all.max_by(|a, b| a.1.total_cmp(&b.1))
     }
+}
+
+/// Ranges of speeds that are listed.
+const LISTED: usize = 4;
+/// Frequencies that are one, relative.
+const SAME: f64 = 1e-9;
+
+/// Places of a mesh cycle at which orders are added up.
+const PLACES: usize = 128;
+
+/// How far the dynamic normal force of a mesh falls below its mean at one speed, N: orders of one mesh as they stand to each
+/// other, those of meshes with other frequencies as they meet at last.
+fn taken_off(orders: &[OrderForces], mesh: usize) -> f64 {
+    let base = |o: &&OrderForces| o.frequency_hz / o.order as f64;
+    let mut all: Vec<&OrderForces> = orders.iter().collect();
+    all.sort_by(|a, b| base(a).total_cmp(&base(b)));
+    let lowest = |same: &[&OrderForces]| {
+        let at = |place: usize| {
+            let turn = TAU * place as f64 / PLACES as f64;
+            same.iter().map(|o| (o.mesh_forces[mesh] * Complex::cis(turn * o.order as f64)).re).sum::<f64>()
+        };
+        (0..PLACES).map(at).fold(0.0, f64::min)
+    };
+    all.chunk_by(|a, b| base(b) - base(a) <= SAME * base(b)).map(|same| -lowest(same)).sum()
+}
+
+/// First and last place of each row of those that are marked.
+fn ranges(marked: &[bool]) -> Vec<[usize; 2]> {
+    let mut all: Vec<[usize; 2]> = Vec::new();
+    for at in (0..marked.len()).filter(|at| marked[*at]) {
+        match all.last_mut() {
+            Some([_, last]) if *last + 1 == at => *last = at,
+            _ => all.push([at; 2]),
+        }
+    }
+    all
 }
 
 /// Gears whose modes end below the highest frequency (Hz) that excites them.
@@ -157,4 +222,32 @@ pub(super) fn lines(vibration: &Vibration, ratios: &[f64], orders: u32) -> Vec<E
     let shafts = shafts.filter(|(_, ratio)| **ratio != 0.0);
     let shafts = shafts.map(|(i, ratio)| ExcitationLine { name: format!("shaft_{}", i + 1), order: ratio.abs() });
     meshes.chain(shafts).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn order(mesh: usize, order: usize, frequency_hz: f64, force: Complex<f64>) -> OrderForces {
+        OrderForces { mesh, order, frequency_hz, mesh_forces: vec![force], bearing_forces: Vec::new() }
+    }
+
+    /// Orders of one mesh count as they stand to each other: cos t + cos 2t falls by 9/8, sin t + sin 2t by 1.76; those of
+    /// two frequencies by their sum; two meshes of one frequency, as of an idler, by what is left of both.
+    #[test]
+    fn orders_take_off_what_they_reach_together() {
+        let (one, turned) = (Complex::new(8.0, 0.0), Complex::new(0.0, -8.0));
+        let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 2e-3 * wanted + 1e-9, "{found} {wanted}");
+        near(taken_off(&[order(0, 1, 50.0, one), order(0, 2, 100.0, one)], 0), 9.0);
+        near(taken_off(&[order(0, 1, 50.0, turned), order(0, 2, 100.0, turned)], 0), 8.0 * 1.7602);
+        near(taken_off(&[order(0, 1, 50.0, one), order(1, 1, 33.0, turned)], 0), 16.0);
+        near(taken_off(&[order(0, 1, 50.0, one), order(1, 1, 50.0, -one)], 0), 0.0);
+    }
+
+    /// Speeds in a row are listed as one range.
+    #[test]
+    fn speeds_in_a_row_are_one_range() {
+        assert_eq!(ranges(&[true, true, false, true]), [[0, 1], [3, 3]]);
+        assert!(ranges(&[false; 3]).is_empty());
+    }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use answer::{Remark, RowStore};
 use integrate::State;
 use scene::{Model, MotionScene, Scene};
-use study::Lyapunov;
+use study::{Lyapunov, Window};
 
 use super::{
     LumpedRow, StaticPoint,
@@ -25,6 +25,7 @@ use crate::{
     certificate::Checks,
     facts::{Resolution, RunInfo},
     gears,
+    in_motion::{self, MeshRecord, StepKeys, coarse_steps},
     inputs::motion_of,
     motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
     options, plausible,
@@ -245,18 +246,20 @@ fn result(
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
     remarks.extend(certificate_remarks(motion, &headline));
     remarks.extend(inputs.remarks_of(motion, &headline));
+    let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
             Some(_) => f64::INFINITY,
         };
-        remarks.extend(motion::unresolved(&judged.dte_um, run.judged, steps));
+        let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
+        let comes_back = whole == Window::Rectangular;
+        remarks.extend(MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.unresolved());
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
-            remarks.extend(motion::coarse_steps(steps, ("mesh resonance", system.resonance_hz), ""));
+            remarks.extend(coarse_steps(steps, ("mesh resonance", system.resonance_hz), (StepKeys::PAIR, "")));
         }
     }
-    let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
     let spectrum = judged.spectrum((run.judged as f64, frequencies.mesh_hz), whole)?;
     let LumpedRun { rows, energy, end, .. } = run;
     let (rows, energy) = (Arc::new(rows), Arc::new(energy));
@@ -343,16 +346,16 @@ fn certificate(
     let survey = &run.survey;
     survey.finite()?;
     let LumpedInputs { scene, pair, .. } = inputs;
-    let mut all = vec![motion::energy_check(run.ledger.open_over_vibration())];
-    all.extend(survey.least_slice_force.map(|least| motion::pulling_check(least, survey.largest_force)));
+    let mut all = vec![in_motion::energy_check(run.ledger.open_over_vibration())];
+    all.extend(survey.least_slice_force.map(|least| in_motion::pulling_check(least, survey.largest_force)));
     let errors = survey.errors_um.ends.into_iter();
     if scene.analysis.model.has_reduced_gears() {
-        all.push(motion::deflection_check_in_motion(scene, pair, errors.map(|um| 1e-3 * um)));
+        all.push(in_motion::deflection_check_in_motion(scene, pair, errors.map(|um| 1e-3 * um)));
     } else {
         // Beyond the backlash the other flanks are in each other.
         let backlash = backlash_um(inputs);
         let beyond = |error_um: f64| 1e-3 * error_um.max(-error_um - backlash);
-        all.push(motion::excursion_check(
+        all.push(in_motion::excursion_check(
             errors.chain(at_rest).map(beyond).fold(0.0, worse),
             scene.pair.normal_module_mm,
         ));

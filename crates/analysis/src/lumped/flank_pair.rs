@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     certificate::Check,
-    motion::{force_jump_check, pulling_check},
+    in_motion::{force_jump_check, map_checks, pulling_check},
 };
 
 /// Error of a map over the mean approach of the flanks, root mean square, that is the most: without friction, and with it,
@@ -65,14 +65,14 @@ impl LumpedMechanism for FlankPair {
     fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
         let now = self.machine.pair_instant(state).map_err(OfContact::of_contact)?;
         let [normal_force, coast] = now.normal_forces();
-        let driving = now.flanks.as_ref().map(|[driving, _]| driving.line_length);
+        let [driving, _] = &now.flanks;
         Ok(LumpedRow {
             time: state.time,
             pinion_angle: Some((now.mesh.cycles - 0.5) * self.pair.pair().pinion.pitch_angle()),
             mesh_phase: now.mesh.cycles.rem_euclid(1.0),
             speeds: Some(now.speeds),
             transmission_error_um: 1e3 * now.mesh.transmission_error,
-            contact_line_length: driving,
+            contact_line_length: Some(driving.line_length),
             normal_force,
             coast_normal_force: Some(coast),
             wrench: [0, 1].map(|g| std::array::from_fn(|i| now.mesh.wrench[COORDINATES * g + i])),
@@ -102,8 +102,8 @@ impl LumpedMechanism for FlankPair {
             let z = machine.standing_at(0, (cycles, time), from.as_ref()).ok()?;
             let found = machine.pair_instant(&State::new(time, z.clone(), DVector::zeros(z.len()))).ok()?;
             from = Some(z);
-            let line_length = found.flanks.map(|[driving, _]| driving.line_length);
-            Some(StaticPoint { error: found.mesh.transmission_error, line_length })
+            let [driving, _] = &found.flanks;
+            Some(StaticPoint { error: found.mesh.transmission_error, line_length: Some(driving.line_length) })
         };
         (0..phases).map(&mut at).collect()
     }
@@ -121,21 +121,13 @@ impl LumpedMechanism for FlankPair {
                 force_jump_check(self.machine.changes(0).jump, force),
             ];
         };
-        let worst = map.maps().map(|m| m.certificate().error());
-        vec![
-            Check {
-                name: "map_error".into(),
-                value: worst.fold(0.0, crate::worse),
-                bound: worst_map(self.pair.options().statics.contact.friction),
-                hint: "use `model = \"reduced\"`, which solves the contact itself",
-            },
-            Check {
-                name: "map_excess".into(),
-                value: self.machine.reach().iter().copied().fold(0.0, crate::worse),
-                bound: 1.0,
-                hint: "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
-            },
-        ]
+        let worst = worst_map(self.pair.options().statics.contact.friction);
+        let reach = self.machine.reach().iter().copied().fold(0.0, crate::worse);
+        let instead = [
+            "use `model = \"reduced\"`, which solves the contact itself",
+            "forces or tilts leave what the map holds: use `model = \"reduced\"`, or more damping",
+        ];
+        map_checks([map.error(), worst], reach, instead).into()
     }
 
     /// The teeth in the window belong to a state as well, where there is one.

@@ -5,8 +5,11 @@ use scene::{Model, MotionScene, Run};
 use study::Lyapunov;
 
 use super::{headline::LumpedHeadline, inputs::LumpedInputs};
-use crate::motion::{self, NO_BACKLASH_UM};
-use crate::remark;
+use crate::{
+    in_motion::{NO_BACKLASH_UM, no_backlash as pair_without_backlash},
+    motion::parting,
+    remark,
+};
 
 /// Energy that steps add or take by themselves over that of the vibration, from which on a user should hear of it.
 const OPEN_ENERGY: f64 = 1e-3;
@@ -21,7 +24,7 @@ pub(super) fn backlash_um(inputs: &LumpedInputs) -> f64 {
 pub(super) fn no_backlash(inputs: &LumpedInputs) -> Option<Remark> {
     let LumpedInputs { scene, pair, .. } = inputs;
     let has_one = match scene.analysis.model {
-        model if model.has_reduced_gears() => return motion::no_backlash(scene, pair),
+        model if model.has_reduced_gears() => return pair_without_backlash(pair, parting(scene)),
         Model::Lumped8 | Model::Shaft18 => scene.mesh.is_some(),
         model => model == Model::Impact,
     };

@@ -9,22 +9,24 @@ use geometry::GearPair;
 use integrate::Periodicity;
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
+use study::Window;
 
 use super::{
     CampbellDiagram, MotionCheckpoint, MotionHeadline, MotionLayout, MotionRow, MotionSeries, MotionSink,
     MotionSpectrum, NoMotionSink, RunUp, Waterfall,
-    checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
+    dropped::dropped_by,
     headline, motion_remarks,
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand},
-    unresolved, window,
+    window,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
     error::{in_scene, unasked},
     facts::RunInfo,
     failure::Failure,
+    in_motion::{MeshRecord, StepKeys},
     inputs::resolved_scene,
     refused::Refusal,
     results::{GearPattern, root_stress_remarks},
@@ -228,7 +230,7 @@ pub(super) fn ready(
     let mut prepared = prepare(inputs, observer, sink, window)?;
     motion_remarks::unstable(scene, &prepared)?;
     prepared.remarks.extend(motion_remarks::coarse(scene, motion, &prepared));
-    prepared.remarks.extend(motion_remarks::no_backlash(scene, prepared.system.pair()));
+    prepared.remarks.extend(motion_remarks::without_backlash(scene, &prepared));
     let slow =
         motion_remarks::slow(scene, motion, &prepared).or_else(|| motion_remarks::long(scene, motion, &prepared));
     if let Some(slow) = slow {
@@ -271,28 +273,28 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     if let Some(ramp) = &ramp {
         headline.critical_speeds = ramp.campbell.critical_speeds();
     }
+    let own = &headline.certificate;
+    let found = own.period_cycles.zip(own.periodicity).map(|(period, residual)| Periodicity { period, residual });
+    let window = window(found, motion.periodic_tolerance.unwrap_or(1e-6), headline.cycles);
     let spectrum = match &ramp {
         Some(_) => None,
-        None => {
-            let own = &headline.certificate;
-            let found = own.period_cycles.zip(own.periodicity);
-            let found = found.map(|(period, residual)| Periodicity { period, residual });
-            let window = window(found, motion.periodic_tolerance.unwrap_or(1e-6), headline.cycles);
-            Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?)
-        }
+        None => Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?),
     };
     let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
-        remarks.extend(ramp.run_up.coarse_cut());
+        let cure = "a longer `duration_s` or fewer `waterfall_cycles` in [motion.ramp] show it better";
+        remarks.extend(ramp.run_up.coarse_cut(cure));
     }
     if motion.ramp.is_none() {
         let steps = match motion.error_tolerance {
             None => 1.0 / (step_s * headline.mesh_frequency_hz),
             Some(_) => f64::INFINITY,
         };
-        remarks.extend(unresolved(&series.dte_um, headline.cycles, steps));
+        let (samples, cycles) = (&series.dte_um[..], headline.cycles as f64);
+        let comes_back = window == Window::Rectangular;
+        remarks.extend(MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.unresolved());
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
@@ -320,7 +322,7 @@ fn remarks_of(
     wall_s: f64,
 ) -> Vec<Remark> {
     let mut all = prepared.remarks.clone();
-    all.extend(motion_remarks::of_motion(motion, prepared, headline));
+    all.extend(motion_remarks::of_motion((scene, motion), prepared, headline));
     let resonance = prepared.system.mesh_resonance();
     let vibration = Vibration { mesh_hz, resonance, peak_to_peak_um: headline.peak_to_peak_dte_um };
     let cycles = (headline.cycles + headline.certificate.warm_up_cycles) as f64;

@@ -4,10 +4,10 @@ use gearbox::motion::SweepPoint;
 use geometry::GearPair;
 use scene::Scene;
 
-use super::{MotionHeadline, deflection_check_in_motion, energy_check, force_jump_check, pulling_check};
+use super::MotionHeadline;
 use crate::{
-    certificate::{Check, Checks},
-    plausible::{effective_modulus, pressure_check},
+    certificate::Checks,
+    in_motion::{MeshInMotion, deflection_check_in_motion, energy_check, force_jump_check, pulling_check},
 };
 
 /// What must hold of one speed of a sweep: the same as of a motion alone.
@@ -24,19 +24,26 @@ pub(super) fn checks_of_speed((scene, pair): (&Scene, &GearPair), point: &SweepP
 impl MotionHeadline {
     /// Energy, flanks that pull, forces that tooth changes set off, deflection and pressure that linear elasticity holds for.
     pub(super) fn checks(&self, scene: &Scene, pair: &GearPair) -> Checks {
-        let c = &self.certificate;
-        let errors = [self.min_dte_um, self.max_dte_um].map(|um| 1e-3 * um);
-        let force = self.max_normal_force_n.max(self.max_coast_normal_force_n);
-        Checks::new([
-            energy_check(c.energy_open_over_vibration),
-            pulling_check(c.least_contact_force_n.unwrap_or(0.0), force),
-            force_jump_check(c.force_jump_at_tooth_change_n, force),
-            deflection_check_in_motion(scene, pair, errors.into_iter()),
-            Check {
-                name: "dynamic_pressure_over_modulus".into(),
-                ..pressure_check(effective_modulus(scene), self.max_pressure_mpa)
-            },
-        ])
+        let of_mesh = self.mesh((scene, pair), true).checks();
+        Checks::new([energy_check(self.certificate.energy_open_over_vibration)]).and(Checks::new(of_mesh))
+    }
+
+    /// Its mesh as checks and remarks see it.
+    pub(super) fn mesh<'a>(
+        &'a self,
+        (scene, pair): (&'a Scene, &'a GearPair),
+        has_coast_flanks: bool,
+    ) -> MeshInMotion<'a> {
+        MeshInMotion {
+            scene,
+            pair,
+            flanks: &self.certificate.flanks,
+            has_coast_flanks,
+            errors_um: [self.min_dte_um, self.max_dte_um],
+            peak_to_peak_um: self.peak_to_peak_dte_um,
+            force_n: self.max_normal_force_n.max(self.max_coast_normal_force_n),
+            pressure_mpa: Some(self.max_pressure_mpa),
+        }
     }
 }
 

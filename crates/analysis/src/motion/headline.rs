@@ -11,7 +11,12 @@ use super::{
     orders::{CriticalSpeed, RunUp, RunUpHeadline},
     setup::{ElasticHeadline, InertiaHeadline, PreparedMotion, Vibration, mesh_range_hz},
 };
-use crate::{AnalysisError, results::PressurePlace, running::Running};
+use crate::{
+    AnalysisError,
+    in_motion::{BothFlanks, FlankCertificate},
+    results::PressurePlace,
+    running::Running,
+};
 
 /// Mesh harmonics that are listed.
 const ORDERS: usize = 8;
@@ -123,10 +128,6 @@ described::described! {
         pub ledger_residual_over_turnover: f64,
         /// energy that the steps add or take by themselves, over the changes of kinetic and elastic energy, each step by its amount; the check `energy_residual` judges it
         pub energy_open_over_vibration: f64,
-        /// smallest force of a slice in contact, damping included, at the end of any step; below 0 a flank would pull
-        pub least_contact_force_n: Option<f64>,
-        /// largest difference of the sum of normal forces before and after a tooth change at the same place, each solved by itself
-        pub force_jump_at_tooth_change_n: f64,
         /// mesh cycles after which the motion repeats itself best
         pub period_cycles: Option<usize>,
         /// largest difference of a coordinate or velocity after that period, over its peak to peak
@@ -137,18 +138,9 @@ described::described! {
         pub shooting_periods: Option<usize>,
         /// mesh cycles before the first row
         pub warm_up_cycles: u64,
-        /// losses of contact of all driving flanks together
-        pub contact_losses: u64,
-        /// steps in which no driving flank touches
-        pub steps_without_contact: u64,
-        /// largest gap between the driving flanks
-        pub largest_gap_um: f64,
-        /// contacts of the coast flanks
-        pub coast_contacts: u64,
-        /// rows in which driving and coast flanks press at once
-        pub rows_on_both_flanks: usize,
-        /// bound of the displacement that such rows leave out, because in motion neither flank bends the other: the smaller of both forces over the mean mesh stiffness along the normal
-        pub flank_coupling_bound_um: f64,
+        /// what its flanks do
+        #[serde(flatten)]
+        pub flanks: FlankCertificate,
         /// steps that were taken
         pub steps: u64,
         /// steps that were taken back and divided: too large an error, no solution, or beyond the stability limit of an explicit method
@@ -169,9 +161,7 @@ struct Survey {
     /// Largest root tension of pinion and wheel (MPa) and its estimated error (%), where they were asked for.
     tension: Option<[(f64, f64); 2]>,
     /// Rows in which driving and coast flanks press at once.
-    on_both_flanks: usize,
-    /// Largest of the smaller of both forces in such rows, N.
-    shared_force: f64,
+    both: BothFlanks,
 }
 
 impl Survey {
@@ -202,11 +192,7 @@ impl Survey {
                 }
             }
         }
-        let shared = row.normal_force_n.min(row.coast_normal_force_n);
-        if shared > 0.0 {
-            self.on_both_flanks += 1;
-            self.shared_force = self.shared_force.max(shared);
-        }
+        self.both.push([row.normal_force_n, row.coast_normal_force_n]);
     }
 
     /// Where the pressure is largest in any row.
@@ -306,8 +292,8 @@ pub(super) fn headline(
 fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMotion) -> MotionCertificate {
     let motion = &done.motion;
     let cos = prepared.system.pair().base_helix_angle().cos();
-    let along_normal = 1e-3 * prepared.quasi_static.stiffness / (cos * cos);
-    let (counts, extremes, changes) = (motion.counts(), motion.system().extremes(0), motion.system().changes(0));
+    let along_normal = prepared.quasi_static.stiffness / (cos * cos);
+    let counts = motion.counts();
     let ledger = motion.ledger().copied().unwrap_or_default();
     let settled = done.motion.stage().periodicity;
     MotionCertificate {
@@ -316,21 +302,12 @@ fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMo
         ledger_residual_over_work: ledger.residual() / motion.system().throughput().max(f64::MIN_POSITIVE),
         ledger_residual_over_turnover: ledger.relative_residual(),
         energy_open_over_vibration: ledger.open_over_vibration(),
-        least_contact_force_n: extremes.least_force,
-        force_jump_at_tooth_change_n: changes.jump,
         period_cycles: settled.map(|p| p.period),
         periodicity: settled.map(|p| p.residual),
         shooting_multiplier: done.shooting.as_ref().map(|s| s.multiplier),
         shooting_periods: done.shooting.as_ref().map(|s| s.periods),
         warm_up_cycles: motion.cycle() - done.motion.stage().recorded,
-        contact_losses: counts.downs(0),
-        steps_without_contact: extremes.steps_apart,
-        largest_gap_um: 1e3 * extremes.largest_gap,
-        coast_contacts: counts.ups(1),
-        rows_on_both_flanks: survey.on_both_flanks,
-        // A force on one flank of a tooth bends the other flank by less than its own, F / k, and of the two forces only
-        // the smaller is shared.
-        flank_coupling_bound_um: survey.shared_force / along_normal,
+        flanks: FlankCertificate::new(&motion.system().flank_course(0, counts), survey.both, along_normal),
         steps: counts.steps,
         refused_steps: counts.refused,
     }

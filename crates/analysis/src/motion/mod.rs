@@ -9,21 +9,20 @@
 //! | `orders` | spectra, waterfall, what is largest over speed, Campbell diagram |
 //! | `pattern` | what the flanks are pressed by |
 //! | `headline` | the few numbers that a motion is made for |
-//! | `checks`, `certificate` | what must hold of any motion, and of these |
-//! | `remarks`, `step_estimate` | what a user should hear; how many steps the fastest motion and a longer analysis take |
+//! | `certificate`, `dropped` | what must hold of one; forces that tooth changes drop |
+//! | `motion_remarks`, `step_estimate` | what a user should hear; how many steps the fastest motion and a longer analysis take |
 //! | `sweep` | [`SweepAnalysis`]: steady states over speed |
 //! | `precision` | step sizes against errors of every method |
 
 mod analysis;
 mod certificate;
-mod checks;
 mod course;
+mod dropped;
 mod headline;
 mod motion_remarks;
 mod orders;
 mod pattern;
 mod precision;
-mod resolved;
 mod row;
 mod setup;
 mod sink;
@@ -32,28 +31,22 @@ mod sweep;
 
 pub use crate::unstable_steps::Steps;
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
-pub use checks::{
-    MOTION_HINT, deflection_check_in_motion, energy_check, excursion_check, force_jump_check, pulling_check,
-};
 pub use headline::{MotionCertificate, MotionHeadline};
-pub use motion_remarks::NO_BACKLASH_UM;
-pub(crate) use motion_remarks::coarse_steps;
-pub(crate) use motion_remarks::no_backlash;
+pub(crate) use motion_remarks::parting;
 pub(crate) use orders::window;
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
     RunUpHeadline, Stretches, Waterfall, WaterfallLine, waterfall,
 };
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
-pub(crate) use resolved::unresolved;
 pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
 pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, bearing, drive, motion_options, refuse_unstable,
     scheme, speed, stated_body, steady_by, torque,
 };
 pub(crate) use setup::{
-    Elasticity, MotionInputs, PreparedMotion, Vibration, body, kept_modes, mesh_range_hz, motion_length, pair_drive,
-    prepare,
+    Elasticity, MotionInputs, OF_GEARBOX, PreparedMotion, Vibration, body, kept_modes, mesh_range_hz, motion_length,
+    pair_drive, prepare,
 };
 pub use sink::{MotionCheckpoint, MotionSink, NoMotionSink};
 pub(crate) use step_estimate::{Pace, StepDemand};

@@ -3,7 +3,7 @@
 use answer::Remark;
 use dynamics::Drive;
 use gearbox::motion::{PairModel, stable_step};
-use geometry::GearPair;
+use integrate::Periodicity;
 use ltca::StaticError;
 use scene::{Flanks, MotionScene, Run, Scene};
 
@@ -13,17 +13,17 @@ use super::{
     setup::{PreparedMotion, mesh_range_hz, refuse_unstable},
     step_estimate::{Pace, StepDemand, fastest_hz},
 };
-use crate::{failure::Failure, remark, unstable_steps::Steps};
+use crate::{
+    failure::Failure,
+    in_motion::{Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open},
+    remark,
+    unstable_steps::Steps,
+};
 
 /// More steps than this in a mesh cycle take half a minute or more.
 const SLOW: f64 = 20_000.0;
 /// More steps than this of a motion with modes take minutes: those who wait should know.
 const LONG: f64 = 100_000.0;
-/// Backlash below which there is none, um.
-pub const NO_BACKLASH_UM: f64 = 1e-3;
-/// Fewer steps than this in a period of the mesh resonance show it wrongly: peak to peak off by 10 to 60 % near it (map (c)
-/// of `docs/envelope.md`).
-const COARSE: f64 = 12.0;
 
 /// A window that was too narrow.
 pub(super) fn widened(error: &StaticError, teeth: usize) -> Remark {
@@ -40,12 +40,7 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
         true => ("highest kept mode", ", or keep fewer modes"),
         false => ("mesh resonance", ""),
     };
-    if given { coarse_steps(steps, (what, fastest), or) } else { None }
-}
-
-/// Steps that are too long for a motion of this name and frequency, Hz; `steps`: in a period of it.
-pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), or: &str) -> Option<Remark> {
-    (steps < COARSE).then(|| remark::coarse_steps(steps, what, hz, or))
+    if given { coarse_steps(steps, (what, fastest), (StepKeys::PAIR, or)) } else { None }
 }
 
 /// Refuses steps of given length that are too long for an explicit method.
@@ -102,59 +97,44 @@ pub(super) fn long(scene: &Scene, motion: &MotionScene, prepared: &PreparedMotio
         .then(|| remark::many_steps(estimate.describe(Pace { step_s: None }), fastest_hz(&prepared.system)))
 }
 
-/// A pair without backlash in a motion in which flanks may part.
-pub(crate) fn no_backlash(scene: &Scene, pair: &GearPair) -> Option<Remark> {
-    let backlash_um = 1e3 * pair.backlash();
-    (backlash_um.abs() < NO_BACKLASH_UM).then(|| {
-        let what = match scene.contact.flanks {
-            Flanks::Both => "where the driving flanks lose contact the coast flanks press at once, and there is no loss of contact as with a clearance",
-            Flanks::Driving => "with `flanks = \"driving\"` teeth that part fly as if there were room behind them",
-        };
-        remark::no_backlash(what)
-    })
+/// What stops driving flanks of a pair that part.
+pub(crate) fn parting(scene: &Scene) -> Parting {
+    match scene.contact.flanks {
+        Flanks::Both => Parting::CoastFlanks,
+        Flanks::Driving => Parting::Nothing,
+    }
+}
+
+/// A pair without backlash.
+pub(super) fn without_backlash(scene: &Scene, prepared: &PreparedMotion) -> Option<Remark> {
+    no_backlash(prepared.system.pair(), parting(scene))
 }
 
 /// What the certificate says that a user should hear.
-pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headline: &MotionHeadline) -> Vec<Remark> {
-    let mut said = Vec::new();
+pub(super) fn of_motion(
+    (scene, motion): (&Scene, &MotionScene),
+    prepared: &PreparedMotion,
+    headline: &MotionHeadline,
+) -> Vec<Remark> {
     let c = &headline.certificate;
-    let settles = matches!(motion.run, Run::Steady | Run::Shooting);
-    if let (true, Some(found), Some(asked)) = (settles, c.periodicity, motion.periodic_tolerance)
-        && found > asked
-    {
-        let early = c.warm_up_cycles < u64::from(motion.warm_up_cycles.unwrap_or(1000)) && motion.run == Run::Steady;
-        let after = c.warm_up_cycles;
-        said.push(if early {
-            remark::repeats_and_drifts(asked, after, found)
-        } else {
-            remark::not_periodic(after, found, asked, "it may be chaotic, or need more `warm_up_cycles`")
-        });
-    } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
-        said.push(remark::subharmonic(period));
-    }
-    if c.ledger_residual_over_work.abs() > 1e-6 {
-        said.push(remark::work_open(c.ledger_residual_over_work.abs()));
-    }
-    // Without coast flanks nothing stops teeth that have parted.
-    let pair = prepared.system.pair();
-    let backlash = 1e3 * pair.backlash() * pair.base_helix_angle().cos();
-    if !prepared.system.has_coast_flanks() && c.largest_gap_um > backlash {
-        said.push(remark::gap_beyond_backlash(c.largest_gap_um, backlash));
-    }
-    if c.flank_coupling_bound_um > COUPLED * headline.peak_to_peak_dte_um {
-        said.push(remark::both_flanks_press(c.rows_on_both_flanks, c.flank_coupling_bound_um));
-    }
-    if let Drive::Torque { start, .. } = &prepared.system.options().drive {
-        let asked = start * 30.0 / std::f64::consts::PI;
-        if (headline.speed_rpm / asked - 1.0).abs() > 0.01 {
-            said.push(remark::speed_has_changed(headline.speed_rpm, asked));
-        }
-    }
-    said
+    let found = c.period_cycles.zip(c.periodicity).map(|(period, residual)| Periodicity { period, residual });
+    let settled = found.filter(|_| matches!(motion.run, Run::Steady | Run::Shooting)).map(|found| Settled {
+        tolerance: motion.periodic_tolerance.unwrap_or(f64::INFINITY),
+        found,
+        waited: c.warm_up_cycles,
+        most: if motion.run == Run::Steady { u64::from(motion.warm_up_cycles.unwrap_or(1000)) } else { 0 },
+        common: 1,
+        why: "it may be chaotic, or need more `warm_up_cycles`",
+    });
+    let system = &prepared.system;
+    let speed = match &system.options().drive {
+        Drive::Torque { start, .. } => speed_changed(headline.speed_rpm, start * 30.0 / std::f64::consts::PI),
+        Drive::Speed(_) | Drive::Balanced(_) => None,
+    };
+    let mesh = headline.mesh((scene, system.pair()), system.has_coast_flanks());
+    let own = settled.and_then(Settled::remark).into_iter().chain(work_open(c.ledger_residual_over_work));
+    own.chain(mesh.remarks()).chain(speed).collect()
 }
-
-/// Error of the coupling of both flanks over the peak to peak that a user should hear of.
-const COUPLED: f64 = 0.01;
 
 /// Speeds that have no answer that repeats itself, or none at all; `speeds`: how many there are in all.
 pub(super) fn of_sweep(headline: &SweepHeadline, speeds: usize) -> Vec<Remark> {

@@ -38,7 +38,8 @@ impl PatternRecord {
 
     /// A row of the cycle.
     pub fn push(&mut self, now: &PairInstant) {
-        for pressed in now.flanks.iter().flat_map(|[driving, _]| &driving.slices) {
+        let [driving, _] = &now.flanks;
+        for pressed in &driving.slices {
             // A tooth that is one pitch ahead in the sense of rotation is one cycle further.
             let engagement = self.sense * pressed.pair as f64 + now.mesh.cycles;
             for (gear, touches) in self.touches.iter_mut().enumerate() {

@@ -169,8 +169,7 @@ impl MotionLayout {
 
     /// The row of an instant.
     pub fn row(&self, now: &PairInstant, ledger: &Ledger) -> MotionRow {
-        let (cycle, none) = (cycle(now), FlankInstant::default());
-        let driving = now.flanks.as_ref().map_or(&none, |[driving, _]| driving);
+        let (cycle, [driving, _]) = (cycle(now), &now.flanks);
         let [normal_force_n, coast_normal_force_n] = now.normal_forces();
         let of_gear = |i: usize, from: usize| std::array::from_fn(|k| now.mesh.wrench[COORDINATES * i + from + k]);
         let stress = |i: usize| RootStressRow::of(&driving.root_stress[i], coast_normal_force_n == 0.0);

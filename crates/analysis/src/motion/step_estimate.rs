@@ -3,12 +3,17 @@
 use std::f64::consts::TAU;
 
 use gearbox::motion::PairModel;
-use scene::{MotionScene, Run, Scene};
+use scene::{
+    MotionScene, Run, Scene,
+    gearbox::{Gearbox, GearboxMotion},
+};
 
 /// A step with twelve normal modes of either gear over one without: measured 2.8.
 const MODES_COST: f64 = 2.8;
 /// Damping ratio of the modes until they have settled, where the scene says none.
 const MODE_DAMPING: f64 = 0.01;
+/// Steps in a period of the highest mode that show it, where a file does not say how many.
+const STEPS_PER_PERIOD: f64 = 16.0;
 
 /// What the scene asks of a motion, as far as it says how long that takes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -53,6 +58,19 @@ impl StepDemand {
             runs,
             mesh_hz: 0.5 * (mesh_hz[0] + mesh_hz[1]),
             mode_damping: scene.modes.map_or(MODE_DAMPING, |m| m.damping_ratio),
+        }
+    }
+
+    /// Of a motion of a gearbox with so many cycles of its fastest mesh, Hz, those to settle in among them.
+    pub fn of_gearbox((file, motion): (&Gearbox, &GearboxMotion), cycles: f64, mesh_hz: f64) -> Self {
+        Self {
+            rows: f64::from(motion.steps_per_cycle),
+            steps_per_period: STEPS_PER_PERIOD,
+            decay: motion.settle.map(|(tolerance, _)| -tolerance.ln()),
+            cycles,
+            runs: 1.0,
+            mesh_hz,
+            mode_damping: file.modes.map_or(MODE_DAMPING, |m| m.damping_ratio),
         }
     }
 

@@ -19,6 +19,7 @@ mod mapped;
 mod motion_accuracy;
 mod motion_in_memory;
 mod moving_pairs;
+mod moving_remarks;
 mod nominal_load;
 mod overhung;
 mod planets;

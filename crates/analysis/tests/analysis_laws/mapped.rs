@@ -165,8 +165,8 @@ fn both_flanks_press(errors: f64) {
     assert!((coast[1] / coast[0] - 1.0).abs() < allowed, "coast force {} N, on the map {} N", coast[0], coast[1]);
     let way = [a.peak_to_peak_dte_um, b.peak_to_peak_dte_um];
     assert!((way[1] / way[0] - 1.0).abs() < allowed, "peak to peak {} um, on the map {} um", way[0], way[1]);
-    assert_eq!(a.certificate.rows_on_both_flanks, 0, "the backlash keeps the flanks apart");
-    assert_eq!(a.certificate.flank_coupling_bound_um, 0.0);
+    assert_eq!(a.certificate.flanks.rows_on_both_flanks, 0, "the backlash keeps the flanks apart");
+    assert_eq!(a.certificate.flanks.flank_coupling_bound_um, 0.0);
 }
 
 /// Gears are made once for all values of a key that is the pair's, not the map's; each value has its own damping.

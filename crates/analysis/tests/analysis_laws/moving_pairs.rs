@@ -58,7 +58,7 @@ fn off(scene: &Scene) -> f64 {
 }
 
 /// A small pair in motion, with what is changed of it.
-fn small(changes: impl Fn(SceneBuilder) -> SceneBuilder) -> Scene {
+pub fn small(changes: impl Fn(SceneBuilder) -> SceneBuilder) -> Scene {
     let base = Scene::builder().pinion(24, 15.0).wheel(31).normal_module_mm(3.0).face_width_mm(20.0).torque_nm(300.0);
     let meshed = ["pinion.mesher", "wheel.mesher"].iter().fold(base, |scene, gear| {
         let keys = [("order", 1), ("sector_teeth", 1), ("elements_profile", 3), ("elements_thickness", 4)];

@@ -62,7 +62,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
     let [before, carried, naive] = bench.at_first_position(&AT_REST.map(str::to_owned), energies)??;
     let result = bench.in_motion(&IN_MOTION)?;
     let headline = &result.headline;
-    let jump = headline.certificate.force_jump_at_tooth_change_n / headline.mean_normal_force_n;
+    let jump = headline.certificate.flanks.force_jump_at_tooth_change_n / headline.mean_normal_force_n;
     // Lines between the mesh harmonics over whole turns are what changes alone could make.
     let rows = result.rows.series(0..result.rows.len(), |row| row.dte_um)?;
     let per_cycle = headline.rows_per_cycle as usize;

@@ -52,7 +52,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("what is said of 1e-9 N m, which round-off hides", Shown::refused(&lost, "round_off_share")),
         Figure::new(
             "load that reverses through the backlash: steps in which no flank touches",
-            Shown::at_least(certificate.steps_without_contact as f64, 1.0),
+            Shown::at_least(certificate.flanks.steps_without_contact as f64, 1.0),
         ),
         Figure::new(
             "load that reverses: largest force on the coast flanks, N",

@@ -34,7 +34,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("the same with steps that end at the moment of contact, % off", Shown::at_most(off(events), 2.0)),
         Figure::new(
             "losses of contact in the motion",
-            Shown::at_least(usual.headline.certificate.contact_losses as f64, 1.0),
+            Shown::at_least(usual.headline.certificate.flanks.contact_losses as f64, 1.0),
         ),
     ])
 }

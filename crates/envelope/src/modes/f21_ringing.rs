@@ -36,7 +36,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("bar: energy not accounted for", Shown::at_most(massless.energy, 1e-9)),
         Figure::new(
             "pair with modes: least force of a slice in contact, N",
-            Shown::at_least(certificate.least_contact_force_n.unwrap_or(f64::NAN), 0.0),
+            Shown::at_least(certificate.flanks.least_contact_force_n.unwrap_or(f64::NAN), 0.0),
         ),
     ])
 }

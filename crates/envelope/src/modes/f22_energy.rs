@@ -37,6 +37,9 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
             Shown::at_most(drift(&robust), 1e-8),
         )
         .beside(Shown::at_least(drift(&naive), 1e-5)),
-        Figure::new("losses of contact", Shown::at_least(robust.headline.certificate.contact_losses as f64, 10.0)),
+        Figure::new(
+            "losses of contact",
+            Shown::at_least(robust.headline.certificate.flanks.contact_losses as f64, 10.0),
+        ),
     ])
 }

@@ -65,7 +65,7 @@ fn look(bench: &Bench) -> Result<Vec<Figure>, EnvelopeError> {
         Figure::new("the same with spectral radius 0.9, 32 steps", Shown::at_most((mild / exact - 1.0).abs(), 0.15)),
         Figure::new(
             "pair at resonance: losses of contact",
-            Shown::at_least(motion.headline.certificate.contact_losses as f64, 1.0),
+            Shown::at_least(motion.headline.certificate.flanks.contact_losses as f64, 1.0),
         ),
     ])
 }

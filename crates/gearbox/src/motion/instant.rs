@@ -1,11 +1,12 @@
 //! Quantities of an instant of the motion.
 
+use dynamics::FlankInstant;
 use integrate::State;
 use nalgebra::{DMatrix, DVector, DVectorView, Matrix6, Vector6};
 use serde::{Deserialize, Serialize};
 
 use super::{Drive, GearboxMechanism, rolling_supports::BesideSprings};
-use crate::{BearingState, GearboxError, Vector12};
+use crate::{BearingState, GearboxError, Vector12, static_gearbox::at_mesh};
 
 /// A mesh at an instant.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -17,8 +18,12 @@ pub struct MeshInstant {
     pub transmission_error: f64,
     /// Rate of the transmission error, mm/s.
     pub transmission_error_rate: f64,
-    /// Sum of the normal forces, N, elastic part.
+    /// Sum of the normal forces on the driving flanks, N, damping included.
     pub normal_force: f64,
+    /// The same of the coast flanks.
+    pub coast_normal_force: f64,
+    /// Largest contact pressure on driving and coast flanks, MPa, without damping; 0 of a mesh that knows no slices.
+    pub max_pressure: f64,
     /// Forces (N) and moments (N mm) on gear 1 and gear 2, friction and damping included, common axes.
     pub wrench: [f64; 12],
 }
@@ -46,14 +51,23 @@ impl GearboxMechanism {
     /// # Errors
     /// [`GearboxError`] of a mesh.
     pub fn instant(&mut self, state: &State) -> Result<GearboxInstant, GearboxError> {
+        Ok(self.instant_by_side(state)?.0)
+    }
+
+    /// The same with the driving and coast flanks of each mesh.
+    pub(super) fn instant_by_side(
+        &mut self,
+        state: &State,
+    ) -> Result<(GearboxInstant, Vec<[FlankInstant; 2]>), GearboxError> {
         let State { time, q, v, a, .. } = state;
         let input = self.input(*time, q, v);
-        let (mut meshes, mut answered) = (Vec::new(), 0.0);
+        let (mut meshes, mut flanks, mut answered) = (Vec::new(), Vec::new(), 0.0);
         let mut on_bodies = DVector::zeros(self.bodies.size());
         let mut on_modes = Vec::new();
         for i in 0..self.live.len() {
-            let (own, answer) = self.mesh_instant(i, input, q, v)?;
+            let (own, sides, answer) = self.mesh_instant(i, input, q, v)?;
             answered += answer;
+            flanks.push(sides);
             let at = self.live[i].gears;
             (0..12).for_each(|k| on_bodies[at[k / 6] + k % 6] += own.wrench[k]);
             meshes.push(own);
@@ -79,24 +93,18 @@ impl GearboxMechanism {
             self.train.ratios()[shaft] * input[1] + own
         };
         let output_speeds = self.operation.torques.iter().map(speed_of).collect();
-        Ok(GearboxInstant {
-            time: *time,
-            input,
-            input_torque,
-            output_speeds,
-            meshes,
-            bearings: self.bearing_states(q, &y, &rates)?,
-        })
+        let bearings = self.bearing_states(q, &y, &rates)?;
+        Ok((GearboxInstant { time: *time, input, input_torque, output_speeds, meshes, bearings }, flanks))
     }
 
-    /// A mesh, and the torque by which an input that balances answers its losses.
-    pub(super) fn mesh_instant(
+    /// A mesh with its driving and coast flanks, and the torque by which an input that balances answers its losses.
+    fn mesh_instant(
         &mut self,
         mesh: usize,
         [angle, speed]: [f64; 2],
         q: &DVector<f64>,
         v: &DVector<f64>,
-    ) -> Result<(MeshInstant, f64), GearboxError> {
+    ) -> Result<(MeshInstant, [FlankInstant; 2], f64), GearboxError> {
         let cycles = self.cycles(mesh, angle);
         let rates = self.displacements(mesh, v);
         let (at, live) = self.ask(mesh, angle, q)?;
@@ -104,15 +112,26 @@ impl GearboxMechanism {
         let losses = live.element().losses(&rates, passing);
         let answer = self.balance_of(mesh, &(losses.friction + losses.force));
         let live = &mut self.live[mesh];
+        let sides = live.element().by_side(&rates, passing).map_err(|e| at_mesh(&self.meshes[mesh], e))?;
         let turn = live.turn;
         let reply = live.reply(&self.meshes[mesh], cycles, &at, false)?;
-        let (normal_force, wrench) = (reply.normal_force, turn * (reply.force + losses.force));
+        let wrench = (turn * (reply.force + losses.force)).into();
         let (pair, meshing) = (&self.meshes[mesh].pair, &self.train.meshing()[mesh]);
         let [r1, r2] = [&pair.pinion, &pair.wheel].map(|g| g.base_radius());
         let error = |moved: &Vector12| meshing.side().sign() * (r1 * moved[5] + r2 * moved[11]);
         let [transmission_error, transmission_error_rate] = [error(&at.d), error(&rates)];
-        let wrench = wrench.into();
-        Ok((MeshInstant { cycles, transmission_error, transmission_error_rate, normal_force, wrench }, answer))
+        let [normal_force, coast_normal_force] = sides.each_ref().map(FlankInstant::normal_force);
+        let max_pressure = sides.iter().map(FlankInstant::max_pressure).fold(0.0, f64::max);
+        let instant = MeshInstant {
+            cycles,
+            transmission_error,
+            transmission_error_rate,
+            normal_force,
+            coast_normal_force,
+            max_pressure,
+            wrench,
+        };
+        Ok((instant, sides, answer))
     }
 
     /// Torque that keeps the input at its speed: what its coordinate leaves over. Dampers of modes do not brake the turn

@@ -186,6 +186,13 @@ impl MappedMesh {
         self.sides.iter().map(|side| side.map.map())
     }
 
+    /// Largest error of its maps: root mean square of the approach over the mean approach ([`MapRequest::tolerance`]).
+    pub fn error(&self) -> f64 {
+        self.maps()
+            .map(|map| map.certificate().error())
+            .fold(0.0, |worst: f64, e| if e > worst || e.is_nan() { e } else { worst })
+    }
+
     /// Error of the approach of the driving flanks by pitch errors as offsets, beside the contact of the same flanks with
     /// these errors; `None` without any.
     ///
@@ -271,13 +278,13 @@ impl MovingMesh for MappedMesh {
         all
     }
 
-    fn by_side(&mut self, rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
+    fn by_side(&mut self, rates: &Vector12, _: f64) -> Result<[FlankInstant; 2], GearboxError> {
         let of = |side: &MappedSide| {
             let found = side.damping(side.along(rates), self.damping_per_length);
             let (force, damping, line_length) = (side.contact.force, found.force[0], found.length);
             FlankInstant { force, damping, line_length, ..FlankInstant::default() }
         };
-        Ok(Some([0, 1].map(|i| self.sides.get(i).map_or_else(FlankInstant::default, of))))
+        Ok([0, 1].map(|i| self.sides.get(i).map_or_else(FlankInstant::default, of)))
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {

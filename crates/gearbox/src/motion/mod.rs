@@ -75,7 +75,7 @@ pub use pair_sweep::{
 pub use pitch_errors::PitchErrors;
 pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
-pub use run::{GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
+pub use run::{FlankCourse, GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
 pub use spring_mesh::SpringMesh;
 pub use stable_step::stable_step;
 pub use tilting_spring::TiltingSpring;

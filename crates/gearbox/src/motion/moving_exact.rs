@@ -266,10 +266,10 @@ impl MovingMesh for MovingExactMesh {
         Ok(moved)
     }
 
-    fn by_side(&mut self, rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
-        let Some(Answer { displaced, .. }) = &self.at else { return Ok(None) };
+    fn by_side(&mut self, rates: &Vector12, _: f64) -> Result<[FlankInstant; 2], GearboxError> {
+        let Some(Answer { displaced, .. }) = &self.at else { return Ok(Default::default()) };
         let moving = (rates, self.damping_per_length);
-        Ok(Some(self.flanks.instants(&self.pair, self.cycles, &displaced.d, moving, self.roots.as_deref())?))
+        Ok(self.flanks.instants(&self.pair, self.cycles, &displaced.d, moving, self.roots.as_deref())?)
     }
 
     fn loads(&self) -> Vec<SideLoads<'_>> {

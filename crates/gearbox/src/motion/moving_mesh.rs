@@ -95,12 +95,13 @@ pub trait MovingMesh: MeshElement + Send {
 
     /// Asked at the end of a step, after [`MeshElement::evaluate`], with the gears moving at `rates`: takes the tooth changes
     /// that are due, which leave the forces as they are, and tells whether there was one; the mesh then stands nowhere. Adds
-    /// the step to the extremes of the flanks, if it knows them.
+    /// the step to the extremes of the flanks, those of slices where it has some.
     ///
     /// # Errors
     /// [`GearboxError`] when the forces are not all there are.
-    fn accept(&mut self, _rates: &dyn Fn() -> Vector12, _extremes: &mut Extremes) -> Result<bool, GearboxError> {
+    fn accept(&mut self, _rates: &dyn Fn() -> Vector12, extremes: &mut Extremes) -> Result<bool, GearboxError> {
         self.check()?;
+        extremes.see(self.overlaps()?);
         Ok(false)
     }
 
@@ -132,14 +133,12 @@ pub trait MovingMesh: MeshElement + Send {
         None
     }
 
-    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving at `rates`; `None` of a
-    /// mesh that does not tell.
+    /// What the driving and the coast flanks do where they were evaluated last, with the gears moving as for
+    /// [`MovingMesh::losses`].
     ///
     /// # Errors
     /// [`GearboxError`] where stress of the fillets is asked for and not found.
-    fn by_side(&mut self, _rates: &Vector12) -> Result<Option<[FlankInstant; 2]>, GearboxError> {
-        Ok(None)
-    }
+    fn by_side(&mut self, rates: &Vector12, cycles: f64) -> Result<[FlankInstant; 2], GearboxError>;
 
     /// Loads on the flanks that press where they were evaluated last: the driving ones, and coast ones where these do; none
     /// of a mesh without gears that deform.

@@ -1,5 +1,7 @@
 //! A damper along the normal of flanks that press.
 
+use dynamics::FlankInstant;
+
 use super::MeshLosses;
 use crate::Vector12;
 
@@ -23,9 +25,20 @@ pub(super) struct NormalDamper<'a> {
 }
 
 impl NormalDamper<'_> {
+    /// What the flanks come nearer by at `rates` of the displacements and so many mesh cycles a second, mm/s.
+    fn rate(&self, rates: &Vector12, cycles: f64) -> f64 {
+        self.lever.dot(rates) + self.by_cycles * cycles
+    }
+
+    /// Flanks that press with its force, with what it adds to it.
+    pub fn instant(&self, rates: &Vector12, cycles: f64) -> FlankInstant {
+        let damping = (self.damping * self.rate(rates, cycles)).clamp(-self.force, self.force);
+        FlankInstant { force: self.force, damping, ..FlankInstant::default() }
+    }
+
     /// Adds what it does at `rates` of the displacements and so many mesh cycles a second.
     pub fn add(&self, rates: &Vector12, cycles: f64, all: &mut MeshLosses) {
-        let rate = self.lever.dot(rates) + self.by_cycles * cycles;
+        let rate = self.rate(rates, cycles);
         let asked = self.damping * rate;
         let damped = asked.clamp(-self.force, self.force);
         let outer = self.lever * self.lever.transpose();

@@ -27,8 +27,8 @@ pub struct PairInstant {
     pub rates: Vector12,
     /// Speeds of both gears, rad/s about +z.
     pub speeds: [f64; 2],
-    /// Driving and coast flanks, of a mesh that tells them apart.
-    pub flanks: Option<[FlankInstant; 2]>,
+    /// Driving and coast flanks.
+    pub flanks: [FlankInstant; 2],
     /// Torque of the driver in the running sense, N mm: the given one, or the one that keeps the given speed.
     pub drive_torque: f64,
     /// Torque on the driven gear against its motion, N mm.
@@ -40,7 +40,7 @@ pub struct PairInstant {
 impl PairInstant {
     /// Sums of the normal forces on driving and coast flanks, damping included, N.
     pub fn normal_forces(&self) -> [f64; 2] {
-        self.flanks.as_ref().map_or([0.0; 2], |sides| sides.each_ref().map(FlankInstant::normal_force))
+        [self.mesh.normal_force, self.mesh.coast_normal_force]
     }
 }
 
@@ -154,9 +154,8 @@ impl GearboxMechanism {
     /// [`GearboxError`] of the mesh.
     pub fn pair_instant(&mut self, state: &State) -> Result<PairInstant, GearboxError> {
         let State { time, q, v, .. } = state;
-        let whole = self.instant(state)?;
+        let (whole, mut flanks) = self.instant_by_side(state)?;
         let [displacements, rates] = [q, v].map(|z| self.displacements(0, z));
-        let flanks = self.live[0].element().by_side(&rates)?;
         let speeds = [0, 1].map(|g| self.train.ratios()[g] * whole.input[1] + rates[COORDINATES * (g + 1) - 1]);
         Ok(PairInstant {
             time: *time,
@@ -164,7 +163,7 @@ impl GearboxMechanism {
             displacements,
             rates,
             speeds,
-            flanks,
+            flanks: flanks.swap_remove(0),
             drive_torque: self.operation.sense.sign() as f64 * whole.input_torque,
             load_torque: self.against_turn() * self.varying.output(0, *time),
             bearings: [0, 1].map(|g| whole.bearings[g]),

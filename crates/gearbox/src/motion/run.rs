@@ -1,9 +1,9 @@
 //! The cycles of a gearbox in motion, with their rows and steps; and how its motion ended.
 
-use dynamics::Speed;
+use dynamics::{Extremes, Speed, ToothChanges};
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Goal, Ledger, Mechanism, Method, Periodicity, Row, RowPlace, Settle,
-    State, StepControl, Stop, Timetable,
+    Checkpoint, Compared, Counts, Course, CycleTimes, Goal, Ledger, Mechanism, Method, Periodicity, Row, RowPlace,
+    Settle, State, StepControl, Stop, Timetable,
 };
 use nalgebra::DVector;
 
@@ -75,6 +75,21 @@ impl Timetable<&mut GearboxMechanism> for GearboxTimes {
     }
 }
 
+/// What the flanks of a mesh went through in a motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FlankCourse {
+    /// How often the driving flanks came apart.
+    pub contact_losses: u64,
+    /// How often the coast flanks met.
+    pub coast_contacts: u64,
+    /// Extremes at the ends of steps.
+    pub extremes: Extremes,
+    /// Tooth changes of the driving flanks.
+    pub changes: ToothChanges,
+    /// How much of what the mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
+    pub reach: f64,
+}
+
 /// Result of a motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GearboxRun {
@@ -88,10 +103,10 @@ pub struct GearboxRun {
     pub steps: u64,
     /// Steps that were taken in parts or anew, where one had no solution or too large an error.
     pub divided: u64,
-    /// How often flanks of each mesh came apart: on the side that drives, and on the other one.
-    pub separations: Vec<[u64; 2]>,
-    /// How much of what each mesh holds the motion has used at most ([`super::MovingMesh::reach`]).
-    pub reach: Vec<f64>,
+    /// What the flanks of each mesh went through.
+    pub flanks: Vec<FlankCourse>,
+    /// Work that the torques of the outputs took in the nominal motion, over all cycles, N mm.
+    pub throughput: f64,
     /// Cycles of the fastest mesh before the rows.
     pub warm_up: u64,
     /// How nearly the motion repeats itself at last, period in cycles of the fastest mesh; `None` where no common period
@@ -183,6 +198,17 @@ impl GearboxMechanism {
         Compared::States { scale, free: self.free.turn, period }
     }
 
+    /// What the flanks of a mesh went through in a motion with these counts.
+    pub fn flank_course(&self, mesh: usize, counts: &Counts) -> FlankCourse {
+        FlankCourse {
+            contact_losses: counts.downs(2 * mesh),
+            coast_contacts: counts.ups(2 * mesh + 1),
+            extremes: self.extremes[mesh],
+            changes: self.changes(mesh),
+            reach: self.reach[mesh],
+        }
+    }
+
     /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of
     /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than 100,000.
     pub fn common_period(&self) -> Option<u64> {
@@ -213,15 +239,14 @@ impl GearboxRun {
         let energy = mechanism.energy(start, &state, &ledger)?;
         let common_period = mechanism.common_period();
         let period = common_period.unwrap_or(1) as usize;
-        let events = |mesh: usize| [0, 1].map(|side| counts.downs(2 * mesh + side));
         Ok(Self {
             states: [start.clone(), state],
             ledger,
             energy,
             steps: counts.steps,
             divided: counts.refused,
-            separations: (0..mechanism.live.len()).map(events).collect(),
-            reach: mechanism.reach.clone(),
+            flanks: (0..mechanism.live.len()).map(|mesh| mechanism.flank_course(mesh, &counts)).collect(),
+            throughput: mechanism.throughput,
             warm_up,
             periodicity: found.map(|p| Periodicity { period: p.period * period, ..p }),
             common_period,

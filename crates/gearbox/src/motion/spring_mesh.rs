@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use dynamics::FlankInstant;
 use lumped::{
     Fourier,
     shaft18::{MeshGeometry, MeshLine},
@@ -36,6 +37,14 @@ struct Pressed {
     stiffness: [f64; 2],
     /// de/dc, mm a cycle.
     error_rate: f64,
+}
+
+impl Flanks {
+    /// Their damper (N s/mm), where they press.
+    fn damper(&self, damping: f64) -> Option<NormalDamper<'_>> {
+        let (force, stiffness, by_cycles) = (self.at.force(), self.at.stiffness[0], self.at.error_rate);
+        (self.at.compression > 0.0).then_some(NormalDamper { lever: &self.lever, damping, force, stiffness, by_cycles })
+    }
 }
 
 impl Pressed {
@@ -161,12 +170,16 @@ impl MovingMesh for SpringMesh {
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
         let mut all = MeshLosses::default();
-        for side in self.flanks().filter(|s| s.at.compression > 0.0) {
-            let (force, by_cycles) = (side.at.force(), side.at.error_rate);
-            let (lever, damping, stiffness) = (&side.lever, self.damping, side.at.stiffness[0]);
-            NormalDamper { lever, damping, force, stiffness, by_cycles }.add(rates, cycles, &mut all);
-        }
+        self.flanks().filter_map(|s| s.damper(self.damping)).for_each(|own| own.add(rates, cycles, &mut all));
         all
+    }
+
+    fn by_side(&mut self, rates: &Vector12, cycles: f64) -> Result<[FlankInstant; 2], GearboxError> {
+        let of = |side: &Option<Flanks>| {
+            let damper = side.as_ref().and_then(|own| own.damper(self.damping));
+            damper.map_or_else(FlankInstant::default, |own| own.instant(rates, cycles))
+        };
+        Ok(self.sides.each_ref().map(of))
     }
 
     fn levers(&self) -> Option<Vec<Vector12>> {

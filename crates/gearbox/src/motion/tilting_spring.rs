@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use contact::FlankProjection;
+use dynamics::FlankInstant;
 use lumped::Fourier;
 
 use super::{MeshLosses, MovingMesh, SpringMesh, normal_damper::NormalDamper};
@@ -75,6 +76,12 @@ impl Place {
     fn delta_rate(&self) -> f64 {
         self.excess_rate + self.place[1] * self.tilt
     }
+
+    /// The damper (N s/mm) of the flanks along their lever, where they press.
+    fn damper<'a>(&self, lever: &'a Vector12, damping: f64) -> Option<NormalDamper<'a>> {
+        let (force, stiffness, by_cycles) = (self.force(), self.pressed(), self.delta_rate());
+        (force > 0.0).then_some(NormalDamper { lever, damping, force, stiffness, by_cycles })
+    }
 }
 
 impl TiltingSpring {
@@ -142,14 +149,17 @@ impl MovingMesh for TiltingSpring {
 
     fn losses(&mut self, rates: &Vector12, cycles: f64) -> MeshLosses {
         let mut all = self.coast.losses(rates, cycles);
-        let (at, lever) = (self.at, self.lever());
-        let force = at.force();
-        if force > 0.0 {
-            let (stiffness, by_cycles) = (at.pressed(), at.delta_rate());
-            NormalDamper { lever: &lever, damping: self.damping, force, stiffness, by_cycles }
-                .add(rates, cycles, &mut all);
+        let lever = self.lever();
+        if let Some(damper) = self.at.damper(&lever, self.damping) {
+            damper.add(rates, cycles, &mut all);
         }
         all
+    }
+
+    fn by_side(&mut self, rates: &Vector12, cycles: f64) -> Result<[FlankInstant; 2], GearboxError> {
+        let ([_, coast], lever) = (self.coast.by_side(rates, cycles)?, self.lever());
+        let driving = self.at.damper(&lever, self.damping);
+        Ok([driving.map_or_else(FlankInstant::default, |own| own.instant(rates, cycles)), coast])
     }
 
     fn overlaps(&mut self) -> Result<[f64; 2], GearboxError> {

@@ -345,7 +345,7 @@ fn two_stages_on_maps_lose_what_friction_takes() {
     assert!((0.002..0.05).contains(&(lost(&mapped.1) - lost(&smooth.1))));
     for (_, run) in [&mapped, &smooth] {
         assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
-        assert!(run.reach.iter().all(|part| *part <= 1.0), "{:?}", run.reach);
+        assert!(run.flanks.iter().all(|own| own.reach <= 1.0), "{:?}", run.flanks);
     }
     // As far off as without friction, which maps have as nearly.
     for mesh in 0..2 {
@@ -380,10 +380,10 @@ fn torque_reverses_through_backlash_on_maps() {
     let drive = Drive::Speed(Speed::Ramp { from: 200.0, to: 120.0, start: 0.0, duration: 0.02 });
     for friction in [0.0, FRICTION] {
         let [exact, mapped] = [false, true].map(|maps| run_two_stages((maps, 16.0), drive, friction, [8.0, 60.0]));
-        println!("{:?} {:?} {:?}", exact.1.separations, mapped.1.separations, mapped.1.reach);
+        println!("{:?} {:?}", exact.1.flanks, mapped.1.flanks);
         assert!(mapped.1.energy.relative_residual.abs() < 1e-9, "{:?}", mapped.1.energy);
         for mesh in 0..2 {
-            assert!(mapped.1.separations[mesh][0] > 0, "mesh {mesh}: {:?}", mapped.1.separations);
+            assert!(mapped.1.flanks[mesh].contact_losses > 0, "mesh {mesh}: {:?}", mapped.1.flanks);
             let te =
                 |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[mesh].transmission_error).collect::<Vec<_>>();
             let [a, b] = [te(&exact.0), te(&mapped.0)];

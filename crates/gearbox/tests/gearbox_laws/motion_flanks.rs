@@ -101,8 +101,9 @@ fn the_contact_in_held_shafts_moves_as_the_pair_alone() {
     let force = wrenches.iter().map(|w| w[0].hypot(w[1]).hypot(w[2])).fold(0.0, f64::max);
     let apart = |(a, b): (&(f64, [f64; 12]), &[f64; 12])| (0..3).map(|i| (a.1[i] - b[i]).abs()).fold(0.0, f64::max);
     let off_n = found.iter().zip(&wrenches).map(apart).fold(0.0, f64::max);
-    println!("off by {off:.1e} of {size:.2e} mm and {off_n:.1e} of {force:.2e} N; separations {:?}", done.separations);
-    assert!(done.separations[0][0] > 0 && done.separations[0][1] > 0, "both flanks part: {:?}", done.separations);
+    println!("off by {off:.1e} of {size:.2e} mm and {off_n:.1e} of {force:.2e} N; {:?}", done.flanks);
+    let own = done.flanks[0];
+    assert!(own.contact_losses > 0 && own.coast_contacts > 0, "both flanks part: {own:?}");
     assert!(off < 1e-8 * size, "{off:.2e} mm of {size:.2e} mm");
     assert!(off_n < 1e-6 * force, "{off_n:.2e} N of {force:.2e} N");
 }
@@ -187,9 +188,9 @@ fn torque_reverses_through_the_backlash_of_both_stages() {
     let drive = Drive::Speed(Speed::Ramp { from: 200.0, to: 120.0, start: 0.0, duration: 0.02 });
     let (rows, run) = run_two_stages(drive, 0.0, 10.0, 60.0);
     let negative = rows.iter().filter(|row| row.input_torque < 0.0).count();
-    println!("{} of {} rows brake, {:?}; {:?}", negative, rows.len(), run.separations, run.energy);
-    for (mesh, [driving, _]) in run.separations.iter().enumerate() {
-        assert!(*driving > 0, "mesh {mesh}: {:?}", run.separations);
+    println!("{} of {} rows brake, {:?}; {:?}", negative, rows.len(), run.flanks, run.energy);
+    for (mesh, own) in run.flanks.iter().enumerate() {
+        assert!(own.contact_losses > 0, "mesh {mesh}: {own:?}");
         let te: Vec<f64> = rows.iter().map(|row| row.meshes[mesh].transmission_error).collect();
         assert!(range(&te) > 0.05, "mesh {mesh} does not go through its backlash: {} mm", range(&te));
     }

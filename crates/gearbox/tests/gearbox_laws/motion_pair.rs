@@ -118,7 +118,7 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
         integrator.advance(&mut own, &mut state, step * i as f64, |_, _| ()).unwrap();
         wanted.push(meshing.side().sign() * (r[0] * state.q[0] + r[1] * state.q[1]) - beyond);
     }
-    assert!(done.separations[0][0] > 3, "the flanks come apart: {:?}", done.separations);
+    assert!(done.flanks[0].contact_losses > 3, "the flanks come apart: {:?}", done.flanks);
     [found, wanted]
 }
 

@@ -44,7 +44,7 @@ described::described! {
         /// damping along the normal
         mesh_damping_n_s_per_mm: f64,
         /// largest share of the map's forces and tilts, or of the half by which a tilt may change a spring; beyond 1 the rows are not valid
-        map_use: f64,
+        map_excess: f64,
         /// motion with the largest peak to peak of its transmission error
         largest: Option<&'a BranchPoint>,
     }
@@ -58,7 +58,7 @@ impl<'a> BranchSummary<'a> {
             period_cycles: branch.mesh_cycles[i],
             mean_mesh_stiffness_n_per_um: 1e-3 * branch.stiffness[i],
             mesh_damping_n_s_per_mm: branch.damping[i],
-            map_use: branch.reach[i],
+            map_excess: branch.reach[i],
             largest: branch.largest(i),
         };
         Self {

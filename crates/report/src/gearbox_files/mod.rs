@@ -29,7 +29,7 @@ use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
 /// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion`, `section` where it comes back to where its meshes
-/// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`; of a branch over the speed `branch`, `bifurcations`, `in_time`.
+/// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`, of that `cycles` as well; of a branch over the speed `branch`, `bifurcations`, `in_time`.
 ///
 /// # Errors
 /// [`ReportError::Study`] for rows that hold what is no number.
@@ -58,6 +58,7 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
         }
         tables.extend(own.spectrum.as_ref().map(|own| motion_tables::spectrum(file, own)));
         tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
+        tables.extend((!own.run_ups.is_empty()).then(|| motion_tables::cycles(file, &own.run_ups)));
     }
     tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
     Ok(Answer {
@@ -106,10 +107,11 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         motion_tables::orders(file, &[]),
         motion_tables::spectrum(file, &MotionSpectrum::default()),
         motion_tables::waterfall(file, &Waterfall::default()),
+        motion_tables::cycles(file, &[]),
     ];
     tables.extend(branch_files::tables(&branch::without_rows(file)));
-    let objects = summary::OBJECTS.iter().chain(&motion::OBJECTS).map(|(name, keys)| (*name, keys.to_vec()));
-    (tables, objects.chain(branch::objects()).collect())
+    let objects = summary::OBJECTS.iter().map(|(name, keys)| (*name, keys.to_vec()));
+    (tables, objects.chain(motion::objects()).chain(branch::objects()).collect())
 }
 
 /// Writes all files of a gearbox, `summary.json` last: where it is, everything is. What comes back is the closing table.

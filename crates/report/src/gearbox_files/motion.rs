@@ -2,7 +2,11 @@
 
 use std::f64::consts::TAU;
 
-use analysis::gearbox::{GearboxMotionResult, GearboxResult};
+use analysis::{
+    gearbox::{GearboxMotionResult, GearboxResult, ReachedByMesh},
+    in_motion::FlankCertificate,
+    motion::{ElasticHeadline, RunUp, RunUpHeadline},
+};
 use answer::Answer;
 use described::Key;
 use gearbox::motion::ReductionCertificate;
@@ -58,18 +62,31 @@ described::described! {
         mean_mesh_stiffness_n_per_um: f64,
         /// damping along the normal
         mesh_damping_n_s_per_mm: f64,
-        /// peak to peak of the dynamic transmission error over all rows
+        /// largest minus smallest dynamic transmission error of a mesh cycle, averaged over the cycles; with `to_speed_rpm` the largest of a cycle
         peak_to_peak_dte_um: f64,
-        /// smallest normal force over all rows
+        /// smallest dynamic transmission error over all rows
+        min_dte_um: f64,
+        /// largest dynamic transmission error over all rows
+        max_dte_um: f64,
+        /// smallest sum of the normal forces on the driving flanks over all rows, damping included
         min_normal_force_n: f64,
-        /// largest normal force over all rows
+        /// largest sum of the normal forces on the driving flanks over all rows, damping included
         max_normal_force_n: f64,
-        /// losses of contact of the driving flanks
-        separations: u64,
-        /// losses of contact of the coast flanks
-        coast_separations: u64,
+        /// largest sum of the normal forces on the coast flanks over all rows, damping included
+        max_coast_normal_force_n: f64,
+        /// natural frequency of both gears turning against each other on the mean stiffness; 0 where neither can
+        mesh_resonance_hz: f64,
+        /// elastic frequencies of the gears beside the mesh harmonics
+        elasticity: &'a ElasticHeadline,
+        /// what the flanks do
+        #[serde(flatten)]
+        flanks: &'a FlankCertificate,
+        /// largest values of a run-up and where they are; `null` without one
+        ramp: Option<RunUpHeadline>,
+        /// root mean square error of the map's approach at random places over the mean approach; `null` without a map
+        map_error: Option<f64>,
         /// largest share of the map's forces and tilts, or of the half by which a tilt may change a spring; beyond 1 the rows are not valid
-        map_use: f64,
+        map_excess: f64,
     }
 
     /// A bearing in motion.
@@ -115,6 +132,8 @@ described::described! {
         dissipated_mj: f64,
         /// energy that does not close over the sum of all
         relative_residual: f64,
+        /// energy that does not close, as the integrator has it, over the work that goes through the gearbox
+        ledger_residual_over_work: f64,
         /// energy that the steps add or take by themselves over the kinetic and elastic energy that comes and goes in them; the bound is 1e-3
         open_over_vibration: f64,
     }
@@ -138,31 +157,39 @@ described::described! {
 }
 
 /// Objects of the summary with their keys.
-pub(super) const OBJECTS: [(&str, &[Key]); 6] = [
-    ("motion", MotionSummary::KEYS),
-    ("meshes, motion", MeshMotion::KEYS),
-    ("bearings, motion", BearingMotion::KEYS),
-    ("gears, motion", GearMotion::KEYS),
-    ("energy, motion", EnergySummary::KEYS),
-    ("reduction, motion", ShaftReductionSummary::KEYS),
-];
+pub(super) fn objects() -> Vec<(&'static str, Vec<Key>)> {
+    vec![
+        ("motion", MotionSummary::KEYS.to_vec()),
+        ("meshes, motion", [MeshMotion::KEYS, FlankCertificate::KEYS].concat()),
+        ("bearings, motion", BearingMotion::KEYS.to_vec()),
+        ("gears, motion", GearMotion::KEYS.to_vec()),
+        ("energy, motion", EnergySummary::KEYS.to_vec()),
+        ("reduction, motion", ShaftReductionSummary::KEYS.to_vec()),
+    ]
+}
 
 /// Summary of a motion; `None` at rest alone.
 pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Option<MotionSummary<'a>> {
     let motion = result.motion.as_ref()?;
     let mesh = |i: usize| {
-        let (dte, force) = (motion.reached.dte_um[i], motion.reached.normal_force[i]);
+        let ReachedByMesh { dte_um, peak_to_peak_dte_um, normal_force, .. } = motion.reached.meshes[i];
         MeshMotion {
             name: &result.meshes[i].name,
             mesh_hz: motion.mesh_frequencies[i],
             mean_mesh_stiffness_n_per_um: 1e-3 * motion.stiffness[i],
             mesh_damping_n_s_per_mm: motion.damping[i],
-            peak_to_peak_dte_um: dte.span(),
-            min_normal_force_n: force.least,
-            max_normal_force_n: force.largest,
-            separations: motion.separations[i][0],
-            coast_separations: motion.separations[i][1],
-            map_use: motion.reach[i],
+            peak_to_peak_dte_um,
+            min_dte_um: dte_um.least,
+            max_dte_um: dte_um.largest,
+            min_normal_force_n: normal_force.least,
+            max_normal_force_n: normal_force.largest,
+            max_coast_normal_force_n: motion.reached.meshes[i].coast_normal_force,
+            mesh_resonance_hz: motion.resonances[i].hz,
+            elasticity: &motion.elasticity[i],
+            flanks: &motion.flanks[i],
+            ramp: motion.run_ups.get(i).and_then(RunUp::headline),
+            map_error: motion.map_errors[i].map(|[error, _]| error),
+            map_excess: motion.reach[i],
         }
     };
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {
@@ -196,6 +223,7 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
             gained_mj: energy.gained,
             dissipated_mj: energy.dissipated,
             relative_residual: energy.relative_residual,
+            ledger_residual_over_work: motion.ledger_residual_over_work,
             open_over_vibration: energy.open_over_vibration,
         },
         reduction: reduction_summary(&motion.reduction),
@@ -220,22 +248,23 @@ pub(super) fn reduction_summary(reduction: &ReductionCertificate) -> ShaftReduct
 /// [`ReportError`] where rows cannot be read back.
 pub(super) fn parts(file: &Gearbox, result: &GearboxResult, answer: &Answer) -> Result<Vec<Part>, ReportError> {
     let Some(motion) = &result.motion else { return Ok(Vec::new()) };
-    let words = "Least and largest forces and peaks to peaks are those of all rows.";
+    let words = "Least and largest values are those of all rows; a peak to peak is the mean over the cycles of the mesh, of a                  run-up the largest of a cycle.";
     let words = if is_run_up(motion) {
         format!("Orders over the speed and spectra are those of stretches of some cycles of the slowest mesh. {words}")
     } else {
         words.to_owned()
     };
-    let head = ["in motion", "mesh Hz", "DTE p-p um", "least N", "largest N", "contact lost"];
+    let head = ["in motion", "mesh Hz", "DTE p-p um", "least N", "largest N", "coast flanks N", "contact lost"];
     let meshes = (0..file.meshes.len()).map(|i| {
-        let (dte, force) = (motion.reached.dte_um[i], motion.reached.normal_force[i]);
+        let ReachedByMesh { peak_to_peak_dte_um, normal_force, coast_normal_force, .. } = motion.reached.meshes[i];
         vec![
             Cell::text(&result.meshes[i].name),
             Cell::number(motion.mesh_frequencies[i], 1),
-            Cell::number(dte.span(), 3),
-            Cell::number(force.least, 0),
-            Cell::number(force.largest, 0),
-            Cell::count(motion.separations[i][0]),
+            Cell::number(peak_to_peak_dte_um, 3),
+            Cell::number(normal_force.least, 0),
+            Cell::number(normal_force.largest, 0),
+            Cell::number(coast_normal_force, 0),
+            Cell::count(motion.flanks[i].contact_losses),
         ]
     });
     let bearings = file.bearings.iter().enumerate().map(|(i, b)| {

@@ -95,7 +95,10 @@ fn over_time(file: &Gearbox, motion: &GearboxMotionResult) -> Result<[Option<Str
     let meshes = || file.meshes.iter().map(|mesh| mesh.name.as_str()).collect();
     let bearings = file.bearings.iter().map(|bearing| bearing.name.as_str()).collect();
     let dte = curves(meshes(), &|p, i| 1e3 * p.meshes[i].transmission_error)?;
-    let forces = curves(meshes(), &|p, i| p.meshes[i].normal_force)?;
+    let mut forces = curves(meshes(), &|p, i| p.meshes[i].normal_force)?;
+    let coast = curves(meshes(), &|p, i| p.meshes[i].coast_normal_force)?;
+    let pressed = coast.into_iter().zip(&motion.reached.meshes).filter(|(_, mesh)| mesh.coast_normal_force > 0.0);
+    forces.extend(pressed.map(|(own, _)| Curve { label: format!("{}, coast flanks", own.label), ..own }));
     let radial = curves(bearings, &|p, i| p.bearings[i].force[0].hypot(p.bearings[i].force[1]))?;
     let torque = curves(vec!["input"], &|p, _| 1e-3 * p.input_torque)?;
     let time = "time [s]";

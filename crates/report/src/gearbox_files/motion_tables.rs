@@ -2,7 +2,7 @@
 
 use analysis::{
     gearbox::{GearboxMotionResult, MotionOrder},
-    motion::{MotionSpectrum, Waterfall},
+    motion::{MotionSpectrum, RunUp, Waterfall},
 };
 use answer::Table;
 use scene::gearbox::Gearbox;
@@ -11,6 +11,7 @@ use super::vibration_rows::which;
 use crate::{
     ReportError,
     motion_files::{self, WaterfallOf},
+    pair_files::rows::cycles_of_meshes,
 };
 
 /// `section`: the rows once a common period of all meshes, at its start; `None` where the motion does not last one, the
@@ -26,6 +27,11 @@ pub(super) fn section(motion: &GearboxMotionResult, rows: &Table) -> Result<Opti
         return Ok(None);
     }
     motion_files::section(rows, places, period).map(Some)
+}
+
+/// `cycles`: the cycles of every mesh of a run-up, one row a cycle.
+pub(super) fn cycles(file: &Gearbox, run_ups: &[RunUp]) -> Table {
+    cycles_of_meshes(file.meshes.iter().map(|mesh| mesh.name.as_str()).zip(run_ups))
 }
 
 /// `motion_orders`: what every order of every mesh does along a motion, one row an order over a stretch.

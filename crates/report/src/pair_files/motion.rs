@@ -142,10 +142,10 @@ fn lines(h: &MotionHeadline, facts: &RunInfo) -> Vec<Line> {
     all.extend(cycles([c.warm_up_cycles, h.cycles], c.periodicity, c.period_cycles));
     all.extend([
         Line::text("tooth changes", h.tooth_changes, ""),
-        Line::text("contact lost, times", c.contact_losses, ""),
+        Line::text("contact lost, times", c.flanks.contact_losses, ""),
         Line::science("energy open, over that of the vibration", c.energy_open_over_vibration, ""),
-        Line::science("least force of a slice in contact", c.least_contact_force_n, "N"),
-        Line::science("largest jump of the force at a tooth change", c.force_jump_at_tooth_change_n, "N"),
+        Line::science("least force of a slice in contact", c.flanks.least_contact_force_n, "N"),
+        Line::science("largest jump of the force at a tooth change", c.flanks.force_jump_at_tooth_change_n, "N"),
         Line::text("steps", c.steps, ""),
     ]);
     all
@@ -178,9 +178,9 @@ fn solved(h: &MotionHeadline) -> Vec<Line> {
             "",
         ),
         Line::science("  over the work through the pair", c.ledger_residual_over_work, ""),
-        Line::text("steps without contact", c.steps_without_contact, ""),
-        Line::number("largest gap", c.largest_gap_um, 3, "um"),
-        Line::text("coast flanks touched, times", c.coast_contacts, ""),
+        Line::text("steps without contact", c.flanks.steps_without_contact, ""),
+        Line::number("largest gap", c.flanks.largest_gap_um, 3, "um"),
+        Line::text("coast flanks touched, times", c.flanks.coast_contacts, ""),
         Line::text("steps taken back", c.refused_steps, ""),
         Line::text("free coordinates", h.free_coordinates.join(", "), ""),
     ]

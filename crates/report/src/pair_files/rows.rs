@@ -2,7 +2,7 @@
 
 use analysis::{
     lumped::LumpedCampbell,
-    motion::{CampbellDiagram, MotionSpectrum, RunUp, SWEEP_ORDERS, SweepRow, Waterfall},
+    motion::{CampbellDiagram, MotionSpectrum, RunUp, RunUpCycle, SWEEP_ORDERS, SweepRow, Waterfall},
 };
 use answer::Table;
 use study::Campbell;
@@ -34,10 +34,34 @@ pub(crate) fn waterfall(of: &Waterfall) -> Table {
 
 /// `cycles`: one row a mesh cycle of a ramp.
 pub(crate) fn cycles(of: &RunUp) -> Table {
-    let all = &of.cycles;
-    let mut table = Table::new("cycles")
+    let mut table = cycles_of(Table::new("cycles"), &of.cycles.iter().collect::<Vec<_>>());
+    if of.cycles.iter().all(|c| c.max_pair_normal_force_n.is_some()) {
+        let forces = of.cycles.iter().filter_map(|c| c.max_pair_normal_force_n);
+        table.push_numbers(
+            "max_pair_normal_force_n",
+            "largest normal force of one tooth pair, without damping; not of `impact`",
+            forces,
+        );
+    }
+    table
+}
+
+/// The same of the meshes of a gearbox, one after the other.
+pub(crate) fn cycles_of_meshes<'a>(of: impl Iterator<Item = (&'a str, &'a RunUp)> + Clone) -> Table {
+    let names = of.clone().flat_map(|(name, own)| own.cycles.iter().map(move |_| name));
+    let table = Table::new("cycles").texts("mesh", "name of the mesh", names);
+    cycles_of(table, &of.flat_map(|(_, own)| &own.cycles).collect::<Vec<_>>())
+}
+
+/// Columns of mesh cycles behind those of a table.
+fn cycles_of(table: Table, all: &[&RunUpCycle]) -> Table {
+    table
         .numbers("time_s", "middle of the mesh cycle", all.iter().map(|c| c.time_s))
-        .numbers("driver_speed_rpm", "speed of the driver at that time", all.iter().map(|c| c.driver_speed_rpm))
+        .numbers(
+            "driver_speed_rpm",
+            "speed of the driver at that time, of a gearbox of its input",
+            all.iter().map(|c| c.driver_speed_rpm),
+        )
         .numbers("mesh_frequency_hz", "mesh frequency at that time", all.iter().map(|c| c.mesh_frequency_hz))
         .numbers("mean_dte_um", "mean dynamic transmission error", all.iter().map(|c| c.mean_dte_um))
         .numbers(
@@ -59,16 +83,7 @@ pub(crate) fn cycles(of: &RunUp) -> Table {
             "dynamic_factor",
             "largest sum of normal forces over the mean quasi-static one",
             all.iter().map(|c| c.dynamic_factor),
-        );
-    if all.iter().all(|c| c.max_pair_normal_force_n.is_some()) {
-        let forces = all.iter().filter_map(|c| c.max_pair_normal_force_n);
-        table.push_numbers(
-            "max_pair_normal_force_n",
-            "largest normal force of one tooth pair, without damping; not of `impact`",
-            forces,
-        );
-    }
-    table
+        )
 }
 
 /// `order_cuts`: amplitudes of mesh orders over speed, one row a stretch of the waterfall.

@@ -25,7 +25,7 @@ const IN_USE: &str = "in_use";
 /// What is in that file.
 const HEADING: &str = "ale-gear keeps checkpoints here\n";
 /// Grows with every change of what is stored.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 /// Farthest pair of a window: mesh cycles are counted exactly up to here.
 pub(super) const FARTHEST_TOOTH: u64 = 1 << 53;
 

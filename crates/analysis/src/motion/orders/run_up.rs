@@ -65,7 +65,7 @@ described::described! {
     pub struct PeakOverSpeed {
         /// largest value, in the unit of the key
         pub value: f64,
-        /// speed of the driver there
+        /// speed of the driver there, of a gearbox of its input
         pub driver_speed_rpm: f64,
         /// mesh frequency there
         pub mesh_frequency_hz: f64,
@@ -145,8 +145,9 @@ impl RunUp {
         Ok(Self { cycles, cuts: cuts.collect() })
     }
 
-    /// Remark on the order whose peak is largest, where few points of the waterfall lie across it.
-    pub(crate) fn coarse_cut(&self) -> Option<Remark> {
+    /// Remark on the order whose peak is largest, where few points of the waterfall lie across it; `cure`: what shows it
+    /// better.
+    pub(crate) fn coarse_cut(&self, cure: &str) -> Option<Remark> {
         let orders = self.cuts.iter().map(|c| c.amplitudes_um.len()).min().unwrap_or(0);
         let peak = |n: usize| {
             let cut: Vec<f64> = self.cuts.iter().map(|c| c.amplitudes_um[n]).collect();
@@ -154,8 +155,7 @@ impl RunUp {
             Some((n, peak, cut[peak.at]))
         };
         let (n, peak, _) = (0..orders).filter_map(peak).max_by(|a, b| a.2.total_cmp(&b.2))?;
-        let cure = "a longer `duration_s` or fewer `waterfall_cycles` in [motion.ramp] show it better";
-        coarse_cut(peak, ("", n + 1), self.cuts[peak.at].driver_speed_rpm, cure)
+        coarse_cut(peak, n + 1, self.cuts[peak.at].driver_speed_rpm, cure)
     }
 
     /// The largest of everything; `None` without a whole cycle.

@@ -63,7 +63,13 @@ pub(crate) struct Elasticity {
     /// Teeth of the gear that turns faster.
     fewest_teeth: u32,
     kept: Option<[GearVibration; 2]>,
+    /// What has modes, before the keys of [modes].
+    remedy: &'static str,
 }
+
+/// What has modes: of a pair, and of a gearbox.
+const OF_PAIR: &str = "take the model `reduced+modes` with";
+pub(crate) const OF_GEARBOX: &str = "keep modes of the gears in exact contact (`mesh = \"exact\"`) with";
 
 impl Elasticity {
     /// Lowest frequencies of both gears, the modes that the scene keeps, and the harmonics of the static transmission
@@ -77,10 +83,6 @@ impl Elasticity {
         quasi_static: &QuasiStatic,
         observer: &mut dyn Observer,
     ) -> Result<Self, AnalysisError> {
-        let samples = &quasi_static.transmission_error;
-        // Half of the positions a cycle is as high as they can tell.
-        let harmonics = mesh_harmonics(samples, 1, samples.len() / 2)?;
-        let amplitudes_um = harmonics.iter().map(|h| 1e3 * h.amplitude).collect();
         let found = run_phase(observer, "frequencies", PhaseWork::Steps(2), |progress| {
             let of = |i: usize| {
                 // Motion has reduced gears only; any other one would not vibrate.
@@ -92,8 +94,25 @@ impl Elasticity {
         })?;
         let lowest_hz = [found[0].0, found[1].0];
         let [(_, pinion), (_, wheel)] = found;
+        Self::of((scene, OF_PAIR), lowest_hz, quasi_static, pinion.zip(wheel).map(|(p, w)| [p, w]))
+    }
+
+    /// Of gears of which all this is known; `remedy`: what has modes.
+    ///
+    /// # Errors
+    /// [`AnalysisError::Statistics`] for a transmission error that is no number.
+    pub fn of(
+        (scene, remedy): (&Scene, &'static str),
+        lowest_hz: [f64; 2],
+        quasi_static: &QuasiStatic,
+        kept: Option<[GearVibration; 2]>,
+    ) -> Result<Self, AnalysisError> {
+        let samples = &quasi_static.transmission_error;
+        // Half of the positions a cycle is as high as they can tell.
+        let harmonics = mesh_harmonics(samples, 1, samples.len() / 2)?;
+        let amplitudes_um = harmonics.iter().map(|h| 1e3 * h.amplitude).collect();
         let fewest_teeth = scene.pinion.teeth.min(scene.wheel.teeth);
-        Ok(Self { lowest_hz, amplitudes_um, fewest_teeth, kept: pinion.zip(wheel).map(|(p, w)| [p, w]) })
+        Ok(Self { lowest_hz, amplitudes_um, fewest_teeth, kept, remedy })
     }
 
     /// The modes that the scene keeps.
@@ -177,7 +196,7 @@ impl Elasticity {
         let below_hz = nice(2.0 * change.harmonic_hz().max(self.lowest_hz[0].max(self.lowest_hz[1])));
         let lowest = self.lowest_hz[0].min(self.lowest_hz[1]);
         let remedy = match &self.kept {
-            None => format!("take the model `reduced+modes` with `below_hz = {below_hz:.0}` in [modes]"),
+            None => format!("{} `below_hz = {below_hz:.0}` in [modes]", self.remedy),
             Some(_) => format!("keep more modes (`below_hz = {below_hz:.0}` in [modes])"),
         };
         Some(crate::remark::quasi_static_elasticity(

@@ -9,7 +9,7 @@ mod quasi_static;
 mod stable;
 
 pub use elasticity::{ElasticHeadline, KeptModes};
-pub(crate) use elasticity::{Elasticity, Vibration, kept_modes, mesh_range_hz};
+pub(crate) use elasticity::{Elasticity, OF_GEARBOX, Vibration, kept_modes, mesh_range_hz};
 pub use inertia::InertiaHeadline;
 pub use options::{bearing, drive, motion_options, scheme, speed, stated_body, steady_by, torque};
 pub(crate) use options::{body, pair_drive};

@@ -10,8 +10,8 @@ use study::{StudyError, cycle_statistics, mesh_harmonics};
 use crate::{
     AnalysisError,
     error::in_scene,
+    in_motion::MOTION_HINT,
     motion::{
-        MOTION_HINT,
         certificate::checks_of_speed,
         setup::{QuasiStatic, RPM},
     },

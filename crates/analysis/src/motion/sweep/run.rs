@@ -11,8 +11,8 @@ use crate::{
     Observer, PhaseWork,
     failure::Failure,
     motion::{
-        checks::dropped_by,
         course::failure,
+        dropped::dropped_by,
         setup::{PreparedMotion, RPM, steady_by},
     },
     run_phase, unless_cancelled,

@@ -1,9 +1,6 @@
 //! What must hold of any motion.
 
-use ale::AleError;
-use gearbox::motion::PairModel;
 use geometry::GearPair;
-use ltca::StaticError;
 use scene::Scene;
 
 use crate::{
@@ -43,13 +40,6 @@ pub fn force_jump_check(jump_n: f64, largest_n: f64) -> Check {
     Check { bound: JUMP, ..contact_check("force_jump", jump_n, largest_n) }
 }
 
-/// Tooth changes of a pair's window that set off such a jump, as an error: a wider window may do.
-pub fn dropped_by(system: &PairModel, jump_n: f64, largest_n: f64) -> Option<StaticError> {
-    let window = system.options().statics.window_teeth(system.pair());
-    let holds = force_jump_check(jump_n, largest_n).holds();
-    (!holds).then_some(StaticError::Window(AleError::Dropped { window, jump_n, largest_n }))
-}
-
 /// What transmission errors (mm) of a motion say of the deflection of the teeth, over the module.
 pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl Iterator<Item = f64>) -> Check {
     // A NaN is neither smaller nor larger, and not lost.
@@ -64,6 +54,18 @@ pub fn deflection_check_in_motion(scene: &Scene, pair: &GearPair, errors: impl I
 /// teeth have passed each other, and no law of a mesh holds.
 pub fn excursion_check(farthest_mm: f64, module_mm: f64) -> Check {
     Check { name: "flank_excursion".into(), value: farthest_mm / module_mm, bound: 1.0, hint: EXCURSION_HINT }
+}
+
+/// Error of a map over the mean approach beside the most with which it is taken, and what forces and tilts use of it;
+/// `instead`: what solves the contact itself.
+pub fn map_checks([error, worst]: [f64; 2], reach: f64, instead: [&'static str; 2]) -> [Check; 2] {
+    let [solved, or_damped] = instead;
+    [Check::new("map_error", error, worst, solved), map_excess(reach, or_damped)]
+}
+
+/// What forces and tilts use of a map, or of a spring in its place; `instead`: what has no such bound.
+pub fn map_excess(reach: f64, instead: &'static str) -> Check {
+    Check::new("map_excess", reach, 1.0, instead)
 }
 
 /// A force that should not be (N) over the largest normal force (N).

@@ -1,0 +1,81 @@
+//! What is said of a whole machine in motion: its speed, its energy, how it settles.
+
+use answer::Remark;
+use integrate::Periodicity;
+
+use crate::remark;
+
+/// Change of the mean speed over that of the start from which on a user should hear of it.
+const SPEED: f64 = 0.01;
+/// Energy that does not close, over the work that goes through the machine, likewise.
+const OPEN_WORK: f64 = 1e-6;
+
+/// The mean speed of an input that a torque drives, where it is another one than that of the start; both in 1/min.
+pub(crate) fn speed_changed(mean_rpm: f64, start_rpm: f64) -> Option<Remark> {
+    ((mean_rpm / start_rpm - 1.0).abs() > SPEED).then(|| remark::speed_has_changed(mean_rpm, start_rpm))
+}
+
+/// Energy that does not close, over the work that goes through the machine.
+pub(crate) fn work_open(share: f64) -> Option<Remark> {
+    (share.abs() > OPEN_WORK).then(|| remark::work_open(share.abs()))
+}
+
+/// How a motion has settled that was to repeat itself.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Settled<'a> {
+    /// Difference after a period, over the peak to peak, that was asked for.
+    pub tolerance: f64,
+    /// What the rows show, period in mesh cycles (of the fastest mesh).
+    pub found: Periodicity,
+    /// Mesh cycles before the rows.
+    pub waited: u64,
+    /// Mesh cycles after which the waiting ends; 0 of a motion that does not wait.
+    pub most: u64,
+    /// Mesh cycles after which all meshes are where they began.
+    pub common: usize,
+    /// Why it may not repeat itself.
+    pub why: &'a str,
+}
+
+impl Settled<'_> {
+    /// A motion that does not repeat itself, or does so after more than one common period.
+    pub fn remark(self) -> Option<Remark> {
+        let Self { tolerance, found: Periodicity { period, residual }, waited, most, common, why } = self;
+        if residual <= tolerance {
+            return (period > common).then(|| remark::subharmonic(period));
+        }
+        Some(match waited < most {
+            true => remark::repeats_and_drifts(tolerance, waited, residual),
+            false => remark::not_periodic(waited, residual, tolerance, why),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A speed within a hundredth is silent, one beyond is told beside that of the start; likewise open energy.
+    #[test]
+    fn changed_speed_and_open_work_are_told() {
+        assert_eq!([speed_changed(1009.0, 1000.0), work_open(-9e-7)], [None, None]);
+        let told = speed_changed(985.0, 1000.0).unwrap().to_string();
+        assert!(told.contains("985.0/min") && told.contains("1000.0/min"), "{told}");
+        assert!(work_open(-2e-6).is_some() && speed_changed(f64::NAN, 1000.0).is_none());
+    }
+
+    /// A motion that comes back with all meshes is silent; one that needs two of these periods is subharmonic; one that does
+    /// not come back has waited too little, or drifts.
+    #[test]
+    fn what_does_not_settle_is_told() {
+        let of = |period: usize, residual: f64, waited: u64| {
+            let found = Periodicity { period, residual };
+            let told = Settled { tolerance: 1e-6, found, waited, most: 1000, common: 53, why: "it may be chaotic" };
+            told.remark().map(|told| told.to_string())
+        };
+        assert_eq!(of(53, 1e-7, 106), None);
+        assert!(of(106, 1e-7, 106).unwrap().contains("subharmonic"));
+        assert!(of(53, 1e-3, 106).unwrap().contains("those that were written"));
+        assert!(of(53, 1e-3, 1000).unwrap().contains("it may be chaotic"));
+    }
+}
