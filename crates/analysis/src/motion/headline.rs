@@ -127,7 +127,9 @@ described::described! {
         pub least_contact_force_n: Option<f64>,
         /// largest difference of the sum of normal forces before and after a tooth change at the same place, each solved by itself
         pub force_jump_at_tooth_change_n: f64,
-        /// mesh cycles after which the motion repeats itself best
+        /// mesh cycles after which the same teeth meet, where these differ; else 1. `null` where that takes more than 100000
+        pub common_period_cycles: Option<u64>,
+        /// mesh cycles after which the motion repeats itself best: a multiple of `common_period_cycles`
         pub period_cycles: Option<usize>,
         /// largest difference of a coordinate or velocity after that period, over its peak to peak
         pub periodicity: Option<f64>,
@@ -318,6 +320,7 @@ fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMo
         energy_open_over_vibration: ledger.open_over_vibration(),
         least_contact_force_n: extremes.least_force,
         force_jump_at_tooth_change_n: changes.jump,
+        common_period_cycles: motion.system().common_period(),
         period_cycles: settled.map(|p| p.period),
         periodicity: settled.map(|p| p.residual),
         shooting_multiplier: done.shooting.as_ref().map(|s| s.multiplier),

@@ -129,7 +129,8 @@ pub(super) fn of_motion(motion: &MotionScene, prepared: &PreparedMotion, headlin
         } else {
             remark::not_periodic(after, found, asked, "it may be chaotic, or need more `warm_up_cycles`")
         });
-    } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| *p > 1)) {
+    } else if let (true, Some(period)) = (settles, c.period_cycles.filter(|p| Some(*p as u64) > c.common_period_cycles))
+    {
         said.push(remark::subharmonic(period));
     }
     if c.ledger_residual_over_work.abs() > 1e-6 {
