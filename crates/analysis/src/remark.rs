@@ -171,9 +171,9 @@ answer::remarks! {
     run_up_torque(duration_s, inertia_torque_nm, place, share_percent, load_torque_nm, cure)
         "the run-up lasts {duration_s:.3} s: its acceleration takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";
-    coarse_order_cut(points, order, speed_rpm, points_enough, cure)
+    coarse_order_cut(points, order, speed_rpm, points_enough, times, cure)
         "the peak of order {order} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",
-        "{cure}";
+        "{cure}, by a factor of {times:.1} or more";
     impact_exponent(stiffness_n_per_mm_to_1_5, exponent)
         "the impact stiffness of {stiffness_n_per_mm_to_1_5:.4e} N/mm^1.5 is that of two balls and belongs to the exponent 1.5; here it is taken with {exponent}",
         "give `stiffness_n_per_mm_to_exponent`";
@@ -242,9 +242,9 @@ answer::remarks! {
     seat_elsewhere(gear, held_mm, seat_mm, better_seat_mm)
         "the mesh of gear {gear} is held about z = {held_mm:.3} mm from its mid-plane, and its seat is at {seat_mm:.3} mm",
         "say `seat_mm = {better_seat_mm:.3}`";
-    few_gear_modes(gear, highest_hz, excitation_hz)
+    few_gear_modes(gear, highest_hz, excitation_hz, enough_hz)
         "the elastic modes of gear {gear} are kept up to {highest_hz:.0} Hz, and mesh orders reach {excitation_hz:.0} Hz: beyond its modes the gear deflects as at rest",
-        "keep more modes (`below_hz = {excitation_hz:.0}` in [modes])";
+        "keep more modes: `below_hz = {enough_hz:.0}` in place of `count` in [modes]";
     gear_modes_do_not_travel(gear)
         "gear {gear} is not known by one sector: its elastic modes are taken as they stand with the input at its start, without what rotation does to them",
         "mesh one periodic sector (`sector_teeth = 1`)";

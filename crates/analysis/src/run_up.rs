@@ -69,7 +69,8 @@ pub(crate) fn cut_peak(amplitudes: &[f64]) -> Option<CutPeak> {
 
 /// Remark on a peak that too few points of the cut of an order show, with its speed (1/min).
 pub(crate) fn coarse_cut(peak: CutPeak, order: usize, speed_rpm: f64, cure: &str) -> Option<Remark> {
-    (peak.points < POINTS).then(|| remark::coarse_order_cut(peak.points, order, speed_rpm, POINTS, cure))
+    let times = POINTS as f64 / peak.points.max(1) as f64;
+    (peak.points < POINTS).then(|| remark::coarse_order_cut(peak.points, order, speed_rpm, POINTS, times, cure))
 }
 
 #[cfg(test)]

@@ -16,6 +16,7 @@
 //! | [`Cost`], [`Phase`] | time and memory of a run |
 //! | [`Answer`] | all of it together |
 //! | [`keyed`] | an object as its keys with their values |
+//! | [`leaves`] | the values of a tree of JSON with their paths |
 
 mod answer;
 mod check;
@@ -23,6 +24,7 @@ mod columnar;
 mod cost;
 pub mod csv;
 mod error;
+mod leaves;
 mod numbers;
 mod remark;
 mod row_column;
@@ -35,6 +37,7 @@ pub use answer::{Answer, keyed};
 pub use check::{Check, Checks, FailedCheck};
 pub use cost::{Cost, Phase};
 pub use error::TableError;
+pub use leaves::leaves;
 pub use numbers::{Numbers, json};
 pub use remark::{Remark, RemarkKind, RemarkValue, digits};
 pub use row_column::{KeptColumn, OfRow, RowColumn};

@@ -10,6 +10,9 @@ use reduction::ReductionError;
 
 use crate::{SeatError, rolling_bearing::RollingBearingError};
 
+/// Largest share of a vibration that harmonics may leave out, as files have it.
+const WIDEST_TAIL: f64 = 0.1;
+
 /// Why shafts, bearings and gears cannot be put together or solved.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -182,8 +185,10 @@ pub enum GearboxError {
     LongPeriod {
         /// Cycles of the fastest mesh after which all meshes come back; `None`: too many to be looked for.
         period: Option<u64>,
-        /// Cycles that a branch can have.
+        /// Cycles that a branch can have with the harmonics of a cycle that it is asked for.
         most: u64,
+        /// Harmonics of a cycle that a branch of this period can have; 0: none.
+        per_cycle: u64,
     },
     /// The branch of periodic motions.
     #[error("the branch over the speed, 1/min: {0}")]
@@ -443,13 +448,27 @@ impl GearboxError {
             Self::OtherMeshes { .. } => "begin the motion anew",
             Self::NoCommonPeriod { .. } => "raise `warm_up_cycles` in [motion], or take `run = \"span\"`",
             Self::NoBranch { .. } => "take the mesh as \"mapped\" or \"spring\" and `drive = \"speed\"`",
-            Self::LongPeriod { .. } => {
-                "take fewer `harmonics` and `most_harmonics`, or numbers of teeth with a shorter common period; a run-up has \
-                 any (`run = \"span\"` with `to_speed_rpm`)"
+            Self::LongPeriod { per_cycle: 0, .. } => {
+                "take numbers of teeth with a shorter common period, or a run-up, which has any (`run = \"span\"` with \
+                 `to_speed_rpm`)"
+            }
+            Self::LongPeriod { per_cycle, .. } => {
+                return Some(format!(
+                    "such a period has up to {per_cycle} harmonics a cycle: `most_harmonics = {per_cycle}`, `harmonics` no \
+                     more than that, and a `tail` that they keep, all in [motion.continuation]; or take a run-up, which has \
+                     any period (`run = \"span\"` with `to_speed_rpm`)"
+                ));
             }
             Self::Branch(source) => match &**source {
                 PeriodicError::Mechanism { source, .. } => return source.hint(),
-                _ => "begin at another speed, or take more damping or `most_harmonics`",
+                PeriodicError::Harmonics { tail, .. } if 1.2 * tail < WIDEST_TAIL => {
+                    return Some(format!(
+                        "allow a larger `tail` in [motion.continuation], `tail = {:.1e}` say, or begin far from a resonance \
+                         or with more damping; more `most_harmonics` where the period is short",
+                        1.2 * tail
+                    ));
+                }
+                _ => "begin at another speed, far from a resonance, or take more damping",
             },
             Self::OutOfRange { .. } => {
                 "inside are mm, N, t, s: 1 MN/m is 1000 N/mm, 1 kg is 0.001 t, 1 kg m^2 is 1000 t mm^2"

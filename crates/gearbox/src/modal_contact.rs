@@ -11,9 +11,12 @@ use reduction::{ElasticGear, GearModes, StandingModes};
 
 use crate::{GearboxError, ModalForces};
 
-/// Steps of Newton's method at the most, and the last one over the amplitudes, in the norm of the strain energy.
+/// Steps of Newton's method at the most, and the last one over the displacements of the mesh, in the norm of the strain
+/// energy.
 const STEPS: usize = 60;
 const SMALL: f64 = 1e-11;
+/// Number of the turn of gear 2 among the displacements of both.
+const TURN: usize = 11;
 
 /// Contact whose compliance the modes have been taken out of, beside that of the gears at rest.
 #[derive(Debug)]
@@ -76,7 +79,10 @@ impl ModalContact {
     ///
     /// ```text
     /// Omega^2 q = H' F(d, q),   dq = (Omega^2 - T_qq)^-1 (H'F - Omega^2 q),   q = e^(theta N) p
+    /// |dq| <= 1e-11 max(|q|, |M_2| / sqrt(-dM_2/d theta_2)),   |q|^2 = q' Omega^2 q
     /// ```
+    /// Steps are measured by what teeth and bodies have of strain energy under the moment M_2 on gear 2: modes that the load
+    /// does not excite, as axial ones of spur gears, have none, and what is left of them is round-off of the contact.
     pub fn solve(
         &mut self,
         poses: &[Pose; 2],
@@ -89,6 +95,7 @@ impl ModalContact {
         let mut q = &turned * &self.amplitudes;
         let mut step = DVector::<f64>::zeros(m);
         let mut before = f64::INFINITY;
+        let mut whole = 0.0;
         for _ in 0..STEPS {
             self.contact.deform(q.as_slice());
             self.contact.evaluate(poses).map_err(&failed)?;
@@ -96,24 +103,27 @@ impl ModalContact {
             let pressed = DVector::from_column_slice(&modal.forces().normal);
             let left = pressed - self.squares.component_mul(&q);
             let size = left.component_mul(&left).component_div(&self.squares).sum().sqrt();
-            if size > before && energy(&step) > SMALL * energy(&q) {
+            let tangent = DMatrix::from_row_slice(12 + m, 12 + m, &modal.forces().tangent);
+            let (moment, stiffness) = (self.contact.force().wrench[1].moment[2], -tangent[(TURN, TURN)]);
+            let of_mesh = if stiffness > 0.0 { moment.abs() / stiffness.sqrt() } else { 0.0 };
+            whole = of_mesh.max(energy(&q));
+            if size > before && energy(&step) > SMALL * whole {
                 // Another set of slices presses there: half of the way.
                 step *= 0.5;
                 q -= &step;
                 continue;
             }
             before = size;
-            let tangent = DMatrix::from_row_slice(12 + m, 12 + m, &modal.forces().tangent);
             let stiffness = DMatrix::from_diagonal(&self.squares) - tangent.view((12, 12), (m, m));
             let next = stiffness.lu().solve(&left).unwrap_or_else(|| DVector::zeros(m));
-            if energy(&next) <= SMALL * energy(&q) {
+            if energy(&next) <= SMALL * whole {
                 self.amplitudes = turned.tr_mul(&q);
                 return Ok(self.found(&turned, &tangent));
             }
             q += &next;
             step = next;
         }
-        Err(GearboxError::NoEquilibrium { iterations: STEPS, step: energy(&step) / energy(&q) })
+        Err(GearboxError::NoEquilibrium { iterations: STEPS, step: energy(&step) / whole })
     }
 
     /// Forces and tangent of the last evaluation, modes as patterns that stand in space.

@@ -150,7 +150,7 @@ impl<E> MotionError<E> {
                 "see the message; a smaller step often keeps the motion within reach of the contact search"
             }
             Self::NotConverged { .. } => {
-                "take a smaller fixed step (`steps_per_mesh_cycle`), or let the error control choose it (`error_tolerance`)"
+                "take a smaller fixed step (`steps_per_mesh_cycle`, of a gearbox `steps_per_cycle`), or let the error control choose it (`error_tolerance`)"
             }
             Self::StepTooSmall { .. } => {
                 "loosen the tolerance, allow smaller steps, or add damping where the motion is unstable"

@@ -10,7 +10,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::{Forces, lu::LuFactor};
+use crate::{Forces, MotionError, lu::LuFactor};
 
 /// Iterations before giving up; two or three do.
 pub(crate) const ITERATIONS: usize = 40;
@@ -91,6 +91,28 @@ impl LineSearch {
     }
 }
 
+/// Why there is no next step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum NoStep {
+    /// The matrix is singular.
+    Singular,
+    /// Coordinates, forces or tangents are no numbers any more: the iteration has led away from the solution.
+    Lost {
+        /// Iterations so far.
+        iterations: usize,
+    },
+}
+
+impl NoStep {
+    /// The error of a step of length `h` from a time on (s), whose matrix is of the time `at`.
+    pub fn error<E>(self, (time, h): (f64, f64), at: f64) -> MotionError<E> {
+        match self {
+            Self::Singular => MotionError::Singular { time: at, which: "iteration" },
+            Self::Lost { iterations } => MotionError::NotConverged { time, step: h, iterations, change: f64::INFINITY },
+        }
+    }
+}
+
 impl Newton {
     /// Iteration for `n` coordinates.
     pub fn new(n: usize) -> Self {
@@ -128,18 +150,21 @@ impl Newton {
         forces.clear();
     }
 
-    /// The next step for the residual `rest`, to be taken away from the coordinates; `None` when the matrix, which
-    /// `matrix` makes where its tangents are new, is singular or holds no numbers.
+    /// The next step for the residual `rest`, to be taken away from the coordinates. `matrix` makes the matrix where its
+    /// tangents are new.
+    ///
+    /// # Errors
+    /// [`NoStep`].
     pub fn step(
         &mut self,
         forces: &Forces,
         matrix: impl FnOnce(&Forces, &mut DMatrix<f64>),
         rest: &DVector<f64>,
         iteration: usize,
-    ) -> Option<&DVector<f64>> {
+    ) -> Result<&DVector<f64>, NoStep> {
         if let Some(by) = self.line.as_mut().and_then(|line| line.advance(rest)) {
             (self.step, self.part) = (by, true);
-            return Some(&self.step);
+            return Ok(&self.step);
         }
         (self.line, self.part) = (None, false);
         if !self.is_made {
@@ -147,13 +172,16 @@ impl Newton {
             self.is_made = true;
         }
         self.step.copy_from(rest);
-        if !self.factor.solve(&mut self.step) || self.step.iter().any(|x| !x.is_finite()) {
-            return None;
+        if !self.factor.solve(&mut self.step) {
+            return Err(NoStep::Singular);
+        }
+        if self.step.iter().any(|x| !x.is_finite()) {
+            return Err(NoStep::Lost { iterations: iteration });
         }
         if iteration >= LINE_SEARCH_AFTER {
             self.line = LineSearch::along(&self.step, rest);
         }
-        Some(&self.step)
+        Ok(&self.step)
     }
 
     /// Measures the last step, taken to `q`.

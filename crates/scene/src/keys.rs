@@ -3,6 +3,9 @@
 /// Tables of a kind of file with their keys; the first one is the file itself.
 pub type Tables = fn() -> Vec<(String, Vec<&'static str>)>;
 
+/// The other kind of machine: what messages call it, and its tables.
+pub type Neighbour = (&'static str, Tables);
+
 /// The nearest of `known` if it is near enough to be meant.
 pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
     // Words of very different length are never alike, and to compare long ones costs the product of their lengths.
@@ -16,21 +19,28 @@ pub fn nearest<'a>(word: &str, known: &[&'a str]) -> Option<&'a str> {
         .map(|(_, k)| k)
 }
 
-/// One sentence for someone who wrote `word` where only `here` may stand, in a file of these tables.
-pub(super) fn advice(tables: Tables, word: &str, here: &[&str]) -> String {
-    let meant_here = nearest(word, here);
-    let elsewhere = tables().into_iter().skip(1).find(|(_, keys)| keys.contains(&word));
-    match (elsewhere, meant_here) {
-        (Some((table, _)), _) => format!("`{word}` belongs to [{table}]"),
-        (None, Some(key)) => format!("did you mean `{key}`?"),
-        // A key without its unit (`torque`) is shorter than the real one, so the likeness alone misses it.
-        (None, None) => match called(word, here).or_else(|| here.iter().find(|key| key.starts_with(word)).copied()) {
-            Some(key) => format!("did you mean `{key}`?"),
-            None => match tables().into_iter().skip(1).find_map(|(table, keys)| Some((called(word, &keys)?, table))) {
-                Some((key, table)) => format!("did you mean `{key}` in [{table}]?"),
-                None => format!("known here: {}", here.join(", ")),
-            },
-        },
+/// One sentence for someone who wrote `word` where only `here` may stand, in a file of these tables; `neighbour`: the other
+/// kind of machine, whose keys may have been meant.
+pub(super) fn advice((tables, neighbour): (Tables, Option<Neighbour>), word: &str, here: &[&str]) -> String {
+    let of_word = |(_, keys): &(String, Vec<&str>)| keys.contains(&word);
+    if let Some((table, _)) = tables().into_iter().skip(1).find(of_word) {
+        return format!("`{word}` belongs to [{table}]");
+    }
+    // A key without its unit (`torque`) is shorter than the real one, so the likeness alone misses it.
+    let begins = || here.iter().find(|key| key.starts_with(word)).copied();
+    if let Some(key) = nearest(word, here).or_else(|| called(word, here)).or_else(begins) {
+        return format!("did you mean `{key}`?");
+    }
+    if let Some((key, table)) =
+        tables().into_iter().skip(1).find_map(|(table, keys)| Some((called(word, &keys)?, table)))
+    {
+        return format!("did you mean `{key}` in [{table}]?");
+    }
+    let known = format!("known here: {}", here.join(", "));
+    match neighbour.and_then(|(kind, of)| Some((kind, of().into_iter().find(of_word)?.0))) {
+        Some((kind, table)) if table.is_empty() => format!("`{word}` belongs to {kind}; {known}"),
+        Some((kind, table)) => format!("`{word}` belongs to [{table}] of {kind}; {known}"),
+        None => known,
     }
 }
 

@@ -104,10 +104,21 @@ impl Document {
     /// # Errors
     /// [`SceneError`]: the first complaint, with its place in the file or the setting.
     pub fn scene(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
-        let source = raw::source(self, settings);
-        let checked = raw::read(&source).and_then(|raw| check::scene(&source, raw));
-        checked.map_err(|e| source.of_kind(e, DocumentKind::Scene))
+        checked(&raw::source(self, settings))
     }
+
+    /// The scene that it is of a mesh of a gearbox.
+    ///
+    /// # Errors
+    /// As [`Document::scene`].
+    pub(crate) fn scene_of_mesh(&self, settings: &[Setting]) -> Result<Scene, SceneError> {
+        checked(&raw::source(self, settings).of_mesh())
+    }
+}
+
+fn checked(source: &Source<'_>) -> Result<Scene, SceneError> {
+    let checked = raw::read(source).and_then(|raw| check::scene(source, raw));
+    checked.map_err(|e| source.of_kind(e, DocumentKind::Scene))
 }
 
 /// A checked scene. Serialised it is the scene file again, with every default written out.

@@ -3,6 +3,7 @@
 use super::{
     DocumentKind, SceneError,
     document::Document,
+    gearbox::tables as gearbox_tables,
     schema::{RawScene, meaning, tables},
     setting::Setting,
     source::Source,
@@ -10,7 +11,8 @@ use super::{
 
 /// A scene with what was set beside it.
 pub(super) fn source<'a>(document: &'a Document, settings: &'a [Setting]) -> Source<'a> {
-    Source::of(document, tables).with_meanings(meaning).with_settings(settings)
+    let source = Source::of(document, tables).with_meanings(meaning).with_settings(settings);
+    source.with_neighbour(("a gearbox file", gearbox_tables))
 }
 
 /// The words of a scene file.

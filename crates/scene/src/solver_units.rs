@@ -82,6 +82,23 @@ impl TorqueScene {
         Some([THOUSAND * self.amplitude_nm?, self.frequency_hz?, self.phase_deg.unwrap_or(0.0).to_radians()])
     }
 
+    /// Torque at t = 0 beside a mean, N m.
+    pub(crate) fn at_start(&self, mean_nm: f64) -> f64 {
+        if let Some(rows) = &self.table_s_nm {
+            let behind = rows.iter().position(|row| row[0] > 0.0);
+            return match behind {
+                Some(0) => rows[0][1],
+                Some(next) => {
+                    let ([t0, a], [t1, b]) = (rows[next - 1], rows[next]);
+                    a + (b - a) * (0.0 - t0) / (t1 - t0)
+                }
+                None => rows.last().map_or(mean_nm, |row| row[1]),
+            };
+        }
+        let [amplitude, _, phase] = self.harmonic().unwrap_or_default();
+        mean_nm + amplitude / THOUSAND * phase.cos()
+    }
+
     /// Times (s) and torques (N mm) of a table; `None` without one.
     pub fn table(&self) -> Option<[Vec<f64>; 2]> {
         let rows = self.table_s_nm.as_ref()?;

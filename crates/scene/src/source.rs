@@ -14,7 +14,7 @@ use super::data_file::DataFiles;
 use super::document::Document;
 use super::document_kind::TASKS;
 use super::hints;
-use super::keys::{self, Tables};
+use super::keys::{self, Neighbour, Tables};
 use super::origin::Origin;
 use super::places::Written;
 use super::setting::Setting;
@@ -30,6 +30,10 @@ pub struct Source<'a> {
     /// What was set beside the file.
     pub(crate) settings: &'a [Setting],
     tables: Tables,
+    /// The other kind of machine, with its tables: who writes a key of that is told.
+    neighbour: Option<Neighbour>,
+    /// Whether this is the scene of a mesh of a gearbox, which says itself what holds, drives and moves its gears.
+    pub(crate) is_of_mesh: bool,
     /// What a key means.
     pub(super) meaning: fn(&str) -> Option<&'static str>,
     /// Names and texts of files beside it that are not written yet.
@@ -42,8 +46,19 @@ impl<'a> Source<'a> {
     /// A file of these tables. Hints tell no meanings: a key of a scene that has its name means something else.
     pub(crate) fn of(document: &'a Document, tables: Tables) -> Self {
         let (settings, beside): (&[Setting], &[_]) = (&[], &[]);
-        let named = RefCell::default();
-        Self { file: document.file(), document, settings, tables, meaning: |_| None, beside, named }
+        let (named, neighbour, is_of_mesh) = (RefCell::default(), None, false);
+        let file = document.file();
+        Self { file, document, settings, tables, neighbour, is_of_mesh, meaning: |_| None, beside, named }
+    }
+
+    /// This file with the other kind of machine that keys may be meant for.
+    pub(crate) fn with_neighbour(self, neighbour: Neighbour) -> Self {
+        Self { neighbour: Some(neighbour), ..self }
+    }
+
+    /// This file as the scene of a mesh of a gearbox.
+    pub(crate) fn of_mesh(self) -> Self {
+        Self { is_of_mesh: true, ..self }
     }
 
     /// This file with what its keys mean.
@@ -199,7 +214,7 @@ impl Source<'_> {
             let mut words = rest.split('`').skip(1).step_by(2);
             let key = words.next().unwrap_or_default().to_owned();
             let here: Vec<&str> = words.collect();
-            let advice = keys::advice(self.tables, &key, &here);
+            let advice = keys::advice((self.tables, self.neighbour), &key, &here);
             return SceneError::UnknownKey { place, key, advice };
         }
         let typed = message.strip_prefix("invalid type: ").or(message.strip_prefix("invalid value: "));

@@ -385,3 +385,45 @@ fn loads_over_time_act_in_motion() {
     let settled = Gearbox::parse(&settled, &file).expect_err("it settles");
     assert!(settled.to_string().contains("its period is none of the meshes"), "{settled}");
 }
+
+/// What a gearbox does not read is refused where it stands, with what to do: files that only a pair writes, bodies of a pair,
+/// settings of maps without maps, and a motion that begins without a load.
+#[test]
+fn what_a_gearbox_does_not_read_is_refused() {
+    let slices = "set = [\"contact.slices=16\"]";
+    for key in [
+        "root_stress=true",
+        "vtu=true",
+        "contact_lines=true",
+        "parquet=true",
+        "derivatives=[\"pair.misalignment.deviation_um\"]",
+    ] {
+        let complaint = refused(slices, &format!("set = ['output.{key}']"));
+        let (name, _) = key.split_once('=').unwrap();
+        let said = format!("asks for `{name}` in [output]");
+        assert!(complaint.to_string().contains(&said) && complaint.hint().is_some(), "{key}: {complaint}");
+    }
+    for (key, cure) in
+        [("pinion.body.mass_kg=2", "[[gear]]"), ("wheel.bearing.stiffness_x_n_per_mm=1e5", "[[bearing]]")]
+    {
+        let complaint = refused(slices, &format!("set = [\"{key}\"]"));
+        let hint = complaint.hint().unwrap_or_default();
+        assert!(hint.contains(cure) && !hint.contains("kind"), "{key}: {complaint}: {hint}");
+    }
+    for key in ["map_tolerance = 1e-3", "map_overload = 6.0"] {
+        for mesh in ["spring", "exact"] {
+            let complaint = refused("mesh = \"spring\"\n", &format!("mesh = \"{mesh}\"\n{key}\n"));
+            assert!(complaint.to_string().contains("belongs to maps"), "{mesh}, {key}: {complaint}");
+        }
+    }
+    let load = "torque_nm = 740.0\n";
+    for (law, cure) in [
+        ("table_s_nm = [[0.0, 0.0], [0.1, 740.0]]", "first row"),
+        ("table_s_nm = [[-0.1, -740.0], [0.1, 740.0]]", "first row"),
+        ("amplitude_nm = 740.0\nfrequency_hz = 5.0\nphase_deg = 180.0", "phase_deg"),
+    ] {
+        let complaint = refused(load, &format!("{load}{law}\n"));
+        let hint = complaint.hint().unwrap_or_default();
+        assert!(complaint.to_string().contains("begins with a load of 0") && hint.contains(cure), "{law}: {complaint}");
+    }
+}

@@ -138,7 +138,7 @@ fn loads_belong_to_the_gearbox() {
     std::fs::write(folder.path().join("loads.csv"), "torque_nm,speed_rpm,share\n300,1000,1\n90,1500,3\n").unwrap();
     let text = format!("{PAIR}{RATING}").replace("[rating]\n", "[rating]\nspectrum = \"loads.csv\"\n");
     let scene = Scene::parse(&text, &folder.path().join("a.toml")).unwrap();
-    let of_pair = gearbox_of_pair(&scene).unwrap();
+    let of_pair = gearbox_of_pair(&scene).unwrap().text;
     let gearbox =
         Gearbox::parse(&of_pair, &folder.path().join("box.toml")).unwrap_or_else(|e| panic!("{e}\n{of_pair}"));
     let loads = gearbox.rating.unwrap().spectrum.unwrap();

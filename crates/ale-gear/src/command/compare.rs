@@ -7,8 +7,8 @@ use serde_json::json;
 
 use report::{
     compare::{
-        Axis, BESIDE, NumberRow, ResultFolder, compare_answer, compare_charts, compare_page, headline_rows, input_rows,
-        overlays,
+        Axis, BESIDE, NumberRow, ResultFolder, by_shared_names, compare_answer, compare_charts, compare_page,
+        headline_rows, input_rows, overlays,
     },
     page::closing_text,
     write_result,
@@ -46,6 +46,7 @@ impl CompareArgs {
     /// Reads all, then writes; the text is the table.
     pub(super) fn execute(self) -> Result<String, CommandError> {
         let runs = self.folders.iter().map(|f| ResultFolder::read(f)).collect::<Result<Vec<_>, _>>()?;
+        let runs = by_shared_names(runs);
         let (numbers, inputs) = (headline_rows(&runs), input_rows(&runs));
         let axis = match self.over {
             Some(Over::Phase) => Axis::Phase,

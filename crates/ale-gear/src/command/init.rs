@@ -11,7 +11,7 @@ use files::{write_file, write_new_file};
 
 use scene::{
     RexsGearbox, RexsPair, Starter,
-    gearbox::{Gearbox, gearbox_of_pair},
+    gearbox::{Gearbox, GearboxOfPair, gearbox_of_pair},
     read_gearbox, read_pair, read_rexs,
 };
 
@@ -34,7 +34,8 @@ pub(super) struct InitArgs {
     /// the words on the pair go before it
     #[arg(long, value_name = "FILE")]
     rexs: Option<PathBuf>,
-    /// Write the gearbox file of the pair in this scene: both shafts held, to add bearings and shafts to
+    /// Write the gearbox file of the pair in this scene, with its friction, bodies, bearings and motion where a gearbox
+    /// file can say them: shafts are held where no bearing frees them, to add bearings and shafts to
     #[arg(long, value_name = "SCENE", conflicts_with_all = ["rexs", "PairArgs"])]
     of_pair: Option<PathBuf>,
     /// Take a cylindrical stage of the REXS file alone, as a pair
@@ -154,7 +155,10 @@ impl InitArgs {
 
     /// Writes the gearbox file of a pair.
     fn write_gearbox_of(&self, scene: &Path, quiet: bool) -> Result<String, CommandError> {
-        let text = gearbox_of_pair(&Scene::read(scene)?)?;
+        let GearboxOfPair { text, left } = gearbox_of_pair(&Scene::read(scene)?)?;
+        for own in left {
+            note(format!("{}: left out: {own}", scene.display()));
+        }
         let file = self.gearbox_file();
         if file.as_os_str() == "-" {
             return Ok(text);

@@ -170,8 +170,13 @@ impl RunArgs {
         self.fits_a_gearbox()?;
         if file.motion.is_none() && (self.resume || self.stop_after_cycles.is_some()) {
             let said = format_args!("{}: this analysis has no checkpoints", self.file.display());
-            let hint = "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]".to_owned();
-            return Err(CommandError::input(said, Some(hint)));
+            let hint = match &file.branch {
+                Some(_) => {
+                    "leave `--resume` and `--stop-after-cycles` out: a branch (`run = \"continuation\"`) is followed in one piece"
+                }
+                None => "`--resume` and `--stop-after-cycles` belong to gearbox files with [motion]",
+            };
+            return Err(CommandError::input(said, Some(hint.to_owned())));
         }
         Ok(Machine::Gearbox(Box::new(file)))
     }

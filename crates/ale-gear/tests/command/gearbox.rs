@@ -233,7 +233,12 @@ fn a_branch_of_a_long_period_is_refused() {
     let scratch = scratch.file("long.toml", before.to_owned() + motion);
     let run = scratch.ale_gear(["run", "long.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
-    assert!(run.stderr.contains("cycles") && run.stderr.contains("hint"), "{}", run.stderr);
+    assert!(run.stderr.contains("`most_harmonics = 18`"), "{}", run.stderr);
+    // With as many the branch begins; harmonics that leave too much out ask for a tail, and no more harmonics.
+    let keep = ["--set", "motion.continuation.most_harmonics=1", "--set", "motion.continuation.harmonics=1"];
+    let few = scratch.command(&[&["run", "long.toml", "--out", "o"][..], &keep].concat());
+    assert!(few.code == Some(2) && few.stderr.contains("hint: allow a larger `tail`"), "{}", few.stderr);
+    assert!(!few.stderr.contains("take fewer"), "{}", few.stderr);
 }
 
 /// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,
@@ -606,6 +611,33 @@ fn a_pair_is_the_short_form_of_a_gearbox() {
         assert_eq!((mesh.len(), alone.len()), (4, 4));
         for (own, wanted) in mesh.iter().zip(&alone) {
             assert!((own / wanted - 1.0).abs() < 1e-9, "{own} um of the gearbox, {wanted} um of the pair");
+        }
+        // Side by side they have the numbers and the columns of the mesh in common.
+        let compared = scratch.ale_gear(["compare", "p", "b", "--out", "c", "--json"]);
+        assert_eq!(compared.code, Some(0), "{}", compared.stderr);
+        let told: serde_json::Value = serde_json::from_str(&compared.stdout).unwrap();
+        for key in
+            ["mean_ste_um", "peak_to_peak_ste_um", "mean_normal_force_n", "max_pressure_mpa", "geometry.eps_gamma"]
+        {
+            let row = told["numbers"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .find(|row| row["key"] == key)
+                .unwrap_or_else(|| panic!("no {key}"));
+            let off = row["differences"][0]["per_cent"].as_f64().unwrap_or_else(|| panic!("{key}: {row}"));
+            assert!(off.abs() < 1e-6, "{key} differs by {off:e} %");
+        }
+        let curves = scratch.read("c/compare_curves.csv");
+        for column in ["ste_um", "max_pressure_mpa"] {
+            let of = |run: &str| -> Vec<f64> {
+                let begin = format!("history,{column},mesh_phase,{run},");
+                let own = curves.lines().filter(|line| line.starts_with(&begin));
+                own.map(|line| line.rsplit(',').next().unwrap().parse().unwrap()).collect()
+            };
+            let (pair, mesh) = (of("p"), of("b"));
+            assert_eq!((pair.len(), mesh.len()), (4, 4), "{column}:\n{curves}");
+            assert!(pair.iter().zip(&mesh).all(|(a, b)| (a / b - 1.0).abs() < 1e-8), "{column}: {pair:?}, {mesh:?}");
         }
     }
     let scratch = Scratch::new();

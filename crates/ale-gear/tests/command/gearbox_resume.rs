@@ -80,17 +80,28 @@ fn a_motion_is_not_gone_on_with_as_another_one() {
     assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: there is no checkpoint: "), "{}", none.stderr);
     assert_eq!(run(&scratch, "o", &["--stop-after-cycles", "2"]).code, Some(0));
     let kept = scratch.read("o.checkpoint/rows.jsonl");
-    let other = "ale-gear: box.toml: the checkpoint belongs to another gearbox file\n\
-                 hint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n";
-    for set in ["torque.0.torque_nm=700", "shaft.0.section.0.outer_diameter_mm=26", "mesh.0.set=[\"contact.slices=9\"]"]
-    {
+    let other = |differs: &str| {
+        format!(
+            "ale-gear: box.toml: the checkpoint belongs to another gearbox file: {differs}\n\
+             hint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n"
+        )
+    };
+    for (set, differs) in [
+        ("torque.0.torque_nm=700", "`torque.0` is another one"),
+        ("shaft.0.section.0.outer_diameter_mm=26", "`shaft.fast` is another one"),
+        ("motion.mesh_damping_ratio=0.06", "`motion.mesh_damping` was Ratio(0.05) and is Ratio(0.06)"),
+        ("analysis.shaft_elements=12", "`analysis.shaft_elements` was 16 and is 12"),
+        ("mesh.0.set=[\"contact.slices=9\"]", "`mesh.first.scene.contact.slices` was 16 and is 9"),
+    ] {
         let refused = run(&scratch, "o", &["--resume", "--set", set]);
-        assert_eq!((refused.stderr.as_str(), refused.code), (other, Some(2)), "{set}");
+        assert_eq!((refused.stderr, refused.code), (other(differs), Some(2)), "{set}");
     }
     let pair = scratch.read("second_stage.toml");
     let changed = scratch.file("second_stage.toml", format!("{pair}\n[material]\npoisson = 0.29\n"));
     let refused = run(&changed, "o", &["--resume"]);
-    assert_eq!((refused.stderr.as_str(), refused.code), (other, Some(2)));
+    let differs = "`mesh.second.scene.pinion.material.poisson` was 0.3 and is 0.29; \
+                   `mesh.second.scene.wheel.material.poisson` was 0.3 and is 0.29";
+    assert_eq!((refused.stderr, refused.code), (other(differs), Some(2)));
     let scratch = changed.file("second_stage.toml", pair);
     assert!(scratch.read("o.checkpoint/rows.jsonl") == kept, "rows were touched");
     // A digit of a row.
@@ -116,4 +127,9 @@ fn a_motion_is_not_gone_on_with_as_another_one() {
     let said = "ale-gear: rest.toml: this analysis has no checkpoints\n\
                 hint: `--resume` and `--stop-after-cycles` belong to gearbox files with [motion]\n";
     assert_eq!((refused.stderr.as_str(), refused.code), (said, Some(2)));
+    // A branch is followed in one piece.
+    let branch = "[motion]\nrun = \"continuation\"\nspeed_rpm = 1000.0\nto_speed_rpm = 1100.0\nmesh = \"spring\"\n";
+    let scratch = scratch.file("branch.toml", text.split_once("[motion]").unwrap().0.to_owned() + branch);
+    let refused = scratch.ale_gear(["run", "branch.toml", "--out", "r", "--resume"]);
+    assert!(refused.stderr.contains("leave `--resume` and `--stop-after-cycles` out"), "{}", refused.stderr);
 }

@@ -318,10 +318,14 @@ fn a_foreign_checkpoint_is_refused() {
     assert!(none.stderr.starts_with("ale-gear: o.checkpoint/state.json: there is no checkpoint: "), "{}", none.stderr);
     assert_eq!(none.code, Some(2));
     assert_eq!(scratch.command(&["run", "a.toml", "--out", "o", "--stop-after-cycles", "1"]).code, Some(0));
-    let scratch = scratch.file("a.toml", scene(2, "mesh_damping_ratio = 0.07\n"));
+    let file = scratch.file("f.checkpoint", "mine");
+    let taken = file.command(&["run", "a.toml", "--out", "f", "--stop-after-cycles", "1"]);
+    assert!(taken.stderr.starts_with("ale-gear: f.checkpoint: is there, and was not made by"), "{}", taken.stderr);
+    assert_eq!(file.read("f.checkpoint"), "mine");
+    let scratch = file.file("a.toml", scene(2, "mesh_damping_ratio = 0.07\n"));
     let other = scratch.command(&["run", "a.toml", "--out", "o", "--resume"]);
     assert_eq!(
         other.stderr,
-        "ale-gear: a.toml: the checkpoint belongs to another scene\nhint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n"
+        "ale-gear: a.toml: the checkpoint belongs to another scene: `motion.mesh_damping_ratio` was 0.05 and is 0.07\nhint: go on with what it belongs to, give another `--out`, or run without `--resume` to start from the beginning\n"
     );
 }

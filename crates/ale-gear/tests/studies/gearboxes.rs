@@ -84,6 +84,8 @@ fn what_a_gearbox_has_not_is_told_before_any_work() {
         (&["--vary", "bearing.0.position_mm=14,15", "--of", "mesh_1_ste"], "is not a column of motion.csv"),
         (&["--vary", &format!("{SLOPE}~iso1328:6"), "--output", "face_load_factor.0"], "ISO 1328"),
         (&["--vary", "input.speed=1,2", "--start", "carry"], "cases of a gearbox are each alone"),
+        (&["--vary", "motion.speed_rpm=1,2", "--start", "carry"], "`to_speed_rpm` in [motion]"),
+        (&["--vary", "motion.speed_rpm=1,2", "--start", "branch"], "`run = \"continuation\"` in [motion]"),
         (&["--harris"], "`--harris` is for pairs"),
         (
             &["--vary", "bearing.left.position_mm=1,2", "--output", "face_load_factor.0"],

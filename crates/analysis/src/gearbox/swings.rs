@@ -198,7 +198,7 @@ pub(super) fn few_modes(file: &Gearbox, gears: &[Option<GearFrequencies>], faste
     let one = |(gear, own): (&GearboxGear, &Option<GearFrequencies>)| {
         let last = own.as_ref()?.frequencies_hz.last().copied();
         let highest = file.modes.and_then(|asked| asked.below_hz).or(last).unwrap_or(0.0);
-        (highest < fastest).then(|| remark::few_gear_modes(&*gear.name, highest, fastest))
+        (highest < fastest).then(|| remark::few_gear_modes(&*gear.name, highest, fastest, fastest.ceil()))
     };
     file.gears.iter().zip(gears).filter_map(one).collect()
 }

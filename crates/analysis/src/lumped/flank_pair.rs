@@ -130,6 +130,10 @@ impl LumpedMechanism for FlankPair {
         map_checks([map.error(), worst], reach, instead).into()
     }
 
+    fn common_period(&self) -> Option<u64> {
+        self.machine.common_period()
+    }
+
     /// The teeth in the window belong to a state as well, where there is one.
     fn shoots(&self) -> bool {
         self.pair.map().is_some()

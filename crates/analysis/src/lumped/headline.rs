@@ -93,7 +93,9 @@ described::described! {
         pub ledger_residual_over_turnover: f64,
         /// energy that the steps add or take by themselves, over the changes of kinetic and elastic energy, each step by its amount
         pub energy_open_over_vibration: f64,
-        /// mesh cycles after which the motion repeats itself best
+        /// mesh cycles after which the same teeth meet, where these differ; else 1. `null` where that takes more than 100000
+        pub common_period_cycles: Option<u64>,
+        /// mesh cycles after which the motion repeats itself best: a multiple of `common_period_cycles`
         pub period_cycles: Option<usize>,
         /// largest difference of a coordinate or velocity after that period, over its peak to peak
         pub periodicity: Option<f64>,
@@ -184,6 +186,7 @@ fn certificate(run: &LumpedRun, rows_without_contact: usize, lyapunov: Option<Ly
         ledger_residual_mj: run.ledger.residual(),
         ledger_residual_over_turnover: run.ledger.relative_residual(),
         energy_open_over_vibration: run.ledger.open_over_vibration(),
+        common_period_cycles: run.common_period,
         period_cycles: run.periodicity.map(|p| p.period),
         periodicity: run.periodicity.map(|p| p.residual),
         lyapunov,

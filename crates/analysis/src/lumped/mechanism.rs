@@ -206,6 +206,11 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
         false
     }
 
+    /// Mesh cycles after which all that excites it comes back; `None` where that takes more than 100,000.
+    fn common_period(&self) -> Option<u64> {
+        Some(1)
+    }
+
     /// Whether a state tells all of it, and its motion is smooth in its start.
     fn shoots(&self) -> bool {
         true

@@ -63,7 +63,7 @@ pub(super) fn certificate_remarks(motion: &MotionScene, headline: &LumpedHeadlin
     if let (Run::Steady, Some(found), Some(asked)) = (motion.run, c.periodicity, motion.periodic_tolerance) {
         if found > asked {
             remarks.push(remark::not_periodic(c.warm_up_cycles, found, asked, why_not(c.lyapunov)));
-        } else if let Some(period) = c.period_cycles.filter(|p| *p > 1) {
+        } else if let Some(period) = c.period_cycles.filter(|p| Some(*p as u64) > c.common_period_cycles) {
             remarks.push(remark::subharmonic(period));
         }
     }

@@ -3,6 +3,7 @@
 use std::{f64::consts::TAU, sync::Arc};
 
 use answer::{RowStore, TableError};
+use gearbox::{GearboxError, motion::PairMotionError};
 use integrate::{
     Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
     Settle, State, StepControl, Stop, Timetable,
@@ -41,6 +42,8 @@ pub(crate) struct LumpedRun {
     pub judged: u64,
     /// Mesh cycles before them.
     pub warm_up: u64,
+    /// Mesh cycles after which all that excites the motion comes back; `None` where that takes more than 100,000.
+    pub common_period: Option<u64>,
     /// How nearly the motion repeated itself at last.
     pub periodicity: Option<Periodicity>,
     /// Energy from the start of the run on.
@@ -183,12 +186,17 @@ impl RunPlan<'_> {
         let per_cycle = motion.steps_per_mesh_cycle as usize;
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
         let tolerance = motion.periodic_tolerance.unwrap_or(0.0);
-        let settles = motion.run == Run::Steady;
+        let settle = (motion.run == Run::Steady)
+            .then(|| Settle { tolerance, most: u64::from(motion.warm_up_cycles.unwrap_or(0)) });
+        let period = model.common_period();
+        if let Some(Settle { most, .. }) = settle.filter(|own| period.is_none_or(|p| p > own.most.max(1))) {
+            let error = GearboxError::NoCommonPeriod { period, most };
+            return Err(ModelFailure::from(PairMotionError::at(0.0)(error)).into());
+        }
+        let of = |model: &mut &mut BoxedMechanism, state: &State| model.transmission_error_um(state);
         let goal = Goal {
-            compared: Some(Compared::Signal(|model: &mut &mut BoxedMechanism, state| {
-                model.transmission_error_um(state)
-            })),
-            settle: settles.then(|| Settle { tolerance, most: u64::from(motion.warm_up_cycles.unwrap_or(0)) }),
+            compared: period.map(|period| Compared::Signal { of, period }),
+            settle,
             tolerance,
             cycles,
             starts_with_row: false,
@@ -227,6 +235,7 @@ impl RunPlan<'_> {
             cycles,
             judged,
             warm_up: course.cycle() - course.stage().recorded,
+            common_period: period,
             periodicity: course.stage().periodicity,
             ledger: course.ledger().copied().unwrap_or_default(),
             steps: [course.counts().steps, course.counts().refused],
@@ -234,7 +243,8 @@ impl RunPlan<'_> {
         })
     }
 
-    /// The periodic state near a state: of one mesh cycle, else of as many as the motion looks like having.
+    /// The periodic state near a state: of one common period of the teeth that meet, else of as many mesh cycles as the motion
+    /// looks like having.
     fn periodic_state(
         &self,
         model: &mut BoxedMechanism,
@@ -254,8 +264,9 @@ impl RunPlan<'_> {
             };
             shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
         };
-        let once = search(model, 1)?;
-        Ok(if once.is_some() || period == 1 { once } else { search(model, period)? })
+        let one = model.common_period().unwrap_or(1) as usize;
+        let once = search(model, one)?;
+        Ok(if once.is_some() || period == one { once } else { search(model, period)? })
     }
 }
 

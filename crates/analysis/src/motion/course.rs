@@ -28,7 +28,7 @@ fn goal(
     (scene, motion): (&Scene, &MotionScene),
     (pair, begun): (&PairModel, &PairMotion),
     stop_after: Option<u64>,
-) -> Goal<GearboxMechanism> {
+) -> Result<Goal<GearboxMechanism>, PairMotionError> {
     let settles = matches!(motion.run, Run::Steady | Run::Shooting);
     let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
     let until = match (motion.run, motion.ramp, motion.duration_s) {
@@ -39,15 +39,21 @@ fn goal(
         None => u64::from(scene.analysis.cycles),
         Some(end) => (pair.cycles_until(end) + 1e-9).floor().max(1.0) as u64,
     };
-    Goal {
-        compared: Some(compared(begun)),
-        settle: settles.then(|| Settle { tolerance, most: u64::from(motion.warm_up_cycles.unwrap_or(1000)) }),
+    let settle = settles.then(|| Settle { tolerance, most: most(motion) });
+    Ok(Goal {
+        compared: compared(begun, settle.as_ref())?,
+        settle,
         tolerance,
         cycles,
         starts_with_row: false,
         checkpoint_every: u64::from(motion.checkpoint_every_cycles.unwrap_or(0)),
         stop_after,
-    }
+    })
+}
+
+/// Mesh cycles that a motion waits at the most.
+fn most(motion: &MotionScene) -> u64 {
+    u64::from(motion.warm_up_cycles.unwrap_or(1000))
 }
 
 /// A motion at its end.
@@ -94,7 +100,7 @@ pub(super) fn run(
 ) -> Result<FinishedMotion, Failure> {
     let stop_after = span.stop_after;
     let (mut motion, shooting, mut told) = begin((scene, asked), prepared, (observer, sink), span)?;
-    let goal = goal((scene, asked), (&prepared.system, &motion), stop_after);
+    let goal = goal((scene, asked), (&prepared.system, &motion), stop_after).map_err(|e| failure(scene, e))?;
     let clock = std::time::Instant::now();
     let mut stopped = false;
     if let (Some(settle), false) = (goal.settle, motion.stage().recording) {
@@ -146,8 +152,9 @@ fn begin<'a>(
     let mut shooting = None;
     if motion.run == Run::Shooting {
         let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
+        let period = begun.system().back_within(most(motion)).map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
         let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-            shoot(system, &mut begun, 1, tolerance, SHOOTING_NEWTON_STEPS)
+            shoot(system, &mut begun, period, tolerance, SHOOTING_NEWTON_STEPS)
         });
         shooting = Some(shot.map_err(fail)?);
     }

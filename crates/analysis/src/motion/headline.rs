@@ -128,7 +128,9 @@ described::described! {
         pub ledger_residual_over_turnover: f64,
         /// energy that the steps add or take by themselves, over the changes of kinetic and elastic energy, each step by its amount; the check `energy_residual` judges it
         pub energy_open_over_vibration: f64,
-        /// mesh cycles after which the motion repeats itself best
+        /// mesh cycles after which the same teeth meet, where these differ; else 1. `null` where that takes more than 100000
+        pub common_period_cycles: Option<u64>,
+        /// mesh cycles after which the motion repeats itself best: a multiple of `common_period_cycles`
         pub period_cycles: Option<usize>,
         /// largest difference of a coordinate or velocity after that period, over its peak to peak
         pub periodicity: Option<f64>,
@@ -302,6 +304,7 @@ fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMo
         ledger_residual_over_work: ledger.residual() / motion.system().throughput().max(f64::MIN_POSITIVE),
         ledger_residual_over_turnover: ledger.relative_residual(),
         energy_open_over_vibration: ledger.open_over_vibration(),
+        common_period_cycles: motion.system().common_period(),
         period_cycles: settled.map(|p| p.period),
         periodicity: settled.map(|p| p.residual),
         shooting_multiplier: done.shooting.as_ref().map(|s| s.multiplier),

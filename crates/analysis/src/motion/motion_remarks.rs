@@ -123,7 +123,7 @@ pub(super) fn of_motion(
         found,
         waited: c.warm_up_cycles,
         most: if motion.run == Run::Steady { u64::from(motion.warm_up_cycles.unwrap_or(1000)) } else { 0 },
-        common: 1,
+        common: c.common_period_cycles.map_or(usize::MAX, |period| period as usize),
         why: "it may be chaotic, or need more `warm_up_cycles`",
     });
     let system = &prepared.system;

@@ -171,7 +171,7 @@ fn beside(pair: &str, gears: &SharedModels<'_>) -> Result<Vec<(&'static str, f64
     std::fs::write(&own, pair).unwrap();
     let scene = Scene::read(&own).map_err(|e| say(&e))?;
     let alone = StaticAnalysis::new(&scene).with_shared(gears).solve().map_err(|e| say(&e))?;
-    let file = Gearbox::parse(&gearbox_of_pair(&scene).map_err(|e| say(&e))?, &folder.path().join("held.toml"))
+    let file = Gearbox::parse(&gearbox_of_pair(&scene).map_err(|e| say(&e))?.text, &folder.path().join("held.toml"))
         .map_err(|e| say(&e))?;
     let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver).with_models(gears))
         .and_then(Ending::finished)

@@ -11,7 +11,7 @@ use analysis::{
 };
 use scene::{
     Model, Scene, SceneBuilder,
-    gearbox::{Gearbox, gearbox_of_moving_pair},
+    gearbox::{Gearbox, GearboxOfPair, gearbox_of_moving_pair, gearbox_of_pair},
 };
 
 /// Dynamic transmission error (um) at the rows of a pair, its spectrum where that is of all rows, and steps between two rows.
@@ -32,9 +32,13 @@ fn alone(scene: &Scene) -> (Vec<f64>, Option<MotionSpectrum>, u32) {
 
 /// The same of its gearbox, the row at the start left out.
 fn as_gearbox(scene: &Scene, per_row: u32) -> (Vec<f64>, MotionSpectrum) {
-    let text = gearbox_of_moving_pair(scene, per_row).unwrap().unwrap();
+    moved(scene, &gearbox_of_moving_pair(scene, per_row).unwrap().unwrap())
+}
+
+/// The same of the text of a gearbox file.
+fn moved(scene: &Scene, text: &str) -> (Vec<f64>, MotionSpectrum) {
     let folder = tempfile::tempdir().unwrap();
-    let file = Gearbox::parse(&text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
+    let file = Gearbox::parse(text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished);
     let moved = found.unwrap_or_else(|e| panic!("{}: {e}", scene.name)).motion.unwrap();
     let errors = moved.rows.series(1..usize::MAX, |row| 1e3 * row.meshes[0].transmission_error).unwrap();
@@ -165,6 +169,49 @@ fn moving_pairs_of_the_scenes_are_gearboxes_of_held_shafts() {
         wrong.extend((found.is_nan() || found > bound).then_some(name));
     }
     assert!(wrong.is_empty(), "off by more: {wrong:?}");
+}
+
+/// The file that `init --of-pair` writes moves as the pair: with friction, a load over time, and the wheel in its bearings,
+/// to what a beam without mass between gear and bearing adds. What it does not have is named.
+#[test]
+fn the_file_of_a_whole_pair_moves_as_the_pair() {
+    let rows_are_steps =
+        |s: SceneBuilder| s.set("motion.steps_per_resonance", 0).set("motion.steps_per_mesh_cycle", 128);
+    let in_bearings = |s: SceneBuilder| {
+        let free = rows_are_steps(s).set("wheel.body.free", vec!["x", "y", "z", "rx", "ry"]);
+        let along = ["x", "y", "z"].iter().fold(free, |s, axis| {
+            let held = s.set(&format!("wheel.bearing.stiffness_{axis}_n_per_mm"), 2e5);
+            held.set(&format!("wheel.bearing.damping_{axis}_ns_per_mm"), 2.0)
+        });
+        let tilts = along.set("wheel.bearing.stiffness_rx_nmm_per_rad", 1e8);
+        tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8)
+    };
+    let load = |s: SceneBuilder| s.set("load.amplitude_nm", 40.0).set("load.frequency_hz", 700.0);
+    let all: [(&str, f64, Box<dyn Fn(SceneBuilder) -> SceneBuilder>); 3] = [
+        ("friction", 1e-8, Box::new(|s| rows_are_steps(s).set("contact.friction", 0.05))),
+        ("load over time", 1e-8, Box::new(|s| load(rows_are_steps(s)))),
+        ("bearings", 1e-6, Box::new(in_bearings)),
+    ];
+    for (name, bound, change) in all {
+        let scene = small(change);
+        let GearboxOfPair { text, left } = gearbox_of_pair(&scene).unwrap();
+        assert_eq!(left, [""; 0], "{name}");
+        let (wanted, _, _) = alone(&scene);
+        let (found, _) = moved(&scene, &text);
+        assert_eq!(found.len(), wanted.len(), "{name}");
+        let [low, high] = wanted.iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(*x), h.max(*x)]);
+        let off = found.iter().zip(&wanted).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / (high - low);
+        println!("{name}: {off:.1e} of the peak to peak");
+        assert!(off < bound, "{name}: off by {off:.1e}");
+    }
+    // What has no place in a gearbox file is named.
+    let partly = small(|s| s.set("wheel.body.free", vec!["x"]).set("wheel.bearing.stiffness_x_n_per_mm", 1e6));
+    let GearboxOfPair { text, left } = gearbox_of_pair(&partly).unwrap();
+    assert!(
+        left.iter().any(|own| own.contains("[wheel.bearing]")) && text.contains("# Left out: [wheel.bearing]"),
+        "{left:?}"
+    );
+    assert!(text.contains("[motion]") && text.matches("held = true").count() >= 2, "{text}");
 }
 
 /// What held shafts do not have is no gearbox: gears on bearings, torques over time.

@@ -344,7 +344,7 @@ fn a_gearbox_of_held_shafts_rates_as_its_pair() {
         });
         let scene = gears(coarse, "18CrNiMo7-6", 4.0, 16.0).build().unwrap_or_else(|e| panic!("{e}"));
         let (alone, _) = rated_scene(&scene);
-        let text = gearbox_of_pair(&scene).unwrap();
+        let text = gearbox_of_pair(&scene).unwrap().text;
         let file = Gearbox::parse(&text, "held.toml".as_ref()).unwrap_or_else(|e| panic!("{e}\n{text}"));
         let found = solve(&file, Context::<Gearbox>::new(&mut NoObserver)).and_then(Ending::finished);
         let found = found.unwrap_or_else(|e| panic!("{e}"));

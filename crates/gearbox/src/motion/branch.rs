@@ -9,9 +9,6 @@ use periodic::{BalanceOptions, Branch, BranchPlan, Condensed, FourierSeries, Per
 use super::{Drive, GearboxInstant, GearboxMechanism, speed_family::SpeedFamily};
 use crate::GearboxError;
 
-/// Harmonics of a period at the most, of all cycles in it.
-const HARMONICS: usize = 1000;
-
 /// Motions whose multipliers are found with all modes as well.
 const WITH_ALL_MODES: usize = 8;
 
@@ -58,8 +55,8 @@ impl GearboxMechanism {
         (plan, periods): (&BranchPlan, u64),
         seen: impl FnMut(&PeriodicMotion) -> ControlFlow<()>,
     ) -> Result<GearboxBranch, GearboxError> {
-        let most = HARMONICS / plan.balance.most_harmonics.max(1);
-        let (family, machine, period_cycles) = SpeedFamily::new(self, rest, (periods, most as u64))?;
+        let (family, machine, period_cycles) =
+            SpeedFamily::new(self, rest, (periods, plan.balance.most_harmonics as u64))?;
         let mesh_cycles = family.mesh_cycles();
         let cycles = period_cycles as usize;
         let own = &plan.balance;

@@ -78,11 +78,22 @@ pub fn instants(
     }
 }
 
-/// What tells whether a pair's motion repeats itself: all coordinates that come back with every mesh cycle, but the
-/// modes', whose amplitudes are in the gears' own frames and come back after whole turns only.
-pub fn compared(motion: &PairMotion) -> Compared<GearboxMechanism> {
+/// What tells whether a pair's motion repeats itself: all coordinates, after as many mesh cycles as it takes until the same
+/// teeth meet where these differ, but the modes', whose amplitudes are in the gears' own frames and come back after whole
+/// turns only. `None` of a motion that need not settle and whose teeth do not come back in time.
+///
+/// # Errors
+/// [`GearboxError::NoCommonPeriod`](crate::GearboxError::NoCommonPeriod) where the motion is to settle and its teeth do not
+/// come back before.
+pub fn compared(
+    motion: &PairMotion,
+    settle: Option<&Settle>,
+) -> Result<Option<Compared<GearboxMechanism>>, PairMotionError> {
     let system = motion.system();
-    system.compared(motion.timetable().scale.clone(), 1)
+    if let Some(settle) = settle {
+        system.back_within(settle.most).map_err(PairMotionError::at(motion.state().time))?;
+    }
+    Ok(system.common_period().map(|period| system.compared(motion.timetable().scale.clone(), period)))
 }
 
 /// Runs mesh cycles until the motion repeats itself within `tolerance`, until `most` are done at the most.
@@ -90,20 +101,25 @@ pub fn compared(motion: &PairMotion) -> Compared<GearboxMechanism> {
 /// # Errors
 /// [`PairMotionError`]. A motion that does not become periodic is none: its residual says so.
 pub fn run_to_steady(motion: &mut PairMotion, tolerance: f64, most: u64) -> Result<Periodicity, PairMotionError> {
-    let goal = steady_goal(motion, (tolerance, most), 0);
+    let goal = steady_goal(motion, (tolerance, most), 0)?;
     motion.settle(&goal, &mut OnlyRows(|_: Row<'_, GearboxMechanism>| Ok::<_, PairMotionError>(())))?;
     Ok(motion.stage().periodicity.unwrap_or(Periodicity { period: 1, residual: f64::INFINITY }))
 }
 
 /// A motion that settles first and is looked at for so many mesh cycles then.
-pub(crate) fn steady_goal(motion: &PairMotion, (tolerance, most): (f64, u64), cycles: u64) -> Goal<GearboxMechanism> {
-    Goal {
-        compared: Some(compared(motion)),
-        settle: Some(Settle { tolerance, most }),
+pub(crate) fn steady_goal(
+    motion: &PairMotion,
+    (tolerance, most): (f64, u64),
+    cycles: u64,
+) -> Result<Goal<GearboxMechanism>, PairMotionError> {
+    let settle = Some(Settle { tolerance, most });
+    Ok(Goal {
+        compared: compared(motion, settle.as_ref())?,
+        settle,
         tolerance,
         cycles,
         starts_with_row: false,
         checkpoint_every: 0,
         stop_after: None,
-    }
+    })
 }

@@ -131,10 +131,11 @@ fn steady_state_at(
     };
     let mut motion = PairMotion::new(machine, plan.settings.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
+    let goal = steady_goal(&motion, (tolerance, most), cycles)?;
     if by == SteadyBy::Shooting {
-        shoot(&own, &mut motion, 1, tolerance, SHOOTING_NEWTON_STEPS)?;
+        let period = motion.system().back_within(most).map_err(PairMotionError::at(0.0))?;
+        shoot(&own, &mut motion, period, tolerance, SHOOTING_NEWTON_STEPS)?;
     }
-    let goal = steady_goal(&motion, (tolerance, most), cycles);
     motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
     let periodicity = motion.stage().periodicity.unwrap_or(Periodicity { period: 1, residual: f64::INFINITY });
     let mut point = SweepPoint {

@@ -166,20 +166,16 @@ impl GearboxMechanism {
     /// [`GearboxError::NoCommonPeriod`] where the motion is to settle and its meshes do not come back together in time,
     /// [`GearboxError::ModesWithoutPeriod`] where it is to shoot.
     pub fn goal<'a>(&self, start: &State, plan: &MotionPlan) -> Result<Goal<&'a mut Self>, GearboxError> {
-        let period = self.common_period();
-        let compared = match (plan.settle, period) {
-            (Some(Settle { most, .. }), period) if period.is_none_or(|p| p > most) => {
-                return Err(GearboxError::NoCommonPeriod { period, most });
-            }
-            // Amplitudes of modes are in the gears' own frames: as they stand they come back after whole turns.
-            (Some(_), Some(period)) if !self.gears.is_empty() => {
+        let compared = match plan.settle {
+            Some(Settle { most, .. }) => {
+                let period = self.back_within(most)?;
+                // Amplitudes of modes are in the gears' own frames: as they stand they come back after whole turns.
                 if plan.shoots {
                     self.back_over(period)?;
                 }
                 Some(self.compared(self.scale(start), period))
             }
-            (Some(_), Some(period)) => Some(self.compared(self.scale(start), period)),
-            _ => None,
+            None => None,
         };
         Ok(Goal {
             compared,
@@ -190,6 +186,15 @@ impl GearboxMechanism {
             checkpoint_every: 0,
             stop_after: None,
         })
+    }
+
+    /// The common period ([`Self::common_period`]) of a motion that settles in so many cycles at the most.
+    ///
+    /// # Errors
+    /// [`GearboxError::NoCommonPeriod`] where there is none, or it is longer.
+    pub fn back_within(&self, most: u64) -> Result<u64, GearboxError> {
+        let period = self.common_period();
+        period.filter(|p| *p <= most.max(1)).ok_or(GearboxError::NoCommonPeriod { period, most })
     }
 
     /// What tells whether a motion repeats itself: all coordinates, of the given sizes, but amplitudes of modes.
@@ -238,7 +243,6 @@ impl GearboxRun {
         let mechanism = course.into_system();
         let energy = mechanism.energy(start, &state, &ledger)?;
         let common_period = mechanism.common_period();
-        let period = common_period.unwrap_or(1) as usize;
         Ok(Self {
             states: [start.clone(), state],
             ledger,
@@ -248,7 +252,7 @@ impl GearboxRun {
             flanks: (0..mechanism.live.len()).map(|mesh| mechanism.flank_course(mesh, &counts)).collect(),
             throughput: mechanism.throughput,
             warm_up,
-            periodicity: found.map(|p| Periodicity { period: p.period * period, ..p }),
+            periodicity: found,
             common_period,
         })
     }

@@ -14,6 +14,9 @@ use crate::{GearboxError, Vector12};
 /// Angular speed (rad/s) of a turn a minute.
 const RPM: f64 = TAU / 60.0;
 
+/// Harmonics of a period at the most, of all cycles in it.
+const HARMONICS: u64 = 1000;
+
 /// Frequency of the modes that move when a motion is disturbed, over the highest that shafts must show.
 const BEYOND: f64 = 2.0;
 
@@ -57,20 +60,23 @@ impl<'a> SpeedFamily<'a> {
     /// of the fastest mesh in a period, so many common periods of all meshes.
     ///
     /// # Errors
-    /// [`GearboxError::NoBranch`] where the input does not keep its speed, a mesh cannot say what it sees, or the meshes have no common period of
-    /// up to `most` cycles of the fastest; those of the meshes.
+    /// [`GearboxError::NoBranch`] where the input does not keep its speed or a mesh cannot say what it sees,
+    /// [`GearboxError::LongPeriod`] where the meshes have no common period of up to 1000 harmonics, `per_cycle` for a cycle of
+    /// the fastest; those of the meshes.
     pub fn new(
         mechanism: &'a mut GearboxMechanism,
         rest: &State,
-        (periods, most): (u64, u64),
+        (periods, per_cycle): (u64, u64),
     ) -> Result<(Self, LinearMachine, u64), GearboxError> {
         let refuse = |what| Err(GearboxError::NoBranch { what });
         if !matches!(mechanism.drive, Drive::Speed(_)) {
             return refuse("whose input does not keep its speed");
         }
         let period = mechanism.common_period().map(|cycles| periods.max(1).saturating_mul(cycles));
+        let most = HARMONICS / per_cycle.max(1);
         let Some(cycles) = period.filter(|c| *c <= most) else {
-            return Err(GearboxError::LongPeriod { period, most });
+            let per_cycle = period.map_or(0, |cycles| HARMONICS / cycles);
+            return Err(GearboxError::LongPeriod { period, most, per_cycle });
         };
         let (mut seen, mut columns): (Vec<Seen>, Vec<DVector<f64>>) = Default::default();
         for live in &mut mechanism.live {

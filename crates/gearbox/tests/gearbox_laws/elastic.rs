@@ -122,6 +122,21 @@ fn modes_at_rest_leave_the_contact_as_it_is() {
     }
 }
 
+/// Few modes of spur gears have next to no part in the deflection, those along the axis none: they find their equilibrium all
+/// the same, and forces are those without modes.
+#[test]
+fn modes_that_no_load_excites_find_their_equilibrium() {
+    let pair = thin([20, 50], 0.0);
+    for count in [1, 3, 6] {
+        let own = Box_::new(&pair, 0.0, count);
+        for sample in &own.samples(5, true).0 {
+            let (modal, rest) = (sample.modal.as_ref().unwrap(), sample.reply.force);
+            let off = (0..12).map(|k| (modal.force[k] - rest[k]).abs()).fold(0.0, f64::max) / rest.amax();
+            assert!(off < 1e-8, "{count} modes, {:.2} cycles: forces differ by {off:e}", sample.cycles);
+        }
+    }
+}
+
 /// At hardly any speed gears with modes move as rigid ones do: all elasticity is at rest. Near their frequencies they do
 /// not, and the box has lower frequencies than with rigid gears.
 #[test]

@@ -220,5 +220,5 @@ fn what_has_no_branch_is_refused() {
     let rest = own_teeth.start(DAMPING).unwrap();
     let turn =
         own_teeth.branch(&rest, (&plan(14000.0, 15000.0), 1), |_| ControlFlow::Continue(())).map(|_| ()).unwrap_err();
-    assert!(matches!(turn, GearboxError::LongPeriod { period: Some(23), most: 10 }), "{turn}");
+    assert!(matches!(turn, GearboxError::LongPeriod { period: Some(23), most: 10, per_cycle: 43 }), "{turn}");
 }

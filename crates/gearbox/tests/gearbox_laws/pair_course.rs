@@ -9,9 +9,10 @@ use gearbox::motion::{
     GearboxMemory, PairModel, PairMotion, PairMotionError, PairSettings, SHOOTING_NEWTON_STEPS, SteadyBy,
     SteadyOptions, SweepPlan, instants, run_to_steady, shoot,
 };
-use geometry::{Driver, Sense};
+use geometry::{Driver, Gear, GearModifications, GearPair, Sense};
 use integrate::{Checkpoint, Scheme, SweepDirection};
 use ltca::StaticError;
+use mesh::Extent;
 use nalgebra::Matrix6;
 use testing::moving::{MovingPair, machine, rows, started, swept, worst};
 
@@ -87,6 +88,55 @@ fn shooting_finds_what_waiting_finds() {
         assert!((shot.periods as u64) < cycles, "{} periods, waiting took {cycles}", shot.periods);
         assert!(off < 1e-5, "{scheme:?}: the answers differ by {off:e} of the transmission error");
     }
+}
+
+/// A pair of so many teeth which stand off their places: on the pinion, on the wheel.
+fn with_pitch_errors(teeth: [u32; 2], of: [bool; 2]) -> MovingPair {
+    let [mut pinion, mut wheel] = testing::default_data(20.0);
+    (pinion.teeth, wheel.teeth) = (teeth[0], teeth[1]);
+    let mut case = testing::of_order(1, [pinion, wheel], None, 150e3, [2, 2, 2, 2, 1], Extent::Whole);
+    let wrong = |gear: &Gear, phase: f64| {
+        let error = |i: u32| 2e-3 * (phase + 2.4 * f64::from(i * i)).sin();
+        let pitch_errors = (0..gear.teeth()).map(error).collect();
+        gear.clone().with_modifications(GearModifications { pitch_errors, ..GearModifications::default() }).unwrap()
+    };
+    let gears = [(&case.pair.pinion, of[0]), (&case.pair.wheel, of[1])];
+    let [pinion, wheel] = gears.map(|(gear, has)| if has { wrong(gear, 0.3) } else { gear.clone() });
+    case.pair = GearPair::new(pinion, wheel, None).unwrap();
+    let contact = case.slice_options();
+    MovingPair::new(case, contact, 8)
+}
+
+/// Teeth that stand off their places come back after a turn of their gear, and so does the motion: waiting ends after few
+/// of its turns, and shooting over a turn finds the same answer.
+#[test]
+fn pitch_errors_are_waited_for_by_turns() {
+    let bench = with_pitch_errors([20, 30], [true, false]);
+    let teeth = 20;
+    let scheme = Scheme::GeneralisedAlpha { rho: 0.8 };
+    let mut waited = motion(&bench, bench.system(1500.0, |_| ()), scheme);
+    let found = run_to_steady(&mut waited, 1e-7, 1000).unwrap_or_else(|e| panic!("{e}"));
+    println!("{found:?} after {} cycles", waited.cycle());
+    assert!(found.residual <= 1e-7, "{found:?} after {} cycles", waited.cycle());
+    assert_eq!(found.period as u64, teeth, "{found:?}: not a turn of the pinion");
+    assert!(waited.cycle() <= 4 * teeth, "{} cycles for a period of {teeth}", waited.cycle());
+    let model = bench.system(1500.0, |_| ());
+    let mut shot_at = motion(&bench, model.clone(), scheme);
+    let shot = shoot(&model, &mut shot_at, teeth, 1e-8, SHOOTING_NEWTON_STEPS).unwrap_or_else(|e| panic!("{e}"));
+    let [a, b] = [rows(&mut waited, teeth), rows(&mut shot_at, teeth)];
+    let off = worst(&a, &b) / bench.ste[0];
+    assert!(shot.residual <= 1e-8 && off < 1e-5, "{shot:?}: the answers differ by {off:e} of the transmission error");
+}
+
+/// Where the same teeth meet again later than a motion may wait, it does not begin.
+#[test]
+fn a_period_beyond_the_wait_is_told_at_once() {
+    let bench = with_pitch_errors([31, 37], [true, true]);
+    let mut motion = motion(&bench, bench.system(1500.0, |_| ()), Scheme::GeneralisedAlpha { rho: 0.8 });
+    let error = run_to_steady(&mut motion, 1e-7, 1000).expect_err("the teeth meet again after more than 1000 cycles");
+    // 31 times 37.
+    assert!(error.to_string().contains("1147"), "{error}");
+    assert!(error.hint().contains("warm_up_cycles") && motion.cycle() == 0, "{}", error.hint());
 }
 
 /// A motion that is written down after a cycle and taken up again goes the same way to the last bit.

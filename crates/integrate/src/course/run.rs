@@ -109,10 +109,7 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
             self.stage.recording = found.is_some_and(|p| p.residual <= *tolerance);
             follower.cycle(&self.stage)?;
             // States are compared at the ends of periods, from the beginning of the last one on.
-            let is_period = match &goal.compared {
-                Some(Compared::States { period, .. }) => self.cycle.is_multiple_of((*period).max(1)),
-                _ => true,
-            };
+            let is_period = goal.compared.as_ref().is_none_or(|own| self.cycle.is_multiple_of(own.period()));
             if let (false, true, Some(found)) = (self.stage.recording, is_period, found) {
                 self.shoot(found, follower)?;
             }
@@ -147,10 +144,10 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
             }))?;
             self.stage.recorded += 1;
             self.stage.rows += rows;
-            if let Some(Compared::States { scale, free, period }) = &goal.compared {
-                let is_period = self.cycle.is_multiple_of((*period).max(1));
+            if let Some(own @ Compared::States { scale, free, .. }) = &goal.compared {
+                let (period, is_period) = (own.period(), self.cycle.is_multiple_of(own.period()));
                 let Self { stage, state, .. } = self;
-                stage.judge_states((state, envelope), (scale, *free), (is_period, goal.tolerance));
+                stage.judge_states((state, envelope), (scale, *free), (period, is_period, goal.tolerance));
             }
             follower.cycle(&self.stage)?;
             if self.stage.recorded < goal.cycles && self.after_cycle(goal, follower)? {
@@ -176,20 +173,21 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
             None => {
                 self.run_cycle::<E>(None)?;
             }
-            Some(Compared::States { scale, free, period }) => {
+            Some(own @ Compared::States { scale, free, .. }) => {
                 let envelope = self.run_cycle::<E>(None)?;
-                let is_period = self.cycle.is_multiple_of((*period).max(1));
+                let is_period = self.cycle.is_multiple_of(own.period());
                 let Self { stage, state, .. } = self;
-                stage.judge_states((state, envelope), (scale, *free), (is_period, tolerance));
+                stage.judge_states((state, envelope), (scale, *free), (own.period(), is_period, tolerance));
             }
-            Some(Compared::Signal(signal)) => {
+            Some(own @ Compared::Signal { of: signal, .. }) => {
                 let mut rows = Vec::new();
                 self.run_cycle::<E>(Some(&mut |Row { system, state, .. }: Row<'_, M>| {
                     let time = state.time;
                     rows.push(signal(system, state).map_err(|source| MotionError::Mechanism { time, source })?);
                     Ok(())
                 }))?;
-                self.stage.periodicity = Some(self.stage.signal.judge(rows, tolerance));
+                let is_period = self.cycle.is_multiple_of(own.period());
+                self.stage.judge_signal(rows, (own.period(), is_period, tolerance));
             }
         }
         Ok(self.stage.periodicity)
@@ -204,6 +202,7 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
         let Some(there) = follower.nearer(&mut self.system, &self.state, found)? else { return Ok(()) };
         self.replace(there)?;
         (self.stage.signal, self.stage.envelope) = (SignalRecurrence::default(), None);
+        self.stage.rows_of_period.clear();
         self.stage.states = self.stage.states.is_some().then(|| Recurrence::from(&self.state));
         Ok(())
     }

@@ -14,12 +14,13 @@ pub struct Stage {
     pub recorded: u64,
     /// Rows.
     pub rows: u64,
-    /// How nearly the last period repeated an earlier one.
+    /// How nearly the last period repeated an earlier one; its period is counted in cycles.
     pub periodicity: Option<Periodicity>,
     /// States at the beginnings of the last periods, where states are compared.
     pub(super) states: Option<Recurrence>,
-    /// Rows of the last cycles, where a signal is compared.
+    /// Rows of the last periods, where a signal is compared, and of the present one so far.
     pub(super) signal: SignalRecurrence,
+    pub(super) rows_of_period: Vec<f64>,
     /// Least and largest coordinates of the present period.
     pub(super) envelope: Option<Envelope>,
     /// Cycles after which a nearer state is sought next.
@@ -44,16 +45,29 @@ pub enum Compared<M: Mechanism> {
         /// Cycles of a period, >= 1: as many as it takes until all that excites the mechanism comes back.
         period: u64,
     },
-    /// One number of each row of a cycle.
-    Signal(fn(&mut M, &State) -> Result<f64, M::Error>),
+    /// One number of each row of a period.
+    Signal {
+        /// The number.
+        of: fn(&mut M, &State) -> Result<f64, M::Error>,
+        /// Cycles of a period, as of states.
+        period: u64,
+    },
 }
 
 impl<M: Mechanism> std::fmt::Debug for Compared<M> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::States { period, .. } => f.debug_struct("States").field("period", period).finish_non_exhaustive(),
-            Self::Signal(_) => f.write_str("Signal"),
+            Self::Signal { period, .. } => f.debug_struct("Signal").field("period", period).finish_non_exhaustive(),
         }
+    }
+}
+
+impl<M: Mechanism> Compared<M> {
+    /// Cycles of a period.
+    pub(super) fn period(&self) -> u64 {
+        let (Self::States { period, .. } | Self::Signal { period, .. }) = self;
+        (*period).max(1)
     }
 }
 
@@ -72,7 +86,7 @@ impl Stage {
         &mut self,
         (state, envelope): (&State, Envelope),
         (scale, free): (&DVector<f64>, Option<usize>),
-        (is_period, tolerance): (bool, f64),
+        (period, is_period, tolerance): (u64, bool, f64),
     ) {
         let whole = match self.envelope.take() {
             Some(before) => before.joined(&envelope),
@@ -83,7 +97,17 @@ impl Stage {
             return;
         }
         if let Some(states) = &mut self.states {
-            self.periodicity = Some(states.judge(state, &whole, scale, free, tolerance));
+            let found = states.judge(state, &whole, scale, free, tolerance);
+            self.periodicity = Some(Periodicity { period: found.period * period as usize, ..found });
+        }
+    }
+
+    /// The same of a cycle of which a signal is compared.
+    pub(super) fn judge_signal(&mut self, rows: Vec<f64>, (period, is_period, tolerance): (u64, bool, f64)) {
+        self.rows_of_period.extend(rows);
+        if is_period {
+            let found = self.signal.judge(std::mem::take(&mut self.rows_of_period), tolerance);
+            self.periodicity = Some(Periodicity { period: found.period * period as usize, ..found });
         }
     }
 }

@@ -14,7 +14,7 @@ use nalgebra::DMatrix;
 
 use crate::{
     Forces, Mechanism, MotionError, State,
-    newton::ITERATIONS,
+    newton::{ITERATIONS, NoStep},
     stepper::{Step, StepWork, Stepped, Stepper},
 };
 
@@ -98,9 +98,9 @@ fn iterate<M: Mechanism>(step: &mut Step<'_, M>, exact: bool) -> Stepped<M> {
                 *sum -= added;
             }
         };
-        let singular = MotionError::Singular { time: middle, which: "iteration" };
         let settled = newton.settled();
-        let step = newton.step(forces, matrix, rest, iteration).ok_or(singular)?;
+        let no_step = |e: NoStep| e.error((from.time, h), middle);
+        let step = newton.step(forces, matrix, rest, iteration).map_err(no_step)?;
         to.q -= step;
         if settled {
             // The residual of the balance is work that nothing does. It has one sign and would add up over many steps,

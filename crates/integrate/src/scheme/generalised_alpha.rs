@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 
 use crate::{
     Forces, Mechanism, MotionError,
-    newton::ITERATIONS,
+    newton::{ITERATIONS, NoStep},
     stepper::{Step, StepWork, Stepped, Stepper},
 };
 
@@ -82,8 +82,8 @@ impl Coefficients {
                 let own = sum.as_mut_slice().iter_mut().zip(forces.stiffness.as_slice()).zip(own);
                 own.for_each(|((sum, k), (m, c))| *sum = k + (mass_share * m + damping_share * c));
             };
-            let singular = MotionError::Singular { time, which: "iteration" };
-            to.q -= newton.step(forces, matrix, rest, iteration).ok_or(singular)?;
+            let no_step = |e: NoStep| e.error((from.time, h), time);
+            to.q -= newton.step(forces, matrix, rest, iteration).map_err(no_step)?;
             newton.measure(&to.q, scale);
         }
         let change = newton.change();

@@ -245,15 +245,18 @@ fn a_settled_motion_repeats_itself() {
 fn states_and_a_signal_tell_the_same() {
     let settle = Some(Settle { tolerance: 1e-7, most: 1000 });
     let of = |compared| run(&PERIODS, &Goal { compared: Some(compared), ..goal(settle, 1) }).1;
-    let by_signal = of(Compared::Signal(|_, state| Ok(state.q[0])));
+    let by_signal = of(Compared::Signal { of: |_, state| Ok(state.q[0]), period: 1 });
     let by_states = of(Compared::States { scale: dvector![1.0], free: None, period: 1 });
     assert!(by_signal.cycle().abs_diff(by_states.cycle()) <= 4, "{} {}", by_signal.cycle(), by_states.cycle());
-    let by_two = of(Compared::States { scale: dvector![1.0], free: None, period: 2 });
-    assert!(
-        (by_two.cycle() - 1).is_multiple_of(2),
-        "settled after {} cycles: no whole period of two",
-        by_two.cycle() - 1
-    );
+    for compared in [
+        Compared::States { scale: dvector![1.0], free: None, period: 2 },
+        Compared::Signal { of: |_, state| Ok(state.q[0]), period: 2 },
+    ] {
+        let by_two = of(compared);
+        let (cycles, found) = (by_two.cycle() - 1, by_two.stage().periodicity.unwrap());
+        assert!(cycles.is_multiple_of(2), "settled after {cycles} cycles: no whole period of two");
+        assert_eq!(found.period, 2, "a period is counted in cycles: {found:?}");
+    }
 }
 
 /// A record of period three is found as such, not as one of six, and noise as none.

@@ -452,6 +452,46 @@ fn a_step_without_a_solution_is_taken_in_halves() {
     assert!(halved > 0, "no start that needs halves: the test shows nothing");
 }
 
+/// x'' = -exp(x/s), s = 0.01: a wall whose force is no number a few lengths s beyond where it turns a body back.
+struct Wall(DMatrix<f64>);
+
+const STEEP: f64 = 0.01;
+
+impl Mechanism for Wall {
+    type Error = std::convert::Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.0
+    }
+
+    fn forces(&mut self, _: f64, q: &DVector<f64>, _: &DVector<f64>, out: &mut Forces) -> Result<(), Self::Error> {
+        let force = (q[0] / STEEP).exp();
+        out.conservative[0] = -force;
+        out.stiffness[(0, 0)] = force / STEEP;
+        Ok(())
+    }
+
+    fn potential(&mut self, _: f64, q: &DVector<f64>) -> Result<f64, Self::Error> {
+        Ok(STEEP * (q[0] / STEEP).exp())
+    }
+}
+
+/// A step that leads where forces are no numbers has no solution, and is taken in parts: the body comes back from the wall
+/// with the energy that it had. It is no singular matrix.
+#[test]
+fn a_step_beyond_all_numbers_is_taken_in_parts() {
+    for scheme in [Scheme::Energy, Scheme::Newmark, Scheme::GeneralisedAlpha { rho: 0.9 }] {
+        let mut state = State::new(0.0, dvector![-1.0], dvector![30.0]);
+        let mut integrator = Integrator::new(scheme, StepControl::Fixed(0.5), dvector![1.0]);
+        let mut wall = Wall(DMatrix::identity(1, 1));
+        integrator.advance(&mut wall, &mut state, 0.5, |_, _| ()).unwrap_or_else(|e| panic!("{scheme:?}: {e}"));
+        let (v, [steps, refused]) = (state.v[0], integrator.steps());
+        println!("{scheme:?}: back with {v:.3} at {:.3}; {refused} divisions", state.q[0]);
+        assert!(steps == 1 && refused > 0 && v < 0.0, "{scheme:?}: {v} after {refused} divisions");
+        assert!(scheme != Scheme::Energy || (v + 30.0).abs() < 1e-6, "{scheme:?}: comes back with {v}");
+    }
+}
+
 /// A mass on a spring under a load that is ten thousand times what shakes it; `booked` of the load's work is in the ledger.
 struct Loaded {
     mass: DMatrix<f64>,

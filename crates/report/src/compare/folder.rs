@@ -20,8 +20,8 @@ const MAKE_ONE: &str = "give folders that ale-gear has made, with `--out DIR`";
 #[derive(Debug, Clone)]
 pub struct ResultFolder {
     path: PathBuf,
-    summary: Value,
-    tables: Vec<Table>,
+    pub(super) summary: Value,
+    pub(super) tables: Vec<Table>,
 }
 
 impl ResultFolder {

@@ -3,6 +3,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | `folder` | a result folder read back |
+//! | `one_mesh` | a gearbox beside pairs, by the names of a pair |
 //! | `numbers` | headline numbers and inputs, run by run |
 //! | `curves` | columns of tables that the runs share, over mesh phase, time, speed or the first column |
 //! | `rows`, `report` | both as tables, and on a page |
@@ -10,6 +11,7 @@
 mod curves;
 mod folder;
 mod numbers;
+mod one_mesh;
 mod report;
 mod rows;
 
@@ -20,3 +22,4 @@ pub(crate) use rows::documented;
 pub use curves::{Axis, Overlay, Trace, overlays};
 pub use folder::{ResultFolder, summary};
 pub use numbers::{BESIDE, Difference, NumberRow, WordRow, headline_rows, input_rows};
+pub use one_mesh::by_shared_names;

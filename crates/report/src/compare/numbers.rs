@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use answer::leaves;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -39,9 +40,6 @@ pub struct WordRow {
 
 /// Parts of the summary beside the headline that are worth a row.
 pub const BESIDE: [&str; 5] = ["geometry.eps_gamma", "dof_before", "dof_after", "cost.wall_s", "cost.peak_memory_mb"];
-
-/// Bytes of a path that is shown: those of this program are far shorter, and a table has a column as wide as the longest.
-const LONGEST: usize = 200;
 
 /// Headline numbers of all runs, then contact ratio, degrees of freedom and cost: in the order of the first run that
 /// has them.
@@ -84,33 +82,13 @@ fn numbers(run: &ResultFolder) -> Vec<(String, f64)> {
             all.push((key.to_owned(), number));
         }
     };
-    walk("", &run.summary()["headline"], &mut |key, value| leaf(key, value, &mut all));
+    leaves("", &run.summary()["headline"], &mut |key, value| leaf(key, value, &mut all));
     for key in BESIDE {
         if let Some(value) = run.summary().pointer(&format!("/{}", key.replace('.', "/"))) {
-            walk(key, value, &mut |key, value| leaf(key, value, &mut all));
+            leaves(key, value, &mut |key, value| leaf(key, value, &mut all));
         }
     }
     all
-}
-
-/// Visits every leaf of a JSON value with its path; what lies at a path longer than [`LONGEST`] is left out.
-fn walk(path: &str, value: &Value, visit: &mut impl FnMut(&str, &Value)) {
-    match value {
-        Value::Object(map) => {
-            for (key, value) in map {
-                if path.len() + key.len() < LONGEST {
-                    let inner = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-                    walk(&inner, value, visit);
-                }
-            }
-        }
-        Value::Array(list) => {
-            for (i, value) in list.iter().enumerate() {
-                walk(&format!("{path}[{i}]"), value, visit);
-            }
-        }
-        leaf => visit(path, leaf),
-    }
 }
 
 /// Keys of the scenes that differ in value or that not all scenes have, in the order of the first run.
@@ -121,6 +99,6 @@ pub fn input_rows(runs: &[ResultFolder]) -> Vec<WordRow> {
 
 fn inputs(run: &ResultFolder) -> Vec<(String, String)> {
     let mut all = Vec::new();
-    walk("", &run.summary()["inputs"], &mut |key, value| all.push((key.to_owned(), value.to_string())));
+    leaves("", &run.summary()["inputs"], &mut |key, value| all.push((key.to_owned(), value.to_string())));
     all
 }

@@ -81,21 +81,25 @@ pub(super) fn normal_modes(s: &Source<'_>, raw: &RawScene, model: Model) -> Chec
 
 /// Tables on motion mean nothing to an analysis without time.
 pub(super) fn refuse_motion_tables(s: &Source<'_>, raw: &RawScene) -> Checked<()> {
+    let of_gear = "mass and inertia of a gear stand in its [[gear]] of the gearbox file, as `mass_kg`";
+    let of_shaft = "bearings stand in [[bearing]] of the gearbox file";
     let tables = [
-        ("[pinion.body]", raw.pinion.body.as_ref().map(Spanned::span)),
-        ("[pinion.bearing]", raw.pinion.bearing.as_ref().map(Spanned::span)),
-        ("[wheel.body]", raw.wheel.body.as_ref().map(Spanned::span)),
-        ("[wheel.bearing]", raw.wheel.bearing.as_ref().map(Spanned::span)),
-        ("[drive]", raw.drive.as_ref().map(Spanned::span)),
-        ("[load]", raw.load.as_ref().map(Spanned::span)),
-        ("[motion]", raw.motion.as_ref().map(Spanned::span)),
+        ("[pinion.body]", raw.pinion.body.as_ref().map(Spanned::span), of_gear),
+        ("[pinion.bearing]", raw.pinion.bearing.as_ref().map(Spanned::span), of_shaft),
+        ("[wheel.body]", raw.wheel.body.as_ref().map(Spanned::span), of_gear),
+        ("[wheel.bearing]", raw.wheel.bearing.as_ref().map(Spanned::span), of_shaft),
+        ("[drive]", raw.drive.as_ref().map(Spanned::span), "`drive` stands in [motion] of the gearbox file"),
+        ("[load]", raw.load.as_ref().map(Spanned::span), "loads over time stand in [[torque]] of the gearbox file"),
+        ("[motion]", raw.motion.as_ref().map(Spanned::span), "[motion] stands in the gearbox file"),
     ];
-    match tables.into_iter().find_map(|(name, span)| Some((name, span?))) {
-        None => Ok(()),
-        Some((name, span)) => Err(s.conflict(
-            &span,
-            format!("{name} belongs to an analysis in time"),
-            "leave it out, or say `kind = \"dynamic\"` in [analysis]",
-        )),
+    let Some((name, span, there)) = tables.into_iter().find_map(|(name, span, there)| Some((name, span?, there)))
+    else {
+        return Ok(());
+    };
+    if s.is_of_mesh {
+        let said = format!("{name} of the pair of a mesh: a gearbox says itself what moves");
+        return Err(s.conflict(&span, said, format!("leave it out: {there}")));
     }
+    let said = format!("{name} belongs to an analysis in time");
+    Err(s.conflict(&span, said, "leave it out, or say `kind = \"dynamic\"` in [analysis]"))
 }

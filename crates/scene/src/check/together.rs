@@ -4,7 +4,8 @@ use toml::Spanned;
 
 use super::{Checked, accuracy_in_time};
 use crate::{
-    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, models, schema::RawScene, source::Source,
+    Coupling, DriveBy, Kind, Method, Model, Quantity, Run, Scene, SceneError, models, motion::begins_unloaded,
+    schema::RawScene, source::Source,
 };
 
 /// What can only be judged with the whole scene in view.
@@ -221,6 +222,17 @@ fn in_time(s: &Source<'_>, raw: &RawScene, scene: &Scene) -> Checked<()> {
             "`torque_nm` is 0: a motion begins under load, and its scales are taken from it",
             "give the torque that the motion begins with; `table_s_nm` in [load] may take it away later",
         ));
+    }
+    let with_flanks = scene.analysis.model.is_reduced() || scene.analysis.model == Model::Mapped;
+    if let (true, Some(load), Some(law)) = (with_flanks, raw.load.as_ref(), &scene.load)
+        && law.at_start(scene.operation.torque_nm) == 0.0
+    {
+        let load = load.get_ref();
+        let table = load.table_s_nm.as_ref().map(|rows| (rows.span(), "table_s_nm"));
+        let amplitude = load.amplitude_nm.as_ref().map(|number| (number.span(), "amplitude_nm"));
+        if let Some((span, key)) = table.or(amplitude) {
+            return Err(begins_unloaded(s, &span, key));
+        }
     }
     of_run(s, raw, scene)
 }

@@ -20,7 +20,7 @@ use super::values::{Checked, given, missing, needed_of, needed_word, row};
 use super::vibration::vibration;
 use crate::{
     Kind, Method, Model, PairScene, SceneError, Setting, Source, Word,
-    motion::beside_mean,
+    motion::{begins_unloaded, beside_mean},
     spanned::{Number, Rows},
     study::setting,
 };
@@ -75,7 +75,7 @@ pub(super) fn check(s: &Source<'_>, raw: RawGearbox, of_pairs: &[PairSetting]) -
     let rating = rating(s, &raw, (&meshes, &bearings))?;
     let vibration = raw.vibration.as_ref().map(|table| vibration(s, table, parts)).transpose()?;
     let moves = raw.motion.as_ref().map(|table| asked(s, table)).transpose()?;
-    over_time(s, &raw, table.get_ref(), moves.as_ref().map(Asked::motion))?;
+    over_time(s, (&raw, &torques), table.get_ref(), moves.as_ref().map(Asked::motion))?;
     let modes = modes(s, &raw, moves.as_ref().map(Asked::motion))?;
     without_friction(s, (&raw.mesh, &meshes), vibration.is_some(), moves.as_ref().map(Asked::motion))?;
     let (motion, branch) = match moves {
@@ -171,7 +171,7 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     let mut settings = raw.set.iter().flatten().map(|own| setting(s, own)).collect::<Checked<Vec<_>>>()?;
     settings.extend(more);
     let document = s.document(word, "gearbox file")?;
-    let scene = document.scene(&settings)?;
+    let scene = document.scene_of_mesh(&settings)?;
     let unfit = |what: &str, advice: &str| {
         Err(s.conflict(&word.span(), format!("{} {what}", document.file().display()), advice))
     };
@@ -189,6 +189,18 @@ fn mesh(s: &Source<'_>, table: &Spanned<RawMesh>, gears: &[GearboxGear], more: V
     }
     if scene.contact.method != Method::Slice {
         return unfit("has contact by points", "a gearbox takes `method = \"slice\"` in [contact]");
+    }
+    let own = &scene.output;
+    let files = [
+        ("root_stress", own.root_stress),
+        ("contact_lines", own.contact_lines),
+        ("parquet", own.parquet),
+        ("vtu", own.vtu),
+        ("derivatives", !own.derivatives.is_empty()),
+    ];
+    if let Some((key, _)) = files.into_iter().find(|(_, asked)| *asked) {
+        let said = format!("asks for `{key}` in [output], which is the pair's alone");
+        return unfit(&said, "leave it out here, and run the scene of the pair by itself for it");
     }
     if scene.rating.is_some() && scene.wheel.is_internal() {
         return unfit("asks for the rating of an internal pair", "there is none yet: leave [rating] out of this mesh");
@@ -287,7 +299,12 @@ fn varies((amplitude, frequency): (&Number, &Number), table: &Rows) -> Option<(S
 
 /// Torques that change with time act in motion, that of the input in one that it drives, and a motion that settles has the
 /// periods of its meshes alone.
-fn over_time(s: &Source<'_>, raw: &RawGearbox, input: &RawInput, motion: Option<&GearboxMotion>) -> Checked<()> {
+fn over_time(
+    s: &Source<'_>,
+    (raw, torques): (&RawGearbox, &[GearboxTorque]),
+    input: &RawInput,
+    motion: Option<&GearboxMotion>,
+) -> Checked<()> {
     let of_input = varies((&input.amplitude_nm, &input.frequency_hz), &input.table_s_nm);
     let of_torque = |own: &Spanned<RawTorque>| {
         let own = own.get_ref();
@@ -305,6 +322,17 @@ fn over_time(s: &Source<'_>, raw: &RawGearbox, input: &RawInput, motion: Option<
         let at = motion.get_ref().input_torque_nm.as_ref().map_or(own.span(), Spanned::span);
         let said = "`input_torque_nm` is beside a table in [input] that already gives it";
         return Err(s.conflict(&at, said, "keep one of them"));
+    }
+    let begins = raw.torque.iter().zip(torques).map(|(own, torque)| {
+        let (nm, own) = (1e-3 * torque.torque, own.get_ref());
+        let law = varies((&own.amplitude_nm, &own.frequency_hz), &own.table_s_nm);
+        (torque.over_time.as_ref().map_or(nm, |law| law.at_start(nm)), law)
+    });
+    let begins: Vec<_> = begins.collect();
+    if let (true, Some((span, key))) =
+        (begins.iter().all(|(nm, _)| *nm == 0.0), begins.iter().find_map(|(_, law)| law.clone()))
+    {
+        return Err(begins_unloaded(s, &span, key));
     }
     if motion.settle.is_some() {
         let said = format!("`{key}` in a motion that settles: its period is none of the meshes");

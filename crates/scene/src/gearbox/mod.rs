@@ -10,7 +10,7 @@
 //! | `shaft` | sections of the file, or of a REXS file |
 //! | `bearing`, `rolling`, `seats` | bearings of a stiffness, and those with rolling elements; where they sit |
 //! | `planets` | parts of one planet, written out for all |
-//! | `of_pair` | the gearbox that a pair is the short form of |
+//! | `of_pair`, `whole_pair` | the gearbox that a pair is the short form of: its mesh, and what it has beside that |
 //! | `schema`, `check`, `parts`, `values`, `housing`, `loads` | its words, and what they mean: every complaint is made here |
 
 mod accuracy;
@@ -34,12 +34,14 @@ mod seats;
 mod shaft;
 mod values;
 mod vibration;
+mod whole_pair;
 
 pub use file::{
     AxialPlay, Gearbox, GearboxBearing, GearboxGear, GearboxInput, GearboxMesh, GearboxPlanets, GearboxRating,
     GearboxRolling, GearboxSection, GearboxShaft, GearboxTorque, GearboxVibration, PlanetMesh, RollingSize, ThrustSeat,
 };
 pub use motion::{GearboxBranch, GearboxDamping, GearboxMotion};
-pub use of_pair::{gearbox_of_moving_pair, gearbox_of_pair};
-pub(crate) use schema::GEARBOX;
+pub use of_pair::gearbox_of_moving_pair;
+pub(crate) use schema::{GEARBOX, tables};
 pub use schema::{GearboxDrive, MeshModel, MeshTiming, RollingKind};
+pub use whole_pair::{GearboxOfPair, gearbox_of_pair};

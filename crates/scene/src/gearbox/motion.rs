@@ -195,6 +195,14 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         let said = "a spectral radius belongs to generalised-alpha";
         return Err(s.conflict(&own.span(), said, "take `method = \"generalised-alpha\"`, or leave it out"));
     }
+    let mesh = s.choice_of("mesh", &raw.mesh)?;
+    let of_maps = [("map_tolerance", &raw.map_tolerance), ("map_overload", &raw.map_overload)];
+    if let (Some((key, span)), true) =
+        (of_maps.into_iter().find_map(|(key, own)| Some((key, own.as_ref()?.span()))), mesh != MeshModel::Mapped)
+    {
+        let said = format!("`{key}` belongs to maps, and there are none");
+        return Err(s.conflict(&span, said, "take `mesh = \"mapped\"`, or leave it out"));
+    }
     let cycles = row!(s, MOTION, raw.cycles)?;
     let steps_per_cycle = row!(s, MOTION, raw.steps_per_cycle)?;
     let steps_per_row = row!(s, MOTION, raw.steps_per_row)?;
@@ -209,7 +217,7 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         to_speed_rpm,
         drive,
         input_torque,
-        mesh: s.choice_of("mesh", &raw.mesh)?,
+        mesh,
         cycles,
         steps_per_cycle,
         steps_per_row,

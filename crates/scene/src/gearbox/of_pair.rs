@@ -12,48 +12,39 @@ const OF_PAIR: [&str; 6] = ["pinion", "wheel", "pair", "operation", "contact", "
 /// Tables of a gear that hold it, which the shafts do here.
 const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
 /// Density of shafts in motion, kg/m^3: a pair has no inertia but that of its gears.
-const NO_MASS: &str = "density_kg_m3 = 1e-9\n";
+pub(super) const NO_MASS: &str = "density_kg_m3 = 1e-9\n";
 /// Settings of the maps of a pair in motion: largest force over the mean, and error.
 const MAPS: &str = "map_overload = 6.0\nmap_tolerance = 3e-5\n";
 
-/// Text of the gearbox file whose one mesh is the pair of a scene, on two held shafts. At rest the two agree to 1e-9,
-/// position by position.
-///
-/// Shafts are named `pinion` and `wheel`, have the bore of their gear as outer diameter (that of a ring as inner one) and three face widths as length. The
-/// key of the driver is the one with which position 0 is the beginning of a mesh cycle, as that of a pair is:
-///
-/// ```text
-/// theta_1 = theta_m - sign(sense) pi/z_1
-/// ```
-/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). A rating stays, at the speed of the scene. What the scene computes, measures and writes (`analysis`,
-/// `motion`, `accuracy`, `output`) is left out, and friction, without which the gearbox can be asked for vibration.
-///
-/// # Errors
-/// [`SceneError`]: gears that cannot be, as [`Scene::gear_pair`] has it.
-pub fn gearbox_of_pair(scene: &Scene) -> Result<String, SceneError> {
-    let mut at_rest = scene.standing_alone();
-    at_rest.contact.friction = 0.0;
-    for gear in [&mut at_rest.pinion, &mut at_rest.wheel] {
-        gear.body = None;
-    }
-    held_shafts(&at_rest, "")
+/// What a gearbox of one pair has beside its mesh.
+#[derive(Debug, Default)]
+pub(super) struct Beside<'a> {
+    /// Lines of its beginning, each a comment.
+    pub said: Vec<String>,
+    /// Keys of both shafts.
+    pub of_shafts: &'a str,
+    /// Bearings in place of a held shaft, at the gear.
+    pub bearings: [Option<String>; 2],
+    /// Keys of the load.
+    pub of_load: String,
 }
 
-/// The same of a scene in motion, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
+/// Text of the gearbox file whose one mesh is the pair of a scene in motion, on two held shafts, with its `[motion]`; each row of `steps_per_row` steps, which a pair takes from its mesh
 /// resonance. `None` where a gearbox of held shafts does not have what the scene asks for: gears on bearings,
 /// lumped gears, a torque over time, a ramp, many speeds, a span in seconds.
 ///
 /// # Errors
-/// As of [`gearbox_of_pair`].
+/// [`SceneError`]: gears that cannot be, as [`Scene::gear_pair`] has it.
 pub fn gearbox_of_moving_pair(scene: &Scene, steps_per_row: u32) -> Result<Option<String>, SceneError> {
     let Some(motion) = scene.motion.as_ref().and_then(|motion| moving(scene, motion, steps_per_row)) else {
         return Ok(None);
     };
-    Ok(Some(held_shafts(&scene.standing_alone(), NO_MASS)? + &motion))
+    let beside = Beside { of_shafts: NO_MASS, ..Beside::default() };
+    Ok(Some(two_shafts(&scene.standing_alone(), &beside)? + &motion))
 }
 
 /// `[motion]` of the gearbox of a pair.
-fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<String> {
+pub(super) fn moving(scene: &Scene, motion: &MotionScene, steps_per_row: u32) -> Option<String> {
     let mesh = match scene.analysis.model {
         Model::Reduced | Model::ReducedModes => "exact",
         Model::Mapped => "mapped",
@@ -125,8 +116,17 @@ fn kept(modes: &ModesScene) -> String {
     text
 }
 
-/// Two held shafts with a mesh, after whose sections `more` stands.
-fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
+/// Two shafts with a mesh, held where nothing else is said.
+///
+/// Shafts are named `pinion` and `wheel`, have the bore of their gear as outer diameter (that of a ring as inner one) and
+/// three face widths as length. The key of the driver is the one with which position 0 is the beginning of a mesh cycle, as
+/// that of a pair is:
+///
+/// ```text
+/// theta_1 = theta_m - sign(sense) pi/z_1
+/// ```
+/// theta_m: [`middle_angle`](geometry::GearPair::middle_angle). A rating stays, at the speed of the scene.
+pub(super) fn two_shafts(scene: &Scene, beside: &Beside<'_>) -> Result<String, SceneError> {
     let pair = scene.gear_pair()?;
     let mut scene = scene.clone();
     // Loads are those of the gearbox.
@@ -149,23 +149,25 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
         // A ring sits within its shaft.
         if gear.is_internal() { format!("{:?}\ninner_diameter_mm = {bore:?}", 1.1 * bore) } else { format!("{bore:?}") }
     });
-    let mut text = format!(
-        "# Gearbox of one pair on two held shafts: at rest it computes what the pair alone does without friction.\n\
-         # Bodies, bearings, friction and motion of the scene are not in it.\n\
-         # To let a shaft deflect, take `held = true` out of it, state its sections, and add its bearings:\n\
-         # [[bearing]]\n# shaft = \"pinion\"\n# position_mm = 5.0\n# stiffness_n_per_mm = [2.0e5, 2.0e5, 8.0e4]\n\
-         name = {}\n",
-        toml::Value::from(scene.name.as_str())
-    );
+    let mut text: String = beside.said.iter().map(|line| format!("# {line}\n")).collect();
+    // Writing into a text does not fail.
+    let _ = writeln!(text, "name = {}", toml::Value::from(scene.name.as_str()));
     for i in 0..2 {
         let name = names[i];
-        // Writing into a text does not fail.
+        let held = if beside.bearings[i].is_none() { "held = true\n" } else { "" };
         let _ = write!(
             text,
-            "\n[[shaft]]\nname = \"{name}\"\norigin_mm = [{:?}, 0.0, {:?}]\nheld = true\n{more}[[shaft.section]]\nlength_mm = {length:?}\n\
+            "\n[[shaft]]\nname = \"{name}\"\norigin_mm = [{:?}, 0.0, {:?}]\n{held}{}[[shaft.section]]\nlength_mm = {length:?}\n\
              outer_diameter_mm = {}\n",
-            apart[i], heights[i], diameters[i]
+            apart[i], heights[i], beside.of_shafts, diameters[i]
         );
+        if let Some(bearing) = &beside.bearings[i] {
+            let _ = write!(
+                text,
+                "\n[[bearing]]\nname = \"{name}\"\nshaft = \"{name}\"\nposition_mm = {:?}\n{bearing}",
+                0.5 * length
+            );
+        }
     }
     for i in 0..2 {
         let name = names[i];
@@ -185,6 +187,8 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
     let turns = if driver == 0 || pair.is_internal() { sense } else { sense.opposite() };
     let word = if turns == Sense::Ccw { "ccw" } else { "cw" };
     let added = scene.gears().map(|gear| gear.body.as_ref().map_or(0.0, |body| body.added_inertia_kg_m2));
+    // A shaft that is not held does not twist between its gear and its machine: a pair has none there.
+    let at = |gear: usize| if beside.bearings[gear].is_some() { 0.5 * length } else { 0.0 };
     let machine = |gear: usize| match added[gear] {
         0.0 => String::new(),
         inertia => format!("inertia_kg_m2 = {inertia:?}\n"),
@@ -196,16 +200,25 @@ fn held_shafts(scene: &Scene, more: &str) -> Result<String, SceneError> {
     let rated = scene.rating.as_ref().map(|_| format!("[rating]\nspeed_rpm = {speed:?}\n{loads}\n"));
     let _ = write!(
         text,
-        "\n[input]\nshaft = \"{}\"\nposition_mm = 0.0\nrotation = \"{word}\"\n{}\n\
-         [[torque]]\nshaft = \"{}\"\nposition_mm = 0.0\ntorque_nm = {:?}\n{}\n\
-         {}[analysis]\npositions_per_cycle = {}\n\n[[mesh]]\nname = \"pair\"\npinion = \"pinion\"\nwheel = \"wheel\"\n\n",
+        "\n[input]\nshaft = \"{}\"\nposition_mm = {:?}\nrotation = \"{word}\"\n{}\n\
+         [[torque]]\nshaft = \"{}\"\nposition_mm = {:?}\ntorque_nm = {:?}\n{}{}\n\
+         {}[analysis]\npositions_per_cycle = {}\n{}\n[[mesh]]\nname = \"pair\"\npinion = \"pinion\"\nwheel = \"wheel\"\n\n",
         names[driver],
+        at(driver),
         machine(driver),
         names[driven],
+        at(driven),
         scene.operation.torque_nm,
         machine(driven),
+        beside.of_load,
         rated.unwrap_or_default(),
-        scene.analysis.positions_per_cycle
+        scene.analysis.positions_per_cycle,
+        // Of a motion they are those of its rows.
+        if scene.motion.is_none() && (2..=10_000).contains(&scene.analysis.cycles) {
+            format!("cycles = {}\n", scene.analysis.cycles)
+        } else {
+            String::new()
+        }
     );
     Ok(text + &mesh_scene(scene))
 }

@@ -48,7 +48,7 @@ impl Gearbox {
     /// Gearbox of a text with the scenes of some names as texts: before they are written.
     pub(crate) fn parse_beside(text: &str, file: &Path, beside: &[(String, String)]) -> Result<Self, SceneError> {
         let document = Document::new(text.to_owned(), file);
-        read(&Source::of(&document, tables).with_beside(beside), &[])
+        read(&source(&document).with_beside(beside), &[])
     }
 }
 
@@ -61,9 +61,14 @@ impl Document {
         let (of_pairs, own): (Vec<&Setting>, Vec<&Setting>) = settings.iter().partition(|s| is_of_pair(s));
         let own: Vec<Setting> = own.into_iter().cloned().collect();
         let of_pairs: Vec<PairSetting> = of_pairs.into_iter().map(PairSetting::of).collect();
-        let read = read(&Source::of(self, tables).with_settings(&own), &of_pairs)?;
+        let read = read(&source(self).with_settings(&own), &of_pairs)?;
         Ok(Gearbox { set: settings.iter().map(Setting::word).collect(), ..read })
     }
+}
+
+/// A gearbox file; keys of a pair are told as such.
+fn source(document: &Document) -> Source<'_> {
+    Source::of(document, tables).with_neighbour(("the scene of a pair", crate::schema::tables))
 }
 
 fn read(source: &Source<'_>, of_pairs: &[PairSetting]) -> Result<Gearbox, SceneError> {

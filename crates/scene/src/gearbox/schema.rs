@@ -185,11 +185,11 @@ table! {
     TORQUE, RawTorque: "a load on a shaft, one for each output", needed ["shaft", "position_mm", "torque_nm"]; {
         shaft: text(), "name of its shaft";
         position_mm: must(0.0, INF), "where it acts, mm from the shaft's z = 0, up to its length";
-        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m; in motion the mean of a torque that changes with time. Where that is negative it presses the coast flanks: meshes then need both flanks";
+        torque_nm: must(0.0, 1e12), "torque against the rotation of its shaft, N m; in motion the mean of a torque with a harmonic part. Where a torque over time is negative it presses the coast flanks: meshes then need both flanks";
         amplitude_nm: bare(0.0, 1e12), "in motion: amplitude of a harmonic part T cos(2 pi f t + phase), N m";
         frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
         phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
-        table_s_nm: rows(2), "in motion in place of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
+        table_s_nm: rows(2), "in motion the whole torque, in place of `torque_nm` and of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
         inertia_kg_m2: number(0.0, 1e12, 0.0), "inertia of the machine there about its axis, kg m^2, as at the input";
     }
 }
@@ -370,6 +370,6 @@ table! {
 }
 
 /// Every table with its keys, as messages look them up.
-pub(super) fn tables() -> Vec<(String, Vec<&'static str>)> {
+pub(crate) fn tables() -> Vec<(String, Vec<&'static str>)> {
     GEARBOX.names()
 }

@@ -13,7 +13,7 @@ use crate::schema::{BasinScene, BearingScene, DriveBy, MotionScene, SweepScene};
 pub(super) use bearing::{bearing, body};
 pub(super) use check::motion;
 pub(super) use modes::modes;
-pub(super) use torque::{beside_mean, drive, load};
+pub(super) use torque::{begins_unloaded, beside_mean, drive, load};
 
 impl BearingScene {
     /// Whether nothing is said.

@@ -45,6 +45,18 @@ pub(crate) fn beside_mean(
     torque(s, [&None, amplitude, frequency, phase], table)
 }
 
+/// The complaint about a load that is 0 where a motion begins, at the key that makes it so.
+pub(crate) fn begins_unloaded(s: &Source<'_>, span: &Span, key: &str) -> SceneError {
+    let what = format!(
+        "`{key}` begins with a load of 0: a motion begins at rest, and teeth that nothing presses have no place to stand"
+    );
+    let advice = match key {
+        "table_s_nm" => "let its first row have a torque that presses the flanks, a hundredth of the largest will do",
+        _ => "give another `phase_deg`, or an amplitude below the mean",
+    };
+    s.conflict(span, what, advice)
+}
+
 fn torque(s: &Source<'_>, [mean, amplitude, frequency, phase]: [&Number; 4], table: &Rows) -> Checked<TorqueScene> {
     let all = [("torque_nm", mean), ("amplitude_nm", amplitude), ("frequency_hz", frequency), ("phase_deg", phase)];
     let said = |(key, value): &(&'static str, &Number)| value.as_ref().map(|v| (*key, v.span()));

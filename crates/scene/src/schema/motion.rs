@@ -86,11 +86,11 @@ choices! {
 
 table! {
     /// `[load]`
-    LOAD, RawLoad: "torque on the driven gear beside its mean (analyses in time); where it is negative it presses the coast flanks"; {
+    LOAD, RawLoad: "torque on the driven gear over time: a harmonic part beside its mean, or the whole of it by a table (analyses in time); where it is negative it presses the coast flanks"; {
         amplitude_nm: bare(0.0, 1e9), "amplitude of a harmonic part T cos(2 pi f t + phase), N m";
         frequency_hz: bare(1e-9, 1e9), "its frequency, Hz";
         phase_deg: number(-360.0, 360.0, 0.0), "phase of its cosine at t = 0, degrees";
-        table_s_nm: rows(2), "in place of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
+        table_s_nm: rows(2), "the whole torque, in place of `torque_nm` in [operation] and of the others: rows of time, s, ascending, and torque, N m; straight lines between, held before and after";
     }
 }
 
@@ -127,7 +127,7 @@ table! {
         stop_at_events: switch(false), "ends a step wherever contact is lost or gained";
         mesh_damping_ratio: number(0.0, 10.0, 0.05) => Some, "damping ratio of the mesh: both gears turning against each other on the mean stiffness of their teeth. Shared over the contact lines, never a pull";
         mesh_damping_ns_per_mm2: bare(0.0, 1e9), "in its place: damping of a mm of contact line, N s/mm^2";
-        periodic_tolerance: number(1e-12, 0.5, 1e-6) => Some, "difference of coordinates and velocities after a period (1 to 8 mesh cycles) over their peak to peak that counts as none (steady, shooting, sweep, basins; continuation: of motions in time)";
+        periodic_tolerance: number(1e-12, 0.5, 1e-6) => Some, "difference of coordinates and velocities after a period over their peak to peak (1 to 8 mesh cycles, or as many times the cycles until the same teeth meet, where they differ) that counts as none (steady, shooting, sweep, basins; continuation: of motions in time)";
         warm_up_cycles: whole(0, 100_000_000, 1000) => Some, "mesh cycles to wait for the periodic state at the most (the same). mapped, lumped8, lumped12 and shaft18 are taken there by Newton's method once they nearly repeat themselves (theory, section 16): most wait some ten cycles";
         duration_s: bare(1e-9, 1e9), "length of a span, s, in place of cycles; in whole mesh cycles";
         checkpoint_every_cycles: whole(0, 100_000_000, 0) => Some, "a checkpoint every so many mesh cycles; 0: none (steady, span, ramp)";

@@ -17,7 +17,7 @@ pub enum CheckpointError {
         /// The scene.
         scene: PathBuf,
         /// To what.
-        what: &'static str,
+        what: String,
     },
     /// Another run uses the folder.
     #[error("{}: another run writes its checkpoints there", folder.display())]
@@ -25,7 +25,7 @@ pub enum CheckpointError {
         /// The folder.
         folder: PathBuf,
     },
-    /// A folder that was not made for checkpoints.
+    /// A file, or a folder that was not made for checkpoints.
     #[error("{}: is there, and was not made by this program for checkpoints", folder.display())]
     NotOurs {
         /// The folder.

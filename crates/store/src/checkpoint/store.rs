@@ -120,14 +120,19 @@ impl<S: StoredState> Stored<S> {
     pub fn check_inputs(&self, document: &dyn Resumable, now: &InputDigests) -> Result<(), CheckpointError> {
         match self.inputs.change(now, document) {
             None => Ok(()),
-            Some(Change::Document) => Err(foreign(document.file(), document.another())),
+            Some(Change::Document(differences)) if differences.is_empty() => {
+                Err(foreign(document.file(), document.another()))
+            }
+            Some(Change::Document(differences)) => {
+                Err(foreign(document.file(), &format!("{}: {differences}", document.another())))
+            }
             Some(Change::File(file)) => Err(CheckpointError::OtherFile { file }),
         }
     }
 }
 
-pub(super) fn foreign(document: &Path, what: &'static str) -> CheckpointError {
-    CheckpointError::Foreign { scene: document.to_owned(), what }
+pub(super) fn foreign(document: &Path, what: &str) -> CheckpointError {
+    CheckpointError::Foreign { scene: document.to_owned(), what: what.to_owned() }
 }
 
 impl CheckpointFolder {
@@ -148,11 +153,14 @@ impl CheckpointFolder {
     /// other's rows.
     ///
     /// # Errors
-    /// [`CheckpointError::NotOurs`] for a folder that holds anything and was not made for checkpoints,
+    /// [`CheckpointError::NotOurs`] for a file, and a folder that holds anything and was not made for checkpoints,
     /// [`CheckpointError::InUse`], [`StoreError::Write`].
     pub fn hold(&self) -> Result<Lock, StoreError> {
         let path = self.0.join(IN_USE);
         let failed = |cause| StoreError::Write { file: path.clone(), cause };
+        if fs::symlink_metadata(&self.0).is_ok() && !self.0.is_dir() {
+            return Err(CheckpointError::NotOurs { folder: self.0.clone() }.into());
+        }
         fs::create_dir_all(&self.0).map_err(failed)?;
         let is_empty = fs::read_dir(&self.0).map_err(failed)?.next().is_none();
         if !is_empty && !self.is_ours() {

@@ -223,9 +223,19 @@ impl VaryArgs {
                 None => (&self.file, if self.harris { "--harris" } else { "--start" }),
             };
             let message = format_args!("{}: `{word}` is for pairs: cases of a gearbox are each alone", file.display());
-            let hint =
-                "leave it out, vary `KEY=FROM:TO:COUNT`, and ask for an output as `face_load_factor.0`".to_owned();
-            return Err(CommandError::input(message, Some(hint)));
+            let hint = match self.start {
+                Start::Branch => {
+                    "periodic motions of a gearbox over the speed are what `run = \"continuation\"` in [motion] asks for: \
+                     `ale-gear run` with `speed_rpm` and `to_speed_rpm`"
+                }
+                Start::Carry => {
+                    "a run-up carries the state of a gearbox from speed to speed: `to_speed_rpm` in [motion], with `ale-gear run`"
+                }
+                Start::Each | Start::Basin => {
+                    "leave it out, vary `KEY=FROM:TO:COUNT`, and ask for an output as `face_load_factor.0`"
+                }
+            };
+            return Err(CommandError::input(message, Some(hint.to_owned())));
         }
         match self.start {
             Start::Each => self.each(quiet),
