@@ -171,26 +171,30 @@ fn moving_pairs_of_the_scenes_are_gearboxes_of_held_shafts() {
     assert!(wrong.is_empty(), "off by more: {wrong:?}");
 }
 
+/// The same with rows at every step.
+fn rows_are_steps(pair: SceneBuilder) -> SceneBuilder {
+    pair.set("motion.steps_per_resonance", 0).set("motion.steps_per_mesh_cycle", 128)
+}
+
+/// The same with its wheel in bearings.
+fn in_bearings(pair: SceneBuilder) -> SceneBuilder {
+    let free = pair.set("wheel.body.free", vec!["x", "y", "z", "rx", "ry"]);
+    let along = ["x", "y", "z"].iter().fold(free, |s, axis| {
+        let held = s.set(&format!("wheel.bearing.stiffness_{axis}_n_per_mm"), 2e5);
+        held.set(&format!("wheel.bearing.damping_{axis}_ns_per_mm"), 2.0)
+    });
+    let tilts = along.set("wheel.bearing.stiffness_rx_nmm_per_rad", 1e8);
+    tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8)
+}
+
 /// The file that `init --of-pair` writes moves as the pair: with friction, a load over time, and the wheel in its bearings,
 /// to what a beam without mass between gear and bearing adds. What it does not have is named.
 #[test]
 fn the_file_of_a_whole_pair_moves_as_the_pair() {
-    let rows_are_steps =
-        |s: SceneBuilder| s.set("motion.steps_per_resonance", 0).set("motion.steps_per_mesh_cycle", 128);
-    let in_bearings = |s: SceneBuilder| {
-        let free = rows_are_steps(s).set("wheel.body.free", vec!["x", "y", "z", "rx", "ry"]);
-        let along = ["x", "y", "z"].iter().fold(free, |s, axis| {
-            let held = s.set(&format!("wheel.bearing.stiffness_{axis}_n_per_mm"), 2e5);
-            held.set(&format!("wheel.bearing.damping_{axis}_ns_per_mm"), 2.0)
-        });
-        let tilts = along.set("wheel.bearing.stiffness_rx_nmm_per_rad", 1e8);
-        tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8)
-    };
-    let load = |s: SceneBuilder| s.set("load.amplitude_nm", 40.0).set("load.frequency_hz", 700.0);
-    let all: [(&str, f64, Box<dyn Fn(SceneBuilder) -> SceneBuilder>); 3] = [
-        ("friction", 1e-8, Box::new(|s| rows_are_steps(s).set("contact.friction", 0.05))),
-        ("load over time", 1e-8, Box::new(|s| load(rows_are_steps(s)))),
-        ("bearings", 1e-6, Box::new(in_bearings)),
+    let all: [(&str, f64, Change); 3] = [
+        ("friction", 1e-8, |s| rows_are_steps(s).set("contact.friction", 0.05)),
+        ("load over time", 1e-8, |s| rows_are_steps(s).set("load.amplitude_nm", 40.0).set("load.frequency_hz", 700.0)),
+        ("bearings", 1e-6, |s| in_bearings(rows_are_steps(s))),
     ];
     for (name, bound, change) in all {
         let scene = small(change);
