@@ -11,7 +11,7 @@ use scene::{Model, Scene};
 
 use crate::{
     AnalysisError, GearCache, NoObserver,
-    alike::{kind, of_gears},
+    alike::kind,
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
     inputs::{meshes_of, resolved_scene},
@@ -25,7 +25,7 @@ use crate::{
 const MOST_MODELS: usize = 8;
 
 /// Models of pairs that differ in what neither their matrices nor their contact tables know: micro-geometry, pitch
-/// errors, misalignment, friction, torque, positions.
+/// errors, misalignment, friction, slices, torque, positions.
 ///
 /// Meshes of gearboxes share their reduced gears alike. Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
 pub struct SharedModels<'a> {
@@ -122,13 +122,6 @@ impl<'a> SharedModels<'a> {
         self.base(&scene, &pair, options, &|| true).map_err(|failure| failure.into_error(&scene)).map(|_| ())
     }
 
-    /// A model that is there of the same gears, on other slices: more of them are chosen for more crowning.
-    fn of_same_gears(&self, kind: &Scene, window: Option<usize>) -> Option<Arc<Base>> {
-        let (known, gears) = (self.known.lock().unwrap_or_else(PoisonError::into_inner), of_gears(kind));
-        let mut alike = known.iter().filter(|k| k.window == window && of_gears(&k.kind) == gears);
-        alike.find_map(|k| k.base.try_lock().ok()?.clone())
-    }
-
     /// The model that a scene shares with others of its kind.
     pub(crate) fn base(
         &self,
@@ -157,19 +150,13 @@ impl<'a> SharedModels<'a> {
         if let Some(base) = &*made {
             return Ok(Arc::clone(base));
         }
-        let (meshes, model) = match self.of_same_gears(&own, window) {
-            Some(other) => (other.meshes.clone(), other.model.modified(pair.clone(), options)?),
-            None => {
-                let meshes = self.scene_meshes(scene, pair)?;
-                let ElasticGears { gears, keys, .. } =
-                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted), true)?;
-                let model = StaticModel::new(pair.clone(), gears, options)?;
-                if self.cache.is_on() {
-                    keys.save(&*self.cache, model.gears());
-                }
-                (meshes, model)
-            }
-        };
+        let meshes = self.scene_meshes(scene, pair)?;
+        let ElasticGears { gears, keys, .. } =
+            elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted), true)?;
+        let model = StaticModel::new(pair.clone(), gears, options)?;
+        if self.cache.is_on() {
+            keys.save(&*self.cache, model.gears());
+        }
         let base = Arc::new(Base { meshes, model, of_bodies: OnceLock::new() });
         *made = Some(Arc::clone(&base));
         Ok(base)

@@ -82,9 +82,26 @@ pub fn slice_errors(pair: &GearPair, options: &StaticOptions, count: usize) -> S
 
 /// Gaps of all lines at each phase.
 struct Springs {
-    phases: Vec<Vec<Line>>,
+    phases: Vec<Phase>,
     /// F_bn cos b_b / (k b): mean overlap over the face, mm.
     load: f64,
+}
+
+/// The lines of a phase, and how springs at all places share the load.
+struct Phase {
+    lines: Vec<Line>,
+    /// delta, mm.
+    approach: f64,
+    /// Least gap, mm.
+    least: f64,
+}
+
+impl Phase {
+    fn new(lines: Vec<Line>, load: f64) -> Self {
+        let fine: Vec<f64> = lines.iter().flatten().copied().collect();
+        let (approach, least) = (approach(&fine, load, lines.first().map_or(0, Vec::len)), least(&fine));
+        Self { lines, approach, least }
+    }
 }
 
 /// Gaps along the face of one pair at evenly spaced places in the middles of as many strips, mm; infinite where the
@@ -99,8 +116,8 @@ impl Springs {
             return Self { phases: Vec::new(), load: 0.0 };
         }
         let at = |i: usize| Station { cycle: 0, phase: (i as f64 + 0.3) / PHASES as f64 };
-        let phases = (0..PHASES).map(|i| lines(pair, options, at(i))).filter(|lines| !lines.is_empty()).collect();
-        Self { phases, load }
+        let phases = (0..PHASES).map(|i| lines(pair, options, at(i))).filter(|lines| !lines.is_empty());
+        Self { phases: phases.map(|lines| Phase::new(lines, load)).collect(), load }
     }
 
     /// The worst of three counts next to each other: an error that comes and goes with the place of the stations is not
@@ -115,21 +132,17 @@ impl Springs {
         if self.phases.is_empty() {
             return SpringErrors::default();
         }
-        let mut whole = Vec::new();
+        let whole: Vec<f64> = self.phases.iter().map(|phase| phase.approach).collect();
         let mut cut = Vec::new();
         let mut peak = 0.0f64;
-        let mut touch = 0.0;
-        for lines in &self.phases {
-            let fine: Vec<f64> = lines.iter().flatten().copied().collect();
-            let of_slices: Vec<f64> = lines.iter().flat_map(|line| sliced(line, count)).collect();
-            let least = |gaps: &[f64]| gaps.iter().copied().fold(f64::INFINITY, f64::min);
-            let (a, b) = (approach(&fine, self.load, lines[0].len()), approach(&of_slices, self.load, count));
-            let (most, seen) = (a - least(&fine), b - least(&of_slices));
+        for phase in &self.phases {
+            let of_slices: Vec<f64> = phase.lines.iter().flat_map(|line| sliced(line, count)).collect();
+            let b = approach(&of_slices, self.load, count);
+            let (most, seen) = (phase.approach - phase.least, b - least(&of_slices));
             peak = peak.max((seen / most - 1.0).abs());
-            touch += least(&fine);
-            whole.push(a);
             cut.push(b);
         }
+        let touch: f64 = self.phases.iter().map(|phase| phase.least).sum();
         let phases = whole.len() as f64;
         let mean = whole.iter().sum::<f64>() / phases;
         let elastic = mean - touch / phases;
@@ -143,6 +156,10 @@ impl Springs {
             peak,
         }
     }
+}
+
+fn least(gaps: &[f64]) -> f64 {
+    gaps.iter().copied().fold(f64::INFINITY, f64::min)
 }
 
 fn span(values: &[f64]) -> f64 {
@@ -238,22 +255,36 @@ fn line(
     let is_nominal = options.contact.offsets.iter().all(|offset| *offset == Offset::default());
     let (length, base_radii) = (pair.tangent_length(), [pair.pinion.base_radius(), pair.wheel.base_radius()]);
     let [middle, beside] = [0.0, 1.0].map(|z| pair.path_coordinate(side, theta1, tooth, z));
-    let gap = |i: usize| {
-        let z = common + width * ((i as f64 + 0.5) / places as f64 - 0.5);
-        let xi = middle + (beside - middle) * z;
-        if xi < start - slack || xi > end + slack {
-            return f64::INFINITY;
-        }
-        if is_nominal && xi >= start && xi <= end {
-            // On parallel axes in their places nominal flanks touch all along the path of contact.
-            let rolls = [xi / base_radii[0], (length - xi) / base_radii[1]];
-            let heights = [z, z - pair.mid_face_offset()];
-            return [0, 1].map(|k| Surface::depth(&flanks[k], [rolls[k], heights[k]])).iter().sum();
-        }
-        let Some(place) = facing.nearest(z, &mut hint) else { return f64::INFINITY };
+    let height = |i: usize| common + width * ((i as f64 + 0.5) / places as f64 - 0.5);
+    let path = |z: f64| middle + (beside - middle) * z;
+    let mut gap = |i: usize| {
+        let (z, xi) = (height(i), path(height(i)));
+        let is_beyond = xi < start - slack || xi > end + slack;
+        let place = if is_beyond { None } else { facing.nearest(z, &mut hint) };
+        let Some(place) = place else { return f64::INFINITY };
         place.gap + [0, 1].map(|k| Surface::depth(&flanks[k], place.at[k])).iter().sum::<f64>()
     };
-    (0..places).map(gap).collect()
+    if !is_nominal {
+        return (0..places).map(gap).collect();
+    }
+    // On parallel axes in their places nominal flanks touch all along the path of contact.
+    let touches = |i: usize| (start..=end).contains(&path(height(i)));
+    let first = (0..places).find(|&i| touches(i)).unwrap_or(places);
+    let after = (first..places).find(|&i| !touches(i)).unwrap_or(places);
+    let (before, beyond): (Line, Line) = ((0..first).map(&mut gap).collect(), (after..places).map(&mut gap).collect());
+    let of_touch = |k: usize| {
+        let place = |i: usize| {
+            let (z, xi) = (height(i), path(height(i)));
+            [[xi / base_radii[0], z], [(length - xi) / base_radii[1], z - pair.mid_face_offset()]][k]
+        };
+        let (rolls, heights): (Line, Line) = (first..after).map(place).map(|[u, z]| (u, z)).unzip();
+        let mut depths = vec![0.0; rolls.len()];
+        flanks[k].depths([&rolls, &heights], &mut depths);
+        depths
+    };
+    let [own, other] = [of_touch(0), of_touch(1)];
+    let touching = own.iter().zip(&other).map(|(own, other)| own + other);
+    before.into_iter().chain(touching).chain(beyond).collect()
 }
 
 #[cfg(test)]

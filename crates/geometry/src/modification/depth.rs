@@ -155,6 +155,11 @@ impl DepthField {
         self.least
     }
 
+    /// Roll angles at which profiles have kinks.
+    pub(crate) fn kinks(&self) -> [Option<f64>; 2] {
+        self.along_profile.map(|ramp| ramp.and_then(|ramp| ramp.kink()))
+    }
+
     /// Half of a usual band of contact, mm: curvatures of the depth are as it sees them, since where a relief starts with
     /// a kink there is none to be had at a point. A thirtieth of the normal module: a gear of twice the size, under the
     /// same stress, has twice the band.
@@ -171,16 +176,49 @@ impl DepthField {
         self.with(self.grid.as_ref().map(|grid| grid.at(u, z)), u, z)
     }
 
+    /// Depths at places, their roll angles and heights (mm), mm: the values of [`DepthField::at`], bit by bit.
+    pub(crate) fn at_places(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        self.with_at_places(self.grid.as_ref().map(|grid| |u: f64, z: f64| grid.at(u, z)[0]), places, depths);
+    }
+
+    /// The stated modifications at places, and what of the grid is given.
+    fn with_at_places(
+        &self,
+        grid: Option<impl Fn(f64, f64) -> f64>,
+        [rolls, heights]: [&[f64]; 2],
+        depths: &mut [f64],
+    ) {
+        for ((depth, &u), &z) in depths.iter_mut().zip(rolls).zip(heights) {
+            let [p, q] = [self.per_roll * (u - self.middle), self.per_height * z];
+            *depth = self.formula(p, q);
+        }
+        for ramp in self.along_profile.iter().flatten() {
+            ramp.add_to(depths, rolls);
+        }
+        for ramp in self.along_lead.iter().flatten() {
+            ramp.add_to(depths, heights);
+        }
+        if let Some(grid) = grid {
+            depths.iter_mut().zip(rolls).zip(heights).for_each(|((depth, &u), &z)| *depth += grid(u, z));
+        }
+    }
+
+    /// Depth of crownings, slopes and bias, mm.
+    #[inline]
+    fn formula(&self, p: f64, q: f64) -> f64 {
+        self.profile_crowning * p * p
+            + 0.5 * self.profile_slope * p
+            + self.lead_crowning * q * q
+            + 0.5 * self.lead_slope * q
+            + 0.25 * self.bias * p * q
+    }
+
     /// The stated modifications and what of the grid is given.
     fn with(&self, grid: Option<[f64; 3]>, u: f64, z: f64) -> Depth {
         let [dp, dq] = [self.per_roll, self.per_height];
         let [p, q] = [dp * (u - self.middle), dq * z];
         let mut depth = Depth {
-            value: self.profile_crowning * p * p
-                + 0.5 * self.profile_slope * p
-                + self.lead_crowning * q * q
-                + 0.5 * self.lead_slope * q
-                + 0.25 * self.bias * p * q,
+            value: self.formula(p, q),
             by_roll: dp * (2.0 * self.profile_crowning * p + 0.5 * self.profile_slope + 0.25 * self.bias * q),
             by_z: dq * (2.0 * self.lead_crowning * q + 0.5 * self.lead_slope + 0.25 * self.bias * p),
         };
@@ -223,6 +261,11 @@ impl SplitDepth {
     /// The smooth part at roll angle `u` and height `z` (mm).
     pub fn smooth(&self, u: f64, z: f64) -> Depth {
         self.field.with(Some(self.split.smooth(u, z)), u, z)
+    }
+
+    /// The smooth part at places, mm: the values of [`SplitDepth::smooth`], bit by bit.
+    pub(crate) fn smooth_at_places(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        self.field.with_at_places(Some(|u: f64, z: f64| self.split.smooth(u, z)[0]), places, depths);
     }
 
     /// What the flank lies below the smooth part, mm.
