@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fem::Wanted;
 use geometry::GearPair;
-use ltca::{StaticModel, StaticOptions};
+use ltca::{NominalLines, StaticModel, StaticOptions, slices_needed_on};
 use mesh::Mesh;
 use scene::{Model, Scene};
 
@@ -14,10 +14,11 @@ use crate::{
     alike::kind,
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
-    inputs::{meshes_of, resolved_scene},
+    inputs::{meshes_of, with_meshes_of},
     meshes::SceneMesh,
     options::options,
     reduced_pairs::ReducedPairs,
+    resolution::with_slices_by,
     solution_remarks::body_remarks,
 };
 
@@ -36,6 +37,8 @@ pub struct SharedModels<'a> {
     /// Reduced pairs of the meshes of gearboxes.
     pub(crate) pairs: ReducedPairs,
     read: Mutex<Vec<(Scene, Arc<[SceneMesh; 2]>)>>,
+    /// Nominal contact lines of the last pair that asked for them.
+    lines: Mutex<Option<Arc<NominalLines>>>,
 }
 
 /// What belongs to one kind of scene, made when the first of them comes.
@@ -73,7 +76,8 @@ impl<'a> SharedModels<'a> {
 
     /// Shared models over a cache that others may hold as well.
     pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
-        Self { cache, meshes: None, known: Mutex::default(), pairs: ReducedPairs::default(), read: Mutex::default() }
+        let (known, pairs, read, lines) = Default::default();
+        Self { cache, meshes: None, known, pairs, read, lines }
     }
 
     /// With meshes of pinion and wheel in place of those of all scenes. They are checked as files are.
@@ -90,6 +94,19 @@ impl<'a> SharedModels<'a> {
     /// Where reduced gears come from and go to.
     pub(crate) fn cache(&self) -> &(dyn GearCache + Send + 'a) {
         &*self.cache
+    }
+
+    /// The scene with the slices that it asks for, as [`crate::inputs::resolved_scene`] has it.
+    pub(crate) fn resolved_scene(&self, scene: &Scene) -> Scene {
+        let needed = |pair: &GearPair, options: &StaticOptions| {
+            let lines = {
+                let mut known = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+                let lines = known.take().filter(|lines| lines.serves(pair, options));
+                Arc::clone(known.insert(lines.unwrap_or_else(|| Arc::new(NominalLines::new(pair, options)))))
+            };
+            slices_needed_on(&lines, pair, options)
+        };
+        with_meshes_of(with_slices_by(scene.clone(), needed), self.meshes.is_some())
     }
 
     /// Meshes of a scene, read or made once.
@@ -116,7 +133,7 @@ impl<'a> SharedModels<'a> {
         if scene.analysis.model != Model::Reduced {
             return Err(crate::error::nothing_to_reduce(scene));
         }
-        let scene = resolved_scene(scene, self.meshes.is_some());
+        let scene = self.resolved_scene(scene);
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
         self.base(&scene, &pair, options, &|| true).map_err(|failure| failure.into_error(&scene)).map(|_| ())

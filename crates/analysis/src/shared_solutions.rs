@@ -20,7 +20,6 @@ use crate::{
     alike::shares,
     failure::Failure,
     gears,
-    inputs::resolved_scene,
     interest::Interest,
     light_load,
     options::options,
@@ -144,7 +143,7 @@ impl SharedModels<'_> {
         asked: Rates<'_>,
         RestRequest { interest, line_lengths, .. }: RestRequest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
-        let scene = resolved_scene(scene, self.meshes().is_some());
+        let scene = self.resolved_scene(scene);
         let pair = scene.gear_pair()?;
         refuse(&scene, &pair)?;
         light_load::check(&scene, &pair)?;

@@ -65,6 +65,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn least_depth(&self) -> f64 {
         0.0
     }
+    /// Least [`Surface::depth`] at a height, mm, to some hundredths of its size.
+    fn least_depth_at(&self, _z: f64) -> f64 {
+        self.least_depth()
+    }
     /// Roll angles at which the profiles have kinks of [`Surface::depth`].
     fn kinks(&self) -> [Option<f64>; 2] {
         [None; 2]
@@ -202,6 +206,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn least_depth(&self) -> f64 {
         geometry::ModifiedFlank::least_depth(self)
+    }
+
+    fn least_depth_at(&self, z: f64) -> f64 {
+        geometry::ModifiedFlank::least_depth_at(self, z)
     }
 
     fn kinks(&self) -> [Option<f64>; 2] {

@@ -17,8 +17,8 @@ const SURELY: f64 = 0.9;
 const NEARLY: f64 = 0.25;
 /// Dips that are looked into at the most.
 const MOST_DIPS: usize = 6;
-/// Places along the profile at the most; reliefs that part the flanks by more than a whole profile do are none.
-const MOST_PLACES: usize = 48;
+/// Places along the profile at the most: one more than strides over all of it.
+const MOST_PLACES: usize = 26;
 
 /// Two involute flanks that nearly touch: nominal ones part by their curvature from where they touch, and depths are
 /// added.
@@ -226,7 +226,9 @@ impl FirstOrderGap {
         let parted = |s: f64| 0.5 * curvature * s * s;
         let (amount, share) = (self.amount, OFF_BY.1);
         let nearest = 0f64.clamp(low, high);
-        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + self.shallowest - 2.0 * amount;
+        let heights = [z, z - self.offset];
+        let shallowest = surfaces[0].least_depth_at(heights[0]) + surfaces[1].least_depth_at(heights[1]);
+        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + shallowest - 2.0 * amount;
         if least > reach {
             return Some(Outlook::Wider(least));
         }
@@ -236,11 +238,10 @@ impl FirstOrderGap {
             let doubt = 0.5 * amount + share * p[2] + self.tilted;
             [self.apart + p[1] - doubt, self.apart + p[1] + doubt]
         };
-        let heights = [z, z - self.offset];
         let at = rolls(nearest);
         let here = told_of(nearest, [0, 1].map(|i| surfaces[i].depth([at[i], heights[i]])));
         // No dip is deeper than the least of the depths lets it be.
-        let room = (1.0 + share) * here[2] + (here[1] - here[2]) - self.shallowest + 2.0 * amount;
+        let room = (1.0 + share) * here[2] + (here[1] - here[2]) - shallowest + 2.0 * amount;
         let window = (2.0 * room.max(0.0) / ((1.0 - share) * curvature)).sqrt();
         let (low, high) = (low.max(-window), high.min(window));
         let mut dips = Dips::default();

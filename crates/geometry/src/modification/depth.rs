@@ -39,6 +39,8 @@ pub struct DepthField {
     splits: Splits,
     size: FlankSize,
     least: f64,
+    /// Least of what is the same at all heights.
+    least_of_profile: f64,
 }
 
 /// Places along the profile and along the face at which the least depth is looked for.
@@ -122,21 +124,26 @@ impl DepthField {
             splits: Splits::default(),
             size,
             least: 0.0,
+            least_of_profile: 0.0,
         };
+        field.least_of_profile = field.rolls().map(|u| field.of_profile(u)).fold(f64::INFINITY, f64::min);
         field.least = field.least_of(|u, z| field.at(u, z));
         Ok(field)
     }
 
+    /// Roll angles at which the least depth is looked for.
+    fn rolls(&self) -> impl Iterator<Item = f64> {
+        let ([form, tip], [along, _]) = (self.size.roll, LEAST);
+        (0..along).map(move |i| form + i as f64 / (along - 1) as f64 * (tip - form))
+    }
+
     /// The least value over the flank.
     fn least_of(&self, depth: impl Fn(f64, f64) -> Depth) -> f64 {
-        let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
-        let [along, across] = LEAST;
-        let [form, tip] = self.size.roll;
-        let places = (0..along * across).map(|i| {
-            let (p, q) = (place(i % along, along), place(i / along, across));
-            depth(form + p * (tip - form), self.size.half_width * (2.0 * q - 1.0)).value
-        });
-        places.fold(f64::INFINITY, f64::min)
+        let [_, across] = LEAST;
+        let heights = (0..across).map(|i| self.size.half_width * (2.0 * (i as f64 / (across - 1) as f64) - 1.0));
+        let depth = &depth;
+        let all = heights.flat_map(|z| self.rolls().map(move |u| depth(u, z).value));
+        all.fold(f64::INFINITY, f64::min)
     }
 
     /// Smooth part of the depth and the deviation from that, as slices of an axial length (mm; 0: points) see it;
@@ -158,6 +165,25 @@ impl DepthField {
     /// Roll angles at which profiles have kinks.
     pub(crate) fn kinks(&self) -> [Option<f64>; 2] {
         self.along_profile.map(|ramp| ramp.and_then(|ramp| ramp.kink()))
+    }
+
+    /// Least depth at a height (mm), mm; no less than [`DepthField::least`] where nothing was measured.
+    pub fn least_at(&self, z: f64) -> f64 {
+        if self.grid.is_some() {
+            return self.least;
+        }
+        let q = self.per_height * z;
+        let twisted = self.size.roll.map(|u| (self.per_roll * (u - self.middle)).abs()).into_iter().fold(0.0, f64::max);
+        let along_lead: f64 = self.along_lead.iter().flatten().map(|ramp| ramp.at(z).0).sum();
+        self.least_of_profile + self.lead_crowning * q * q + 0.5 * self.lead_slope * q + along_lead
+            - (0.25 * self.bias * q).abs() * twisted
+    }
+
+    /// What of the depth is the same at all heights, mm.
+    fn of_profile(&self, u: f64) -> f64 {
+        let reliefs: f64 = self.along_profile.iter().flatten().map(|ramp| ramp.at(u).0).sum();
+        let p = self.per_roll * (u - self.middle);
+        self.profile_crowning * p * p + 0.5 * self.profile_slope * p + reliefs
     }
 
     /// Half of a usual band of contact, mm: curvatures of the depth are as it sees them, since where a relief starts with

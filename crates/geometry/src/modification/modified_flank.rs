@@ -84,6 +84,14 @@ impl ModifiedFlank {
         self.pitch + self.split.as_ref().map_or_else(of_field, SplitDepth::least)
     }
 
+    /// Least depth at a height (mm), pitch error included, mm: see [`DepthField::least_at`].
+    pub fn least_depth_at(&self, z: f64) -> f64 {
+        match (&self.split, &self.field) {
+            (Some(split), _) => self.pitch + split.least(),
+            (None, field) => self.pitch + field.as_ref().map_or(0.0, |field| field.least_at(z)),
+        }
+    }
+
     /// Roll angles at which profiles have kinks: where linear reliefs of root and tip start.
     pub fn kinks(&self) -> [Option<f64>; 2] {
         self.field.as_ref().map_or([None; 2], |field| field.kinks())

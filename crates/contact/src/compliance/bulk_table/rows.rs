@@ -128,6 +128,14 @@ impl GroupPair<'_> {
     ) {
         let Some(loads) = loads.first_chunk::<K>() else { return };
         let Self { entries, count, load, opening } = *self;
+        let mut weights = [[[0.0; K]; RUNS * RUN]; DIRECTIONS];
+        for (d, of_points) in weights.iter_mut().enumerate().filter(|(d, _)| load.along[*d]) {
+            for (k, load) in loads.iter().enumerate() {
+                for (weights, weight) in of_points.iter_mut().zip(load.weights.as_flattened()) {
+                    weights[k] = load.parts[d] * weight;
+                }
+            }
+        }
         let none = [[Four::splat(simd, 0.0); K]; RUNS];
         let mut opened = [none; DIRECTIONS];
         for e in (0..DIRECTIONS).filter(|e| opening.along[*e]) {
@@ -149,7 +157,7 @@ impl GroupPair<'_> {
                         Tile::of(&own)
                     }
                 };
-                at_points = tile.under(simd, (loads, d), at_points);
+                at_points = tile.under(simd, &weights[d], at_points);
             }
             opened[e] = at_points;
         }
@@ -191,12 +199,12 @@ impl<'a> Tile<'a> {
         Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
     }
 
-    /// What is at the points already, and what the parts of `K` loads along direction `d` add to it.
+    /// What is at the points already, and what `K` loads with these weights at the points of theirs add to it.
     #[inline(always)]
     fn under<S: Simd, const K: usize>(
         &self,
         simd: S,
-        (loads, d): (&[TablePoint; K], usize),
+        weights: &[[f64; K]; RUNS * RUN],
         [mut first, mut second, mut third]: AtPoints<S, K>,
     ) -> AtPoints<S, K> {
         let [p0, p1, p2] = self.runs;
@@ -204,7 +212,7 @@ impl<'a> Tile<'a> {
             for (a, column) in self.columns[c].chunks_exact(self.count).enumerate().take(RUN) {
                 let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
                 for k in 0..K {
-                    let weight = Four::splat(simd, loads[k].parts[d] * loads[k].weights[c][a]);
+                    let weight = Four::splat(simd, weights[RUN * c + a][k]);
                     first[k] = x0.mul_add(weight, first[k]);
                     second[k] = x1.mul_add(weight, second[k]);
                     third[k] = x2.mul_add(weight, third[k]);
