@@ -52,10 +52,7 @@ pub fn with_slices(scene: Scene) -> Scene {
 }
 
 /// The same by what says how many slices a pair needs.
-pub(crate) fn with_slices_by(
-    mut scene: Scene,
-    needed: impl FnOnce(&GearPair, &StaticOptions) -> SliceCount,
-) -> Scene {
+pub(crate) fn with_slices_by(mut scene: Scene, needed: impl FnOnce(&GearPair, &StaticOptions) -> SliceCount) -> Scene {
     if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
         // A pair that cannot be made is complained about where it is made.
         if let Ok(pair) = scene.gear_pair()

@@ -103,8 +103,9 @@ impl ContactSet {
                     TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
                 }
             });
-        let behind =
-            behind.map(|half| half.with_tables(tabulated, gears, windows.as_ref(), options).map(Arc::new)).transpose()?;
+        let behind = behind
+            .map(|half| half.with_tables(tabulated, gears, windows.as_ref(), options).map(Arc::new))
+            .transpose()?;
         let slices = behind.map(|half| Arc::new(SliceSet::new(pair, half, options)));
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let own_teeth = geometry.map(Gear::has_own_teeth);

@@ -118,7 +118,8 @@ fn nominal_lines_serve_all_micro_geometry() {
     let base = StaticOptions::new(150e3, &plain);
     let lines = NominalLines::new(&plain, &base);
     for (crowning, part) in [(0.0, 1.0), (10.0, 1.0), (30.0, 0.1), (40.0, 0.01)] {
-        let (pair, options) = flank_case(&plain, &StaticOptions { torque: part * base.torque, ..base.clone() }, [crowning, 0.0]);
+        let (pair, options) =
+            flank_case(&plain, &StaticOptions { torque: part * base.torque, ..base.clone() }, [crowning, 0.0]);
         assert!(lines.serves(&pair, &options), "crowning {crowning} um");
         assert_eq!(slices_needed_on(&lines, &pair, &options), slices_needed(&pair, &options), "crowning {crowning} um");
     }
