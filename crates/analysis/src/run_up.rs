@@ -1,9 +1,8 @@
 //! What a run-up costs and shows: the torque that its acceleration takes, and how finely its order cuts see a resonance.
 
-use std::f64::consts::FRAC_1_SQRT_2;
-
 use answer::Remark;
 use dynamics::Speed;
+use study::CutPeak;
 
 use crate::remark;
 
@@ -48,25 +47,6 @@ impl RunUpTorque {
     }
 }
 
-/// A resonance in an order cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct CutPeak {
-    /// Place of the largest amplitude.
-    pub at: usize,
-    /// Points in a row about it with half of its power or more.
-    pub points: usize,
-}
-
-/// The largest amplitude of an order cut and the points across it; `None` where the cut does not fall to half of its power
-/// on both sides, so that it shows no whole peak.
-pub(crate) fn cut_peak(amplitudes: &[f64]) -> Option<CutPeak> {
-    let at = (0..amplitudes.len()).max_by(|&a, &b| amplitudes[a].total_cmp(&amplitudes[b]))?;
-    let below = |x: &f64| *x < FRAC_1_SQRT_2 * amplitudes[at];
-    let first = amplitudes[..at].iter().rposition(below)?;
-    let last = at + amplitudes[at..].iter().position(below)?;
-    Some(CutPeak { at, points: last - first - 1 })
-}
-
 /// Remark on a peak that too few points of the cut of an order show, with its speed (1/min).
 pub(crate) fn coarse_cut(peak: CutPeak, order: usize, speed_rpm: f64, cure: &str) -> Option<Remark> {
     let times = POINTS as f64 / peak.points.max(1) as f64;
@@ -76,19 +56,6 @@ pub(crate) fn coarse_cut(peak: CutPeak, order: usize, speed_rpm: f64, cure: &str
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// A resonance of 2 % damping in a cut whose points are 1/256 of its frequency apart has 4 % of it across: ten points.
-    /// A flank alone, and a level, are no peak.
-    #[test]
-    fn points_across_a_peak_are_those_of_half_its_power() {
-        let gain = |r: f64| ((1.0 - r * r).powi(2) + (0.04 * r).powi(2)).sqrt().recip();
-        let cut: Vec<f64> = (128..512).map(|i| gain(f64::from(i) / 256.0)).collect();
-        let CutPeak { at, points } = cut_peak(&cut).unwrap();
-        assert!((127..=128).contains(&at) && (10..=11).contains(&points), "{points} points about {at}");
-        assert_eq!(cut_peak(&cut[..129]), None, "a flank is no peak");
-        assert_eq!(cut_peak(&[1.0; 20]), None, "a level is no peak");
-        assert_eq!(cut_peak(&[]), None);
-    }
 
     /// The torque is J times the largest acceleration of the ramp itself.
     #[test]

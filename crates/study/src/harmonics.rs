@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use serde::Serialize;
 
 use crate::{
+    Window,
     error::{StudyError, check},
+    order_tracking::order_amplitude,
     transform::real_transform,
 };
 
@@ -58,6 +60,29 @@ pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<V
         .collect())
 }
 
+/// Mesh cycles of a record whose ends are weighed down, at the least, for its orders to be told from each other.
+const TOLD_APART: f64 = 4.0;
+
+/// Amplitudes of the mesh orders 1, 2, ... that samples can tell, evenly spaced over so many mesh cycles: of whole cycles that
+/// come back, or are few, those of [`mesh_harmonics`]; else with a window of Hann. None of fewer than four cycles that are
+/// not whole.
+///
+/// # Errors
+/// Those of [`crate::cycle_statistics`] and [`crate::order_amplitude`].
+pub fn order_amplitudes(samples: &[f64], cycles: f64, comes_back: bool) -> Result<Vec<f64>, StudyError> {
+    let (per_cycle, whole) = (samples.len() as f64 / cycles, cycles.round());
+    let (orders, short) = (per_cycle as usize / 2, cycles < TOLD_APART);
+    let even = cycles == whole && samples.len().is_multiple_of(whole.max(1.0) as usize);
+    if even && (comes_back || short) {
+        return Ok(mesh_harmonics(samples, whole as usize, orders)?.iter().map(|h| h.amplitude).collect());
+    }
+    if short {
+        return Ok(Vec::new());
+    }
+    let places: Vec<f64> = (0..samples.len()).map(|i| i as f64 / per_cycle).collect();
+    (1..=orders).map(|order| order_amplitude(samples, &places, order as f64)).collect()
+}
+
 /// Share of a record's vibration that lies in the upper half of what its samples can tell apart, between a quarter and a
 /// half of the rate: what is cut off beyond is of that size as well where amplitudes fall slowly.
 ///
@@ -65,14 +90,21 @@ pub fn mesh_harmonics(samples: &[f64], cycles: usize, orders: usize) -> Result<V
 /// share = sqrt(sum_{n/4 < k <= n/2} |X_k|^2 / sum_{0 < k <= n/2} |X_k|^2)
 /// ```
 /// 0 for a smooth record that is sampled finely, near 0.7 for noise; 0 for a record that does not move. `samples` evenly
-/// spaced over `cycles` whole mesh cycles.
+/// spaced over `cycles` whole mesh cycles; with a window of Hann where what comes after them is not what they began with.
 ///
 /// # Errors
 /// Those of [`crate::cycle_statistics`].
-pub fn unresolved_share(samples: &[f64], cycles: usize) -> Result<f64, StudyError> {
+pub fn unresolved_share(samples: &[f64], cycles: usize, comes_back: bool) -> Result<f64, StudyError> {
     check(samples, cycles)?;
     let n = samples.len();
-    let spectrum = real_transform(samples.to_vec()).ok_or(StudyError::NotWholeCycles { samples: n, cycles })?;
+    let weighed = || {
+        // The jump from the end to the beginning is no vibration.
+        let mean = samples.iter().sum::<f64>() / n as f64;
+        let weight = |i: usize| Window::Hann.at((i as f64 + 0.5) / n as f64);
+        samples.iter().enumerate().map(|(i, x)| weight(i) * (x - mean)).collect()
+    };
+    let record = if comes_back { samples.to_vec() } else { weighed() };
+    let spectrum = real_transform(record).ok_or(StudyError::NotWholeCycles { samples: n, cycles })?;
     let power = |range: std::ops::Range<usize>| spectrum[range].iter().map(|x| x.norm_sqr()).sum::<f64>();
     let (all, upper) = (power(1..spectrum.len()), power((n / 4 + 1).min(spectrum.len())..spectrum.len()));
     let level = spectrum[0].norm_sqr();

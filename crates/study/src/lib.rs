@@ -22,6 +22,7 @@ mod poincare;
 mod power_law;
 mod spectrum;
 mod transform;
+mod waterfall;
 mod work_precision;
 
 pub use bifurcation::{Bifurcation, Branch, sweep_both_ways};
@@ -31,13 +32,14 @@ pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};
-pub use harmonics::{Harmonic, mesh_harmonics, unresolved_share};
+pub use harmonics::{Harmonic, order_amplitudes, mesh_harmonics, unresolved_share};
 pub use lyapunov::{Lyapunov, LyapunovPlan, largest_lyapunov};
-pub use order_tracking::order_amplitude;
+pub use order_tracking::{CutPeak, cut_peak, order_amplitude};
 pub use phase_portrait::{PhasePortrait, phase_portrait};
 pub use poincare::{
     crossing_section, iterated_section, section_period, section_points, section_times, stroboscopic_section,
 };
 pub use power_law::{PowerLaw, power_law};
 pub use spectrum::{Peak, Sidebands, Spectrum, Window, scalloping_loss, spectrum};
+pub use waterfall::{MotionSpectrum, Stretches, Waterfall, WaterfallLine, waterfall};
 pub use work_precision::{Answer, AnswerError, Work};

@@ -124,6 +124,10 @@ fn every_kind() -> Scratch {
     run(&["run", &accurate, "--out", "out-accurate"]);
     let elastic = repository().join("scenes/gearbox/elastic_gears.toml").display().to_string();
     run(&["run", &elastic, "--out", "out-elastic"]);
+    let pair = repository().join("scenes/gearbox/elastic_pair.toml").display().to_string();
+    run(&["run", &pair, "--set", "motion.cycles=1", "--out", "out-exact-gearbox"]);
+    let mapped = repository().join("scenes/gearbox/in_housing.toml").display().to_string();
+    run(&["run", &mapped, "--set", "motion.cycles=2", "--out", "out-mapped-gearbox"]);
     let branch = repository().join("scenes/gearbox/resonance_curve.toml").display().to_string();
     run(&["run", &branch, "--set", "motion.continuation.time_points=1", "--out", "out-branch"]);
     let planets = repository().join("scenes/gearbox/planetary_stage.toml").display().to_string();

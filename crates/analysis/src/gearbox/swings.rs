@@ -1,9 +1,9 @@
 //! What is found of a gearbox that swings about where it stands.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::sync::Arc;
 
 use dynamics::RigidBody;
-use gearbox::{Harmonic, Vibration, WhirlModes, rms};
+use gearbox::{Harmonic, Vibration, WhirlModes, rms, taken_off};
 use nalgebra::Complex;
 use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxGear, GearboxMesh};
@@ -117,7 +117,7 @@ impl VibrationResult {
     /// Meshes whose linear vibration takes more than their mean load (N) off them at some speed: flanks would lose contact.
     fn beyond_load(&self, file: &Gearbox, loads: &[f64]) -> Vec<Remark> {
         let one = |(i, (mesh, &load)): (usize, (&GearboxMesh, &f64))| {
-            let forces: Vec<f64> = self.orders.iter().map(|orders| taken_off(orders, i)).collect();
+            let forces: Vec<f64> = self.orders.iter().map(|orders| taken_off(orders.iter().map(|o| (o.frequency_hz, o.order, o.mesh_forces[i])))).collect();
             let beyond = |at: &usize| forces[*at] > load;
             let worst = (0..forces.len()).filter(beyond).max_by(|&a, &b| forces[a].total_cmp(&forces[b]))?;
             let size = |own: &&OrderForces| own.mesh_forces[i].norm();
@@ -159,27 +159,6 @@ impl VibrationResult {
 
 /// Ranges of speeds that are listed.
 const LISTED: usize = 4;
-/// Frequencies that are one, relative.
-const SAME: f64 = 1e-9;
-
-/// Places of a mesh cycle at which orders are added up.
-const PLACES: usize = 128;
-
-/// How far the dynamic normal force of a mesh falls below its mean at one speed, N: orders of one mesh as they stand to each
-/// other, those of meshes with other frequencies as they meet at last.
-fn taken_off(orders: &[OrderForces], mesh: usize) -> f64 {
-    let base = |o: &&OrderForces| o.frequency_hz / o.order as f64;
-    let mut all: Vec<&OrderForces> = orders.iter().collect();
-    all.sort_by(|a, b| base(a).total_cmp(&base(b)));
-    let lowest = |same: &[&OrderForces]| {
-        let at = |place: usize| {
-            let turn = TAU * place as f64 / PLACES as f64;
-            same.iter().map(|o| (o.mesh_forces[mesh] * Complex::cis(turn * o.order as f64)).re).sum::<f64>()
-        };
-        (0..PLACES).map(at).fold(0.0, f64::min)
-    };
-    all.chunk_by(|a, b| base(b) - base(a) <= SAME * base(b)).map(|same| -lowest(same)).sum()
-}
 
 /// First and last place of each row of those that are marked.
 fn ranges(marked: &[bool]) -> Vec<[usize; 2]> {
@@ -227,22 +206,6 @@ pub(super) fn lines(vibration: &Vibration, ratios: &[f64], orders: u32) -> Vec<E
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn order(mesh: usize, order: usize, frequency_hz: f64, force: Complex<f64>) -> OrderForces {
-        OrderForces { mesh, order, frequency_hz, mesh_forces: vec![force], bearing_forces: Vec::new() }
-    }
-
-    /// Orders of one mesh count as they stand to each other: cos t + cos 2t falls by 9/8, sin t + sin 2t by 1.76; those of
-    /// two frequencies by their sum; two meshes of one frequency, as of an idler, by what is left of both.
-    #[test]
-    fn orders_take_off_what_they_reach_together() {
-        let (one, turned) = (Complex::new(8.0, 0.0), Complex::new(0.0, -8.0));
-        let near = |found: f64, wanted: f64| assert!((found - wanted).abs() < 2e-3 * wanted + 1e-9, "{found} {wanted}");
-        near(taken_off(&[order(0, 1, 50.0, one), order(0, 2, 100.0, one)], 0), 9.0);
-        near(taken_off(&[order(0, 1, 50.0, turned), order(0, 2, 100.0, turned)], 0), 8.0 * 1.7602);
-        near(taken_off(&[order(0, 1, 50.0, one), order(1, 1, 33.0, turned)], 0), 16.0);
-        near(taken_off(&[order(0, 1, 50.0, one), order(1, 1, 50.0, -one)], 0), 0.0);
-    }
 
     /// Speeds in a row are listed as one range.
     #[test]

@@ -1,9 +1,7 @@
 //! Whether the rows and the steps of a motion show what moves.
 
-use std::f64::consts::TAU;
-
 use answer::Remark;
-use study::{StudyError, mesh_harmonics, order_amplitude, unresolved_share};
+use study::{order_amplitudes, unresolved_share};
 
 use crate::remark;
 
@@ -20,8 +18,6 @@ const MORE_STEPS: f64 = 14.0;
 /// Fewer steps than this in a period of the mesh resonance show it wrongly: peak to peak off by 10 to 60 % near it (map (c)
 /// of `docs/envelope.md`).
 const COARSE: f64 = 12.0;
-/// Mesh cycles of a record whose ends are weighed down, at the least, for its orders to be told from each other.
-const TOLD_APART: f64 = 4.0;
 
 /// What a user changes for more rows and for more steps.
 #[derive(Debug, Clone, Copy)]
@@ -65,44 +61,20 @@ impl MeshRecord<'_> {
     }
 
     fn few_rows(&self) -> Option<Remark> {
-        let share = if self.comes_back {
-            unresolved_share(self.samples, 1)
-        } else {
-            // The jump from the end to the beginning is no vibration.
-            let (n, mean) = (self.samples.len() as f64, self.samples.iter().sum::<f64>() / self.samples.len() as f64);
-            let hann = |i: usize| 0.5 - 0.5 * (TAU * (i as f64 + 0.5) / n).cos();
-            let parts = self.samples.iter().enumerate();
-            unresolved_share(&parts.map(|(i, x)| hann(i) * (x - mean)).collect::<Vec<_>>(), 1)
-        };
+        let share = unresolved_share(self.samples, 1, self.comes_back);
         let (share, rows) = (share.ok().filter(|share| *share > UNRESOLVED)?, self.rows() as u64);
         let cure = self.keys.rows;
         Some(remark::few_rows(rows, 100.0 * share, rows / 4, rows / 2, 100.0 * UNRESOLVED, cure))
     }
 
     fn few_steps(&self) -> Option<Remark> {
-        let all = self.amplitudes().ok()?;
+        let all = order_amplitudes(self.samples, self.cycles, self.comes_back).ok()?;
         let sum: f64 = all.iter().sum();
         let in_period = |order: usize| self.steps / order as f64;
         let wanted = |share: f64| STEPS + MORE_STEPS * share;
         let counts = all.iter().enumerate().map(|(k, own)| (k + 1, own / sum)).filter(|(_, share)| *share > COUNTS);
         let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
         Some(remark::few_steps(in_period(order), order, 100.0 * share, wanted(share), self.keys.steps))
-    }
-
-    /// Amplitudes of the mesh orders from 1 on that rows can tell; none of a record that is too short.
-    fn amplitudes(&self) -> Result<Vec<f64>, StudyError> {
-        let (orders, whole) = (self.rows() as usize / 2, self.cycles.round());
-        let even = self.cycles == whole && self.samples.len().is_multiple_of(whole.max(1.0) as usize);
-        let short = self.cycles < TOLD_APART;
-        if even && (self.comes_back || short) {
-            let all = mesh_harmonics(self.samples, whole as usize, orders)?;
-            return Ok(all.iter().map(|h| h.amplitude).collect());
-        }
-        if short {
-            return Ok(Vec::new());
-        }
-        let places: Vec<f64> = (0..self.samples.len()).map(|i| i as f64 / self.rows()).collect();
-        (1..=orders).map(|order| order_amplitude(self.samples, &places, order as f64)).collect()
     }
 }
 
@@ -113,6 +85,8 @@ pub(crate) fn coarse_steps(steps: f64, (what, hz): (&str, f64), (keys, or): (Ste
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
 
     fn unresolved(samples: &[f64], cycles: f64, steps: f64, comes_back: bool) -> Vec<Remark> {

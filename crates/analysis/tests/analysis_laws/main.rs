@@ -26,6 +26,7 @@ mod planets;
 mod rating;
 mod rating_loads;
 mod remarks;
+mod run_ups;
 mod scale_at_rest;
 mod scale_in_motion;
 mod scaled;

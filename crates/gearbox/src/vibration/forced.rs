@@ -269,3 +269,42 @@ pub fn rms(harmonics: impl IntoIterator<Item = (f64, Complex<f64>)>) -> f64 {
     let squares = all.chunk_by(one).map(|same| same.iter().map(|(_, a)| *a).sum::<Complex<f64>>().norm_sqr());
     (0.5 * squares.sum::<f64>()).sqrt()
 }
+
+/// Places of a period at which orders are added up.
+const PLACES: usize = 128;
+
+/// How far a sum of harmonics falls below its mean: frequency, order and complex amplitude (peak) of each. Orders of one first
+/// frequency are added as they stand to each other, those of others as they meet at last.
+pub fn taken_off(harmonics: impl IntoIterator<Item = (f64, usize, Complex<f64>)>) -> f64 {
+    type Own = (f64, usize, Complex<f64>);
+    let mut all: Vec<Own> = harmonics.into_iter().map(|(hz, order, a)| (hz / order as f64, order, a)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let lowest = |same: &[Own]| {
+        let at = |place: usize| {
+            let turn = std::f64::consts::TAU * place as f64 / PLACES as f64;
+            same.iter().map(|(_, order, a)| (a * Complex::cis(turn * *order as f64)).re).sum::<f64>()
+        };
+        (0..PLACES).map(at).fold(0.0, f64::min)
+    };
+    all.chunk_by(|a: &Own, b: &Own| b.0 - a.0 <= SAME * b.0.abs()).map(|same| -lowest(same)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Orders of one mesh count as they stand to each other: cos t + cos 2t falls by 9/8, sin t + sin 2t by 1.76; those of
+    /// two frequencies by their sum; two meshes of one frequency, as of an idler, by what is left of both.
+    #[test]
+    fn orders_take_off_what_they_reach_together() {
+        let (one, turned) = (Complex::new(8.0, 0.0), Complex::new(0.0, -8.0));
+        let near = |all: &[(f64, usize, Complex<f64>)], wanted: f64| {
+            let found = taken_off(all.iter().copied());
+            assert!((found - wanted).abs() < 2e-3 * wanted + 1e-9, "{found}, not {wanted}");
+        };
+        near(&[(50.0, 1, one), (100.0, 2, one)], 9.0);
+        near(&[(50.0, 1, turned), (100.0, 2, turned)], 8.0 * 1.7602);
+        near(&[(50.0, 1, one), (33.0, 1, turned)], 16.0);
+        near(&[(50.0, 1, one), (50.0, 1, -one)], 0.0);
+    }
+}

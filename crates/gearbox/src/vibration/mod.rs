@@ -15,5 +15,5 @@ mod reduced;
 mod response;
 
 pub use excitation::{MeanMesh, MeshExcitation, MeshSample, turn_levers};
-pub use forced::{Harmonic, Vibration, rms};
+pub use forced::{Harmonic, Vibration, rms, taken_off};
 pub use mesh_cycle::own_cycle;

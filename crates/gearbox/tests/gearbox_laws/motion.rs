@@ -185,8 +185,9 @@ fn a_pitch_error_on_the_middle_shaft_shows_at_its_frequency_at_both_meshes() {
     let wrong_by = 0.01;
     let spectra = |error: f64| {
         let mut mechanism = train(Drive::Speed(Speed::Constant(60.0)), Sense::Ccw, error);
-        // 53 cycles of the first mesh are a turn of the middle shaft: one to settle, one to look at.
-        let (rows, _) = run(&mut mechanism, Scheme::Energy, 2.0 * 53.0, 40);
+        // 53 cycles of the first mesh are a turn of the middle shaft: three to settle, as dampers feel what is left of the start
+        // by its speed, one to look at.
+        let (rows, _) = run(&mut mechanism, Scheme::Energy, 4.0 * 53.0, 40);
         let turn = &rows[rows.len() - 1 - 53 * 40..rows.len() - 1];
         let force = |mesh: usize| turn.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
         ([force(0), force(1)], turn.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>())

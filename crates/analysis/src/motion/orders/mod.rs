@@ -9,4 +9,4 @@ pub use campbell::{CampbellDiagram, CriticalSpeed};
 pub use run_up::{OrderCut, PeakOverSpeed, RunUp, RunUpCycle, RunUpHeadline};
 pub use series::MotionSeries;
 pub(crate) use spectrum::window;
-pub use spectrum::{MotionSpectrum, Stretches, Waterfall, WaterfallLine, waterfall};
+pub use study::{MotionSpectrum, Stretches, Waterfall, WaterfallLine, waterfall};
