@@ -184,7 +184,8 @@ fn in_bearings(pair: SceneBuilder) -> SceneBuilder {
         held.set(&format!("wheel.bearing.damping_{axis}_ns_per_mm"), 2.0)
     });
     let tilts = along.set("wheel.bearing.stiffness_rx_nmm_per_rad", 1e8);
-    tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8)
+    // A gearbox has no damping of tilts.
+    tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8).set("wheel.bearing.damping_ratio", 0.0)
 }
 
 /// The file that `init --of-pair` writes moves as the pair: with friction, a load over time, and the wheel in its bearings,

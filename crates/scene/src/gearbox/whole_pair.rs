@@ -74,7 +74,8 @@ fn bearing(gear: &GearScene, name: &str, left: &mut Vec<String>) -> Option<Strin
     if damping_matrix_ns_mm_rad.is_some() || rx.or(ry).is_some_and(|c| c != 0.0) {
         left.push(format!("damping of the tilts in [{name}.bearing]: that of a gearbox acts along x, y and z"));
     }
-    if let Some(ratio) = damping_ratio.filter(|_| x.or(y).or(z).is_none() && damping_matrix_ns_mm_rad.is_none()) {
+    let by_ratio = damping_matrix_ns_mm_rad.is_none() && own.dampings().iter().any(Option::is_none);
+    if let Some(ratio) = damping_ratio.filter(|ratio| *ratio > 0.0 && by_ratio) {
         left.push(format!("`damping_ratio = {ratio:?}` in [{name}.bearing]: [motion] has `modal_damping_ratio`"));
     }
     let along = [x, y, z].map(|c| c.unwrap_or(0.0));
