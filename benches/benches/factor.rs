@@ -29,7 +29,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let program = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/pardiso.py");
     let python = env::var("PYTHON").unwrap_or_else(|_| "python3".into());
     println!("Whole gear, z {TEETH}, hex20, nothing kept apart; one core; wall s, fastest of {RUNS} runs.");
-    println!("\n| DOF | entries | order | factor | PARDISO: order | factor | ratio of factors | ratio of both together |");
+    println!(
+        "\n| DOF | entries | order | factor | PARDISO: order | factor | ratio of factors | ratio of both together |"
+    );
     println!("|---|---|---|---|---|---|---|---|");
     // One core for both: what is compared is the arithmetic and the order.
     let one = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
