@@ -32,7 +32,7 @@ pub use correlation::correlation;
 pub use cycle::{CycleStatistics, cycle_statistics};
 pub use error::StudyError;
 pub use flank_pattern::{FlankPattern, Touch};
-pub use harmonics::{Harmonic, order_amplitudes, mesh_harmonics, unresolved_share};
+pub use harmonics::{Harmonic, mesh_harmonics, order_amplitudes, unresolved_share};
 pub use lyapunov::{Lyapunov, LyapunovPlan, largest_lyapunov};
 pub use order_tracking::{CutPeak, cut_peak, order_amplitude};
 pub use phase_portrait::{PhasePortrait, phase_portrait};

@@ -117,7 +117,11 @@ impl VibrationResult {
     /// Meshes whose linear vibration takes more than their mean load (N) off them at some speed: flanks would lose contact.
     fn beyond_load(&self, file: &Gearbox, loads: &[f64]) -> Vec<Remark> {
         let one = |(i, (mesh, &load)): (usize, (&GearboxMesh, &f64))| {
-            let forces: Vec<f64> = self.orders.iter().map(|orders| taken_off(orders.iter().map(|o| (o.frequency_hz, o.order, o.mesh_forces[i])))).collect();
+            let forces: Vec<f64> = self
+                .orders
+                .iter()
+                .map(|orders| taken_off(orders.iter().map(|o| (o.frequency_hz, o.order, o.mesh_forces[i]))))
+                .collect();
             let beyond = |at: &usize| forces[*at] > load;
             let worst = (0..forces.len()).filter(beyond).max_by(|&a, &b| forces[a].total_cmp(&forces[b]))?;
             let size = |own: &&OrderForces| own.mesh_forces[i].norm();
