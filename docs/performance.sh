@@ -42,4 +42,6 @@ put ways text cargo bench -p benches --bench reduction
 put contact text cargo bench -p benches --bench contact_solve
 put motion table cargo bench -p benches --bench dynamic_step
 # Where Python has PARDISO (`pip install pypardiso`).
-if "${PYTHON:-python3}" -c 'import pypardiso' 2>/dev/null; then put factor table cargo bench -p benches --bench factor; fi
+if "${PYTHON:-python3}" -c 'import pypardiso' 2>/dev/null; then
+    put factor table cargo bench -p benches --bench factor
+fi

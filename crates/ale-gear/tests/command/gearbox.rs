@@ -234,11 +234,11 @@ fn a_branch_of_a_long_period_is_refused() {
     let run = scratch.ale_gear(["run", "long.toml", "--out", "o"]);
     assert_eq!(run.code, Some(2), "{}", run.stderr);
     assert!(run.stderr.contains("`most_harmonics = 18`"), "{}", run.stderr);
-    // With as many the branch begins; harmonics that leave too much out ask for a tail, and no more harmonics.
+    // With as many the branch begins; where these leave out more than any `tail` allows, none and no more harmonics are asked for.
     let keep = ["--set", "motion.continuation.most_harmonics=1", "--set", "motion.continuation.harmonics=1"];
     let few = scratch.command(&[&["run", "long.toml", "--out", "o"][..], &keep].concat());
-    assert!(few.code == Some(2) && few.stderr.contains("hint: allow a larger `tail`"), "{}", few.stderr);
-    assert!(!few.stderr.contains("take fewer"), "{}", few.stderr);
+    assert!(few.code == Some(1) && few.stderr.contains("hint: begin at another speed"), "{}", few.stderr);
+    assert!(!few.stderr.contains("most_harmonics") && !few.stderr.contains("take fewer"), "{}", few.stderr);
 }
 
 /// Every key of a gearbox file is in one of the scenes, and those run: a shaft out of a REXS file and a housing out of Nastran,

@@ -195,7 +195,8 @@ fn the_file_of_a_whole_pair_moves_as_the_pair() {
     let all: [(&str, f64, Change); 3] = [
         ("friction", 1e-8, |s| rows_are_steps(s).set("contact.friction", 0.05)),
         ("load over time", 1e-8, |s| rows_are_steps(s).set("load.amplitude_nm", 40.0).set("load.frequency_hz", 700.0)),
-        ("bearings", 1e-6, |s| in_bearings(rows_are_steps(s))),
+        // A shaft of a gearbox is a beam with its gear on it: one part in ten thousand of what the pair alone does.
+        ("bearings", 2e-4, |s| in_bearings(rows_are_steps(s))),
     ];
     for (name, bound, change) in all {
         let scene = small(change);

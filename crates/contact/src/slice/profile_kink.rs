@@ -1,7 +1,7 @@
 //! Where a profile has a kink, as at the start of a linear relief: the slope of the gap jumps there, and no method that
 //! follows it finds the place in few steps.
 
-use super::profile_search::{GapSample, LeastGapPoint, ProfilePair, RESOLUTION};
+use super::profile_search::{LeastGapPoint, Place, ProfilePair, RESOLUTION};
 
 /// Turn of the normal at a place that is a kink, rad.
 const KINK: f64 = 1e-7;
@@ -9,20 +9,6 @@ const KINK: f64 = 1e-7;
 const NEARLY: f64 = 1e-6;
 /// How far beside a kink the gap is looked at, rad: it is known to a part of that.
 const BESIDE: f64 = 4.0 * RESOLUTION;
-
-/// A place on the searched profile: roll angle, slope of the gap there (mm), roll angle of its foot.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
-    pub roll: f64,
-    pub slope: f64,
-    pub foot: f64,
-}
-
-impl Place {
-    pub fn of(roll: f64, sample: &GapSample) -> Self {
-        Self { roll, slope: sample.slope, foot: sample.foot[0] }
-    }
-}
 
 /// How the gap goes beside a kink.
 enum Beside {

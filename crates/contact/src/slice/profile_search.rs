@@ -8,7 +8,6 @@ use crate::{
     flank::FlankPatch,
     slice::SliceHint,
     slice::first_order::{FirstOrderGap, Outlook},
-    slice::profile_kink::Place,
 };
 
 /// Two flank patches, with body 1's points in body 2's frame.
@@ -34,6 +33,20 @@ pub(crate) enum LeastGapPoint {
     OtherEnd(f64),
     /// A kink of the other flank, where a linear relief begins: it presses as an edge does.
     OtherKink(f64),
+}
+
+/// A place on the searched profile: roll angle, slope of the gap there (mm), roll angle of its foot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub roll: f64,
+    pub slope: f64,
+    pub foot: f64,
+}
+
+impl Place {
+    pub fn of(roll: f64, sample: &GapSample) -> Self {
+        Self { roll, slope: sample.slope, foot: sample.foot[0] }
+    }
 }
 
 /// A place, with what is seen there where that is known.

@@ -94,6 +94,7 @@ fn shooting_finds_what_waiting_finds() {
 fn with_pitch_errors(teeth: [u32; 2], of: [bool; 2]) -> MovingPair {
     let [mut pinion, mut wheel] = testing::default_data(20.0);
     (pinion.teeth, wheel.teeth) = (teeth[0], teeth[1]);
+    (pinion.bore_diameter, wheel.bore_diameter) = (30.0, 30.0);
     let mut case = testing::of_order(1, [pinion, wheel], None, 150e3, [2, 2, 2, 2, 1], Extent::Whole);
     let wrong = |gear: &Gear, phase: f64| {
         let error = |i: u32| 2e-3 * (phase + 2.4 * f64::from(i * i)).sin();

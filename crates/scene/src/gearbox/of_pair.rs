@@ -13,6 +13,9 @@ const OF_PAIR: [&str; 6] = ["pinion", "wheel", "pair", "operation", "contact", "
 const HOLDS: [&str; 3] = ["bearing", "body", "shaft"];
 /// Density of shafts in motion, kg/m^3: a pair has no inertia but that of its gears.
 pub(super) const NO_MASS: &str = "density_kg_m3 = 1e-9\n";
+/// The same of shafts that are not held: so light a shaft has frequencies beside which those of gears in their bearings are not
+/// lost in round-off, and 1e-7 of the mass of a steel one.
+pub(super) const LIGHT: &str = "density_kg_m3 = 1e-3\n";
 /// Settings of the maps of a pair in motion: largest force over the mean, and error.
 const MAPS: &str = "map_overload = 6.0\nmap_tolerance = 3e-5\n";
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::of_pair::{Beside, NO_MASS, moving, two_shafts};
+use super::of_pair::{Beside, LIGHT, NO_MASS, moving, two_shafts};
 use crate::{Axis, BearingScene, Driver, GearScene, Model, MotionScene, Run, Scene, SceneError, TorqueScene};
 
 /// A gearbox file of a pair, and what of the scene is not in it.
@@ -53,7 +53,11 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<GearboxOfPair, SceneError> {
     );
     said.extend(["[[bearing]]", "shaft = \"pinion\"", "position_mm = 5.0"].map(str::to_owned));
     said.push("stiffness_n_per_mm = [2.0e5, 2.0e5, 8.0e4]".to_owned());
-    let of_shafts = if motion.is_some() { NO_MASS } else { "" };
+    let of_shafts = match motion {
+        Some(_) if bearings.iter().any(Option::is_some) => LIGHT,
+        Some(_) => NO_MASS,
+        None => "",
+    };
     let text = two_shafts(&scene, &Beside { said, of_shafts, bearings, of_load })?;
     Ok(GearboxOfPair { text: text + motion.as_deref().unwrap_or_default(), left })
 }
