@@ -301,7 +301,7 @@ impl GearboxMechanism {
 
     /// Nominal speed of the input at the start, rad/s about +z.
     pub(crate) fn input_speed(&self) -> f64 {
-        self.operation.sense.sign() as f64 * self.drive.start()
+        self.operation.sense.sign() as f64 * self.drive.nominal().at(0.0)
     }
 
     /// Frequency of each mesh at the speed of the start, Hz.

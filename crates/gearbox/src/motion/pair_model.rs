@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use dynamics::{
     COORDINATES, Drive, GearVibration, MapFailure, MapRequest, MeshFlanks, MeshResonance, MotionOptions as PairOptions,
-    Speed, Torque, damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
+    Torque, damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
 };
 use geometry::{Gear, GearPair};
 use integrate::Mechanism;
@@ -90,12 +90,7 @@ impl PairModel {
     /// The pair with its driver at another constant speed, rad/s.
     #[must_use]
     pub fn at_speed(&self, speed: f64) -> Self {
-        let drive = match self.options.drive.clone() {
-            Drive::Speed(_) => Drive::Speed(Speed::Constant(speed)),
-            Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
-            Drive::Torque { torque, .. } => Drive::Torque { start: speed, torque },
-        };
-        self.with_drive(drive)
+        self.with_drive(self.options.drive.clone().at_speed(speed))
     }
 
     /// Changes the options; gears and flanks stay.
@@ -200,25 +195,19 @@ impl PairModel {
         }
     }
 
-    /// Nominal speed of the driver, rad/s, and its turn in a mesh cycle, rad.
-    fn nominal(&self) -> (Speed, f64) {
-        let speed = match &self.options.drive {
-            Drive::Speed(speed) | Drive::Balanced(speed) => *speed,
-            Drive::Torque { start, .. } => Speed::Constant(*start),
-        };
-        (speed, [&self.pair.pinion, &self.pair.wheel][1 - self.options.statics.driven()].pitch_angle().abs())
+    /// Turn of the driver in a mesh cycle, rad.
+    fn pitch(&self) -> f64 {
+        [&self.pair.pinion, &self.pair.wheel][1 - self.options.statics.driven()].pitch_angle().abs()
     }
 
     /// Mesh cycles from the start to a time (s) in the nominal motion.
     pub fn cycles_until(&self, t: f64) -> f64 {
-        let (speed, pitch) = self.nominal();
-        speed.angle(t) / pitch
+        self.options.drive.nominal().angle(t) / self.pitch()
     }
 
     /// Time (s) at which so many mesh cycles have passed in the nominal motion; `None` where it stops before.
     pub fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
-        let (speed, pitch) = self.nominal();
-        speed.time_at(cycles * pitch)
+        self.options.drive.nominal().time_at(cycles * self.pitch())
     }
 
     fn driven(&self) -> &Gear {

@@ -44,7 +44,6 @@ impl ImpactMechanism {
     pub fn row(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ImpactRow {
         let (d, rate) = (self.coordinates().displacement(q), self.coordinates().displacement(v));
         let [driving, coast] = self.flank_forces(t, &d, &rate);
-        let moment = self.moment(t);
         let cycles = self.cycles(t);
         let least = match (driving.length > 0.0, coast.length > 0.0) {
             (true, true) => driving.least_force.min(coast.least_force),
@@ -54,7 +53,7 @@ impl ImpactMechanism {
         ImpactRow {
             time: t,
             mesh_phase: cycles - cycles.floor(),
-            speed: [0, 1].map(|g| moment.velocity[g] + rate[6 * g + 5]),
+            speed: [0, 1].map(|g| self.speeds(t)[g] + rate[6 * g + 5]),
             transmission_error_um: 1e3 * q[self.coordinates().lag()],
             normal_force: [driving.normal_force, coast.normal_force],
             least_slice_force: least,
