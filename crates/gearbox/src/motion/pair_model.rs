@@ -4,15 +4,15 @@
 use std::sync::Arc;
 
 use dynamics::{
-    COORDINATES, Drive, GearVibration, MapFailure, MapRequest, MeshFlanks, MeshResonance, MotionOptions as PairOptions,
-    Torque, damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
+    COORDINATES, Drive, GearVibration, MapRequest, MeshFlanks, MeshResonance, MotionOptions as PairOptions, Torque,
+    damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
 };
 use geometry::{Gear, GearPair};
 use integrate::Mechanism;
 use nalgebra::DVector;
 use reduction::ElasticGear;
 
-use super::{GearboxMechanism, MappedMesh, MovingExactMesh, MovingMesh, PairMotionError};
+use super::{GearboxMechanism, MappedMesh, MovingExactMesh, MovingMesh};
 use crate::{GearboxError, Meshing, Vector12};
 
 /// Names of the coordinates along and about the axes of each gear.
@@ -266,21 +266,21 @@ impl PairModel {
     /// times its, to an error of `tolerance`, or of `worst` at the most.
     ///
     /// # Errors
-    /// [`MapFailure::Unmapped`] without load; those of the start.
-    pub fn map_request(&self, overload: f64, [tolerance, worst]: [f64; 2]) -> Result<MapRequest, PairMotionError> {
+    /// [`GearboxError::Unmapped`] without load; those of the start.
+    pub fn map_request(&self, overload: f64, [tolerance, worst]: [f64; 2]) -> Result<MapRequest, GearboxError> {
         // A load that swings would not let the pair stand: the map is made about its mean.
         let mean = self.options.mean_load();
         if mean.is_nan() || mean == 0.0 {
             let what = "a pair without load: nothing says what forces occur";
-            return Err(MapFailure::Unmapped { what }.into());
+            return Err(GearboxError::Unmapped { what });
         }
         let options = PairOptions { load: Torque::Constant(mean), ..self.options.clone() };
-        let mut machine = Self { options, ..self.clone() }.machine().map_err(PairMotionError::at(0.0))?;
+        let mut machine = Self { options, ..self.clone() }.machine()?;
         let mut z: Option<DVector<f64>> = None;
         let mut stands = Vec::new();
         for i in 0..STANDS {
             let there = machine.standing_at(0, (i as f64 / STANDS as f64, 0.0), z.as_ref());
-            let there = there.map_err(PairMotionError::at(0.0))?;
+            let there = there.map_err(GearboxError::at(0.0))?;
             stands.push(machine.displacements(0, &there));
             z = Some(there);
         }

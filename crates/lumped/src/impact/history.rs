@@ -1,12 +1,11 @@
-//! A motion of rigid gears as rows of results.
+//! Rigid gears in motion at one time.
 
 use dynamics::Displacement;
-use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ImpactMechanism;
-use crate::{LumpedError, Recorded, Recording, equilibrium, recording::record};
+use crate::{LumpedError, equilibrium};
 
 /// One instant of a pair of rigid gears.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -97,17 +96,5 @@ impl ImpactMechanism {
         let scale = self.scale();
         let Ok(found) = equilibrium(self, 0.0, &start, &held, &scale);
         found.ok_or(LumpedError::NoEquilibrium)
-    }
-
-    /// Runs from the balance of the nominal motion.
-    ///
-    /// # Errors
-    /// Those of [`ImpactMechanism::rolling_state`], and [`LumpedError::Motion`].
-    pub fn history(&mut self, plan: &Recording) -> Result<Recorded<ImpactRow>, LumpedError> {
-        let q = self.rolling_state()?;
-        let n = q.len();
-        let scale = self.scale();
-        let start = State::new(0.0, q, DVector::zeros(n));
-        Ok(record(self, start, scale, plan, |system, state| system.row(state.time, &state.q, &state.v))?)
     }
 }
