@@ -34,8 +34,8 @@ struct Reach {
 
 /// To where a motion settles: three or four steps do. The cycles that follow are judged by all of the tolerance.
 const NEARBY: Reach = Reach { steps: 6, halvings: 0, way: 0.3, slow: 0.5, part: Some(0.1) };
-/// From anywhere. Updates learn what a method damps and the tangent flow does not in some ten or twenty steps.
-const ANYWHERE: Reach = Reach { steps: 32, halvings: 5, way: f64::INFINITY, slow: f64::INFINITY, part: None };
+/// From anywhere.
+const ANYWHERE: Reach = Reach { steps: 12, halvings: 5, way: f64::INFINITY, slow: f64::INFINITY, part: None };
 
 /// What a search for a periodic state takes beside the mechanism.
 #[derive(Debug)]
