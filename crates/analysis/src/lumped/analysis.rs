@@ -26,7 +26,7 @@ use crate::{
     facts::{Resolution, RunInfo},
     gears,
     inputs::motion_of,
-    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, Waterfall, window},
+    motion::{self, EnergyRow, MotionSeries, MotionSpectrum, RunUp, TimeSteps, Waterfall, window},
     options, plausible,
     resolution::{resolution, with_slices},
     run_phase, unless_cancelled, worse,
@@ -39,6 +39,9 @@ pub fn is_lumped(scene: &Scene) -> bool {
 
 /// Mesh cycles over which the exponent of a motion is found that does not repeat itself.
 const LYAPUNOV_INTERVALS: u32 = 200;
+
+/// Damping ratio of a mesh whose damping is given in another way: the default of `mesh_damping_ratio`.
+const USUAL_DAMPING: f64 = 0.05;
 
 /// Gets the rows of a cheaper model as they come.
 pub trait LumpedSink {
@@ -243,13 +246,12 @@ fn result(
     let mut headline = headline(scene, motion, &run, &beside)?;
     let judged = &run.survey.series;
     headline.ramp = run_up.as_ref().and_then(RunUp::headline);
+    let steps = time_steps(scene, motion, frequencies);
+    headline.certificate.step_error_percent =
+        steps.and_then(|steps| steps.error(&judged.dte_um, run.judged)).map(|error| 100.0 * error.share);
     remarks.extend(certificate_remarks(motion, &headline));
     remarks.extend(inputs.remarks_of(motion, &headline));
     if motion.ramp.is_none() {
-        let steps = match motion.error_tolerance {
-            None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
-            Some(_) => f64::INFINITY,
-        };
         remarks.extend(motion::unresolved(&judged.dte_um, run.judged, steps));
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
@@ -261,6 +263,19 @@ fn result(
     let LumpedRun { rows, energy, end, .. } = run;
     let (rows, energy) = (Arc::new(rows), Arc::new(energy));
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
+}
+
+/// Steps of a motion at constant speed; `None` where they follow an error, of a ramp, and of a mesh without one stiffness.
+fn time_steps(scene: &Scene, motion: &MotionScene, frequencies: MeshFrequencies) -> Option<TimeSteps> {
+    let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
+    let fixed = motion.ramp.is_none() && motion.error_tolerance.is_none() && resonance_hz > 0.0;
+    let damping = scene.lumped12.as_ref().map(|own| own.damping_ratio).or(motion.mesh_damping_ratio);
+    fixed.then(|| TimeSteps {
+        per_cycle: 1.0 / (frequencies.step(motion) * mesh_hz),
+        scheme: motion.scheme(),
+        resonance: resonance_hz / mesh_hz,
+        damping: damping.unwrap_or(USUAL_DAMPING),
+    })
 }
 
 /// Passes rows on, and counts mesh cycles.

@@ -16,9 +16,10 @@ use super::{
     checks::dropped_by,
     course::{self, FinishedMotion, ResumedState, Span},
     headline, motion_remarks,
+    resolved::{TimeSteps, unresolved},
     setup::{MotionInputs, PreparedMotion, QuasiStatic, Vibration, mesh_range_hz, prepare, speed},
     step_estimate::{Pace, StepDemand},
-    unresolved, window,
+    window,
 };
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer,
@@ -281,17 +282,15 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
             Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?)
         }
     };
-    let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz);
+    let steps = time_steps(motion, &prepared, headline.mesh_frequency_hz);
+    headline.certificate.step_error_percent =
+        steps.and_then(|steps| steps.error(&series.dte_um, headline.cycles)).map(|error| 100.0 * error.share);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
         remarks.extend(ramp.run_up.coarse_cut());
     }
     if motion.ramp.is_none() {
-        let steps = match motion.error_tolerance {
-            None => 1.0 / (step_s * headline.mesh_frequency_hz),
-            Some(_) => f64::INFINITY,
-        };
         remarks.extend(unresolved(&series.dte_um, headline.cycles, steps));
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
@@ -299,6 +298,17 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     let FinishedMotion { rows, layout, patterns, .. } = done;
     let rows = Arc::new(rows);
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
+}
+
+/// Steps of a motion at constant speed; `None` where they follow an error, and of a ramp.
+fn time_steps(motion: &MotionScene, prepared: &PreparedMotion, mesh_hz: f64) -> Option<TimeSteps> {
+    let resonance = prepared.system.mesh_resonance();
+    (motion.ramp.is_none() && motion.error_tolerance.is_none()).then(|| TimeSteps {
+        per_cycle: 1.0 / (prepared.settings.step(1.0 / mesh_hz) * mesh_hz),
+        scheme: prepared.settings.scheme,
+        resonance: resonance.hz / mesh_hz,
+        damping: resonance.damping,
+    })
 }
 
 /// Remark on the torque at the driven gear that the ramp of a scene takes.

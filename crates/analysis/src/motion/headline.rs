@@ -149,6 +149,8 @@ described::described! {
         pub rows_on_both_flanks: usize,
         /// bound of the displacement that such rows leave out, because in motion neither flank bends the other: the smaller of both forces over the mean mesh stiffness along the normal
         pub flank_coupling_bound_um: f64,
+        /// by how much of itself steps may change the peak to peak of the DTE at most, estimated from its harmonics beside the mesh resonance ([theory](theory.md), equation 66a); `null` of a ramp, and where steps follow an error
+        pub step_error_percent: Option<f64>,
         /// steps that were taken
         pub steps: u64,
         /// steps that were taken back and divided: too large an error, no solution, or beyond the stability limit of an explicit method
@@ -331,6 +333,7 @@ fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMo
         // A force on one flank of a tooth bends the other flank by less than its own, F / k, and of the two forces only
         // the smaller is shared.
         flank_coupling_bound_um: survey.shared_force / along_normal,
+        step_error_percent: None,
         steps: counts.steps,
         refused_steps: counts.refused,
     }

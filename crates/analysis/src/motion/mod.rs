@@ -45,7 +45,7 @@ pub use orders::{
     RunUpHeadline, Stretches, Waterfall, WaterfallLine, waterfall,
 };
 pub use precision::{MotionPrecision, MotionPrecisionPoint, motion_precision};
-pub(crate) use resolved::unresolved;
+pub(crate) use resolved::{TimeSteps, unresolved};
 pub use row::{BearingRow, EnergyRow, MotionLayout, MotionRow, RootStressRow};
 pub use setup::{
     ElasticHeadline, InertiaHeadline, KeptModes, QuasiStatic, RPM, bearing, drive, motion_options, refuse_unstable,

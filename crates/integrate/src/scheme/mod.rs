@@ -4,6 +4,7 @@
 mod energy;
 mod generalised_alpha;
 mod runge_kutta;
+mod steady;
 
 use energy::DiscreteGradient;
 use generalised_alpha::Coefficients;
