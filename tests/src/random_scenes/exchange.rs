@@ -7,7 +7,7 @@ use scene::{Scene, Value};
 use super::{
     Draft, RandomScene,
     headline::{AT_REST, compare},
-    laws::{Told, is_at_rest, is_plain},
+    told::{Told, is_at_rest, is_plain},
 };
 
 /// Positions at which numbers of the cycle do not depend on where it begins.

@@ -1,4 +1,4 @@
-//! A misalignment in the plane of action acts as a lead slope of its amount times cos(b_b).
+//! A misalignment of a spur pair in the plane of action acts as a lead slope. Teeth at an angle slide along each other as well.
 
 use std::path::Path;
 
@@ -7,20 +7,21 @@ use scene::{Scene, Value};
 use super::{
     Draft, RandomScene,
     headline::{AT_REST, compare},
-    laws::{Told, is_at_rest, is_plain},
+    told::{Told, is_at_rest, is_plain},
 };
 
-/// Misalignment and slope, um.
-const AMOUNT: f64 = 8.0;
+/// Misalignment and slope over the face width: um a mm.
+const AMOUNT: f64 = 0.1;
 /// Relative difference: a flank that leans touches elsewhere as well, by its square.
-const SAME: f64 = 5e-3;
+const SAME: f64 = 2e-3;
 
-/// The scene with a misalignment, and with a lead slope in its place; `None` of other contact than slices, and of two face
-/// widths.
+/// The scene with a misalignment, and with a lead slope in its place; `None` of helical pairs, of other contact than slices, and of
+/// two face widths.
 pub fn tell(_: u64, scene: &RandomScene) -> Option<Told> {
     let d = &scene.draft;
     let nodal = d.get("contact.method").and_then(Value::as_str) == Some("nodal");
-    if !is_plain(scene) || !is_at_rest(scene) || scene.model == "iso" || nodal {
+    let helical = d.number("pinion.helix_angle_deg").is_some_and(|angle| angle != 0.0);
+    if !is_plain(scene) || !is_at_rest(scene) || scene.model == "iso" || nodal || helical {
         return None;
     }
     let whole = Scene::parse(&d.text().ok()?, Path::new("scene.toml")).ok()?;
@@ -30,10 +31,10 @@ pub fn tell(_: u64, scene: &RandomScene) -> Option<Told> {
     }
     let table: toml::Table = toml::from_str(&whole.to_toml()).ok()?;
     let [mut first, mut other] = [(); 2].map(|()| Draft::of_table(table.clone()));
-    add(&mut first, "pair.misalignment.in_plane_of_action_um", AMOUNT);
-    let slope = AMOUNT * whole.gear_pair().ok()?.base_helix_angle().cos();
+    let amount = AMOUNT * one;
+    add(&mut first, "pair.misalignment.in_plane_of_action_um", amount);
     for flank in ["drive", "coast"] {
-        add(&mut other, &format!("pinion.modification.{flank}.lead_slope_um"), slope);
+        add(&mut other, &format!("pinion.modification.{flank}.lead_slope_um"), amount);
     }
     let differ = move |one: &Path, other: &Path| compare(one, other, &AT_REST, SAME);
     Some(Told { first: Some(first), other, compare: Box::new(differ) })

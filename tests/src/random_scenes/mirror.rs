@@ -7,7 +7,7 @@ use scene::Value;
 use super::{
     Csv, Draft, RandomScene,
     csv::largest,
-    laws::{Told, is_at_rest},
+    told::{Told, is_at_rest},
 };
 
 /// Largest difference over the largest value of a column.

@@ -13,7 +13,7 @@
 //! | `whole_range` | any key of the schema over its whole range |
 //! | `laws` | laws that no model may break: the same scene told in another way |
 //! | `mirror`, `size`, `exchange`, `driver`, `lead` | one of them each |
-//! | `headline` | headlines of two results that ought to agree |
+//! | `told`, `headline` | a scene told again; headlines of two results that ought to agree |
 //! | `attempt` | the program run on one scene in a process of its own, within limits of time and memory |
 //! | `trial` | a scene solved and judged, and held against a law |
 //! | `judge`, `balance`, `case`, `csv` | what must hold of the files of a result |
@@ -43,6 +43,7 @@ mod rating;
 mod refusals;
 mod rings;
 mod size;
+mod told;
 mod trial;
 mod verdict;
 mod whole_range;

@@ -14,7 +14,7 @@ use scene::{Scene, Value};
 use super::{
     Csv, Draft, RandomScene,
     csv::largest,
-    laws::{Told, is_at_rest, is_plain},
+    told::{Told, is_at_rest, is_plain},
 };
 
 /// Size over that of the scene.
