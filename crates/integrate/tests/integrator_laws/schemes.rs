@@ -296,8 +296,8 @@ impl Mechanism for Shaken {
     }
 }
 
-/// The steady answer to a harmonic force has the amplitude that theory says of the steps: below, at and above resonance.
-/// Explicit methods are exact to the fourth order of the step.
+/// The steady answer to a harmonic force has the amplitude that theory says of the steps: below, at and above resonance. That
+/// of Dormand and Prince lies nearer to the exact one than what stands for it.
 #[test]
 fn steps_change_a_steady_answer_as_theory_says() {
     let damping = 0.08;
@@ -307,6 +307,7 @@ fn steps_change_a_steady_answer_as_theory_says() {
         Scheme::GeneralisedAlpha { rho: 0.6 },
         Scheme::GeneralisedAlpha { rho: 0.0 },
         Scheme::RungeKutta4,
+        Scheme::DormandPrince,
     ] {
         for ratio in [0.5f64, 0.95, 1.04, 1.6] {
             for steps in [12u32, 24] {
@@ -328,10 +329,11 @@ fn steps_change_a_steady_answer_as_theory_says() {
                 let amplitude = 2.0 / f64::from(steps) * sum(f64::cos).hypot(sum(f64::sin));
                 let exact = 1.0 / (1.0 - ratio * ratio).hypot(2.0 * damping * ratio);
                 let wanted = scheme.steady_gain(ratio * h, ratio, damping);
-                let allowed = if scheme == Scheme::RungeKutta4 { 2e-2 } else { 1e-6 };
                 let found = amplitude / exact;
+                let allowed = if scheme == Scheme::DormandPrince { (wanted - 1.0).abs() + 1e-6 } else { 1e-6 };
+                let of = if scheme == Scheme::DormandPrince { 1.0 } else { wanted };
                 assert!(
-                    (found - wanted).abs() < allowed,
+                    (found - of).abs() < allowed,
                     "{scheme:?}, {ratio} of the resonance, {steps} steps a period: {found}, by theory {wanted}"
                 );
             }
