@@ -13,11 +13,7 @@ use crate::{
 /// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes
 /// in memory.
 pub(crate) fn resolved_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
-    with_meshes_of(with_slices(scene.clone()), meshes_in_memory)
-}
-
-/// The scene; the built-in mesher has no say over meshes in memory.
-pub(crate) fn with_meshes_of(mut scene: Scene, meshes_in_memory: bool) -> Scene {
+    let mut scene = with_slices(scene.clone());
     if meshes_in_memory {
         (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
     }

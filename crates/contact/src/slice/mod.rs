@@ -2,11 +2,9 @@
 
 mod first_order;
 mod flank_pair;
-mod half_teeth;
 mod hint;
 mod mesh_contact;
 mod profile_end;
-mod profile_kink;
 mod profile_search;
 mod rigid;
 mod same_slices;
@@ -16,10 +14,10 @@ mod tooth_layer;
 
 pub(crate) use flank_pair::{FlankPair, SlicePoint};
 pub use flank_pair::{Slice, SliceFlank, slice};
-pub(crate) use half_teeth::{HalfTeeth, TableFlanks};
 pub use hint::SliceHint;
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};
 pub use rigid::{NearestPoint, RigidFlanks};
 pub use same_slices::SameSlices;
 pub use set::SliceSet;
+pub(crate) use set::TableFlanks;
 pub use tooth_layer::ToothLayer;

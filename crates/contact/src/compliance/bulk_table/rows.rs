@@ -78,99 +78,45 @@ impl WithSimd for Interpolation<'_> {
         let n = places[0].len();
         for (number, group) in of_loads.iter().enumerate() {
             let first = if symmetric { number } else { 0 };
-            for opened in &of_openings[first..] {
-                // Each load costs a pass over the tile: where S is symmetric, the smaller group is the load.
-                let swapped = symmetric && opened.rows.len() < group.rows.len();
-                let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
-                let pair = GroupPair { entries, count, load, opening };
-                // Of the lower triangle, whichever is the load.
-                let strides = if swapped { [1, n] } else { [n, 1] };
-                let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
-                let mut start = load.rows.start * strides[0] + opening.rows.start * strides[1];
-                for part in loads.chunks(AT_ONCE) {
-                    let out = &mut out[start..];
-                    match part {
-                        [_, _, _, _] => pair.add::<S, 4>(simd, (part, rows), (out, strides)),
-                        [_, _, _] => pair.add::<S, 3>(simd, (part, rows), (out, strides)),
-                        [_, _] => pair.add::<S, 2>(simd, (part, rows), (out, strides)),
-                        _ => pair.add::<S, 1>(simd, (part, rows), (out, strides)),
-                    }
-                    start += AT_ONCE * strides[0];
+            for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
+                if !group.along[d] {
+                    continue;
                 }
-            }
-        }
-    }
-}
-
-/// A group of loads and one of rows that these open.
-struct GroupPair<'a> {
-    entries: &'a Entries,
-    /// Points along one direction.
-    count: usize,
-    load: &'a Group,
-    opening: &'a Group,
-}
-
-/// What `K` loads do at the twelve points of a cell, run by run.
-type AtPoints<S, const K: usize> = [[Four<S>; K]; RUNS];
-
-impl GroupPair<'_> {
-    /// Adds what `K` loads open `rows` by to entries of `out`, which are `strides` apart: from load to load and from row
-    /// to row.
-    ///
-    /// What all directions of a load do along one is summed at the points, before rows look at it.
-    #[inline(always)]
-    fn add<S: Simd, const K: usize>(
-        &self,
-        simd: S,
-        (loads, rows): (&[TablePoint], &[TablePoint]),
-        (out, strides): (&mut [f64], [usize; 2]),
-    ) {
-        let Some(loads) = loads.first_chunk::<K>() else { return };
-        let Self { entries, count, load, opening } = *self;
-        let mut weights = [[[0.0; K]; RUNS * RUN]; DIRECTIONS];
-        for (d, of_points) in weights.iter_mut().enumerate().filter(|(d, _)| load.along[*d]) {
-            for (k, load) in loads.iter().enumerate() {
-                for (weights, weight) in of_points.iter_mut().zip(load.weights.as_flattened()) {
-                    weights[k] = load.parts[d] * weight;
-                }
-            }
-        }
-        let none = [[Four::splat(simd, 0.0); K]; RUNS];
-        let mut opened = [none; DIRECTIONS];
-        for e in (0..DIRECTIONS).filter(|e| opening.along[*e]) {
-            // All of these stay in registers: four loads at once are as many as there is room for.
-            let mut at_points = none;
-            for d in (0..DIRECTIONS).filter(|d| load.along[*d]) {
-                let own;
-                let tile = match entries {
-                    Entries::Whole(table) => match table.block([d, e]) {
-                        Block::Whole(block) => Tile::in_block(block, count, [load, opening]),
-                        Block::Packed(packed) => {
-                            own = table.tile(packed, [d, e], [load.runs, opening.runs]);
+                for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
+                    // Each load costs a pass over the tile: where S is symmetric, the smaller group is the load.
+                    let swapped = symmetric && opened.rows.len() < group.rows.len();
+                    let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
+                    let along = if swapped { [e, d] } else { [d, e] };
+                    let own;
+                    let tile = match entries {
+                        Entries::Whole(table) => match table.block(along) {
+                            Block::Whole(block) => Tile::in_block(block, count, [load, opening]),
+                            Block::Packed(packed) => {
+                                own = table.tile(packed, along, [load.runs, opening.runs]);
+                                Tile::of(&own)
+                            }
+                        },
+                        Entries::Layers(layers) => {
+                            let point = |b: usize, first: u32| along[b] * count + first as usize;
+                            own = layers.tile(load.runs.map(|p| point(0, p)), opening.runs.map(|p| point(1, p)));
                             Tile::of(&own)
                         }
-                    },
-                    Entries::Layers(layers) => {
-                        let point = |along: usize, first: u32| along * count + first as usize;
-                        own = layers.tile(load.runs.map(|p| point(d, p)), opening.runs.map(|p| point(e, p)));
-                        Tile::of(&own)
+                    };
+                    // Of the lower triangle, whichever is the load.
+                    let strides = if swapped { [1, n] } else { [n, 1] };
+                    let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
+                    let mut start = load.rows.start * strides[0] + opening.rows.start * strides[1];
+                    for part in loads.chunks(AT_ONCE) {
+                        let out = &mut out[start..];
+                        match part {
+                            [_, _, _, _] => tile.add::<S, 4>(simd, along, (part, rows), (out, strides)),
+                            [_, _, _] => tile.add::<S, 3>(simd, along, (part, rows), (out, strides)),
+                            [_, _] => tile.add::<S, 2>(simd, along, (part, rows), (out, strides)),
+                            _ => tile.add::<S, 1>(simd, along, (part, rows), (out, strides)),
+                        }
+                        start += AT_ONCE * strides[0];
                     }
-                };
-                at_points = tile.under(simd, &weights[d], at_points);
-            }
-            opened[e] = at_points;
-        }
-        for k in 0..K {
-            for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
-                let [a, b, c] = row.weights.each_ref().map(|weights| Four::new(simd, weights));
-                let mut sum = Four::splat(simd, 0.0);
-                for e in (0..DIRECTIONS).filter(|e| opening.along[*e]) {
-                    let [first, second, third] = &opened[e];
-                    let along = a.mul_add(first[k], b.mul_add(second[k], c * third[k]));
-                    sum = along.mul_add(Four::splat(simd, row.parts[e]), sum);
                 }
-                *entry += sum.sum();
             }
         }
     }
@@ -199,27 +145,40 @@ impl<'a> Tile<'a> {
         Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
     }
 
-    /// What is at the points already, and what `K` loads with these weights at the points of theirs add to it.
+    /// Adds what `K` loads along direction `d` open `rows` by along direction `e` to entries of `out`, which are
+    /// `strides` apart: from load to load and from row to row.
     #[inline(always)]
-    fn under<S: Simd, const K: usize>(
+    fn add<S: Simd, const K: usize>(
         &self,
         simd: S,
-        weights: &[[f64; K]; RUNS * RUN],
-        [mut first, mut second, mut third]: AtPoints<S, K>,
-    ) -> AtPoints<S, K> {
+        [d, e]: [usize; 2],
+        (loads, rows): (&[TablePoint], &[TablePoint]),
+        (out, strides): (&mut [f64], [usize; 2]),
+    ) {
+        let Some(loads) = loads.first_chunk::<K>() else { return };
         let [p0, p1, p2] = self.runs;
+        let zero = Four::splat(simd, 0.0);
+        // All of these stay in registers: four columns at once are as many as there is room for.
+        let (mut first, mut second, mut third) = ([zero; K], [zero; K], [zero; K]);
         for c in 0..RUNS {
             for (a, column) in self.columns[c].chunks_exact(self.count).enumerate().take(RUN) {
                 let (x0, x1, x2) = (run(simd, column, p0), run(simd, column, p1), run(simd, column, p2));
                 for k in 0..K {
-                    let weight = Four::splat(simd, weights[RUN * c + a][k]);
+                    let weight = Four::splat(simd, loads[k].weights[c][a]);
                     first[k] = x0.mul_add(weight, first[k]);
                     second[k] = x1.mul_add(weight, second[k]);
                     third[k] = x2.mul_add(weight, third[k]);
                 }
             }
         }
-        [first, second, third]
+        for k in 0..K {
+            let part = loads[k].parts[d];
+            for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
+                let [a, b, c] = row.weights.each_ref().map(|weights| Four::new(simd, weights));
+                let sum = a.mul_add(first[k], b.mul_add(second[k], c * third[k])).sum();
+                *entry += part * row.parts[e] * sum;
+            }
+        }
     }
 }
 
