@@ -188,20 +188,21 @@ fn in_bearings(pair: SceneBuilder) -> SceneBuilder {
     tilts.set("wheel.bearing.stiffness_ry_nmm_per_rad", 2e8).set("wheel.bearing.damping_ratio", 0.0)
 }
 
-/// The file that `init --of-pair` writes moves as the pair: with friction, a load over time, and the wheel in its bearings,
-/// to what a beam without mass between gear and bearing adds. What it does not have is named.
+/// The file that `init --of-pair` writes moves as the pair: with friction, a load over time, and the wheel in its bearings, to
+/// what its light shaft weighs. What it does not have is named; so is a damping ratio, which is of the stiffness of gears that
+/// have tilted in their bearings there, and in a pair of gears that have not.
 #[test]
 fn the_file_of_a_whole_pair_moves_as_the_pair() {
     let all: [(&str, f64, Change); 3] = [
         ("friction", 1e-8, |s| rows_are_steps(s).set("contact.friction", 0.05)),
         ("load over time", 1e-8, |s| rows_are_steps(s).set("load.amplitude_nm", 40.0).set("load.frequency_hz", 700.0)),
-        // A shaft of a gearbox is a beam with its gear on it: one part in ten thousand of what the pair alone does.
-        ("bearings", 2e-4, |s| in_bearings(rows_are_steps(s))),
+        ("bearings", 1e-6, |s| in_bearings(rows_are_steps(s)).set("motion.mesh_damping_ns_per_mm2", 0.08)),
     ];
     for (name, bound, change) in all {
         let scene = small(change);
         let GearboxOfPair { text, left } = gearbox_of_pair(&scene).unwrap();
         assert_eq!(left, [""; 0], "{name}");
+        assert!(!text.contains("tilted in their bearings"), "{name}: {text}");
         let (wanted, _, _) = alone(&scene);
         let (found, _) = moved(&scene, &text);
         assert_eq!(found.len(), wanted.len(), "{name}");
@@ -210,6 +211,12 @@ fn the_file_of_a_whole_pair_moves_as_the_pair() {
         println!("{name}: {off:.1e} of the peak to peak");
         assert!(off < bound, "{name}: off by {off:.1e}");
     }
+    let by_ratio = gearbox_of_pair(&small(in_bearings)).unwrap();
+    assert!(
+        by_ratio
+            .text
+            .contains("# `mesh_damping_ratio` is of the mesh stiffness of gears that have tilted in their bearings")
+    );
     // What has no place in a gearbox file is named.
     let partly = small(|s| s.set("wheel.body.free", vec!["x"]).set("wheel.bearing.stiffness_x_n_per_mm", 1e6));
     let GearboxOfPair { text, left } = gearbox_of_pair(&partly).unwrap();

@@ -6,14 +6,14 @@ use std::{f64::consts::TAU, sync::Arc};
 use contact::FlankProjection;
 use dynamics::{MeshFlanks, MotionOptions as PairOptions};
 use gearbox::{
-    ExactMesh, MeshElement, Meshing, Operation, StaticGearbox, Torque, Vector12,
+    ExactMesh, GearboxError, MeshElement, Meshing, Operation, StaticGearbox, Torque, Vector12,
     motion::{
         Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MotionPlan,
         MovingExactMesh, MovingMesh, Speed,
     },
 };
 use geometry::{GearPair, Sense};
-use integrate::{Forces, Mechanism, Scheme};
+use integrate::{Forces, Mechanism, OnlyRows, Row, Scheme, State};
 use ltca::StaticOptions;
 use mesh::Extent;
 use nalgebra::{DVector, SMatrix};
@@ -290,13 +290,14 @@ fn stands(friction: f64, coast: bool) -> Vec<(Vec<Vector12>, f64)> {
     (0..meshes.len()).map(of).collect()
 }
 
-/// Two stages with flanks on both sides, of maps or of the contact.
+/// Two stages with flanks on both sides, of maps or of the contact: rows, result, and for each row the normal forces of each
+/// mesh on both sides as they would be without dampers, N.
 fn run_two_stages(
     (maps, overload): (bool, f64),
     drive: Drive,
     friction: f64,
     [cycles, per_cycle]: [f64; 2],
-) -> (Vec<GearboxInstant>, GearboxRun) {
+) -> (Vec<GearboxInstant>, GearboxRun, Vec<Vec<f64>>) {
     let (structure, meshes, operation) = two_stage_box();
     let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 2000.0 };
     let stand = maps.then(|| [false, true].map(|coast| stands(friction, coast)));
@@ -326,9 +327,20 @@ fn run_two_stages(
     let start = mechanism.start(options.modal_damping).unwrap();
     let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
     let plan = MotionPlan::of_steps(Scheme::Energy, 1.0 / (fastest * per_cycle), [1, (cycles * per_cycle) as u64]);
-    let mut rows: Vec<GearboxInstant> = Vec::new();
-    let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
-    (rows, done)
+    let goal = mechanism.goal(&start, &plan).unwrap();
+    let mut course = mechanism.course(&start, &plan, None).unwrap();
+    let (mut rows, mut elastic): (Vec<GearboxInstant>, Vec<Vec<f64>>) = Default::default();
+    let of_row = |Row { system, state, .. }: Row<'_, &mut GearboxMechanism>| {
+        // At the same place and not in motion, dampers do nothing.
+        let still = State { v: 0.0 * &state.v, ..state.clone() };
+        let all = system.instant(&still)?.meshes;
+        elastic.push(all.iter().map(|own| own.normal_force + own.coast_normal_force).collect());
+        rows.push(system.instant(state)?);
+        Ok::<_, GearboxError>(())
+    };
+    course.run(&goal, &mut OnlyRows(of_row)).unwrap();
+    let done = GearboxRun::of(course, &start).unwrap();
+    (rows, done, elastic)
 }
 
 /// Two stages with friction on maps move as on the contact: transmission errors, forces and what is lost. Input less output
@@ -343,7 +355,7 @@ fn two_stages_on_maps_lose_what_friction_takes() {
     println!("lost {:.5}, on maps {:.5}, without friction {:.5}", lost(&exact.1), lost(&mapped.1), lost(&smooth.1));
     assert!((lost(&mapped.1) / lost(&exact.1) - 1.0).abs() < 5e-3, "{} beside {}", lost(&mapped.1), lost(&exact.1));
     assert!((0.002..0.05).contains(&(lost(&mapped.1) - lost(&smooth.1))));
-    for (_, run) in [&mapped, &smooth] {
+    for (_, run, _) in [&mapped, &smooth] {
         assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
         assert!(run.flanks.iter().all(|own| own.reach <= 1.0), "{:?}", run.flanks);
     }
@@ -396,10 +408,14 @@ fn torque_reverses_through_backlash_on_maps() {
             let most = |rows: &[GearboxInstant]| force(rows, 0).hypot(force(rows, 1));
             let [f, g] = [most(&exact.0), most(&mapped.0)];
             let coast = [&exact.0, &mapped.0].map(|rows| force(rows, 1));
+            let largest = |rows: &[Vec<f64>]| rows.iter().map(|own| own[mesh]).fold(0.0, f64::max);
+            let [h, k] = [largest(&exact.2), largest(&mapped.2)];
             println!(
-                "friction {friction}, mesh {mesh}: off by {off:.1e} of {:.3} mm; force {f:.0} N, on maps {g:.0} N, {coast:?} N of it on the coast flanks",
+                "friction {friction}, mesh {mesh}: off by {off:.1e} of {:.3} mm; force {f:.0} N, on maps {g:.0} N, {coast:?} N of it \
+                 on the coast flanks; largest without dampers {h:.0} N, on maps {k:.0} N",
                 spread(&a)
             );
+            assert!((k / h - 1.0).abs() < 2e-2, "mesh {mesh}: {k} N beside {h} N");
             assert!(spread(&b) > 0.05, "mesh {mesh} does not go through its backlash: {} mm", spread(&b));
             assert!(off < 1e-2 && (g / f - 1.0).abs() < 2e-2, "mesh {mesh}: off by {off:e}, {g} N beside {f} N");
         }

@@ -47,6 +47,14 @@ pub fn gearbox_of_pair(scene: &Scene) -> Result<GearboxOfPair, SceneError> {
     if motion.is_some() {
         said.push("Steps between two rows: by a mesh resonance of solid gears with 20 N/(mm um).".to_owned());
     }
+    let by_ratio = motion.as_ref().is_some_and(|text| text.contains("mesh_damping_ratio"));
+    if by_ratio && bearings.iter().any(Option::is_some) {
+        said.push(
+            "`mesh_damping_ratio` is of the mesh stiffness of gears that have tilted in their bearings, in the pair of gears \
+             that have not."
+                .to_owned(),
+        );
+    }
     said.extend(left.iter().map(|own| format!("Left out: {own}.")));
     said.push(
         "To let a shaft deflect, take `held = true` out of it, state its sections, and add its bearings:".to_owned(),
