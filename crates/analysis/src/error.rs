@@ -4,7 +4,8 @@ use std::{path::Path, sync::Arc};
 
 use answer::{FailedCheck, TableError};
 use files::{Located, Place};
-use gearbox::{GearboxError, motion::PairMotionError};
+use gearbox::GearboxError;
+use integrate::MotionError;
 use ltca::StaticError;
 use lumped::LumpedError;
 use mesh::MeshError;
@@ -44,10 +45,7 @@ pub enum AnalysisError {
     /// A standard has no rating of the pair.
     #[error("{0}")]
     Rating(Box<RatingError>),
-    /// The pair does not move as it is asked to.
-    #[error("{0}")]
-    Motion(Box<PairMotionError>),
-    /// A gearbox cannot be put together, or has no equilibrium.
+    /// A gearbox or a pair cannot be put together, has no equilibrium, or does not move as it is asked to.
     #[error("{0}")]
     Gearbox(Box<GearboxError>),
     /// No periodic motion was found.
@@ -92,10 +90,15 @@ boxed! {
     StaticError => Solver,
     LumpedError => Lumped,
     RatingError => Rating,
-    PairMotionError => Motion,
     GearboxError => Gearbox,
     PeriodicError<AnalysisError> => Periodic,
     Refusal => Refused,
+}
+
+impl From<MotionError<GearboxError>> for AnalysisError {
+    fn from(source: MotionError<GearboxError>) -> Self {
+        GearboxError::from(source).into()
+    }
 }
 
 impl From<fem::FemError> for AnalysisError {
@@ -117,10 +120,13 @@ impl From<CalculixError> for AnalysisError {
 }
 
 impl AnalysisError {
-    /// This error at a place.
+    /// This error at a place; who waits, who is told and room for rows have none.
     #[must_use]
     pub fn at(self, place: Place) -> Self {
-        Located { place, source: self }.into()
+        match self {
+            Self::Cancelled | Self::Sink(_) | Self::Rows(_) => self,
+            source => Located { place, source }.into(),
+        }
     }
 
     /// This error in a file.
@@ -173,9 +179,9 @@ impl AnalysisError {
     pub fn blame(&self) -> Blame {
         let without_result = match self.what() {
             Self::Refused(refusal) => return refusal.blame,
-            Self::Motion(_) | Self::Periodic(_) | Self::Statistics(_) => true,
-            Self::Certificate(_) | Self::Rows(_) | Self::Sink(_) | Self::Cancelled => true,
-            Self::Lumped(source) => matches!(**source, LumpedError::Motion(_) | LumpedError::NoEquilibrium),
+            Self::Periodic(_) | Self::Statistics(_) | Self::Certificate(_) => true,
+            Self::Rows(_) | Self::Sink(_) | Self::Cancelled => true,
+            Self::Lumped(source) => matches!(**source, LumpedError::NoEquilibrium),
             Self::Gearbox(source) => source.is_without_result(),
             Self::Reduction(source) => source.is_without_result(),
             Self::Solver(source) => matches!(**source, StaticError::Contact { .. } | StaticError::NoEquilibrium { .. }),
@@ -193,7 +199,6 @@ impl AnalysisError {
             Self::Solver(source) => source.hint(),
             Self::Lumped(source) => source.hint(),
             Self::Rating(_) => Some("`[rating]` asks for it: without the table the pair is solved as it is".to_owned()),
-            Self::Motion(source) => Some(source.hint()),
             Self::Gearbox(source) => source.hint(),
             Self::Periodic(_) => Some(
                 "begin where the motion is small, far from a resonance (`from`), with more `most_harmonics` or a larger `tail`; `run = \"steady\"` shows whether the motion repeats itself there".to_owned(),

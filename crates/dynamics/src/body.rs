@@ -1,10 +1,12 @@
 //! Rigid bodies and their bearings.
 
-use nalgebra::{Matrix3, Matrix6};
+use nalgebra::{Matrix3, Matrix6, SVector};
 use serde::{Deserialize, Serialize};
 
 /// Order of a gear's rigid coordinates: displacements x, y, z (mm) of its centre and turns about x, y, z (rad).
 pub const COORDINATES: usize = 6;
+/// Displacements (mm) and turns (rad) of pinion and wheel from their nominal motion, twelve in all.
+pub type Displacement = SVector<f64, { 2 * COORDINATES }>;
 
 /// Mass and inertia of a gear with what turns with it, about the gear's centre at mid-face.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -23,6 +23,11 @@ pub enum Speed {
 }
 
 impl Speed {
+    /// Whether it never changes.
+    pub fn is_constant(&self) -> bool {
+        matches!(self, Self::Constant(_))
+    }
+
     /// Speed, rad/s.
     pub fn at(&self, t: f64) -> f64 {
         match *self {
@@ -59,9 +64,7 @@ impl Speed {
             }
         }
     }
-}
 
-impl Speed {
     /// Time (s, >= 0) at which `angle` (rad, >= 0) has been turned; `None` where the motion stops before that.
     pub fn time_at(&self, angle: f64) -> Option<f64> {
         let end = match *self {

@@ -2,7 +2,6 @@
 //! machine of them (`gearbox::motion`) asks for it.
 
 mod body;
-mod coordinates;
 mod drive;
 mod elastic_displacement;
 mod equivalent_mass;
@@ -13,13 +12,11 @@ mod instant;
 mod low_frequency;
 mod mesh_flanks;
 mod mesh_side;
-mod nominal;
 mod options;
 mod rotation;
 mod side_loads;
 
-pub use body::{Bearing, COORDINATES, RigidBody};
-pub use coordinates::{Coordinates, Displacement};
+pub use body::{Bearing, COORDINATES, Displacement, RigidBody};
 pub use drive::{Speed, Torque};
 pub use elastic_displacement::ElasticDisplacement;
 pub use equivalent_mass::{damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles};
@@ -30,7 +27,6 @@ pub use instant::{FlankInstant, LoadedSlice};
 pub use low_frequency::{CHANGE_LIMIT, ElasticChange, LOW_FREQUENCY_LIMIT, MeshResonance};
 pub use mesh_flanks::{FlankDamping, FlankForces, FlankStates, MeshFlanks};
 pub use mesh_side::{ModalForce, SideState, ToothChanges};
-pub use nominal::{Nominal, NominalState};
 pub use options::{Drive, MeshDamping, MotionOptions};
 pub use rotation::rotation_share;
 pub use side_loads::SideLoads;

@@ -5,21 +5,42 @@ use serde::{Deserialize, Serialize};
 use crate::{Bearing, RigidBody, Speed, Torque, body::COORDINATES};
 use ltca::StaticOptions;
 
-/// Drive of the pair: what is prescribed of the driver.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub enum Drive {
-    /// The driver's angle is prescribed: its inertia counts as infinite.
+/// Drive of the input, in the running sense: what is prescribed of it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum Drive<T = Torque> {
+    /// Prescribed speed of the input, rad/s, constant or from one to another: its inertia counts as infinite.
     Speed(Speed),
-    /// The speed of the common motion of both gears is prescribed (of the driver), their motion against each other is
-    /// free: the driver's torque balances the load at every instant. Theory (45a).
+    /// Prescribed speed of the turn of the whole train, rad/s at the input: deviations have no momentum along it, and the
+    /// torque of the input balances loads and losses at every instant. Theory (45a), (92a), (45b).
     Balanced(Speed),
-    /// The driver starts at a speed (rad/s), and a torque (N mm, in the running sense) acts on it.
+    /// A torque on the input, which starts at a speed.
     Torque {
         /// Speed at the start, rad/s.
         start: f64,
-        /// Torque.
-        torque: Torque,
+        /// Torque, N mm.
+        torque: T,
     },
+}
+
+impl<T> Drive<T> {
+    /// Speed of the input by time where it is given, else that of the start.
+    #[inline]
+    pub fn nominal(&self) -> Speed {
+        match *self {
+            Self::Speed(speed) | Self::Balanced(speed) => speed,
+            Self::Torque { start, .. } => Speed::Constant(start),
+        }
+    }
+
+    /// The drive at another speed, constant or of the start, rad/s.
+    #[must_use]
+    pub fn at_speed(self, speed: f64) -> Self {
+        match self {
+            Self::Speed(_) => Self::Speed(Speed::Constant(speed)),
+            Self::Balanced(_) => Self::Balanced(Speed::Constant(speed)),
+            Self::Torque { torque, .. } => Self::Torque { start: speed, torque },
+        }
+    }
 }
 
 /// Damping of the mesh: a force on each slice in contact against the rate at which its flanks approach or part, at most

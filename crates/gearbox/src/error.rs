@@ -297,13 +297,23 @@ pub enum GearboxError {
         step: f64,
     },
     /// A load below what round-off of places makes of the stiffness of teeth.
-    #[error("a load of {load_n:.3e} N on the flanks is below what round-off of places makes, {lost_n:.3e} N")]
+    #[error(
+        "a load of {load_n:.3e} N on the flanks is too light: round-off of places alone makes {lost_n:.3e} N of the stiffness of the teeth"
+    )]
     LostLoad {
         /// Force of the load on the flanks, N.
         load_n: f64,
         /// Force that round-off makes, N.
         lost_n: f64,
     },
+    /// Shooting with an input whose speed is free.
+    #[error("an input that a torque drives has no period of its own: shooting needs a given speed")]
+    FreeInput,
+    /// A sweep over the speed of an input that a torque of its own drives.
+    #[error(
+        "a sweep prescribes the speed: the driver must be driven by speed, or by the torque that balances the load"
+    )]
+    SweepByTorque,
     /// A torque over time on an input whose speed is given.
     #[error("a torque over time on an input whose speed is given: the torque there is a result")]
     GivenSpeed,
@@ -317,7 +327,7 @@ pub enum GearboxError {
         bearing: String,
     },
     /// A motion could not go on.
-    #[error("the motion: {0}")]
+    #[error("{0}")]
     Motion(Box<MotionError<GearboxError>>),
     /// A map of the contact.
     #[error(transparent)]
@@ -360,6 +370,27 @@ pub enum GearboxError {
 }
 
 impl GearboxError {
+    /// What went wrong at a time (s) of a motion.
+    pub fn at(time: f64) -> impl Fn(Self) -> Self + Copy {
+        move |source| match source {
+            Self::Motion(_) => source,
+            source => MotionError::Mechanism { time, source }.into(),
+        }
+    }
+
+    /// The error of the contact, where it is what went wrong.
+    pub fn contact_error(&self) -> Option<&StaticError> {
+        match self {
+            Self::Contact(source) => Some(source),
+            Self::AtMesh { source, .. } => source.contact_error(),
+            Self::Motion(source) => match &**source {
+                MotionError::Mechanism { source, .. } => source.contact_error(),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Whether the input has a meaning and no result came out.
     pub fn is_without_result(&self) -> bool {
         match self {
@@ -492,19 +523,25 @@ impl GearboxError {
             Self::NoEquilibrium { .. } => {
                 "is every shaft held in x, y, z and against tilting, along z both ways where rolling bearings take thrust \
                  one way alone, and can the teeth carry the torques (files have N m)? Hardly any torque does not find \
-                 its way through the play of bearings"
+                 its way through the play of bearings; where a torque presses the coast flanks of a pair, give \
+                 `flanks = \"both\"`"
             }
-            Self::Map(_) => "take the mesh as \"spring\" or \"exact\"",
-            Self::Unmapped { .. } => "take the mesh as \"exact\"",
+            Self::Map(_) => {
+                "allow a larger error of the map, or solve the contact itself: the model \"reduced\", of a gearbox the mesh \
+                 \"exact\""
+            }
+            Self::Unmapped { .. } => "solve the contact itself: the model \"reduced\", of a gearbox the mesh \"exact\"",
             Self::BeyondBacklash { .. } => {
                 "give `flanks = \"both\"` in [contact] of the pair, take the mesh as \"spring\", or let it run with more load or damping"
             }
             Self::LostLoad { .. } => "give a larger torque: teeth that bear next to nothing are not known well enough",
+            Self::FreeInput => "wait for the motion to settle instead of shooting for its periodic state",
+            Self::SweepByTorque => "give the driver a speed, or let its torque balance the load",
             Self::GivenSpeed => "let a torque drive the input, or leave the torque over time out",
             Self::Seat(source) => source.hint(),
             Self::HeldTurn { .. } => "give a row and a column of zeros for the turn about z, or a matrix of five rows",
-            Self::Motion(source) => match &**source {
-                MotionError::Mechanism { source, .. } => return source.hint(),
+            Self::Motion(motion) => match &**motion {
+                MotionError::Mechanism { source, .. } => return source.hint().or_else(|| Some(motion.hint().into())),
                 other => other.hint(),
             },
             Self::AtMesh { source, .. } => return source.hint(),
@@ -516,6 +553,12 @@ impl GearboxError {
             Self::Mesh { source, .. } => return source.hint(),
         };
         Some(text.to_owned())
+    }
+}
+
+impl From<std::convert::Infallible> for GearboxError {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
     }
 }
 

@@ -7,7 +7,7 @@
 //! 3. [`Assembly`]: matrices of all nodes;
 //! 4. [`Rotors`], [`WhirlModes`], [`ModalEnergy`]: natural frequencies and whirl modes over speed;
 //! 5. [`Train`]: which way and how fast all gears turn, and the phase of every mesh;
-//! 6. [`MeshElement`]: what a mesh is asked for; a spring ([`LinearMesh`]) or the exact contact ([`ExactMesh`]);
+//! 6. [`MeshElement`]: what a mesh is asked for; the exact contact ([`ExactMesh`]) or a spring ([`motion::SpringMesh`]);
 //! 7. [`StaticGearbox`], [`GearboxPosition`]: where all of it stands under load;
 //! 8. [`Vibration`]: how it swings about that, driven by its meshes, gears with their elastic modes ([`ElasticBody`]) or rigid;
 //! 9. [`motion`]: how all of it moves in time.
@@ -60,7 +60,7 @@ pub use error::GearboxError;
 pub use exact_mesh::ExactMesh;
 pub use load_sharing::{LoadSharing, PlanetShare, load_shares, planet_play};
 pub use mesh_bears::MeshBears;
-pub use mesh_element::{LinearMesh, MeshElement, MeshForces, ModalForces, Vector12};
+pub use mesh_element::{MeshElement, MeshForces, ModalForces, Vector12};
 pub use mesh_torques::mesh_torques;
 pub use modal_energy::{Component, EnergyShare, ModalEnergy};
 pub use seat_error::SeatError;

@@ -1,7 +1,7 @@
 //! What meshes of any kind have in common: force and tangent for displacements of their gears. Theory (81).
 
 use contact::SliceResult;
-use nalgebra::{DMatrix, DVector, SMatrix, SVector, Vector6};
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use crate::GearboxError;
 
@@ -76,30 +76,4 @@ pub trait MeshElement {
 pub(crate) fn finite_cycles(cycles: f64) -> Result<f64, GearboxError> {
     let wrong = || GearboxError::OutOfRange { part: "mesh".into(), quantity: "mesh cycles", value: cycles };
     if cycles.is_finite() { Ok(cycles) } else { Err(wrong()) }
-}
-
-/// A mesh as a spring along its line of action that presses and does not pull: F = k max(0, h . q + e).
-#[derive(Debug, Clone, PartialEq)]
-pub struct LinearMesh {
-    /// What displacements of gear 1 and gear 2 compress it by, in the mesh's own axes: 1, mm.
-    pub levers: [Vector6<f64>; 2],
-    /// Stiffness along the normal, N/mm.
-    pub stiffness: f64,
-    /// What the flanks are thicker by than nominal ones, along the normal, mm.
-    pub excess: f64,
-}
-
-impl MeshElement for LinearMesh {
-    fn go_to(&mut self, _cycles: f64) -> Result<(), GearboxError> {
-        Ok(())
-    }
-
-    fn evaluate(&mut self, displacements: &Vector12) -> Result<MeshForces, GearboxError> {
-        let h = Vector12::from_fn(|i, _| self.levers[i / 6][i % 6]);
-        let compression = h.dot(displacements) + self.excess;
-        // Also no force for a compression that is no number: the solver then says that there is no equilibrium.
-        let stiffness = if compression > 0.0 { self.stiffness } else { 0.0 };
-        let normal_force = if compression > 0.0 { self.stiffness * compression } else { 0.0 };
-        Ok(MeshForces { force: -normal_force * h, tangent: -stiffness * h * h.transpose(), normal_force })
-    }
 }

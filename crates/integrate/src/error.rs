@@ -1,7 +1,5 @@
 //! Why a motion could not go on.
 
-use std::convert::Infallible;
-
 /// A motion could not go on.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -119,30 +117,6 @@ pub enum MotionError<E> {
 }
 
 impl<E> MotionError<E> {
-    /// The integrator's own trouble, apart from that of the system, which comes with its time (s).
-    ///
-    /// # Errors
-    /// The system's.
-    pub fn of_integrator(self) -> Result<MotionError<Infallible>, (f64, E)> {
-        Ok(match self {
-            Self::Mechanism { time, source } => return Err((time, source)),
-            Self::NotConverged { time, step, iterations, change } => {
-                MotionError::NotConverged { time, step, iterations, change }
-            }
-            Self::StepTooSmall { time, step, least } => MotionError::StepTooSmall { time, step, least },
-            Self::Crawls { time, steps, step, largest } => MotionError::Crawls { time, steps, step, largest },
-            Self::Unstable { time, step, longest } => MotionError::Unstable { time, step, longest },
-            Self::Singular { time, which } => MotionError::Singular { time, which },
-            Self::Lengths { mass, scale, coordinates, velocities } => {
-                MotionError::Lengths { mass, scale, coordinates, velocities }
-            }
-            Self::NotPositive { name, value } => MotionError::NotPositive { name, value },
-            Self::StandsStill { cycle } => MotionError::StandsStill { cycle },
-            Self::OtherCoordinates { checkpoint, motion } => MotionError::OtherCoordinates { checkpoint, motion },
-            Self::SpectralRadius { rho } => MotionError::SpectralRadius { rho },
-        })
-    }
-
     /// Hint: an action that cures the error.
     pub fn hint(&self) -> &'static str {
         match self {

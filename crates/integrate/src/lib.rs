@@ -24,8 +24,8 @@ mod stepper;
 mod sweep;
 
 pub use course::{
-    Checkpoint, Compared, Counts, Course, CycleTimes, EvenRows, Follower, Goal, Method, OnlyRows, Resumable, Row,
-    RowPlace, RowReader, Settle, Stage, Stop, Timetable,
+    Ahead, Checkpoint, Compared, Counts, Course, CycleTimes, EvenRows, Follower, Goal, Method, OnlyRows, Resumable,
+    Row, RowPlace, RowReader, Settle, Stage, Stop, Timetable,
 };
 pub use eigenvalues::eigenvalues;
 pub use error::MotionError;

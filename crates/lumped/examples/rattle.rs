@@ -3,15 +3,15 @@
 //! `cargo run -p lumped --example rattle`
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use std::{error::Error, f64::consts::TAU};
+use std::{convert::Infallible, error::Error, f64::consts::TAU};
 
 use dynamics::RigidBody;
 use geometry::{Driver, Gear, GearData, GearPair, Sense};
-use integrate::Scheme;
+use integrate::{Course, EvenRows, Method, MotionError, Row, Scheme, StepControl};
 use lumped::{
-    Fourier, LumpedPair, MeshCycle, Operation, RunPlan,
-    lumped8::{Lumped8, MeshLaw, Support8},
-    run,
+    Fourier, HistoryRow, LumpedModel, LumpedPair, MeshCycle, Operation,
+    lumped8::{Lumped8, MeshLaw, Motion8, Support8},
+    starting_state,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -38,15 +38,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         };
         let pair = LumpedPair::new(&gears, &operation, bodies, cycle.clone())?;
         let mut motion = Lumped8::new(pair, [support; 2], 0.02, 0.01, MeshLaw::Normal)?.motion()?;
-        let plan = RunPlan {
-            scheme: Scheme::GeneralisedAlpha { rho: 0.9 },
-            rows_per_cycle: 64,
-            steps_per_row: 1,
-            settling_cycles: 200,
-            cycles: 20,
-        };
-        let rows = run(&mut motion, &plan, None)?.rows;
-        let range = |of: fn(&lumped::HistoryRow) -> f64| {
+        let rows = rows(&mut motion)?;
+        let range = |of: fn(&HistoryRow) -> f64| {
             rows.iter().map(of).fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
         };
         let ([least, largest], [low, high]) = (range(|r| r.normal_force), range(|r| 1e3 * r.transmission_error));
@@ -59,4 +52,22 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     Ok(())
+}
+
+/// Twenty mesh cycles of 64 rows, each a step, after two hundred in which the motion settles.
+fn rows(motion: &mut Motion8) -> Result<Vec<HistoryRow>, MotionError<Infallible>> {
+    let period = 1.0 / motion.pair().clock.mesh_frequency();
+    let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
+    let method = Method { scheme, scale: motion.scale(), stop_at_events: false, keep_stable: false };
+    let (first, spacing) = (200.0 * period, period / 64.0);
+    let times = EvenRows { method, control: StepControl::Fixed(spacing), first, spacing, rows: 20 * 64 };
+    let start = starting_state(motion);
+    let mut course = Course::new(motion, times, start);
+    course.run_cycle::<MotionError<Infallible>>(None)?;
+    let mut rows = Vec::new();
+    course.run_cycle(Some(&mut |Row { system, state, .. }: Row<'_, &mut Motion8>| {
+        rows.push(system.row(state.time, &state.q, &state.v));
+        Ok::<_, MotionError<Infallible>>(())
+    }))?;
+    Ok(rows)
 }

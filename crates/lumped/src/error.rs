@@ -85,14 +85,6 @@ pub enum LumpedError {
         /// Station, from 0.
         station: usize,
     },
-    /// A mesh that is named and not there.
-    #[error("there is no mesh {mesh}; there are {count} (they count from 0)")]
-    NoMesh {
-        /// Mesh, from 0.
-        mesh: usize,
-        /// Number of meshes.
-        count: usize,
-    },
     /// A shaft that no chain of meshes joins to shaft 0.
     #[error("shaft {shaft} meshes with nothing that turns with shaft 0")]
     NotConnected {
@@ -133,9 +125,6 @@ pub enum LumpedError {
     /// A driver whose torque balances the load needs elastic teeth.
     #[error("rigid gears are driven by a speed or by a torque of its own")]
     BalancedDrive,
-    /// The integrator stopped.
-    #[error(transparent)]
-    Motion(#[from] integrate::MotionError<std::convert::Infallible>),
 }
 
 impl LumpedError {
@@ -152,9 +141,7 @@ impl LumpedError {
             Self::Beam(source) => return source.hint(),
             Self::OffShaft { .. } => "positions count from the beginning of the shaft's first segment".into(),
             Self::SameStation { .. } => "put both masses into one station".into(),
-            Self::NoStation { .. } | Self::NoMesh { .. } => {
-                "count them from 0, in the order in which they are given".into()
-            }
+            Self::NoStation { .. } => "count them from 0, in the order in which they are given".into(),
             Self::NotConnected { .. } => "add the mesh that drives it, or leave the shaft out".into(),
             Self::Ratios { .. } => "numbers of teeth around a closed train must agree".into(),
             Self::Free { .. } => "give the shaft two supports and a thrust bearing, or keep the coordinate".into(),
@@ -177,7 +164,6 @@ impl LumpedError {
                 "is every shaft held in x, y, z and against tilting, and is every stiffness in its unit?".into()
             }
             Self::BalancedDrive => "give the driver a speed, or a torque of its own".into(),
-            Self::Motion(source) => source.hint().into(),
             Self::Lengths { .. } => "sample every quantity at the same phases of the mesh cycle".into(),
         })
     }

@@ -1,14 +1,14 @@
-//! What a lumped model says at one time, in the words of the reduced model's history; and a run of it.
+//! What a lumped model says at one time, in the words of the reduced model's history.
 
 use std::convert::Infallible;
 
 use contact::Wrench;
 use geometry::Vec3;
-use integrate::{Mechanism, MotionError, Scheme, State, StepControl};
+use integrate::{Mechanism, State};
 use nalgebra::DVector;
 use serde::Serialize;
 
-use crate::{LumpedPair, MeshFrame, Recorded, Recording, recording::record};
+use crate::{LumpedPair, MeshFrame};
 
 /// One row of a history.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -57,66 +57,12 @@ pub trait LumpedModel: Mechanism<Error = Infallible> {
     fn scale(&self) -> DVector<f64>;
 }
 
-/// Plan of a run of a model.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct RunPlan {
-    /// Method of integration.
-    pub scheme: Scheme,
-    /// Rows in a mean mesh cycle, >= 1.
-    pub rows_per_cycle: usize,
-    /// Steps from row to row, >= 1.
-    pub steps_per_row: usize,
-    /// Mesh cycles before the first row.
-    pub settling_cycles: usize,
-    /// Mesh cycles with rows.
-    pub cycles: usize,
-}
-
-impl RunPlan {
-    /// Times of steps and rows of the plan, for a mesh cycle that takes `period` (s).
-    ///
-    /// # Errors
-    /// [`MotionError::NotPositive`] for a plan without rows.
-    fn recording(&self, period: f64) -> Result<Recording, MotionError<Infallible>> {
-        let counts = [
-            ("rows in a mesh cycle", self.rows_per_cycle as f64),
-            ("steps in a row", self.steps_per_row as f64),
-            ("mesh cycles of a run", self.cycles as f64),
-        ];
-        if let Some((name, value)) = counts.into_iter().find(|(_, count)| *count == 0.0) {
-            return Err(MotionError::NotPositive { name, value });
-        }
-        let steps = self.rows_per_cycle as f64 * self.steps_per_row as f64;
-        Ok(Recording {
-            scheme: self.scheme,
-            control: StepControl::Fixed(period / steps),
-            settle: self.settling_cycles as f64 * period,
-            duration: self.cycles as f64 * period,
-            rows: self.cycles * self.rows_per_cycle,
-        })
-    }
-}
-
 /// State in which a run starts: the loaded pair at rest as for speed to zero, moving with the nominal rotation; all
 /// zero where nothing holds it.
 pub fn starting_state(model: &impl LumpedModel) -> State {
     let n = model.mass().nrows();
     let start = model.quasi_static(model.pair().clock.cycles(0.0)).unwrap_or_else(|| DVector::zeros(n));
     State::new(0.0, start, DVector::zeros(n))
-}
-
-/// Runs a model from `from` on ([`starting_state`] where there is none) with fixed steps.
-///
-/// # Errors
-/// [`MotionError`] when a step does not settle or the plan has no rows.
-pub fn run<M: LumpedModel>(
-    model: &mut M,
-    plan: &RunPlan,
-    from: Option<State>,
-) -> Result<Recorded<HistoryRow>, MotionError<Infallible>> {
-    let recording = plan.recording(1.0 / model.pair().clock.mesh_frequency())?;
-    let (state, scale) = (from.unwrap_or_else(|| starting_state(model)), model.scale());
-    record(model, state, scale, &recording, |model, state| model.row(state.time, &state.q, &state.v))
 }
 
 /// Mesh forces of a model in its own axes, for [`HistoryRow`].

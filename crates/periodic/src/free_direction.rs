@@ -1,6 +1,6 @@
 //! A motion that nothing holds.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DefaultAllocator, Dim, Dyn, OMatrix, allocator::Allocator};
 
 /// A direction of the coordinates along which no force acts: r with K r = 0, r' M r = 1.
 ///
@@ -26,7 +26,10 @@ impl FreeDirection {
     }
 
     /// Takes it out of coordinates or velocities, column by column.
-    pub fn remove(&self, x: &mut DMatrix<f64>) {
+    pub fn remove<C: Dim>(&self, x: &mut OMatrix<f64, Dyn, C>)
+    where
+        DefaultAllocator: Allocator<Dyn, C>,
+    {
         for mut column in x.column_iter_mut() {
             let share = self.momentum.dot(&column);
             column.axpy(-share, &self.direction, 1.0);

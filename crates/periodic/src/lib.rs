@@ -33,7 +33,7 @@ pub use free_direction::FreeDirection;
 pub use linear_machine::LinearMachine;
 pub use plan::BranchPlan;
 pub use series::FourierSeries;
-pub use shooting::Shooting;
+pub use shooting::{Shooting, Shot};
 pub use solution::{BalanceOptions, PeriodicMotion};
 pub use stability::{Floquet, Loss, TangentFlow};
 pub use turns::Bifurcation;

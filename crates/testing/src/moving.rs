@@ -4,7 +4,9 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque, equivalent_mass};
 use fem::Material;
-use gearbox::motion::{GearboxMechanism, PairModel, PairMotion, PairSettings, SweepPlan, SweepPoint, instants, sweep};
+use gearbox::motion::{
+    CycleSteps, GearboxMechanism, MotionTimes, PairModel, PairMotion, SweepPlan, SweepPoint, instants, sweep,
+};
 use integrate::{Scheme, State};
 use ltca::{StaticOptions, StaticPosition};
 use mesh::MeshedGear;
@@ -94,12 +96,16 @@ impl MovingPair {
     }
 
     /// `rows` a mesh cycle, at least 12 steps in a period of the resonance.
-    pub fn settings(&self, pair: &PairModel, scheme: Scheme, rows: usize) -> PairSettings {
-        PairSettings {
+    pub fn times(&self, pair: &PairModel, scheme: Scheme, rows: usize) -> MotionTimes {
+        self.times_showing(pair, scheme, [rows, 12])
+    }
+
+    /// The same with so many steps in a period of the resonance.
+    pub fn times_showing(&self, pair: &PairModel, scheme: Scheme, steps: [usize; 2]) -> MotionTimes {
+        let [rows, per_period] = steps.map(|n| n as u64);
+        MotionTimes {
             scheme,
-            rows,
-            steps_per_resonance: 12,
-            resonance_hz: pair.mesh_resonance_hz(),
+            steps: CycleSteps::Showing { rows, per_period, hz: pair.mesh_resonance_hz() },
             tolerance: None,
             stop_at_events: false,
             scale: pair.scale(self.ste[0]),
@@ -107,9 +113,9 @@ impl MovingPair {
     }
 
     /// From quasi-static balance on.
-    pub fn motion(&self, pair: PairModel, settings: PairSettings) -> PairMotion {
+    pub fn motion(&self, pair: PairModel, times: MotionTimes) -> PairMotion {
         let (machine, start) = started(&pair, 0.0);
-        PairMotion::new(machine, settings, start)
+        PairMotion::new(machine, times, start)
     }
 }
 

@@ -50,11 +50,8 @@ pub(super) struct AtRest<'a> {
 impl AtRest<'_> {
     /// How its motion is integrated.
     pub fn plan(&self, asked: &GearboxMotion) -> MotionPlan {
-        // A ramp has its longest steps where it is slowest.
-        let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
         MotionPlan {
             scheme: asked.scheme,
-            step: 1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle)),
             cycles: u64::from(asked.cycles),
             steps_per_cycle: u64::from(asked.steps_per_cycle),
             steps_per_row: u64::from(asked.steps_per_row),
@@ -63,6 +60,12 @@ impl AtRest<'_> {
             settle: asked.settle.map(|(tolerance, most)| Settle { tolerance, most: u64::from(most) }),
             shoots: asked.shoots,
         }
+    }
+
+    /// Length of a step, s; of a ramp the longest, where it is slowest.
+    pub fn step(&self, asked: &GearboxMotion) -> f64 {
+        let slowest = asked.speed_rpm.min(asked.to_speed_rpm.unwrap_or(asked.speed_rpm)) * TAU / 60.0;
+        1.0 / (self.fastest(slowest) * f64::from(asked.steps_per_cycle))
     }
 
     /// Given speed of the input: constant, or a ramp over all cycles.

@@ -11,8 +11,7 @@ use gearbox::{
         MotionOptions, MotionPlan,
     },
 };
-use integrate::{Follower, MotionError, Periodicity, Row, Stage, State};
-use nalgebra::DVector;
+use integrate::{Ahead, Follower, Periodicity, Row, Stage, State};
 use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 use study::Window;
 
@@ -149,21 +148,20 @@ pub(super) fn run(
     let frequencies = mechanism.mesh_frequencies();
     let reduction = *mechanism.bodies().certificate();
     let mut course = mechanism.course(&start, &plan, from).map_err(failed)?;
-    let scale = course.timetable().scale().clone();
-    let mut told = Outcome { rows, sink, plan, scale };
+    let mut told = Outcome { rows, sink, plan };
     let mut stopped = false;
     if let (Some(settle), false) = (plan.settle, course.stage().recording) {
         stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
             course.settle(&goal, &mut InPhase { told: &mut told, progress, settling: Some(settle.tolerance) })
         })
-        .map_err(|e| e.of(failed))?;
+        .map_err(|e| e.in_file(&rest.file.file))?;
     }
     if !stopped {
         let left = PhaseWork::Steps(plan.cycles - course.stage().recorded.min(plan.cycles));
         stopped = run_phase(observer, "run", left, |progress| {
             course.record(&goal, &mut InPhase { told: &mut told, progress, settling: None })
         })
-        .map_err(|e| e.of(failed))?;
+        .map_err(|e| e.in_file(&rest.file.file))?;
     }
     let stopped = stopped.then(|| course.cycle());
     let done = GearboxRun::of(course, &start).map_err(failed)?;
@@ -172,7 +170,7 @@ pub(super) fn run(
     let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
     let even = rows.len().min(even as usize + 1);
     let found = done.periodicity.filter(|_| plan.settle.is_some());
-    let window = window(found, plan.settle.map_or(0.0, |settle| settle.tolerance), plan.cycles);
+    let window = window(found, plan.periodic_tolerance(), plan.cycles);
     let at_rest: Vec<f64> = cycles.iter().map(|own| own.normal_force).collect();
     let reached = ReachedByRows::of(&rows, &frequencies, asked.to_speed_rpm.map(|_| &at_rest[..]))?;
     let orders = orders(&rows, asked.waterfall_cycles)?;
@@ -213,7 +211,7 @@ pub(super) fn run(
         mesh_frequencies: frequencies,
         stiffness,
         damping,
-        step: plan.step,
+        step: rest.step(asked),
         steps: [done.steps, done.divided],
         energy: done.energy,
         gear_modes: gear_frequencies(rest.file.gears.len(), rest.modes),
@@ -243,8 +241,6 @@ struct Outcome<'a> {
     rows: RowStore<GearboxInstant>,
     sink: &'a mut dyn GearboxSink,
     plan: MotionPlan,
-    /// Sizes of the coordinates.
-    scale: DVector<f64>,
 }
 
 /// The same in one phase of the analysis.
@@ -255,43 +251,16 @@ struct InPhase<'a, 'b> {
     settling: Option<f64>,
 }
 
-/// Why a motion ended.
-enum Ended {
-    Motion(GearboxError),
-    Analysis(AnalysisError),
-}
-
-impl Ended {
-    fn of(self, failed: impl Fn(GearboxError) -> AnalysisError) -> AnalysisError {
-        match self {
-            Self::Motion(e) => failed(e),
-            Self::Analysis(e) => e,
-        }
-    }
-}
-
-impl From<MotionError<GearboxError>> for Ended {
-    fn from(e: MotionError<GearboxError>) -> Self {
-        Self::Motion(e.into())
-    }
-}
-
-impl From<AnalysisError> for Ended {
-    fn from(e: AnalysisError) -> Self {
-        Self::Analysis(e)
-    }
-}
-
 impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
-    type Error = Ended;
+    type Error = AnalysisError;
 
-    fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), Ended> {
-        let instant = row.system.instant(row.state).map_err(Ended::Motion)?;
+    fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), AnalysisError> {
+        let instant = row.system.instant(row.state)?;
         self.told.sink.row(&instant).map_err(AnalysisError::Sink)?;
-        Ok(self.told.rows.push(instant).map_err(AnalysisError::from)?)
+        Ok(self.told.rows.push(instant)?)
     }
 
-    fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {
+    fn cycle(&mut self, stage: &Stage) -> Result<(), AnalysisError> {
         self.progress.tick();
         unless_cancelled(self.progress)?;
         if let (Some(tolerance), Some(found)) = (self.settling, stage.periodicity) {
@@ -304,16 +273,11 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
         self.told.plan.seeks(found)
     }
 
-    fn nearer(
-        &mut self,
-        system: &mut &mut GearboxMechanism,
-        state: &State,
-        _: Periodicity,
-    ) -> Result<Option<State>, Ended> {
-        system.nearer(state, &self.told.plan, &self.told.scale).map_err(Ended::Motion)
+    fn nearer(&mut self, system: &mut &mut GearboxMechanism, period: &Ahead) -> Result<Option<State>, AnalysisError> {
+        Ok(system.nearer(period, self.told.plan.periodic_tolerance())?)
     }
 
-    fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), Ended> {
-        Ok(self.told.sink.checkpoint(state).map_err(AnalysisError::Sink)?)
+    fn checkpoint(&mut self, state: GearboxCheckpoint) -> Result<(), AnalysisError> {
+        self.told.sink.checkpoint(state).map_err(AnalysisError::Sink)
     }
 }

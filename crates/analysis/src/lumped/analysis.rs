@@ -23,6 +23,7 @@ use super::{
 use crate::{
     AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, Progress, SinkResult,
     certificate::Checks,
+    error::in_scene,
     facts::{Resolution, RunInfo},
     gears,
     in_motion::{self, MeshRecord, StepKeys, coarse_steps},
@@ -181,14 +182,14 @@ impl<'a> LumpedAnalysis<'a> {
         let positions = scene.analysis.positions_per_cycle as usize;
         let static_cycle = run_phase(observer, "quasi-static", PhaseWork::Unknown, |_| system.static_cycle(positions));
         // Standing, the model stands where it begins: this comes before the run.
-        let free = free_turn(&mut system.model).map_err(|e| e.of(&scene))?;
+        let free = free_turn(&mut system.model).map_err(in_scene(&scene))?;
         let steps = PhaseWork::Steps(u64::from(scene.analysis.cycles));
         let run = run_phase(observer, "motion", steps, |progress| {
             let Self { checkpoint_every, resume, .. } = *self;
             let plan = RunPlan { scene: &scene, motion, frequencies, from: None, checkpoint_every, resume };
             plan.run(&mut system.model, &mut RowsOnward { progress, sink })
         });
-        let run = run.map_err(|e| e.of(&scene))?;
+        let run = run.map_err(in_scene(&scene))?;
         let at_rest = static_cycle.iter().flatten().map(|point| 1e3 * point.error);
         facts.certificate = certificate(&inputs, &run, at_rest)?.and(Checks::new(system.model.checks()));
         let tolerance = motion.periodic_tolerance.unwrap_or(f64::INFINITY);
@@ -198,7 +199,7 @@ impl<'a> LumpedAnalysis<'a> {
             let found = run_phase(observer, "exponent", PhaseWork::Unknown, |_| {
                 exponent(of, motion, &run.end, frequencies, LYAPUNOV_INTERVALS)
             });
-            found.map_err(|e| e.of(&scene))
+            found.map_err(in_scene(&scene))
         };
         let lyapunov = restless.then(&mut found).transpose()?;
         result(&inputs, &system, run, RunResults { facts, static_cycle, campbell, lyapunov, remarks })
@@ -314,7 +315,7 @@ pub(super) fn checked_run(
     let frequencies = inputs.frequencies(motion, resonance_hz);
     refuse_unstable(scene, motion, model, frequencies)?;
     let plan = RunPlan { scene, motion, frequencies, from, checkpoint_every: 0, resume: None };
-    let run = plan.run(model, &mut NoRunObserver).map_err(|e| e.of(scene))?;
+    let run = plan.run(model, &mut NoRunObserver).map_err(in_scene(scene))?;
     let checks = certificate(inputs, &run, std::iter::empty())?.and(Checks::new(model.checks()));
     crate::certificate::verdict(&checks, scene)?;
     Ok((run, checks))
@@ -328,7 +329,7 @@ pub(super) fn refuse_unstable(
     frequencies: MeshFrequencies,
 ) -> Result<(), AnalysisError> {
     let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
-    let limit = stable_step(model, motion, mesh_hz).map_err(|e| e.of(scene))?;
+    let limit = stable_step(model, motion, mesh_hz).map_err(in_scene(scene))?;
     let Some(limit) = limit else { return Ok(()) };
     motion::refuse_unstable(scene, &limit, &motion::Steps { step: frequencies.step(motion), mesh_hz, resonance_hz })
 }

@@ -5,7 +5,10 @@ use std::time::Instant;
 
 use contact_map::MapWatch;
 use dynamics::{COORDINATES, MapFailure, MapRequest, MeshFlanks, MeshResonance};
-use gearbox::motion::{MappedMesh, PairModel, PairMotionError};
+use gearbox::{
+    GearboxError,
+    motion::{MappedMesh, PairModel},
+};
 use geometry::GearPair;
 use scene::{Model, MotionScene, Scene};
 
@@ -99,19 +102,18 @@ impl ElasticPair {
     /// The pair at the speed of a scene, and its mesh resonance, Hz.
     ///
     /// # Errors
-    /// [`AnalysisError::Motion`].
+    /// [`AnalysisError::Gearbox`].
     pub(super) fn model(&self, scene: &Scene, gears: &GearPair) -> Result<(BoxedMechanism, f64), AnalysisError> {
         let pair = self.pair.with_drive(pair_drive(scene, gears));
-        let model =
-            FlankPair::new(pair, self.frame.clone()).map_err(PairMotionError::at(0.0)).map_err(in_scene(scene))?;
+        let model = FlankPair::new(pair, self.frame.clone()).map_err(in_scene(scene))?;
         Ok((BoxedMechanism::new(model), self.resonance.hz))
     }
 }
 
 /// The flanks of a pair that is to be mapped.
 fn solved_flanks<'a>(scene: &Scene, pair: &'a PairModel) -> Result<&'a MeshFlanks, AnalysisError> {
-    let none = MapFailure::Unmapped { what: "a pair without flanks that are solved" };
-    pair.flanks().ok_or_else(|| in_scene(scene)(PairMotionError::from(none)))
+    let what = "a pair without flanks that are solved";
+    pair.flanks().ok_or_else(|| in_scene(scene)(GearboxError::Unmapped { what }))
 }
 
 /// The flanks of a pair by their maps: those of the cache, or new ones.
@@ -122,7 +124,7 @@ fn mapped(
     (cache, key): (&dyn GearCache, Option<&MapKey>),
     remarks: &mut Vec<Remark>,
 ) -> Result<MappedMesh, AnalysisError> {
-    let complain = |e: MapFailure| in_scene(scene)(PairMotionError::from(e));
+    let complain = |e: MapFailure| in_scene(scene)(GearboxError::from(e));
     flanks.check_mapped(pair, request).map_err(complain)?;
     if let Some(key) = key {
         let (kept, said) = cache.load_maps(key);

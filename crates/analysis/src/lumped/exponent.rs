@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ::lumped::LumpedError;
+use gearbox::GearboxError;
 use integrate::{Forces, Mechanism, MotionError, State};
 use nalgebra::DMatrix;
 use periodic::{FreeDirection, TangentFlow};
@@ -11,7 +11,7 @@ use study::Lyapunov;
 
 use super::{
     integration::{MeshFrequencies, integrator},
-    mechanism::{BoxedMechanism, ModelFailure},
+    mechanism::BoxedMechanism,
 };
 
 /// Part of the stretches that pass before counting begins: the difference turns into its direction of fastest growth.
@@ -29,7 +29,7 @@ pub(super) fn exponent(
     end: &State,
     frequencies: MeshFrequencies,
     stretches: u32,
-) -> Result<Lyapunov, ModelFailure> {
+) -> Result<Lyapunov, GearboxError> {
     let (n, period) = (end.q.len(), 1.0 / frequencies.mesh_hz);
     let fastest = TAU * frequencies.mesh_hz.max(frequencies.resonance_hz);
     let (lengths, mass) = (model.scale(), model.mass().clone());
@@ -43,7 +43,7 @@ pub(super) fn exponent(
     let mut state = end.clone();
     let mut tangents = [Forces::zeros(n), Forces::zeros(n)];
     let asked = model.forces(state.time, &state.q, &state.v, &mut tangents[0]);
-    asked.map_err(ModelFailure::at(state.time))?;
+    asked.map_err(GearboxError::at(state.time))?;
     let mut last = state.time;
     let mut integrator = integrator(model, motion, frequencies.step(motion));
     let mut failure = None;
@@ -57,11 +57,11 @@ pub(super) fn exponent(
             let mut step = || {
                 let [here, next] = &mut tangents;
                 next.clear();
-                model.forces(time, &now.state.q, &now.state.v, next).map_err(ModelFailure::at(time))?;
+                model.forces(time, &now.state.q, &now.state.v, next).map_err(GearboxError::at(time))?;
                 let places = [[&here.stiffness, &here.damping], [&next.stiffness, &next.damping]];
-                let singular = || LumpedError::from(MotionError::Singular { time, which: "tangent" });
+                let singular = || MotionError::<GearboxError>::Singular { time, which: "tangent" };
                 flow.step(&mass, places[0], places[1], time - last).ok_or_else(singular)?;
-                Ok::<_, ModelFailure>(())
+                Ok::<_, GearboxError>(())
             };
             if failure.is_none() {
                 failure = step().err();

@@ -3,20 +3,18 @@
 use dynamics::{COORDINATES, MeshDamping, Torque};
 use gearbox::{
     GearboxError,
-    motion::{GearboxMechanism, GearboxMemory, PairModel, PairMotionError},
+    motion::{GearboxMechanism, GearboxMemory, PairModel},
 };
 use integrate::{Forces, Mechanism, Resumable, State};
-use ltca::StaticError;
 use nalgebra::{DMatrix, DVector};
 
 use super::{
     LumpedRow,
     elastic_frame::ElasticFrame,
-    mechanism::{
-        LumpedMechanism, LumpedMemory, ModelFailure, OfContact, ParameterChange, StaticPoint, mechanism_of_field,
-    },
+    mechanism::{LumpedMechanism, LumpedMemory, ParameterChange, StaticPoint, mechanism_of_field},
 };
 use crate::{
+    AnalysisError,
     certificate::Check,
     in_motion::{force_jump_check, map_checks, pulling_check},
 };
@@ -53,17 +51,17 @@ impl FlankPair {
 mechanism_of_field!([] FlankPair, machine);
 
 impl LumpedMechanism for FlankPair {
-    fn start(&mut self) -> Result<State, ModelFailure> {
-        self.machine.restore(&self.home).map_err(PairMotionError::at(0.0))?;
-        Ok(self.machine.start(0.0).map_err(PairMotionError::at(0.0))?)
+    fn start(&mut self) -> Result<State, AnalysisError> {
+        self.machine.restore(&self.home)?;
+        Ok(self.machine.start(0.0).map_err(GearboxError::at(0.0))?)
     }
 
     fn scale(&self) -> DVector<f64> {
         self.pair.scale(self.frame.length)
     }
 
-    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
-        let now = self.machine.pair_instant(state).map_err(OfContact::of_contact)?;
+    fn row(&mut self, state: &State) -> Result<LumpedRow, GearboxError> {
+        let now = self.machine.pair_instant(state)?;
         let [normal_force, coast] = now.normal_forces();
         let [driving, _] = &now.flanks;
         Ok(LumpedRow {
@@ -82,7 +80,7 @@ impl LumpedMechanism for FlankPair {
         })
     }
 
-    fn transmission_error_um(&mut self, state: &State) -> Result<f64, StaticError> {
+    fn transmission_error_um(&mut self, state: &State) -> Result<f64, GearboxError> {
         Ok(1e3 * self.error.dot(&state.q))
     }
 
@@ -98,7 +96,7 @@ impl LumpedMechanism for FlankPair {
         let mut from: Option<DVector<f64>> = None;
         let mut at = |k: usize| {
             let cycles = k as f64 / phases as f64;
-            let time = machine.time_of_cycles(0, cycles)?;
+            let time = machine.time_of_cycles(cycles)?;
             let z = machine.standing_at(0, (cycles, time), from.as_ref()).ok()?;
             let found = machine.pair_instant(&State::new(time, z.clone(), DVector::zeros(z.len()))).ok()?;
             from = Some(z);
@@ -143,25 +141,25 @@ impl LumpedMechanism for FlankPair {
         LumpedMemory::Machine(self.machine.memory())
     }
 
-    fn take_up(&mut self, memory: &LumpedMemory) -> Result<(), StaticError> {
+    fn take_up(&mut self, memory: &LumpedMemory) -> Result<(), GearboxError> {
         match memory {
-            LumpedMemory::Machine(memory) => self.machine.restore(memory).map_err(OfContact::of_contact),
+            LumpedMemory::Machine(memory) => self.machine.restore(memory),
             LumpedMemory::Formulas => Ok(()),
         }
     }
 
-    fn rewind(&mut self) -> Result<(), StaticError> {
+    fn rewind(&mut self) -> Result<(), GearboxError> {
         if self.pair.map().is_some() {
             return Ok(());
         }
-        self.machine.restore(&self.home).map_err(OfContact::of_contact)
+        self.machine.restore(&self.home)
     }
 
-    fn follow(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
+    fn follow(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), GearboxError> {
         if self.pair.map().is_some() {
             return Ok(());
         }
-        self.machine.accepted(t, q, v).map_err(OfContact::of_contact)
+        self.machine.accepted(t, q, v)
     }
 
     fn set(&mut self, change: ParameterChange) -> bool {

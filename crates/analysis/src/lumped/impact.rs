@@ -5,18 +5,19 @@ use ::lumped::{
     impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness},
 };
 use dynamics::{COORDINATES, Torque};
+use gearbox::GearboxError;
 use geometry::GearPair;
 use integrate::State;
-use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{ImpactScene, Scene, TorqueScene};
 
 use super::{
     LumpedRow,
     bodies::{bearings, bodies},
-    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint, at_rest},
+    mechanism::{Formulas, LumpedMechanism, StaticPoint, at_rest},
 };
 use crate::{
+    AnalysisError,
     motion::{drive, torque},
     options,
 };
@@ -83,7 +84,7 @@ fn formula(scene: &Scene, own: &ImpactScene, gears: &GearPair) -> Result<(f64, V
 }
 
 impl LumpedMechanism for Formulas<ImpactMechanism> {
-    fn start(&mut self) -> Result<State, ModelFailure> {
+    fn start(&mut self) -> Result<State, AnalysisError> {
         Ok(at_rest(self.rolling_state()?))
     }
 
@@ -96,7 +97,7 @@ impl LumpedMechanism for Formulas<ImpactMechanism> {
         self.0.scale()
     }
 
-    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
+    fn row(&mut self, state: &State) -> Result<LumpedRow, GearboxError> {
         let row = self.0.row(state.time, &state.q, &state.v);
         let pair_forces = || row.pair_forces.iter().map(|(_, f)| *f);
         Ok(LumpedRow {

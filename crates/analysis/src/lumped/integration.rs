@@ -1,10 +1,11 @@
 //! Steps of a run: how long they are, and by which integrator.
 
+use gearbox::GearboxError;
 use integrate::{Forces, Integrator, Mechanism, Method, StepControl, StepLimit, Stiffest};
 use scene::MotionScene;
 
-use super::mechanism::{BoxedMechanism, ModelFailure};
-use crate::motion::scheme;
+use super::mechanism::BoxedMechanism;
+use crate::{AnalysisError, motion::scheme};
 
 /// Phases of a mesh cycle at which the longest stable step is looked for.
 const PHASES: u32 = 32;
@@ -48,12 +49,12 @@ pub(super) fn integrator(model: &BoxedMechanism, motion: &MotionScene, step: f64
 /// start on, its coordinates held. `None` where any step is stable.
 ///
 /// # Errors
-/// [`ModelFailure`] where there is nothing to start from.
+/// [`AnalysisError`] where there is nothing to start from.
 pub(super) fn stable_step(
     model: &mut BoxedMechanism,
     motion: &MotionScene,
     mesh_hz: f64,
-) -> Result<Option<StepLimit>, ModelFailure> {
+) -> Result<Option<StepLimit>, AnalysisError> {
     let stiffest = Stiffest::new(scheme(motion), model.mass()).filter(|_| motion.error_tolerance.is_none());
     let Some(mut stiffest) = stiffest else { return Ok(None) };
     let start = model.start()?;
@@ -61,7 +62,7 @@ pub(super) fn stable_step(
     for phase in 0..PHASES {
         forces.clear();
         let time = start.time + f64::from(phase) / (f64::from(PHASES) * mesh_hz);
-        model.forces(time, &start.q, &start.v, &mut forces).map_err(ModelFailure::at(time))?;
+        model.forces(time, &start.q, &start.v, &mut forces).map_err(GearboxError::at(time))?;
         stiffest.include(&forces);
     }
     Ok(stiffest.limit())

@@ -9,9 +9,9 @@ use ::lumped::{
     starting_state,
 };
 use dynamics::RigidBody;
+use gearbox::GearboxError;
 use geometry::{GearPair, Sense};
 use integrate::State;
-use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{Driver, Law, Lumped8Scene, Lumped12Scene, MeshScene, Scene, Sharing};
 
@@ -19,9 +19,9 @@ use super::{
     LumpedRow,
     bodies::{bodies, supports8, supports12, torques},
     excitation::{MeshExcitation, half_a_cycle_on},
-    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint},
+    mechanism::{Formulas, LumpedMechanism, StaticPoint},
 };
-use crate::options;
+use crate::{AnalysisError, options};
 
 /// Mesh cycles at t = 0: the pinion begins half a pitch before the middle of pair 0, as everywhere in this program.
 const START: f64 = -0.5;
@@ -133,7 +133,7 @@ fn lumped_row(row: HistoryRow) -> LumpedRow {
 macro_rules! lumped_mechanism {
     ($motion:ty, $frequencies:expr) => {
         impl LumpedMechanism for Formulas<$motion> {
-            fn start(&mut self) -> Result<State, ModelFailure> {
+            fn start(&mut self) -> Result<State, AnalysisError> {
                 Ok(starting_state(&self.0))
             }
 
@@ -141,7 +141,7 @@ macro_rules! lumped_mechanism {
                 LumpedModel::scale(&self.0)
             }
 
-            fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
+            fn row(&mut self, state: &State) -> Result<LumpedRow, GearboxError> {
                 Ok(lumped_row(LumpedModel::row(&self.0, state.time, &state.q, &state.v)))
             }
 

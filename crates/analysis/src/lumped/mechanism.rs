@@ -5,64 +5,13 @@ use std::{
     ops::{Deref, DerefMut},
 };
 
-use ::lumped::LumpedError;
-use gearbox::{
-    GearboxError,
-    motion::{GearboxMemory, PairMotionError},
-};
-use integrate::{Forces, Mechanism, MotionError, Resumable, State};
-use ltca::StaticError;
+use gearbox::{GearboxError, motion::GearboxMemory};
+use integrate::{Forces, Mechanism, Resumable, State};
 use nalgebra::{DMatrix, DVector};
-use scene::Scene;
 use serde::{Deserialize, Serialize};
 
 use super::LumpedRow;
-use crate::{AnalysisError, certificate::Check, error::in_scene};
-
-/// What keeps a model from moving.
-#[derive(Debug)]
-pub(crate) enum ModelFailure {
-    /// The model, or a step.
-    Lumped(LumpedError),
-    /// The pair, or contact that is solved.
-    Pair(PairMotionError),
-}
-
-impl ModelFailure {
-    /// Contact at a time (s) that could not be solved.
-    pub fn at(time: f64) -> impl Fn(StaticError) -> Self {
-        move |source| Self::Pair(PairMotionError::Contact { time, source })
-    }
-
-    /// With the scene that it is about.
-    pub fn of(self, scene: &Scene) -> AnalysisError {
-        match self {
-            Self::Lumped(e) => in_scene(scene)(e),
-            Self::Pair(e) => in_scene(scene)(e),
-        }
-    }
-}
-
-impl From<LumpedError> for ModelFailure {
-    fn from(e: LumpedError) -> Self {
-        Self::Lumped(e)
-    }
-}
-
-impl From<PairMotionError> for ModelFailure {
-    fn from(e: PairMotionError) -> Self {
-        Self::Pair(e)
-    }
-}
-
-impl From<MotionError<StaticError>> for ModelFailure {
-    fn from(e: MotionError<StaticError>) -> Self {
-        match e.of_integrator() {
-            Ok(own) => Self::Lumped(own.into()),
-            Err((time, contact)) => Self::at(time)(contact),
-        }
-    }
-}
+use crate::{AnalysisError, certificate::Check};
 
 /// The loaded pair at one phase as speed goes to zero.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -73,42 +22,11 @@ pub struct StaticPoint {
     pub line_length: Option<f64>,
 }
 
-/// An error of a mechanism as one of the contact in it.
-pub(super) trait OfContact {
-    fn of_contact(self) -> StaticError;
-}
-
-impl OfContact for StaticError {
-    fn of_contact(self) -> StaticError {
-        self
-    }
-}
-
-impl OfContact for Infallible {
-    fn of_contact(self) -> StaticError {
-        match self {}
-    }
-}
-
-impl OfContact for GearboxError {
-    /// What the machine of a pair can fail by on its way: its contact, and numbers that are none.
-    fn of_contact(self) -> StaticError {
-        match self {
-            Self::AtMesh { source, .. } => source.of_contact(),
-            Self::Contact(source) => source,
-            Self::OutOfRange { quantity, value, .. } => {
-                StaticError::OutOfRange { name: quantity, value, expected: "a number" }
-            }
-            _ => StaticError::OutOfRange { name: "motion", value: f64::NAN, expected: "a number" },
-        }
-    }
-}
-
 /// A mechanism that is one of its fields.
 macro_rules! mechanism_of_field {
     ([$($parameters:tt)*] $model:ty, $field:tt) => {
         impl<$($parameters)*> Mechanism for $model {
-            type Error = StaticError;
+            type Error = GearboxError;
 
             fn mass(&self) -> &DMatrix<f64> {
                 self.$field.mass()
@@ -120,16 +38,16 @@ macro_rules! mechanism_of_field {
                 q: &DVector<f64>,
                 v: &DVector<f64>,
                 out: &mut Forces,
-            ) -> Result<(), StaticError> {
-                self.$field.forces(t, q, v, out).map_err($crate::lumped::mechanism::OfContact::of_contact)
+            ) -> Result<(), GearboxError> {
+                self.$field.forces(t, q, v, out).map_err(GearboxError::from)
             }
 
-            fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-                self.$field.potential(t, q).map_err($crate::lumped::mechanism::OfContact::of_contact)
+            fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
+                self.$field.potential(t, q).map_err(GearboxError::from)
             }
 
-            fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, StaticError> {
-                self.$field.potential_off_path(t, q).map_err($crate::lumped::mechanism::OfContact::of_contact)
+            fn potential_off_path(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, GearboxError> {
+                self.$field.potential_off_path(t, q).map_err(GearboxError::from)
             }
 
             fn events(&self) -> usize {
@@ -142,12 +60,12 @@ macro_rules! mechanism_of_field {
                 q: &DVector<f64>,
                 v: &DVector<f64>,
                 out: &mut [f64],
-            ) -> Result<(), StaticError> {
-                self.$field.event_values(t, q, v, out).map_err($crate::lumped::mechanism::OfContact::of_contact)
+            ) -> Result<(), GearboxError> {
+                self.$field.event_values(t, q, v, out).map_err(GearboxError::from)
             }
 
-            fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), StaticError> {
-                self.$field.accepted(t, q, v).map_err($crate::lumped::mechanism::OfContact::of_contact)
+            fn accepted(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> Result<(), GearboxError> {
+                self.$field.accepted(t, q, v).map_err(GearboxError::from)
             }
 
             fn forget(&mut self) {
@@ -164,12 +82,12 @@ macro_rules! mechanism_of_field {
 pub(super) use mechanism_of_field;
 
 /// A model that can be run and read. Only contact that is solved can fail on the way.
-pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
+pub(crate) trait LumpedMechanism: Mechanism<Error = GearboxError> + Send {
     /// State in which a run begins: at rest under the load as for speed to zero, moving with the nominal rotation.
     ///
     /// # Errors
-    /// [`ModelFailure`] where there is nothing to stand on.
-    fn start(&mut self) -> Result<State, ModelFailure>;
+    /// [`AnalysisError`] where there is nothing to stand on.
+    fn start(&mut self) -> Result<State, AnalysisError>;
 
     /// What counts as a large motion of each coordinate, for the integrators' tolerances.
     fn scale(&self) -> DVector<f64>;
@@ -177,14 +95,14 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
     /// A row at a state.
     ///
     /// # Errors
-    /// [`StaticError`].
-    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError>;
+    /// [`GearboxError`].
+    fn row(&mut self, state: &State) -> Result<LumpedRow, GearboxError>;
 
     /// Transmission error of a state alone, um.
     ///
     /// # Errors
-    /// [`StaticError`].
-    fn transmission_error_um(&mut self, state: &State) -> Result<f64, StaticError> {
+    /// [`GearboxError`].
+    fn transmission_error_um(&mut self, state: &State) -> Result<f64, GearboxError> {
         Ok(self.row(state)?.transmission_error_um)
     }
 
@@ -224,24 +142,24 @@ pub(crate) trait LumpedMechanism: Mechanism<Error = StaticError> + Send {
     /// Becomes what it was.
     ///
     /// # Errors
-    /// [`StaticError`].
-    fn take_up(&mut self, _: &LumpedMemory) -> Result<(), StaticError> {
+    /// [`GearboxError`].
+    fn take_up(&mut self, _: &LumpedMemory) -> Result<(), GearboxError> {
         Ok(())
     }
 
     /// Goes back to where the run begins, for forces at one time after the other from there on.
     ///
     /// # Errors
-    /// [`StaticError`].
-    fn rewind(&mut self) -> Result<(), StaticError> {
+    /// [`GearboxError`].
+    fn rewind(&mut self) -> Result<(), GearboxError> {
         Ok(())
     }
 
     /// Follows the gears to a time at which forces were asked for, so that later ones may be: a tooth change.
     ///
     /// # Errors
-    /// [`StaticError`].
-    fn follow(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), StaticError> {
+    /// [`GearboxError`].
+    fn follow(&mut self, _t: f64, _q: &DVector<f64>, _v: &DVector<f64>) -> Result<(), GearboxError> {
         Ok(())
     }
 }
@@ -329,7 +247,7 @@ impl Resumable for BoxedMechanism {
         self.0.memory()
     }
 
-    fn restore(&mut self, memory: &LumpedMemory) -> Result<(), StaticError> {
+    fn restore(&mut self, memory: &LumpedMemory) -> Result<(), GearboxError> {
         self.0.take_up(memory)
     }
 }

@@ -1,22 +1,21 @@
 //! A run of a model: its mesh cycles, and what is read off them.
 
-use std::{f64::consts::TAU, sync::Arc};
+use std::sync::Arc;
 
-use answer::{RowStore, TableError};
-use gearbox::{GearboxError, motion::PairMotionError};
+use answer::RowStore;
+use gearbox::GearboxError;
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, MotionError, Periodicity, Row, RowPlace,
+    Ahead, Checkpoint, Compared, Course, CycleTimes, Follower, Goal, Ledger, Method, Periodicity, Row, RowPlace,
     Settle, State, StepControl, Stop, Timetable,
 };
-use ltca::StaticError;
 use periodic::Shooting;
 use scene::{Analysis, MotionScene, Run, Scene};
 
 use super::{
     LumpedRow,
     free_turn::free_turn,
-    integration::{MeshFrequencies, integrator, method},
-    mechanism::{BoxedMechanism, LumpedMemory, ModelFailure},
+    integration::{MeshFrequencies, method},
+    mechanism::{BoxedMechanism, LumpedMemory},
     survey::RowSurvey,
 };
 use crate::{AnalysisError, SinkResult, motion::EnergyRow};
@@ -91,45 +90,6 @@ impl RunObserver for NoRunObserver {
     }
 }
 
-/// What keeps a run from its end.
-pub(super) enum RunFailure {
-    /// The model or a step.
-    Model(ModelFailure),
-    /// Whoever gets the rows.
-    Sink(Box<dyn std::error::Error + Send + Sync>),
-    /// There is no room for the rows.
-    Rows(TableError),
-}
-
-impl RunFailure {
-    /// With the scene that it is about.
-    pub fn of(self, scene: &Scene) -> AnalysisError {
-        match self {
-            Self::Model(e) => e.of(scene),
-            Self::Sink(e) => AnalysisError::Sink(e),
-            Self::Rows(e) => e.into(),
-        }
-    }
-}
-
-impl From<ModelFailure> for RunFailure {
-    fn from(e: ModelFailure) -> Self {
-        Self::Model(e)
-    }
-}
-
-impl From<TableError> for RunFailure {
-    fn from(e: TableError) -> Self {
-        Self::Rows(e)
-    }
-}
-
-impl From<MotionError<StaticError>> for RunFailure {
-    fn from(e: MotionError<StaticError>) -> Self {
-        Self::Model(e.into())
-    }
-}
-
 /// Mesh cycles that are written.
 fn cycles(scene: &Scene, motion: &MotionScene, mesh_frequency_hz: f64) -> u64 {
     let Analysis { cycles, .. } = scene.analysis;
@@ -180,8 +140,8 @@ impl RunPlan<'_> {
     /// Runs it; the clock begins at 0 whatever the state's own says.
     ///
     /// # Errors
-    /// [`ModelFailure`] where there is nothing to start from, or a step does not settle; that of the observer.
-    pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, RunFailure> {
+    /// [`AnalysisError`] where there is nothing to start from, or a step does not settle; that of the observer.
+    pub fn run(&self, model: &mut BoxedMechanism, observer: &mut dyn RunObserver) -> Result<LumpedRun, AnalysisError> {
         let Self { scene, motion, frequencies, from, checkpoint_every, resume } = *self;
         let per_cycle = motion.steps_per_mesh_cycle as usize;
         let cycles = cycles(scene, motion, frequencies.mesh_hz);
@@ -191,7 +151,7 @@ impl RunPlan<'_> {
         let period = model.common_period();
         if let Some(Settle { most, .. }) = settle.filter(|own| period.is_none_or(|p| p > own.most.max(1))) {
             let error = GearboxError::NoCommonPeriod { period, most };
-            return Err(ModelFailure::from(PairMotionError::at(0.0)(error)).into());
+            return Err(GearboxError::at(0.0)(error).into());
         }
         let of = |model: &mut &mut BoxedMechanism, state: &State| model.transmission_error_um(state);
         let goal = Goal {
@@ -243,30 +203,23 @@ impl RunPlan<'_> {
         })
     }
 
-    /// The periodic state near a state: of one common period of the teeth that meet, else of as many mesh cycles as the motion
-    /// looks like having.
-    fn periodic_state(
-        &self,
-        model: &mut BoxedMechanism,
-        state: &State,
-        (period, tolerance): (usize, f64),
-    ) -> Result<Option<State>, ModelFailure> {
-        let Self { motion, frequencies, .. } = *self;
+    /// The periodic state near where the next cycles begin: of one common period of the teeth that meet, else of as many mesh
+    /// cycles as the motion looks like having.
+    fn periodic_state(&self, model: &mut BoxedMechanism, period: &Ahead) -> Result<Option<State>, AnalysisError> {
+        let motion = self.motion;
         let free = free_turn(model)?;
-        let search = |model: &mut BoxedMechanism, period: usize| {
+        let one = (model.common_period().unwrap_or(1) as usize).min(period.cycles.len());
+        let mut search = |period: &Ahead| {
             let shooting = Shooting {
-                period: period as f64 / frequencies.mesh_hz,
-                tolerance,
-                scale: model.scale(),
-                frequency: TAU * frequencies.mesh_hz.max(frequencies.resonance_hz),
+                period,
+                tolerance: motion.periodic_tolerance.unwrap_or(0.0),
                 free: free.as_ref(),
                 back: None,
             };
-            shooting.near(model, state, |model| Ok(integrator(model, motion, frequencies.step(motion))))
+            shooting.near(model)
         };
-        let one = model.common_period().unwrap_or(1) as usize;
-        let once = search(model, one)?;
-        Ok(if once.is_some() || period == one { once } else { search(model, period)? })
+        let once = search(&Ahead { cycles: period.cycles[..one].to_vec(), ..period.clone() })?;
+        Ok(if once.is_some() || period.cycles.len() == one { once } else { search(period)? })
     }
 }
 
@@ -281,33 +234,27 @@ struct LumpedFollower<'a> {
 }
 
 impl Follower<&mut BoxedMechanism> for LumpedFollower<'_> {
-    type Error = RunFailure;
+    type Error = AnalysisError;
 
-    fn row(&mut self, at: Row<'_, &mut BoxedMechanism>) -> Result<(), RunFailure> {
+    fn row(&mut self, at: Row<'_, &mut BoxedMechanism>) -> Result<(), AnalysisError> {
         let Row { system, state, ledger } = at;
-        let row = system.row(state).map_err(ModelFailure::at(state.time))?;
+        let row = system.row(state).map_err(GearboxError::at(state.time))?;
         let begins_cycle = self.rows.len().is_multiple_of(self.per_cycle);
-        self.observer.row(&row, begins_cycle).map_err(RunFailure::Sink)?;
+        self.observer.row(&row, begins_cycle).map_err(AnalysisError::Sink)?;
         self.survey.take(&row);
         self.rows.push(row)?;
         Ok(self.energy.push(EnergyRow::of(state.time, ledger))?)
     }
 
-    fn checkpoint(&mut self, state: LumpedCheckpoint) -> Result<(), RunFailure> {
-        self.observer.checkpoint(state, (&self.rows, &self.energy)).map_err(RunFailure::Sink)
+    fn checkpoint(&mut self, state: LumpedCheckpoint) -> Result<(), AnalysisError> {
+        self.observer.checkpoint(state, (&self.rows, &self.energy)).map_err(AnalysisError::Sink)
     }
 
     fn seeks(&self, model: &&mut BoxedMechanism, found: Periodicity) -> bool {
         model.shoots() && found.residual <= SETTLING
     }
 
-    fn nearer(
-        &mut self,
-        model: &mut &mut BoxedMechanism,
-        state: &State,
-        found: Periodicity,
-    ) -> Result<Option<State>, RunFailure> {
-        let tolerance = self.plan.motion.periodic_tolerance.unwrap_or(0.0);
-        Ok(self.plan.periodic_state(model, state, (found.period, tolerance))?)
+    fn nearer(&mut self, model: &mut &mut BoxedMechanism, period: &Ahead) -> Result<Option<State>, AnalysisError> {
+        self.plan.periodic_state(model, period)
     }
 }

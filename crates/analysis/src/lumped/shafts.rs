@@ -8,9 +8,9 @@ use ::lumped::{
     },
 };
 use dynamics::RigidBody;
+use gearbox::GearboxError;
 use geometry::GearPair;
 use integrate::State;
-use ltca::StaticError;
 use nalgebra::DVector;
 use scene::{DiscScene, Driver, GearScene, MeshScene, Operation, Scene, Shaft18Scene, ShaftScene, SupportScene};
 
@@ -18,9 +18,9 @@ use super::{
     LumpedRow,
     bodies::bodies,
     excitation::MeshExcitation,
-    mechanism::{Formulas, LumpedMechanism, ModelFailure, StaticPoint, at_rest},
+    mechanism::{Formulas, LumpedMechanism, StaticPoint, at_rest},
 };
-use crate::options;
+use crate::{AnalysisError, options};
 
 /// The gear's station; the others follow it.
 const GEAR: usize = 0;
@@ -184,7 +184,7 @@ fn shaft_row(row: &ShaftRow) -> LumpedRow {
 }
 
 impl LumpedMechanism for Formulas<ShaftMechanism> {
-    fn start(&mut self) -> Result<State, ModelFailure> {
+    fn start(&mut self) -> Result<State, AnalysisError> {
         Ok(at_rest(self.static_state(0.0)?))
     }
 
@@ -192,7 +192,7 @@ impl LumpedMechanism for Formulas<ShaftMechanism> {
         self.0.scale()
     }
 
-    fn row(&mut self, state: &State) -> Result<LumpedRow, StaticError> {
+    fn row(&mut self, state: &State) -> Result<LumpedRow, GearboxError> {
         let cycles = self.mesh_period(0).map_or(0.0, |period| state.time / period);
         // A system has one mesh, the first.
         let row = self.0.row(0, state.time, &state.q, &state.v).as_ref().map(shaft_row).unwrap_or_default();

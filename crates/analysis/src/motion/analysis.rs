@@ -280,7 +280,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         Some(_) => None,
         None => Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?),
     };
-    let step_s = prepared.settings.step(1.0 / headline.mesh_frequency_hz);
+    let step_s = prepared.times.step(1.0 / headline.mesh_frequency_hz);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));

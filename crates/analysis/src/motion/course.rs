@@ -6,12 +6,10 @@ use answer::RowStore;
 use dynamics::SideLoads;
 use gearbox::{
     GearboxError,
-    motion::{
-        GearboxMechanism, GearboxMemory, PairModel, PairMotion, PairMotionError, SHOOTING_NEWTON_STEPS, ShootingResult,
-        compared, shoot,
-    },
+    motion::{GearboxMechanism, GearboxMemory, PairModel, PairMotion, compared, shoot},
 };
-use integrate::{Checkpoint, Course, Follower, Goal, MotionError, Row, Settle, Stage};
+use integrate::{Checkpoint, Course, Follower, Goal, Row, Settle, Stage};
+use periodic::Shot;
 use scene::{MotionScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
@@ -28,7 +26,7 @@ fn goal(
     (scene, motion): (&Scene, &MotionScene),
     (pair, begun): (&PairModel, &PairMotion),
     stop_after: Option<u64>,
-) -> Result<Goal<GearboxMechanism>, PairMotionError> {
+) -> Result<Goal<GearboxMechanism>, GearboxError> {
     let settles = matches!(motion.run, Run::Steady | Run::Shooting);
     let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
     let until = match (motion.run, motion.ramp, motion.duration_s) {
@@ -59,7 +57,7 @@ fn most(motion: &MotionScene) -> u64 {
 /// A motion at its end.
 pub(super) struct FinishedMotion {
     pub motion: PairMotion,
-    pub shooting: Option<ShootingResult>,
+    pub shooting: Option<Shot>,
     /// Whether it stopped where the caller asked it to, before its end.
     pub stopped: bool,
     /// All rows, those before a checkpoint among them.
@@ -100,21 +98,21 @@ pub(super) fn run(
 ) -> Result<FinishedMotion, Failure> {
     let stop_after = span.stop_after;
     let (mut motion, shooting, mut told) = begin((scene, asked), prepared, (observer, sink), span)?;
-    let goal = goal((scene, asked), (&prepared.system, &motion), stop_after).map_err(|e| failure(scene, e))?;
+    let goal = goal((scene, asked), (&prepared.system, &motion), stop_after).map_err(|e| failure(scene, e.into()))?;
     let clock = std::time::Instant::now();
     let mut stopped = false;
     if let (Some(settle), false) = (goal.settle, motion.stage().recording) {
         stopped = run_phase(observer, "settle", PhaseWork::AtMost(settle.most), |progress| {
             motion.settle(&goal, &mut InPhase { told: &mut told, progress, settling: Some(settle.tolerance) })
         })
-        .map_err(|e| e.of(scene))?;
+        .map_err(|e| failure(scene, e))?;
     }
     if !stopped {
         let left = PhaseWork::Steps(goal.cycles - motion.stage().recorded.min(goal.cycles));
         stopped = run_phase(observer, "solve", left, |progress| {
             motion.record(&goal, &mut InPhase { told: &mut told, progress, settling: None })
         })
-        .map_err(|e| e.of(scene))?;
+        .map_err(|e| failure(scene, e))?;
     }
     let wall_s = clock.elapsed().as_secs_f64();
     let Outcome { sink, layout, rows, pattern, .. } = told;
@@ -130,32 +128,30 @@ fn begin<'a>(
     prepared: &PreparedMotion,
     (observer, sink): (&mut dyn Observer, &'a mut dyn MotionSink),
     Span { from, .. }: Span,
-) -> Result<(PairMotion, Option<ShootingResult>, Outcome<'a>), Failure> {
-    let PreparedMotion { system, settings, facts, .. } = prepared;
+) -> Result<(PairMotion, Option<Shot>, Outcome<'a>), Failure> {
+    let PreparedMotion { system, times, facts, .. } = prepared;
     let window = facts.window_teeth.unwrap_or(0) as usize;
     let layout = MotionLayout::of(scene, window);
-    let fail = |e| failure(scene, e);
-    let mut own = system.machine().map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
+    let fail = |e: GearboxError| failure(scene, e.into());
+    let mut own = system.machine().map_err(fail)?;
     sink.begin_rows(&layout, from.as_ref().map(|f| &f.checkpoint)).map_err(AnalysisError::Sink)?;
     let pattern = |grids| PatternRecord::new(scene, motion, system.pair(), grids).map_err(AnalysisError::from);
     if let Some(ResumedState { checkpoint, rows }) = from {
         let MotionCheckpoint { motion: at, patterns, .. } = checkpoint;
         let pattern = pattern(Some(patterns))?;
         let rows = rows.copied().map_err(AnalysisError::from)?;
-        let motion = Course::resume(own, settings.clone(), at).map_err(|e| fail(e.into()))?;
+        let motion = Course::resume(own, times.clone(), at).map_err(|e| fail(e.into()))?;
         return Ok((motion, None, Outcome { sink, window, layout, rows, pattern }));
     }
     let told = Outcome { sink, window, layout, rows: RowStore::default(), pattern: pattern(None)? };
     let start = run_phase(observer, "start", PhaseWork::Unknown, |_| own.start(0.0));
-    let start = start.map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
-    let mut begun = PairMotion::new(own, settings.clone(), start);
+    let start = start.map_err(|e| fail(GearboxError::at(0.0)(e)))?;
+    let mut begun = PairMotion::new(own, times.clone(), start);
     let mut shooting = None;
     if motion.run == Run::Shooting {
         let tolerance = motion.periodic_tolerance.unwrap_or(TOLERANCE);
-        let period = begun.system().back_within(most(motion)).map_err(|e| fail(PairMotionError::at(0.0)(e)))?;
-        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| {
-            shoot(system, &mut begun, period, tolerance, SHOOTING_NEWTON_STEPS)
-        });
+        let period = begun.system().back_within(most(motion)).map_err(|e| fail(GearboxError::at(0.0)(e)))?;
+        let shot = run_phase(observer, "shoot", PhaseWork::Unknown, |_| shoot(&mut begun, period, tolerance));
         shooting = Some(shot.map_err(fail)?);
     }
     Ok((begun, shooting, told))
@@ -178,40 +174,12 @@ struct InPhase<'a, 'b> {
     settling: Option<f64>,
 }
 
-/// Why a motion ended.
-enum Ended {
-    Motion(PairMotionError),
-    Analysis(AnalysisError),
-}
-
-impl Ended {
-    fn of(self, scene: &Scene) -> Failure {
-        match self {
-            Self::Motion(e) => failure(scene, e),
-            Self::Analysis(e) => e.into(),
-        }
-    }
-}
-
-impl From<MotionError<GearboxError>> for Ended {
-    fn from(e: MotionError<GearboxError>) -> Self {
-        Self::Motion(e.into())
-    }
-}
-
-impl From<AnalysisError> for Ended {
-    fn from(e: AnalysisError) -> Self {
-        Self::Analysis(e)
-    }
-}
-
 impl Follower<GearboxMechanism> for InPhase<'_, '_> {
-    type Error = Ended;
+    type Error = AnalysisError;
 
-    fn row(&mut self, Row { system, state, ledger }: Row<'_, GearboxMechanism>) -> Result<(), Ended> {
+    fn row(&mut self, Row { system, state, ledger }: Row<'_, GearboxMechanism>) -> Result<(), AnalysisError> {
         let Outcome { sink, layout, rows, pattern, .. } = &mut *self.told;
-        let failed = |e| Ended::Motion(PairMotionError::at(state.time)(e));
-        let now = system.pair_instant(state).map_err(failed)?;
+        let now = system.pair_instant(state).map_err(GearboxError::at(state.time))?;
         let row = layout.row(&now, ledger);
         pattern.push(&now);
         let index = rows.len() as u64;
@@ -220,12 +188,12 @@ impl Follower<GearboxMechanism> for InPhase<'_, '_> {
             sink.fields(index, now.time, &sides).map_err(AnalysisError::Sink)?;
         }
         sink.row(&row).map_err(AnalysisError::Sink)?;
-        Ok(rows.push(row).map_err(AnalysisError::from)?)
+        Ok(rows.push(row)?)
     }
 
-    fn cycle(&mut self, stage: &Stage) -> Result<(), Ended> {
+    fn cycle(&mut self, stage: &Stage) -> Result<(), AnalysisError> {
         if self.settling.is_none() {
-            self.told.pattern.end_cycle().map_err(AnalysisError::from)?;
+            self.told.pattern.end_cycle()?;
             self.told.sink.end_cycle(stage.recorded).map_err(AnalysisError::Sink)?;
         }
         self.progress.tick();
@@ -236,16 +204,20 @@ impl Follower<GearboxMechanism> for InPhase<'_, '_> {
         Ok(())
     }
 
-    fn checkpoint(&mut self, motion: Checkpoint<GearboxMemory>) -> Result<(), Ended> {
+    fn checkpoint(&mut self, motion: Checkpoint<GearboxMemory>) -> Result<(), AnalysisError> {
         let Outcome { sink, window, pattern, .. } = &mut *self.told;
         let state = MotionCheckpoint { window: *window, motion, patterns: pattern.grids().clone() };
-        Ok(sink.checkpoint(state).map_err(AnalysisError::Sink)?)
+        sink.checkpoint(state).map_err(AnalysisError::Sink)
     }
 }
 
 /// Contact that another window may cure, or the end.
-pub(super) fn failure(scene: &Scene, error: PairMotionError) -> Failure {
-    match error.contact_error() {
+pub(super) fn failure(scene: &Scene, error: AnalysisError) -> Failure {
+    let contact = match &error {
+        AnalysisError::Gearbox(source) => source.contact_error(),
+        _ => None,
+    };
+    match contact {
         Some(source) if source.is_starved() => Failure::Static(source.clone()),
         _ => in_scene(scene)(error).into(),
     }

@@ -48,14 +48,14 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
 /// # Errors
 /// [`crate::AnalysisError::Refused`] with the limit, the step, and the number of steps that would do.
 pub(super) fn unstable(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
-    let PreparedMotion { system, settings, .. } = prepared;
-    if settings.tolerance.is_some() || !settings.scheme.is_explicit() {
+    let PreparedMotion { system, times, .. } = prepared;
+    if times.tolerance.is_some() || !times.scheme.is_explicit() {
         return Ok(());
     }
-    let limit = stable_step(system, settings.scheme).map_err(|e| failure(scene, e))?;
+    let limit = stable_step(system, times.scheme).map_err(|e| failure(scene, e.into()))?;
     let Some(limit) = limit else { return Ok(()) };
     let longest = longest_cycle(scene, system);
-    let step = settings.step(longest);
+    let step = times.step(longest);
     let steps = Steps { step, mesh_hz: 1.0 / longest, resonance_hz: fastest_hz(system) };
     Ok(refuse_unstable(scene, &limit, &steps)?)
 }

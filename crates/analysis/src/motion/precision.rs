@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use gearbox::motion::{PairMotionError, stable_step};
+use gearbox::{GearboxError, motion::stable_step};
 use integrate::{Integrator, Scheme, State, StepControl, StepLimit};
 
 use scene::Scene;
@@ -89,7 +89,7 @@ pub fn motion_precision(
     let prepared = prepare(&inputs, observer, &mut NoMotionSink, None).map_err(|e| e.into_error(scene))?;
     let counts = &STEPS[..if quick { 4 } else { STEPS.len() }];
     let finest = 4 * counts[counts.len() - 1];
-    let fail = |e| failure(scene, e).into_error(scene);
+    let fail = |e: GearboxError| failure(scene, e.into()).into_error(scene);
     let total = (counts.len() * METHODS.len() + 1) as u64;
     run_phase(observer, "precision", PhaseWork::Steps(total), |progress| {
         let bench = Bench::new(scene, &prepared).map_err(fail)?;
@@ -122,9 +122,8 @@ struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    fn new(scene: &Scene, prepared: &'a PreparedMotion) -> Result<Self, PairMotionError> {
-        let fail = PairMotionError::at(0.0);
-        let start = prepared.system.machine().and_then(|mut machine| machine.start(0.0)).map_err(fail)?;
+    fn new(scene: &Scene, prepared: &'a PreparedMotion) -> Result<Self, GearboxError> {
+        let start = prepared.system.machine().and_then(|mut machine| machine.start(0.0))?;
         let speed = scene.pinion_speed() / std::f64::consts::TAU * f64::from(scene.pinion.teeth);
         let mut limits = Vec::new();
         for (_, scheme) in METHODS {
@@ -134,11 +133,11 @@ impl<'a> Bench<'a> {
     }
 
     /// DTE (mm) at the places of all mesh cycles, and the wall time of one, s.
-    fn course(&self, scheme: Scheme, steps: u32) -> Result<(Vec<f64>, f64), PairMotionError> {
-        let mut system = self.prepared.system.machine().map_err(PairMotionError::at(0.0))?;
+    fn course(&self, scheme: Scheme, steps: u32) -> Result<(Vec<f64>, f64), GearboxError> {
+        let mut system = self.prepared.system.machine()?;
         let (slopes, mut state) = (system.error_slopes(0), self.start.clone());
         let step = StepControl::Fixed(self.period / f64::from(steps));
-        let mut integrator = Integrator::new(scheme, step, self.prepared.settings.scale.clone());
+        let mut integrator = Integrator::new(scheme, step, self.prepared.times.scale.clone());
         let (mut all, mut done) = (Vec::new(), 0u32);
         let clock = Instant::now();
         integrator.advance(&mut system, &mut state, f64::from(CYCLES) * self.period, |_, seen| {

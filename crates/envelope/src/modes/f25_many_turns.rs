@@ -2,8 +2,9 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
+use ale::Station;
 use analysis::options;
-use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, Nominal, RigidBody, Speed, Torque};
+use dynamics::{Bearing, Drive, MeshDamping, MotionOptions, RigidBody, Speed, Torque};
 use gearbox::motion::PairModel;
 use integrate::State;
 use nalgebra::DVector;
@@ -75,8 +76,8 @@ fn drifts(scene: &Scene) -> Result<[f64; 2], EnvelopeError> {
     let pair = scene.gear_pair()?;
     let per_radian = 1e3 * pair.pinion.base_radius();
     // A turn a second.
-    let nominal = Nominal { speed: Speed::Constant(TAU), start: 0.0 };
-    let station = nominal.at(&pair, &options(scene, &pair), STEPS as f64 / 1920.0).station;
+    let turned = Speed::Constant(TAU).angle(STEPS as f64 / 1920.0);
+    let station = Station::at_cycles(turned / pair.pinion.pitch_angle());
     let teeth = u64::from(pair.pinion.teeth());
     let (whole, part) = (STEPS * teeth / 1920, (STEPS * teeth % 1920) as f64 / 1920.0);
     let cycles = (station.cycle - whole as i64) as f64 + (station.phase - part);

@@ -2,11 +2,10 @@
 
 use std::{f64::consts::TAU, ops::ControlFlow};
 
-use dynamics::Speed;
 use integrate::{Mechanism, State};
 use periodic::{BalanceOptions, Branch, BranchPlan, Condensed, FourierSeries, PeriodicMotion, PeriodicMotionOf};
 
-use super::{Drive, GearboxInstant, GearboxMechanism, speed_family::SpeedFamily};
+use super::{GearboxInstant, GearboxMechanism, speed_family::SpeedFamily};
 use crate::GearboxError;
 
 /// Motions whose multipliers are found with all modes as well.
@@ -35,11 +34,7 @@ pub struct GearboxBranch {
 impl GearboxMechanism {
     /// Gives the input another nominal speed, rad/s without its sense.
     pub fn set_speed(&mut self, speed: f64) {
-        self.drive = match self.drive {
-            Drive::Speed(_) => Drive::Speed(Speed::Constant(speed)),
-            Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
-            Drive::Torque { torque, .. } => Drive::Torque { start: speed, torque },
-        };
+        self.drive = self.drive.at_speed(speed);
     }
 
     /// The branch of a plan over speeds of the input in 1/min, from the motion that Newton's method finds near the

@@ -301,7 +301,7 @@ impl GearboxMechanism {
 
     /// Nominal speed of the input at the start, rad/s about +z.
     pub(crate) fn input_speed(&self) -> f64 {
-        self.operation.sense.sign() as f64 * self.drive.start()
+        self.operation.sense.sign() as f64 * self.drive.nominal().at(0.0)
     }
 
     /// Frequency of each mesh at the speed of the start, Hz.
@@ -331,9 +331,15 @@ impl GearboxMechanism {
         self.throughput += (end - begin) / 6.0 * (of(begin) + 4.0 * of(0.5 * (begin + end)) + of(end));
     }
 
-    /// Time (s, >= 0) at which a mesh has gone on by so many cycles in the nominal motion; `None` where it stops before.
-    pub fn time_of_cycles(&self, mesh: usize, cycles: f64) -> Option<f64> {
-        self.drive.nominal().time_at(cycles / self.live[mesh].cycles_per_turn.abs())
+    /// Cycles of the fastest mesh in a radian of the input.
+    pub(super) fn fastest(&self) -> f64 {
+        self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max)
+    }
+
+    /// Time (s, >= 0) at which the fastest mesh has gone on by so many cycles in the nominal motion; `None` where it stops
+    /// before.
+    pub fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
+        self.drive.nominal().time_at(cycles / self.fastest())
     }
 
     /// Angle (rad about +z) and speed of the input.

@@ -9,7 +9,8 @@
 //! | `varying_torques` | torques of outputs over time |
 //! | `rolling_supports` | rolling bearings by their laws, beside the springs in their place |
 //! | `pair`, `pair_model` | a pair alone: two rigid gears and one mesh; what it is before it moves |
-//! | `pair_run`, `pair_shooting`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, onto its periodic state, speed by speed; how long explicit steps may be |
+//! | `pair_run`, `pair_sweep`, `stable_step` | mesh cycle by mesh cycle, speed by speed; how long explicit steps may be |
+//! | `times` | cycles of the fastest mesh, with their rows and steps |
 //! | `mechanism`, `live_mesh`, `balance` | all of it as one [`integrate::Mechanism`] |
 //! | `start`, `plan`, `run`, `memory` | from equilibrium on, row by row; what a checkpoint holds beside the state |
 //! | `periodic_state` | where it settles to, without waiting |
@@ -34,10 +35,8 @@ mod moving_mesh;
 mod normal_damper;
 mod options;
 mod pair;
-mod pair_error;
 mod pair_model;
 mod pair_run;
-mod pair_shooting;
 mod pair_sweep;
 mod periodic_state;
 mod pitch_errors;
@@ -50,6 +49,7 @@ mod spring_mesh;
 mod stable_step;
 mod start;
 mod tilting_spring;
+mod times;
 mod varying_torques;
 
 pub use branch::GearboxBranch;
@@ -65,18 +65,16 @@ pub use moving_exact::MovingExactMesh;
 pub use moving_mesh::{MeshLosses, MovingMesh};
 pub use options::{Drive, MotionOptions};
 pub use pair::PairInstant;
-pub use pair_error::PairMotionError;
 pub use pair_model::PairModel;
-pub use pair_run::{PairMotion, PairSettings, compared, instants, run_to_steady};
-pub use pair_shooting::{ShootingResult, shoot};
-pub use pair_sweep::{
-    SHOOTING_NEWTON_STEPS, SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep,
-};
+pub use pair_run::{PairMotion, compared, instants, run_to_steady};
+pub use pair_sweep::{SteadyBy, SteadyOptions, SweepMiss, SweepOutcome, SweepPlan, SweepPoint, sweep};
+pub use periodic_state::shoot;
 pub use pitch_errors::PitchErrors;
 pub use plan::MotionPlan;
 pub use reduced_bodies::{ReducedBodies, ReductionCertificate};
-pub use run::{FlankCourse, GearboxCheckpoint, GearboxCourse, GearboxRun, GearboxTimes};
+pub use run::{FlankCourse, GearboxCheckpoint, GearboxCourse, GearboxRun};
 pub use spring_mesh::SpringMesh;
 pub use stable_step::stable_step;
 pub use tilting_spring::TiltingSpring;
+pub use times::{CycleSteps, MotionTimes};
 pub use varying_torques::TorqueMemory;

@@ -4,15 +4,15 @@
 use std::sync::Arc;
 
 use dynamics::{
-    COORDINATES, Drive, GearVibration, MapFailure, MapRequest, MeshFlanks, MeshResonance, MotionOptions as PairOptions,
-    Speed, Torque, damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
+    COORDINATES, Drive, GearVibration, MapRequest, MeshFlanks, MeshResonance, MotionOptions as PairOptions, Torque,
+    damping_per_length, equivalent_mass, equivalent_mass_of, masses_on_base_circles,
 };
 use geometry::{Gear, GearPair};
 use integrate::Mechanism;
 use nalgebra::DVector;
 use reduction::ElasticGear;
 
-use super::{GearboxMechanism, MappedMesh, MovingExactMesh, MovingMesh, PairMotionError};
+use super::{GearboxMechanism, MappedMesh, MovingExactMesh, MovingMesh};
 use crate::{GearboxError, Meshing, Vector12};
 
 /// Names of the coordinates along and about the axes of each gear.
@@ -90,12 +90,7 @@ impl PairModel {
     /// The pair with its driver at another constant speed, rad/s.
     #[must_use]
     pub fn at_speed(&self, speed: f64) -> Self {
-        let drive = match self.options.drive.clone() {
-            Drive::Speed(_) => Drive::Speed(Speed::Constant(speed)),
-            Drive::Balanced(_) => Drive::Balanced(Speed::Constant(speed)),
-            Drive::Torque { torque, .. } => Drive::Torque { start: speed, torque },
-        };
-        self.with_drive(drive)
+        self.with_drive(self.options.drive.clone().at_speed(speed))
     }
 
     /// Changes the options; gears and flanks stay.
@@ -200,25 +195,19 @@ impl PairModel {
         }
     }
 
-    /// Nominal speed of the driver, rad/s, and its turn in a mesh cycle, rad.
-    fn nominal(&self) -> (Speed, f64) {
-        let speed = match &self.options.drive {
-            Drive::Speed(speed) | Drive::Balanced(speed) => *speed,
-            Drive::Torque { start, .. } => Speed::Constant(*start),
-        };
-        (speed, [&self.pair.pinion, &self.pair.wheel][1 - self.options.statics.driven()].pitch_angle().abs())
+    /// Turn of the driver in a mesh cycle, rad.
+    fn pitch(&self) -> f64 {
+        [&self.pair.pinion, &self.pair.wheel][1 - self.options.statics.driven()].pitch_angle().abs()
     }
 
     /// Mesh cycles from the start to a time (s) in the nominal motion.
     pub fn cycles_until(&self, t: f64) -> f64 {
-        let (speed, pitch) = self.nominal();
-        speed.angle(t) / pitch
+        self.options.drive.nominal().angle(t) / self.pitch()
     }
 
     /// Time (s) at which so many mesh cycles have passed in the nominal motion; `None` where it stops before.
     pub fn time_of_cycles(&self, cycles: f64) -> Option<f64> {
-        let (speed, pitch) = self.nominal();
-        speed.time_at(cycles * pitch)
+        self.options.drive.nominal().time_at(cycles * self.pitch())
     }
 
     fn driven(&self) -> &Gear {
@@ -277,21 +266,21 @@ impl PairModel {
     /// times its, to an error of `tolerance`, or of `worst` at the most.
     ///
     /// # Errors
-    /// [`MapFailure::Unmapped`] without load; those of the start.
-    pub fn map_request(&self, overload: f64, [tolerance, worst]: [f64; 2]) -> Result<MapRequest, PairMotionError> {
+    /// [`GearboxError::Unmapped`] without load; those of the start.
+    pub fn map_request(&self, overload: f64, [tolerance, worst]: [f64; 2]) -> Result<MapRequest, GearboxError> {
         // A load that swings would not let the pair stand: the map is made about its mean.
         let mean = self.options.mean_load();
         if mean.is_nan() || mean == 0.0 {
             let what = "a pair without load: nothing says what forces occur";
-            return Err(MapFailure::Unmapped { what }.into());
+            return Err(GearboxError::Unmapped { what });
         }
         let options = PairOptions { load: Torque::Constant(mean), ..self.options.clone() };
-        let mut machine = Self { options, ..self.clone() }.machine().map_err(PairMotionError::at(0.0))?;
+        let mut machine = Self { options, ..self.clone() }.machine()?;
         let mut z: Option<DVector<f64>> = None;
         let mut stands = Vec::new();
         for i in 0..STANDS {
             let there = machine.standing_at(0, (i as f64 / STANDS as f64, 0.0), z.as_ref());
-            let there = there.map_err(PairMotionError::at(0.0))?;
+            let there = there.map_err(GearboxError::at(0.0))?;
             stands.push(machine.displacements(0, &there));
             z = Some(there);
         }

@@ -7,9 +7,9 @@ use integrate::{Ledger, OnlyRows, Periodicity, State, SweepDirection};
 use ltca::StaticError;
 
 use super::{
-    GearboxMechanism, PairInstant, PairModel, PairMotion, PairMotionError, PairSettings, instants,
-    pair_run::steady_goal, shoot,
+    GearboxMechanism, MotionTimes, PairInstant, PairModel, PairMotion, instants, pair_run::steady_goal, shoot,
 };
+use crate::GearboxError;
 
 /// Method that finds a steady state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -40,8 +40,8 @@ pub struct SweepPlan {
     pub speeds: Vec<f64>,
     /// Directions in which to go through them.
     pub ways: Vec<SweepDirection>,
-    /// Method and rows.
-    pub settings: PairSettings,
+    /// Method, rows and steps.
+    pub times: MotionTimes,
     /// Steady state.
     pub steady: SteadyOptions,
 }
@@ -83,7 +83,7 @@ pub struct SweepMiss {
     /// Direction of the sweep.
     pub way: SweepDirection,
     /// Why: of its own quasi-static start, where it was tried from there as well.
-    pub error: PairMotionError,
+    pub error: GearboxError,
 }
 
 /// Outcome of a sweep at one speed.
@@ -97,14 +97,14 @@ pub type SweepOutcome = Result<SweepPoint, SweepMiss>;
 /// there. Outcomes are in the order of directions, and of speeds within each.
 ///
 /// # Errors
-/// [`PairMotionError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
+/// [`GearboxError::SweepByTorque`] where a torque of its own drives: the sweep says the speed.
 pub fn sweep(
     system: &PairModel,
     plan: &SweepPlan,
     seen: &(dyn Fn(&SweepOutcome) -> ControlFlow<()> + Sync),
-) -> Result<Vec<SweepOutcome>, PairMotionError> {
+) -> Result<Vec<SweepOutcome>, GearboxError> {
     if matches!(system.options().drive, Drive::Torque { .. }) {
-        return Err(PairMotionError::SweepByTorque);
+        return Err(GearboxError::SweepByTorque);
     }
     let at = |way: SweepDirection, &speed: &f64, from: Option<&State>| {
         steady_state_at(system, plan, way, speed, from).map_err(|error| SweepMiss { speed, way, error })
@@ -121,20 +121,20 @@ fn steady_state_at(
     way: SweepDirection,
     speed: f64,
     state: Option<&State>,
-) -> Result<(SweepPoint, State), PairMotionError> {
+) -> Result<(SweepPoint, State), GearboxError> {
     let own = system.at_speed(speed);
-    let mut machine = own.machine().map_err(PairMotionError::at(0.0))?;
+    let mut machine = own.machine()?;
     let own_start = state.is_none();
     let state = match state {
         Some(before) => State::new(0.0, before.q.clone(), before.v.clone()),
-        None => machine.start(0.0).map_err(PairMotionError::at(0.0))?,
+        None => machine.start(0.0).map_err(GearboxError::at(0.0))?,
     };
-    let mut motion = PairMotion::new(machine, plan.settings.clone(), state);
+    let mut motion = PairMotion::new(machine, plan.times.clone(), state);
     let SteadyOptions { by, tolerance, most, cycles } = plan.steady;
     let goal = steady_goal(&motion, (tolerance, most), cycles)?;
     if by == SteadyBy::Shooting {
-        let period = motion.system().back_within(most).map_err(PairMotionError::at(0.0))?;
-        shoot(&own, &mut motion, period, tolerance, SHOOTING_NEWTON_STEPS)?;
+        let period = motion.system().back_within(most).map_err(GearboxError::at(0.0))?;
+        shoot(&mut motion, period, tolerance)?;
     }
     motion.settle(&goal, &mut OnlyRows(instants(|_, _, _| ())))?;
     let periodicity = motion.stage().periodicity.unwrap_or(Periodicity { period: 1, residual: f64::INFINITY });
@@ -167,6 +167,3 @@ fn steady_state_at(
     let end = motion.state().clone();
     Ok((point, end))
 }
-
-/// Newton steps of shooting before waiting takes over.
-pub const SHOOTING_NEWTON_STEPS: usize = 12;

@@ -1,48 +1,46 @@
-//! The periodic state of a gearbox that nearly repeats itself, by Newton's method. Theory (49), (71).
+//! The periodic state of a gearbox by Newton's method. Theory (49), (71).
 
-use std::f64::consts::TAU;
+use integrate::{Ahead, Follower, MotionError, Periodicity, Row, State};
+use nalgebra::DMatrix;
+use periodic::{Shooting, Shot};
 
-use integrate::{Follower, Method, Periodicity, Resumable, Row, State, StepControl};
-use nalgebra::{DMatrix, DVector};
-use periodic::Shooting;
-
-use super::{GearboxMechanism, MotionPlan};
+use super::{GearboxMechanism, MotionPlan, PairMotion};
 use crate::GearboxError;
 
+/// Brings a motion onto its periodic solution of `period` mesh cycles, or as near to one as shooting comes: the residual tells.
+/// It goes on from there; energy and counts begin anew.
+///
+/// # Errors
+/// [`GearboxError::FreeInput`] where a torque drives: speed and position of the input are free then.
+/// [`GearboxError::ModesWithoutPeriod`] with modes of a gear that is not known by sectors; [`GearboxError::Motion`].
+pub fn shoot(motion: &mut PairMotion, period: u64, tolerance: f64) -> Result<Shot, GearboxError> {
+    if motion.system().free.turn.is_some() {
+        return Err(GearboxError::FreeInput);
+    }
+    motion.begin()?;
+    let cycle = motion.cycle();
+    let period = motion.ahead(period).ok_or(MotionError::<GearboxError>::StandsStill { cycle })?;
+    let search = motion.system().search(&period, tolerance)?;
+    let shot = search.from_anywhere(motion.system_mut())?;
+    motion.replace(shot.state.clone())?;
+    Ok(shot)
+}
+
 impl GearboxMechanism {
-    /// The stable periodic state near `state` by `plan`, at the same time; `None` where none is near, or the search leads out
-    /// of what the meshes hold. `scale`: sizes of the coordinates ([`GearboxMechanism::scale`]).
+    /// The stable periodic state near where a period begins, at the same time; `None` where none is near, or the search leads
+    /// out of what the meshes hold.
     ///
     /// # Errors
     /// [`GearboxError`] where the mechanism cannot be put back; [`GearboxError::ModesWithoutPeriod`].
-    pub fn nearer(
-        &mut self,
-        state: &State,
-        plan: &MotionPlan,
-        scale: &DVector<f64>,
-    ) -> Result<Option<State>, GearboxError> {
-        let Some(cycles) = self.common_period().filter(|_| self.free.turn.is_none()) else {
+    pub fn nearer(&mut self, period: &Ahead, tolerance: f64) -> Result<Option<State>, GearboxError> {
+        if self.free.turn.is_some() {
             return Ok(None);
-        };
-        let (memory, back) = (self.memory(), self.back_over(cycles)?);
-        let search = Shooting {
-            period: plan.step * plan.steps_per_cycle.saturating_mul(cycles) as f64,
-            tolerance: plan.settle.map_or(0.0, |settle| settle.tolerance),
-            scale: scale.clone(),
-            frequency: TAU * self.mesh_frequencies().into_iter().fold(0.0, f64::max),
-            free: None,
-            back,
-        };
-        let MotionPlan { scheme, stop_at_events, tolerance, step, .. } = *plan;
-        let method = Method { scheme, scale: scale.clone(), stop_at_events, keep_stable: true };
-        let found = search.near(self, state, |own| {
-            own.restore(&memory)?;
-            Ok(method.clone().integrator(StepControl::new(tolerance, step)))
-        });
-        // What was used of the meshes on the way is not the motion's.
-        self.restore(&memory)?;
-        integrate::Mechanism::forget(self);
-        Ok(found.unwrap_or(None))
+        }
+        self.search(period, tolerance)?.near(self)
+    }
+
+    fn search<'a>(&self, period: &'a Ahead, tolerance: f64) -> Result<Shooting<'a>, GearboxError> {
+        Ok(Shooting { period, tolerance, free: None, back: self.back_over(period.cycles.len() as u64)? })
     }
 
     /// Map of the coordinates at the end of so many cycles of the fastest mesh to those at their beginning which are the same
@@ -54,7 +52,7 @@ impl GearboxMechanism {
         if self.gears.is_empty() {
             return Ok(None);
         }
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let fastest = self.fastest();
         let turned = self.operation.sense.sign() as f64 * cycles as f64 / fastest;
         Ok(Some(self.gears.turned(-turned, self.count(), &self.assembly)?))
     }
@@ -64,7 +62,6 @@ impl GearboxMechanism {
 pub(super) struct Settling<F> {
     pub rows: F,
     pub plan: MotionPlan,
-    pub scale: DVector<f64>,
 }
 
 impl<F> Follower<&mut GearboxMechanism> for Settling<F>
@@ -81,12 +78,7 @@ where
         self.plan.seeks(found)
     }
 
-    fn nearer(
-        &mut self,
-        system: &mut &mut GearboxMechanism,
-        state: &State,
-        _: Periodicity,
-    ) -> Result<Option<State>, GearboxError> {
-        system.nearer(state, &self.plan, &self.scale)
+    fn nearer(&mut self, system: &mut &mut GearboxMechanism, period: &Ahead) -> Result<Option<State>, GearboxError> {
+        system.nearer(period, self.plan.periodic_tolerance())
     }
 }

@@ -1,6 +1,9 @@
 //! How a motion is integrated, and what it waits for.
 
 use integrate::{Periodicity, Scheme, Settle};
+use nalgebra::DVector;
+
+use super::{CycleSteps, MotionTimes};
 
 /// Difference after a period, over the peak to peak, from which on it is sought: the motion is on its way.
 const SETTLING: f64 = 0.05;
@@ -10,11 +13,9 @@ const SETTLING: f64 = 0.05;
 pub struct MotionPlan {
     /// Method.
     pub scheme: Scheme,
-    /// Length of a step, s, the longest where a given speed changes: steps are then turns of the input that are alike.
-    pub step: f64,
     /// Cycles of the fastest mesh with rows.
     pub cycles: u64,
-    /// Steps a cycle of the fastest mesh.
+    /// Steps a cycle of the fastest mesh: turns of the input that are alike.
     pub steps_per_cycle: u64,
     /// Steps a row.
     pub steps_per_row: u64,
@@ -30,10 +31,22 @@ pub struct MotionPlan {
 }
 
 impl MotionPlan {
-    /// A motion from its start on in steps of equal length (s), each of which is a row: it neither settles nor stops.
-    pub fn of_steps(scheme: Scheme, step: f64, [cycles, steps_per_cycle]: [u64; 2]) -> Self {
-        let (steps_per_row, tolerance, stop_at_events, settle, shoots) = (1, None, false, None, false);
-        Self { scheme, step, cycles, steps_per_cycle, steps_per_row, tolerance, stop_at_events, settle, shoots }
+    /// Cycles of the motion, with the sizes of its coordinates. Without settling its last step is a row.
+    pub fn times(&self, scale: DVector<f64>) -> MotionTimes {
+        let Self { scheme, tolerance, stop_at_events, steps_per_cycle: per_cycle, steps_per_row: per_row, .. } = *self;
+        let last = self.settle.is_none().then(|| self.cycles.saturating_mul(per_cycle));
+        MotionTimes {
+            scheme,
+            steps: CycleSteps::Counted { per_cycle, per_row, last },
+            tolerance,
+            stop_at_events,
+            scale,
+        }
+    }
+
+    /// Difference after a period, over the peak to peak, that counts as none; 0 of a motion that does not settle.
+    pub fn periodic_tolerance(&self) -> f64 {
+        self.settle.map_or(0.0, |settle| settle.tolerance)
     }
 
     /// Whether a motion that repeats itself so nearly is to be taken to its periodic state at once.

@@ -1,14 +1,11 @@
-//! The cycles of a gearbox in motion, with their rows and steps; and how its motion ended.
+//! The course of a gearbox in motion, and how it ended.
 
-use dynamics::{Extremes, Speed, ToothChanges};
-use integrate::{
-    Checkpoint, Compared, Counts, Course, CycleTimes, Goal, Ledger, Mechanism, Method, Periodicity, Row, RowPlace,
-    Settle, State, StepControl, Stop, Timetable,
-};
+use dynamics::{Extremes, ToothChanges};
+use integrate::{Checkpoint, Compared, Counts, Course, Goal, Ledger, Mechanism, Periodicity, Row, Settle, State};
 use nalgebra::DVector;
 
 use super::{
-    Drive, GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, live_mesh::LiveMesh,
+    GearboxEnergy, GearboxInstant, GearboxMechanism, GearboxMemory, MotionPlan, MotionTimes, live_mesh::LiveMesh,
     periodic_state::Settling,
 };
 use crate::GearboxError;
@@ -17,63 +14,7 @@ use crate::GearboxError;
 pub type GearboxCheckpoint = Checkpoint<GearboxMemory>;
 
 /// A gearbox's motion under way.
-pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, GearboxTimes>;
-
-/// Times of a motion from its start on.
-#[derive(Debug, Clone)]
-pub struct GearboxTimes {
-    plan: MotionPlan,
-    /// Time of the start, s.
-    start: f64,
-    scale: DVector<f64>,
-    drive: Drive,
-}
-
-impl GearboxTimes {
-    /// Sizes of the coordinates.
-    pub fn scale(&self) -> &DVector<f64> {
-        &self.scale
-    }
-
-    fn is_ramp(&self) -> bool {
-        matches!(self.drive.nominal(), Speed::Ramp { .. })
-    }
-
-    fn steps(&self) -> u64 {
-        self.plan.cycles.saturating_mul(self.plan.steps_per_cycle)
-    }
-
-    /// Time at which a step ends: evenly spaced, or where the input has turned by its share of the whole ramp. `None`
-    /// where it never turns so far.
-    fn time_of(&self, step: u64) -> Option<f64> {
-        // Times are counted from the start: sums of steps would drift.
-        let ramp @ Speed::Ramp { start: begin, duration, .. } = self.drive.nominal() else {
-            return Some(self.start + self.plan.step * step as f64);
-        };
-        ramp.time_at(ramp.angle(begin + duration) * (step as f64 / self.steps().max(1) as f64))
-    }
-}
-
-impl Timetable<&mut GearboxMechanism> for GearboxTimes {
-    fn method(&self, _: &&mut GearboxMechanism) -> Method {
-        let MotionPlan { scheme, stop_at_events, .. } = self.plan;
-        Method { scheme, scale: self.scale.clone(), stop_at_events, keep_stable: true }
-    }
-
-    fn cycle(&self, _: &&mut GearboxMechanism, cycle: u64, _: f64) -> Option<CycleTimes> {
-        let (per_cycle, per_row) = (self.plan.steps_per_cycle.max(1), self.plan.steps_per_row.max(1));
-        let [begin, end] = [cycle, cycle + 1].map(|c| c.saturating_mul(per_cycle));
-        let is_row = |step: u64| step.is_multiple_of(per_row) || (step == self.steps() && self.plan.settle.is_none());
-        let stop = |step: u64| Some(Stop { time: self.time_of(step)?, is_row: is_row(step) });
-        // Each step of its own where their times are not evenly spaced.
-        let ends = (begin + 1..=end).filter(|&step| self.is_ramp() || is_row(step) || step == end);
-        Some(CycleTimes {
-            stops: ends.map(stop).collect::<Option<_>>()?,
-            rows: RowPlace::Ends,
-            control: StepControl::new(self.plan.tolerance, self.plan.step),
-        })
-    }
-}
+pub type GearboxCourse<'a> = Course<&'a mut GearboxMechanism, MotionTimes>;
 
 /// What the flanks of a mesh went through in a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -130,12 +71,11 @@ impl GearboxMechanism {
     ) -> Result<GearboxRun, GearboxError> {
         let goal = self.goal(start, plan)?;
         let mut course = self.course(start, plan, None)?;
-        let scale = course.timetable().scale().clone();
         let rows = |row: Row<'_, &mut Self>| {
             seen(&row.system.instant(row.state)?);
             Ok::<_, GearboxError>(())
         };
-        course.run(&goal, &mut Settling { rows, plan: *plan, scale })?;
+        course.run(&goal, &mut Settling { rows, plan: *plan })?;
         GearboxRun::of(course, start)
     }
 
@@ -149,7 +89,7 @@ impl GearboxMechanism {
         plan: &MotionPlan,
         from: Option<GearboxCheckpoint>,
     ) -> Result<GearboxCourse<'_>, GearboxError> {
-        let times = GearboxTimes { plan: *plan, start: start.time, scale: self.scale(start), drive: self.drive };
+        let times = plan.times(self.scale(start));
         Ok(match from {
             None => {
                 let [angle, _] = self.nominal_turn(start.time);
@@ -180,7 +120,7 @@ impl GearboxMechanism {
         Ok(Goal {
             compared,
             settle: plan.settle,
-            tolerance: plan.settle.map_or(0.0, |settle| settle.tolerance),
+            tolerance: plan.periodic_tolerance(),
             cycles: plan.cycles,
             starts_with_row: true,
             checkpoint_every: 0,
@@ -217,7 +157,7 @@ impl GearboxMechanism {
     /// Cycles of the fastest mesh after which every mesh has gone through whole cycles, and the teeth that meet are those of
     /// before where they differ ([`super::MovingMesh::period`]); `None` where that takes more than 100,000.
     pub fn common_period(&self) -> Option<u64> {
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let fastest = self.fastest();
         // Numbers of teeth are whole: what is no multiple is off by more than the inverse of the longest period.
         let is_whole = |x: f64| (x - x.round()).abs() < 1e-3 / LONGEST as f64;
         let comes_back = |n: u64, mesh: &LiveMesh| {

@@ -90,8 +90,7 @@ impl<'a> SpeedFamily<'a> {
             seen.push(own);
         }
         let levers = DMatrix::from_fn(mechanism.count(), columns.len(), |i, j| columns[j][i]);
-        let fastest = mechanism.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
-        let turn = cycles as f64 / fastest;
+        let turn = cycles as f64 / mechanism.fastest();
         let mut family = Self { mechanism, seen, turn, scale: DVector::zeros(columns.len()) };
         let s = levers.tr_mul(&rest.q);
         let mut out = Forces::zeros(s.len());

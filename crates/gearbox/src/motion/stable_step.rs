@@ -3,7 +3,7 @@
 use integrate::{Forces, Mechanism, Scheme, StepLimit, Stiffest};
 use nalgebra::DVector;
 
-use super::{PairModel, PairMotionError};
+use super::PairModel;
 use crate::GearboxError;
 
 /// Phases of the mesh cycle that are looked at.
@@ -16,8 +16,8 @@ const PHASES: u32 = 16;
 ///
 /// # Errors
 /// As of [`super::GearboxMechanism::start`].
-pub fn stable_step(pair: &PairModel, scheme: Scheme) -> Result<Option<StepLimit>, PairMotionError> {
-    let mut machine = pair.machine().map_err(PairMotionError::at(0.0))?;
+pub fn stable_step(pair: &PairModel, scheme: Scheme) -> Result<Option<StepLimit>, GearboxError> {
+    let mut machine = pair.machine()?;
     let Some(mut stiffest) = Stiffest::new(scheme, machine.mass()) else { return Ok(None) };
     let still = DVector::zeros(machine.count());
     let mut forces = Forces::zeros(machine.count());
@@ -25,8 +25,8 @@ pub fn stable_step(pair: &PairModel, scheme: Scheme) -> Result<Option<StepLimit>
     for phase in 0..PHASES {
         let cycles = f64::from(phase) / f64::from(PHASES);
         // A pair that stands still has one phase only.
-        let Some(time) = machine.time_of_cycles(0, cycles) else { break };
-        let fail = PairMotionError::at(time);
+        let Some(time) = machine.time_of_cycles(cycles) else { break };
+        let fail = GearboxError::at(time);
         let z = match machine.standing_at(0, (cycles, time), from.as_ref()) {
             // The motion begins at the first phase. A later one where the search is lost tells nothing of the limit, which
             // each step is held against as well.

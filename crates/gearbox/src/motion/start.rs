@@ -61,7 +61,7 @@ impl GearboxMechanism {
                 self.damping.column_mut(i).fill(0.0);
             }
         }
-        let fastest = self.live.iter().map(|m| m.cycles_per_turn.abs()).fold(0.0, f64::max);
+        let fastest = self.fastest();
         let mut v = DVector::zeros(z.len());
         if speed != 0.0 {
             let way = SPAN / fastest;

@@ -46,15 +46,15 @@ fn it_is_the_motion_of_a_balanced_torque() {
     let bench = bench();
     let hz = 1500.0;
     let system = bench.system(hz, balanced(bench, hz));
-    let settings = bench.settings(&system, Scheme::Energy, ROWS);
+    let times = bench.times(&system, Scheme::Energy, ROWS);
     let of_driver = system.base_circle_masses();
-    let mut held = bench.motion(system, settings);
+    let mut held = bench.motion(system, times);
     let lag = held.state().clone();
     let of_driver = of_driver[1] / (of_driver[0] + of_driver[1]);
     let torque = bench.system(hz, |o| {
         o.drive = Drive::Torque { start: bench.speed(hz), torque: Torque::Constant(TORQUE) };
     });
-    let settings = bench.settings(&torque, Scheme::Energy, ROWS);
+    let times = bench.times(&torque, Scheme::Energy, ROWS);
     let (machine, mut state) = started(&torque, 0.0);
     let driver = torque.names().iter().position(|name| *name == "pinion turn").expect("a torque drives");
     let base = bench.case.pair.pinion.base_radius();
@@ -62,7 +62,7 @@ fn it_is_the_motion_of_a_balanced_torque() {
         all[torque.lag()] = one[0];
         all[driver] = of_driver * one[0] / base;
     }
-    let mut free = PairMotion::new(machine, settings, state);
+    let mut free = PairMotion::new(machine, times, state);
     let (a, b) = (rows(&mut held, 6), rows(&mut free, 6));
     let off = worst(&a, &b) / peak_to_peak(&a);
     println!("peak to peak {:.4} um, off by {off:.1e} of it", 1e3 * peak_to_peak(&a));
@@ -83,8 +83,8 @@ fn momentum_of_the_common_motion_is_held() {
     let masses = system.base_circle_masses();
     let nominal = [1.0, -1.0].map(|sense| sense * bench.speed(hz));
     let wanted = momentum(bench, masses, nominal);
-    let settings = bench.settings(&system, Scheme::Energy, ROWS);
-    let mut motion = bench.motion(system, settings);
+    let times = bench.times(&system, Scheme::Energy, ROWS);
+    let mut motion = bench.motion(system, times);
     let (mut worst, mut swings, mut torques) = (0.0f64, [0.0f64; 2], [f64::INFINITY, 0.0f64]);
     let look = |now: &PairInstant, _: &_, _: &_| {
         worst = worst.max((momentum(bench, masses, now.speeds) / wanted - 1.0).abs());
@@ -121,8 +121,8 @@ fn a_balanced_torque_accelerates_the_driven_gear() {
     let means = [Drive::Balanced(ramp), Drive::Speed(ramp)].map(|drive| {
         let system = bench.system(2000.0, |o| o.drive = drive);
         let [first, last] = [0.4, 0.6].map(|part: f64| system.cycles_until(part * duration) as usize);
-        let settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
-        let mut motion = bench.motion(system, settings);
+        let times = bench.times(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
+        let mut motion = bench.motion(system, times);
         let mut forces = Vec::new();
         let mut look = instants(|now: &PairInstant, _: &_, _: &_| forces.push(now.normal_forces()[0]));
         for _ in 0..last {
@@ -155,7 +155,7 @@ fn the_drive_changes_the_clock_only() {
         let plan = SweepPlan {
             speeds: [0.5, 0.9, 1.1].map(|r| bench.speed(r * system.mesh_resonance_hz())).to_vec(),
             ways: vec![SweepDirection::Independent],
-            settings: bench.settings(system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
+            times: bench.times(system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
             steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-7, most: 300, cycles: 1 },
         };
         swept(system, &plan)
@@ -179,7 +179,7 @@ fn shooting_and_waiting_agree() {
     let plan = |by| SweepPlan {
         speeds: vec![bench.speed(2500.0)],
         ways: vec![SweepDirection::Independent],
-        settings: bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
+        times: bench.times(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS),
         steady: SteadyOptions { by, tolerance: 1e-8, most: 400, cycles: 1 },
     };
     let [a, b] = [SteadyBy::Running, SteadyBy::Shooting].map(|by| swept(&system, &plan(by)));
@@ -196,7 +196,7 @@ fn one_speed_without_an_answer_leaves_the_others_alone() {
     let plan = |speeds: &[f64]| SweepPlan {
         speeds: speeds.iter().map(|f| bench.speed(*f)).collect(),
         ways: vec![SweepDirection::Up, SweepDirection::Down, SweepDirection::Independent],
-        settings: bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, 16),
+        times: bench.times(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, 16),
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-3, most: 60, cycles: 1 },
     };
     let good = swept(&system, &plan(&[900.0, 1000.0]));

@@ -34,8 +34,8 @@ fn bench() -> &'static MovingPair {
 }
 
 fn motion(bench: &MovingPair, system: PairModel, scheme: Scheme) -> PairMotion {
-    let settings = bench.settings(&system, scheme, ROWS);
-    bench.motion(system, settings)
+    let times = bench.times(&system, scheme, ROWS);
+    bench.motion(system, times)
 }
 
 /// Both gears on bearings that couple displacements and tilts, free but for the pinion's turn.
@@ -195,8 +195,8 @@ fn coast_flanks_catch_gears_that_part() {
     let system = PairModel::new(bench.case.pair.clone(), driving, Some(coast), options, bench.means);
     let system = system.unwrap_or_else(|e| panic!("{e}"));
     let (_, start) = started(&bench.system(1000.0, |o| o.load = Torque::Constant(0.1 * TORQUE)), 0.0);
-    let settings = bench.settings(&system, Scheme::Energy, ROWS);
-    let mut motion = PairMotion::new(machine(&system), settings, start);
+    let times = bench.times(&system, Scheme::Energy, ROWS);
+    let mut motion = PairMotion::new(machine(&system), times, start);
     let mut pressed = [0.0f64; 2];
     for _ in 0..6 {
         motion

@@ -8,8 +8,8 @@ use dynamics::{MeshFlanks, MotionOptions as PairOptions};
 use gearbox::{
     ExactMesh, GearboxError, MeshElement, Meshing, Operation, StaticGearbox, Torque, Vector12,
     motion::{
-        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MotionPlan,
-        MovingExactMesh, MovingMesh, Speed,
+        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MovingExactMesh,
+        MovingMesh, Speed,
     },
 };
 use geometry::{GearPair, Sense};
@@ -296,7 +296,7 @@ fn run_two_stages(
     (maps, overload): (bool, f64),
     drive: Drive,
     friction: f64,
-    [cycles, per_cycle]: [f64; 2],
+    steps: [u64; 2],
 ) -> (Vec<GearboxInstant>, GearboxRun, Vec<Vec<f64>>) {
     let (structure, meshes, operation) = two_stage_box();
     let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 2000.0 };
@@ -325,8 +325,7 @@ fn run_two_stages(
     });
     let mut mechanism = made.unwrap();
     let start = mechanism.start(options.modal_damping).unwrap();
-    let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
-    let plan = MotionPlan::of_steps(Scheme::Energy, 1.0 / (fastest * per_cycle), [1, (cycles * per_cycle) as u64]);
+    let plan = crate::motion::steps(Scheme::Energy, steps);
     let goal = mechanism.goal(&start, &plan).unwrap();
     let mut course = mechanism.course(&start, &plan, None).unwrap();
     let (mut rows, mut elastic): (Vec<GearboxInstant>, Vec<Vec<f64>>) = Default::default();
@@ -348,7 +347,7 @@ fn run_two_stages(
 #[test]
 fn two_stages_on_maps_lose_what_friction_takes() {
     let drive = Drive::Speed(Speed::Constant(200.0));
-    let run = |maps: bool, friction: f64| run_two_stages((maps, 4.0), drive, friction, [6.0, 40.0]);
+    let run = |maps: bool, friction: f64| run_two_stages((maps, 4.0), drive, friction, [6, 40]);
     let [exact, mapped, smooth, exact_smooth] =
         [(false, FRICTION), (true, FRICTION), (true, 0.0), (false, 0.0)].map(|(maps, friction)| run(maps, friction));
     let lost = |run: &GearboxRun| run.energy.dissipated / run.energy.input_work;
@@ -391,7 +390,7 @@ fn spread(values: &[f64]) -> f64 {
 fn torque_reverses_through_backlash_on_maps() {
     let drive = Drive::Speed(Speed::Ramp { from: 200.0, to: 120.0, start: 0.0, duration: 0.02 });
     for friction in [0.0, FRICTION] {
-        let [exact, mapped] = [false, true].map(|maps| run_two_stages((maps, 16.0), drive, friction, [8.0, 60.0]));
+        let [exact, mapped] = [false, true].map(|maps| run_two_stages((maps, 16.0), drive, friction, [8, 60]));
         println!("{:?} {:?}", exact.1.flanks, mapped.1.flanks);
         assert!(mapped.1.energy.relative_residual.abs() < 1e-9, "{:?}", mapped.1.energy);
         for mesh in 0..2 {

@@ -150,9 +150,8 @@ fn a_map_moves_as_the_contact() {
         let hz = share * bench.resonance_hz();
         let (mut map, _) = mapped(bench, hz, 2e-4, |_| ());
         let system = bench.system(hz, |_| ());
-        let mut settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, STEPS);
-        settings.steps_per_resonance = 0;
-        let mut exact = bench.motion(system, settings);
+        let times = bench.times_showing(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, [STEPS, 0]);
+        let mut exact = bench.motion(system, times);
         let start = exact.state().clone();
         let cycles = 24;
         let began = Instant::now();
@@ -193,9 +192,8 @@ fn a_map_moves_as_the_contact_of_teeth_with_pitch_errors() {
         let told = mesh.pitch_error(flanks, system.pair(), &request).unwrap_or_else(|e| panic!("{e}"));
         let mut map = machine(&system.on_map(mesh));
         let told = told.expect("there are pitch errors");
-        let mut settings = bench.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, STEPS);
-        settings.steps_per_resonance = 0;
-        let mut exact = bench.motion(system, settings);
+        let times = bench.times_showing(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, [STEPS, 0]);
+        let mut exact = bench.motion(system, times);
         let start = exact.state().clone();
         let a = rows(&mut exact, 34);
         let (b, of_map) = map_rows(&mut map, hz, 34, &start);

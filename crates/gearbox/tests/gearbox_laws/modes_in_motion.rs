@@ -12,7 +12,7 @@ use dynamics::{
 };
 use fem::ElementOptions;
 use gearbox::motion::{
-    GearboxMechanism, PairModel, PairMotion, PairSettings, instants, run_to_steady, shoot, stable_step,
+    CycleSteps, GearboxMechanism, MotionTimes, PairModel, PairMotion, instants, run_to_steady, shoot, stable_step,
 };
 use geometry::{Gear, GearData, GearPair};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
@@ -240,19 +240,17 @@ fn shooting_finds_what_waiting_finds() {
     let speed = 2.2e3 * pair.case.pair.pinion.pitch_angle();
     let [waited, shot] = [false, true].map(|shooting| {
         let [_, model] = pair.both(&pair.options(speed, 0.03), own_modes(3));
-        let settings = PairSettings {
+        let times = MotionTimes {
             scheme: Scheme::Energy,
-            rows: 32,
-            steps_per_resonance: 0,
-            resonance_hz: model.mesh_resonance_hz(),
+            steps: CycleSteps::Counted { per_cycle: 32, per_row: 1, last: None },
             tolerance: None,
             stop_at_events: false,
             scale: scale(&model),
         };
         let (system, state) = started(&model, 0.0);
-        let mut motion = PairMotion::new(system, settings, state);
+        let mut motion = PairMotion::new(system, times, state);
         let periods = if shooting {
-            let shot = shoot(&model, &mut motion, 1, 1e-7, 12).unwrap_or_else(|e| panic!("{e}"));
+            let shot = shoot(&mut motion, 1, 1e-7).unwrap_or_else(|e| panic!("{e}"));
             assert!(shot.residual < 1e-7 && shot.multiplier < 1.0, "{shot:?}");
             shot.periods as u64
         } else {

@@ -56,16 +56,20 @@ pub fn train(drive: Drive, sense: Sense, error: f64) -> GearboxMechanism {
     .unwrap()
 }
 
+/// Cycles of the fastest mesh from the start on in so many steps, each of which is a row.
+pub fn steps(scheme: Scheme, [cycles, steps_per_cycle]: [u64; 2]) -> MotionPlan {
+    let (steps_per_row, tolerance, stop_at_events, settle, shoots) = (1, None, false, None, false);
+    MotionPlan { scheme, cycles, steps_per_cycle, steps_per_row, tolerance, stop_at_events, settle, shoots }
+}
+
 fn run(
     mechanism: &mut GearboxMechanism,
     scheme: Scheme,
-    cycles: f64,
-    steps_per_cycle: u32,
+    cycles: u64,
+    steps_per_cycle: u64,
 ) -> (Vec<GearboxInstant>, gearbox::motion::GearboxRun) {
     let start = mechanism.start(0.01).unwrap();
-    let step = 1.0 / mechanism.mesh_frequencies()[0] / f64::from(steps_per_cycle);
-    let steps = (cycles * f64::from(steps_per_cycle)).round() as u64;
-    let plan = MotionPlan::of_steps(scheme, step, [1, steps]);
+    let plan = steps(scheme, [cycles, steps_per_cycle]);
     let mut rows = Vec::new();
     let run = mechanism.run(&start, &plan, |instant| {
         rows.push(instant.clone());
@@ -90,7 +94,7 @@ fn energy_of_a_train_of_two_stages_is_accounted_for() {
         (Drive::Torque { start: speed, torque: Some(1.1 * OUTPUT * 17.0 * 19.0 / 53.0 / 47.0) }, Sense::Cw),
     ] {
         let mut mechanism = train(drive, sense, 0.004);
-        let (rows, done) = run(&mut mechanism, Scheme::Energy, 30.0, 60);
+        let (rows, done) = run(&mut mechanism, Scheme::Energy, 30, 60);
         let energy = done.energy;
         let said = format!("{drive:?}, {sense:?}: {energy:?}");
         assert!(energy.relative_residual.abs() < 1e-9, "{said}");
@@ -124,9 +128,9 @@ fn energy_of_a_train_of_two_stages_is_accounted_for() {
 /// With generalised-alpha, what does not close falls with the square of the step.
 #[test]
 fn the_energy_residual_of_generalised_alpha_falls_with_the_square_of_the_step() {
-    let residual = |steps: u32| {
+    let residual = |steps: u64| {
         let mut mechanism = train(Drive::Speed(Speed::Constant(100.0)), Sense::Ccw, 0.0);
-        run(&mut mechanism, Scheme::GeneralisedAlpha { rho: 0.9 }, 10.0, steps).1.energy.relative_residual.abs()
+        run(&mut mechanism, Scheme::GeneralisedAlpha { rho: 0.9 }, 10, steps).1.energy.relative_residual.abs()
     };
     let [coarse, fine] = [residual(200), residual(400)];
     assert!(fine < 1e-4, "{coarse:.1e}, {fine:.1e}");
@@ -140,7 +144,7 @@ fn phases_in_motion_are_those_counted_by_hand() {
     for drive in [Drive::Speed(Speed::Constant(150.0)), Drive::Torque { start: 150.0, torque: None }] {
         for sense in [Sense::Ccw, Sense::Cw] {
             let mut mechanism = train(drive, sense, 0.0);
-            let (rows, _) = run(&mut mechanism, Scheme::Energy, 20.0, 30);
+            let (rows, _) = run(&mut mechanism, Scheme::Energy, 20, 30);
             let (first, last) = (&rows[0], &rows[rows.len() - 1]);
             let turns = (last.input[0] - first.input[0]) / TAU * sense.sign() as f64;
             assert!((turns - 20.0 / 17.0).abs() < 0.01, "{turns} turns of the input");
@@ -187,7 +191,7 @@ fn a_pitch_error_on_the_middle_shaft_shows_at_its_frequency_at_both_meshes() {
         let mut mechanism = train(Drive::Speed(Speed::Constant(60.0)), Sense::Ccw, error);
         // 53 cycles of the first mesh are a turn of the middle shaft: three to settle, as dampers feel what is left of the start
         // by its speed, one to look at.
-        let (rows, _) = run(&mut mechanism, Scheme::Energy, 4.0 * 53.0, 40);
+        let (rows, _) = run(&mut mechanism, Scheme::Energy, 4 * 53, 40);
         let turn = &rows[rows.len() - 1 - 53 * 40..rows.len() - 1];
         let force = |mesh: usize| turn.iter().map(|r| r.meshes[mesh].normal_force).collect::<Vec<_>>();
         ([force(0), force(1)], turn.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>())

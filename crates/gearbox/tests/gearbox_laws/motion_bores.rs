@@ -8,8 +8,8 @@ use gearbox::{
     Disc, ExactMesh, GearMesh, GearboxError, Held, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
     Structure, Torque, Train, Vector12, Vibration,
     motion::{
-        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MotionPlan,
-        MovingExactMesh, MovingMesh, Speed,
+        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions, MovingExactMesh,
+        MovingMesh, Speed,
     },
     turn_levers,
 };
@@ -113,7 +113,7 @@ fn run(
     modal_damping: f64,
 ) -> (Vec<GearboxInstant>, GearboxRun) {
     let start = mechanism.start(modal_damping).unwrap();
-    let plan = MotionPlan::of_steps(scheme, 1.0 / mechanism.mesh_frequencies()[0] / steps as f64, [cycles, steps]);
+    let plan = crate::motion::steps(scheme, [cycles, steps]);
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
     (rows, done)

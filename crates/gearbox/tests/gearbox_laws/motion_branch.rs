@@ -79,18 +79,8 @@ pub fn branch(mechanism: &mut GearboxMechanism, plan: &BranchPlan) -> GearboxBra
 /// Peak to peak of the transmission error of a mesh over the last cycles of a motion that has settled, um; and its last state.
 fn settled(mechanism: &mut GearboxMechanism, speed: f64, start: &State, mesh: usize) -> (f64, State) {
     mechanism.set_speed(speed);
-    let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
-    let plan = MotionPlan {
-        scheme: Scheme::Energy,
-        step: 1.0 / (fastest * STEPS as f64),
-        cycles: 2,
-        steps_per_cycle: STEPS,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: Some(Settle { tolerance: 1e-5, most: 400 }),
-        shoots: true,
-    };
+    let settle = Some(Settle { tolerance: 1e-5, most: 400 });
+    let plan = MotionPlan { settle, shoots: true, ..crate::motion::steps(Scheme::Energy, [2, STEPS]) };
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
     let run = mechanism.run(&State { time: 0.0, ..start.clone() }, &plan, |instant| {
         let x = 1e3 * instant.meshes[mesh].transmission_error;

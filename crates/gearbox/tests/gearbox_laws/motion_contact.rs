@@ -13,7 +13,7 @@ use gearbox::{
     Vector12,
     motion::{
         ContactSpring, Drive, GearboxInstant, GearboxMechanism, GearboxRun, MapRequest, MappedMesh, MotionOptions,
-        MotionPlan, MovingExactMesh, MovingMesh, Speed,
+        MovingExactMesh, MovingMesh, Speed,
     },
 };
 use geometry::{GearModifications, GearPair, Sense};
@@ -103,7 +103,7 @@ impl Box1 {
         ExactMesh::new(self.meshes[0].pair.clone(), Arc::clone(&self.gears), self.options.clone()).unwrap()
     }
 
-    fn run(&self, element: Box<dyn MovingMesh>, cycles: f64) -> (Vec<GearboxInstant>, GearboxRun) {
+    fn run(&self, element: Box<dyn MovingMesh>, cycles: u64) -> (Vec<GearboxInstant>, GearboxRun) {
         let drive = Drive::Speed(Speed::Constant(200.0));
         let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 3000.0 };
         let mut element = Some(element);
@@ -111,15 +111,13 @@ impl Box1 {
         let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, _, _| Ok(element.take().unwrap()));
         let mut mechanism = made.unwrap();
         let start = mechanism.start(options.modal_damping).unwrap();
-        let step = 1.0 / mechanism.mesh_frequencies()[0] / 50.0;
-        let steps = (50.0 * cycles) as u64;
-        let plan = MotionPlan::of_steps(Scheme::Energy, step, [1, steps]);
+        let plan = crate::motion::steps(Scheme::Energy, [cycles, 50]);
         let mut rows = Vec::new();
         let began = Instant::now();
         let done = mechanism.run(&start, &plan, |instant| {
             rows.push(instant.clone());
         });
-        println!("{:.0} us a step", 1e6 * began.elapsed().as_secs_f64() / steps as f64);
+        println!("{:.0} us a step", 1e6 * began.elapsed().as_secs_f64() / (50 * cycles) as f64);
         (rows, done.unwrap())
     }
 }
@@ -144,11 +142,11 @@ fn a_mapped_mesh_moves_as_the_contact_that_it_was_made_from() {
         let off = mapped.normal_force / true_one.normal_force - 1.0;
         assert!(off.abs() < 0.02, "{i}: force {} N beside {} N", mapped.normal_force, true_one.normal_force);
     }
-    let (of_map, run) = box1.run(Box::new(map.with_damping(0.05)), 12.0);
+    let (of_map, run) = box1.run(Box::new(map.with_damping(0.05)), 12);
     assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
     let reach = run.flanks[0].reach;
     assert!(reach > 0.2 && reach < 1.0, "{reach}");
-    let (of_contact, run) = box1.run(Box::new(box1.moving()), 12.0);
+    let (of_contact, run) = box1.run(Box::new(box1.moving()), 12);
     assert!(run.energy.relative_residual.abs() < 1e-7, "{:?}", run.energy);
     let errors = of_map.iter().zip(&of_contact);
     let off = errors.map(|(a, b)| (a.meshes[0].transmission_error - b.meshes[0].transmission_error).abs());
@@ -219,9 +217,9 @@ fn a_map_with_pitch_errors_moves_as_the_contact_of_these_teeth() {
         let deflection = map.maps().next().unwrap().certificate().deflection_mm;
         let own = &box1.meshes[0].pair;
         let told = map.pitch_error(&box1.flanks(), own, &box1.request()).unwrap().unwrap();
-        let (of_map, run) = box1.run(Box::new(map.with_damping(1.0 / box1.spring().length)), 40.0);
+        let (of_map, run) = box1.run(Box::new(map.with_damping(1.0 / box1.spring().length)), 40);
         assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
-        let (of_contact, _) = box1.run(Box::new(box1.moving()), 40.0);
+        let (of_contact, _) = box1.run(Box::new(box1.moving()), 40);
         let te = |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>();
         let (a, b) = (te(&of_map), te(&of_contact));
         let size = |x: &[f64]| {
@@ -304,9 +302,9 @@ fn a_spring_of_the_contact_stands_for_it_near_its_load() {
             assert!(off.abs() < 0.05, "{i}: stiffness {k} {m} off by {off:.1e}");
         }
     }
-    let (of_spring, run) = box1.run(Box::new(spring.with_damping(1.0)), 12.0);
+    let (of_spring, run) = box1.run(Box::new(spring.with_damping(1.0)), 12);
     assert!(run.energy.relative_residual.abs() < 1e-9, "{:?}", run.energy);
-    let (of_contact, _) = box1.run(Box::new(box1.moving()), 12.0);
+    let (of_contact, _) = box1.run(Box::new(box1.moving()), 12);
     let errors = |rows: &[GearboxInstant]| rows.iter().map(|r| r.meshes[0].transmission_error).collect::<Vec<_>>();
     let (own, wanted) = (errors(&of_spring), errors(&of_contact));
     let mean = |x: &[f64]| x.iter().sum::<f64>() / x.len() as f64;

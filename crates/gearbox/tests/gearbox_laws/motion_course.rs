@@ -23,25 +23,14 @@ const SPEED: Drive = Drive::Speed(Speed::Constant(100.0));
 /// Of two stages with 17 on 53 and 19 on 47 teeth, in cycles of the first mesh.
 const COMMON: u64 = 53;
 
-fn plan(mechanism: &GearboxMechanism, cycles: u64) -> MotionPlan {
-    let steps_per_cycle = 24;
-    MotionPlan {
-        scheme: Scheme::GeneralisedAlpha { rho: 0.8 },
-        step: 1.0 / mechanism.mesh_frequencies()[0] / steps_per_cycle as f64,
-        cycles,
-        steps_per_cycle,
-        steps_per_row: 4,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    }
+fn plan(cycles: u64) -> MotionPlan {
+    MotionPlan { steps_per_row: 4, ..crate::motion::steps(Scheme::GeneralisedAlpha { rho: 0.8 }, [cycles, 24]) }
 }
 
 fn run(drive: Drive, change: impl Fn(&mut MotionPlan), cycles: u64) -> (Vec<GearboxInstant>, GearboxRun) {
     let mut mechanism = train(drive, Sense::Ccw, 0.0);
     let start = mechanism.start(0.05).unwrap();
-    let mut plan = plan(&mechanism, cycles);
+    let mut plan = plan(cycles);
     change(&mut plan);
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
@@ -95,7 +84,7 @@ fn teeth_that_differ_come_back_after_a_turn() {
     let mut mechanism = crate::motion_branch::one_stage(5e4, teeth);
     let start = mechanism.start(0.05).unwrap();
     let settle = Some(Settle { tolerance: 1e-7, most: 60 * 23 });
-    let plan = MotionPlan { settle, ..plan(&mechanism, 2 * 23) };
+    let plan = MotionPlan { settle, ..plan(2 * 23) };
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.meshes[0].transmission_error)).unwrap();
     let found = done.periodicity.unwrap();
@@ -110,18 +99,21 @@ fn teeth_that_differ_come_back_after_a_turn() {
 
 /// Newton's method on the period leads to the motion that waiting leads to, long before it where little damps: on a spring,
 /// and on the flanks themselves, whose windows go back to where the period began.
+///
+/// On the spring by `newmark`, of which the tangent flow is the exact derivative: from 4 % of the peak to peak one step leads
+/// to 1e-10. By `energy` both ways end in the round-off of its discrete gradient, which repeats itself to no better than some
+/// 1e-7.
 #[test]
 fn a_gearbox_shoots_to_where_it_would_settle() {
     for is_exact in [false, true] {
         let of = |shoots: bool| {
             let mut mechanism = one_stage(is_exact);
             let start = mechanism.start(0.004).unwrap();
-            let (tolerance, most) = if is_exact { (1e-5, 60) } else { (1e-8, 2000) };
+            let (scheme, tolerance, most) =
+                if is_exact { (Scheme::Energy, 1e-5, 60) } else { (Scheme::Newmark, 1e-9, 2000) };
             let settle = Some(Settle { tolerance, most });
-            let plan = plan(&mechanism, 2);
-            // The tangent flow is that of the midpoint rule.
-            let fine = MotionPlan { scheme: Scheme::Energy, step: plan.step / 2.0, steps_per_cycle: 48, ..plan };
-            let plan = MotionPlan { settle, shoots, ..fine };
+            let plan = plan(2);
+            let plan = MotionPlan { scheme, steps_per_cycle: 48, settle, shoots, ..plan };
             let mut rows = Vec::new();
             let done = mechanism.run(&start, &plan, |instant| rows.push(instant.meshes[0].transmission_error)).unwrap();
             (rows, done)
@@ -129,7 +121,7 @@ fn a_gearbox_shoots_to_where_it_would_settle() {
         let (near, by_newton) = of(true);
         let residual = by_newton.periodicity.unwrap().residual;
         println!("settled after {} cycles to {residual:.1e}", by_newton.warm_up);
-        assert!(residual <= if is_exact { 1e-5 } else { 1e-8 }, "{residual:e}");
+        assert!(residual <= if is_exact { 1e-5 } else { 1e-9 }, "{residual:e}");
         assert!(by_newton.warm_up < 40, "{} cycles", by_newton.warm_up);
         if is_exact {
             continue;
@@ -171,7 +163,7 @@ fn a_wait_that_is_too_short_is_refused() {
     let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
     let start = mechanism.start(0.05).unwrap();
     let settle = Some(Settle { tolerance: 1e-3, most: COMMON - 1 });
-    let plan = MotionPlan { settle, ..plan(&mechanism, 1) };
+    let plan = MotionPlan { settle, ..plan(1) };
     let error = mechanism.run(&start, &plan, |_| ()).unwrap_err();
     assert_eq!(error, GearboxError::NoCommonPeriod { period: Some(COMMON), most: COMMON - 1 });
     assert!(
@@ -185,7 +177,6 @@ fn a_wait_that_is_too_short_is_refused() {
 #[test]
 fn steps_by_an_error_find_the_motion() {
     let fine = |plan: &mut MotionPlan| {
-        plan.step /= 32.0;
         plan.steps_per_cycle *= 32;
         plan.steps_per_row *= 32;
     };
@@ -210,7 +201,7 @@ fn steps_end_where_flanks_come_apart() {
     let of = |stop_at_events: bool| {
         let mut mechanism = train(Drive::Speed(Speed::Constant(420.0)), Sense::Ccw, 0.1);
         let start = mechanism.start(0.002).unwrap();
-        let plan = MotionPlan { stop_at_events, ..plan(&mechanism, 60) };
+        let plan = MotionPlan { stop_at_events, ..plan(60) };
         mechanism.run(&start, &plan, |_| ()).unwrap()
     };
     let [through, stopping] = [false, true].map(of);
@@ -253,7 +244,7 @@ fn a_gearbox_taken_up_again_goes_the_same_way() {
             let mut mechanism = train(SPEED, Sense::Ccw, 0.01);
             let start = mechanism.start(0.05).unwrap();
             let settle = Some(Settle { tolerance: 1e-12, most: COMMON });
-            let plan = MotionPlan { tolerance, stop_at_events, settle, ..plan(&mechanism, 20) };
+            let plan = MotionPlan { tolerance, stop_at_events, settle, ..plan(20) };
             let mut goal = mechanism.goal(&start, &plan).unwrap();
             goal.checkpoint_every = 19;
             let mut kept = Kept::default();
@@ -280,7 +271,7 @@ fn flanks_taken_up_again_go_the_same_way() {
     let follow = |from: Option<GearboxCheckpoint>| {
         let mut mechanism = one_stage(true);
         let start = mechanism.start(0.02).unwrap();
-        let plan = plan(&mechanism, 5);
+        let plan = plan(5);
         let mut goal = mechanism.goal(&start, &plan).unwrap();
         goal.checkpoint_every = 2;
         let mut kept = Kept::default();
@@ -302,7 +293,7 @@ fn flanks_taken_up_again_go_the_same_way() {
 fn a_checkpoint_of_another_gearbox_is_refused() {
     let mut mechanism = train(SPEED, Sense::Ccw, 0.0);
     let start = mechanism.start(0.05).unwrap();
-    let plan = plan(&mechanism, 1);
+    let plan = plan(1);
     let mut course = mechanism.course(&start, &plan, None).unwrap();
     course.run_cycle::<GearboxError>(None).unwrap();
     let state = course.checkpoint().unwrap();

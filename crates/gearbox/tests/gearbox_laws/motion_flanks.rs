@@ -8,8 +8,8 @@ use dynamics::{Bearing, MeshDamping, RigidBody, Torque as PairTorque};
 use gearbox::{
     Disc, GearMesh, Machine, Meshing, Operation, Structure, Torque,
     motion::{
-        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MotionOptions, MotionPlan, MovingExactMesh, MovingMesh,
-        PairModel, Speed,
+        Drive, GearboxInstant, GearboxMechanism, GearboxRun, MotionOptions, MovingExactMesh, MovingMesh, PairModel,
+        Speed,
     },
 };
 use geometry::{GearPair, Sense};
@@ -70,7 +70,7 @@ fn the_contact_in_held_shafts_moves_as_the_pair_alone() {
     start.v[0] -= side * 900.0 / base;
     let step = 1.0 / mechanism.mesh_frequencies()[0] / 200.0;
     let (scheme, steps) = (Scheme::GeneralisedAlpha { rho: 0.9 }, 800);
-    let plan = MotionPlan { step, steps_per_cycle: steps, ..plan(scheme) };
+    let plan = crate::motion::steps(scheme, [steps / 200, 200]);
     let mut found = Vec::new();
     let done =
         mechanism.run(&start, &plan, |i| found.push((i.meshes[0].transmission_error, i.meshes[0].wrench))).unwrap();
@@ -113,11 +113,6 @@ fn range(values: &[f64]) -> f64 {
     ends[1] - ends[0]
 }
 
-/// One row a step.
-fn plan(scheme: Scheme) -> MotionPlan {
-    MotionPlan::of_steps(scheme, 0.0, [1, 1])
-}
-
 /// Two stages on shafts that bend, gears with mass, a heavy machine at the output, flanks on both sides.
 pub fn two_stage_box() -> (Structure, Vec<GearMesh>, Operation) {
     let (mut structure, mut meshes) = two_stages();
@@ -137,7 +132,7 @@ pub fn two_stage_box() -> (Structure, Vec<GearMesh>, Operation) {
     (structure, meshes, operation)
 }
 
-fn run_two_stages(drive: Drive, friction: f64, cycles: f64, per_cycle: f64) -> (Vec<GearboxInstant>, GearboxRun) {
+fn run_two_stages(drive: Drive, friction: f64, cycles: u64, per_cycle: u64) -> (Vec<GearboxInstant>, GearboxRun) {
     let (structure, meshes, operation) = two_stage_box();
     let options = MotionOptions { drive, modal_damping: 0.02, limit: TAU * 2000.0 };
     let made = GearboxMechanism::new(structure, meshes, operation, &options, |_, mesh, meshing| {
@@ -148,12 +143,7 @@ fn run_two_stages(drive: Drive, friction: f64, cycles: f64, per_cycle: f64) -> (
     });
     let mut mechanism = made.unwrap();
     let start = mechanism.start(options.modal_damping).unwrap();
-    let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
-    let plan = MotionPlan {
-        step: 1.0 / (fastest * per_cycle),
-        steps_per_cycle: (cycles * per_cycle) as u64,
-        ..plan(Scheme::Energy)
-    };
+    let plan = crate::motion::steps(Scheme::Energy, [cycles, per_cycle]);
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
     (rows, done)
@@ -165,7 +155,7 @@ fn run_two_stages(drive: Drive, friction: f64, cycles: f64, per_cycle: f64) -> (
 fn power_lost_is_input_less_output() {
     let drive = Drive::Speed(Speed::Constant(200.0));
     let share = |friction: f64| {
-        let (rows, run) = run_two_stages(drive, friction, 6.0, 40.0);
+        let (rows, run) = run_two_stages(drive, friction, 6, 40);
         let energy = run.energy;
         let lost = energy.dissipated / energy.input_work;
         println!("friction {friction}: {lost:.4} lost, open by {:.1e}; {energy:?}", energy.relative_residual);
@@ -186,7 +176,7 @@ fn power_lost_is_input_less_output() {
 #[test]
 fn torque_reverses_through_the_backlash_of_both_stages() {
     let drive = Drive::Speed(Speed::Ramp { from: 200.0, to: 120.0, start: 0.0, duration: 0.02 });
-    let (rows, run) = run_two_stages(drive, 0.0, 10.0, 60.0);
+    let (rows, run) = run_two_stages(drive, 0.0, 10, 60);
     let negative = rows.iter().filter(|row| row.input_torque < 0.0).count();
     println!("{} of {} rows brake, {:?}; {:?}", negative, rows.len(), run.flanks, run.energy);
     for (mesh, own) in run.flanks.iter().enumerate() {

@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use dynamics::MeshDamping;
 use fem::ElementOptions;
-use gearbox::motion::{PairSettings, SteadyBy, SteadyOptions, SweepPlan, SweepPoint};
+use gearbox::motion::{SteadyBy, SteadyOptions, SweepPlan, SweepPoint};
 use integrate::{Integrator, Scheme, State, StepControl, SweepDirection};
 use ltca::StaticOptions;
 use nalgebra::DVector;
@@ -34,12 +34,11 @@ fn both_ways(ratios: &[f64], tolerance: f64) -> [Vec<SweepPoint>; 2] {
     let pair = light_pair();
     let resonance = pair.resonance_hz();
     let system = pair.system(resonance, |o| o.damping = MeshDamping::Ratio(ZETA));
-    let settings =
-        PairSettings { steps_per_resonance: 24, ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, ROWS) };
+    let times = pair.times_showing(&system, Scheme::GeneralisedAlpha { rho: 0.9 }, [ROWS, 24]);
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * resonance)).collect(),
         ways: vec![SweepDirection::Up, SweepDirection::Down],
-        settings,
+        times,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance, most: 240, cycles: 1 },
     };
     let mut points = swept(&system, &plan);

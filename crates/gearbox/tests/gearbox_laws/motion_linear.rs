@@ -11,7 +11,7 @@
 #![allow(clippy::print_stdout, reason = "the figures are what the test is for")]
 
 use dynamics::MeshDamping;
-use gearbox::motion::{PairSettings, SteadyBy, SteadyOptions, SweepPlan};
+use gearbox::motion::{SteadyBy, SteadyOptions, SweepPlan};
 use geometry::GearData;
 use integrate::{Scheme, SweepDirection};
 use ltca::StaticOptions;
@@ -67,12 +67,11 @@ fn a_heavily_loaded_pair_is_a_linear_oscillator() {
     );
     let ratios = [0.475, 0.5, 0.525, 0.95, 1.0, 1.05, 1.3];
     let system = pair.system(f_0, |o| o.damping = MeshDamping::Ratio(ZETA));
-    let settings =
-        PairSettings { steps_per_resonance: 40, ..pair.settings(&system, Scheme::GeneralisedAlpha { rho: 1.0 }, ROWS) };
+    let times = pair.times_showing(&system, Scheme::GeneralisedAlpha { rho: 1.0 }, [ROWS, 40]);
     let plan = SweepPlan {
         speeds: ratios.iter().map(|r| pair.speed(r * f_0)).collect(),
         ways: vec![SweepDirection::Independent],
-        settings,
+        times,
         steady: SteadyOptions { by: SteadyBy::Running, tolerance: 1e-4, most: 100, cycles: 1 },
     };
     let points = swept(&system, &plan);

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 
 use gearbox::{
     GearboxError,
-    motion::{Drive, GearboxInstant, GearboxMechanism, GearboxRun, MotionPlan, Speed, TorqueOverTime as Torque},
+    motion::{Drive, GearboxInstant, GearboxRun, MotionPlan, Speed, TorqueOverTime as Torque},
 };
 use geometry::Sense;
 use integrate::Scheme;
@@ -26,19 +26,8 @@ fn loads() -> [Torque; 2] {
     [pulsing, Torque::Table { times, values: vec![LOAD, -0.3 * LOAD, -0.3 * LOAD, 0.8 * LOAD] }]
 }
 
-fn plan(mechanism: &GearboxMechanism) -> MotionPlan {
-    let steps_per_cycle = 60;
-    MotionPlan {
-        scheme: Scheme::Energy,
-        step: 1.0 / mechanism.mesh_frequencies()[0] / steps_per_cycle as f64,
-        cycles: CYCLES,
-        steps_per_cycle,
-        steps_per_row: 1,
-        tolerance: None,
-        stop_at_events: false,
-        settle: None,
-        shoots: false,
-    }
+fn plan() -> MotionPlan {
+    crate::motion::steps(Scheme::Energy, [CYCLES, 60])
 }
 
 fn run(drive: Drive, sense: Sense, load: Option<&Torque>) -> (Vec<GearboxInstant>, GearboxRun) {
@@ -58,7 +47,7 @@ fn driven(drive: Drive, sense: Sense, [load, input]: [Option<&Torque>; 2]) -> (V
     }
     let start = mechanism.start(0.01).unwrap();
     let mut rows = Vec::new();
-    let done = mechanism.run(&start, &plan(&mechanism), |row| rows.push(row.clone())).unwrap();
+    let done = mechanism.run(&start, &plan(), |row| rows.push(row.clone())).unwrap();
     (rows, done)
 }
 
@@ -173,7 +162,7 @@ fn work_of_loads_is_in_checkpoints() {
     let [load, _] = loads();
     let made = || {
         let mechanism = train(DRIVES[0].0, Sense::Ccw, 0.0).with_torques(vec![(0, load.clone().scaled(-1.0))]).unwrap();
-        (plan(&mechanism), mechanism)
+        (plan(), mechanism)
     };
     let (plan, mut whole) = made();
     let start = whole.start(0.01).unwrap();

@@ -107,9 +107,8 @@ fn at(speed: f64) -> Drive {
     Drive::Speed(Speed::Constant(speed))
 }
 
-fn plan(mechanism: &GearboxMechanism, scheme: Scheme, [steps, cycles]: [u64; 2]) -> MotionPlan {
-    let fastest = mechanism.mesh_frequencies().into_iter().fold(0.0, f64::max);
-    MotionPlan::of_steps(scheme, 1.0 / fastest / steps as f64, [cycles, steps])
+fn plan(scheme: Scheme, [steps, cycles]: [u64; 2]) -> MotionPlan {
+    crate::motion::steps(scheme, [cycles, steps])
 }
 
 /// Motion from the equilibrium on.
@@ -120,7 +119,7 @@ fn run(
     damping: f64,
 ) -> (Vec<GearboxInstant>, GearboxRun) {
     let start = mechanism.start(damping).unwrap();
-    let plan = plan(&mechanism, scheme, steps);
+    let plan = plan(scheme, steps);
     let mut rows = Vec::new();
     let done = mechanism.run(&start, &plan, |instant| rows.push(instant.clone())).unwrap();
     (rows, done)
@@ -229,7 +228,7 @@ fn a_motion_with_modes_settles() {
     let mut mechanism = own.moving(at(120.0), Some(0.05)).unwrap();
     let start = mechanism.start(0.05).unwrap();
     let settle = Some(Settle { tolerance: 1e-6, most: 400 });
-    let plan = MotionPlan { settle, ..plan(&mechanism, Scheme::GeneralisedAlpha { rho: 0.8 }, [32, 2]) };
+    let plan = MotionPlan { settle, ..plan(Scheme::GeneralisedAlpha { rho: 0.8 }, [32, 2]) };
     let mut errors = Vec::new();
     let done = mechanism.run(&start, &plan, |row| errors.push(row.meshes[0].transmission_error)).unwrap();
     let [low, high] = errors.iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(*x), h.max(*x)]);
@@ -251,7 +250,7 @@ fn shooting_with_modes_finds_what_waiting_finds() {
             let mut mechanism = own.moving(at(120.0), Some(0.05)).unwrap();
             let start = mechanism.start(0.05).unwrap();
             let settle = Some(Settle { tolerance, most: 200 });
-            let plan = MotionPlan { settle, shoots, ..plan(&mechanism, Scheme::Energy, [32, 1]) };
+            let plan = MotionPlan { settle, shoots, ..plan(Scheme::Energy, [32, 1]) };
             let mut errors = Vec::new();
             let done = mechanism.run(&start, &plan, |row| errors.push(row.meshes[0].transmission_error)).unwrap();
             (done.warm_up, errors)

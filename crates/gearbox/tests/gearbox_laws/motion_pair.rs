@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use gearbox::{
     GearMesh, Torque,
-    motion::{Drive, GearboxMechanism, MotionOptions, MotionPlan, SpringMesh},
+    motion::{Drive, GearboxMechanism, MotionOptions, SpringMesh},
 };
 use geometry::Sense;
 use integrate::{Integrator, Scheme, State, StepControl};
@@ -105,7 +105,7 @@ fn pair_alone(k: &Fourier, inertia: [f64; 2]) -> [Vec<f64>; 2] {
     let step = 1.0 / mechanism.mesh_frequencies()[0] / 100.0;
     let steps = 400;
     let scheme = Scheme::GeneralisedAlpha { rho: 0.9 };
-    let plan = MotionPlan::of_steps(scheme, step, [1, steps]);
+    let plan = crate::motion::steps(scheme, [steps / 100, 100]);
     let mut found = Vec::new();
     let done = mechanism
         .run(&start, &plan, |instant| {

@@ -9,7 +9,7 @@ use dynamics::{MeshDamping, MotionOptions};
 use fem::ElementOptions;
 use gearbox::{
     GearboxError,
-    motion::{GearboxMechanism, PairMotion, PairSettings, run_to_steady},
+    motion::{GearboxMechanism, PairMotion, run_to_steady},
 };
 use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Resumable, Scheme, StepControl};
@@ -48,8 +48,8 @@ fn between_changes(options: &mut MotionOptions) {
 /// A motion at [`SPEED_RATIO`], run until it repeats itself to round-off.
 fn steady(pair: &MovingPair, resonance: f64, change: fn(&mut MotionOptions)) -> PairMotion {
     let system = pair.system(SPEED_RATIO * resonance, change);
-    let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
-    let mut motion = pair.motion(system, settings);
+    let times = pair.times(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
+    let mut motion = pair.motion(system, times);
     let found = run_to_steady(&mut motion, 1e-10, 60).unwrap_or_else(|e| panic!("{e}"));
     println!("steady after {} cycles: {found:?}", motion.cycle());
     motion
@@ -90,8 +90,8 @@ fn the_spectrum_has_mesh_harmonics_alone() {
 fn a_change_due_at_the_end_of_a_step_is_taken_there() {
     let pair = pair();
     let system = pair.system(SPEED_RATIO * pair.resonance_hz(), little_damping);
-    let settings = PairSettings { steps_per_resonance: 0, ..pair.settings(&system, Scheme::Newmark, 8) };
-    let mut motion = pair.motion(system, settings);
+    let times = pair.times_showing(&system, Scheme::Newmark, [8, 0]);
+    let mut motion = pair.motion(system, times);
     for cycle in 1..=24 {
         rows(&mut motion, 1);
         assert_eq!(motion.system().changes(0).count, cycle, "after as many mesh cycles");
@@ -107,8 +107,8 @@ fn a_wider_window_moves_alike() {
     let resonance = pair.resonance_hz();
     let course = |pair: &MovingPair| {
         let system = pair.system(SPEED_RATIO * resonance, little_damping);
-        let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
-        rows(&mut pair.motion(system, settings), 24)
+        let times = pair.times(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
+        rows(&mut pair.motion(system, times), 24)
     };
     let [a, b] = [course(pair), course(&wide)];
     let off = worst(&a, &b);
@@ -209,8 +209,8 @@ fn a_change_under_load_rings() {
 fn orbit_after(cycles: u64) {
     let pair = pair();
     let system = pair.system(SPEED_RATIO * pair.resonance_hz(), little_damping);
-    let settings = pair.settings(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
-    let mut motion = pair.motion(system, settings);
+    let times = pair.times(&system, Scheme::GeneralisedAlpha { rho: 0.8 }, ROWS);
+    let mut motion = pair.motion(system, times);
     rows(&mut motion, 99);
     let reference = rows(&mut motion, 1);
     let size = peak_to_peak(&reference);

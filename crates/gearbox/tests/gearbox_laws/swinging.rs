@@ -3,12 +3,12 @@
 use std::f64::consts::TAU;
 
 use gearbox::{
-    GearMesh, GearboxError, Held, LinearMesh, Machine, MeanMesh, MeshElement, MeshExcitation, MeshForces, MeshSample,
-    Meshing, Operation, StaticGearbox, Structure, Torque, Vector12, Vibration, own_cycle, turn_levers,
+    GearMesh, GearboxError, Held, Machine, MeanMesh, MeshElement, MeshExcitation, MeshForces, MeshSample, Meshing,
+    Operation, StaticGearbox, Structure, Torque, Vector12, Vibration, own_cycle, turn_levers,
 };
 use geometry::Sense;
 
-use crate::pairs::{operation, spring, two_stages};
+use crate::pairs::{LinearMesh, operation, spring, two_stages};
 
 /// Stiffness and excess that change with the phase c: k (1 + 0.2 cos 2 pi c), e = 1 um cos(2 pi c) + 0.4 um sin(4 pi c).
 pub struct Wavy {

@@ -4,14 +4,14 @@ use std::f64::consts::PI;
 
 use fem::Material;
 use gearbox::{
-    Assembly, Disc, ElasticMesh, GearMesh, GearboxError, Held, LinearMesh, MeshElement, MeshExcitation, MeshSample,
-    Rotors, Structure, Train, Vector12, Vibration,
+    Assembly, Disc, ElasticMesh, GearMesh, GearboxError, Held, MeshElement, MeshExcitation, MeshSample, Rotors,
+    Structure, Train, Vector12, Vibration,
 };
 use geometry::{GearPair, Sense};
 use nalgebra::{Complex, DMatrix, DVector, SVector};
 
 use crate::{
-    pairs::{bearing, pair, shaft, single, spring, two_stages},
+    pairs::{LinearMesh, bearing, pair, shaft, single, spring, two_stages},
     swinging::{heavy_stages, load, vibration},
 };
 

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 use super::{Counts, Course, Stage, Timetable};
-use crate::{Forces, Ledger, Mechanism, MotionError, State};
+use crate::{Ledger, Mechanism, MotionError, State};
 
 /// A mechanism whose motion can be stored.
 pub trait Resumable: Mechanism {
@@ -85,30 +85,5 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
         system.restore(&memory).map_err(|source| MotionError::Mechanism { time, source })?;
         system.forget();
         Ok(Self { system, timetable, state, ledger: Some(ledger), cycle, counts, stage, integrator: None })
-    }
-
-    /// Back to the start of cycle 0 with another state, the mechanism as it was there. The integrator's own acceleration
-    /// stays that of the state; the true one comes from the forces.
-    ///
-    /// # Errors
-    /// [`MotionError`].
-    pub fn rewind(&mut self, memory: &M::Memory, state: State) -> Result<(), MotionError<M::Error>> {
-        let time = state.time;
-        let fail = |source| MotionError::Mechanism { time, source };
-        self.system.restore(memory).map_err(fail)?;
-        (self.state, self.ledger, self.cycle, self.integrator) = (state, None, 0, None);
-        (self.counts, self.stage) = (Counts::default(), Stage::default());
-        if self.timetable.method(&self.system).scheme.carries_acceleration() {
-            let State { q, v, .. } = &self.state;
-            let mut forces = Forces::zeros(q.len());
-            self.system.forces(time, q, v, &mut forces).map_err(fail)?;
-            let potential = self.system.potential(time, q).map_err(fail)?;
-            let mass = self.system.mass().clone();
-            self.ledger = Some(Ledger::open(&mass, v, potential));
-            let singular = MotionError::Singular { time, which: "mass" };
-            self.state.a = mass.cholesky().ok_or(singular)?.solve(&(&forces.conservative + &forces.other));
-            self.state.powers = [forces.supplied, forces.dissipated];
-        }
-        Ok(())
     }
 }

@@ -20,7 +20,7 @@ pub use checkpoint::{Checkpoint, Resumable};
 pub use cycle::{Row, RowReader};
 pub use run::{Follower, Goal, OnlyRows};
 pub use stage::{Compared, Settle, Stage};
-pub use timetable::{CycleTimes, EvenRows, Method, RowPlace, Stop, Timetable};
+pub use timetable::{Ahead, CycleTimes, EvenRows, Method, RowPlace, Stop, Timetable};
 
 use crate::{Integrator, Ledger, Mechanism, MotionError, State};
 
@@ -73,6 +73,11 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.system
     }
 
+    /// The mechanism, for a search that leaves it as it is.
+    pub fn system_mut(&mut self) -> &mut M {
+        &mut self.system
+    }
+
     /// The mechanism, at the end of its motion.
     pub fn into_system(self) -> M {
         self.system
@@ -113,8 +118,23 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         self.timetable.cycle(&self.system, self.cycle, self.state.time).is_some()
     }
 
+    /// What comes next: so many cycles from where the motion stands; `None` where it ends before.
+    pub fn ahead(&self, count: u64) -> Option<Ahead> {
+        let mut begin = self.state.time;
+        let one = |k| {
+            let times = self.timetable.cycle(&self.system, self.cycle + k, begin)?;
+            begin = times.stops.last().map_or(begin, |stop| stop.time);
+            Some(times)
+        };
+        let cycles = (0..count).map(one).collect::<Option<_>>()?;
+        Some(Ahead { state: self.state.clone(), method: self.timetable.method(&self.system), cycles })
+    }
+
     /// Goes on from another state at the same time, its own accelerations included; energy and counts begin anew.
-    fn replace(&mut self, state: State) -> Result<(), MotionError<M::Error>> {
+    ///
+    /// # Errors
+    /// [`MotionError`] where it has no energy.
+    pub fn replace(&mut self, state: State) -> Result<(), MotionError<M::Error>> {
         let time = state.time;
         let potential = self.system.potential(time, &state.q);
         let potential = potential.map_err(|source| MotionError::Mechanism { time, source })?;

@@ -1,6 +1,6 @@
 //! Settle, then rows; checkpoints on the way.
 
-use super::{Checkpoint, Compared, Course, Resumable, Row, Settle, Stage, Timetable};
+use super::{Ahead, Checkpoint, Compared, Course, Resumable, Row, Settle, Stage, Timetable};
 use crate::{Mechanism, MotionError, Periodicity, Recurrence, SignalRecurrence, State};
 
 /// Cycles before a nearer state is sought; the next tries come after half as many again.
@@ -57,12 +57,12 @@ pub trait Follower<M: Resumable> {
         false
     }
 
-    /// A state at the same time that is nearer to the periodic one than waiting has come; `None` where there is none.
-    /// Asked for now and then of a motion that [`Follower::seeks`] it.
+    /// A state at the same time that is nearer to the periodic one than waiting has come, by the cycles of the next period;
+    /// `None` where there is none. Asked for now and then of a motion that [`Follower::seeks`] it.
     ///
     /// # Errors
     /// Whatever ends the motion.
-    fn nearer(&mut self, _system: &mut M, _state: &State, _found: Periodicity) -> Result<Option<State>, Self::Error> {
+    fn nearer(&mut self, _system: &mut M, _period: &Ahead) -> Result<Option<State>, Self::Error> {
         Ok(None)
     }
 }
@@ -111,7 +111,7 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
             // States are compared at the ends of periods, from the beginning of the last one on.
             let is_period = goal.compared.as_ref().is_none_or(|own| self.cycle.is_multiple_of(own.period()));
             if let (false, true, Some(found)) = (self.stage.recording, is_period, found) {
-                self.shoot(found, follower)?;
+                self.shoot((found, goal), follower)?;
             }
             if self.after_cycle(goal, follower)? {
                 return Ok(true);
@@ -194,12 +194,21 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
     }
 
     /// Goes on from a nearer state, where one is found.
-    fn shoot<F: Follower<M>>(&mut self, found: Periodicity, follower: &mut F) -> Result<(), F::Error> {
+    fn shoot<F: Follower<M>>(
+        &mut self,
+        (found, goal): (Periodicity, &Goal<M>),
+        follower: &mut F,
+    ) -> Result<(), F::Error> {
         if self.cycle < self.stage.next_shot.max(FIRST_SHOT) || !follower.seeks(&self.system, found) {
             return Ok(());
         }
         self.stage.next_shot = self.cycle + self.cycle / 2;
-        let Some(there) = follower.nearer(&mut self.system, &self.state, found)? else { return Ok(()) };
+        let period = match &goal.compared {
+            Some(Compared::States { period, .. }) => *period,
+            _ => found.period as u64,
+        };
+        let Some(ahead) = self.ahead(period) else { return Ok(()) };
+        let Some(there) = follower.nearer(&mut self.system, &ahead)? else { return Ok(()) };
         self.replace(there)?;
         (self.stage.signal, self.stage.envelope) = (SignalRecurrence::default(), None);
         self.stage.rows_of_period.clear();

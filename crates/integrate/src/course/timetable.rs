@@ -2,7 +2,7 @@
 
 use nalgebra::DVector;
 
-use crate::{Integrator, Mechanism, Scheme, StepControl};
+use crate::{Integrator, Mechanism, Scheme, State, StepControl};
 
 /// Method of integration, but for the length of steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,6 +61,17 @@ pub struct CycleTimes {
     pub rows: RowPlace,
     /// Length of the steps between the stops.
     pub control: StepControl,
+}
+
+/// Cycles that come next in a motion.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ahead {
+    /// Where they begin.
+    pub state: State,
+    /// Method of their steps.
+    pub method: Method,
+    /// Their times.
+    pub cycles: Vec<CycleTimes>,
 }
 
 /// Divides the time of a motion.

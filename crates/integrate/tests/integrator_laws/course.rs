@@ -3,7 +3,7 @@
 use std::convert::Infallible;
 
 use integrate::{
-    Checkpoint, Compared, Course, CycleTimes, Follower, Forces, Goal, Mechanism, Method, MotionError, OnlyRows,
+    Ahead, Checkpoint, Compared, Course, CycleTimes, Follower, Forces, Goal, Mechanism, Method, MotionError, OnlyRows,
     Periodicity, Resumable, Row, RowPlace, Scheme, Settle, SignalRecurrence, State, StepControl, Stop, SweepDirection,
     Timetable, sweep,
 };
@@ -156,8 +156,8 @@ impl Follower<Oscillator> for Seen {
         self.shot.is_some()
     }
 
-    fn nearer(&mut self, _: &mut Oscillator, state: &State, _: Periodicity) -> Result<Option<State>, Self::Error> {
-        Ok(self.shot.take().map(|there| State { time: state.time, ..there }))
+    fn nearer(&mut self, _: &mut Oscillator, period: &Ahead) -> Result<Option<State>, Self::Error> {
+        Ok(self.shot.take().map(|there| State { time: period.state.time, ..there }))
     }
 }
 

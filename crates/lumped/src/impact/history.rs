@@ -1,12 +1,11 @@
-//! A motion of rigid gears as rows of results.
+//! Rigid gears in motion at one time.
 
 use dynamics::Displacement;
-use integrate::State;
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ImpactMechanism;
-use crate::{LumpedError, Recorded, Recording, equilibrium, recording::record};
+use crate::{LumpedError, equilibrium};
 
 /// One instant of a pair of rigid gears.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -44,7 +43,6 @@ impl ImpactMechanism {
     pub fn row(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ImpactRow {
         let (d, rate) = (self.coordinates().displacement(q), self.coordinates().displacement(v));
         let [driving, coast] = self.flank_forces(t, &d, &rate);
-        let moment = self.moment(t);
         let cycles = self.cycles(t);
         let least = match (driving.length > 0.0, coast.length > 0.0) {
             (true, true) => driving.least_force.min(coast.least_force),
@@ -54,7 +52,7 @@ impl ImpactMechanism {
         ImpactRow {
             time: t,
             mesh_phase: cycles - cycles.floor(),
-            speed: [0, 1].map(|g| moment.velocity[g] + rate[6 * g + 5]),
+            speed: [0, 1].map(|g| self.speeds(t)[g] + rate[6 * g + 5]),
             transmission_error_um: 1e3 * q[self.coordinates().lag()],
             normal_force: [driving.normal_force, coast.normal_force],
             least_slice_force: least,
@@ -98,17 +96,5 @@ impl ImpactMechanism {
         let scale = self.scale();
         let Ok(found) = equilibrium(self, 0.0, &start, &held, &scale);
         found.ok_or(LumpedError::NoEquilibrium)
-    }
-
-    /// Runs from the balance of the nominal motion.
-    ///
-    /// # Errors
-    /// Those of [`ImpactMechanism::rolling_state`], and [`LumpedError::Motion`].
-    pub fn history(&mut self, plan: &Recording) -> Result<Recorded<ImpactRow>, LumpedError> {
-        let q = self.rolling_state()?;
-        let n = q.len();
-        let scale = self.scale();
-        let start = State::new(0.0, q, DVector::zeros(n));
-        Ok(record(self, start, scale, plan, |system, state| system.row(state.time, &state.q, &state.v))?)
     }
 }

@@ -4,14 +4,14 @@ use std::convert::Infallible;
 
 use ale::Station;
 use contact::Pose;
-use dynamics::{COORDINATES, Coordinates, Displacement, Drive, Nominal, NominalState, Speed, Torque};
-use geometry::GearPair;
+use dynamics::{COORDINATES, Displacement, Drive, Speed, Torque};
+use geometry::{Driver, GearPair};
 use integrate::{Forces, Mechanism};
 use ltca::StaticOptions;
 use nalgebra::{DMatrix, DVector, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    ImpactOptions,
+    ImpactOptions, RigidCoordinates,
     flanks::{FlankSide, NominalPose},
     forces::{FlankForce, Square},
 };
@@ -34,9 +34,12 @@ pub struct ImpactMechanism {
     options: ImpactOptions,
     /// Driver and sense, as the coordinates of pair motion want them.
     running: StaticOptions,
-    coordinates: Coordinates,
+    coordinates: RigidCoordinates,
     mass: DMatrix<f64>,
-    nominal: Nominal,
+    /// Nominal speed of the driver.
+    speed: Speed,
+    /// Turns of pinion and wheel about +z by one of the driver.
+    turns: [f64; 2],
     sides: [FlankSide; 2],
     bearing: [Square; 2],
     share: f64,
@@ -53,24 +56,29 @@ impl ImpactMechanism {
             c.driver = options.driver;
             c.sense = options.sense
         });
-        let (speed, by_torque) = match &options.drive {
-            Drive::Speed(speed) | Drive::Balanced(speed) => (*speed, false),
-            Drive::Torque { start, .. } => (Speed::Constant(*start), true),
-        };
+        let speed = options.drive.nominal();
         let mut free = options.free;
-        free[1 - running.driven()][COORDINATES - 1] = by_torque;
-        let coordinates = Coordinates::new(&pair, &running, free);
-        let mass = coordinates.mass(&options.bodies);
-        let nominal = Nominal { speed, start: options.start_cycles };
+        free[1 - running.driven()][COORDINATES - 1] = matches!(options.drive, Drive::Torque { .. });
+        let coordinates = RigidCoordinates::new(&pair, &running, &free);
+        // A ring turns the same way as its pinion.
+        let ratio = -pair.pinion.signed_teeth() / pair.wheel.signed_teeth();
+        let turns = match options.driver {
+            Driver::Pinion => [1.0, ratio],
+            Driver::Wheel => [1.0 / ratio.abs(), ratio.signum()],
+        };
+        let turns = turns.map(|turns| options.sense.sign() as f64 * turns);
+        let mut bodies = Square::zeros();
         let sides = [running.side(), running.side().opposite()].map(|s| FlankSide::new(&pair, s, options.slices));
         let mut bearing = [Square::zeros(); 2];
         for (g, b) in options.bearings.iter().enumerate() {
             let at = COORDINATES * g;
+            bodies.fixed_view_mut::<6, 6>(at, at).copy_from(&options.bodies[g].matrix());
             bearing[0].fixed_view_mut::<6, 6>(at, at).copy_from(&b.stiffness);
             bearing[1].fixed_view_mut::<6, 6>(at, at).copy_from(&b.damping);
         }
         let share = 1.0 / options.slices as f64;
-        Ok(Self { pair, options, running, coordinates, mass, nominal, sides, bearing, share })
+        let mass = coordinates.map().tr_mul(&(bodies * coordinates.map()));
+        Ok(Self { pair, options, running, coordinates, mass, speed, turns, sides, bearing, share })
     }
 
     /// The pair with another start, in mesh cycles, whole and part.
@@ -86,10 +94,7 @@ impl ImpactMechanism {
     /// # Errors
     /// As of [`Self::new`].
     pub(super) fn standing_still(&self) -> Result<Self, LumpedError> {
-        let drive = match &self.options.drive {
-            Drive::Speed(_) | Drive::Balanced(_) => Drive::Speed(Speed::Constant(0.0)),
-            Drive::Torque { torque, .. } => Drive::Torque { start: 0.0, torque: torque.clone() },
-        };
+        let drive = self.options.drive.clone().at_speed(0.0);
         // A table has no mean: the torque that it begins with.
         let load = Torque::Constant(self.options.load.mean().unwrap_or_else(|| self.options.load.at(0.0)));
         Self::new(self.pair.clone(), ImpactOptions { drive, load, ..self.options.clone() })
@@ -101,18 +106,19 @@ impl ImpactMechanism {
     }
 
     /// Free coordinates.
-    pub fn coordinates(&self) -> &Coordinates {
+    pub fn coordinates(&self) -> &RigidCoordinates {
         &self.coordinates
     }
 
-    /// Nominal motion at a time, s.
-    pub fn moment(&self, t: f64) -> NominalState {
-        self.nominal.at(&self.pair, &self.running, t)
+    /// Speeds of both gears about +z in the nominal motion at a time (s), rad/s: they turn in the ratio of their teeth.
+    pub fn speeds(&self, t: f64) -> [f64; 2] {
+        self.turns.map(|turns| turns * self.speed.at(t))
     }
 
-    /// Mesh cycles at a time, s.
+    /// Mesh cycles, whole and part, at a time, s.
     pub fn cycles(&self, t: f64) -> f64 {
-        self.nominal.cycles(&self.pair, &self.running, t)
+        let driver = [&self.pair.pinion, &self.pair.wheel][1 - self.running.driven()];
+        self.options.start_cycles + self.speed.angle(t) / driver.pitch_angle().abs()
     }
 
     fn standing(&self, t: f64) -> NominalPose {
@@ -145,8 +151,7 @@ impl ImpactMechanism {
     pub fn flank_forces(&mut self, t: f64, d: &Displacement, rate: &Displacement) -> [FlankForce; 2] {
         let at = self.standing(t);
         let poses = self.poses(&at, d);
-        let moment = self.moment(t);
-        let nominal = turning(&moment);
+        let nominal = turning(self.speeds(t));
         let velocity = rate + nominal;
         let Self { pair, options, sides, share, .. } = self;
         let whole = pair.face_width() / pair.base_helix_angle().cos();
@@ -175,34 +180,34 @@ impl ImpactMechanism {
     }
 
     /// Loads and drive torque on the twelve coordinates, and inertia of a nominal motion that is not steady.
-    fn external(&self, t: f64, moment: &NominalState) -> Displacement {
+    fn external(&self, t: f64) -> Displacement {
         let driven = self.running.driven();
         let turn = |g: usize| COORDINATES * (g + 1) - 1;
         let mut f = Displacement::zeros();
         f[turn(driven)] += self.running.side().sign() * self.options.load.at(t);
         if let Drive::Torque { torque, .. } = &self.options.drive {
-            f[turn(1 - driven)] += moment.senses[1 - driven] * torque.at(t);
+            f[turn(1 - driven)] += self.turns[1 - driven].signum() * torque.at(t);
         }
         for (g, body) in self.options.bodies.iter().enumerate() {
-            f[turn(g)] -= body.polar_inertia * moment.acceleration[g];
+            f[turn(g)] -= body.polar_inertia * self.turns[g] * self.speed.acceleration(t);
         }
         f
     }
 
-    fn gyroscopic(&self, moment: &NominalState) -> Square {
+    fn gyroscopic(&self, speeds: [f64; 2]) -> Square {
         let mut g = Square::zeros();
         for (i, body) in self.options.bodies.iter().enumerate() {
             let at = COORDINATES * i + 3;
-            g.fixed_view_mut::<3, 3>(at, at).copy_from(&body.gyroscopic(moment.velocity[i]));
+            g.fixed_view_mut::<3, 3>(at, at).copy_from(&body.gyroscopic(speeds[i]));
         }
         g
     }
 }
 
 /// Velocities of both gears in the nominal motion.
-fn turning(moment: &NominalState) -> Displacement {
+fn turning(speeds: [f64; 2]) -> Displacement {
     let mut all = Displacement::zeros();
-    (all[COORDINATES - 1], all[2 * COORDINATES - 1]) = (moment.velocity[0], moment.velocity[1]);
+    (all[COORDINATES - 1], all[2 * COORDINATES - 1]) = speeds.into();
     all
 }
 
@@ -215,26 +220,27 @@ impl Mechanism for ImpactMechanism {
 
     fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
         let (d, rate) = (self.coordinates.displacement(q), self.coordinates.displacement(v));
-        let moment = self.moment(t);
+        let speeds = self.speeds(t);
         let [driving, coast] = self.flank_forces(t, &d, &rate);
-        let external = self.external(t, &moment);
-        let gyroscopic = self.gyroscopic(&moment);
+        let external = self.external(t);
+        let gyroscopic = self.gyroscopic(speeds);
         let flanks = driving.damping + driving.friction + coast.damping + coast.friction;
         let lossy = flanks - self.bearing[1] * rate;
         // Dampers and friction go against the whole motion of the flanks; what they take of the nominal part of it the
         // drive replaces.
-        let replaced = -flanks.dot(&turning(&moment));
+        let replaced = -flanks.dot(&turning(speeds));
         out.supplied = external.dot(&rate) + replaced;
         out.dissipated = replaced - lossy.dot(&rate);
         out.parametric = driving.parametric + coast.parametric;
         let conservative = driving.elastic + coast.elastic - self.bearing[0] * d;
-        self.coordinates.add_force(&conservative, &mut out.conservative);
-        self.coordinates.add_force(&(external + lossy - gyroscopic * rate), &mut out.other);
+        let map = self.coordinates.map();
+        out.conservative.gemv_tr(1.0, map, &conservative, 1.0);
+        out.other.gemv_tr(1.0, map, &(external + lossy - gyroscopic * rate), 1.0);
         if out.tangents {
             let stiffness = driving.stiffness + coast.stiffness + self.bearing[0];
             let rates = driving.rates + coast.rates + self.bearing[1] + gyroscopic;
-            self.coordinates.add_matrix(&stiffness, 1.0, &mut out.stiffness);
-            self.coordinates.add_matrix(&rates, 1.0, &mut out.damping);
+            out.stiffness += map.tr_mul(&(stiffness * map));
+            out.damping += map.tr_mul(&(rates * map));
         }
         Ok(())
     }

@@ -8,13 +8,14 @@
 //! 4. `flanks`: where teeth are nearest, slice by slice, with the search of [`contact`];
 //! 5. [`ImpactMechanism`]: equations of motion, static equilibrium, [`ImpactRow`]s of a history.
 //!
-//! Coordinates are those of [`dynamics`]: deviations from the nominal motion; with rigid shafts and a prescribed speed
-//! the transmission error alone.
+//! [`RigidCoordinates`] are deviations from the nominal motion; with rigid shafts and a prescribed speed the transmission
+//! error alone.
 //!
 //! Seed: "Simulation analysis of helical gears in the gear box of the rolling mill", which lets ADAMS find one contact
 //! of two solids a tooth pair. Here each pair has the same law slice by slice, so that a pair comes in and goes out
 //! with the length of its contact line.
 
+mod coordinates;
 mod flanks;
 mod forces;
 mod friction;
@@ -23,6 +24,7 @@ mod law;
 mod mechanism;
 mod options;
 
+pub use coordinates::RigidCoordinates;
 pub use forces::FlankForce;
 pub use friction::StickSlip;
 pub use history::ImpactRow;

@@ -17,20 +17,16 @@
 //!   printed is +F_y R_b - T_g, which with (6c) is a negative stiffness.
 //! * (2c) in (7b): the axial error has the other sign. delta_z = z_p - z_g - tan(beta) delta_y must be without force
 //!   when the unloaded pair follows its error, delta_y = e_y.
-//! * m_e: see [`crate::LumpedPair::reduced_mass`]; the phase under a fluctuating speed: see [`crate::MeshClock`]; (18):
-//!   see [`Dimensionless`].
+//! * m_e: see [`crate::LumpedPair::reduced_mass`]; the phase under a fluctuating speed: see [`crate::MeshClock`]; (18)
+//!   in dimensionless form: a law of this crate (`dimensionless.rs` of its tests).
 //! * (2a), the error across the line of action, enters no equation.
 //!
 //! And what is not a misprint, but wrong by statics: see [`MeshLaw::Projected`].
 
-mod dimensionless;
-mod equations18;
 mod mechanism;
 mod mesh_law;
 mod parameters;
 
-pub use dimensionless::Dimensionless;
-pub use equations18::Equations18;
 pub use mechanism::Motion8;
 pub use mesh_law::MeshLaw;
 pub use parameters::{Lumped8, Support8};

@@ -1,11 +1,9 @@
-//! A motion of shafts as rows of results.
+//! Shafts in motion at one time.
 
-use integrate::{Integrator, Scheme, State, StepControl};
 use nalgebra::DVector;
 use serde::{Deserialize, Serialize};
 
 use super::ShaftMechanism;
-use crate::{LumpedError, Recorded, Recording, error::finite, recording::record};
 
 /// One instant of one mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -61,42 +59,5 @@ impl ShaftMechanism {
     /// Period of mesh `mesh`, s; infinite at rest, `None` where there is no such mesh.
     pub fn mesh_period(&self, mesh: usize) -> Option<f64> {
         self.meshes.get(mesh).map(|m| std::f64::consts::TAU / m.rate)
-    }
-
-    /// Carries a state that stands at a whole number of periods of mesh `mesh` on by one, in `steps` fixed steps, and
-    /// returns what is there: a stroboscopic section, for bifurcation diagrams and Lyapunov exponents.
-    ///
-    /// # Errors
-    /// [`LumpedError::NoMesh`], [`LumpedError::NotFinite`] at rest, [`LumpedError::Motion`].
-    pub fn strobe(
-        &mut self,
-        mesh: usize,
-        scheme: Scheme,
-        steps: u32,
-        state: &mut State,
-    ) -> Result<ShaftRow, LumpedError> {
-        let none = LumpedError::NoMesh { mesh, count: self.meshes.len() };
-        let period = self.mesh_period(mesh).ok_or(none.clone())?;
-        finite("period of the mesh, s", period)?;
-        let until = ((state.time / period).round() + 1.0) * period;
-        let control = StepControl::Fixed(period / f64::from(steps.max(1)));
-        let mut integrator = Integrator::new(scheme, control, self.scale());
-        integrator.advance(self, state, until, |_, _| ())?;
-        self.row(mesh, state.time, &state.q, &state.v).ok_or(none)
-    }
-
-    /// Runs from the static equilibrium at t = 0 and keeps rows of mesh `mesh`.
-    ///
-    /// # Errors
-    /// [`LumpedError::NoMesh`], those of [`ShaftMechanism::static_state`], and [`LumpedError::Motion`].
-    pub fn history(&mut self, mesh: usize, plan: &Recording) -> Result<Recorded<ShaftRow>, LumpedError> {
-        let q = self.static_state(0.0)?;
-        let n = q.len();
-        let still = DVector::zeros(n);
-        let first = self.row(mesh, 0.0, &q, &still).ok_or(LumpedError::NoMesh { mesh, count: self.meshes.len() })?;
-        let scale = self.scale();
-        Ok(record(self, State::new(0.0, q, still), scale, plan, |system, state| {
-            system.row(mesh, state.time, &state.q, &state.v).unwrap_or(first)
-        })?)
     }
 }

@@ -9,13 +9,13 @@ use std::f64::consts::{PI, TAU};
 use dynamics::{Drive, Speed, Torque};
 use geometry::{Driver, Sense};
 use integrate::{Forces, Mechanism, Scheme, StepControl};
-use lumped::{
-    Recorded, Recording,
-    impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness},
-};
+use lumped::impact::{ImpactMechanism, ImpactOptions, ImpactRow, contact_stiffness};
 use nalgebra::{DVector, Matrix6, SVector};
 
-use crate::mill;
+use crate::{
+    mill,
+    recording::{Recorded, Recording, impacts},
+};
 
 /// T / (r_b cos b_b), N.
 fn normal_force() -> f64 {
@@ -142,7 +142,7 @@ fn seed_001_shortened() {
         o.slices = 13;
     });
     let h = 360.0 / (41.0 * 6000.0 * 16.0);
-    let rows = model.history(&run(h, 0.0, 0.45)).unwrap().rows;
+    let rows = impacts(&mut model, &run(h, 0.0, 0.45)).unwrap().rows;
     judge(&rows, h, 0.2);
 }
 
@@ -150,7 +150,7 @@ fn seed_001_shortened() {
 #[test]
 #[ignore = "half a minute: run once, figures in docs/validation.md"]
 fn seed_001_whole() {
-    let rows = model(|o| o.slices = 33).history(&run(1e-4, 0.0, 2.0)).unwrap().rows;
+    let rows = impacts(&mut model(|o| o.slices = 33), &run(1e-4, 0.0, 2.0)).unwrap().rows;
     assert_eq!(rows.len(), 20_000);
     judge_ramp(&rows, 0.3);
     judge(&rows, 1e-4, 0.4);
@@ -159,7 +159,7 @@ fn seed_001_whole() {
 /// Ramp of the seed, 7 slices.
 #[test]
 fn start_is_without_a_jolt() {
-    let rows = model(|o| o.slices = 7).history(&run(2e-4, 0.0, 0.3)).unwrap().rows;
+    let rows = impacts(&mut model(|o| o.slices = 7), &run(2e-4, 0.0, 0.3)).unwrap().rows;
     judge_ramp(&rows, 0.3);
 }
 
@@ -176,7 +176,7 @@ fn friction_raises_the_mean_force() {
             }
         });
         let cycle = 1.0 / (41.0 * 6000.0 / 360.0);
-        let rows = model.history(&run(cycle / 16.0, 100.0 * cycle, 20.0 * cycle)).unwrap().rows;
+        let rows = impacts(&mut model, &run(cycle / 16.0, 100.0 * cycle, 20.0 * cycle)).unwrap().rows;
         rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / rows.len() as f64 / normal_force()
     };
     let [without, with] = [false, true].map(mean);
@@ -258,9 +258,9 @@ fn both_gears_feel_the_same() {
     assert!((f1 + f2).norm() < 1e-9 * f1.norm(), "{f1} and {f2}");
     let about_origin = m1 + m2 + c1.cross(&f1) + c2.cross(&f2);
     assert!(about_origin.norm() < 1e-9 * m1.norm(), "{about_origin}");
-    let moment = model.moment(0.0);
-    let power = driving.friction[5] * moment.velocity[0] + driving.friction[11] * moment.velocity[1];
-    let through = mill::LOAD * moment.velocity[0].abs();
+    let speeds = model.speeds(0.0);
+    let power = driving.friction[5] * speeds[0] + driving.friction[11] * speeds[1];
+    let through = mill::LOAD * speeds[0].abs();
     println!("friction takes {:.3} % of the power", -100.0 * power / through);
     assert!(power < 0.0 && -power < 0.05 * through, "{power} of {through}");
 }
@@ -275,7 +275,7 @@ fn turns_and_mirrors_change_nothing() {
             o.drive = Drive::Speed(Speed::Constant(mill::SPEED));
             change(o);
         });
-        model.history(&run(1e-4, 0.0, 0.01)).unwrap().rows
+        impacts(&mut model, &run(1e-4, 0.0, 0.01)).unwrap().rows
     };
     let given = rows(&|o| o.start_cycles = 0.25);
     let later = rows(&|o| o.start_cycles = 0.25 + 41.0 * 30.0 * 1e4);
@@ -312,7 +312,7 @@ fn torque_reversal_strikes_the_coast_flanks() {
     let schemes = [(Scheme::Energy, 1e-4, 1e-8), (Scheme::GeneralisedAlpha { rho: 1.0 }, 5e-5, 2e-2)];
     for (scheme, h, tolerance) in schemes {
         let run = Recording { scheme, ..run(h, 0.0, 0.1) };
-        let Recorded { rows, ledger, .. } = model.history(&run).unwrap();
+        let Recorded { rows, ledger, .. } = impacts(&mut model, &run).unwrap();
         let last = &rows[rows.len() - 1];
         let open = ledger.relative_residual();
         let struck = rows.iter().map(|r| r.normal_force[1]).fold(0.0, f64::max);
@@ -337,7 +337,7 @@ fn twelve_coordinates_run() {
         free(o);
         o.slices = 7;
     });
-    let Recorded { rows, state, .. } = model.history(&run(1e-4, 0.0, 0.03)).unwrap();
+    let Recorded { rows, state, .. } = impacts(&mut model, &run(1e-4, 0.0, 0.03)).unwrap();
     let mean = rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / rows.len() as f64;
     println!("mean {mean:.0} N; axial displacement {:.3} mm", state.q[2]);
     assert!((mean / normal_force() - 1.0).abs() < 0.05 && rows.iter().all(|r| r.normal_force[0] > 0.0), "{mean}");

@@ -9,13 +9,12 @@ use geometry::{
     modification::{ProfilePlace, Relief, ReliefShape},
 };
 use integrate::{Forces, Mechanism, Scheme, StepControl};
-use lumped::{
-    Recording,
-    impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness},
-};
+use lumped::impact::{ImpactLaw, ImpactMechanism, ImpactOptions, StickSlip, contact_stiffness};
 use nalgebra::{Matrix6, SVector};
 
 use testing::Random;
+
+use crate::recording::{Recording, impacts};
 
 const STICK_SLIP: StickSlip =
     StickSlip { static_coefficient: 0.08, dynamic_coefficient: 0.05, static_speed: 0.1, dynamic_speed: 10.0 };
@@ -132,7 +131,7 @@ fn stands_and_moves(seed: u64, phases: u32, schemes: &[Scheme]) -> Result<bool, 
             rows: 16,
         };
         let mut own = model.beginning_at(0.0).unwrap();
-        let recorded = own.history(&plan).map_err(|e| format!("seed {seed}, {scheme:?}: {e}"))?;
+        let recorded = impacts(&mut own, &plan).map_err(|e| format!("seed {seed}, {scheme:?}: {e}"))?;
         if !recorded.rows.iter().all(|r| r.transmission_error_um.is_finite() && r.least_slice_force >= 0.0) {
             return Err(format!("seed {seed}, {scheme:?}: a flank pulls, or there is no number"));
         }
@@ -191,7 +190,7 @@ fn friction_that_turns_round_has_a_solution() {
         for steps in [32.0, 256.0] {
             let control = StepControl::Fixed(cycle / steps);
             let plan = Recording { scheme, control, settle: 0.0, duration: 2.0 * cycle, rows: 64 };
-            let done = small_pair().history(&plan).unwrap_or_else(|e| panic!("{scheme:?}, {steps} steps: {e}"));
+            let done = impacts(&mut small_pair(), &plan).unwrap_or_else(|e| panic!("{scheme:?}, {steps} steps: {e}"));
             let force: f64 = done.rows.iter().map(|r| r.normal_force[0]).sum::<f64>() / done.rows.len() as f64;
             println!("{scheme:?}, {steps} steps a cycle: mean normal force {force:.1} N");
         }

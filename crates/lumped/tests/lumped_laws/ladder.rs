@@ -3,14 +3,16 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{bodies_004, gears_004, operation, relative};
+use crate::{
+    common::{bodies_004, gears_004, operation, relative},
+    recording::{RunPlan, run},
+};
 use integrate::{Mechanism, Scheme};
 use lumped::{
-    LumpedError, LumpedModel, LumpedPair, MeshClock, MeshCycle, RunPlan,
+    LumpedError, LumpedModel, LumpedPair, MeshClock, MeshCycle,
     lumped8::{Lumped8, MeshLaw, Support8},
     lumped12::{Lumped12, Support12},
     modes::{Mode, linearised, undamped_modes},
-    run,
 };
 use nalgebra::DVector;
 

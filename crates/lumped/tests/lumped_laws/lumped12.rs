@@ -3,14 +3,16 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{pair_004, relative, seed_003};
+use crate::{
+    common::{pair_004, relative, seed_003},
+    recording::{RunPlan, run},
+};
 use geometry::Sense;
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
-    FourierTorque, HistoryRow, LineSharing, LumpedError, LumpedModel, MeshClock, RunPlan,
+    FourierTorque, HistoryRow, LineSharing, LumpedError, LumpedModel, MeshClock,
     lumped12::{Lumped12, Motion12, Support12},
     modes::damped_modes,
-    run,
 };
 use nalgebra::DVector;
 

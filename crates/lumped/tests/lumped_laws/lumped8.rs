@@ -3,12 +3,16 @@
 
 use std::f64::consts::TAU;
 
-use crate::common::{relative, seed_004};
+use crate::{
+    common::{relative, seed_004},
+    dimensionless::Dimensionless,
+    recording::{RunPlan, Trouble, run},
+};
 use integrate::{Forces, Integrator, Mechanism, Scheme, State, StepControl};
 use lumped::{
-    Fourier, FourierTorque, LumpedError, LumpedModel, MeshClock, RunPlan,
+    Fourier, FourierTorque, LumpedError, LumpedModel, MeshClock,
     lumped8::{Lumped8, MeshLaw, Support8},
-    run, starting_state,
+    starting_state,
 };
 use nalgebra::{DVector, dvector};
 use study::{
@@ -84,7 +88,7 @@ fn tangents_are_derivatives() {
             check_tangents(&mut motion, 1.234e-3, q, v, [1e-7, 1e-4]);
         }
         if law == MeshLaw::Projected {
-            let mut form = model.dimensionless().unwrap();
+            let mut form = Dimensionless::of(&model);
             for (q, v) in &states {
                 let state = form.state_of(&State::new(1.234e-3, q.clone(), v.clone()));
                 check_tangents(&mut form, state.time, &state.q, &state.v, [1e-6, 1e-6]);
@@ -141,7 +145,7 @@ fn dimensionless_is_dimensional() {
     model.pair.torques[0] = FourierTorque::sine(300e3, 60e3, 900.0);
     model.pair.torques[1] = FourierTorque::sine(900e3, 100e3, 700.0);
     model.pair.clock = MeshClock { fluctuation: 5.0, fluctuation_frequency: 300.0, ..MeshClock::steady(30, 1200.0) };
-    let (mut motion, mut form) = (model.motion().unwrap(), model.dimensionless().unwrap());
+    let (mut motion, mut form) = (model.motion().unwrap(), Dimensionless::of(&model));
     let mut state = starting_state(&motion);
     let mut other = form.state_of(&state);
     let period = 1.0 / model.pair.clock.mesh_frequency();
@@ -207,7 +211,7 @@ fn energy_ledger_closes() {
         assert!(residual < 1e-10, "{law:?}: {residual:e}");
         assert!(rk[1] < 1e-4 && rk[1] < rk[0], "{law:?}: {rk:?}");
         if law == MeshLaw::Projected {
-            let mut form = model.dimensionless().unwrap();
+            let mut form = Dimensionless::of(&model);
             let mut state = form.state_of(&starting_state(&motion));
             let end = 25.0 * form.omega() / model.pair.clock.mesh_frequency();
             let mut integrator =
@@ -307,8 +311,6 @@ fn chaos_and_order_have_exponents_of_their_sign() {
     }
 }
 
-type Trouble = integrate::MotionError<std::convert::Infallible>;
-
 /// The pair's own backlash, whichever way the law takes it: j / 2 along the transverse line of action.
 #[test]
 fn backlash_of_a_pair_is_its_clearance_on_the_line_of_action() {
@@ -397,10 +399,6 @@ fn nonsense_is_refused() {
         assert!(error.to_string().starts_with(quantity), "{error}");
         assert!(error.hint().is_some(), "{error}");
     }
-    let mut without = seed_004(MeshLaw::Projected, 0.0);
-    without.half_backlash = 0.0;
-    assert!(matches!(without.dimensionless(), Err(LumpedError::NotPositive { .. })));
-    assert!(matches!(seed_004(MeshLaw::Normal, 0.0).dimensionless(), Err(LumpedError::OutOfRange { .. })));
 }
 
 /// Parameters are plain data: out to text and in again, the same model.

@@ -10,10 +10,13 @@ use lumped::shaft18::{
     Continuum, Influence, LumpedShaft, MeshGeometry, Shaft, ShaftMechanism, ShaftStation, ShaftSystem, Station,
     Support, bending_influence, continuum_modes, equivalent_torsional_stiffness,
 };
-use lumped::{Fourier, LumpedError, MeshCycle, Recording};
+use lumped::{Fourier, LumpedError, MeshCycle};
 use nalgebra::{DMatrix, DVector, SVector, Translation3, UnitQuaternion, Vector3};
 
-use crate::gearbox::{ALL, disc, gearbox, steel};
+use crate::{
+    gearbox::{ALL, disc, gearbox, steel},
+    recording::{Recording, shafts},
+};
 
 /// Steps of different diameters, one of them hollow.
 fn stepped() -> Shaft {
@@ -403,7 +406,7 @@ fn three_shafts_make_a_train() {
         duration: 0.01,
         rows: 190,
     };
-    assert!(model.history(1, &run).unwrap().rows.iter().all(|r| r.normal_force.is_finite() && r.normal_force > 0.0));
+    assert!(shafts(&mut model, 1, &run).rows.iter().all(|r| r.normal_force.is_finite() && r.normal_force > 0.0));
 }
 
 /// Runge-Kutta 4, Dormand-Prince with error control and generalised-alpha tell the same story; energy closes.
@@ -461,7 +464,7 @@ fn mirrored_systems_answer_mirrored() {
         duration: 4e-3,
         rows: 16,
     };
-    let rows = |system: &ShaftSystem| ShaftMechanism::new(system).unwrap().history(0, &run).unwrap().rows;
+    let rows = |system: &ShaftSystem| shafts(&mut ShaftMechanism::new(system).unwrap(), 0, &run).rows;
     let mut system = gearbox(300.0, 0.01);
     system.gravity = [0.0; 3];
     let given = rows(&system);
@@ -504,7 +507,7 @@ fn slow_running_is_static() {
         duration: period,
         rows: 20,
     };
-    for row in model.history(0, &run).unwrap().rows {
+    for row in shafts(&mut model, 0, &run).rows {
         let q = model.static_state(row.time).unwrap();
         let expected = model.row(0, row.time, &q, &DVector::zeros(q.len())).unwrap().compression;
         assert!((row.compression / expected - 1.0).abs() < 1e-3, "{} s: {}, not {expected}", row.time, row.compression);

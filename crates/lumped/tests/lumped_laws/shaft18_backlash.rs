@@ -8,12 +8,15 @@
 use std::f64::consts::TAU;
 
 use integrate::{Scheme, State, StepControl};
+use lumped::LumpedError;
 use lumped::shaft18::ShaftMechanism;
-use lumped::{LumpedError, Recording};
 use nalgebra::DVector;
 use study::{Branch, Lyapunov, LyapunovPlan, Window};
 
-use crate::gearbox::light;
+use crate::{
+    gearbox::light,
+    recording::{Recording, shafts, strobe},
+};
 
 /// Half of a backlash of 40 um, mm.
 const HALF_BACKLASH: f64 = 0.02;
@@ -32,14 +35,14 @@ impl Settled {
         let q = model.static_state(0.0)?;
         let n = q.len();
         let mut settled = Self { model, state: State::new(0.0, q, DVector::zeros(n)) };
-        settled.points(periods)?;
+        settled.points(periods);
         Ok(settled)
     }
 
     /// Compression once a mesh period, um.
-    fn points(&mut self, periods: usize) -> Result<Vec<f64>, LumpedError> {
+    fn points(&mut self, periods: usize) -> Vec<f64> {
         let Self { model, state } = self;
-        (0..periods).map(|_| Ok(1e3 * model.strobe(0, Scheme::RungeKutta4, STEPS, state)?.compression)).collect()
+        (0..periods).map(|_| 1e3 * strobe(model, STEPS, state).compression).collect()
     }
 
     fn lyapunov(mut self, stretches: usize) -> Lyapunov {
@@ -53,7 +56,7 @@ impl Settled {
         study::largest_lyapunov(&start, &scale, &plan, |x, k| {
             let (q, v) = (DVector::from_column_slice(&x[..n]), DVector::from_column_slice(&x[n..]));
             let mut state = State::new(k as f64 * stretch, q, v);
-            self.model.strobe(0, Scheme::RungeKutta4, STEPS, &mut state)?;
+            strobe(&mut self.model, STEPS, &mut state);
             Ok::<_, LumpedError>(state.q.iter().chain(&state.v).copied().collect())
         })
         .unwrap()
@@ -61,7 +64,7 @@ impl Settled {
 }
 
 fn diagram(speeds: &[f64], half_backlash: f64) -> Vec<Branch> {
-    let points = |speed| Settled::new(speed, half_backlash, 240)?.points(48);
+    let points = |speed| Settled::new(speed, half_backlash, 240).map(|mut settled| settled.points(48));
     let all: Vec<Branch> =
         speeds.iter().map(|&value| Branch { value, points: points(value).unwrap_or_else(|e| panic!("{e}")) }).collect();
     for branch in &all {
@@ -123,7 +126,7 @@ fn backlash_brings_sidebands_at_shaft_frequency() {
         let step = model.mesh_period(0).unwrap() / f64::from(STEPS);
         let (control, rows) = (StepControl::Fixed(step), (0.3 / step).round() as usize);
         let plan = Recording { scheme: Scheme::RungeKutta4, control, settle: 0.2, duration: 0.6, rows };
-        let rows = model.history(0, &plan).unwrap().rows;
+        let rows = shafts(&mut model, 0, &plan).rows;
         let forces: Vec<f64> = rows.iter().map(|r| r.normal_force).collect();
         study::spectrum(&forces, 0.5 * f64::from(STEPS) * 1500.0, Window::BlackmanHarris).unwrap()
     });

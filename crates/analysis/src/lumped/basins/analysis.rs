@@ -19,8 +19,8 @@ use super::{
     plane::StatePlane,
 };
 use crate::{
-    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, facts::RunInfo, gears,
-    inputs::motion_of, resolution::with_slices, run_phase, unless_cancelled,
+    AnalysisError, GearCache, NoCache, NoObserver, Observer, PhaseWork, certificate::Checks, error::in_scene,
+    facts::RunInfo, gears, inputs::motion_of, resolution::with_slices, run_phase, unless_cancelled,
 };
 
 /// A scene with `run = "basins"`.
@@ -85,7 +85,7 @@ impl<'a> BasinAnalysis<'a> {
         let mut system = inputs.build()?;
         let (coordinates, resonance_hz) = (system.coordinates(), system.resonance_hz);
         let mut facts = analysis::facts(&inputs, coordinates);
-        let plane = StatePlane::new(&mut system.model).map_err(|e| e.of(scene))?;
+        let plane = StatePlane::new(&mut system.model).map_err(in_scene(scene))?;
         let tolerance = motion_of(scene)?.periodic_tolerance.unwrap_or(0.0);
         let places = words.places();
         let runs = run_phase(observer, "basins", PhaseWork::Steps(places.len() as u64), |progress| {

@@ -1,9 +1,11 @@
 //! The plane of initial states.
 
+use gearbox::GearboxError;
 use integrate::{Mechanism, State};
 use nalgebra::{Cholesky, DVector};
 
-use super::super::mechanism::{BoxedMechanism, ModelFailure};
+use super::super::mechanism::BoxedMechanism;
+use crate::AnalysisError;
 
 /// States about that of rest under the load: a displacement and a rate of the gears along the line of action.
 ///
@@ -22,10 +24,10 @@ impl StatePlane {
     /// About the state in which a run of the model begins.
     ///
     /// # Errors
-    /// [`ModelFailure`] where there is nothing to stand on.
-    pub fn new(model: &mut BoxedMechanism) -> Result<Self, ModelFailure> {
+    /// [`AnalysisError`] where there is nothing to stand on.
+    pub fn new(model: &mut BoxedMechanism) -> Result<Self, AnalysisError> {
         let origin = model.start()?;
-        let mut error_um = |state: &State| model.transmission_error_um(state).map_err(ModelFailure::at(state.time));
+        let mut error_um = |state: &State| model.transmission_error_um(state).map_err(GearboxError::at(state.time));
         let here = error_um(&origin)?;
         let scale = origin.q.len();
         let mut gradient = DVector::zeros(scale);

@@ -1,5 +1,6 @@
 //! A scene's model over a parameter.
 
+use gearbox::GearboxError;
 use integrate::{Forces, Mechanism, State};
 use nalgebra::{DMatrix, DVector};
 use periodic::PeriodicFamily;
@@ -8,9 +9,9 @@ use scene::{ContinuationKey, Scene};
 use super::super::{
     LumpedInputs, LumpedRow,
     free_turn::free_turn,
-    mechanism::{BoxedMechanism, ModelFailure, ParameterChange},
+    mechanism::{BoxedMechanism, ParameterChange},
 };
-use crate::{AnalysisError, motion::RPM};
+use crate::{AnalysisError, error::in_scene, motion::RPM};
 
 /// The model of a scene whose key has one value after the other.
 pub(super) struct ModelFamily<'a> {
@@ -34,7 +35,7 @@ impl<'a> ModelFamily<'a> {
     /// [`AnalysisError`] of a model that cannot be made or does not stand.
     pub fn new(inputs: &'a LumpedInputs, key: ContinuationKey, cycles: u32) -> Result<Self, AnalysisError> {
         let mut model = inputs.build()?.model;
-        let free = free_turn(&mut model).map_err(|e| e.of(&inputs.scene))?.map(|turn| turn.direction().clone());
+        let free = free_turn(&mut model).map_err(in_scene(&inputs.scene))?.map(|turn| turn.direction().clone());
         let (scale, scene) = (model.scale(), inputs.scene.clone());
         Ok(Self { inputs, key, scene, model, cycles, scale, free, last: 0.0 })
     }
@@ -74,7 +75,7 @@ impl<'a> ModelFamily<'a> {
     /// # Errors
     /// [`AnalysisError`] where there is none.
     pub fn rest(&mut self) -> Result<DVector<f64>, AnalysisError> {
-        Ok(self.model.start().map_err(|e| e.of(&self.scene))?.q)
+        Ok(self.model.start().map_err(in_scene(&self.scene))?.q)
     }
 
     /// Rows of a motion, in the order of time from the beginning of a period.
@@ -83,7 +84,7 @@ impl<'a> ModelFamily<'a> {
     /// Contact that cannot be solved.
     pub fn rows(&mut self, states: impl Iterator<Item = State>) -> Result<Vec<LumpedRow>, AnalysisError> {
         let Self { model, scene, .. } = self;
-        model.rewind().map_err(|e| ModelFailure::at(0.0)(e).of(scene))?;
+        model.rewind().map_err(in_scene(scene))?;
         self.last = f64::INFINITY;
         let mut row = |state: State| {
             let found = model.row(&state)?;
@@ -93,7 +94,7 @@ impl<'a> ModelFamily<'a> {
         states
             .map(|state| {
                 let time = state.time;
-                row(state).map_err(|e| ModelFailure::at(time)(e).of(scene))
+                row(state).map_err(GearboxError::at(time)).map_err(in_scene(scene))
             })
             .collect()
     }
@@ -158,11 +159,11 @@ impl Mechanism for ModelFamily<'_> {
             model.forces(t, q, v, out)?;
             model.follow(t, q, v)
         };
-        found().map_err(|e| ModelFailure::at(t)(e).of(scene))
+        found().map_err(GearboxError::at(t)).map_err(in_scene(scene))
     }
 
     fn potential(&mut self, t: f64, q: &DVector<f64>) -> Result<f64, AnalysisError> {
         let Self { model, scene, .. } = self;
-        model.potential(t, q).map_err(|e| ModelFailure::at(t)(e).of(scene))
+        model.potential(t, q).map_err(GearboxError::at(t)).map_err(in_scene(scene))
     }
 }

@@ -12,7 +12,7 @@ use super::{
         analysis::refuse_unstable,
         inputs::LumpedSystem,
         integration::method,
-        mechanism::{BoxedMechanism, ModelFailure},
+        mechanism::BoxedMechanism,
         run_loop::{LumpedRun, NoRunObserver, RunPlan},
     },
     family::ModelFamily,
@@ -20,6 +20,7 @@ use super::{
 use crate::{
     AnalysisError,
     branch::{TimePoint, state},
+    error::in_scene,
     inputs::motion_of,
 };
 
@@ -73,10 +74,10 @@ pub(super) fn settled(inputs: &LumpedInputs, cycles: u32) -> Result<Option<Fouri
         if let Some(mut column) = columns.next() {
             column.copy_from(&at.state.q);
         }
-        Ok::<_, ModelFailure>(())
+        Ok::<_, AnalysisError>(())
     };
     let done = course.run_cycle(Some(&mut sampled)).and_then(|_| course.run_cycle(Some(&mut sampled)));
-    done.map_err(|e| e.of(scene))?;
+    done.map_err(in_scene(scene))?;
     Ok(FourierSeries::of_samples(&samples, HARMONICS * cycles as usize))
 }
 
@@ -87,5 +88,5 @@ fn steady(inputs: &LumpedInputs, system: &mut LumpedSystem, from: Option<&State>
     let frequencies = inputs.frequencies(&motion, system.resonance_hz);
     refuse_unstable(scene, &motion, &mut system.model, frequencies)?;
     let plan = RunPlan { scene, motion: &motion, frequencies, from, checkpoint_every: 0, resume: None };
-    plan.run(&mut system.model, &mut NoRunObserver).map_err(|e| e.of(scene))
+    plan.run(&mut system.model, &mut NoRunObserver).map_err(in_scene(scene))
 }

@@ -12,7 +12,7 @@ use super::{
     super::{LumpedInputs, analysis::checked_run, exponent::exponent, free_turn::free_turn},
     SweepOptions,
 };
-use crate::{AnalysisError, certificate::Checks, inputs::motion_of, motion::SweepStatus};
+use crate::{AnalysisError, certificate::Checks, error::in_scene, inputs::motion_of, motion::SweepStatus};
 
 /// Points of a section count as one when they differ by less than this share of the motion's peak to peak.
 const SAME: f64 = 1e-3;
@@ -112,7 +112,7 @@ pub(super) fn run(
     let place = || Place::Setting { label: format!("{} = {value}", options.key).into() };
     let located = |e: AnalysisError| e.at(place());
     // Standing, the model stands where it begins: this comes before the run.
-    let free = free_turn(&mut model).map_err(|e| located(e.of(scene)))?;
+    let free = free_turn(&mut model).map_err(|e| located(in_scene(scene)(e)))?;
     let (run, checks) = checked_run(inputs, &mut model, resonance_hz, from).map_err(located)?;
     let every = options.every.cycles(scene) as usize;
     let rows = 0..run.rows.len();
@@ -125,7 +125,7 @@ pub(super) fn run(
         0 => None,
         n => {
             let found = exponent((&mut model, free.as_ref()), motion, &run.end, frequencies, n);
-            Some(found.map_err(|e| located(e.of(scene)))?)
+            Some(found.map_err(|e| located(in_scene(scene)(e)))?)
         }
     };
     let as_rows: Vec<Vec<f64>> = points.iter().map(|p| vec![*p]).collect();

@@ -5,7 +5,7 @@ use std::{ops::ControlFlow, sync::Arc};
 
 use gearbox::{
     GearboxError,
-    motion::{PairModel, PairMotionError, PairSettings},
+    motion::{CycleSteps, MotionTimes, PairModel},
 };
 use geometry::GearPair;
 use ltca::{StaticError, StaticHistory, StaticModel, StaticOptions};
@@ -69,7 +69,7 @@ impl<'a> MotionInputs<'a> {
 /// A pair that is ready to move.
 pub(crate) struct PreparedMotion {
     pub system: PairModel,
-    pub settings: PairSettings,
+    pub times: MotionTimes,
     pub quasi_static: QuasiStatic,
     pub elasticity: Elasticity,
     pub facts: RunInfo,
@@ -148,7 +148,7 @@ pub(crate) fn prepare(
     });
     let system = system.map_err(|e| match e {
         GearboxError::Contact(source) => Failure::Static(source),
-        other => in_scene(scene)(PairMotionError::at(0.0)(other)).into(),
+        other => in_scene(scene)(other).into(),
     })?;
     if cache.is_on() {
         run_phase(observer, "store", PhaseWork::Unknown, |_| {
@@ -158,9 +158,9 @@ pub(crate) fn prepare(
             }
         });
     }
-    let settings = settings(motion, &system, &quasi_static);
+    let times = times(motion, &system, &quasi_static);
     let keys = [&keys].into_iter().chain(&coast_keys).flat_map(RecordKeys::keys).flatten().copied().collect();
-    Ok(PreparedMotion { system, settings, quasi_static, elasticity, facts, remarks, keys })
+    Ok(PreparedMotion { system, times, quasi_static, elasticity, facts, remarks, keys })
 }
 
 fn reduce(
@@ -196,12 +196,14 @@ fn facts_of(model: &StaticModel, inputs: &MotionInputs<'_>, history: &StaticHist
 }
 
 /// How the scene wants the motion to be integrated.
-fn settings(motion: &MotionScene, system: &PairModel, quasi_static: &QuasiStatic) -> PairSettings {
-    PairSettings {
+fn times(motion: &MotionScene, system: &PairModel, quasi_static: &QuasiStatic) -> MotionTimes {
+    MotionTimes {
         scheme: scheme(motion),
-        rows: motion.steps_per_mesh_cycle as usize,
-        steps_per_resonance: steps_per_resonance(motion, system),
-        resonance_hz: system.mesh_resonance_hz(),
+        steps: CycleSteps::Showing {
+            rows: u64::from(motion.steps_per_mesh_cycle),
+            per_period: steps_per_resonance(motion, system),
+            hz: system.mesh_resonance_hz(),
+        },
         tolerance: motion.error_tolerance,
         stop_at_events: motion.stop_at_events,
         scale: system.scale(motion_length(system, quasi_static)),
@@ -214,9 +216,9 @@ pub(crate) fn motion_length(system: &PairModel, quasi_static: &QuasiStatic) -> f
 }
 
 /// Steps in a period of the mesh resonance that give the fastest motion as many as the scene asks for.
-fn steps_per_resonance(motion: &MotionScene, system: &PairModel) -> usize {
+fn steps_per_resonance(motion: &MotionScene, system: &PairModel) -> u64 {
     let ratio = fastest_hz(system) / system.mesh_resonance_hz();
-    (f64::from(motion.steps_per_resonance) * ratio).ceil() as usize
+    (f64::from(motion.steps_per_resonance) * ratio).ceil() as u64
 }
 
 /// Contact of the driving flanks: the coast flanks are a contact of their own.

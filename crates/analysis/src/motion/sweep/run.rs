@@ -2,7 +2,10 @@
 
 use std::ops::ControlFlow;
 
-use gearbox::motion::{PairMotionError, SteadyOptions, SweepOutcome, SweepPlan, SweepPoint, sweep as swept};
+use gearbox::{
+    GearboxError,
+    motion::{SteadyOptions, SweepOutcome, SweepPlan, SweepPoint, sweep as swept},
+};
 use integrate::SweepDirection;
 use ltca::StaticError;
 use scene::{MotionScene, Scene, SweepScene, SweepWay};
@@ -28,7 +31,7 @@ pub(crate) fn direction(way: SweepWay) -> SweepDirection {
 }
 
 /// The error of teeth missing beside the window, which a wider one may cure.
-fn starved(error: &PairMotionError) -> Option<&StaticError> {
+fn starved(error: &GearboxError) -> Option<&StaticError> {
     error.contact_error().filter(|source| source.is_starved())
 }
 
@@ -47,7 +50,7 @@ pub(super) fn run(
     let ways = sweep.ways.iter().map(|way| direction(*way));
     let plan = SweepPlan {
         ways: ways.collect(),
-        settings: prepared.settings.clone(),
+        times: prepared.times.clone(),
         steady: SteadyOptions {
             by: steady_by(sweep.steady_by),
             tolerance: motion.periodic_tolerance.unwrap_or(1e-6),
@@ -57,7 +60,7 @@ pub(super) fn run(
         speeds,
     };
     let steps = (plan.speeds.len() * plan.ways.len()) as u64;
-    let curable = |error: &PairMotionError| starved(error).is_some_and(wider);
+    let curable = |error: &GearboxError| starved(error).is_some_and(wider);
     let dropped = |point: &SweepPoint| {
         let force = point.extremes.largest_force.max(point.coast_force);
         dropped_by(&prepared.system, point.changes.jump, force).filter(wider)
@@ -79,16 +82,16 @@ pub(super) fn run(
         (outcomes, unless_cancelled(progress))
     });
     cancelled?;
-    let outcomes = outcomes.map_err(|e| failure(scene, e))?;
+    let outcomes = outcomes.map_err(|e| failure(scene, e.into()))?;
     if let Some(error) = outcomes.iter().filter_map(|o| o.as_ref().ok()).find_map(dropped) {
         return Err(Failure::Static(error));
     }
     let mut misses = outcomes.iter().filter_map(|o| o.as_ref().err());
     if let Some(miss) = misses.clone().find(|m| curable(&m.error)) {
-        return Err(failure(scene, miss.error.clone()));
+        return Err(failure(scene, miss.error.clone().into()));
     }
     match misses.next() {
-        Some(first) if outcomes.iter().all(Result::is_err) => Err(failure(scene, first.error.clone())),
+        Some(first) if outcomes.iter().all(Result::is_err) => Err(failure(scene, first.error.clone().into())),
         _ => Ok(outcomes),
     }
 }

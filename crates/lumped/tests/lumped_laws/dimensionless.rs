@@ -3,14 +3,8 @@
 use std::convert::Infallible;
 
 use integrate::{Forces, Mechanism, State};
+use lumped::{Beyond, DeadZone, lumped8::Lumped8};
 use nalgebra::{DMatrix, DVector};
-
-use super::{Equations18, Lumped8, MeshLaw};
-use crate::{
-    Beyond, DeadZone, LumpedError,
-    error::positive,
-    terms::{add_load, add_support, slope_in_time},
-};
 
 /// The model in dimensionless coordinates p_1 .. p_8 over tau, written row by row as (18), with its misprints put
 /// right:
@@ -20,10 +14,10 @@ use crate::{
 /// * g = 2 T / (b_n M omega_n^2) lacks a radius below the line: it is a length, not a number;
 /// * 2 eta, 2 xi of the turning rows hold for J = M r_b^2 / 2 alone, and 2 (2 xi) for xi then: here both are multiplied
 ///   by kappa;
-/// * m_e, and the signs of the driven gear's turn, as in the [module](super).
+/// * m_e, and the signs of the driven gear's turn, as in [`lumped::lumped8`].
 ///
 /// It is an implementation of its own, not the dimensional one in other units: that both agree says that neither
-/// dropped a term. It is written for [`MeshLaw::Projected`], the printed law.
+/// dropped a term. It is written for `MeshLaw::Projected`, the printed law.
 #[derive(Debug, Clone)]
 pub struct Dimensionless {
     equations: Equations18,
@@ -57,37 +51,16 @@ struct Relative {
     stiffness: f64,
 }
 
-impl Lumped8 {
-    /// Dimensionless form.
-    ///
-    /// # Errors
-    /// [`LumpedError`] when the backlash, its unit of length, is zero, the law is not the printed one, or a parameter
-    /// has no meaning.
-    pub fn dimensionless(&self) -> Result<Dimensionless, LumpedError> {
-        self.check()?;
-        positive("half backlash in mm, the unit of length,", self.half_backlash)?;
-        if self.law != MeshLaw::Projected {
-            return Err(LumpedError::OutOfRange {
-                quantity: "mesh law",
-                value: 0.0,
-                method: "the dimensionless form of seed 004",
-                allowed: "`projected`, the law it is printed with",
-            });
-        }
-        let equations = Equations18::of(self);
+impl Dimensionless {
+    /// Dimensionless form of a model with backlash, its unit of length, and the printed law.
+    pub fn of(model: &Lumped8) -> Self {
+        let equations = Equations18::of(model);
         let rows = DVector::from_fn(8, |i, _| {
             let gear = i / 4;
             equations.mass_ratio[gear] / if i % 4 == 3 { equations.kappa[gear] } else { 1.0 }
         });
-        let omega = self.pair.natural_frequency();
-        Ok(Dimensionless { equations, model: self.clone(), omega, mass: DMatrix::from_diagonal(&rows) })
-    }
-}
-
-impl Dimensionless {
-    /// Coefficients.
-    pub fn equations(&self) -> &Equations18 {
-        &self.equations
+        let omega = model.pair.natural_frequency();
+        Self { equations, model: model.clone(), omega, mass: DMatrix::from_diagonal(&rows) }
     }
 
     /// omega_n, rad/s: the unit of time is its inverse.
@@ -263,13 +236,85 @@ impl Mechanism for Dimensionless {
         out.dissipated += taken;
         out.supplied += taken;
         if !out.tangents {
-            let frequency = self.model.pair.clock.mesh_frequency() / self.omega;
-            out.parametric = slope_in_time(|tau| self.energy(tau, p), tau, frequency);
+            let h = 1e-6 * self.omega / self.model.pair.clock.mesh_frequency();
+            out.parametric = (self.energy(tau + h, p) - self.energy(tau - h, p)) / (2.0 * h);
         }
         Ok(())
     }
 
     fn potential(&mut self, tau: f64, p: &DVector<f64>) -> Result<f64, Infallible> {
         Ok(self.energy(tau, p.as_slice()))
+    }
+}
+
+/// A spring and a damper from coordinate `i` to the nominal motion.
+fn add_support(out: &mut Forces, i: usize, [stiffness, damping]: [f64; 2], [q, v]: [f64; 2]) {
+    out.conservative[i] -= stiffness * q;
+    out.other[i] -= damping * v;
+    out.dissipated += damping * v * v;
+    out.stiffness[(i, i)] += stiffness;
+    out.damping[(i, i)] += damping;
+}
+
+/// A force of drive or load on coordinate `i`.
+fn add_load(out: &mut Forces, i: usize, force: f64, v: f64) {
+    out.other[i] += force;
+    out.supplied += force * v;
+}
+
+/// Coefficients of (18), by gear (p, g).
+///
+/// ```text
+/// tau = omega_n t,   p = (x_p, y_p, z_p, r_b theta_p, x_g, y_g, z_g, R_b theta_g) / b_n,   omega_n = sqrt(K_m / m_e)
+/// xi = C / (2 M omega_n),   eta = K / (M omega_n^2),   g = kappa T / (r_b b_n M omega_n^2),   kappa = M r_b^2 / J
+/// ```
+#[derive(Debug, Clone)]
+struct Equations18 {
+    /// xi_x, xi_y, xi_z of the supports.
+    support_damping: [[f64; 3]; 2],
+    /// eta_x, eta_y, eta_z of the supports.
+    support_stiffness: [[f64; 3]; 2],
+    /// xi and eta of what holds the turn, with J for M.
+    turning: [[f64; 2]; 2],
+    /// xi_my, xi_mz of the mesh.
+    mesh_damping: [[f64; 2]; 2],
+    /// Mean of eta_my, eta_mz of the mesh.
+    mesh_stiffness: [[f64; 2]; 2],
+    /// kappa = M r_b^2 / J: the 2 of the printed equations is that of a disc whose radius is the base radius.
+    kappa: [f64; 2],
+    /// Mean of g_p, g_g.
+    torque: [f64; 2],
+    /// M_p / m_e, M_g / m_e.
+    mass_ratio: [f64; 2],
+    /// b_t / b_n, b_a / b_n.
+    clearances: [f64; 2],
+}
+
+impl Equations18 {
+    fn of(model: &Lumped8) -> Self {
+        let pair = &model.pair;
+        let (omega, length, reduced) = (pair.natural_frequency(), model.half_backlash, pair.reduced_mass());
+        let tan = pair.frame.local_helix().tan().abs();
+        let k = pair.cycle.stiffness.mean;
+        let by_gear = |of: &dyn Fn(usize) -> f64| [of(0), of(1)];
+        let mass = by_gear(&|i| pair.bodies[i].mass);
+        let inertia = by_gear(&|i| pair.bodies[i].polar_inertia);
+        let kappa = by_gear(&|i| mass[i] * pair.base_radii[i].powi(2) / inertia[i]);
+        let xi = |c: f64, m: f64| c / (2.0 * m * omega);
+        let eta = |k: f64, m: f64| k / (m * omega * omega);
+        let each = |i: usize| model.supports[i];
+        let force = |i: usize| pair.base_radii[i] * length * mass[i] * omega * omega;
+        Self {
+            support_damping: [0, 1].map(|i| each(i).damping.map(|c| xi(c, mass[i]))),
+            support_stiffness: [0, 1].map(|i| each(i).stiffness.map(|k| eta(k, mass[i]))),
+            turning: [0, 1]
+                .map(|i| [xi(each(i).turning_damping, inertia[i]), eta(each(i).turning_stiffness, inertia[i])]),
+            mesh_damping: mass.map(|m| [model.mesh_damping, model.mesh_damping * tan].map(|c| xi(c, m))),
+            mesh_stiffness: mass.map(|m| [k, k * tan].map(|k| eta(k, m))),
+            kappa,
+            torque: by_gear(&|i| kappa[i] * pair.torques[i].mean() / force(i)),
+            mass_ratio: mass.map(|m| m / reduced),
+            clearances: [pair.frame.base_helix_angle.cos(), pair.frame.base_helix_angle.sin().abs()],
+        }
     }
 }

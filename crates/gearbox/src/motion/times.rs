@@ -1,0 +1,112 @@
+//! Cycles of a motion, with their rows and steps.
+
+use std::borrow::Borrow;
+
+use integrate::{CycleTimes, Mechanism, Method, RowPlace, Scheme, StepControl, Stop, Timetable};
+use nalgebra::DVector;
+
+use super::GearboxMechanism;
+
+/// Most steps between two rows: more is a standstill, not a motion.
+const MOST: f64 = 1e6;
+
+/// Divides a motion into cycles of its fastest mesh, and these into steps.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MotionTimes {
+    /// Method.
+    pub scheme: Scheme,
+    /// Steps of a cycle, and which of them are rows.
+    pub steps: CycleSteps,
+    /// Local error of a step over the coordinates' scales; `None`: steps are turns of the input that are alike.
+    pub tolerance: Option<f64>,
+    /// Ends a step wherever contact is lost or gained.
+    pub stop_at_events: bool,
+    /// Size of each coordinate, mm and rad: what errors are relative to.
+    pub scale: DVector<f64>,
+}
+
+/// Steps of a cycle, and which of them are rows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CycleSteps {
+    /// As many in every cycle.
+    Counted {
+        /// Steps, >= 1.
+        per_cycle: u64,
+        /// Steps a row, >= 1, counted from the start of the motion.
+        per_row: u64,
+        /// A further step with a row, likewise: the last of the motion.
+        last: Option<u64>,
+    },
+    /// As many as show what is fast.
+    Showing {
+        /// Rows in a cycle, and least number of steps, >= 1.
+        rows: u64,
+        /// Least number of steps in a period of the mesh resonance: where a row is longer, steps are taken in between. 0:
+        /// rows are the steps.
+        per_period: u64,
+        /// The mesh resonance, Hz.
+        hz: f64,
+    },
+}
+
+impl CycleSteps {
+    /// Steps of a cycle that lasts `duration` (s), and steps a row.
+    fn of(self, duration: f64) -> [u64; 2] {
+        match self {
+            Self::Counted { per_cycle, per_row, .. } => [per_cycle.max(1), per_row.max(1)],
+            Self::Showing { rows, per_period, hz } => {
+                let rows = rows.max(1);
+                let per_row = (per_period as f64 * hz * duration / rows as f64).ceil();
+                let per_row = if per_row.is_finite() { per_row.clamp(1.0, MOST) as u64 } else { 1 };
+                [rows * per_row, per_row]
+            }
+        }
+    }
+}
+
+impl MotionTimes {
+    /// Length of the steps in a cycle of `duration` (s), s; the longest one with an error tolerance.
+    pub fn step(&self, duration: f64) -> f64 {
+        duration / self.steps.of(duration)[0] as f64
+    }
+}
+
+impl<M: Mechanism + Borrow<GearboxMechanism>> Timetable<M> for MotionTimes {
+    fn method(&self, _: &M) -> Method {
+        let Self { scheme, ref scale, stop_at_events, .. } = *self;
+        Method { scheme, scale: scale.clone(), stop_at_events, keep_stable: true }
+    }
+
+    /// A cycle of the nominal motion.
+    fn cycle(&self, system: &M, cycle: u64, begin: f64) -> Option<CycleTimes> {
+        let system: &GearboxMechanism = system.borrow();
+        // Counted from the start: sums of steps would drift.
+        let time = |step: u64, of: u64| system.time_of_cycles(cycle as f64 + step as f64 / of as f64);
+        let end = time(1, 1)?;
+        let [per_cycle, per_row] = self.steps.of(end - begin);
+        let is_even = system.drive.nominal().is_constant();
+        let is_alike = is_even && self.tolerance.is_none() && !self.stop_at_events;
+        if is_alike && per_cycle.is_multiple_of(per_row) {
+            let control = StepControl::new(None, (end - begin) / per_cycle as f64);
+            return Some(CycleTimes { stops: vec![Stop::row(end)], rows: RowPlace::Steps(per_row), control });
+        }
+        let before = cycle.saturating_mul(per_cycle);
+        let further = match self.steps {
+            CycleSteps::Counted { last, .. } => last,
+            CycleSteps::Showing { .. } => None,
+        };
+        let is_row = |step: u64| step.is_multiple_of(per_row) || Some(step) == further;
+        // Each step of its own where their times are not evenly spaced and their error does not choose them.
+        let each = !is_even && self.tolerance.is_none();
+        let ends = (1..=per_cycle).filter(|&k| each || is_row(before + k) || k == per_cycle);
+        let stop = |k: u64| Some(Stop { time: time(k, per_cycle)?, is_row: is_row(before + k) });
+        let stops: Vec<Stop> = ends.map(stop).collect::<Option<_>>()?;
+        let starts = std::iter::once(begin).chain(stops.iter().map(|stop| stop.time));
+        let longest = if each {
+            starts.zip(&stops).map(|(start, stop)| stop.time - start).fold(0.0, f64::max)
+        } else {
+            (end - begin) / per_cycle as f64
+        };
+        Some(CycleTimes { stops, rows: RowPlace::Ends, control: StepControl::new(self.tolerance, longest) })
+    }
+}
