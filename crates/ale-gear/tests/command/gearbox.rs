@@ -40,7 +40,7 @@ fn a_gearbox_is_solved_into_its_folder() {
     let mean = ste.iter().sum::<f64>() / 8.0;
     let told = summary["meshes"][1]["mean_ste_um"].as_f64().unwrap();
     assert!((told / mean - 1.0).abs() < 1e-12, "{told} beside {mean} um");
-    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv line_load.csv modes.csv motion.csv motion_orders.csv positions.csv \
+    let files = "bearing_forces.csv bearing_forces.uff campbell.csv crossings.csv energy.csv line_load.csv modes.csv motion.csv motion_orders.csv positions.csv \
                  report.html report.json.gz response.csv rms.csv shafts.csv spectrum.csv";
     assert_eq!(summary["files"], serde_json::json!(files.split(' ').collect::<Vec<_>>()));
     assert!(scratch.path().join("o/shafts.csv").exists() && scratch.path().join("o/line_load.csv").exists());
@@ -167,6 +167,50 @@ fn a_run_up_shows_the_orders_of_every_mesh() {
     let scratch = scratch.file("wrong.toml", wrong);
     let run = scratch.ale_gear(["run", "wrong.toml", "--out", "w"]);
     assert!(run.code == Some(2) && run.stderr.contains("a result where a torque drives"), "{}", run.stderr);
+}
+
+/// A run-up without a vibration has the natural frequencies and lines of one, and every motion its energy row by row.
+#[test]
+fn a_run_up_has_natural_frequencies_and_energy() {
+    let scratch = two_stages();
+    let text = scratch.read("two_stages.toml");
+    let (rest, _) = text.split_once("[vibration]").unwrap();
+    let motion =
+        "[motion]\nspeed_rpm = 1450.0\nto_speed_rpm = 2000.0\nmesh = \"spring\"\ncycles = 12\nsteps_per_cycle = 40\n";
+    // From standstill, which is no speed of a vibration.
+    let vibration = "[vibration]\nfrom_rpm = 1e-3\nto_rpm = 2100.0\nspeeds = 21\ninput = \"held\"\n";
+    let scratch = scratch.file("led.toml", format!("{rest}{motion}")).file("swings.toml", format!("{rest}{vibration}"));
+    for name in ["led", "swings"] {
+        let run = scratch.ale_gear(["run", &format!("{name}.toml"), "--out", name]);
+        assert_eq!(run.code, Some(0), "{}", run.stderr);
+    }
+    let [led, swings] = ["led", "swings"].map(|folder| scratch.read(&format!("{folder}/campbell.csv")));
+    let names: Vec<&str> = led.lines().next().unwrap().split(',').collect();
+    assert_eq!(Some(names.join(",").as_str()), swings.lines().next());
+    assert!(names.contains(&"mode_20_hz") && names.contains(&"mesh_2_order_5_hz"), "{names:?}");
+    let speeds = column(&led, "input_rpm");
+    assert_eq!((speeds.len(), speeds[0], speeds[20]), (21, 0.0, 2100.0));
+    for name in names {
+        let [own, wanted] = [&led, &swings].map(|csv| column(csv, name)[20]);
+        assert!((own / wanted - 1.0).abs() < 1e-9, "{name}: {own} beside {wanted}");
+    }
+    assert!(scratch.read("led/report.html").contains("Campbell diagram"));
+    let meetings = column(&scratch.read("led/crossings.csv"), "input_rpm");
+    assert!(!meetings.is_empty() && meetings.iter().all(|rpm| (0.0..=2100.0).contains(rpm)), "{meetings:?}");
+    let energy = scratch.read("led/energy.csv");
+    assert_eq!(column(&energy, "time_s"), column(&scratch.read("led/motion.csv"), "time_s"));
+    let [kinetic, elastic, supplied, parametric, dissipated, residual] =
+        ["kinetic", "elastic", "supplied", "parametric", "dissipated", "residual"]
+            .map(|name| column(&energy, &format!("{name}_mj")));
+    let size = |of: &[f64]| of.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+    let largest = [&kinetic, &elastic, &supplied, &parametric].map(|of| size(of)).into_iter().fold(0.0, f64::max);
+    for i in 0..kinetic.len() {
+        let gained = kinetic[i] + elastic[i] - kinetic[0] - elastic[0];
+        let open = gained - (supplied[i] + parametric[i] - dissipated[i] + residual[i]);
+        assert!(open.abs() < 1e-9 * largest, "row {i}: {open} of {largest} mJ");
+    }
+    assert!(dissipated.windows(2).all(|two| two[0] <= two[1]) && dissipated[480] > 0.0, "{dissipated:?}");
+    assert!(size(&residual) < 1e-3 * largest, "{} of {largest} mJ", size(&residual));
 }
 
 /// The branch over the speed of the shipped box: a row a motion, folds with an unstable part between them, motions in time that

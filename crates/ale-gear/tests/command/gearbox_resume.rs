@@ -46,7 +46,7 @@ fn a_motion_in_parts_is_the_one_in_a_piece() {
         let often = run(&scratch, "often", &["--set", "motion.checkpoint_every_cycles=1"]);
         assert_eq!(often.code, Some(0), "{motion}: {}", often.stderr);
         for out in ["o", "often"] {
-            for name in ["positions.csv", "motion.csv"] {
+            for name in ["positions.csv", "motion.csv", "energy.csv"] {
                 let [own, uncut] = [out, "whole"].map(|folder| scratch.read(&format!("{folder}/{name}")));
                 assert!(own == uncut, "{motion}: {name} of {out} is another than in one piece");
             }

@@ -57,19 +57,19 @@ use accuracy::solve_accurately;
 pub use bearings::{BearingLife, RollingLoad};
 pub use branch::GearboxBranchResult;
 use motion::Span;
-pub use moved::GearboxMotionResult;
+pub use moved::{GearboxMotionResult, GearboxRows};
 pub use orders::MotionOrder;
 pub use reached::{Range, ReachedByMesh, ReachedByRows};
 pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;
 use solve::{Asked, Slices, solve};
-pub use swings::{ExcitationLine, GearFrequencies, OrderForces, SpeedRms, VibrationResult};
+pub use swings::{ExcitationLine, GearFrequencies, GearboxCampbell, OrderForces, SpeedRms, VibrationResult};
 
 impl Question for Gearbox {
     type Answer = GearboxResult;
     type Sink<'s> = dyn GearboxSink + 's;
-    type State = (GearboxCheckpoint, RowStore<GearboxInstant>);
+    type State = (GearboxCheckpoint, GearboxRows);
 
     /// What is at rest is solved again where its motion is gone on with; of a gearbox that asks for an accuracy, which has
     /// no motion, with finer settings until that is kept.

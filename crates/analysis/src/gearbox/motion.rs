@@ -2,7 +2,7 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
-use answer::{Checks, Remark, RowStore};
+use answer::{Checks, Remark};
 use dynamics::MeshResonance;
 use gearbox::{
     GearboxError,
@@ -19,7 +19,7 @@ use super::{
     at_rest::AtRest,
     inertia,
     motion_remarks::Judged,
-    moved::GearboxMotionResult,
+    moved::{GearboxMotionResult, GearboxRows},
     orders::{cuts, orders, spectrum, waterfall},
     parts::{input_over_time, over_time},
     reached::ReachedByRows,
@@ -29,7 +29,7 @@ use super::{
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
     in_motion::FlankCertificate,
-    motion::{Elasticity, QuasiStatic, RunUp, RunUpCycle, window},
+    motion::{Elasticity, EnergyRow, QuasiStatic, RunUp, RunUpCycle, window},
     run_phase,
     run_up::RunUpTorque,
     unless_cancelled,
@@ -42,7 +42,7 @@ const BEYOND: f64 = 4.0;
 #[derive(Debug, Default)]
 pub(super) struct Span {
     /// State to go on from, with the rows before it.
-    pub from: Option<(GearboxCheckpoint, RowStore<GearboxInstant>)>,
+    pub from: Option<(GearboxCheckpoint, GearboxRows)>,
     /// Stop when so many cycles of the fastest mesh are done.
     pub stop_after: Option<u64>,
 }
@@ -140,7 +140,7 @@ pub(super) fn run(
         Drive::Torque { .. } => None,
     };
     let plan = rest.plan(asked);
-    let (from, rows) = span.from.map_or((None, RowStore::default()), |(from, rows)| (Some(from), rows));
+    let (from, rows) = span.from.map_or_else(Default::default, |(from, rows)| (Some(from), rows));
     sink.begin_rows(from.is_some()).map_err(AnalysisError::Sink)?;
     let mut goal = mechanism.goal(&start, &plan).map_err(failed)?;
     goal.checkpoint_every = u64::from(asked.checkpoint_every_cycles);
@@ -165,7 +165,7 @@ pub(super) fn run(
     }
     let stopped = stopped.then(|| course.cycle());
     let done = GearboxRun::of(course, &start).map_err(failed)?;
-    let rows = told.rows;
+    let (rows, ledger) = told.rows;
     // The last row of a motion may be no whole row behind the one before.
     let even = plan.cycles.saturating_mul(plan.steps_per_cycle) / plan.steps_per_row.max(1);
     let even = rows.len().min(even as usize + 1);
@@ -193,6 +193,7 @@ pub(super) fn run(
         comes_back: window == Window::Rectangular,
         orders,
         run_ups,
+        campbell: None,
         waterfall: match asked.to_speed_rpm {
             Some(_) => waterfall((&rows, even), asked.waterfall_cycles)?,
             None => None,
@@ -208,6 +209,7 @@ pub(super) fn run(
         common_period: done.common_period,
         reached,
         rows: Arc::new(rows),
+        ledger: Arc::new(ledger),
         mesh_frequencies: frequencies,
         stiffness,
         damping,
@@ -238,7 +240,7 @@ pub(super) fn run(
 
 /// Who is told of a motion, and its rows so far.
 struct Outcome<'a> {
-    rows: RowStore<GearboxInstant>,
+    rows: GearboxRows,
     sink: &'a mut dyn GearboxSink,
     plan: MotionPlan,
 }
@@ -255,9 +257,11 @@ impl Follower<&mut GearboxMechanism> for InPhase<'_, '_> {
     type Error = AnalysisError;
 
     fn row(&mut self, row: Row<'_, &mut GearboxMechanism>) -> Result<(), AnalysisError> {
-        let instant = row.system.instant(row.state)?;
-        self.told.sink.row(&instant).map_err(AnalysisError::Sink)?;
-        Ok(self.told.rows.push(instant)?)
+        let Row { system, state, ledger } = row;
+        let (instant, energy) = (system.instant(state)?, EnergyRow::of(state.time, ledger));
+        self.told.sink.row(&instant, &energy).map_err(AnalysisError::Sink)?;
+        self.told.rows.0.push(instant)?;
+        Ok(self.told.rows.1.push(energy)?)
     }
 
     fn cycle(&mut self, stage: &Stage) -> Result<(), AnalysisError> {

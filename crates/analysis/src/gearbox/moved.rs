@@ -7,18 +7,23 @@ use dynamics::MeshResonance;
 use gearbox::motion::{GearboxEnergy, GearboxInstant, ReductionCertificate};
 use integrate::Periodicity;
 
-use super::{orders::MotionOrder, reached::ReachedByRows, swings::GearFrequencies};
+use super::{orders::MotionOrder, reached::ReachedByRows, swings::{GearFrequencies, GearboxCampbell}};
 use crate::{
     in_motion::FlankCertificate,
-    motion::{ElasticHeadline, MotionSpectrum, RunUp, Waterfall},
+    motion::{ElasticHeadline, EnergyRow, MotionSpectrum, RunUp, Waterfall},
     run_up::RunUpTorque,
 };
+
+/// Rows of a gearbox's motion, with the energy so far row for row.
+pub type GearboxRows = (RowStore<GearboxInstant>, RowStore<EnergyRow>);
 
 /// A gearbox in motion, run.
 #[derive(Debug, Clone)]
 pub struct GearboxMotionResult {
     /// Rows, the start among them.
     pub rows: Arc<RowStore<GearboxInstant>>,
+    /// Energy so far, row for row.
+    pub ledger: Arc<RowStore<EnergyRow>>,
     /// What they reach.
     pub reached: ReachedByRows,
     /// Frequency of each mesh at the speed of the start, Hz.
@@ -70,6 +75,8 @@ pub struct GearboxMotionResult {
     pub periodicity: Option<Periodicity>,
     /// Each mesh over the speed of the input, where that is led from one to another; else none.
     pub run_ups: Vec<RunUp>,
+    /// Natural frequencies over the speed of the input, of a run-up; `None` where those of a vibration are told.
+    pub campbell: Option<GearboxCampbell>,
     /// What the acceleration of a run-up takes at the input: of all that the meshes drive, beside their loads.
     pub run_up: Option<RunUpTorque>,
     /// What must hold of it.

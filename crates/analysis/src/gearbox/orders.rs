@@ -12,7 +12,7 @@ use crate::{
 };
 
 /// Orders of each mesh.
-const ORDERS: usize = 5;
+pub(super) const ORDERS: usize = 5;
 /// Rows of a spectrum at the least.
 const FEWEST: usize = 8;
 /// Cycles of the slowest mesh that a stretch has at the least.

@@ -2,7 +2,7 @@
 
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 
-use crate::SinkResult;
+use crate::{SinkResult, motion::EnergyRow};
 
 /// Gets what a motion gives as it comes. All methods do nothing by default; an error of any of them ends the analysis and
 /// comes back as [`crate::AnalysisError::Sink`].
@@ -15,11 +15,11 @@ pub trait GearboxSink {
         Ok(())
     }
 
-    /// A row, in order, the start first.
+    /// A row with the energy so far, in order, the start first.
     ///
     /// # Errors
     /// Whatever ends the analysis.
-    fn row(&mut self, _row: &GearboxInstant) -> SinkResult {
+    fn row(&mut self, _row: &GearboxInstant, _energy: &EnergyRow) -> SinkResult {
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use scene::{
 };
 
 use super::{
-    GearboxResult, GearboxSink,
+    GearboxMotionResult, GearboxResult, GearboxSink,
     at_rest::AtRest,
     branch, loads,
     meshes::{self, ReducedMesh, widening},
@@ -126,6 +126,15 @@ pub(super) fn solve(
             Some(found)
         }
     };
+    let campbell = match (&file.vibration, &file.motion) {
+        (None, Some(asked)) if asked.to_speed_rpm.is_some() => {
+            let parts = Parts { structure: &linear, ..parts };
+            Some(widening(&meshes, &mut reduced, models, &mut remarks, |reduced| {
+                vibration::campbell(&parts, asked, (reduced, &modes), &samples, observer)
+            })?)
+        }
+        _ => None,
+    };
     let lowest_hz = match &file.motion {
         None => Vec::new(),
         Some(_) => run_phase(observer, "frequencies", PhaseWork::Steps(reduced.len() as u64), |progress| {
@@ -166,6 +175,7 @@ pub(super) fn solve(
     };
     let moved = file.motion.as_ref().map(|asked| motion::run(&rest, asked, span, (observer, sink))).transpose()?;
     let (moved, stopped) = moved.map_or((None, None), |(own, stopped)| (Some(own), stopped));
+    let moved = moved.map(|own| GearboxMotionResult { campbell, ..own });
     remarks.extend(moved.iter().flat_map(|own| own.remarks.iter().cloned()));
     let branch = file.branch.as_ref().map(|asked| branch::branch(&rest, asked, observer)).transpose()?;
     remarks.extend(branch.iter().flat_map(|own| own.remarks.iter().cloned()));

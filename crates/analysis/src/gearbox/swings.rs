@@ -34,10 +34,8 @@ pub struct VibrationResult {
     pub modes_up_to_hz: f64,
     /// Natural motions at the speeds of the Campbell diagram, as many as are asked for.
     pub modes: Vec<WhirlModes>,
-    /// Natural frequencies over the speed of the input, and where lines of excitation meet them.
-    pub campbell: Campbell,
-    /// Lines of excitation, in the order of `campbell.orders`.
-    pub lines: Vec<ExcitationLine>,
+    /// Natural frequencies over the speed of the input.
+    pub campbell: GearboxCampbell,
     /// Speeds of the input of the forced response, rad/s.
     pub speeds: Vec<f64>,
     /// Every order of every mesh at every speed.
@@ -53,6 +51,15 @@ pub struct GearFrequencies {
     pub frequencies_hz: Vec<f64>,
     /// Whether the gear is known by sectors: its modes then stand in space while the teeth pass.
     pub by_sectors: bool,
+}
+
+/// Natural frequencies of a gearbox over the speed of its input, and what excites them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct GearboxCampbell {
+    /// Natural frequencies, and where lines of excitation meet them.
+    pub diagram: Campbell,
+    /// Lines of excitation, in the order of its orders.
+    pub lines: Vec<ExcitationLine>,
 }
 
 /// What excites: a multiple of the input's speed.

@@ -2,23 +2,24 @@
 
 use std::{f64::consts::TAU, sync::Arc};
 
+use dynamics::RigidBody;
 use gearbox::{
     GearMesh, GearboxError, Held, MeanMesh, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
     Structure, Train, Vibration, WhirlModes, elastic_gears, own_cycle, turn_levers,
 };
 use rayon::prelude::*;
 use reduction::GearModes;
-use scene::gearbox::{Gearbox, GearboxVibration};
-use study::campbell;
+use scene::gearbox::{Gearbox, GearboxDrive, GearboxMotion, GearboxVibration};
 
 use super::{
     inertia,
     meshes::ReducedMesh,
-    swings::{GearModesOfDiscs, OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
+    orders::ORDERS,
+    swings::{GearModesOfDiscs, GearboxCampbell, OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
 };
 use crate::{
-    AnalysisError, Observer, PhaseWork,
-    motion::{RPM, kept_modes},
+    AnalysisError, Observer, PhaseWork, Progress,
+    motion::{CAMPBELL_BEYOND, RPM, kept_modes},
     run_phase, unless_cancelled,
 };
 
@@ -41,6 +42,8 @@ const PER_PERIOD: u32 = 4;
 /// are asked for.
 const BEYOND: f64 = 2.0;
 const BEYOND_MODES: f64 = 1.5;
+/// Natural frequencies in the diagram of a run-up.
+const DRAWN_MODES: u32 = 20;
 
 impl Parts<'_> {
     fn failed(&self, source: GearboxError) -> AnalysisError {
@@ -102,6 +105,62 @@ pub(super) fn elastic_modes(
     })
 }
 
+/// A gearbox that swings, and its natural motions over speed.
+struct Swinging {
+    vibration: Vibration,
+    /// Frequency at rest (rad/s) up to which no mode is left out.
+    limit: f64,
+    /// Natural motions at the speeds of the diagram.
+    modes: Vec<WhirlModes>,
+    campbell: GearboxCampbell,
+}
+
+impl Swinging {
+    /// With so many speeds of the input (rad/s) between the first and the last one that are asked for.
+    fn new(
+        parts: &Parts<'_>,
+        asked: &GearboxVibration,
+        (excitations, gears, modes): (Vec<MeshExcitation>, &[RigidBody], &GearModesOfDiscs),
+        progress: &dyn Progress,
+    ) -> Result<Self, AnalysisError> {
+        let failed = |source: GearboxError| parts.failed(source);
+        let held = Held {
+            shafts: parts.operation.held.clone(),
+            turns: if asked.held_input { vec![parts.operation.input] } else { Vec::new() },
+        };
+        let structure = inertia::heavy(parts.file, parts.structure, parts.operation, gears);
+        let train = (parts.meshes, parts.train, parts.operation.sense);
+        let whole = Vibration::with_modes(structure, train, excitations, modes, &held).map_err(failed)?;
+        let limit = limit(&whole, asked, RPM * asked.speeds_rpm[1]);
+        let vibration = whole.reduced(limit).map_err(failed)?;
+        drop(whole);
+        let at_speed = |speed: &f64| {
+            let found = unless_cancelled(progress)
+                .and_then(|()| vibration.rotors().whirl_modes(&vibration.speeds(*speed)).map_err(failed));
+            progress.tick();
+            found.map(|found| first(found, asked.modes as usize))
+        };
+        let drawn = speeds(asked, drawn(asked));
+        // All of them before the first complaint: it is the same for any number of threads.
+        let modes: Vec<Result<WhirlModes, AnalysisError>> = drawn.par_iter().map(at_speed).collect();
+        let modes = modes.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let lines = lines(&vibration, parts.train.ratios(), asked.orders);
+        let diagram = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
+        Ok(Self { vibration, limit, modes, campbell: GearboxCampbell { diagram, lines } })
+    }
+}
+
+/// Speeds of the Campbell diagram.
+fn drawn(asked: &GearboxVibration) -> u32 {
+    asked.speeds.min(DRAWN)
+}
+
+/// So many speeds of the input, evenly spaced, rad/s.
+fn speeds(asked: &GearboxVibration, count: u32) -> Vec<f64> {
+    let [from, to] = asked.speeds_rpm.map(|rpm| RPM * rpm);
+    (0..count).map(|i| from + (to - from) * f64::from(i) / f64::from(count - 1)).collect()
+}
+
 /// Natural frequencies over speed, and the answer to all mesh orders.
 pub(super) fn vibration(
     parts: &Parts<'_>,
@@ -113,30 +172,11 @@ pub(super) fn vibration(
     let failed = |source: GearboxError| parts.failed(source);
     let excitations = parts.excitations(asked, (reduced, modes_of_gears), samples, observer)?;
     let gears = inertia::gears(parts.file, reduced)?;
-    let held = Held {
-        shafts: parts.operation.held.clone(),
-        turns: if asked.held_input { vec![parts.operation.input] } else { Vec::new() },
-    };
-    let structure = inertia::heavy(parts.file, parts.structure, parts.operation, &gears);
-    let train = (parts.meshes, parts.train, parts.operation.sense);
-    let [from, to] = asked.speeds_rpm.map(|rpm| RPM * rpm);
-    let speed = |i: u32, count: u32| from + (to - from) * f64::from(i) / f64::from(count - 1);
-    let drawn: Vec<f64> = (0..asked.speeds.min(DRAWN)).map(|i| speed(i, asked.speeds.min(DRAWN))).collect();
-    let speeds: Vec<f64> = (0..asked.speeds).map(|i| speed(i, asked.speeds)).collect();
-    run_phase(observer, "vibrate", PhaseWork::Steps((drawn.len() + speeds.len()) as u64), |progress| {
-        let whole = Vibration::with_modes(structure, train, excitations, modes_of_gears, &held).map_err(failed)?;
-        let limit = limit(&whole, asked, to);
-        let vibration = whole.reduced(limit).map_err(failed)?;
-        drop(whole);
-        let at_speed = |speed: &f64| {
-            let found = unless_cancelled(progress)
-                .and_then(|()| vibration.rotors().whirl_modes(&vibration.speeds(*speed)).map_err(failed));
-            progress.tick();
-            found.map(|found| first(found, asked.modes as usize))
-        };
-        // All of them before the first complaint: it is the same for any number of threads.
-        let modes: Vec<Result<WhirlModes, AnalysisError>> = drawn.par_iter().map(at_speed).collect();
-        let modes = modes.into_iter().collect::<Result<Vec<_>, _>>()?;
+    let speeds = speeds(asked, asked.speeds);
+    let work = PhaseWork::Steps(u64::from(drawn(asked)) + speeds.len() as u64);
+    run_phase(observer, "vibrate", work, |progress| {
+        let Swinging { vibration, limit, modes, campbell } =
+            Swinging::new(parts, asked, (excitations, &gears, modes_of_gears), progress)?;
         let answer = |speed: &f64| {
             let found = unless_cancelled(progress)
                 .and_then(|()| vibration.harmonics(*speed, asked.damping_ratio).map_err(failed));
@@ -145,8 +185,6 @@ pub(super) fn vibration(
         };
         let orders: Vec<Result<Vec<OrderForces>, AnalysisError>> = speeds.par_iter().map(answer).collect();
         let orders = orders.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let lines = lines(&vibration, parts.train.ratios(), asked.orders);
-        let campbell = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
         Ok(VibrationResult {
             gear_modes: gear_frequencies(gears.len(), modes_of_gears),
             gears,
@@ -159,11 +197,33 @@ pub(super) fn vibration(
             modes_up_to_hz: limit / TAU,
             modes,
             campbell,
-            lines,
             speeds,
             rms: orders.iter().map(|own| SpeedRms::of(own)).collect(),
             orders,
         })
+    })
+}
+
+/// Natural frequencies from standstill to a little beyond the highest speed of a run-up.
+pub(super) fn campbell(
+    parts: &Parts<'_>,
+    asked: &GearboxMotion,
+    (reduced, modes_of_gears): (&[ReducedMesh], &GearModesOfDiscs),
+    samples: &[Vec<MeshSample>],
+    observer: &mut dyn Observer,
+) -> Result<GearboxCampbell, AnalysisError> {
+    let asked = GearboxVibration {
+        speeds_rpm: [0.0, CAMPBELL_BEYOND * asked.speed_rpm.max(asked.to_speed_rpm.unwrap_or(0.0))],
+        speeds: DRAWN,
+        orders: ORDERS as u32,
+        damping_ratio: asked.modal_damping_ratio,
+        modes: DRAWN_MODES,
+        held_input: asked.drive == GearboxDrive::Speed,
+    };
+    let excitations = parts.excitations(&asked, (reduced, modes_of_gears), samples, observer)?;
+    let gears = inertia::gears(parts.file, reduced)?;
+    run_phase(observer, "modes over speed", PhaseWork::Steps(u64::from(DRAWN)), |progress| {
+        Ok(Swinging::new(parts, &asked, (excitations, &gears, modes_of_gears), progress)?.campbell)
     })
 }
 
@@ -186,7 +246,7 @@ fn diagram(speeds: &[f64], modes: &[WhirlModes], orders: &[f64]) -> Result<study
     let count = modes.iter().map(|m| m.modes.len()).min().unwrap_or(0);
     let mut each = modes.iter();
     let in_hz: Vec<f64> = speeds.iter().map(|s| s / TAU).collect();
-    let found = campbell(&in_hz, orders, |_| {
+    let found = study::campbell(&in_hz, orders, |_| {
         each.next().map_or_else(Vec::new, |m| m.modes.iter().take(count).map(|m| m.frequency / TAU).collect())
     });
     found.map_err(AnalysisError::from)

@@ -33,7 +33,7 @@ pub use crate::unstable_steps::Steps;
 pub use analysis::{MotionAnalysis, MotionOutcome, MotionResult, RampResult};
 pub use headline::{MotionCertificate, MotionHeadline};
 pub(crate) use motion_remarks::parting;
-pub(crate) use orders::window;
+pub(crate) use orders::{CAMPBELL_BEYOND, window};
 pub use orders::{
     CampbellDiagram, CriticalSpeed, MotionSeries, MotionSpectrum, OrderCut, PeakOverSpeed, RunUp, RunUpCycle,
     RunUpHeadline, Stretches, Waterfall, WaterfallLine, waterfall,

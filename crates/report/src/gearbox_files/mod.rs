@@ -14,11 +14,11 @@ mod vibration_rows;
 use std::sync::Arc;
 
 use analysis::{
-    gearbox::{ExcitationLine, GearFrequencies, GearboxResult, VibrationResult},
+    gearbox::{ExcitationLine, GearFrequencies, GearboxCampbell, GearboxResult, VibrationResult},
     motion::{MotionSpectrum, Waterfall},
 };
 use answer::{Answer, Cost, Table};
-use columns::gearbox as rows;
+use columns::{ENERGY, gearbox as rows};
 use described::Key;
 use scene::gearbox::Gearbox;
 use serde_json::json;
@@ -28,8 +28,8 @@ use crate::{ReportError, Written, branch_files, write_result};
 use store::folder::ResultDirectory;
 
 /// The answer about a gearbox: of rest `positions`, `shafts`, `line_load`; of a vibration `modes`, `campbell`,
-/// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion`, `section` where it comes back to where its meshes
-/// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`, of that `cycles` as well; of a branch over the speed `branch`, `bifurcations`, `in_time`.
+/// `crossings`, `response`, `rms`, `bearing_forces`; of a motion `motion`, `energy`, `section` where it comes back to where its meshes
+/// began, and, where it is long enough to tell orders, `motion_orders` and of a run-up `waterfall`, of that `cycles`, and `campbell` and `crossings` without a vibration, as well; of a branch over the speed `branch`, `bifurcations`, `in_time`.
 ///
 /// # Errors
 /// [`ReportError::Study`] for rows that hold what is no number.
@@ -42,8 +42,8 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
     if let Some(swings) = &result.vibration {
         tables.extend([
             vibration_rows::modes(file, swings),
-            vibration_rows::campbell(swings),
-            vibration_rows::crossings(swings),
+            vibration_rows::campbell(&swings.campbell),
+            vibration_rows::crossings(&swings.campbell),
             vibration_rows::response(file, swings),
             vibration_rows::rms(file, swings),
             vibration_rows::bearing_forces(file, swings),
@@ -52,12 +52,16 @@ pub fn gearbox_answer(file: &Gearbox, result: &GearboxResult, cost: Cost) -> Res
     if let Some(own) = &result.motion {
         let rows = rows::motion(file, &own.rows);
         let section = motion_tables::section(own, &rows)?;
-        tables.extend([rows].into_iter().chain(section));
+        let energy = ENERGY.sheet(&(), &[]).kept("energy", &(), &own.ledger, |row| row);
+        tables.extend([rows, energy].into_iter().chain(section));
         if !own.orders.is_empty() {
             tables.push(motion_tables::orders(file, &own.orders));
         }
         tables.extend(own.spectrum.as_ref().map(|own| motion_tables::spectrum(file, own)));
         tables.extend(own.waterfall.as_ref().map(|own| motion_tables::waterfall(file, own)));
+        if let Some(own) = &own.campbell {
+            tables.extend([vibration_rows::campbell(own), vibration_rows::crossings(own)]);
+        }
         tables.extend((!own.run_ups.is_empty()).then(|| motion_tables::cycles(file, &own.run_ups)));
     }
     tables.extend(result.branch.iter().flat_map(|own| branch_files::tables(&branch::shown(file, own))));
@@ -87,8 +91,10 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         modes_kept: 0,
         modes_up_to_hz: 0.0,
         modes: Vec::new(),
-        campbell: Campbell { speeds: Vec::new(), frequencies, orders, resonances: Vec::new() },
-        lines: vec![line("mesh_1_order_1"), line("shaft_1")],
+        campbell: GearboxCampbell {
+            diagram: Campbell { speeds: Vec::new(), frequencies, orders, resonances: Vec::new() },
+            lines: vec![line("mesh_1_order_1"), line("shaft_1")],
+        },
         speeds: Vec::new(),
         orders: Vec::new(),
         rms: Vec::new(),
@@ -98,8 +104,8 @@ pub(crate) fn documented(file: &Gearbox) -> (Vec<Table>, Vec<(&'static str, Vec<
         rows::shafts(file, &[]),
         rows::line_loads(&[], &[]),
         vibration_rows::modes(file, &none),
-        vibration_rows::campbell(&none),
-        vibration_rows::crossings(&none),
+        vibration_rows::campbell(&none.campbell),
+        vibration_rows::crossings(&none.campbell),
         vibration_rows::response(file, &none),
         vibration_rows::rms(file, &none),
         vibration_rows::bearing_forces(file, &none),

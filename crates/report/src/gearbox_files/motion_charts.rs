@@ -11,7 +11,7 @@ use scene::gearbox::Gearbox;
 use crate::{
     ReportError,
     charts::{Curve, line_chart},
-    motion_files::{portrait, spectrum_chart, waterfall_chart},
+    motion_files::{energy_chart, portrait, spectrum_chart, waterfall_chart},
 };
 
 /// Orders of a mesh that are drawn over the speed.
@@ -29,8 +29,12 @@ pub(super) fn motion_charts(
     answer: &Answer,
 ) -> Result<Vec<String>, ReportError> {
     let mut all: Vec<String> = over_time(file, motion)?.into_iter().flatten().collect();
+    if let Some(energy) = answer.table("energy") {
+        all.extend(energy_chart(energy, "time [s]", &|t| t)?);
+    }
     if is_run_up(motion) {
         all.extend(over_speed(file, motion).into_iter().flatten());
+        all.extend(motion.campbell.iter().filter_map(super::vibration::campbell));
         all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
         return Ok(all);
     }

@@ -401,7 +401,7 @@ fn vibration<'a>(file: &'a Gearbox, (asked, swings): (&GearboxVibration, &Vibrat
         modes: modes.collect(),
         modes_kept: swings.modes_kept,
         modes_up_to_hz: swings.modes_up_to_hz,
-        crossings: swings.campbell.resonances.len(),
+        crossings: swings.campbell.diagram.resonances.len(),
         meshes: meshes.collect(),
         bearings: bearings.collect(),
         gears: gears.collect(),

@@ -1,7 +1,11 @@
 //! How a gearbox swings, as parts of its page.
 
-use analysis::{gearbox::VibrationResult, motion::RPM};
+use analysis::{
+    gearbox::{GearboxCampbell, VibrationResult},
+    motion::RPM,
+};
 use scene::gearbox::{Gearbox, GearboxVibration};
+use study::Campbell;
 
 use super::swing_words::{bearing_peaks, first_modes, holders, mesh_peaks};
 use crate::{
@@ -16,7 +20,7 @@ const LISTED: usize = 8;
 
 /// Modes, charts, largest forces.
 pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &VibrationResult) -> Vec<Part> {
-    let charts = [campbell(swings), meshes(file, swings), bearings(file, swings)];
+    let charts = [campbell(&swings.campbell), meshes(file, swings), bearings(file, swings)];
     let rows: Vec<Vec<Cell>> = first_modes(swings)
         .iter()
         .enumerate()
@@ -32,7 +36,7 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
     let words = format!(
         "With the mean stiffness of every mesh at {:.1}/min of the input. Where the strain energy is, and what moves. The \
          picture in space shows each as a shape.",
-        swings.campbell.speeds.first().map_or(f64::NAN, |s| 60.0 * s)
+        swings.campbell.diagram.speeds.first().map_or(f64::NAN, |s| 60.0 * s)
     );
     let of_meshes = mesh_peaks(file, swings).into_iter().zip(&swings.mesh_stiffness).map(|(peak, stiffness)| {
         vec![
@@ -61,16 +65,15 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
 }
 
 /// Natural frequencies over speed with the lowest orders of every mesh.
-fn campbell(swings: &VibrationResult) -> Option<String> {
-    let mut diagram = swings.campbell.clone();
-    let first = swings.lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
+pub(super) fn campbell(GearboxCampbell { diagram, lines }: &GearboxCampbell) -> Option<String> {
+    let first = lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
     let rest =
-        swings.lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
+        lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
     let (numbers, names): (Vec<usize>, Vec<String>) =
         first.chain(rest).take(DRAWN).map(|(i, l)| (i, l.name.replace('_', " "))).unzip();
-    diagram.orders = numbers.iter().map(|i| swings.campbell.orders[*i]).collect();
+    let orders = numbers.iter().map(|i| diagram.orders[*i]).collect();
     let modes: Vec<String> = (1..=diagram.frequencies.len()).map(|m| format!("natural mode {m}")).collect();
-    campbell_chart(&diagram, &names, &modes)
+    campbell_chart(&Campbell { orders, ..diagram.clone() }, &names, &modes)
 }
 
 /// A root mean square over the speed of the input.

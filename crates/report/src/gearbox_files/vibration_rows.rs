@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox::{OrderForces, VibrationResult},
+    gearbox::{GearboxCampbell, OrderForces, VibrationResult},
     motion::RPM,
 };
 use answer::Table;
@@ -14,7 +14,7 @@ use export::universal::{Function, Response, universal_file};
 
 /// `modes`: natural motions at the first and the last speed, a row each.
 pub(super) fn modes(file: &Gearbox, swings: &VibrationResult) -> Table {
-    let speeds = &swings.campbell.speeds;
+    let speeds = &swings.campbell.diagram.speeds;
     let ends = [0, swings.modes.len().saturating_sub(1)];
     let ends = if ends[0] == ends[1] { &ends[..1] } else { &ends[..] };
     let rows: Vec<(f64, usize, &WhirlMode)> = (ends.iter())
@@ -67,14 +67,13 @@ fn share(mode: &WhirlMode, component: Component, strain: bool) -> f64 {
 }
 
 /// `campbell`: natural frequencies and lines of excitation, one row a speed.
-pub(super) fn campbell(swings: &VibrationResult) -> Table {
-    let diagram = &swings.campbell;
+pub(super) fn campbell(GearboxCampbell { diagram, lines }: &GearboxCampbell) -> Table {
     let mut table =
         Table::new("campbell").numbers("input_rpm", "speed of the input", diagram.speeds.iter().map(|s| 60.0 * s));
     for (m, mode) in diagram.frequencies.iter().enumerate() {
         table.push_numbers(format!("mode_{}_hz", m + 1), "natural frequency", mode.iter().copied());
     }
-    for (line, order) in swings.lines.iter().zip(&diagram.orders) {
+    for (line, order) in lines.iter().zip(&diagram.orders) {
         let along = diagram.speeds.iter().map(|speed| order * speed);
         table.push_numbers(format!("{}_hz", line.name), "line of excitation", along);
     }
@@ -82,9 +81,9 @@ pub(super) fn campbell(swings: &VibrationResult) -> Table {
 }
 
 /// `crossings`: where a line of excitation meets a natural frequency, ascending in speed.
-pub(super) fn crossings(swings: &VibrationResult) -> Table {
-    let all = &swings.campbell.resonances;
-    let line = |order: f64| swings.lines.iter().find(|l| l.order == order).map_or("", |l| l.name.as_str());
+pub(super) fn crossings(GearboxCampbell { diagram, lines }: &GearboxCampbell) -> Table {
+    let all = &diagram.resonances;
+    let line = |order: f64| lines.iter().find(|l| l.order == order).map_or("", |l| l.name.as_str());
     Table::new("crossings")
         .numbers("input_rpm", "speed of the input", all.iter().map(|m| 60.0 * m.speed))
         .numbers("frequency_hz", "frequency of both lines", all.iter().map(|m| m.frequency))

@@ -132,8 +132,7 @@ pub fn motion_charts(of: &MotionPictures<'_>) -> Result<Vec<String>, ReportError
     let dte = ["the DTE", "um"];
     all.push(of.waterfall.and_then(|own| waterfall_chart(own, 0, dte, "pinion speed [1/min]")));
     all.push(of.campbell.and_then(|c| campbell_chart(&c.diagram, &c.orders, &c.names)));
-    let residual = residual(of.energy, energy_place)?;
-    all.push(line_chart("Energy that does not close", energy_axis, "residual [mJ]", &[residual], false));
+    all.push(energy_chart(of.energy, energy_axis, energy_place)?);
     Ok(all.into_iter().flatten().collect())
 }
 
@@ -148,10 +147,18 @@ fn series<'t>(of: &'t Table, name: &str) -> Result<&'t [f64], ReportError> {
 }
 
 /// Energy that does not close, row by row, over places of their times.
-fn residual(energy: &Table, place: &dyn Fn(f64) -> f64) -> Result<Curve, ReportError> {
+///
+/// # Errors
+/// [`ReportError`] where rows cannot be read back.
+pub(crate) fn energy_chart(
+    energy: &Table,
+    axis: &str,
+    place: &dyn Fn(f64) -> f64,
+) -> Result<Option<String>, ReportError> {
     let part = energy.part(0..energy.rows(), |name| name == TIME.name || name == RESIDUAL.name)?;
     let both = series(&part, TIME.name)?.iter().zip(series(&part, RESIDUAL.name)?);
-    Ok(Curve { label: "residual".into(), points: both.map(|(t, x)| (place(*t), *x)).collect() })
+    let residual = Curve { label: "residual".into(), points: both.map(|(t, x)| (place(*t), *x)).collect() };
+    Ok(line_chart("Energy that does not close", axis, "residual [mJ]", &[residual], false))
 }
 
 /// Columns of the pairs that press in any row.

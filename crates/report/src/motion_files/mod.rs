@@ -5,6 +5,7 @@ mod section;
 mod spectrum;
 mod waterfall;
 
+pub(crate) use charts::energy_chart;
 pub use charts::{MotionPictures, SHOWN_CYCLES, SweepPictures, motion_charts, sweep_charts};
 pub(crate) use section::{portrait, section};
 pub use spectrum::SPECTRA;

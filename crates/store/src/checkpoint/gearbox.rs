@@ -2,8 +2,11 @@
 
 use std::{io::BufRead, path::Path};
 
-use analysis::{SinkResult, gearbox::GearboxSink};
-use answer::RowStore;
+use analysis::{
+    SinkResult,
+    gearbox::{GearboxRows, GearboxSink},
+    motion::EnergyRow,
+};
 use columns::ColumnsError;
 use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
 use serde::{Deserialize, Serialize};
@@ -48,20 +51,21 @@ impl GearboxState {
     ///
     /// # Errors
     /// When the file cannot be read, holds what is no row, or other rows than the state has.
-    pub fn read_rows(&self, folder: &Path) -> Result<RowStore<GearboxInstant>, StoreError> {
+    pub fn read_rows(&self, folder: &Path) -> Result<GearboxRows, StoreError> {
         let file = folder.join(GEARBOX_ROWS);
         let damaged = |what: String| CheckpointError::Damaged { file: file.clone(), what };
-        let mut rows = RowStore::default();
+        let (mut rows, mut ledger) = GearboxRows::default();
         for line in self.rows.reader(&file)?.lines() {
             let line = line.map_err(|cause| ColumnsError::Read { file: file.clone(), cause })?;
-            let row = serde_json::from_str(&line).map_err(|e| damaged(format!("holds what is no row: {e}")))?;
+            let (row, energy) = serde_json::from_str(&line).map_err(|e| damaged(format!("holds what is no row: {e}")))?;
             rows.push(row)?;
+            ledger.push(energy)?;
         }
         if rows.len() as u64 != self.motion.stage.rows {
             let what = format!("has {} rows, and the state {}", rows.len(), self.motion.stage.rows);
             return Err(damaged(what).into());
         }
-        Ok(rows)
+        Ok((rows, ledger))
     }
 }
 
@@ -97,9 +101,9 @@ impl GearboxSink for GearboxFileSink<'_> {
         Ok(())
     }
 
-    fn row(&mut self, row: &GearboxInstant) -> SinkResult {
+    fn row(&mut self, row: &GearboxInstant, energy: &EnergyRow) -> SinkResult {
         if let Some(rows) = &mut self.rows {
-            rows.push(&(serde_json::to_string(row)? + "\n"));
+            rows.push(&(serde_json::to_string(&(row, energy))? + "\n"));
         }
         Ok(())
     }

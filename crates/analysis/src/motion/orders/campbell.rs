@@ -8,7 +8,7 @@ const ORDERS: usize = 6;
 /// Speeds of the diagram, standstill among them.
 const SPEEDS: u32 = 25;
 /// The diagram ends a little beyond the highest speed of the run.
-const BEYOND: f64 = 1.05;
+pub(crate) const CAMPBELL_BEYOND: f64 = 1.05;
 
 /// Frequencies that a mesh order may meet over the speeds of a run.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,7 +52,7 @@ impl CampbellDiagram {
         let mut lines: Vec<_> = frequencies.into_iter().filter(|(hz, _)| hz.is_finite()).collect();
         lines.sort_by(|a, b| a.0.total_cmp(&b.0));
         let teeth = f64::from(teeth);
-        let last = BEYOND * highest_mesh_hz / teeth;
+        let last = CAMPBELL_BEYOND * highest_mesh_hz / teeth;
         let speeds: Vec<f64> = (0..SPEEDS).map(|i| last * f64::from(i) / f64::from(SPEEDS - 1)).collect();
         let orders: Vec<f64> = (1..=ORDERS).map(|k| k as f64 * teeth).collect();
         let diagram = campbell(&speeds, &orders, |_| lines.iter().map(|(hz, _)| *hz).collect())?;

@@ -5,6 +5,7 @@ mod run_up;
 mod series;
 mod spectrum;
 
+pub(crate) use campbell::CAMPBELL_BEYOND;
 pub use campbell::{CampbellDiagram, CriticalSpeed};
 pub use run_up::{OrderCut, PeakOverSpeed, RunUp, RunUpCycle, RunUpHeadline};
 pub use series::MotionSeries;
