@@ -102,9 +102,10 @@ fn teeth_that_differ_come_back_after_a_turn() {
 ///
 /// On the spring by `newmark`, of which the tangent flow is the exact derivative: from 4 % of the peak to peak one step leads
 /// to 1e-10. By `energy` both ways end in the round-off of its discrete gradient, which repeats itself to no better than some
-/// 1e-7.
+/// 1e-7. Waiting leaves its tolerance over 1 less the slowest multiplier, 0.978.
 #[test]
 fn a_gearbox_shoots_to_where_it_would_settle() {
+    let left = 1e-9 / (1.0 - 0.978);
     for is_exact in [false, true] {
         let of = |shoots: bool| {
             let mut mechanism = one_stage(is_exact);
@@ -131,7 +132,8 @@ fn a_gearbox_shoots_to_where_it_would_settle() {
         assert!(4 * by_newton.warm_up < by_waiting.warm_up, "{} of {}", by_newton.warm_up, by_waiting.warm_up);
         let ends = far.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], x| [a.min(*x), b.max(*x)]);
         let off = near.iter().zip(&far).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / (ends[1] - ends[0]);
-        assert!(off < 1e-5, "another motion, by {off:e} of the peak to peak");
+        println!("off by {off:.1e} of the peak to peak, waiting leaves {left:.1e}");
+        assert!(off < 10.0 * left, "another motion, by {off:e} of the peak to peak");
     }
 }
 
