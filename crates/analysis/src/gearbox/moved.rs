@@ -7,7 +7,11 @@ use dynamics::MeshResonance;
 use gearbox::motion::{GearboxEnergy, GearboxInstant, ReductionCertificate};
 use integrate::Periodicity;
 
-use super::{orders::MotionOrder, reached::ReachedByRows, swings::{GearFrequencies, GearboxCampbell}};
+use super::{
+    orders::MotionOrder,
+    reached::ReachedByRows,
+    swings::{GearFrequencies, GearboxCampbell},
+};
 use crate::{
     in_motion::FlankCertificate,
     motion::{ElasticHeadline, EnergyRow, MotionSpectrum, RunUp, Waterfall},

@@ -144,7 +144,10 @@ fn the_two_stages_of_the_scenes_swing() {
     assert!((ring(root)..ring(tip)).contains(&swings.gears[0].mass), "{} t", swings.gears[0].mass);
     assert_eq!(swings.gears[3].mass, 3.2e-3, "what is stated holds");
     assert_eq!((swings.speeds.len(), swings.orders.len(), swings.orders[0].len()), (57, 57, 6));
-    assert_eq!((swings.modes.len(), swings.modes[0].modes.len(), swings.campbell.diagram.frequencies.len()), (21, 12, 12));
+    assert_eq!(
+        (swings.modes.len(), swings.modes[0].modes.len(), swings.campbell.diagram.frequencies.len()),
+        (21, 12, 12)
+    );
     // A turn of the input is 17 cycles of the first mesh and 17 19/53 of the second.
     let wanted = [17.0, 34.0, 51.0, 17.0 * 19.0 / 53.0];
     for (line, wanted) in swings.campbell.lines.iter().zip(wanted) {

@@ -67,8 +67,7 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
 /// Natural frequencies over speed with the lowest orders of every mesh.
 pub(super) fn campbell(GearboxCampbell { diagram, lines }: &GearboxCampbell) -> Option<String> {
     let first = lines.iter().enumerate().filter(|(_, l)| l.name.ends_with("_order_1"));
-    let rest =
-        lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
+    let rest = lines.iter().enumerate().filter(|(_, l)| !l.name.ends_with("_order_1") && l.name.contains("order"));
     let (numbers, names): (Vec<usize>, Vec<String>) =
         first.chain(rest).take(DRAWN).map(|(i, l)| (i, l.name.replace('_', " "))).unzip();
     let orders = numbers.iter().map(|i| diagram.orders[*i]).collect();

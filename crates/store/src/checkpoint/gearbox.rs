@@ -57,7 +57,8 @@ impl GearboxState {
         let (mut rows, mut ledger) = GearboxRows::default();
         for line in self.rows.reader(&file)?.lines() {
             let line = line.map_err(|cause| ColumnsError::Read { file: file.clone(), cause })?;
-            let (row, energy) = serde_json::from_str(&line).map_err(|e| damaged(format!("holds what is no row: {e}")))?;
+            let (row, energy) =
+                serde_json::from_str(&line).map_err(|e| damaged(format!("holds what is no row: {e}")))?;
             rows.push(row)?;
             ledger.push(energy)?;
         }
