@@ -44,8 +44,7 @@ mod spectrum;
 mod swings;
 mod vibration;
 
-use answer::RowStore;
-use gearbox::motion::{GearboxCheckpoint, GearboxInstant};
+use gearbox::motion::GearboxCheckpoint;
 use scene::gearbox::Gearbox;
 
 pub use crate::run_up::RunUpTorque;

@@ -7,8 +7,7 @@ use dynamics::MeshResonance;
 use gearbox::{
     GearboxError,
     motion::{
-        ContactSpring, Drive, FlankCourse, GearboxCheckpoint, GearboxInstant, GearboxMechanism, GearboxRun,
-        MotionOptions, MotionPlan,
+        ContactSpring, Drive, FlankCourse, GearboxCheckpoint, GearboxMechanism, GearboxRun, MotionOptions, MotionPlan,
     },
 };
 use integrate::{Ahead, Follower, Periodicity, Row, Stage, State};
