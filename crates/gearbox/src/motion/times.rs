@@ -9,6 +9,8 @@ use super::GearboxMechanism;
 
 /// Most steps between two rows: more is a standstill, not a motion.
 const MOST: f64 = 1e6;
+/// Longest step between turns that are alike over the mean of its cycle: longer ones, as from standstill on, are divided.
+const LONGEST: f64 = 1.1;
 
 /// Divides a motion into cycles of its fastest mesh, and these into steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,14 +101,17 @@ impl<M: Mechanism + Borrow<GearboxMechanism>> Timetable<M> for MotionTimes {
         // Each step of its own where their times are not evenly spaced and their error does not choose them.
         let each = !is_even && self.tolerance.is_none();
         let ends = (1..=per_cycle).filter(|&k| each || is_row(before + k) || k == per_cycle);
-        let stop = |k: u64| Some(Stop { time: time(k, per_cycle)?, is_row: is_row(before + k) });
-        let stops: Vec<Stop> = ends.map(stop).collect::<Option<_>>()?;
-        let starts = std::iter::once(begin).chain(stops.iter().map(|stop| stop.time));
-        let longest = if each {
-            starts.zip(&stops).map(|(start, stop)| stop.time - start).fold(0.0, f64::max)
-        } else {
-            (end - begin) / per_cycle as f64
-        };
+        let mean = (end - begin) / per_cycle as f64;
+        let (mut stops, mut start, mut longest): (Vec<Stop>, _, f64) = (Vec::new(), begin, 0.0);
+        for k in ends {
+            let end = time(k, per_cycle)?;
+            let parts = if each && end - start > LONGEST * mean { ((end - start) / mean).ceil() } else { 1.0 };
+            let part = (end - start) / parts;
+            stops.extend((1..parts as u64).map(|i| Stop { time: start + i as f64 * part, is_row: false }));
+            stops.push(Stop { time: end, is_row: is_row(before + k) });
+            (start, longest) = (end, longest.max(part));
+        }
+        let longest = if each { longest } else { mean };
         Some(CycleTimes { stops, rows: RowPlace::Ends, control: StepControl::new(self.tolerance, longest) })
     }
 }

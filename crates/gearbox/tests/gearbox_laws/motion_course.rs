@@ -12,7 +12,7 @@ use gearbox::{
     },
 };
 use geometry::Sense;
-use integrate::{Follower, MotionError, Row, Scheme, Settle};
+use integrate::{Follower, MotionError, Row, Scheme, Settle, Timetable};
 
 use crate::{
     motion::{stiffness, train},
@@ -214,6 +214,28 @@ fn steps_end_where_flanks_come_apart() {
     assert!(stopping.steps >= 60 * 24 + lost(&stopping), "{} steps, {:?}", stopping.steps, stopping.flanks);
     let [a, b] = [lost(&through), lost(&stopping)];
     assert!(a.abs_diff(b) <= 2 + a / 2, "parts {a} times, {b} times with steps that end there");
+}
+
+/// Rows of a run-up are turns that are alike; steps between them are no longer than a tenth beyond their mean, from standstill
+/// on as well.
+#[test]
+fn a_run_up_from_standstill_has_short_steps() {
+    let drive = Drive::Speed(Speed::Ramp { from: 0.0, to: 100.0, start: 0.0, duration: 0.05 });
+    let mut mechanism = train(drive, Sense::Ccw, 0.0);
+    let start = mechanism.start(0.05).unwrap();
+    let times = plan(3).times(mechanism.scale(&start));
+    let mut begin = 0.0;
+    for cycle in 0..3 {
+        let own = times.cycle(&mechanism, cycle, begin).unwrap();
+        let ends: Vec<f64> = std::iter::once(begin).chain(own.stops.iter().map(|stop| stop.time)).collect();
+        let mean = (ends[ends.len() - 1] - begin) / 24.0;
+        let longest = ends.windows(2).map(|two| two[1] - two[0]).fold(0.0, f64::max);
+        assert!(longest <= 1.1 * mean && ends.len() <= 40, "{longest} s beside {mean} s, {} steps", ends.len() - 1);
+        let rows: Vec<f64> = own.stops.iter().filter(|stop| stop.is_row).map(|stop| stop.time).collect();
+        let of_row = |k: usize| mechanism.time_of_cycles(cycle as f64 + (k + 1) as f64 / 6.0).unwrap();
+        assert!(rows.len() == 6 && (0..6).all(|k| (rows[k] - of_row(k)).abs() < 1e-12), "{rows:?}");
+        begin = ends[ends.len() - 1];
+    }
 }
 
 /// Checkpoints with as many rows as there were.
