@@ -72,6 +72,7 @@ pub use structure::{Disc, ElasticMesh, Machine, MeshSpring, Shaft, Structure};
 pub use supports::Supports;
 pub use train::{GearMesh, Meshing, Train};
 pub use vibration::{
-    Harmonic, MeanMesh, MeshExcitation, MeshSample, Vibration, own_cycle, rms, taken_off, turn_levers,
+    ExcitationLine, Harmonic, MeanMesh, MeshExcitation, MeshSample, OrderForces, SpeedRms, Vibration, own_cycle, rms,
+    taken_off, turn_levers,
 };
 pub use whirl::{Held, Rotors, WhirlMode, WhirlModes};

@@ -63,7 +63,7 @@ pub use result::{BearingLoad, GearboxResult, MeshResult, OutputResult, Rates};
 pub use sink::GearboxSink;
 use sink::NoGearboxSink;
 use solve::{Asked, Slices, solve};
-pub use swings::{ExcitationLine, GearFrequencies, GearboxCampbell, OrderForces, SpeedRms, VibrationResult};
+pub use swings::{GearFrequencies, GearboxCampbell, VibrationResult};
 
 impl Question for Gearbox {
     type Answer = GearboxResult;

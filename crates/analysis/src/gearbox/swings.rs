@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use dynamics::RigidBody;
-use gearbox::{Harmonic, Vibration, WhirlModes, rms, taken_off};
-use nalgebra::Complex;
+use gearbox::{ExcitationLine, OrderForces, SpeedRms, WhirlModes, taken_off};
 use reduction::GearModes;
 use scene::gearbox::{Gearbox, GearboxGear, GearboxMesh};
 use study::Campbell;
@@ -60,64 +59,6 @@ pub struct GearboxCampbell {
     pub diagram: Campbell,
     /// Lines of excitation, in the order of its orders.
     pub lines: Vec<ExcitationLine>,
-}
-
-/// What excites: a multiple of the input's speed.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ExcitationLine {
-    /// Name, as columns have it.
-    pub name: String,
-    /// Order, turns of the input.
-    pub order: f64,
-}
-
-/// What one order of one mesh does at one speed; peaks of Re(x exp(i w t)), t = 0 where the input is at its start.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OrderForces {
-    /// Mesh that excites.
-    pub mesh: usize,
-    /// Order of its frequency.
-    pub order: usize,
-    /// Frequency, Hz.
-    pub frequency_hz: f64,
-    /// Dynamic normal force of every mesh, N.
-    pub mesh_forces: Vec<Complex<f64>>,
-    /// Force and moment of every bearing on the housing: N, N mm.
-    pub bearing_forces: Vec<[Complex<f64>; 6]>,
-}
-
-/// Root mean squares of all orders of all meshes together.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SpeedRms {
-    /// Of the dynamic normal force of every mesh, N.
-    pub mesh_forces: Vec<f64>,
-    /// Of the force of every bearing, x, y, z together, N.
-    pub bearing_forces: Vec<f64>,
-}
-
-impl OrderForces {
-    pub(super) fn of(harmonic: &Harmonic) -> Self {
-        let six = |i: usize| std::array::from_fn(|k| harmonic.bearing_forces[6 * i + k]);
-        Self {
-            mesh: harmonic.mesh,
-            order: harmonic.order,
-            frequency_hz: harmonic.frequency / std::f64::consts::TAU,
-            mesh_forces: harmonic.mesh_forces.clone(),
-            bearing_forces: (0..harmonic.bearing_forces.len() / 6).map(six).collect(),
-        }
-    }
-}
-
-impl SpeedRms {
-    pub(super) fn of(orders: &[OrderForces]) -> Self {
-        let (meshes, bearings) = orders.first().map_or((0, 0), |o| (o.mesh_forces.len(), o.bearing_forces.len()));
-        let mesh = |i: usize| rms(orders.iter().map(|o| (o.frequency_hz, o.mesh_forces[i])));
-        let axis = |i: usize, k: usize| rms(orders.iter().map(|o| (o.frequency_hz, o.bearing_forces[i][k])));
-        Self {
-            mesh_forces: (0..meshes).map(mesh).collect(),
-            bearing_forces: (0..bearings).map(|i| axis(i, 0).hypot(axis(i, 1)).hypot(axis(i, 2))).collect(),
-        }
-    }
 }
 
 impl VibrationResult {
@@ -200,18 +141,6 @@ pub(super) fn gear_frequencies(count: usize, modes: &GearModesOfDiscs) -> Vec<Op
         by_sectors: own.standing().is_some(),
     };
     (0..count).map(|i| modes.get(i).and_then(Option::as_ref).map(of)).collect()
-}
-
-/// Mesh orders and turns of shafts as lines of excitation; what stands excites nothing.
-pub(super) fn lines(vibration: &Vibration, ratios: &[f64], orders: u32) -> Vec<ExcitationLine> {
-    let meshes = vibration.mesh_orders().into_iter().enumerate().flat_map(move |(i, order)| {
-        (1..=orders)
-            .map(move |k| ExcitationLine { name: format!("mesh_{}_order_{k}", i + 1), order: f64::from(k) * order })
-    });
-    let shafts = ratios.iter().enumerate();
-    let shafts = shafts.filter(|(_, ratio)| **ratio != 0.0);
-    let shafts = shafts.map(|(i, ratio)| ExcitationLine { name: format!("shaft_{}", i + 1), order: ratio.abs() });
-    meshes.chain(shafts).collect()
 }
 
 #[cfg(test)]

@@ -4,8 +4,8 @@ use std::{f64::consts::TAU, sync::Arc};
 
 use dynamics::RigidBody;
 use gearbox::{
-    GearMesh, GearboxError, Held, MeanMesh, MeshElement, MeshExcitation, MeshSample, Operation, StaticGearbox,
-    Structure, Train, Vibration, WhirlModes, elastic_gears, own_cycle, turn_levers,
+    GearMesh, GearboxError, Held, MeanMesh, MeshElement, MeshExcitation, MeshSample, Operation, OrderForces, SpeedRms,
+    StaticGearbox, Structure, Train, Vibration, WhirlModes, elastic_gears, own_cycle, turn_levers,
 };
 use rayon::prelude::*;
 use reduction::GearModes;
@@ -15,7 +15,7 @@ use super::{
     inertia,
     meshes::ReducedMesh,
     orders::ORDERS,
-    swings::{GearModesOfDiscs, GearboxCampbell, OrderForces, SpeedRms, VibrationResult, gear_frequencies, lines},
+    swings::{GearModesOfDiscs, GearboxCampbell, VibrationResult, gear_frequencies},
 };
 use crate::{
     AnalysisError, Observer, PhaseWork, Progress,
@@ -138,13 +138,17 @@ impl Swinging {
             let found = unless_cancelled(progress)
                 .and_then(|()| vibration.rotors().whirl_modes(&vibration.speeds(*speed)).map_err(failed));
             progress.tick();
-            found.map(|found| first(found, asked.modes as usize))
+            // The lowest of all natural motions.
+            found.map(|mut found| {
+                found.modes.truncate(asked.modes as usize);
+                found
+            })
         };
         let drawn = speeds(asked, drawn(asked));
         // All of them before the first complaint: it is the same for any number of threads.
         let modes: Vec<Result<WhirlModes, AnalysisError>> = drawn.par_iter().map(at_speed).collect();
         let modes = modes.into_iter().collect::<Result<Vec<_>, _>>()?;
-        let lines = lines(&vibration, parts.train.ratios(), asked.orders);
+        let lines = vibration.lines(parts.train.ratios(), asked.orders);
         let diagram = diagram(&drawn, &modes, &lines.iter().map(|l| l.order).collect::<Vec<_>>())?;
         Ok(Self { vibration, limit, modes, campbell: GearboxCampbell { diagram, lines } })
     }
@@ -233,12 +237,6 @@ fn limit(whole: &Vibration, asked: &GearboxVibration, fastest: f64) -> f64 {
     let rest = &whole.rotors().modes_at_rest().frequencies;
     let told = rest.iter().filter(|w| **w > 0.0).nth(asked.modes as usize);
     (BEYOND * highest).max(BEYOND_MODES * told.copied().unwrap_or(f64::INFINITY))
-}
-
-/// The lowest of all natural motions.
-fn first(mut found: WhirlModes, count: usize) -> WhirlModes {
-    found.modes.truncate(count);
-    found
 }
 
 fn diagram(speeds: &[f64], modes: &[WhirlModes], orders: &[f64]) -> Result<study::Campbell, AnalysisError> {

@@ -14,12 +14,13 @@ mod vibration_rows;
 use std::sync::Arc;
 
 use analysis::{
-    gearbox::{ExcitationLine, GearFrequencies, GearboxCampbell, GearboxResult, VibrationResult},
+    gearbox::{GearFrequencies, GearboxCampbell, GearboxResult, VibrationResult},
     motion::{MotionSpectrum, Waterfall},
 };
 use answer::{Answer, Cost, Table};
 use columns::{ENERGY, gearbox as rows};
 use described::Key;
+use gearbox::ExcitationLine;
 use scene::gearbox::Gearbox;
 use serde_json::json;
 use study::Campbell;

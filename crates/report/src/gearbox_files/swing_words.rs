@@ -23,7 +23,7 @@ pub(super) fn bearing_peaks(file: &Gearbox, swings: &VibrationResult) -> Vec<Pea
     file.bearings.iter().map(|b| &b.name).enumerate().map(of).collect()
 }
 
-fn peak(swings: &VibrationResult, name: &str, of: impl Fn(&analysis::gearbox::SpeedRms) -> f64) -> Peak {
+fn peak(swings: &VibrationResult, name: &str, of: impl Fn(&gearbox::SpeedRms) -> f64) -> Peak {
     let (speed, force_n) = swings.peak(of).unwrap_or_default();
     Peak { name: name.to_owned(), force_n, input_rpm: speed / RPM }
 }

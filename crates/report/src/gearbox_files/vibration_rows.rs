@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 
 use analysis::{
-    gearbox::{GearboxCampbell, OrderForces, VibrationResult},
+    gearbox::{GearboxCampbell, VibrationResult},
     motion::RPM,
 };
 use answer::Table;
-use gearbox::{Component, WhirlMode};
+use gearbox::{Component, OrderForces, WhirlMode};
 use scene::gearbox::Gearbox;
 
 use export::universal::{Function, Response, universal_file};
