@@ -62,8 +62,7 @@ impl BulkTable {
             for of_motion in rates {
                 let mut sum = PointRate::default();
                 for (rate, force) in of_motion[group.rows.clone()].iter().zip(&moved_forces[group.rows.clone()]) {
-                    for d in 0..DIRECTIONS {
-                        let parts = rate[d].as_flattened();
+                    for (d, parts) in rate.iter().map(|of| of.as_flattened()).enumerate() {
                         group.along[d] |= parts.iter().any(|w| *w != 0.0);
                         sum[d].as_flattened_mut().iter_mut().zip(parts).for_each(|(s, w)| *s += force * w);
                     }
@@ -144,9 +143,9 @@ impl Moved<'_> {
             for e in (0..DIRECTIONS).filter(|&e| moved.along[e]) {
                 let tile = Tile::between(self.entries, self.count, [d, e], [held.runs, moved.runs], &mut own);
                 let runs = tile.opened(simd, loads);
-                for k in 0..K {
-                    for (sum, run) in opened[k][e].iter_mut().zip(&runs) {
-                        *sum = parts[k].mul_add(run[k], *sum);
+                for (k, (opened, part)) in opened.iter_mut().zip(parts).enumerate() {
+                    for (sum, run) in opened[e].iter_mut().zip(&runs) {
+                        *sum = part.mul_add(run[k], *sum);
                     }
                 }
             }
