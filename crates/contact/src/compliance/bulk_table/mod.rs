@@ -99,8 +99,8 @@ const RUN: usize = 4;
 const RUNS: usize = 3;
 /// Normal, profile, generator.
 const DIRECTIONS: usize = 3;
-/// Share of the force along one of the others that counts as none.
-const NONE: f64 = 1e-6;
+/// Share of the force along one of the others that is round-off.
+const NONE: f64 = 1e-9;
 /// Points of a table at most, all directions: 288 MiB.
 const MOST_POINTS: usize = 6144;
 /// Uniform grids to try, each twice as fine as the one before.
