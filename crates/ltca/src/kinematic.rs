@@ -34,7 +34,7 @@ const TOUCHING: f64 = 3e6;
 pub(crate) struct Unloaded<'a> {
     pair: &'a GearPair,
     options: &'a ContactOptions,
-    station: Station,
+    pub station: Station,
     /// Rotation of the driven gear from the position of zero transmission error to where the flanks touch, rad.
     pub rotation: f64,
     /// Place where the flanks touch; none where nominal flanks touch along lines.
@@ -235,15 +235,15 @@ impl<'a> Unloaded<'a> {
         sign * arm.cross(&normal).dot(&(poses[driven].rotation * Vec3::z()))
     }
 
-    /// How the transmission error changes as the gap at the place of touch does by `gap` (mm), mm: the place itself is
-    /// one of least gap and moves it by nothing, to first order. `None` where nothing is faced beside it.
-    pub fn error_by_gap(&self, touch: &Nearest, gap: f64) -> Option<f64> {
+    /// Derivative of the transmission error by the gap at the place of touch: the place itself is one of least gap and
+    /// moves it by nothing, to first order. `None` where nothing is faced beside it.
+    pub fn error_by_gap(&self, touch: &Nearest) -> Option<f64> {
         let driven = self.options.driven();
         let base_radius = [self.pair.pinion.base_radius(), self.pair.wheel.base_radius()][driven];
         let turn = self.module() / TURN / base_radius;
         let at = |turn: f64| Self { rotation: self.rotation + turn, ..self.clone() }.gap_at(touch);
         let lever = (at(turn)? - at(-turn)?) / (2.0 * turn);
-        Some(-self.options.side().sign() * base_radius * gap / lever)
+        Some(-self.options.side().sign() * base_radius / lever)
     }
 
     /// The touch moved to the height of least gap, which a golden section knows to the root of the gap's round-off.

@@ -87,7 +87,7 @@ impl FlankGridLines {
     /// of the end. Of each row the first point: the others follow it.
     #[inline]
     pub fn weights(&self, at: [f64; 2]) -> ([usize; FACE.len()], [[f64; PROFILE.len()]; FACE.len()]) {
-        let ((i, u), (j, v)) = (self.cell(0, at[0]), self.cell(1, at[1]));
+        let ((i, u, _), (j, v, _)) = (self.cell(0, at[0]), self.cell(1, at[1]));
         let [ends, inner] = PROFILE_SCALES;
         let [a, b, c, d] = [u, u - PROFILE[1], u - PROFILE[2], u - 1.0];
         let (near, far) = (a * b, c * d);
@@ -97,10 +97,27 @@ impl FlankGridLines {
         (rows, of_face.map(|z| of_profile.map(|u| u * z)))
     }
 
-    /// First line of the cell that a coordinate is in, and which part of the cell lies below it.
-    fn cell(&self, axis: usize, at: f64) -> (usize, f64) {
+    /// Derivatives of the weights of [`Self::weights`] by either coordinate; 0 past the ends of the flank.
+    pub fn weight_slopes(&self, at: [f64; 2]) -> [[[f64; PROFILE.len()]; FACE.len()]; 2] {
+        let ((_, u, per_u), (_, v, per_v)) = (self.cell(0, at[0]), self.cell(1, at[1]));
+        let [ends, inner] = PROFILE_SCALES;
+        let [a, b, c, d] = [u, u - PROFILE[1], u - PROFILE[2], u - 1.0];
+        let of_profile = [ends * b * c * d, inner * a * c * d, -inner * a * b * d, -ends * a * b * c];
+        let of_face = [(2.0 * v - 1.0) * (v - 1.0), 4.0 * v * (1.0 - v), v * (2.0 * v - 1.0)];
+        let by_u = [
+            ends * (c * d + b * d + b * c),
+            inner * (c * d + a * d + a * c),
+            -inner * (b * d + a * d + a * b),
+            -ends * (b * c + a * c + a * b),
+        ];
+        let by_v = [4.0 * v - 3.0, 4.0 - 8.0 * v, 4.0 * v - 1.0];
+        [of_face.map(|z| by_u.map(|u| u * per_u * z)), by_v.map(|z| of_profile.map(|u| u * per_v * z))]
+    }
+
+    /// First line of the cell that a coordinate is in, which part of the cell lies below it, and the derivative of that.
+    fn cell(&self, axis: usize, at: f64) -> (usize, f64, f64) {
         let ends = &self.ends[axis][..];
-        let [from, .., to] = ends else { return (0, 0.0) };
+        let [from, .., to] = ends else { return (0, 0.0, 0.0) };
         let lines = [PROFILE.len() - 1, FACE.len() - 1][axis];
         // Cells are about equally long: the place tells which it is, or which is next to it.
         let last = ends.len() - 2;
@@ -112,7 +129,9 @@ impl FlankGridLines {
             } else if low > at && cell > 0 {
                 cell -= 1;
             } else {
-                return (cell * lines, ((at - low) / (high - low)).clamp(0.0, 1.0));
+                let part = ((at - low) / (high - low)).clamp(0.0, 1.0);
+                let is_within = at >= low && at <= high;
+                return (cell * lines, part, if is_within { 1.0 / (high - low) } else { 0.0 });
             }
         }
     }
@@ -121,6 +140,26 @@ impl FlankGridLines {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Slopes of the weights are their derivatives, in cells of any length.
+    #[test]
+    fn slopes_of_weights_are_their_derivatives() {
+        let lines = FlankGridLines { ends: [vec![0.0, 0.4, 1.0], vec![-3.0, 1.0, 2.0]] };
+        let h = 1e-6;
+        for at in [[0.1, -2.0], [0.3, 0.5], [0.7, 1.2], [0.95, -0.1]] {
+            let slopes = lines.weight_slopes(at);
+            for (axis, of_axis) in slopes.iter().enumerate() {
+                let moved = |by: f64| lines.weights([0, 1].map(|k| if k == axis { at[k] + by } else { at[k] })).1;
+                let (less, more) = (moved(-h), moved(h));
+                for (slope, (less, more)) in
+                    of_axis.as_flattened().iter().zip(less.as_flattened().iter().zip(more.as_flattened()))
+                {
+                    assert!((slope - (more - less) / (2.0 * h)).abs() < 1e-8, "axis {axis} at {at:?}: {slope}");
+                }
+            }
+        }
+        assert_eq!(lines.weight_slopes([1.2, 0.0])[0], [[0.0; 4]; 3]);
+    }
 
     /// Weights are Lagrange's: one at their own line and none at the others.
     #[test]

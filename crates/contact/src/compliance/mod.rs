@@ -8,7 +8,7 @@ mod full;
 mod modal;
 
 pub(crate) use bulk_table::Keeper;
-pub(crate) use bulk_table::{BulkBody, TablePoint, parts};
+pub(crate) use bulk_table::{BulkBody, PointRate, RateWork, Reading, TablePoint, parts};
 pub use bulk_table::{BulkTable, TableWork};
 pub(crate) use condensed::boundary_forces;
 pub use condensed::{Condensed, opening};

@@ -57,6 +57,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn nominal_flank(&self) -> Option<&geometry::Flank> {
         None
     }
+    /// The flank with its micro-geometry; `None` of other surfaces.
+    fn modified_flank(&self) -> Option<&geometry::ModifiedFlank> {
+        None
+    }
     /// Least [`Surface::depth`] over the flank, mm, to some hundredths of its size.
     fn least_depth(&self) -> f64 {
         0.0
@@ -186,6 +190,10 @@ impl Surface for geometry::ModifiedFlank {
 
     fn nominal_flank(&self) -> Option<&geometry::Flank> {
         Some(self.nominal())
+    }
+
+    fn modified_flank(&self) -> Option<&geometry::ModifiedFlank> {
+        Some(self)
     }
 
     fn least_depth(&self) -> f64 {

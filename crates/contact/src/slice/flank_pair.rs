@@ -2,8 +2,8 @@
 
 use crate::{
     Pose,
-    flank::FlankPatch,
-    local::{BandMean, LocalContact, SAMPLES},
+    flank::{FlankPatch, Surface},
+    local::{BandMean, LocalBody, LocalContact, SAMPLES},
     nodal::{ContactRow, row_at, row_between},
     slice::profile_search::{GapSample, LeastGapPoint, ProfilePair},
     slice::{SliceHint, ToothLayer},
@@ -98,6 +98,16 @@ impl<'a> FlankPair<'a> {
 
     fn patches(&self) -> [&'a FlankPatch; 2] {
         self.flanks.map(|f| f.patch)
+    }
+
+    /// The smooth surfaces of both flanks.
+    pub(super) fn surfaces(&self) -> [&'a dyn Surface; 2] {
+        self.flanks.map(|f| f.patch.surface())
+    }
+
+    /// The layer behind a flank at surface coordinates.
+    pub(super) fn layer(&self, body: usize, at: [f64; 2]) -> LocalBody {
+        self.flanks[body].layer.body(at)
     }
 
     /// Where the flanks are nearest at height `z` (mm) of body 1; `None` where they do not face each other.

@@ -1,6 +1,7 @@
 //! Contact of slices: one line load an axial slice, where both profiles are nearest.
 
 mod first_order;
+mod flank_change;
 mod flank_pair;
 mod hint;
 mod mesh_contact;
@@ -9,10 +10,12 @@ mod profile_search;
 mod rigid;
 mod same_slices;
 mod set;
+mod smooth_slice;
 mod supported;
 mod tooth_layer;
 
 pub(crate) use flank_pair::{FlankPair, SlicePoint};
+pub use flank_change::{ChangeRates, FlankChange, FlankRates, HeldForces};
 pub use flank_pair::{Slice, SliceFlank, slice};
 pub use hint::SliceHint;
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};

@@ -1,5 +1,5 @@
-//! The slices of a solved contact on other flanks or at other poses, and their conditions under forces held as they
-//! are: what derivatives of the solution are made of. Theory (77).
+//! The slices of a solved contact where the gears stand, and their compliance under its forces: what derivatives of the
+//! solution are made of. Theory (77).
 
 use faer::Mat;
 
@@ -9,7 +9,7 @@ use super::{
     flank_pair::Slice,
     mesh_contact::{mirror, places},
 };
-use crate::{BulkTable, ContactSet, Friction, Pose, TableWork, nodal::ContactRow};
+use crate::{BulkTable, ContactSet, Friction, Pose, TableWork, local::LocalLaws, nodal::ContactRow};
 
 /// Slices and their rows, pair by pair and by height.
 #[derive(Debug, Clone, Default)]
@@ -69,32 +69,20 @@ impl SameSlices {
         }
     }
 
-    /// What the flanks are apart under forces (N) with their own deformation, mm: 0 where they press.
+    /// dR/dF under forces (N), mm/N; R: what the flanks are apart with their own deformation, 0 where they press.
     ///
     /// ```text
     /// R_i = g_i + sum_j S_ij F_j + delta_i(F_i)
     /// ```
     /// `work`: [`ContactSet::table_work`] of this set or of one with the same tables.
-    pub fn distances(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Vec<f64> {
-        let mut out: Vec<f64> = self.rows.iter().map(|row| row.gap).collect();
-        for (column, f) in self.bulk(set, work).chunks(out.len().max(1)).zip(forces).filter(|(_, f)| **f != 0.0) {
-            out.iter_mut().zip(column).for_each(|(o, s)| *o += s * f);
-        }
-        for ((out, slice), &f) in out.iter_mut().zip(&self.slices).zip(forces).filter(|(_, f)| **f > 0.0) {
-            *out += slice.local.under(f / slice.length).approach;
-        }
-        out
-    }
-
-    /// dR/dF, mm/N.
     pub fn compliance(&self, set: &ContactSet, forces: &[f64], work: &mut [TableWork]) -> Mat<f64> {
         let n = self.rows.len();
         let matrix = self.bulk(set, work);
-        let own = |i: usize| {
-            let slice = &self.slices[i];
-            slice.local.under(forces[i] / slice.length).slope / slice.length
-        };
-        Mat::from_fn(n, n, |i, j| matrix[j * n + i] + if i == j { own(i) } else { 0.0 })
+        let mut laws = LocalLaws::with_capacity(n);
+        laws.take(self.slices.iter().map(|slice| (&slice.local, slice.length)));
+        let [mut approaches, mut slopes] = [vec![0.0; n], vec![0.0; n]];
+        laws.linearise(forces, &mut approaches, &mut slopes);
+        Mat::from_fn(n, n, |i, j| matrix[j * n + i] + if i == j { slopes[i] } else { 0.0 })
     }
 
     /// Moment of forces (N) about the axis of gear `body`, N mm.

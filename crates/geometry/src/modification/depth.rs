@@ -127,6 +127,38 @@ impl DepthField {
         Ok(field)
     }
 
+    /// What grows from the first of three fields to the last, over `step`; `None` where they do not differ in amounts alone.
+    pub(super) fn rate([less, here, more]: [&Self; 3], step: f64) -> Option<Self> {
+        let alike = |a: &Self, b: &Self| {
+            let [a_axes, b_axes] = [a, b].map(|f| [f.middle, f.per_roll, f.per_height]);
+            a_axes == b_axes && a.size == b.size && a.grid == b.grid
+        };
+        let ramps = |of: fn(&Self) -> &[Option<Ramp>; 2]| {
+            let one = |i: usize| {
+                // The one in the middle starts where the others do.
+                Ramp::rate([of(less)[i], of(here)[i]], step)?;
+                Ramp::rate([of(less)[i], of(more)[i]], step)
+            };
+            Some([one(0)?, one(1)?])
+        };
+        let by = |of: fn(&Self) -> f64| (of(more) - of(less)) / step;
+        let linear = alike(less, here) && alike(here, more);
+        Some(Self {
+            profile_crowning: by(|f| f.profile_crowning),
+            profile_slope: by(|f| f.profile_slope),
+            lead_crowning: by(|f| f.lead_crowning),
+            lead_slope: by(|f| f.lead_slope),
+            bias: by(|f| f.bias),
+            along_profile: ramps(|f| &f.along_profile)?,
+            along_lead: ramps(|f| &f.along_lead)?,
+            grid: None,
+            splits: Splits::default(),
+            least: 0.0,
+            ..*less
+        })
+        .filter(|_| linear)
+    }
+
     /// The least value over the flank.
     fn least_of(&self, depth: impl Fn(f64, f64) -> Depth) -> f64 {
         let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;

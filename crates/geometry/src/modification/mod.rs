@@ -28,6 +28,7 @@
 
 mod data_file;
 mod depth;
+mod depth_rate;
 mod flank_size;
 mod interpolation;
 mod modified_flank;
@@ -40,6 +41,7 @@ use serde::Serialize;
 
 pub use data_file::DataFileError;
 pub use depth::{Depth, DepthField, SplitDepth};
+pub use depth_rate::DepthRate;
 pub(crate) use flank_size::FlankSize;
 pub use modified_flank::ModifiedFlank;
 pub use pitch::parse_pitch_errors;

@@ -51,6 +51,17 @@ impl ModifiedFlank {
         self.split.as_ref().map_or(0.0, SplitDepth::largest_deviation)
     }
 
+    /// Fields of flanks that differ in nothing else; `None` of others.
+    pub(super) fn fields<const N: usize>(flanks: [&Self; N]) -> Option<[&DepthField; N]> {
+        let first = flanks.first()?;
+        let alike = |f: &&Self| f.flank == first.flank && f.pitch == first.pitch && f.field.is_some();
+        if !flanks.iter().all(alike) {
+            return None;
+        }
+        let fields: Vec<&DepthField> = flanks.iter().filter_map(|f| f.field.as_deref()).collect();
+        fields.try_into().ok()
+    }
+
     /// The nominal helicoid.
     pub fn nominal(&self) -> &Flank {
         &self.flank

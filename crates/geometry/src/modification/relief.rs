@@ -73,6 +73,16 @@ impl Ramp {
         Self { amount, start, per_length: 1.0 / length, shape }
     }
 
+    /// What two ramps that differ in their amounts, or are none, differ by, over `step`; `None` where they start elsewhere
+    /// or have another shape.
+    pub fn rate([less, more]: [Option<Self>; 2], step: f64) -> Option<Option<Self>> {
+        let Some(any) = more.or(less) else { return Some(None) };
+        let amount = |ramp: Option<Self>| ramp.map_or(0.0, |r| r.amount);
+        let same = [less, more].into_iter().flatten().all(|ramp| Self { amount: any.amount, ..ramp } == any);
+        let amount = (amount(more) - amount(less)) / step;
+        same.then(|| (amount != 0.0).then_some(Self { amount, ..any }))
+    }
+
     /// Depth and its derivative by x; at the start itself the slope is that of the flank before it.
     pub fn at(&self, x: f64) -> (f64, f64) {
         let t = (x - self.start) * self.per_length;

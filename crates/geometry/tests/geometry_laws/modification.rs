@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use geometry::modification::{
-    EndRelief, ProfileAxis, ProfilePlace, Relief, ReliefShape, Topography, TopographyGrid, parse_pitch_errors,
+    DepthRate, EndRelief, ProfileAxis, ProfilePlace, Relief, ReliefShape, Topography, TopographyGrid,
+    parse_pitch_errors,
 };
 use geometry::{FlankModification, Gear, GearData, GearModifications, GeometryError, ModifiedFlank, Side};
 use nalgebra::Rotation3;
@@ -89,6 +90,48 @@ fn derivatives_are_differences() {
 }
 
 /// The normal is a unit vector across both tangents, out of the tooth.
+#[test]
+fn rates_of_depths_are_differences() {
+    let base = all(ReliefShape::Linear);
+    let more = |share: f64| {
+        let grown = |relief: Relief| Relief { amount: relief.amount * (1.0 + share), ..relief };
+        let ends = base.end_relief.map(|end| end.map(|end| EndRelief { amount: end.amount * (1.0 + share), ..end }));
+        FlankModification {
+            tip_relief: base.tip_relief.map(grown),
+            end_relief: ends,
+            lead_crowning: base.lead_crowning + share,
+            profile_slope: base.profile_slope - 2.0 * share,
+            bias: base.bias * (1.0 + share),
+            ..base.clone()
+        }
+    };
+    let starts = |by: f64| FlankModification {
+        tip_relief: base.tip_relief.map(|relief| Relief { start: ProfilePlace::Diameter(98.0 + by), ..relief }),
+        ..base.clone()
+    };
+    for (of, step) in [(&more as &dyn Fn(f64) -> FlankModification, 1e-3), (&starts, 1e-4)] {
+        let flank = |by: f64| modified(20.0, &of(by)).modified_flank(Side::Left, 0);
+        let [less, here, after] = [-step, 0.0, step].map(flank);
+        let rate = DepthRate::between([&less, &here, &after], [step; 2]).unwrap();
+        for [u, z] in places(&modified(20.0, &base)) {
+            let found = rate.at(u, z).unwrap();
+            let [a, b] = [less.depth(u, z), after.depth(u, z)];
+            for (found, a, b) in
+                [(found.value, a.value, b.value), (found.by_roll, a.by_roll, b.by_roll), (found.by_z, a.by_z, b.by_z)]
+            {
+                let wanted = (b - a) / (2.0 * step);
+                assert!((found - wanted).abs() < 1e-9 * (1.0 + wanted.abs()), "{u}, {z}: {found}, not {wanted}");
+            }
+        }
+        assert!(DepthRate::between([&here, &here, &here], [step; 2]).is_none());
+    }
+    // A relief that begins elsewhere on either side has no one rate at its start.
+    let flank = |by: f64| modified(20.0, &starts(by)).modified_flank(Side::Left, 0);
+    let rate = DepthRate::between([&flank(-0.01), &flank(0.0), &flank(0.01)], [0.01; 2]).unwrap();
+    let start = ProfilePlace::Diameter(98.0).roll(nominal(20.0).base_radius());
+    assert!(rate.at(start, 0.0).is_none());
+}
+
 #[test]
 fn normal_is_across_the_surface() {
     for beta in [-20.0, 18.0, 20.0] {

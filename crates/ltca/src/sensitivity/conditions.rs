@@ -1,10 +1,12 @@
 //! What a small turn of the driven gear, and a neighbour of the pair, change of the conditions of contact, forces held.
 
-use contact::{ContactSet, Friction, Pose, Site, TableWork, slice::SameSlices};
-
+use contact::{
+    ContactSet, Friction, Site,
+    slice::{ChangeRates, FlankChange, FlankRates, HeldForces, SameSlices},
+};
 use geometry::GearPair;
 
-use super::variation::{Neighbour, Variation, rates, smallest};
+use super::variation::{Neighbour, Variation, merged, smallest};
 use crate::{Equilibrium, WindowedPair, equilibrium::poses};
 
 /// Gap (mm) over the approach, and force over the largest one, below which a row is about to touch or to leave.
@@ -42,8 +44,13 @@ pub(super) struct Rates {
     pub load: f64,
 }
 
-/// Distances, moment and pressures at one place.
-type Sample = (Vec<f64>, f64, [f64; 2]);
+impl Rates {
+    /// Whether moment and pressures have the same rates below and above.
+    pub fn is_smooth(&self) -> bool {
+        let [a, b] = &self.pressure;
+        [&self.moment, a, b].into_iter().all(|[below, above]| below == above)
+    }
+}
 
 impl Conditions {
     pub fn new(windowed: &WindowedPair, e: &Equilibrium) -> Self {
@@ -71,76 +78,62 @@ impl Conditions {
         }
     }
 
-    fn sample(
+    /// Derivatives of the conditions at held forces with respect to the rotation of the driven gear (per radian), then to
+    /// the parameters (per unit). `None` where a slice that counts is not on the flanks of a neighbour.
+    pub fn rates(
         &self,
         windowed: &WindowedPair,
-        (set, poses): (&ContactSet, &[Pose; 2]),
+        e: &Equilibrium,
         friction: Option<&Friction>,
-        work: &mut [TableWork],
-    ) -> Option<Sample> {
-        let found = set.same_slices(friction, poses, &self.slices)?;
-        let moment = found.moment(windowed.options.driven(), &self.forces);
-        let pressure = self.hardest.map(|row| row.map_or(0.0, |row| found.pressure(row, self.forces[row])));
-        Some((found.distances(set, &self.forces, work), moment, pressure))
+        variations: &[Variation],
+        varied: &[([ContactSet; 2], FlankRates)],
+    ) -> Option<Vec<Rates>> {
+        let WindowedPair { pair, set, options, .. } = *windowed;
+        let driven = options.driven();
+        let base_radius = [pair.pinion.base_radius(), pair.wheel.base_radius()][driven];
+        let step = pair.pinion.data().normal_module / STEP / base_radius.abs();
+        let nothing = FlankRates::default();
+        let turned = FlankChange {
+            sets: [set; 2],
+            poses: [-step, step].map(|turn| poses(windowed, e.station, e.rotation + turn)),
+            friction: [friction.copied(); 2],
+            steps: [step; 2],
+            depths: &nothing,
+        };
+        let mut changes = vec![turned];
+        changes.extend(variations.iter().zip(varied).map(|(variation, (sets, depths))| {
+            let beside = |i: usize| {
+                let Neighbour { pair, options } = &variation.sides[i];
+                let windowed = WindowedPair { pair, options, set: &sets[i], ..*windowed };
+                poses(&windowed, e.station, e.rotation)
+            };
+            let friction = variation.sides.each_ref().map(|n| Friction::new(&n.pair, &n.options.contact));
+            let [down, up] = sets;
+            FlankChange { sets: [down, up], poses: [beside(0), beside(1)], friction, steps: variation.steps, depths }
+        }));
+        let (slices, forces) = (&self.slices, &self.forces[..]);
+        let held = HeldForces { set, poses: &e.poses, friction, slices, forces, body: driven, pressed: self.hardest };
+        let found = held.rates(&changes)?;
+        let steps = changes.iter().map(|change| change.steps);
+        let with_load = [(0.0, 0.0)].into_iter().chain(variations.iter().map(|variation| {
+            let torque = |i: usize| variation.sides[i].options.torque;
+            let torque = (torque(1) - torque(0)) / variation.steps.iter().sum::<f64>();
+            let gear = [&pair.pinion, &pair.wheel][driven];
+            (-options.side().sign() * gear.sign() * torque, torque / base_radius.abs())
+        }));
+        let of_one = |((found, steps), (moment_more, load))| self.merged(pair, found, steps, moment_more, load);
+        Some(found.into_iter().zip(steps).zip(with_load).map(of_one).collect())
     }
 
-    /// `pair`: the one in the middle.
-    fn rates(&self, pair: &GearPair, samples: [&Sample; 3], steps: [f64; 2], [moment_more, load]: [f64; 2]) -> Rates {
+    /// Rates either way, those of no kink both in the middle.
+    fn merged(&self, pair: &GearPair, found: ChangeRates, steps: [f64; 2], moment_more: f64, load: f64) -> Rates {
         let of_pair = smallest(pair);
-        let [less, here, more] = samples;
-        let distance = |i: usize| rates([less.0[i], here.0[i], more.0[i]], steps, of_pair);
-        let moment = rates([less.1, here.1, more.1], steps, SMALLEST_SHARE * here.1.abs());
+        let moment = self.slices.moment(0, &self.forces).abs().max(self.slices.moment(1, &self.forces).abs());
         Rates {
-            distances: (0..here.0.len()).map(distance).collect(),
-            moment: moment.map(|m| m - moment_more),
-            pressure: [0, 1].map(|k| rates([less.2[k], here.2[k], more.2[k]], steps, SMALLEST_SHARE * here.2[k])),
+            distances: found.distances.into_iter().map(|rates| merged(rates, steps, of_pair)).collect(),
+            moment: merged(found.moment, steps, SMALLEST_SHARE * moment).map(|m| m - moment_more),
+            pressure: [0, 1].map(|k| merged(found.pressures[k], steps, SMALLEST_SHARE * self.pressure[k])),
             load,
         }
-    }
-
-    /// Derivatives of the conditions with respect to the rotation of the driven gear, per radian.
-    pub fn by_rotation(
-        &self,
-        windowed: &WindowedPair,
-        e: &Equilibrium,
-        friction: Option<&Friction>,
-        work: &mut [TableWork],
-    ) -> Option<Rates> {
-        let WindowedPair { pair, set, options, .. } = *windowed;
-        let step = pair.pinion.data().normal_module
-            / STEP
-            / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()];
-        let mut at = |turn: f64| {
-            let poses = poses(windowed, e.station, e.rotation + turn);
-            self.sample(windowed, (set, &poses), friction, work)
-        };
-        Some(self.rates(pair, [&at(-step)?, &at(0.0)?, &at(step)?], [step; 2], [0.0; 2]))
-    }
-
-    /// Derivatives of the conditions with respect to a parameter, per unit.
-    pub fn by_variation(
-        &self,
-        windowed: &WindowedPair,
-        e: &Equilibrium,
-        variation: &Variation,
-        varied: &[ContactSet; 2],
-        work: &mut [TableWork],
-    ) -> Option<Rates> {
-        let WindowedPair { pair, set, options, .. } = *windowed;
-        let friction = Friction::new(pair, &options.contact);
-        let here = self.sample(windowed, (set, &e.poses), friction.as_ref(), work)?;
-        let mut of_side = |i: usize| {
-            let Neighbour { pair, options } = &variation.sides[i];
-            let beside = WindowedPair { pair, options, set: &varied[i], ..*windowed };
-            let poses = poses(&beside, e.station, e.rotation);
-            let friction = Friction::new(pair, &options.contact);
-            self.sample(&beside, (&varied[i], &poses), friction.as_ref(), work)
-        };
-        let samples = [of_side(0)?, of_side(1)?];
-        let torque = |i: usize| variation.sides[i].options.torque;
-        let torque = (torque(1) - torque(0)) / variation.steps.iter().sum::<f64>();
-        let load = torque / [pair.pinion.base_radius(), pair.wheel.base_radius()][options.driven()].abs();
-        let moment = -options.side().sign() * [&pair.pinion, &pair.wheel][options.driven()].sign() * torque;
-        Some(self.rates(pair, [&samples[0], &here, &samples[1]], variation.steps, [moment, load]))
     }
 }

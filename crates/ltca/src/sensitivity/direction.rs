@@ -1,7 +1,7 @@
 //! The solution's answer to a change of its conditions.
 
 use contact::{ContactSet, TableWork};
-use faer::{Mat, prelude::Solve};
+use faer::{Mat, linalg::solvers::PartialPivLu, prelude::Solve};
 
 use super::{Conditions, PositionRates, Rates, Sensitivity};
 use crate::{Equilibrium, WindowedPair};
@@ -13,6 +13,15 @@ pub(super) struct Directions<'a> {
     /// dR/dF of all rows, mm/N.
     compliance: Mat<f64>,
     torque_levers: Vec<f64>,
+    /// That of the rows that press.
+    pressing: Pressing,
+}
+
+/// Rows that press, the factor of their compliance, and forces that a turn of the driven gear takes away, below and above.
+struct Pressing {
+    rows: Vec<usize>,
+    factor: PartialPivLu<f64>,
+    turned: [Vec<f64>; 2],
 }
 
 /// Rates of forces (N, a row each) and of the rotation (rad).
@@ -21,12 +30,32 @@ struct Answer {
     rotation: f64,
 }
 
+impl Pressing {
+    fn new(presses: &[bool], compliance: &Mat<f64>, turned: &Rates) -> Self {
+        let rows: Vec<usize> = (0..presses.len()).filter(|&i| presses[i]).collect();
+        let m = rows.len();
+        let factor = Mat::from_fn(m, m, |i, j| compliance[(rows[i], rows[j])]).partial_piv_lu();
+        let mut own = Self { rows, factor, turned: Default::default() };
+        own.turned = [0, 1].map(|side| own.solve(|row| turned.distances[row][side]));
+        own
+    }
+
+    /// Forces that open the rows by so much.
+    fn solve(&self, opening: impl Fn(usize) -> f64) -> Vec<f64> {
+        let mut found = Mat::from_fn(self.rows.len(), 1, |i, _| opening(self.rows[i]));
+        self.factor.solve_in_place(&mut found);
+        found.col(0).iter().copied().collect()
+    }
+}
+
 impl<'a> Directions<'a> {
     pub fn new(windowed: &WindowedPair, at: &'a Conditions, turned: &'a Rates, work: &mut [TableWork]) -> Self {
         let set: &ContactSet = windowed.set;
         let driven = windowed.options.driven();
         let torque_levers = at.slices.rows.iter().map(|row| row.torque_levers[driven]).collect();
-        Self { at, turned, compliance: at.slices.compliance(set, &at.forces, work), torque_levers }
+        let compliance = at.slices.compliance(set, &at.forces, work);
+        let pressing = Pressing::new(&at.presses, &compliance, turned);
+        Self { at, turned, compliance, torque_levers, pressing }
     }
 
     /// Answer of the rows that press, the other forces held at 0.
@@ -35,19 +64,15 @@ impl<'a> Directions<'a> {
     /// A dF + R_theta dtheta + R_p = 0,   l . dF + M_theta dtheta + M_p = 0
     /// dtheta = (M_p - l . A^-1 R_p) / (l . A^-1 R_theta - M_theta)
     /// ```
-    fn answer(&self, presses: &[usize], by_rotation: usize, rates: &Rates, side: usize) -> Option<Answer> {
-        let m = presses.len();
-        let matrix = Mat::from_fn(m, m, |i, j| self.compliance[(presses[i], presses[j])]);
-        let right = Mat::from_fn(m, 2, |i, k| {
-            let row = presses[i];
-            if k == 0 { self.turned.distances[row][by_rotation] } else { rates.distances[row][side] }
-        });
-        let found = matrix.partial_piv_lu().solve(&right);
-        let torque = |k: usize| (0..m).map(|i| self.torque_levers[presses[i]] * found[(i, k)]).sum::<f64>();
-        let rotation = (rates.moment[side] - torque(1)) / (torque(0) - self.turned.moment[by_rotation]);
+    fn answer(&self, pressing: &Pressing, by_rotation: usize, rates: &Rates, side: usize) -> Option<Answer> {
+        let own = pressing.solve(|row| rates.distances[row][side]);
+        let turned = &pressing.turned[by_rotation];
+        let torque =
+            |of: &[f64]| pressing.rows.iter().zip(of).map(|(&row, f)| self.torque_levers[row] * f).sum::<f64>();
+        let rotation = (rates.moment[side] - torque(&own)) / (torque(turned) - self.turned.moment[by_rotation]);
         let mut forces = vec![0.0; self.at.forces.len()];
-        for (i, &row) in presses.iter().enumerate() {
-            forces[row] = -(found[(i, 0)] * rotation + found[(i, 1)]);
+        for (&row, (turned, own)) in pressing.rows.iter().zip(turned.iter().zip(&own)) {
+            forces[row] = -(turned * rotation + own);
         }
         rotation.is_finite().then_some(Answer { forces, rotation })
     }
@@ -59,9 +84,11 @@ impl<'a> Directions<'a> {
         let mut presses: Vec<bool> = self.at.presses.clone();
         let mut by_rotation = side;
         let mut answer = None;
+        let mut changed: Option<Pressing> = None;
         for _ in 0..2 + 2 * self.at.undecided.len() {
-            let rows: Vec<usize> = (0..presses.len()).filter(|&i| presses[i]).collect();
-            let found = self.answer(&rows, by_rotation, rates, side)?;
+            let pressing = changed.as_ref().unwrap_or(&self.pressing);
+            let found = self.answer(pressing, by_rotation, rates, side)?;
+            let rows = &pressing.rows;
             let turns_to = usize::from(found.rotation * sign > 0.0);
             // The row that is most against what it does changes over; one at a time comes to an end.
             let against = |&&i: &&usize| {
@@ -82,6 +109,7 @@ impl<'a> Directions<'a> {
             by_rotation = turns_to;
             if let Some(i) = changes {
                 presses[i] = !presses[i];
+                changed = Some(Pressing::new(&presses, &self.compliance, self.turned));
             }
         }
         answer
@@ -98,8 +126,11 @@ impl<'a> Directions<'a> {
         let of_side = |side: usize| self.position(windowed, e, rates, (side, kinematic[side]));
         let kinked = |all: &Rates| all.distances.iter().any(|[a, b]| a != b);
         let is_smooth = self.at.undecided.is_empty() && !kinked(self.turned) && !kinked(rates);
+        let below = of_side(0)?;
+        let same = is_smooth && kinematic[0].to_bits() == kinematic[1].to_bits() && rates.is_smooth();
+        let above = if same && self.turned.is_smooth() { below.clone() } else { of_side(1)? };
         Some(Sensitivity {
-            sides: [of_side(0)?, of_side(1)?],
+            sides: [below, above],
             // None where nothing of the unloaded pair is asked.
             is_smooth: is_smooth && (kinematic[0] == kinematic[1] || kinematic[0].is_nan()),
         })

@@ -10,13 +10,13 @@ mod conditions;
 mod direction;
 mod variation;
 
-use contact::{ContactSet, Friction, TableWork};
-use rayon::prelude::*;
+use contact::{ContactSet, Friction, TableWork, slice::FlankRates};
 
 use crate::{Equilibrium, StaticError, StaticModel, WindowedPair};
 
 use conditions::{Conditions, Rates};
 use direction::Directions;
+use variation::Touch;
 pub use variation::Variation;
 
 /// Derivatives of a position by one parameter, per unit of it.
@@ -75,9 +75,9 @@ pub struct Sensitivities {
 #[derive(Debug)]
 struct VariedSets {
     base: ContactSet,
-    varied: Vec<[ContactSet; 2]>,
-    /// Memory to read tables, of each parameter and of the pair itself.
-    work: Vec<Vec<TableWork>>,
+    varied: Vec<([ContactSet; 2], FlankRates)>,
+    /// Memory to read tables.
+    work: Vec<TableWork>,
 }
 
 impl Sensitivities {
@@ -95,8 +95,9 @@ impl Sensitivities {
     /// Derivatives of the model's last solution, one entry a parameter.
     ///
     /// The contact conditions are differentiated at the solution (implicit differentiation): forces and rotation follow
-    /// by one back-substitution a parameter, no contact is solved again. Partial derivatives at held forces are central
-    /// differences of places, laws and compliance of the loaded slices. Exact to some 1e-7 where the solution is smooth.
+    /// by one back-substitution a parameter, no contact is solved again. Partial derivatives at held forces follow from
+    /// places, directions and curvatures of the loaded slices in closed form, for all parameters together. Exact to some
+    /// 1e-7 where the solution is smooth.
     ///
     /// # Errors
     /// [`StaticError::NoDerivative`] for contact of points, for gears with all their degrees of freedom, without a
@@ -113,7 +114,7 @@ impl Sensitivities {
         }
         let mut sets = self.sets.take().filter(|s| s.base.shares_flanks(set));
         if let Some(known) = &mut sets {
-            for varied in known.varied.iter_mut().flatten() {
+            for varied in known.varied.iter_mut().flat_map(|(sets, _)| sets) {
                 if !varied.move_to(model.gears(), model.window())? {
                     sets = None;
                     break;
@@ -133,7 +134,7 @@ impl Sensitivities {
 impl VariedSets {
     fn new(model: &StaticModel, variations: &[Variation]) -> Result<Self, StaticError> {
         let set = model.contact_set();
-        let of_one = |variation: &Variation| -> Result<[ContactSet; 2], StaticError> {
+        let of_one = |variation: &Variation| -> Result<([ContactSet; 2], FlankRates), StaticError> {
             let [down, up] = variation.sides.each_ref().map(|side| {
                 set.modified(&side.pair, model.gears(), model.window(), &side.options.contact)?.ok_or(
                     StaticError::NoDerivative {
@@ -142,12 +143,12 @@ impl VariedSets {
                     },
                 )
             });
-            Ok([down?, up?])
+            let sets = [down?, up?];
+            let rates = FlankRates::between([&sets[0], set, &sets[1]], variation.steps);
+            Ok((sets, rates))
         };
         let varied = variations.iter().map(of_one).collect::<Result<_, _>>()?;
-        let most = set.candidate_count();
-        let work = (0..=variations.len()).map(|_| set.table_work(most)).collect();
-        Ok(Self { base: set.clone(), varied, work })
+        Ok(Self { base: set.clone(), varied, work: set.table_work(set.candidate_count()) })
     }
 }
 
@@ -163,13 +164,13 @@ fn position(
     let here = windowed.set.same_slices(friction.as_ref(), &e.poses, &at.slices)?;
     let at = Conditions { slices: here, ..at };
     let VariedSets { varied, work, .. } = sets;
-    let (own, of_parameters) = work.split_last_mut()?;
-    let turned = at.by_rotation(windowed, e, friction.as_ref(), own)?;
-    let directions = Directions::new(windowed, &at, &turned, own);
-    let of_one = |((variation, varied), work): ((&Variation, &[ContactSet; 2]), &mut Vec<TableWork>)| {
-        let rates: Rates = at.by_variation(windowed, e, variation, varied, work)?;
-        let kinematic = if unloaded { variation.kinematic_rates(windowed, e)? } else { [f64::NAN; 2] };
-        directions.follow(windowed, e, &rates, kinematic)
+    let rates = at.rates(windowed, e, friction.as_ref(), variations, varied)?;
+    let (turned, rates) = rates.split_first()?;
+    let directions = Directions::new(windowed, &at, turned, work);
+    let touch = if unloaded { Touch::new(windowed, e) } else { None };
+    let of_one = |(variation, rates): (&Variation, &Rates)| {
+        let kinematic = if unloaded { variation.kinematic_rates(e, touch.as_ref())? } else { [f64::NAN; 2] };
+        directions.follow(windowed, e, rates, kinematic)
     };
-    variations.par_iter().zip(&*varied).zip(of_parameters).map(of_one).collect()
+    variations.iter().zip(rates).map(of_one).collect()
 }

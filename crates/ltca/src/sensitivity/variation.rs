@@ -2,7 +2,10 @@
 
 use geometry::GearPair;
 
-use crate::{Equilibrium, StaticOptions, WindowedPair, kinematic::Unloaded};
+use crate::{
+    Equilibrium, StaticOptions, WindowedPair,
+    kinematic::{Nearest, Unloaded},
+};
 
 /// A pair with its options: torque, friction, offsets.
 #[derive(Debug, Clone)]
@@ -29,29 +32,21 @@ impl Variation {
         Self { sides: [side(down), side(up)], steps }
     }
 
-    /// Derivatives of a quantity either way, per unit, from its three values with less, as it is and with more of the
-    /// parameter. Both are the central difference where they differ by no more than a smooth function's would.
-    pub(super) fn rates(&self, values: [f64; 3], smallest: f64) -> [f64; 2] {
-        rates(values, self.steps, smallest)
-    }
-
-    /// Derivatives of the transmission error without load, mm per unit, either way.
-    pub(super) fn kinematic_rates(&self, windowed: &WindowedPair, e: &Equilibrium) -> Option<[f64; 2]> {
-        self.rates_at_touch(windowed, e).or_else(|| self.rates_of_neighbours(e))
+    /// Derivatives of the transmission error without load, mm per unit, either way; `touch`: where the pair itself touches.
+    pub(super) fn kinematic_rates(&self, e: &Equilibrium, touch: Option<&Touch<'_>>) -> Option<[f64; 2]> {
+        touch.and_then(|touch| self.rates_at_touch(touch)).or_else(|| self.rates_of_neighbours(e))
     }
 
     /// Derivatives from the gap at the place of touch, which is one of least gap: its motion changes nothing to first
     /// order.
-    fn rates_at_touch(&self, windowed: &WindowedPair, e: &Equilibrium) -> Option<[f64; 2]> {
-        let (station, rotation) = (e.station, e.unloaded_rotation);
-        let here = Unloaded::turned(windowed.pair, &windowed.options.contact, station, rotation);
-        let touch = here.polished(e.unloaded_touch.as_ref()?)?;
+    fn rates_at_touch(&self, touch: &Touch<'_>) -> Option<[f64; 2]> {
+        let Unloaded { station, rotation, .. } = touch.here;
         let gap = |i: usize| {
             let Neighbour { pair, options } = &self.sides[i];
-            Unloaded::turned(pair, &options.contact, station, rotation).gap_at(&touch)
+            Unloaded::turned(pair, &options.contact, station, rotation).gap_at(&touch.at)
         };
-        let rates = self.rates([gap(0)?, here.gap_at(&touch)?, gap(1)?], smallest(windowed.pair));
-        Some([here.error_by_gap(&touch, rates[0])?, here.error_by_gap(&touch, rates[1])?])
+        let [below, above] = rates([gap(0)?, touch.gap, gap(1)?], self.steps, touch.smallest);
+        Some([touch.error_by_gap * below, touch.error_by_gap * above])
     }
 
     /// Derivatives from where the neighbours touch: nominal flanks do so along lines, of which a neighbour's nearest
@@ -61,7 +56,29 @@ impl Variation {
             let Neighbour { pair, options } = &self.sides[i];
             Some(Unloaded::new(pair, &options.contact, e.station).ok()?.transmission_error())
         };
-        Some(self.rates([error(0)?, e.kinematic_transmission_error, error(1)?], smallest(&self.sides[0].pair)))
+        let smallest = smallest(&self.sides[0].pair);
+        Some(rates([error(0)?, e.kinematic_transmission_error, error(1)?], self.steps, smallest))
+    }
+}
+
+/// Where the unloaded pair touches: one place of least gap.
+pub(super) struct Touch<'a> {
+    here: Unloaded<'a>,
+    at: Nearest,
+    /// Gap there, mm: 0 but for round-off.
+    gap: f64,
+    /// Derivative of the transmission error by the gap.
+    error_by_gap: f64,
+    smallest: f64,
+}
+
+impl<'a> Touch<'a> {
+    /// `None` where the flanks touch along lines, or at the end of what they face of each other.
+    pub fn new(windowed: &WindowedPair<'a>, e: &Equilibrium) -> Option<Self> {
+        let here = Unloaded::turned(windowed.pair, &windowed.options.contact, e.station, e.unloaded_rotation);
+        let at = here.polished(e.unloaded_touch.as_ref()?)?;
+        let (gap, error_by_gap) = (here.gap_at(&at)?, here.error_by_gap(&at)?);
+        Some(Self { here, at, gap, error_by_gap, smallest: smallest(windowed.pair) })
     }
 }
 
@@ -75,8 +92,12 @@ const KINK: f64 = 1e-3;
 
 /// Rates of a quantity below and above the middle of three values, for steps down and up; `smallest` change of the
 /// quantity that is none.
-pub(super) fn rates([less, here, more]: [f64; 3], [down, up]: [f64; 2], smallest: f64) -> [f64; 2] {
-    let [below, above] = [(here - less) / down, (more - here) / up];
+pub(super) fn rates([less, here, more]: [f64; 3], steps: [f64; 2], smallest: f64) -> [f64; 2] {
+    merged([(here - less) / steps[0], (more - here) / steps[1]], steps, smallest)
+}
+
+/// Rates below and above, found with steps down and up: twice their middle where they differ by less than those of a kink.
+pub(super) fn merged([below, above]: [f64; 2], [down, up]: [f64; 2], smallest: f64) -> [f64; 2] {
     let largest = below.abs().max(above.abs());
     let none = smallest / down.min(up);
     if (above - below).abs() > KINK * largest && (above - below).abs() > none {

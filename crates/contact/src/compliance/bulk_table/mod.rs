@@ -3,6 +3,7 @@
 
 mod keep;
 mod layers;
+mod rates;
 mod rows;
 mod triangles;
 mod whole;
@@ -25,6 +26,7 @@ pub(crate) use keep::Keeper;
 use layers::LayerEntries;
 use whole::WholeEntries;
 
+pub(crate) use rates::{PointRate, RateWork, Reading};
 pub use rows::TableWork;
 
 /// One body's compliance, and what is to be taken away of it.
@@ -97,8 +99,8 @@ const RUN: usize = 4;
 const RUNS: usize = 3;
 /// Normal, profile, generator.
 const DIRECTIONS: usize = 3;
-/// Share of the force along one of the others that counts as none.
-const NONE: f64 = 1e-6;
+/// Share of the force along one of the others that is round-off.
+const NONE: f64 = 1e-9;
 /// Points of a table at most, all directions: 288 MiB.
 const MOST_POINTS: usize = 6144;
 /// Uniform grids to try, each twice as fine as the one before.
@@ -383,6 +385,21 @@ impl BulkTable {
             weights,
             parts: parts.map(|part| if part.abs() > NONE { part } else { 0.0 }),
         })
+    }
+
+    /// Rate of a place's weights, direction by direction, as surface coordinates and parts change by `at_rate` and
+    /// `parts_rate`.
+    pub(crate) fn rate(
+        &self,
+        (patch, at, point): (usize, [f64; 2], &TablePoint),
+        at_rate: [f64; 2],
+        parts_rate: [f64; DIRECTIONS],
+    ) -> Option<PointRate> {
+        let [by_u, by_z] = self.lines.get(patch)?.weight_slopes(at);
+        let moved = |b: usize, a: usize| by_u[b][a] * at_rate[0] + by_z[b][a] * at_rate[1];
+        let moved: [[f64; RUN]; RUNS] = std::array::from_fn(|b| std::array::from_fn(|a| moved(b, a)));
+        let of = |d: usize, b: usize, a: usize| moved[b][a] * point.parts[d] + point.weights[b][a] * parts_rate[d];
+        Some(std::array::from_fn(|d| std::array::from_fn(|b| std::array::from_fn(|a| of(d, b, a)))))
     }
 
     /// S between two places, mm/N.

@@ -11,7 +11,7 @@ use super::{
 use crate::lanes::{self, Four};
 
 /// Loads that a tile of the table is multiplied with in one pass over it.
-const AT_ONCE: usize = 4;
+pub(super) const AT_ONCE: usize = 4;
 
 impl BulkTable {
     /// Adds S between rows to `out` (n x n, column by column): opening of row i by a unit load of row j. `symmetric`:
@@ -40,13 +40,13 @@ impl BulkTable {
 /// Rows that follow each other in one cell of the table, loaded along the same directions: neighbours on a contact line
 /// mostly do and are.
 #[derive(Debug, Clone, PartialEq)]
-struct Group {
-    rows: Range<usize>,
-    runs: [u32; RUNS],
-    along: [bool; DIRECTIONS],
+pub(super) struct Group {
+    pub(super) rows: Range<usize>,
+    pub(super) runs: [u32; RUNS],
+    pub(super) along: [bool; DIRECTIONS],
 }
 
-fn group(places: &[TablePoint], out: &mut Vec<Group>) {
+pub(super) fn group(places: &[TablePoint], out: &mut Vec<Group>) {
     out.clear();
     for (i, place) in places.iter().enumerate() {
         let along = place.parts.map(|part| part != 0.0);
@@ -76,6 +76,7 @@ impl WithSimd for Interpolation<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { entries, count, places, groups: [of_openings, of_loads], symmetric, out } = self;
         let n = places[0].len();
+        let mut own = TilePoints::default();
         for (number, group) in of_loads.iter().enumerate() {
             let first = if symmetric { number } else { 0 };
             for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
@@ -87,21 +88,7 @@ impl WithSimd for Interpolation<'_> {
                     let swapped = symmetric && opened.rows.len() < group.rows.len();
                     let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
                     let along = if swapped { [e, d] } else { [d, e] };
-                    let own;
-                    let tile = match entries {
-                        Entries::Whole(table) => match table.block(along) {
-                            Block::Whole(block) => Tile::in_block(block, count, [load, opening]),
-                            Block::Packed(packed) => {
-                                own = table.tile(packed, along, [load.runs, opening.runs]);
-                                Tile::of(&own)
-                            }
-                        },
-                        Entries::Layers(layers) => {
-                            let point = |b: usize, first: u32| along[b] * count + first as usize;
-                            own = layers.tile(load.runs.map(|p| point(0, p)), opening.runs.map(|p| point(1, p)));
-                            Tile::of(&own)
-                        }
-                    };
+                    let tile = Tile::between(entries, count, along, [load, opening].map(|group| group.runs), &mut own);
                     // Of the lower triangle, whichever is the load.
                     let strides = if swapped { [1, n] } else { [n, 1] };
                     let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
@@ -123,7 +110,7 @@ impl WithSimd for Interpolation<'_> {
 }
 
 /// What the loads of one group do at the points of another, along one direction each.
-struct Tile<'a> {
+pub(super) struct Tile<'a> {
     /// Columns of the table at the runs of the loads, four each.
     columns: [&'a [f64]; RUNS],
     count: usize,
@@ -132,11 +119,30 @@ struct Tile<'a> {
 }
 
 impl<'a> Tile<'a> {
-    /// A tile of a block of a whole table: of a load and an opening.
+    /// The tile of loads in a cell along one direction and openings in another along the second one; `own`: room for one
+    /// that is put together.
     #[inline(always)]
-    fn in_block(block: &'a [f64], count: usize, [load, opening]: [&Group; 2]) -> Self {
-        let columns = load.runs.map(|first| &block[first as usize * count..][..RUN * count]);
-        Self { columns, count, runs: opening.runs.map(|first| first as usize) }
+    pub(super) fn between(
+        entries: &'a Entries,
+        count: usize,
+        along: [usize; 2],
+        [load, opening]: [[u32; RUNS]; 2],
+        own: &'a mut TilePoints,
+    ) -> Self {
+        match entries {
+            Entries::Whole(table) => match table.block(along) {
+                Block::Whole(block) => {
+                    let columns = load.map(|first| &block[first as usize * count..][..RUN * count]);
+                    return Self { columns, count, runs: opening.map(|first| first as usize) };
+                }
+                Block::Packed(packed) => *own = table.tile(packed, along, [load, opening]),
+            },
+            Entries::Layers(layers) => {
+                let point = |b: usize, first: u32| along[b] * count + first as usize;
+                *own = layers.tile(load.map(|p| point(0, p)), opening.map(|p| point(1, p)));
+            }
+        }
+        Self::of(own)
     }
 
     /// A tile that stands by itself.
@@ -145,17 +151,9 @@ impl<'a> Tile<'a> {
         Self { columns, count: RUNS * RUN, runs: [0, RUN, 2 * RUN] }
     }
 
-    /// Adds what `K` loads along direction `d` open `rows` by along direction `e` to entries of `out`, which are
-    /// `strides` apart: from load to load and from row to row.
+    /// What `K` loads of unit parts open the points of the three runs by.
     #[inline(always)]
-    fn add<S: Simd, const K: usize>(
-        &self,
-        simd: S,
-        [d, e]: [usize; 2],
-        (loads, rows): (&[TablePoint], &[TablePoint]),
-        (out, strides): (&mut [f64], [usize; 2]),
-    ) {
-        let Some(loads) = loads.first_chunk::<K>() else { return };
+    pub(super) fn opened<S: Simd, const K: usize>(&self, simd: S, loads: &[TablePoint; K]) -> [[Four<S>; K]; RUNS] {
         let [p0, p1, p2] = self.runs;
         let zero = Four::splat(simd, 0.0);
         // All of these stay in registers: four columns at once are as many as there is room for.
@@ -171,6 +169,21 @@ impl<'a> Tile<'a> {
                 }
             }
         }
+        [first, second, third]
+    }
+
+    /// Adds what `K` loads along direction `d` open `rows` by along direction `e` to entries of `out`, which are
+    /// `strides` apart: from load to load and from row to row.
+    #[inline(always)]
+    fn add<S: Simd, const K: usize>(
+        &self,
+        simd: S,
+        [d, e]: [usize; 2],
+        (loads, rows): (&[TablePoint], &[TablePoint]),
+        (out, strides): (&mut [f64], [usize; 2]),
+    ) {
+        let Some(loads) = loads.first_chunk::<K>() else { return };
+        let [first, second, third] = self.opened(simd, loads);
         for k in 0..K {
             let part = loads[k].parts[d];
             for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
@@ -212,7 +225,7 @@ impl TableWork {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::compliance::bulk_table::whole::WholeEntries;
 
@@ -220,7 +233,7 @@ mod tests {
     const COUNT: usize = 40;
 
     /// A table that no gear has, symmetric as one of a gear is.
-    fn table() -> BulkTable {
+    pub(in super::super) fn table() -> BulkTable {
         let at = |i: usize, j: usize| (1.0 + ((i * j) as f64).sin()) / (1.0 + i.abs_diff(j) as f64);
         let mut table = vec![0.0; (DIRECTIONS * COUNT).pow(2)];
         for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
@@ -237,7 +250,7 @@ mod tests {
     }
 
     /// Rows of a contact line, some of a cell together; `along`: directions that they are loaded along.
-    fn places(along: usize) -> Vec<TablePoint> {
+    pub(in super::super) fn places(along: usize) -> Vec<TablePoint> {
         let of = |i: usize| {
             let cell = (i / 5) as u32;
             let weight = |k: usize| ((i * 12 + k) as f64).cos();
