@@ -1,6 +1,7 @@
 //! Random documents, measured pairs, and programs that are run: what tests of the program share.
 #![allow(missing_docs, reason = "for tests and benches alone")]
 
+pub mod held_out;
 pub mod judged;
 pub mod killed;
 #[allow(clippy::print_stdout, reason = "the figures of a fit are what commands call it for")]

@@ -1,4 +1,4 @@
-//! What `measure_accuracy motion` has measured of a pair at a speed.
+//! What `accuracy measure motion` has measured of a pair at a speed.
 
 use scene::Quantity;
 use serde_json::Value;

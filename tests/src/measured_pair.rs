@@ -1,11 +1,13 @@
-//! What `measure_accuracy rest` has measured of a pair.
+//! What `accuracy measure rest` has measured of a pair: numbers on settings from coarse to fine, curves over a mesh cycle.
 
-use analysis::accuracy::{CalibratedMesh, Features, Sample, features};
+use std::collections::BTreeMap;
+
+use analysis::accuracy::{CalibratedMesh, Curves, Features, Sample, Seen, features};
 use geometry::GearPair;
-use scene::{Driver, Quantity, Scene};
+use scene::{Quantity, Scene};
 use serde_json::Value;
 
-use crate::random_scene::random_scene;
+use crate::random_scene::{random_scene, torque_of_pressure};
 
 /// From rungs 4 and 6 to rung 8, a little less than at order two: where rung 8 was measured it lies there.
 const EXTRAPOLATION: f64 = 0.4;
@@ -13,10 +15,10 @@ const EXTRAPOLATION: f64 = 0.4;
 pub const RUNGS: [u32; 4] = [2, 3, 4, 6];
 /// Positions of a cycle on every mesh.
 pub const POSITIONS: u32 = 8;
-/// Positions that stand for all of them.
-pub const FINE_POSITIONS: u32 = 64;
+/// Positions of the curves, which stand for all of them.
+pub const CURVE_POSITIONS: u32 = 128;
 
-/// A line of its file.
+/// All that is measured of a pair, of one line or several.
 #[derive(Debug, Clone)]
 pub struct MeasuredPair {
     pub seed: u64,
@@ -24,20 +26,55 @@ pub struct MeasuredPair {
     pub scene: Scene,
     pair: GearPair,
     samples: Value,
+    curves: Option<Curves>,
 }
 
 impl MeasuredPair {
-    /// Pair of a line; `None` where the pair had no result.
-    pub fn new(line: &Value) -> Option<Self> {
-        let (seed, index) = (line["seed"].as_u64()?, line["index"].as_u64()?);
-        let scene = random_scene(seed, index);
-        let pair = scene.gear_pair().ok()?;
-        Some(Self { seed, index, scene, pair, samples: line.get("samples")?.clone() })
+    /// Pairs of some lines, in the order of seeds and numbers; those without a result are left out.
+    pub fn all(lines: &[Value]) -> Vec<Self> {
+        let mut pairs = BTreeMap::<(u64, u64), Self>::new();
+        for line in lines {
+            let of = |key: &str| line[key].as_u64();
+            let (Some(seed), Some(index)) = (of("seed"), of("index")) else { continue };
+            let samples = line.get("samples").filter(|samples| !samples.is_null());
+            let curves = line.get("curves").and_then(|c| serde_json::from_value::<Curves>(c.clone()).ok());
+            if samples.is_none() && curves.is_none() {
+                continue;
+            }
+            let Some(pair) = Self::unmeasured(seed, index) else { continue };
+            let pair = pairs.entry((seed, index)).or_insert(pair);
+            if let Some(samples) = samples {
+                pair.samples = samples.clone();
+            }
+            pair.curves = curves.or(pair.curves.take());
+        }
+        pairs.into_values().collect()
     }
 
-    /// Whether it was solved on finer meshes too, not on the coarsest rung alone.
+    fn unmeasured(seed: u64, index: u64) -> Option<Self> {
+        let scene = random_scene(seed, index);
+        let pair = scene.gear_pair().ok()?;
+        Some(Self { seed, index, scene, pair, samples: Value::Null, curves: None })
+    }
+
+    /// Contact ratio of the whole flanks.
+    pub fn contact_ratio(&self) -> f64 {
+        self.pair.transverse_contact_ratio() + self.pair.overlap_ratio()
+    }
+
+    /// Hertz pressure at the pitch point, as pairs are drawn by it, MPa.
+    pub fn pressure_mpa(&self) -> f64 {
+        1000.0 * (1e3 * self.scene.operation.torque_nm / torque_of_pressure(&self.pair, 1000.0)).sqrt()
+    }
+
+    /// Whether it was solved on finer meshes.
     pub fn has_meshes(&self) -> bool {
         self.samples.get("mesh 4").is_some()
+    }
+
+    /// Whether its curves are known.
+    pub fn has_curves(&self) -> bool {
+        self.curves.is_some()
     }
 
     /// A number of a sample.
@@ -52,21 +89,37 @@ impl MeasuredPair {
         }
     }
 
+    /// Mean force over stiffness, um.
+    fn deflection(&self, stiffness: f64) -> f64 {
+        let driven = match self.scene.operation.driver {
+            scene::Driver::Pinion => &self.pair.wheel,
+            scene::Driver::Wheel => &self.pair.pinion,
+        };
+        self.scene.operation.torque() / driven.base_radius() / stiffness
+    }
+
     /// All numbers on a mesh.
     pub fn sample(&self, mesh: CalibratedMesh) -> Option<Sample> {
         let name = Self::of_mesh(mesh);
-        let driven = match self.scene.operation.driver {
-            Driver::Pinion => &self.pair.wheel,
-            Driver::Wheel => &self.pair.pinion,
-        };
-        let force = self.scene.operation.torque() / driven.base_radius();
-        let deflection = force / self.value(&name, Quantity::MeshStiffness)?;
+        let deflection = self.deflection(self.value(&name, Quantity::MeshStiffness)?);
         Some(Sample::new(|q| self.value(&name, q), deflection))
+    }
+
+    /// All numbers of so many positions on the coarsest rung.
+    pub fn of_positions(&self, positions: u32) -> Option<Sample> {
+        let curves = self.curves_of(positions)?;
+        let deflection = self.deflection(curves.value(Quantity::MeshStiffness)?);
+        Some(Sample::new(|q| curves.value(q), deflection))
     }
 
     /// What laws know of a run on a mesh.
     pub fn features(&self, mesh: CalibratedMesh) -> Option<Features> {
         Some(features(&self.scene, &self.pair, &self.sample(mesh)?))
+    }
+
+    /// What they know of one of so many positions.
+    pub fn features_of_positions(&self, positions: u32) -> Option<Features> {
+        Some(features(&self.scene, &self.pair, &self.of_positions(positions)?))
     }
 
     /// On infinitely fine elements less that on a mesh.
@@ -82,18 +135,22 @@ impl MeasuredPair {
         Some(self.value(&format!("slices {}", 4 * slices), quantity)? - self.value("mesh 2", quantity)?)
     }
 
-    /// At all positions less that at some.
-    pub fn positions_error(&self, positions: u32, quantity: Quantity) -> Option<f64> {
-        let of = |p: u32| self.value(&format!("positions {p}"), quantity);
-        Some(of(FINE_POSITIONS)? - of(positions)?)
+    fn curves_of(&self, positions: u32) -> Option<Curves> {
+        Some(self.curves.as_ref()?.every((CURVE_POSITIONS / positions) as usize))
     }
 
-    /// At some positions less that at half of them; 0 for the fewest.
-    pub fn halved_difference(&self, positions: u32, quantity: Quantity) -> Option<f64> {
-        if positions <= POSITIONS {
-            return Some(0.0);
-        }
-        Some(self.positions_error(positions / 2, quantity)? - self.positions_error(positions, quantity)?)
+    /// At all positions less that at some.
+    pub fn positions_error(&self, positions: u32, quantity: Quantity) -> Option<f64> {
+        let of = |p: u32| self.curves_of(p)?.value(quantity);
+        Some(of(CURVE_POSITIONS)? - of(positions)?)
+    }
+
+    /// What some positions show of what they miss: as a run shows it.
+    pub fn seen(&self, positions: u32, quantity: Quantity) -> Option<Seen> {
+        let curves = self.curves_of(positions)?;
+        let halved = || Some(curves.value(quantity)? - self.curves_of(positions / 2)?.value(quantity)?);
+        let halved = if positions > POSITIONS { Some(halved()?) } else { None };
+        Some(Seen::of(&curves.between(quantity)?, halved))
     }
 
     /// On infinitely fine elements, slices and positions.

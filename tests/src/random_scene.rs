@@ -11,16 +11,34 @@ const DRAWS: usize = 1000;
 /// Contact ratio below which teeth do not hand over.
 const LEAST_CONTACT_RATIO: f64 = 1.05;
 
+/// Seed from which on loads are light as well, and flanks as they are ground.
+pub const AS_GROUND: u64 = 100;
+/// Hertz pressures from there on, MPa.
+const GROUND_PRESSURES: [f64; 2] = [200.0, 1800.0];
+/// Amounts of what is ground off a flank beside tip relief: name, um, and whether it has a sign.
+const GROUND: [(&str, [f64; 2], bool); 4] = [
+    ("profile_crowning_um", [1.0, 8.0], false),
+    ("lead_crowning_um", [1.0, 20.0], false),
+    ("lead_slope_um", [1.0, 10.0], true),
+    ("profile_slope_um", [1.0, 6.0], true),
+];
+/// End reliefs: um, and share of the face width.
+const END_RELIEF: [[f64; 2]; 2] = [[3.0, 20.0], [0.05, 0.25]];
+
 /// Scene number `index` of a seed: z 12..120, beta 0..40 deg, b/m_n 3..25, x -0.4..0.8, alpha_n 15..28 deg, m_n 1..8 mm,
 /// rims of 0.8 modules to solid bodies, half of the pairs with tip relief, crowning or misalignment, Hertz pressure at
-/// the pitch point 500..1800 MPa.
+/// the pitch point 500..1800 MPa. From [`AS_GROUND`] on pressures begin at 200 MPa, and flanks are as they are ground: either
+/// gear with its own tip relief, crownings, slopes and end reliefs.
 ///
 /// # Panics
 /// When a thousand draws make no pair, which no seed does.
 pub fn random_scene(seed: u64, index: u64) -> Scene {
     // Far apart: sequences of neighbouring seeds are the same but for one step.
     let mut random = Random::new(seed.wrapping_mul(0x5851_f42d_4c95_7f2d) ^ index.wrapping_mul(0xd134_2543_de82_ef95));
-    let drawn = (0..DRAWS).find_map(|_| Draw::new(&mut random).scene(index));
+    let drawn = (0..DRAWS).find_map(|_| {
+        let draw = Draw::new(&mut random);
+        if seed < AS_GROUND { draw.scene(index) } else { draw.with_ground_flanks(&mut random).scene(index) }
+    });
     drawn.unwrap_or_else(|| panic!("seed {seed}, index {index}: no pair in {DRAWS} draws"))
 }
 
@@ -42,6 +60,8 @@ struct Draw {
     /// um over the face width.
     misalignment: Option<f64>,
     pressure_mpa: f64,
+    /// What is ground off the flanks of pinion and wheel beside the others.
+    ground: Vec<(String, f64)>,
 }
 
 impl Draw {
@@ -71,7 +91,34 @@ impl Draw {
             crowning,
             misalignment,
             pressure_mpa,
+            ground: Vec::new(),
         }
+    }
+
+    /// The same gears under any load, with flanks as they are ground.
+    fn with_ground_flanks(mut self, random: &mut Random) -> Self {
+        let some = |r: &mut Random, share: f64| r.between(0.0, 1.0) < share;
+        let [low, high] = GROUND_PRESSURES;
+        self.pressure_mpa = random.between(low.ln(), high.ln()).exp();
+        self.crowning = None;
+        for gear in ["pinion", "wheel"] {
+            for (name, [low, high], signed) in GROUND {
+                let (taken, amount) = (some(random, 0.25), random.between(low, high));
+                let sign = if signed && some(random, 0.5) { -1.0 } else { 1.0 };
+                if taken {
+                    self.ground.push((format!("{gear}.modification.{name}"), sign * amount));
+                }
+            }
+            let [amount, share] = END_RELIEF.map(|[low, high]| random.between(low, high));
+            if some(random, 0.25) {
+                for end in ["lower", "upper"] {
+                    let key = format!("{gear}.modification.end_relief_{end}");
+                    self.ground.push((format!("{key}_um"), amount));
+                    self.ground.push((format!("{key}_length_mm"), share * self.width));
+                }
+            }
+        }
+        self
     }
 
     /// The scene; `None` where there is no such pair.
@@ -120,6 +167,9 @@ impl Draw {
         }
         if let Some(misalignment) = self.misalignment {
             scene = scene.set("pair.misalignment.in_plane_of_action_um", misalignment);
+        }
+        for (key, amount) in &self.ground {
+            scene = scene.set(key, *amount);
         }
         scene.build()
     }

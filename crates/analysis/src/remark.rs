@@ -156,8 +156,8 @@ answer::remarks! {
     few_rows(rows, share_percent, from_order, to_order, limit_percent, cure)
         "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (reported from {limit_percent:.0} % on); peaks fall between the rows",
         "take {cure}";
-    few_steps(steps_in_period, order, share_percent, steps_enough, cure)
-        "a step is 1/{steps_in_period:.1} of the period of mesh order {order}, which has {share_percent:.0} % of the vibration: near a resonance its size may be wrong by a tenth and more (reported below 1/{steps_enough:.0})",
+    few_steps(percent, order, steps_in_period, limit_percent, cure)
+        "steps may change the peak to peak of the DTE by up to {percent:.1} %, most of it mesh order {order}, whose period has {steps_in_period:.1} of them (reported from {limit_percent:.0} % on)",
         "take {cure}";
     fast_rotation(share_percent, limit_percent)
         "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (reported from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",

@@ -34,7 +34,7 @@ pub use integrator::{Integrator, Progress};
 pub use ledger::Ledger;
 pub use mechanism::{Forces, Mechanism};
 pub use periodicity::{Envelope, LONGEST_PERIOD, Periodicity, Recurrence, SignalRecurrence, difference};
-pub use scheme::{Scheme, StepControl};
+pub use scheme::{Scheme, SteadySteps, StepControl};
 pub use stability::{StepLimit, Stiffest};
 pub use state::State;
 pub use sweep::{SweepDirection, sweep};

@@ -6,6 +6,7 @@
 //! motion; what contact leaves on a flank over such cycles; accuracy against cost of the ways to compute one, CalculiX
 //! among them ([`calculix`]).
 
+mod between;
 mod bifurcation;
 pub mod calculix;
 mod campbell;
@@ -25,6 +26,7 @@ mod transform;
 mod waterfall;
 mod work_precision;
 
+pub use between::Between;
 pub use bifurcation::{Bifurcation, Branch, sweep_both_ways};
 pub use campbell::{Campbell, Resonance, campbell};
 pub use columns::{Columns, extent, mean, peak_to_peak, root_mean_square};

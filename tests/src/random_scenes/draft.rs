@@ -109,6 +109,11 @@ impl Draft {
         Self { random: Random::new(0), table: self.table.clone(), files: self.files.clone() }
     }
 
+    /// A draft of these keys, without files.
+    pub fn of_table(table: Table) -> Self {
+        Self { random: Random::new(0), table, files: Vec::new() }
+    }
+
     /// The scene file.
     ///
     /// # Errors

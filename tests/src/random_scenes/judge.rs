@@ -15,7 +15,7 @@ const TABLES: [&str; 5] = ["resonance.csv", "sweep.csv", "branch.csv", "basins.c
 
 /// Figures of a headline that have no value in some results: not asked for, of another model, or where nothing is to be
 /// measured (`docs/outputs.md`).
-const MAY_BE_NULL: [&str; 28] = [
+const MAY_BE_NULL: [&str; 29] = [
     ".attractors.period_cycles",
     ".certificate.lyapunov",
     ".difference_in_time",
@@ -42,6 +42,7 @@ const MAY_BE_NULL: [&str; 28] = [
     ".certificate.period_cycles",
     ".certificate.shooting_periods",
     ".certificate.shooting_multiplier",
+    ".certificate.step_error_percent",
     ".mesh_resonance_hz",
     ".ramp.pair_normal_force_n",
 ];

@@ -4,7 +4,11 @@ use std::path::Path;
 
 use scene::Value;
 
-use super::{Csv, Draft, RandomScene, csv::largest};
+use super::{
+    Csv, Draft, RandomScene,
+    csv::largest,
+    told::{Told, is_at_rest},
+};
 
 /// Largest difference over the largest value of a column.
 const SAME: f64 = 5e-5;
@@ -18,7 +22,7 @@ const LOST: f64 = 30.0;
 
 /// Where the mirror stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Mirror {
+enum Mirror {
     /// Across the axes: up is down, the other hand, the same sense of rotation.
     AcrossAxes,
     /// Through both axes: the other hand, the other sense of rotation.
@@ -35,21 +39,18 @@ impl Mirror {
     }
 }
 
-/// The scene in one of both mirrors; `None` where files stand for what cannot be turned here, or nothing stands still. Beside it, whether points
-/// press and not slices.
-pub fn mirrored(index: u64, scene: &RandomScene) -> Option<(Draft, (Mirror, bool))> {
+/// The scene in one of both mirrors; `None` where files stand for what cannot be turned here, or nothing stands still.
+pub fn tell(index: u64, scene: &RandomScene) -> Option<Told> {
     let d = &scene.draft;
-    let at_rest = matches!(scene.model, "reduced" | "full" | "iso")
-        && d.get("analysis.kind").is_none_or(|k| k.as_str() != Some("dynamic"));
     // Flat faces of a mesh are cut along diagonals, which have a hand of their own.
     let flat = d.get("contact.gap").is_some_and(|g| g.as_str() == Some("facet"));
     // The cuts of a sector of some teeth are free; its loaded teeth stand nearer to one of them than in the mirror.
     let sector = ["pinion", "wheel"].iter().any(|gear| d.get(&format!("{gear}.mesher.sector_teeth")).is_some());
     let one_handed = flat || sector || scene.foreign || !d.files.is_empty();
-    if !at_rest || scene.anything || one_handed || d.get("accuracy").is_some() {
+    if !is_at_rest(scene) || scene.anything || one_handed || d.get("accuracy").is_some() {
         return None;
     }
-    let mirror = if index.is_multiple_of(8) { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
+    let mirror = if index.is_multiple_of(2) { Mirror::AcrossAxes } else { Mirror::ThroughAxes };
     let mut other = scene.draft.copy();
     for key in ["pinion.helix_angle_deg", "wheel.helix_angle_deg"] {
         turn(&mut other, key);
@@ -59,7 +60,8 @@ pub fn mirrored(index: u64, scene: &RandomScene) -> Option<(Draft, (Mirror, bool
         Mirror::ThroughAxes => other_way_round(&mut other),
     }
     let nodal = d.get("contact.method").is_some_and(|m| m.as_str() == Some("nodal"));
-    Some((other, (mirror, nodal)))
+    let compare = move |one: &Path, other: &Path| compare(one, other, (mirror, nodal));
+    Some(Told { first: None, other, compare: Box::new(compare) })
 }
 
 /// Changes the sign of a number, if it is there.
@@ -126,9 +128,9 @@ const STAYS: [&str; 8] = [
 ];
 
 /// What is not the same in both folders.
-pub fn compare(folder: &Path, other: &Path, (mirror, nodal): (Mirror, bool)) -> Vec<String> {
+fn compare(folder: &Path, other: &Path, (mirror, nodal): (Mirror, bool)) -> Vec<String> {
     let (Ok(here), Ok(there)) = (Csv::read(&folder.join("history.csv")), Csv::read(&other.join("history.csv"))) else {
-        return vec!["mirrored: no history.csv".into()];
+        return vec!["no history.csv".into()];
     };
     let stays = STAYS.iter().map(|name| ((*name).to_owned(), 1.0));
     let forces = ["pinion", "wheel"].into_iter().flat_map(|gear| {

@@ -11,9 +11,11 @@
 //! | `rating` | whether it will hold |
 //! | `motion`, `cheaper` | motion in time; the models with few coordinates |
 //! | `whole_range` | any key of the schema over its whole range |
-//! | `mirror` | the same scene in a mirror, and what must stay the same |
+//! | `laws` | laws that no model may break: the same scene told in another way |
+//! | `mirror`, `size`, `exchange`, `driver`, `lead` | one of them each |
+//! | `told`, `headline` | a scene told again; headlines of two results that ought to agree |
 //! | `attempt` | the program run on one scene in a process of its own, within limits of time and memory |
-//! | `trial` | a scene solved and judged, and compared with its mirror image |
+//! | `trial` | a scene solved and judged, and held against a law |
 //! | `judge`, `balance`, `case`, `csv` | what must hold of the files of a result |
 //! | `refusals` | which reasons of refusals are known, and whether they are true |
 //! | `verdict` | what became of a scene, as a line of JSON, and the table of all |
@@ -24,9 +26,14 @@ mod case;
 mod cheaper;
 mod csv;
 mod draft;
+mod driver;
+mod exchange;
 mod flanks;
 mod gears;
+mod headline;
 mod judge;
+mod laws;
+mod lead;
 mod meshes;
 mod mirror;
 mod model;
@@ -35,6 +42,8 @@ mod question;
 mod rating;
 mod refusals;
 mod rings;
+mod size;
+mod told;
 mod trial;
 mod verdict;
 mod whole_range;
@@ -43,6 +52,7 @@ pub use attempt::{Attempt, Limits};
 pub use csv::Csv;
 pub use draft::Draft;
 pub use refusals::{Refusals, matches};
+pub use size::power;
 pub use trial::try_scene;
 pub use verdict::{Outcome, Tally, Verdict};
 pub use whole_range::keys_of_schema;

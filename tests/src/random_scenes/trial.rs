@@ -1,11 +1,14 @@
-//! A scene solved by the program in a folder of its own, its files judged, and at times its mirror image as well.
+//! A scene solved by the program in a folder of its own, its files judged, and held against a law.
 
 use std::{fs, io, path::Path};
 
-use super::{Draft, Limits, RandomScene, Refusals, Verdict, attempt::run, judge, mirror};
+use super::{Draft, Limits, RandomScene, Refusals, Verdict, attempt::run, judge, laws::law_of};
 
-/// One scene in so many is solved in a mirror as well.
-const MIRRORED: u64 = 4;
+/// One scene in so many is held against a law.
+const HELD: u64 = 3;
+
+/// In the message of a number that is not in its range.
+const OUT_OF_RANGE: &str = ", allowed is ";
 
 /// Writes a scene and its files into a folder.
 fn lay_out(draft: &Draft, folder: &Path, name: &str) -> io::Result<()> {
@@ -20,6 +23,10 @@ fn lay_out(draft: &Draft, folder: &Path, name: &str) -> io::Result<()> {
     Ok(())
 }
 
+fn words<'a>(scene: &'a str, out: &'a str) -> [&'a str; 8] {
+    ["run", scene, "--out", out, "--no-cache", "--quiet", "--threads", "1"]
+}
+
 /// Solves a scene in an empty folder, and says what became of it.
 ///
 /// # Errors
@@ -32,7 +39,6 @@ pub fn try_scene(
     (limits, refusals): (Limits, &Refusals),
 ) -> io::Result<Verdict> {
     lay_out(&scene.draft, folder, "scene.toml")?;
-    let words = |scene, out| ["run", scene, "--out", out, "--no-cache", "--quiet", "--threads", "1"];
     let attempt = run(program, folder, &words("scene.toml", "o"), limits)?;
     let mut verdict = Verdict::of(index, scene, &attempt, refusals);
     if matches!(attempt.status, Some(0 | 3)) && !folder.join("o/summary.json").exists() {
@@ -42,16 +48,25 @@ pub fn try_scene(
         let judged = judge::judge(&folder.join("o"));
         verdict.remarks = judged.remarks;
         verdict.wrong.extend(judged.wrong);
-        if let (0, Some((other, turned))) = (index % MIRRORED, mirror::mirrored(index, scene))
-            && attempt.status == Some(0)
-        {
-            lay_out(&other, folder, "mirrored.toml")?;
-            let attempt = run(program, folder, &words("mirrored.toml", "m"), limits)?;
-            verdict.mirrored = true;
-            verdict.wrong.extend(match attempt.status {
-                Some(0) => mirror::compare(&folder.join("o"), &folder.join("m"), turned),
-                other => vec![format!("mirrored: status {other:?}, {}", attempt.said.trim())],
-            });
+        if let (0, Some(0), Some((law, told))) = (index % HELD, attempt.status, law_of(index / HELD, scene)) {
+            verdict.law = Some(law);
+            let solve = |draft: &Draft, name: &str| {
+                lay_out(draft, folder, &format!("{name}.toml"))?;
+                run(program, folder, &words(&format!("{name}.toml"), name), limits)
+            };
+            // The scene itself, or what stands for it, and then the other way.
+            let first = told.first.as_ref().map(|first| solve(first, "first")).transpose()?;
+            let one = if first.is_some() { "first" } else { "o" };
+            let first = first.map_or(Some(0), |attempt| attempt.status);
+            let other = solve(&told.other, "other")?;
+            let compared = match (first, other.status) {
+                (Some(0), Some(0)) => (told.compare)(&folder.join(one), &folder.join("other")),
+                // What has no answer in one way has none in the other; told in another way, a number may leave its range.
+                (one, status) if one == status => Vec::new(),
+                _ if other.said.contains(OUT_OF_RANGE) => Vec::new(),
+                (one, status) => vec![format!("status {one:?}, and {status:?}: {}", other.said.trim())],
+            };
+            verdict.wrong.extend(compared.into_iter().map(|wrong| format!("{law}: {wrong}")));
         }
     }
     Ok(verdict)

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde_json::{Value as Json, json};
 
-use super::{Attempt, RandomScene, Refusals};
+use super::{Attempt, RandomScene, Refusals, laws::names};
 
 /// What became of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -70,8 +70,8 @@ pub struct Verdict {
     pub message: String,
     /// Warnings of the result.
     pub remarks: usize,
-    /// Whether it was compared with its mirror image.
-    pub mirrored: bool,
+    /// The law that it was held against.
+    pub law: Option<&'static str>,
     /// What is wrong: with any of these the program is at fault.
     pub wrong: Vec<String>,
     /// Wall time.
@@ -110,7 +110,7 @@ impl Verdict {
         }
         let model = scene.model.to_owned();
         let seconds = attempt.seconds;
-        Self { index, model, outcome, reason, message, remarks: 0, mirrored: false, wrong, seconds }
+        Self { index, model, outcome, reason, message, remarks: 0, law: None, wrong, seconds }
     }
 
     /// In one word, remarks known.
@@ -127,7 +127,7 @@ impl Verdict {
             "reason": self.reason,
             "message": self.message,
             "remarks": self.remarks,
-            "mirrored": self.mirrored,
+            "law": self.law,
             "wrong": self.wrong,
             "seconds": (1e3 * self.seconds).round() / 1e3,
         })
@@ -148,7 +148,7 @@ pub struct Tally {
     counts: BTreeMap<String, BTreeMap<Outcome, usize>>,
     reasons: BTreeMap<String, usize>,
     wrong: usize,
-    mirrored: usize,
+    laws: BTreeMap<&'static str, usize>,
     slowest: f64,
 }
 
@@ -165,7 +165,9 @@ impl Tally {
             *self.reasons.entry(format!("{}: {reason}", outcome.name())).or_default() += 1;
         }
         self.wrong += usize::from(line["wrong"].as_array().is_none_or(|w| !w.is_empty()));
-        self.mirrored += usize::from(line["mirrored"] == true);
+        if let Some(law) = names().find(|law| word("law") == Some(law)) {
+            *self.laws.entry(law).or_default() += 1;
+        }
         self.slowest = self.slowest.max(line["seconds"].as_f64().unwrap_or(0.0));
     }
 
@@ -186,9 +188,12 @@ impl Tally {
         let mut reasons: Vec<_> = self.reasons.iter().collect();
         reasons.sort_by_key(|(_, count)| std::cmp::Reverse(**count));
         reasons.iter().for_each(|(reason, count)| text += &format!("{count:6} {reason}\n"));
+        let laws: Vec<String> = self.laws.iter().map(|(law, count)| format!("{law} {count}")).collect();
         text + &format!(
-            "\n{} compared with their mirror images, slowest {:.1} s, wrong: {}\n",
-            self.mirrored, self.slowest, self.wrong
+            "\nheld against laws: {}; slowest {:.1} s, wrong: {}\n",
+            laws.join(", "),
+            self.slowest,
+            self.wrong
         )
     }
 }

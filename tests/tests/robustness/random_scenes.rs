@@ -3,7 +3,7 @@
 use std::{collections::BTreeSet, time::Instant};
 
 use scene::Scene;
-use verification::random_scenes::{Limits, Refusals, draw, keys_of_schema, try_scene};
+use verification::random_scenes::{Limits, Refusals, draw, keys_of_schema, power, try_scene};
 
 use crate::program;
 
@@ -73,4 +73,24 @@ fn a_star_stands_for_anything() {
     use verification::random_scenes::matches;
     assert!(matches("a * b", "a 12.5 b") && matches("*", "") && matches("a*", "a: `x`"));
     assert!(!matches("a * b", "a 12.5 c") && !matches("a", "ab") && !matches("*x", "y"));
+}
+
+/// Every key of a scene with a unit has one that is known: what stands behind the last underscore is no unit.
+#[test]
+fn units_are_those_of_names() {
+    for (name, wanted) in [
+        ("mesh_damping_ns_per_mm2", 1),
+        ("penalty_mpa_per_mm", -1),
+        ("stiffness_rx_nmm_per_rad", 3),
+        ("torque_nm", 3),
+        ("density_kg_m3", 0),
+        ("polar_inertia_kg_m2", 5),
+        ("teeth", 0),
+        ("positions_per_cycle", 0),
+        ("pinion_force_x_n", 2),
+        ("mesh_stiffness_n_per_um", 1),
+        ("wheel_x_rate_um_per_s", 0),
+    ] {
+        assert_eq!(power(name), wanted, "{name}");
+    }
 }

@@ -1,32 +1,36 @@
 //! What was learnt from random pairs: how errors of headline numbers go with what is known of a run.
 //!
-//! The table is made by `cargo run --release -p verification --bin calibrate_accuracy -- rest` from measured pairs.
+//! The table is made by `cargo run --release -p verification --bin accuracy -- calibrate rest` from measured pairs.
 
-use std::sync::LazyLock;
+use std::{collections::BTreeMap, sync::LazyLock};
 
 use scene::Quantity;
 use serde::{Deserialize, Serialize};
+use study::Between;
 
 use super::{
     CalibratedMesh, Features,
     features::{FEATURES, is_spur},
 };
 
-/// How the error of a number goes with the features `x` of a run and a difference `d` that was seen. Theory (64).
+/// How the error of a number goes with the features `x` of a run, and with sizes `d` that were seen in it. Theory (64).
 ///
 /// ```text
-/// exact = value + scale a'x  +-  scale factor exp(b'x + c ln(|d| / scale + LEAST))
+/// exact = value + scale a'x + p t  +-  scale factor exp(b'x + sum_j c_j ln(|d_j| / scale + LEAST))
 /// ```
-/// `scale` is the number itself, for transmission errors the mean deflection of the pair. The factor is that of
-/// conformal prediction: of pairs that took no part in a and b, the share [`Calibration::coverage`] lies within.
+/// `scale` is the number itself, for transmission errors the mean deflection of the pair; t: what the shape of the curve
+/// adds to it ([`Seen::shift`]). The factor is that of conformal prediction: of pairs that took no part in a, b, c and p, the
+/// share [`Calibration::coverage`] lies within.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PairLaw {
-    /// a, the known part of the error.
+    /// a, the known part of the error; empty where nothing is known of it.
     pub known: Vec<f64>,
+    /// p, share of what the shape of the curve adds.
+    pub pull: f64,
     /// b, logarithm of the spread about it.
     pub spread: Vec<f64>,
-    /// c, power of the difference in the spread; 0 where none is seen.
-    pub power: f64,
+    /// c, powers of what is seen in the spread; none where nothing is seen.
+    pub powers: Vec<f64>,
     /// What makes a bound of the spread.
     pub factor: f64,
 }
@@ -34,19 +38,48 @@ pub struct PairLaw {
 /// Difference over the scale that counts as none.
 pub const LEAST_DIFFERENCE: f64 = 1e-5;
 
+/// What a run shows of an error, in the unit of its number.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Seen {
+    /// What the shape of the curve adds to the number.
+    pub shift: f64,
+    /// Sizes that the error goes with.
+    pub sizes: Vec<f64>,
+}
+
+impl Seen {
+    /// The number itself, which is all that meshes and slices show.
+    pub fn number(value: f64) -> Self {
+        Self { shift: 0.0, sizes: vec![value] }
+    }
+
+    /// What a curve shows between its positions, and the difference from the number of every second of them.
+    pub fn of(between: &Between, halved: Option<f64>) -> Self {
+        Self { shift: between.shift, sizes: between.seen.into_iter().chain(halved).collect() }
+    }
+}
+
 impl PairLaw {
-    /// Known part of the error, and the bound of the rest.
-    pub fn of(&self, x: &Features, difference: f64, scale: f64) -> [f64; 2] {
+    /// Known part of the error, and the bound of the rest. A size that is not seen counts as none.
+    pub fn of(&self, x: &Features, seen: &Seen, scale: f64) -> [f64; 2] {
         let dot = |with: &[f64]| with.iter().zip(x).map(|(a, x)| a * x).sum::<f64>();
-        let seen = (difference.abs() / scale.abs() + LEAST_DIFFERENCE).ln();
-        [scale * dot(&self.known), scale.abs() * self.factor * (dot(&self.spread) + self.power * seen).exp()]
+        let sizes = seen.sizes.iter().copied().chain(std::iter::repeat(0.0));
+        let logarithms = self.powers.iter().zip(sizes).map(|(c, d)| c * logarithm(d, scale)).sum::<f64>();
+        let known = scale * dot(&self.known) + self.pull * seen.shift;
+        [known, scale.abs() * self.factor * (dot(&self.spread) + logarithms).exp()]
     }
 
     /// Whether it has a number for each feature.
     pub fn is_whole(&self) -> bool {
-        let all = self.known.iter().chain(&self.spread).chain([&self.power, &self.factor]);
-        self.known.len() == FEATURES && self.spread.len() == FEATURES && all.into_iter().all(|a| a.is_finite())
+        let all = [&self.known, &self.spread, &self.powers].into_iter().flatten().chain([&self.pull, &self.factor]);
+        let known = [0, FEATURES].contains(&self.known.len());
+        known && self.spread.len() == FEATURES && all.into_iter().all(|a| a.is_finite())
     }
+}
+
+/// Logarithm of a size over the scale, of which the smallest count as none.
+pub fn logarithm(size: f64, scale: f64) -> f64 {
+    (size.abs() / scale.abs() + LEAST_DIFFERENCE).ln()
 }
 
 /// What is known of one quantity.
@@ -76,7 +109,7 @@ pub struct MeshLaw {
 pub struct PositionsLaw {
     /// Positions of a cycle.
     pub positions: u32,
-    /// From every second of them.
+    /// From the shape of the curves, and from every second position.
     pub law: PairLaw,
     /// How many times its bound holds for spur pairs, 1 or more. Their load jumps from pair to pair, which few positions
     /// miss; of all pairs they are too few to tell.
@@ -90,6 +123,8 @@ pub struct PositionsLaw {
 pub struct Calibration {
     /// Pairs that it was made of.
     pub pairs: usize,
+    /// Which they are, and those whose curves alone were measured: numbers of `tests/src/random_scene.rs` by their seed.
+    pub made_of: BTreeMap<u64, Vec<u64>>,
     /// Share of them that lies within its bounds.
     pub coverage: f64,
     /// By quantity.
@@ -100,6 +135,7 @@ static COMMITTED: LazyLock<Calibration> = LazyLock::new(|| {
     // A file of this program, read by its tests.
     serde_json::from_str(include_str!("calibration.json")).unwrap_or(Calibration {
         pairs: 0,
+        made_of: BTreeMap::new(),
         coverage: 0.0,
         quantities: Vec::new(),
     })
@@ -124,8 +160,8 @@ impl Calibration {
 
 impl PositionsLaw {
     /// Known part of the error, and the bound of the rest, as [`PairLaw::of`]; a pair without overlap is a spur pair.
-    pub fn of(&self, x: &Features, difference: f64, scale: f64) -> [f64; 2] {
-        let [known, within] = self.law.of(x, difference, scale);
+    pub fn of(&self, x: &Features, seen: &Seen, scale: f64) -> [f64; 2] {
+        let [known, within] = self.law.of(x, seen, scale);
         [known, if is_spur(x) { self.spur * within } else { within }]
     }
 }

@@ -2,8 +2,10 @@
 
 use scene::{Quantity, Scene};
 
+use study::Between;
+
 use super::{
-    Accuracy, Bound, Calibration, Cause, Features, PairLaw, Sample, Term,
+    Accuracy, Bound, Calibration, Cause, Curves, Features, PairLaw, Sample, Seen, Term,
     companion::{Companion, Companions, Standing, stride},
     coverage::{beyond_calibration, not_covered},
     features::features,
@@ -33,7 +35,7 @@ pub(super) fn estimate(
             Some(run_phase(observer, "estimate", PhaseWork::Unknown, |_| companions.of((scene, rung), result, cache))?)
         }
     };
-    let seen = Seen::new(scene, result, standing, companion, !beyond.is_empty())?;
+    let seen = SeenCycle::new(scene, result, standing, companion, !beyond.is_empty())?;
     accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?)
 }
 
@@ -47,7 +49,7 @@ pub(super) fn free_estimate(scene: &Scene, result: &StaticResult) -> Result<Opti
     if let Standing::Beside(_) = standing {
         return Ok(None);
     }
-    let seen = Seen::new(scene, result, standing, None, false)?;
+    let seen = SeenCycle::new(scene, result, standing, None, false)?;
     accuracy(scene, seen.bounds(scene), standing, not_covered(scene, result, standing, beyond)?).map(Some)
 }
 
@@ -79,11 +81,12 @@ const LEAST_HALVED: u32 = 16;
 const BEYOND: f64 = 3.0;
 
 /// Samples that differences are taken of.
-struct Seen {
+struct SeenCycle {
     standing: Standing,
     positions: u32,
     features: Features,
     own: Sample,
+    curves: Curves,
     /// At the positions of the companion.
     sparse: Sample,
     /// At every second position; `None` for an odd number, and for a small one.
@@ -96,7 +99,7 @@ struct Seen {
     iteration: f64,
 }
 
-impl Seen {
+impl SeenCycle {
     fn new(
         scene: &Scene,
         result: &StaticResult,
@@ -113,6 +116,7 @@ impl Seen {
             positions,
             features: features(scene, &result.pair, &own),
             own,
+            curves: Curves::of(&result.history, scene.analysis.cycles as usize),
             sparse: sample(stride(positions))?,
             halved: (positions >= LEAST_HALVED && positions.is_multiple_of(2)).then(|| sample(2)).transpose()?,
             companion,
@@ -130,13 +134,15 @@ impl Seen {
     fn bound(&self, q: Quantity) -> Option<Bound> {
         let laws = Calibration::committed().of(q)?;
         let (own, scale) = (self.own.get(q)?, self.own.scale(q)?);
-        let of = |law: &PairLaw, difference: f64| law.of(&self.features, difference, scale);
-        let mut mesh = of(&laws.of_mesh(self.standing.mesh())?.law, 0.0);
-        let mut slices = of(&laws.slices, 0.0);
+        let of = |law: &PairLaw| law.of(&self.features, &Seen::number(own), scale);
+        let mut mesh = of(&laws.of_mesh(self.standing.mesh())?.law);
+        let mut slices = of(&laws.slices);
         let halved = self.halved.as_ref().and_then(|halved| Some(own - halved.get(q)?));
+        // Positions that no shape can be told from have the law of the fewest, at the size of the number itself.
+        let between = self.curves.between(q).unwrap_or(Between { shift: 0.0, seen: [own; 2] });
         // Without half of them only the law of the fewest goes without a difference.
         let law = laws.of_positions(if halved.is_some() { self.positions } else { 0 })?;
-        let mut positions = law.of(&self.features, halved.unwrap_or(0.0), scale);
+        let mut positions = law.of(&self.features, &Seen::of(&between, halved), scale);
         if let Some(companion) = &self.companion {
             let (sparse, beside) = (self.sparse.get(q)?, companion.sample.get(q)?);
             mesh[0] += beside - sparse;

@@ -15,6 +15,7 @@
 //! | `of_results` | what are the bounds of runs that are solved? |
 //! | `calibration`, `calibrated_mesh`, `features`, `law` | how does the error go with what is known of a run? |
 //! | `quantity`, `bound` | of which numbers, and how much is it? |
+//! | `curves` | what may these numbers miss between the positions that are solved? |
 //! | `coverage`, `coverage_flanks` | what do bounds not cover? |
 //! | [`motion`] | the same questions of a pair in motion |
 
@@ -26,6 +27,7 @@ mod climb;
 mod companion;
 mod coverage;
 mod coverage_flanks;
+mod curves;
 mod estimate;
 mod exactness;
 mod features;
@@ -41,9 +43,10 @@ mod solved_cycle;
 pub use analysis::StaticAnalysis;
 pub use bound::{Bound, Cause, Term};
 pub use calibrated_mesh::CalibratedMesh;
-pub use calibration::{Calibration, LEAST_DIFFERENCE, MeshLaw, PairLaw, PositionsLaw, QuantityLaws};
+pub use calibration::{Calibration, MeshLaw, PairLaw, PositionsLaw, QuantityLaws, Seen, logarithm};
 pub(crate) use climb::{Climbed, Ladder, climb};
 pub(crate) use companion::{Companions, stride};
+pub use curves::Curves;
 pub use exactness::{Accuracy, TriedRung, TriedSettings};
 pub use features::{FEATURES, Features, features};
 pub use gear_memo::GearMemo;

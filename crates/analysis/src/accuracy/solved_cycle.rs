@@ -3,7 +3,7 @@
 use ltca::{StaticHistory, StaticModel};
 use scene::Scene;
 
-use super::Sample;
+use super::{Curves, Sample};
 use crate::{AnalysisError, GearCache, NoObserver, NoSink, meshes, options, solver_error, static_cycle::CycleInputs};
 
 /// A solved cycle with the gears that it was solved on: positions alone, without what a user should hear of them.
@@ -50,5 +50,10 @@ impl SolvedCycle {
     /// [`AnalysisError::Statistics`].
     pub fn sample(&self, stride: usize) -> Result<Sample, AnalysisError> {
         Ok(Sample::of(&self.scene, &self.history, stride)?)
+    }
+
+    /// Curves of all positions.
+    pub fn curves(&self) -> Curves {
+        Curves::of(&self.history, self.scene.analysis.cycles as usize)
     }
 }

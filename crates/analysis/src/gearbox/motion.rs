@@ -186,6 +186,7 @@ pub(super) fn run(
         reach: done.flanks.iter().map(|own| own.reach).collect(),
         map_errors,
         resonances,
+        step_errors_percent: Vec::new(),
         elasticity: Vec::new(),
         knows_pressure: asked.mesh == MeshModel::Exact,
         even_rows: even,
@@ -229,8 +230,10 @@ pub(super) fn run(
         let elasticity = each.collect::<Result<Vec<_>, AnalysisError>>()?;
         let judged = Judged { rest, asked, elasticity: &elasticity, moved: &result };
         let of_mesh = |(i, own): (usize, &Elasticity)| own.headline(&judged.vibration(i));
+        let resolved = (0..rest.meshes.len()).map(|i| judged.resolved(i)).collect::<Result<Vec<_>, _>>()?;
         let (headlines, checks, remarks) =
-            (elasticity.iter().enumerate().map(of_mesh).collect(), judged.checks(), judged.remarks()?);
+            (elasticity.iter().enumerate().map(of_mesh).collect(), judged.checks(), judged.remarks(&resolved));
+        result.step_errors_percent = resolved.iter().map(|own| own.step_error_percent).collect();
         (result.elasticity, result.checks) = (headlines, checks);
         result.remarks.extend(remarks);
     }

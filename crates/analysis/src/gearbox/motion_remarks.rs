@@ -4,12 +4,14 @@ use std::f64::consts::TAU;
 
 use answer::{Remark, RowStore, TableError};
 use gearbox::motion::GearboxInstant;
+use integrate::SteadySteps;
 use scene::gearbox::{GearboxDrive, GearboxMotion, MeshModel};
 
 use super::{at_rest::AtRest, moved::GearboxMotionResult, swings::few_modes};
 use crate::{
     in_motion::{
-        MeshInMotion, MeshRecord, Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open,
+        MeshInMotion, MeshRecord, Parting, Resolved, Settled, StepKeys, coarse_steps, no_backlash, speed_changed,
+        work_open,
     },
     motion::{Elasticity, Pace, StepDemand, Vibration},
     remark,
@@ -49,11 +51,8 @@ impl Judged<'_> {
         }
     }
 
-    /// What a user should hear; meshes by their names.
-    ///
-    /// # Errors
-    /// [`TableError::Kept`] where rows cannot be read back.
-    pub fn remarks(&self) -> Result<Vec<Remark>, TableError> {
+    /// What a user should hear; meshes by their names. `resolved`: how well rows and steps show each mesh.
+    pub fn remarks(&self, resolved: &[Resolved]) -> Vec<Remark> {
         let Self { rest, asked, moved, .. } = *self;
         let mut said: Vec<Remark> =
             self.settled().into_iter().chain(work_open(moved.ledger_residual_over_work)).collect();
@@ -67,13 +66,13 @@ impl Judged<'_> {
         let fastest = self.mesh_hz().into_iter().map(|[_, most]| most).fold(0.0, f64::max);
         said.extend(few_modes(rest.file, &moved.gear_modes, fastest));
         for (i, mesh) in rest.meshes.iter().enumerate() {
-            said.extend(self.of_mesh(i)?.into_iter().map(|own| own.about(&mesh.name)));
+            said.extend(self.of_mesh(i, &resolved[i]).into_iter().map(|own| own.about(&mesh.name)));
         }
-        Ok(said)
+        said
     }
 
     /// What is said of a mesh.
-    fn of_mesh(&self, i: usize) -> Result<Vec<Remark>, TableError> {
+    fn of_mesh(&self, i: usize, resolved: &Resolved) -> Vec<Remark> {
         let Self { rest, asked, moved, .. } = *self;
         let parting = if self.has_coast_flanks(i) { Parting::CoastFlanks } else { Parting::End };
         let mut said: Vec<Remark> = no_backlash(&rest.meshes[i].pair, parting).into_iter().collect();
@@ -82,14 +81,14 @@ impl Judged<'_> {
             let in_period = 1.0 / (moved.step * resonance);
             let of_resonance = || coarse_steps(in_period, ("mesh resonance", resonance), (StepKeys::GEARBOX, ""));
             said.extend(asked.error_tolerance.is_none().then(of_resonance).flatten());
-            said.extend(self.unresolved(i)?);
         }
+        said.extend(resolved.remarks.iter().cloned());
         said.extend(moved.run_ups.get(i).and_then(|own| own.coarse_cut(CUT)));
         said.extend(self.mesh(i).remarks());
         let found = self.vibration(i);
         said.extend(self.elasticity[i].warning(&found, &self.demand(), Pace { step_s: None }));
         said.extend(self.elasticity[i].rotation_warning(&found));
-        Ok(said)
+        said
     }
 
     /// What has been found of a mesh, to be held against the elastic frequencies of its gears.
@@ -120,30 +119,38 @@ impl Judged<'_> {
         StepDemand::of_gearbox((self.rest.file, self.asked), cycles, mesh_hz)
     }
 
-    /// Rows and steps of a mesh that do not show what moves.
-    fn unresolved(&self, i: usize) -> Result<Vec<Remark>, TableError> {
+    /// How well rows and steps show a mesh: its own orders beside its own resonance; nothing where the speed is led from
+    /// one to another.
+    ///
+    /// # Errors
+    /// [`TableError::Kept`] where rows cannot be read back.
+    pub fn resolved(&self, i: usize) -> Result<Resolved, TableError> {
         let Self { asked, moved, .. } = *self;
         // The first row is the start, and the last one may be no whole row behind the one before.
         let count = moved.even_rows.max(1) - 1;
         let whole = moved.reached.meshes[i].cycles * count as f64 / (moved.rows.len().max(2) - 1) as f64;
         let cycles = (whole + 1e-6).floor();
-        if cycles < 1.0 {
-            return Ok(Vec::new());
+        if cycles < 1.0 || asked.to_speed_rpm.is_some() {
+            return Ok(Resolved::default());
         }
         let samples = errors_um(&moved.rows, i, count)?;
         let per_cycle = count as f64 / whole;
         let used = ((cycles * per_cycle).round() as usize).min(count);
+        let resonance = moved.resonances[i];
+        let steps = SteadySteps {
+            per_period: per_cycle * f64::from(asked.steps_per_row),
+            scheme: asked.scheme,
+            resonance: resonance.hz / moved.mesh_frequencies[i],
+            damping: resonance.damping,
+        };
         let record = MeshRecord {
             samples: &samples[count - used..],
             cycles,
-            steps: match asked.error_tolerance {
-                None => per_cycle * f64::from(asked.steps_per_row),
-                Some(_) => f64::INFINITY,
-            },
+            steps: asked.error_tolerance.is_none().then_some(steps),
             comes_back: moved.comes_back,
             keys: StepKeys::GEARBOX,
         };
-        Ok(record.unresolved())
+        Ok(record.resolved())
     }
 
     /// What a user should hear of a motion that was to settle.

@@ -52,6 +52,8 @@ pub struct GearboxMotionResult {
     pub map_errors: Vec<Option<[f64; 2]>>,
     /// Both gears of each mesh turning against each other on its mean stiffness.
     pub resonances: Vec<MeshResonance>,
+    /// By how much of itself steps may change the peak to peak of each mesh at most, %; none of a motion that was stopped.
+    pub step_errors_percent: Vec<Option<f64>>,
     /// Elastic frequencies of the gears of each mesh beside its harmonics; none of a motion that was stopped.
     pub elasticity: Vec<ElasticHeadline>,
     /// Whether the meshes know the pressure of their flanks: those of the exact contact.

@@ -1,20 +1,17 @@
 //! Whether the rows and the steps of a motion show what moves.
 
 use answer::Remark;
+use integrate::SteadySteps;
 use study::{order_amplitudes, unresolved_share};
 
 use crate::remark;
 
 /// Share of the vibration in the upper half of what rows can tell apart from which on a user should hear of it.
 const UNRESOLVED: f64 = 0.05;
-/// Share of the sum of all mesh orders from which on one of them counts.
-const COUNTS: f64 = 0.05;
-/// Steps in the period of the highest order that counts: an implicit method takes it for 1 % slower than it is, which
-/// changes its size by a tenth next to a resonance.
-const STEPS: f64 = 18.0;
-/// So many more in that of an order that is all of the vibration, and its share of them where it is less. In map (g) of
-/// `docs/envelope.md` an order that is 0.29 of it is off by 16 % with 16 steps, by 4 % with 32.
-const MORE_STEPS: f64 = 14.0;
+/// Share of the peak to peak that steps may change from which on a user should hear of it.
+const STEPS: f64 = 0.01;
+/// The resonance of a mesh lies within this share of that of its mean stiffness.
+const SHIFT: f64 = 0.05;
 /// Fewer steps than this in a period of the mesh resonance show it wrongly: peak to peak off by 10 to 60 % near it (map (c)
 /// of `docs/envelope.md`).
 const COARSE: f64 = 12.0;
@@ -35,6 +32,15 @@ impl StepKeys {
         Self { rows: "more `steps_per_cycle`, or fewer `steps_per_row`", steps: "more `steps_per_cycle`" };
 }
 
+/// What steps make of the steady motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct StepError {
+    /// Of the peak to peak, over itself, at the most.
+    share: f64,
+    /// The mesh order that has the largest part of it.
+    order: usize,
+}
+
 /// The transmission error of a mesh in motion, row by row.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct MeshRecord<'a> {
@@ -42,22 +48,49 @@ pub(crate) struct MeshRecord<'a> {
     pub samples: &'a [f64],
     /// Mesh cycles that they span.
     pub cycles: f64,
-    /// Steps a mesh cycle; infinite where an error tolerance finds them.
-    pub steps: f64,
+    /// `None` where an error tolerance finds them.
+    pub steps: Option<SteadySteps>,
     /// Whether what comes after them is what they began with.
     pub comes_back: bool,
     pub keys: StepKeys,
 }
 
+/// How well rows and steps show what moves.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Resolved {
+    /// By how much of itself steps may change the peak to peak at most, %; `None` where nobody knows.
+    pub step_error_percent: Option<f64>,
+    /// Rows, or steps, that are too few.
+    pub remarks: Vec<Remark>,
+}
+
 impl MeshRecord<'_> {
-    /// Rows, or steps, that are too few for what moves.
-    pub fn unresolved(&self) -> Vec<Remark> {
-        self.few_rows().into_iter().chain(self.few_steps()).collect()
+    /// How well its rows and its steps show it.
+    pub fn resolved(&self) -> Resolved {
+        let found = self.steps.and_then(|steps| Some((steps, self.step_error(&steps)?)));
+        let few_steps = found.and_then(|(steps, error)| self.few_steps(&steps, error));
+        Resolved {
+            step_error_percent: found.map(|(_, error)| 100.0 * error.share),
+            remarks: self.few_rows().into_iter().chain(few_steps).collect(),
+        }
     }
 
     /// Rows a mesh cycle.
     fn rows(&self) -> f64 {
         self.samples.len() as f64 / self.cycles
+    }
+
+    /// Largest minus smallest of a mesh cycle, averaged over the whole cycles.
+    fn peak_to_peak(&self) -> f64 {
+        let (rows, cycles) = (self.rows(), self.cycles.floor() as usize);
+        let place = |cycle: usize| ((cycle as f64 * rows).round() as usize).min(self.samples.len());
+        let of_cycle = |cycle: usize| {
+            let own = &self.samples[place(cycle)..place(cycle + 1)];
+            let [least, largest] =
+                own.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], x| [l.min(*x), h.max(*x)]);
+            largest - least
+        };
+        (0..cycles).map(of_cycle).sum::<f64>() / cycles as f64
     }
 
     fn few_rows(&self) -> Option<Remark> {
@@ -67,14 +100,25 @@ impl MeshRecord<'_> {
         Some(remark::few_rows(rows, 100.0 * share, rows / 4, rows / 2, 100.0 * UNRESOLVED, cure))
     }
 
-    fn few_steps(&self) -> Option<Remark> {
+    /// What steps make of it; `None` of a mesh that stands still, and of a record too short to tell its orders.
+    ///
+    /// ```text
+    /// e <= 2 sum_k A_k max |G(W_k h, W_k / w) - 1|,   w within SHIFT of the mesh resonance
+    /// ```
+    /// A_k: harmonics of the transmission error; G: [`integrate::Scheme::steady_gain`]. Theory (66a).
+    fn step_error(&self, steps: &SteadySteps) -> Option<StepError> {
         let all = order_amplitudes(self.samples, self.cycles, self.comes_back).ok()?;
-        let sum: f64 = all.iter().sum();
-        let in_period = |order: usize| self.steps / order as f64;
-        let wanted = |share: f64| STEPS + MORE_STEPS * share;
-        let counts = all.iter().enumerate().map(|(k, own)| (k + 1, own / sum)).filter(|(_, share)| *share > COUNTS);
-        let (order, share) = counts.rev().find(|(order, share)| in_period(*order) < wanted(*share))?;
-        Some(remark::few_steps(in_period(order), order, 100.0 * share, wanted(share), self.keys.steps))
+        let part = |(k, own): (usize, &f64)| (k + 1, 2.0 * own * steps.gain_error((k + 1) as f64, SHIFT));
+        let parts: Vec<(usize, f64)> = all.iter().enumerate().map(part).collect();
+        let (order, _) = *parts.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let share = parts.iter().map(|(_, own)| own).sum::<f64>() / self.peak_to_peak();
+        share.is_finite().then_some(StepError { share, order })
+    }
+
+    fn few_steps(&self, steps: &SteadySteps, error: StepError) -> Option<Remark> {
+        let (in_period, cure) = (steps.per_period / error.order as f64, self.keys.steps);
+        let is_told = error.share > STEPS;
+        is_told.then(|| remark::few_steps(100.0 * error.share, error.order, in_period, 100.0 * STEPS, cure))
     }
 }
 

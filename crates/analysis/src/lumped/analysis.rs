@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use answer::{Remark, RowStore};
-use integrate::State;
+use integrate::{State, SteadySteps};
 use scene::{Model, MotionScene, Scene};
 use study::{Lyapunov, Window};
 
@@ -41,6 +41,9 @@ pub fn is_lumped(scene: &Scene) -> bool {
 
 /// Mesh cycles over which the exponent of a motion is found that does not repeat itself.
 const LYAPUNOV_INTERVALS: u32 = 200;
+
+/// Damping ratio of a mesh whose damping is given in another way: the default of `mesh_damping_ratio`.
+const USUAL_DAMPING: f64 = 0.05;
 
 /// Gets the rows of a cheaper model as they come.
 pub trait LumpedSink {
@@ -249,13 +252,12 @@ fn result(
     remarks.extend(inputs.remarks_of(motion, &headline));
     let whole = window(run.periodicity, motion.periodic_tolerance.unwrap_or(1e-6), run.cycles);
     if motion.ramp.is_none() {
-        let steps = match motion.error_tolerance {
-            None => 1.0 / (frequencies.step(motion) * frequencies.mesh_hz),
-            Some(_) => f64::INFINITY,
-        };
         let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
         let comes_back = whole == Window::Rectangular;
-        remarks.extend(MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.unresolved());
+        let steps = time_steps(scene, motion, frequencies);
+        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.resolved();
+        headline.certificate.step_error_percent = resolved.step_error_percent;
+        remarks.extend(resolved.remarks);
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
             let steps = 1.0 / (frequencies.step(motion) * system.resonance_hz);
             remarks.extend(coarse_steps(steps, ("mesh resonance", system.resonance_hz), (StepKeys::PAIR, "")));
@@ -265,6 +267,19 @@ fn result(
     let LumpedRun { rows, energy, end, .. } = run;
     let (rows, energy) = (Arc::new(rows), Arc::new(energy));
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
+}
+
+/// Steps of a motion at constant speed; `None` where they follow an error, of a ramp, and of a mesh without one stiffness.
+fn time_steps(scene: &Scene, motion: &MotionScene, frequencies: MeshFrequencies) -> Option<SteadySteps> {
+    let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
+    let fixed = motion.ramp.is_none() && motion.error_tolerance.is_none() && resonance_hz > 0.0;
+    let damping = scene.lumped12.as_ref().map(|own| own.damping_ratio).or(motion.mesh_damping_ratio);
+    fixed.then(|| SteadySteps {
+        per_period: 1.0 / (frequencies.step(motion) * mesh_hz),
+        scheme: motion.scheme(),
+        resonance: resonance_hz / mesh_hz,
+        damping: damping.unwrap_or(USUAL_DAMPING),
+    })
 }
 
 /// Passes rows on, and counts mesh cycles.

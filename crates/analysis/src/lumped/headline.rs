@@ -105,6 +105,8 @@ described::described! {
         pub warm_up_cycles: u64,
         /// rows in which the flanks are apart
         pub rows_without_contact: usize,
+        /// by how much of itself steps may change the peak to peak of the DTE at most, estimated from its harmonics beside the mesh resonance ([theory](theory.md), equation 66a); `null` of a ramp, where steps follow an error, and of `impact`, whose mesh has no one stiffness
+        pub step_error_percent: Option<f64>,
         /// steps that were taken
         pub steps: u64,
         /// steps that were taken back and divided
@@ -192,6 +194,7 @@ fn certificate(run: &LumpedRun, rows_without_contact: usize, lyapunov: Option<Ly
         lyapunov,
         warm_up_cycles: run.warm_up,
         rows_without_contact,
+        step_error_percent: None,
         steps: run.steps[0],
         refused_steps: run.steps[1],
     }

@@ -6,7 +6,7 @@ use ale::solve_widening;
 use answer::{Remark, RowStore};
 use gearbox::motion::PairModel;
 use geometry::GearPair;
-use integrate::Periodicity;
+use integrate::{Periodicity, SteadySteps};
 use mesh::Mesh;
 use scene::{MotionScene, Scene};
 use study::Window;
@@ -280,7 +280,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         Some(_) => None,
         None => Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?),
     };
-    let step_s = prepared.times.step(1.0 / headline.mesh_frequency_hz);
+    let steps = time_steps(motion, &prepared, headline.mesh_frequency_hz);
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
@@ -288,19 +288,28 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         remarks.extend(ramp.run_up.coarse_cut(cure));
     }
     if motion.ramp.is_none() {
-        let steps = match motion.error_tolerance {
-            None => 1.0 / (step_s * headline.mesh_frequency_hz),
-            Some(_) => f64::INFINITY,
-        };
         let (samples, cycles) = (&series.dte_um[..], headline.cycles as f64);
         let comes_back = window == Window::Rectangular;
-        remarks.extend(MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.unresolved());
+        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.resolved();
+        headline.certificate.step_error_percent = resolved.step_error_percent;
+        remarks.extend(resolved.remarks);
     }
     let PreparedMotion { quasi_static, mut facts, .. } = prepared;
     facts.certificate = facts.certificate.and(headline.checks(scene, &pair));
     let FinishedMotion { rows, layout, patterns, .. } = done;
     let rows = Arc::new(rows);
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
+}
+
+/// Steps of a motion at constant speed; `None` where they follow an error, and of a ramp.
+fn time_steps(motion: &MotionScene, prepared: &PreparedMotion, mesh_hz: f64) -> Option<SteadySteps> {
+    let resonance = prepared.system.mesh_resonance();
+    (motion.ramp.is_none() && motion.error_tolerance.is_none()).then(|| SteadySteps {
+        per_period: 1.0 / (prepared.times.step(1.0 / mesh_hz) * mesh_hz),
+        scheme: prepared.times.scheme,
+        resonance: resonance.hz / mesh_hz,
+        damping: resonance.damping,
+    })
 }
 
 /// Remark on the torque at the driven gear that the ramp of a scene takes.

@@ -143,6 +143,8 @@ described::described! {
         /// what its flanks do
         #[serde(flatten)]
         pub flanks: FlankCertificate,
+        /// by how much of itself steps may change the peak to peak of the DTE at most, estimated from its harmonics beside the mesh resonance ([theory](theory.md), equation 66a); `null` of a ramp, and where steps follow an error
+        pub step_error_percent: Option<f64>,
         /// steps that were taken
         pub steps: u64,
         /// steps that were taken back and divided: too large an error, no solution, or beyond the stability limit of an explicit method
@@ -311,6 +313,7 @@ fn certificate((done, survey): (&FinishedMotion, &Survey), prepared: &PreparedMo
         shooting_periods: done.shooting.as_ref().map(|s| s.periods),
         warm_up_cycles: motion.cycle() - done.motion.stage().recorded,
         flanks: FlankCertificate::new(&motion.system().flank_course(0, counts), survey.both, along_normal),
+        step_error_percent: None,
         steps: counts.steps,
         refused_steps: counts.refused,
     }

@@ -27,7 +27,7 @@ fn bound(result: &StaticResult, quantity: Quantity) -> Bound {
 fn the_ladder_is_left_as_soon_as_the_bounds_keep_what_is_asked() {
     let coarse = solved(&pair().set("accuracy.mean_ste", "10 %").build().unwrap());
     assert_eq!(Rung::of(&coarse.scene).map(|r| r.elements_profile), Some(2));
-    let fine = solved(&pair().set("accuracy.mean_ste", "1 %").build().unwrap());
+    let fine = solved(&pair().set("accuracy.mean_ste", "0.4 %").build().unwrap());
     let rung = Rung::of(&fine.scene).unwrap().elements_profile;
     assert!(rung > 2 && fine.facts.accuracy.as_ref().unwrap().is_met(), "rung {rung}");
     for quantity in [Quantity::MeanSte, Quantity::MeshStiffness, Quantity::MaxPressure] {

@@ -19,10 +19,10 @@ use crate::{
 /// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coefficients {
-    a_m: f64,
-    a_f: f64,
-    beta: f64,
-    gamma: f64,
+    pub(super) a_m: f64,
+    pub(super) a_f: f64,
+    pub(super) beta: f64,
+    pub(super) gamma: f64,
 }
 
 impl Coefficients {

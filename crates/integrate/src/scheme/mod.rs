@@ -4,10 +4,12 @@
 mod energy;
 mod generalised_alpha;
 mod runge_kutta;
+mod steady;
 
 use energy::DiscreteGradient;
 use generalised_alpha::Coefficients;
 use runge_kutta::{CLASSICAL, DORMAND_PRINCE};
+pub use steady::SteadySteps;
 
 use crate::{
     Mechanism,

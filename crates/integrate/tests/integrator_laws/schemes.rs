@@ -268,3 +268,76 @@ fn the_energy_scheme_closes_its_ledger_where_forces_are_not_linear() {
         );
     }
 }
+
+/// x'' + 2 zeta x' + x = cos(W t).
+struct Shaken {
+    mass: DMatrix<f64>,
+    damping: f64,
+    frequency: f64,
+}
+
+impl Mechanism for Shaken {
+    type Error = Infallible;
+
+    fn mass(&self) -> &DMatrix<f64> {
+        &self.mass
+    }
+
+    fn forces(&mut self, t: f64, q: &DVector<f64>, v: &DVector<f64>, out: &mut Forces) -> Result<(), Infallible> {
+        out.conservative[0] = -q[0];
+        out.stiffness[(0, 0)] = 1.0;
+        out.damping[(0, 0)] = 2.0 * self.damping;
+        out.other[0] = (self.frequency * t).cos() - out.damping[(0, 0)] * v[0];
+        Ok(())
+    }
+
+    fn potential(&mut self, _: f64, q: &DVector<f64>) -> Result<f64, Infallible> {
+        Ok(0.5 * q[0] * q[0])
+    }
+}
+
+/// The steady answer to a harmonic force has the amplitude that theory says of the steps: below, at and above resonance. That
+/// of Dormand and Prince lies nearer to the exact one than what stands for it.
+#[test]
+fn steps_change_a_steady_answer_as_theory_says() {
+    let damping = 0.08;
+    for scheme in [
+        Scheme::Energy,
+        Scheme::Newmark,
+        Scheme::GeneralisedAlpha { rho: 0.6 },
+        Scheme::GeneralisedAlpha { rho: 0.0 },
+        Scheme::RungeKutta4,
+        Scheme::DormandPrince,
+    ] {
+        for ratio in [0.5f64, 0.95, 1.04, 1.6] {
+            for steps in [12u32, 24] {
+                let h = 2.0 * PI / (ratio * f64::from(steps));
+                let mut integrator = Integrator::new(scheme, StepControl::Fixed(h), dvector![1.0]);
+                let mut system = Shaken { mass: DMatrix::identity(1, 1), damping, frequency: ratio };
+                let mut state = State::new(0.0, dvector![0.0], dvector![0.0]);
+                // exp(-0.08 400) of the transient is left.
+                let settled = (400.0 / h).ceil();
+                let mut rows = Vec::new();
+                for row in 0..settled as u32 + steps {
+                    integrator.advance(&mut system, &mut state, f64::from(row + 1) * h, |_, _| ()).unwrap();
+                    rows.push(state.q[0]);
+                }
+                let last = &rows[rows.len() - steps as usize..];
+                let sum = |of: fn(f64) -> f64| -> f64 {
+                    last.iter().enumerate().map(|(i, x)| x * of(2.0 * PI * i as f64 / f64::from(steps))).sum()
+                };
+                let amplitude = 2.0 / f64::from(steps) * sum(f64::cos).hypot(sum(f64::sin));
+                let exact = 1.0 / (1.0 - ratio * ratio).hypot(2.0 * damping * ratio);
+                let wanted = scheme.steady_gain(ratio * h, ratio, damping);
+                let found = amplitude / exact;
+                let allowed = if scheme == Scheme::DormandPrince { (wanted - 1.0).abs() + 1e-6 } else { 1e-6 };
+                let of = if scheme == Scheme::DormandPrince { 1.0 } else { wanted };
+                assert!(
+                    (found - of).abs() < allowed,
+                    "{scheme:?}, {ratio} of the resonance, {steps} steps a period: {found}, by theory {wanted}"
+                );
+            }
+        }
+    }
+    assert!(Scheme::Energy.steady_gain(PI, 1.0, damping).is_infinite());
+}

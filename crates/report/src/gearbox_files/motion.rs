@@ -76,6 +76,8 @@ described::described! {
         max_coast_normal_force_n: f64,
         /// natural frequency of both gears turning against each other on the mean stiffness; 0 where neither can
         mesh_resonance_hz: f64,
+        /// by how much of itself steps may change the peak to peak of the DTE at most, estimated from its mesh orders beside the mesh resonance ([theory](theory.md), equation 66a); `null` of a run-up, where steps follow an error, and of rows too few to tell orders
+        step_error_percent: Option<f64>,
         /// elastic frequencies of the gears beside the mesh harmonics
         elasticity: &'a ElasticHeadline,
         /// what the flanks do
@@ -185,6 +187,7 @@ pub(super) fn summary<'a>(file: &'a Gearbox, result: &'a GearboxResult) -> Optio
             max_normal_force_n: normal_force.largest,
             max_coast_normal_force_n: motion.reached.meshes[i].coast_normal_force,
             mesh_resonance_hz: motion.resonances[i].hz,
+            step_error_percent: motion.step_errors_percent[i],
             elasticity: &motion.elasticity[i],
             flanks: &motion.flanks[i],
             ramp: motion.run_ups.get(i).and_then(RunUp::headline),

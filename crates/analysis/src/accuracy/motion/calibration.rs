@@ -1,6 +1,6 @@
 //! What was learnt from random pairs in motion: how far models and steps are off.
 //!
-//! The table is made by `cargo run --release -p verification --bin calibrate_accuracy -- motion` from measured motions.
+//! The table is made by `cargo run --release -p verification --bin accuracy -- calibrate motion` from measured motions.
 
 use std::sync::LazyLock;
 

@@ -84,6 +84,14 @@ impl MotionAnswer {
         Self::of(scene, cache, observer, &mut MotionTold { motion: &mut NoMotionSink, lumped: &mut NoLumpedSink })
     }
 
+    /// By how much of itself steps may change the peak to peak of the motion, %; `None` where nobody knows.
+    pub fn step_error_percent(&self) -> Option<f64> {
+        match self {
+            Self::Lumped(result) => result.headline.certificate.step_error_percent,
+            Self::Reduced(result) => result.headline.certificate.step_error_percent,
+        }
+    }
+
     /// Headline numbers of the motion.
     pub fn sample(&self) -> MotionSample {
         // Both headlines have the same names for them.

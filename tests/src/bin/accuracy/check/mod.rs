@@ -1,19 +1,18 @@
 //! How do bounds, and the choice of the cheapest rung or model, do on pairs that the calibration has not seen?
 //!
-//! `cargo run --release -p verification --bin check_accuracy -- rest TOLERANCE_PERCENT COUNT FILE...`, the files of
-//! `measure_accuracy`: every pair is solved with `model = "auto"` and with the program's default settings.
-//! `motion TOLERANCE_PERCENT SEED FIRST COUNT [MESH_RUNG]`: every narrow random pair is moved at one speed with
-//! `model = "auto"`, and held against `reduced+modes` with fine steps on a mesh of the rung.
-#![allow(clippy::print_stdout, reason = "the figures are what it is for")]
+//! `laws`: the committed laws on measured pairs, without a run. `rest`: every measured pair is solved with `model = "auto"` and
+//! with the program's default settings. `motion`: every narrow random pair is moved at one speed with `model = "auto"`, and held
+//! against `reduced+modes` with fine steps on a mesh of the rung.
 
+mod laws;
 mod motion;
 mod rest;
 
-use std::{collections::BTreeMap, error::Error};
+use std::collections::BTreeMap;
 
 use analysis::accuracy::Bound;
 
-type Failure = Box<dyn Error + Send + Sync>;
+use super::Failure;
 
 /// Bounds and errors of a quantity over all pairs.
 #[derive(Debug, Default)]
@@ -45,15 +44,19 @@ impl Tally {
     }
 }
 
-fn main() -> Result<(), Failure> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let [kind, percent, more @ ..] = &words[..] else { return Err("rest|motion TOLERANCE_PERCENT are wanted".into()) };
+/// `words`: `laws`, `rest` or `motion`, and what these want.
+pub(super) fn run(words: &[String]) -> Result<(), Failure> {
+    let [kind, words @ ..] = words else { return Err("laws, rest or motion is wanted".into()) };
+    if kind == "laws" {
+        return laws::check(words);
+    }
+    let [percent, more @ ..] = words else { return Err("rest|motion TOLERANCE_PERCENT are wanted".into()) };
     let share = 1e-2 * percent.parse::<f64>()?;
     let mut tallies = Tallies::new();
     match kind.as_str() {
         "rest" => rest::check(share, more, &mut tallies)?,
         "motion" => motion::check(share, more, &mut tallies)?,
-        _ => return Err("`rest` or `motion` is wanted first".into()),
+        _ => return Err("`laws`, `rest` or `motion` is wanted first".into()),
     }
     for (key, mut tally) in tallies {
         let [said, kept, wrong] = tally.met;

@@ -9,7 +9,7 @@ use analysis::{
 use scene::Scene;
 use serde_json::{Value, json};
 use verification::{
-    measured_pair::{FINE_POSITIONS, POSITIONS},
+    measured_pair::{CURVE_POSITIONS, POSITIONS},
     random_scene::random_scene,
 };
 
@@ -20,16 +20,16 @@ const FINEST: [u32; 2] = [8, 6];
 /// Face width up to which root stress is measured, modules.
 const NARROW_MODULES: f64 = 7.0;
 
-/// The line of a pair of a seed; `word`: the finest rung, or `spur`.
+/// The line of a pair of a seed; `word`: the finest rung, `curves`, or `spur`.
 pub(super) fn measure(seed: u64, word: Option<&str>) -> Result<Measure, Failure> {
-    let what = match word {
-        Some("spur") => Measured::Positions,
-        finest => Measured::All(finest.map(str::parse).transpose()?),
+    let (what, all) = match word {
+        Some("curves") => (Measured::Curves, true),
+        Some("spur") => (Measured::Curves, false),
+        finest => (Measured::All(finest.map(str::parse).transpose()?), true),
     };
     Ok(Box::new(move |index| {
         let scene = random_scene(seed, index);
-        let wanted = matches!(what, Measured::All(_)) || scene.pinion.helix_angle_deg == 0.0;
-        wanted.then(|| vec![measured(scene, what)])
+        (all || scene.pinion.helix_angle_deg == 0.0).then(|| vec![measured(scene, what)])
     }))
 }
 
@@ -38,8 +38,8 @@ pub(super) fn measure(seed: u64, word: Option<&str>) -> Result<Measure, Failure>
 enum Measured {
     /// Meshes up to a rung, slices, positions.
     All(Option<u32>),
-    /// Positions on the coarsest rung.
-    Positions,
+    /// Curves at many positions on the coarsest rung.
+    Curves,
 }
 
 /// The line of a pair; one that cannot be computed says why.
@@ -47,19 +47,17 @@ fn measured(mut scene: Scene, what: Measured) -> Value {
     // Stress of wide gears takes longer than all else.
     let narrow = scene.pair.face_width_mm < NARROW_MODULES * scene.pair.normal_module_mm;
     scene.output.root_stress = narrow;
-    let solve = |scene: &Scene| match what {
-        Measured::All(finest) => samples(scene, finest.unwrap_or(if narrow { FINEST[0] } else { FINEST[1] })),
-        Measured::Positions => position_samples(scene),
+    let solve = |scene: &Scene| {
+        let samples = match what {
+            Measured::All(finest) => {
+                let finest = finest.unwrap_or(if narrow { FINEST[0] } else { FINEST[1] });
+                json!(samples(scene, finest)?)
+            }
+            Measured::Curves => Value::Null,
+        };
+        Ok::<_, Failure>(json!({ "scene": scene_facts(scene)?, "samples": samples, "curves": curves(scene)? }))
     };
-    let mut line = json!({});
-    match scene_facts(&scene).and_then(|facts| Ok((facts, solve(&scene)?))) {
-        Ok((facts, samples)) => {
-            line["scene"] = facts;
-            line["samples"] = json!(samples);
-        }
-        Err(e) => line["error"] = e.to_string().into(),
-    }
-    line
+    solve(&scene).unwrap_or_else(|e| json!({ "error": e.to_string() }))
 }
 
 fn scene_facts(scene: &Scene) -> Result<Value, Failure> {
@@ -89,18 +87,27 @@ fn values(sample: &Sample) -> BTreeMap<&'static str, f64> {
     Quantity::ALL.iter().filter_map(|q| Some((q.key(), sample.get(*q)?))).collect()
 }
 
-/// Numbers of positions on the coarsest rung, with as many slices as the program chooses.
-fn position_samples(scene: &Scene) -> Result<Samples, Failure> {
+/// Curves on the coarsest rung, with as many slices as the program chooses.
+fn curves(scene: &Scene) -> Result<Value, Failure> {
     let mut scene = Rung::ALL[0].scene(scene);
     scene.contact.slices = Some(StaticAnalysis::new(&scene).slices().unwrap_or(32));
-    scene.analysis.positions_per_cycle = FINE_POSITIONS;
-    let solved = SolvedCycle::new(&scene, &NoCache)?;
-    let mut all = Samples::new();
-    for stride in [1, 2, 4, 8] {
-        all.insert(format!("positions {}", FINE_POSITIONS / stride), json!(values(&solved.sample(stride as usize)?)));
+    scene.analysis.positions_per_cycle = CURVE_POSITIONS;
+    let mut curves = serde_json::to_value(SolvedCycle::new(&scene, &NoCache)?.curves())?;
+    short(&mut curves);
+    Ok(curves)
+}
+
+/// Numbers with as many digits as laws of errors need.
+fn short(value: &mut Value) {
+    match value {
+        Value::Array(all) => all.iter_mut().for_each(short),
+        Value::Object(all) => all.values_mut().for_each(short),
+        Value::Number(number) if number.is_f64() => {
+            let digits = number.as_f64().and_then(|x| format!("{x:.7e}").parse::<f64>().ok());
+            *value = json!(digits);
+        }
+        _ => {}
     }
-    all.insert(format!("mesh {}", Rung::ALL[0].elements_profile), all[&format!("positions {POSITIONS}")].clone());
-    Ok(all)
 }
 
 fn samples(scene: &Scene, finest: u32) -> Result<Samples, Failure> {
@@ -125,24 +132,10 @@ fn samples(scene: &Scene, finest: u32) -> Result<Samples, Failure> {
         add(format!("mesh {n}"), &solved.sample(1)?, timed(start));
     }
     let scene = Rung::ALL[0].scene(&scene);
-    let mut solved = SolvedCycle::new(&scene, &NoCache)?;
-    for slices in [chosen / 2, 4 * chosen] {
-        let start = Instant::now();
-        // So many slices may be too many for a coarse mesh: their compliance is no longer positive definite.
-        solved = match solved.again(slices, POSITIONS) {
-            Ok(again) => again,
-            Err(_) => {
-                solved = SolvedCycle::new(&scene, &NoCache)?;
-                continue;
-            }
-        };
-        add(format!("slices {slices}"), &solved.sample(1)?, timed(start));
-    }
+    // So many slices may be too many for a coarse mesh: their compliance is no longer positive definite.
     let start = Instant::now();
-    solved = solved.again(chosen, FINE_POSITIONS)?;
-    for stride in [1, 2, 4, 8] {
-        let seconds = if stride == 1 { timed(start) } else { 0.0 };
-        add(format!("positions {}", FINE_POSITIONS / stride), &solved.sample(stride as usize)?, seconds);
+    if let Ok(finer) = SolvedCycle::new(&scene, &NoCache)?.again(4 * chosen, POSITIONS) {
+        add(format!("slices {}", 4 * chosen), &finer.sample(1)?, timed(start));
     }
     all.insert("slices".into(), json!(chosen));
     Ok(all)

@@ -1,26 +1,35 @@
-//! What bounds are calibrated on: numbers of random pairs on settings from coarse to fine. One line of JSON a pair (in
-//! motion a pair and speed), appended as it comes; pairs that are there are left out.
+//! What bounds are calibrated on: numbers of random pairs on settings from coarse to fine.
 //!
-//! `cargo run --release -p verification --bin measure_accuracy -- rest FILE SEED FIRST COUNT [FINEST | spur]`: meshes refined
-//! alike in all directions, more slices and more positions; with `spur` the spur pairs among them, numbers of positions on
-//! the coarsest rung alone. `motion FILE SEED FIRST COUNT [MESH_RUNG]`: every model, with few and many steps.
-#![allow(clippy::print_stderr, reason = "the progress of hours")]
+//! `rest`: meshes refined alike in all directions, more slices, and the curves over a mesh cycle on the coarsest rung; with
+//! `curves` these alone, with `spur` those of the spur pairs. `motion`: every model, with few and many steps.
 
 mod motion;
 mod rest;
 
-use std::{error::Error, fs::OpenOptions, io::Write, time::Instant};
+use std::{
+    fs::OpenOptions,
+    io::Write,
+    time::{Duration, Instant},
+};
 
 use serde_json::{Value, json};
 use verification::pairs_done::pairs_done;
 
-type Failure = Box<dyn Error + Send + Sync>;
+use super::Failure;
+
 /// The lines of a pair by its number; `None` for one that is left out.
 type Measure = Box<dyn Fn(u64) -> Option<Vec<Value>>>;
+/// Longer than anybody waits.
+const FOREVER: Duration = Duration::from_secs(u32::MAX as u64);
 
-fn main() -> Result<(), Failure> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let [kind, file, seed, first, count, more @ ..] = &words[..] else {
+/// Measures all pairs of the words that are not in the file yet.
+pub(super) fn run(words: &[String]) -> Result<(), Failure> {
+    until(words, Instant::now() + FOREVER)
+}
+
+/// As [`run`]; after some time no further pair is begun.
+pub(super) fn until(words: &[String], until: Instant) -> Result<(), Failure> {
+    let [kind, file, seed, first, count, more @ ..] = words else {
         return Err("rest|motion FILE SEED FIRST COUNT are wanted".into());
     };
     let (seed, first, count): (u64, u64, u64) = (seed.parse()?, first.parse()?, count.parse()?);
@@ -34,6 +43,9 @@ fn main() -> Result<(), Failure> {
     let mut out = OpenOptions::new().create(true).append(true).open(file)?;
     // One after the other: a pair in work may be large, and a run of hours is cut off without warning.
     for index in (first..first + count).filter(|i| !done.contains(i)) {
+        if Instant::now() >= until {
+            break;
+        }
         let start = Instant::now();
         let Some(lines) = measure(index) else { continue };
         let failed = if lines.iter().any(|line| line.get("error").is_some()) { ", failed" } else { "" };

@@ -1,10 +1,15 @@
 //! The table of pairs at rest.
 
-use analysis::accuracy::{CalibratedMesh, Calibration, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws};
+use std::collections::BTreeMap;
+
+use analysis::accuracy::{
+    CalibratedMesh, Calibration, Features, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws, Sample, Seen,
+};
 use serde_json::Value;
 use verification::{
-    measured_pair::{MeasuredPair, POSITIONS, RUNGS},
-    pair_law_fit::{Fitted, PairCase, conformal, fit},
+    held_out::{held_out, spur_alone},
+    measured_pair::{MeasuredPair, RUNGS},
+    pair_law_fit::{Fitted, Known, PairCase, conformal, fit},
 };
 
 use super::Failure;
@@ -16,18 +21,25 @@ const OF_POSITIONS: [u32; 3] = [8, 16, 32];
 /// Pairs that laws are made of, at least.
 const LEAST_PAIRS: usize = 20;
 
-/// The table of measured pairs, one a line.
+/// The table of measured pairs.
 pub(super) fn table(lines: &[Value]) -> Result<Calibration, Failure> {
-    // Those without finer meshes are spur pairs whose positions alone were measured.
-    let (pairs, spur): (Vec<_>, Vec<_>) =
-        lines.iter().filter_map(MeasuredPair::new).partition(MeasuredPair::has_meshes);
-    println!("{} pairs, positions of {} spur pairs", pairs.len(), spur.len());
+    let all = MeasuredPair::all(lines);
+    if let Some(pair) = all.iter().find(|pair| held_out(pair.seed)) {
+        return Err(format!("pairs of seed {} are for checks alone", pair.seed).into());
+    }
+    let mut made_of = BTreeMap::<u64, Vec<u64>>::new();
+    all.iter().for_each(|pair| made_of.entry(pair.seed).or_default().push(pair.index));
+    // Some spur pairs say alone how much wider the bounds of their positions are.
+    let (spur, all): (Vec<_>, Vec<_>) = all.into_iter().partition(|pair| spur_alone(pair.seed));
+    let of_curves: Vec<&MeasuredPair> = all.iter().filter(|pair| pair.has_curves()).collect();
+    let pairs: Vec<&MeasuredPair> = of_curves.iter().copied().filter(|pair| pair.has_meshes()).collect();
+    println!("{} pairs on meshes, curves of {} pairs and of {} spur pairs", pairs.len(), of_curves.len(), spur.len());
     let mut quantities = Vec::new();
     for q in Quantity::ALL.iter().copied().filter(|q| !q.is_of_motion()) {
-        let laws = laws(&pairs, &spur, q).ok_or_else(|| format!("too few pairs with {}", q.key()))?;
+        let laws = laws(&pairs, &of_curves, &spur, q).ok_or_else(|| format!("too few pairs with {}", q.key()))?;
         quantities.push(laws);
     }
-    Ok(Calibration { pairs: pairs.len(), coverage: COVERAGE, quantities })
+    Ok(Calibration { pairs: pairs.len(), made_of, coverage: COVERAGE, quantities })
 }
 
 fn meshes() -> Vec<CalibratedMesh> {
@@ -40,37 +52,66 @@ struct Cause {
     fitted: Fitted,
 }
 
-/// `of`: difference and error of a pair, on the features of a mesh.
-fn cause(
+impl Cause {
+    fn new(cases: Vec<PairCase>, known: Known) -> Self {
+        Self { fitted: fit(&cases, known), cases }
+    }
+
+    /// Error of a case, and what the law of the others says of it: known part and bound.
+    fn held_out(&self, case: usize) -> [f64; 3] {
+        let [known, within] = self.fitted.held_out[case];
+        [self.cases[case].error, known, within]
+    }
+}
+
+/// A case of a quantity: what was seen, and the error.
+fn case(q: Quantity, (features, sample): (Features, &Sample), seen: Option<Seen>, error: f64) -> Option<PairCase> {
+    let own = sample.get(q)?;
+    Some(PairCase { features, seen: seen.unwrap_or_else(|| Seen::number(own)), error, scale: sample.scale(q)? })
+}
+
+fn on_mesh(
     pairs: &[&MeasuredPair],
     q: Quantity,
     mesh: CalibratedMesh,
-    by_difference: bool,
-    of: impl Fn(&MeasuredPair) -> Option<[f64; 2]>,
+    error: impl Fn(&MeasuredPair) -> Option<f64>,
 ) -> Option<Cause> {
-    let case = |pair: &&MeasuredPair| {
-        let [difference, error] = of(pair)?;
-        let scale = pair.sample(mesh)?.scale(q)?;
-        Some(PairCase { features: pair.features(mesh)?, difference, error, scale })
-    };
-    let cases: Vec<PairCase> = pairs.iter().filter_map(case).collect();
-    (cases.len() == pairs.len()).then(|| Cause { fitted: fit(&cases, by_difference), cases })
+    let of = |pair: &&MeasuredPair| case(q, (pair.features(mesh)?, &pair.sample(mesh)?), None, error(pair)?);
+    let cases: Vec<PairCase> = pairs.iter().filter_map(of).collect();
+    (cases.len() == pairs.len()).then(|| Cause::new(cases, Known::Features))
 }
 
-fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<QuantityLaws> {
+fn at_positions(pair: &MeasuredPair, q: Quantity, n: u32) -> Option<PairCase> {
+    let run = (pair.features_of_positions(n)?, &pair.of_positions(n)?);
+    case(q, run, Some(pair.seen(n, q)?), pair.positions_error(n, q)?)
+}
+
+fn laws(
+    pairs: &[&MeasuredPair],
+    of_curves: &[&MeasuredPair],
+    spur: &[MeasuredPair],
+    q: Quantity,
+) -> Option<QuantityLaws> {
     let whole = |pair: &&MeasuredPair| pair.exact(q).is_some() && pair.slices_error(q).is_some();
-    let pairs: Vec<&MeasuredPair> = pairs.iter().filter(whole).collect();
+    let pairs: Vec<&MeasuredPair> = pairs.iter().copied().filter(whole).collect();
     if pairs.len() < LEAST_PAIRS {
         return None;
     }
     let coarsest = CalibratedMesh::Rung(RUNGS[0]);
-    let slices = cause(&pairs, q, coarsest, false, |p| Some([0.0, p.slices_error(q)?]))?;
-    let of_mesh = |mesh| Some((mesh, cause(&pairs, q, mesh, false, |p| Some([0.0, p.mesh_error(mesh, q)?]))?));
-    let of_positions = |n: u32| {
-        let of = |p: &MeasuredPair| Some([p.halved_difference(n, q)?, p.positions_error(n, q)?]);
-        Some((n, cause(&pairs, q, coarsest, n > POSITIONS, of)?))
-    };
+    let slices = on_mesh(&pairs, q, coarsest, |p| p.slices_error(q))?;
+    let of_mesh = |mesh| Some((mesh, on_mesh(&pairs, q, mesh, |p| p.mesh_error(mesh, q))?));
     let mesh: Vec<(CalibratedMesh, Cause)> = meshes().into_iter().map(of_mesh).collect::<Option<_>>()?;
+    // Those on meshes come first: their cases have the same numbers in all laws.
+    let others =
+        of_curves.iter().copied().filter(|pair| pairs.iter().all(|p| (p.seed, p.index) != (pair.seed, pair.index)));
+    let with_curves: Vec<&MeasuredPair> = pairs.iter().copied().chain(others).collect();
+    let of_positions = |n: u32| {
+        let cases: Vec<Option<PairCase>> = with_curves.iter().map(|pair| at_positions(pair, q, n)).collect();
+        if cases[..pairs.len()].iter().any(Option::is_none) {
+            return None;
+        }
+        Some((n, Cause::new(cases.into_iter().flatten().collect(), Known::Shape)))
+    };
     let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<_>>()?;
     // All causes together hold for more pairs than each by itself.
     let mut ratios = Vec::new();
@@ -78,9 +119,8 @@ fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<Qu
     for (_, m) in &mesh {
         for (_, p) in &positions {
             for i in 0..pairs.len() {
-                let all = [m, &slices, p];
-                let error: f64 = all.iter().map(|c| c.cases[i].error).sum();
-                let [known, within] = [0, 1].map(|k| all.iter().map(|c| c.fitted.held_out[i][k]).sum::<f64>());
+                let all = [m, &slices, p].map(|c| c.held_out(i));
+                let [error, known, within] = [0, 1, 2].map(|k| all.iter().map(|c| c[k]).sum::<f64>());
                 ratios.push((error - known).abs() / within);
                 sharp.push([error.abs(), known.abs(), within, m.cases[i].scale]);
             }
@@ -99,8 +139,7 @@ fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<Qu
     let scaled = |c: &Cause| PairLaw { factor: joint * c.fitted.law.factor, ..c.fitted.law.clone() };
     let usual = |c: &Cause| {
         let law = scaled(c);
-        let of =
-            |c: &PairCase| law.of(&c.features, c.difference, c.scale).iter().map(|x| x.abs()).sum::<f64>() / c.scale;
+        let of = |c: &PairCase| law.of(&c.features, &c.seen, c.scale).iter().map(|x| x.abs()).sum::<f64>() / c.scale;
         quantile(c.cases.iter().map(of).collect(), 0.6)
     };
     for (n, c) in &positions {
@@ -139,11 +178,10 @@ fn laws(pairs: &[MeasuredPair], spur: &[MeasuredPair], q: Quantity) -> Option<Qu
 
 /// How many times the bound of a law holds for the share of the spur pairs, none of which it was made of.
 fn spur_factor(pairs: &[MeasuredPair], q: Quantity, (positions, law): (u32, &PairLaw)) -> f64 {
-    let coarsest = CalibratedMesh::Rung(RUNGS[0]);
     let ratio = |pair: &MeasuredPair| {
-        let (difference, error) = (pair.halved_difference(positions, q)?, pair.positions_error(positions, q)?);
-        let [known, within] = law.of(&pair.features(coarsest)?, difference, pair.sample(coarsest)?.scale(q)?);
-        Some((error - known).abs() / within)
+        let case = at_positions(pair, q, positions)?;
+        let [known, within] = law.of(&case.features, &case.seen, case.scale);
+        Some((case.error - known).abs() / within)
     };
     let ratios: Vec<f64> = pairs.iter().filter_map(ratio).collect();
     conformal(ratios, COVERAGE).max(1.0)

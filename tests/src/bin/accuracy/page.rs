@@ -1,13 +1,12 @@
 //! Writes the page that says which model of a motion suffices at which speed and tolerance, from measured motions.
-//!
-//! `cargo run --release -p verification --bin motion_map -- docs/which_model.md FILE...`, the files of
-//! `measure_accuracy motion`.
 
-use std::{error::Error, fmt::Write, fs};
+use std::{fmt::Write, fs};
 
 use analysis::accuracy::motion::MotionCalibration;
 use scene::Quantity;
 use verification::measured_motion::MeasuredMotion;
+
+use super::Failure;
 
 /// Upper ends of the bins of mesh frequency over mesh resonance.
 const SPEEDS: [f64; 6] = [0.1, 0.2, 0.4, 0.7, 1.1, 1.5];
@@ -20,9 +19,9 @@ const MODELS: [(&str, &str); 2] = [("lumped12", "lumped12 16"), ("reduced", "red
 /// What they are held against.
 const REFERENCE: &str = "reduced+modes 6";
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let words: Vec<String> = std::env::args().skip(1).collect();
-    let [out, files @ ..] = &words[..] else { return Err("OUT.md FILE... are wanted".into()) };
+/// `words`: the page, and the files of motions.
+pub(super) fn run(words: &[String]) -> Result<(), Failure> {
+    let [out, files @ ..] = words else { return Err("OUT.md FILE... are wanted".into()) };
     let mut motions = Vec::new();
     for file in files {
         for line in fs::read_to_string(file)?.lines() {
@@ -107,7 +106,7 @@ Errors of the models, measured on random narrow pairs (b/m_n up to 8, otherwise 
 resonance. The reference is `reduced+modes` with four modes of each gear and steps of a sixth of the period of the highest.
 
 A cell names the cheapest model that is within the tolerance of the reference in nine of ten motions. In brackets: the
-per cent of motions in which `lumped12` and `reduced` are within it. Errors of meshes and slices add to these, alike for all models. `motion_map`
+per cent of motions in which `lumped12` and `reduced` are within it. Errors of meshes and slices add to these, alike for all models. `accuracy page`
 writes this page (section 15 has the commands).
 ";
 

@@ -14,7 +14,8 @@ use super::{Failure, Tallies, median};
 /// All measured pairs; `words`: their number, and the files.
 pub(super) fn check(share: f64, words: &[String], tallies: &mut Tallies) -> Result<(), Failure> {
     let [count, files @ ..] = words else { return Err("COUNT FILE... are wanted".into()) };
-    let pairs: Vec<MeasuredPair> = lines(files)?.iter().filter_map(MeasuredPair::new).take(count.parse()?).collect();
+    let measured = MeasuredPair::all(&lines(files)?).into_iter().filter(|pair| pair.has_meshes() && pair.has_curves());
+    let pairs: Vec<MeasuredPair> = measured.take(count.parse()?).collect();
     let (mut cheapest, mut costs) = (0, Vec::new());
     for pair in &pairs {
         match checked(pair, share, tallies) {
