@@ -14,8 +14,8 @@ mod smooth_slice;
 mod supported;
 mod tooth_layer;
 
-pub(crate) use flank_pair::{FlankPair, SlicePoint};
 pub use flank_change::{ChangeRates, FlankChange, FlankRates, HeldForces};
+pub(crate) use flank_pair::{FlankPair, SlicePoint};
 pub use flank_pair::{Slice, SliceFlank, slice};
 pub use hint::SliceHint;
 pub use mesh_contact::{ContactWork, EvaluationLevel, MeshContact};
