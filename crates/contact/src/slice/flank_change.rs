@@ -304,8 +304,8 @@ impl HeldForces<'_> {
 
     /// The rates of a change, with the next columns of those of C f.
     fn change_rates(&self, rates: &RowRates, opened: &mut impl Iterator<Item = Vec<f64>>) -> ChangeRates {
-        let sides: Vec<(&Vec<RowRate>, Vec<f64>)> = rates.iter().zip(opened).collect();
-        let both = |of: &dyn Fn(&(&Vec<RowRate>, Vec<f64>)) -> f64| {
+        let sides: Vec<Side> = rates.iter().zip(opened).collect();
+        let both = |of: &dyn Fn(&Side) -> f64| {
             let below = sides.first().map_or(0.0, of);
             [below, sides.get(1).map_or(below, of)]
         };
@@ -327,6 +327,9 @@ struct Known<'a> {
     /// Pressures of the rows that are followed, MPa.
     pressures: Vec<f64>,
 }
+
+/// Rates of the rows towards one side of a change, and the part of their openings by the compliance.
+type Side<'a> = (&'a Vec<RowRate>, Vec<f64>);
 
 /// Motions of both bodies per unit of a change.
 fn motions(change: &FlankChange<'_>) -> [Motion; 2] {

@@ -205,22 +205,18 @@ mod tests {
             assert_eq!(found, read(pulp::Arch::Scalar, reading), "other bits on another machine");
             for (motion, found) in found.iter().enumerate() {
                 for (i, found) in found.iter().enumerate() {
-                    let mut wanted = 0.0;
-                    for j in 0..n {
-                        for d in 0..DIRECTIONS {
-                            let unit = |place: usize| TablePoint {
-                                weights: rates[motion][place][d],
-                                parts: std::array::from_fn(|k| f64::from(u8::from(k == d))),
-                                ..moved[place]
-                            };
-                            if reading != Reading::Loads {
-                                wanted += forces[j] * table.entry(&unit(i), &held[j]);
-                            }
-                            if reading != Reading::Field {
-                                wanted += forces[j] * table.entry(&held[i], &unit(j));
-                            }
-                        }
-                    }
+                    let part = |j: usize, d: usize| {
+                        let unit = |place: usize| TablePoint {
+                            weights: rates[motion][place][d],
+                            parts: std::array::from_fn(|k| f64::from(u8::from(k == d))),
+                            ..moved[place]
+                        };
+                        let field = if reading == Reading::Loads { 0.0 } else { table.entry(&unit(i), &held[j]) };
+                        let loads = if reading == Reading::Field { 0.0 } else { table.entry(&held[i], &unit(j)) };
+                        forces[j] * (field + loads)
+                    };
+                    let wanted: f64 =
+                        (0..n).flat_map(|j| (0..DIRECTIONS).map(move |d| (j, d))).map(|(j, d)| part(j, d)).sum();
                     assert!((found - wanted).abs() < 1e-10, "{reading:?}, row {i}: {found}, not {wanted}");
                 }
             }
