@@ -1,6 +1,6 @@
 //! Which scenes have meshes and matrices in common.
 
-use scene::{ContactScene, Method, Model, ModificationScene, Scene};
+use scene::{Method, Model, ModificationScene, Scene};
 
 /// What scenes have in common that stand on the same reduced gears (`SharedModels`).
 #[derive(Debug, Clone, PartialEq)]
@@ -9,13 +9,8 @@ pub struct SharedGears(Scene);
 impl SharedGears {
     /// Shared gears of a scene. One that shares no gears is alike to itself alone.
     pub fn of(scene: &Scene) -> Self {
-        Self(if shares(scene) { of_gears(&kind(scene)) } else { scene.clone() })
+        Self(if shares(scene) { kind(scene) } else { scene.clone() })
     }
-}
-
-/// A kind without what reduced gears know nothing of: slices.
-pub(crate) fn of_gears(kind: &Scene) -> Scene {
-    Scene { contact: ContactScene { slices: None, ..kind.contact }, ..kind.clone() }
 }
 
 /// Whether a scene shares its model with others.
@@ -41,7 +36,7 @@ pub(crate) fn kind(scene: &Scene) -> Scene {
     kind.pair.misalignment = Default::default();
     (kind.operation.torque_nm, kind.operation.speed_rpm) = (0.0, 0.0);
     (kind.analysis.positions_per_cycle, kind.analysis.cycles) = (1, 1);
-    kind.contact.friction = 0.0;
+    (kind.contact.friction, kind.contact.slices) = (0.0, None);
     if kind.contact.method == Method::Slice {
         // Stresses are recovered from the gears, and asked for by the case.
         kind.output.contact_lines = false;

@@ -29,6 +29,7 @@ pub struct Context<'a, Q: Question + ?Sized> {
     pub(crate) models: Option<&'a SharedModels<'a>>,
     pub(crate) meshes: Option<[&'a Mesh; 2]>,
     pub(crate) remarks: RemarksAtRest,
+    pub(crate) line_lengths: bool,
     pub(crate) sink: Option<&'a mut Q::Sink<'a>>,
     pub(crate) from: Option<Q::State>,
     pub(crate) stop_after: Option<u64>,
@@ -38,7 +39,8 @@ impl<'a, Q: Question + ?Sized> Context<'a, Q> {
     /// Context of who waits, without a cache, to the end, all rows in memory.
     pub fn new(observer: &'a mut dyn Observer) -> Self {
         let (models, meshes, sink, from, stop_after) = (None, None, None, None, None);
-        Self { observer, cache: &NoCache, models, meshes, remarks: RemarksAtRest::Collected, sink, from, stop_after }
+        let remarks = RemarksAtRest::Collected;
+        Self { observer, cache: &NoCache, models, meshes, remarks, line_lengths: true, sink, from, stop_after }
     }
 
     /// With reduced gears from a cache, and into it.
@@ -93,6 +95,13 @@ impl<'a> Context<'a, Scene> {
     #[must_use]
     pub fn with_remarks(self, remarks: RemarksAtRest) -> Self {
         Self { remarks, ..self }
+    }
+
+    /// Whether positions at rest have the lengths of their contact lines under load, which nothing else follows from;
+    /// those of others are no numbers.
+    #[must_use]
+    pub fn with_line_lengths(self, line_lengths: bool) -> Self {
+        Self { line_lengths, ..self }
     }
 }
 

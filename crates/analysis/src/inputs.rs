@@ -13,7 +13,11 @@ use crate::{
 /// The scene with the slices that it asks for, chosen where it states none; the built-in mesher has no say over meshes
 /// in memory.
 pub(crate) fn resolved_scene(scene: &Scene, meshes_in_memory: bool) -> Scene {
-    let mut scene = with_slices(scene.clone());
+    with_meshes_of(with_slices(scene.clone()), meshes_in_memory)
+}
+
+/// The scene; the built-in mesher has no say over meshes in memory.
+pub(crate) fn with_meshes_of(mut scene: Scene, meshes_in_memory: bool) -> Scene {
     if meshes_in_memory {
         (scene.pinion.mesher, scene.wheel.mesher) = (None, None);
     }

@@ -14,7 +14,7 @@ use scene::Scene;
 
 use crate::{
     AnalysisError, GearCache, MapKey, Progress,
-    alike::{kind, of_gears},
+    alike::kind,
     elastic_gears::{ElasticGears, RecordKeys, elastic_gears},
     inputs::meshes_of,
     meshes::SceneMesh,
@@ -74,7 +74,7 @@ impl ReducedPairs {
         options: &StaticOptions,
         (cache, progress, wanted): (&dyn GearCache, &dyn Progress, Wanted<'_>),
     ) -> Result<Arc<ReducedPair>, AnalysisError> {
-        let (own, window) = (of_gears(&kind(scene)), options.window);
+        let (own, window) = (kind(scene), options.window);
         let place = {
             let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             match known.iter().find(|k| k.window == window && k.kind == own) {

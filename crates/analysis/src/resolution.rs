@@ -4,7 +4,7 @@ use crate::remark;
 use answer::Remark;
 use contact::{ContactOptions, Method};
 use geometry::GearPair;
-use ltca::{SpringErrors, StaticOptions, slice_errors, slices_needed};
+use ltca::{SliceCount, SpringErrors, StaticOptions, slice_errors, slices_needed};
 use serde::Serialize;
 
 use scene::{Model, Scene, StiffnessFrom};
@@ -47,13 +47,18 @@ fn is_sliced(scene: &Scene) -> bool {
 
 /// The scene with the slices that its width, load and micro-geometry ask for, unless it says how many: in its text, or by
 /// a number in `contact.slices` that is not the default.
-pub fn with_slices(mut scene: Scene) -> Scene {
+pub fn with_slices(scene: Scene) -> Scene {
+    with_slices_by(scene, slices_needed)
+}
+
+/// The same by what says how many slices a pair needs.
+pub(crate) fn with_slices_by(mut scene: Scene, needed: impl FnOnce(&GearPair, &StaticOptions) -> SliceCount) -> Scene {
     if is_sliced(&scene) && scene.place_of(&[SLICES]).is_none() {
         // A pair that cannot be made is complained about where it is made.
         if let Ok(pair) = scene.gear_pair()
             && scene.contact.slices == Some(ContactOptions::new(&pair).slices as u32)
         {
-            scene.contact.slices = Some(slices_needed(&pair, &options(&scene, &pair)).count as u32);
+            scene.contact.slices = Some(needed(&pair, &options(&scene, &pair)).count as u32);
         }
     }
     scene

@@ -5,19 +5,20 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fem::Wanted;
 use geometry::GearPair;
-use ltca::{StaticModel, StaticOptions};
+use ltca::{NominalLines, StaticModel, StaticOptions, slices_needed_on};
 use mesh::Mesh;
 use scene::{Model, Scene};
 
 use crate::{
     AnalysisError, GearCache, NoObserver,
-    alike::{kind, of_gears},
+    alike::kind,
     elastic_gears::{ElasticGears, elastic_gears},
     failure::Failure,
-    inputs::{meshes_of, resolved_scene},
+    inputs::{meshes_of, with_meshes_of},
     meshes::SceneMesh,
     options::options,
     reduced_pairs::ReducedPairs,
+    resolution::with_slices_by,
     solution_remarks::body_remarks,
 };
 
@@ -25,7 +26,7 @@ use crate::{
 const MOST_MODELS: usize = 8;
 
 /// Models of pairs that differ in what neither their matrices nor their contact tables know: micro-geometry, pitch
-/// errors, misalignment, friction, torque, positions.
+/// errors, misalignment, friction, slices, torque, positions.
 ///
 /// Meshes of gearboxes share their reduced gears alike. Shared among threads. What is shared changes no bit of a result ([`StaticModel::modified`]).
 pub struct SharedModels<'a> {
@@ -36,6 +37,8 @@ pub struct SharedModels<'a> {
     /// Reduced pairs of the meshes of gearboxes.
     pub(crate) pairs: ReducedPairs,
     read: Mutex<Vec<(Scene, Arc<[SceneMesh; 2]>)>>,
+    /// Nominal contact lines of the last pair that asked for them.
+    lines: Mutex<Option<Arc<NominalLines>>>,
 }
 
 /// What belongs to one kind of scene, made when the first of them comes.
@@ -73,7 +76,8 @@ impl<'a> SharedModels<'a> {
 
     /// Shared models over a cache that others may hold as well.
     pub fn holding(cache: Arc<dyn GearCache + Send + 'a>) -> Self {
-        Self { cache, meshes: None, known: Mutex::default(), pairs: ReducedPairs::default(), read: Mutex::default() }
+        let (known, pairs, read, lines) = Default::default();
+        Self { cache, meshes: None, known, pairs, read, lines }
     }
 
     /// With meshes of pinion and wheel in place of those of all scenes. They are checked as files are.
@@ -90,6 +94,19 @@ impl<'a> SharedModels<'a> {
     /// Where reduced gears come from and go to.
     pub(crate) fn cache(&self) -> &(dyn GearCache + Send + 'a) {
         &*self.cache
+    }
+
+    /// The scene with the slices that it asks for, as [`crate::inputs::resolved_scene`] has it.
+    pub(crate) fn resolved_scene(&self, scene: &Scene) -> Scene {
+        let needed = |pair: &GearPair, options: &StaticOptions| {
+            let lines = {
+                let mut known = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+                let lines = known.take().filter(|lines| lines.serves(pair, options));
+                Arc::clone(known.insert(lines.unwrap_or_else(|| Arc::new(NominalLines::new(pair, options)))))
+            };
+            slices_needed_on(&lines, pair, options)
+        };
+        with_meshes_of(with_slices_by(scene.clone(), needed), self.meshes.is_some())
     }
 
     /// Meshes of a scene, read or made once.
@@ -116,17 +133,10 @@ impl<'a> SharedModels<'a> {
         if scene.analysis.model != Model::Reduced {
             return Err(crate::error::nothing_to_reduce(scene));
         }
-        let scene = resolved_scene(scene, self.meshes.is_some());
+        let scene = self.resolved_scene(scene);
         let pair = scene.gear_pair()?;
         let options = options(&scene, &pair);
         self.base(&scene, &pair, options, &|| true).map_err(|failure| failure.into_error(&scene)).map(|_| ())
-    }
-
-    /// A model that is there of the same gears, on other slices: more of them are chosen for more crowning.
-    fn of_same_gears(&self, kind: &Scene, window: Option<usize>) -> Option<Arc<Base>> {
-        let (known, gears) = (self.known.lock().unwrap_or_else(PoisonError::into_inner), of_gears(kind));
-        let mut alike = known.iter().filter(|k| k.window == window && of_gears(&k.kind) == gears);
-        alike.find_map(|k| k.base.try_lock().ok()?.clone())
     }
 
     /// The model that a scene shares with others of its kind.
@@ -157,19 +167,13 @@ impl<'a> SharedModels<'a> {
         if let Some(base) = &*made {
             return Ok(Arc::clone(base));
         }
-        let (meshes, model) = match self.of_same_gears(&own, window) {
-            Some(other) => (other.meshes.clone(), other.model.modified(pair.clone(), options)?),
-            None => {
-                let meshes = self.scene_meshes(scene, pair)?;
-                let ElasticGears { gears, keys, .. } =
-                    elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted), true)?;
-                let model = StaticModel::new(pair.clone(), gears, options)?;
-                if self.cache.is_on() {
-                    keys.save(&*self.cache, model.gears());
-                }
-                (meshes, model)
-            }
-        };
+        let meshes = self.scene_meshes(scene, pair)?;
+        let ElasticGears { gears, keys, .. } =
+            elastic_gears(scene, pair, &options, &meshes, (&*self.cache, &NoObserver, wanted), true)?;
+        let model = StaticModel::new(pair.clone(), gears, options)?;
+        if self.cache.is_on() {
+            keys.save(&*self.cache, model.gears());
+        }
         let base = Arc::new(Base { meshes, model, of_bodies: OnceLock::new() });
         *made = Some(Arc::clone(&base));
         Ok(base)

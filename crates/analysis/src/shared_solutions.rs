@@ -20,7 +20,6 @@ use crate::{
     alike::shares,
     failure::Failure,
     gears,
-    inputs::resolved_scene,
     interest::Interest,
     light_load,
     options::options,
@@ -56,6 +55,9 @@ pub(crate) struct Rates<'a> {
 pub struct RestRequest<'a> {
     /// Whether remarks about pair, meshes and bodies are found out.
     pub remarks: RemarksAtRest,
+    /// Whether positions have the lengths of their contact lines under load; those of others are no numbers. A scene that
+    /// shares nothing has them.
+    pub line_lengths: bool,
     /// Whether the answer is still wanted; the solve ends with [`AnalysisError::Cancelled`] where it is not. A scene that
     /// shares nothing reduces its gears to the end.
     pub interest: Interest<'a>,
@@ -64,7 +66,13 @@ pub struct RestRequest<'a> {
 impl RestRequest<'static> {
     /// A result to its end with these remarks.
     pub const fn to_the_end(remarks: RemarksAtRest) -> Self {
-        Self { remarks, interest: Interest::LASTING }
+        Self { remarks, line_lengths: true, interest: Interest::LASTING }
+    }
+
+    /// Without the lengths of contact lines under load.
+    #[must_use]
+    pub const fn without_line_lengths(self) -> Self {
+        Self { line_lengths: false, ..self }
     }
 }
 
@@ -109,7 +117,8 @@ impl SharedModels<'_> {
             unless_lost()?;
             return Ok(SolvedWithRates { scene, history, rates: Vec::new() });
         }
-        let (mut solved, base) = self.positions(scene, rates, Interest { positions: &still, ..interest })?;
+        let wanted = RestRequest { interest: Interest { positions: &still, ..interest }, ..request };
+        let (mut solved, base) = self.positions(scene, rates, wanted)?;
         if lost.load(Ordering::Relaxed) {
             return Err(AnalysisError::Cancelled);
         }
@@ -132,13 +141,13 @@ impl SharedModels<'_> {
         &self,
         scene: &Scene,
         asked: Rates<'_>,
-        interest: Interest<'_>,
+        RestRequest { interest, line_lengths, .. }: RestRequest<'_>,
     ) -> Result<(SolvedWithRates, Arc<Base>), AnalysisError> {
-        let scene = resolved_scene(scene, self.meshes().is_some());
+        let scene = self.resolved_scene(scene);
         let pair = scene.gear_pair()?;
         refuse(&scene, &pair)?;
         light_load::check(&scene, &pair)?;
-        let options = options(&scene, &pair);
+        let options = StaticOptions { line_lengths, ..options(&scene, &pair) };
         let with = |window| StaticOptions { window, ..options.clone() };
         let last: RefCell<Option<Arc<Base>>> = RefCell::new(None);
         let meshes = self.scene_meshes(&scene, &pair)?;

@@ -59,7 +59,7 @@ impl Question for Scene {
     type State = (MotionCheckpoint, Arc<RowStore<MotionRow>>);
 
     fn answer(&self, context: Context<'_, Self>) -> Result<Ending<Solved>, AnalysisError> {
-        let Context { observer, cache, models, meshes, remarks, sink, from, stop_after } = context;
+        let Context { observer, cache, models, meshes, remarks, line_lengths, sink, from, stop_after } = context;
         if self.motion.is_some() {
             let analysis = InTime { meshes, cache, from, stop_after };
             let solved = match sink {
@@ -71,7 +71,7 @@ impl Question for Scene {
         if sink.is_some() || from.is_some() || stop_after.is_some() {
             return Err(unasked(self, "motion"));
         }
-        let request = RestRequest::to_the_end(remarks);
+        let request = RestRequest { line_lengths, ..RestRequest::to_the_end(remarks) };
         let solved = run_phase(observer, "solve", PhaseWork::Unknown, |_| match models {
             Some(models) => solve_at_rest(self, models, request),
             None => {

@@ -12,7 +12,7 @@ use crate::{
     compliance::boundary_forces,
     flank::{Candidates, ContactPoint, FlankPatch, GapSource, contact_points},
     nodal::{ContactRow, LinePoints, Scene, line_points},
-    slice::{SliceSet, TableFlanks},
+    slice::{HalfTeeth, SliceSet, TableFlanks},
 };
 
 /// Everything the contact of one window needs, in the frames of the window's matrices.
@@ -84,14 +84,14 @@ impl ContactSet {
         };
         let [Flanks { patches: p1, sides: s1, first: f1, window: w1, condensed: c1 }, second] = [of(0)?, of(1)?];
         let Flanks { patches: p2, sides: s2, first: f2, window: w2, condensed: c2 } = second;
-        let slices = (options.method == Method::Slice)
+        let behind = (options.method == Method::Slice)
             .then(|| {
                 let named = |p: &[FlankPatch], s: &[Side]| -> Vec<(u32, Side)> {
                     p.iter().zip(s).map(|(p, &s)| (p.tooth as u32, s)).collect()
                 };
                 let flanks = [named(&p1, &s1), named(&p2, &s2)];
                 let number = |i: usize, flank, node| boundary_number(&gears[i], [&w1, &w2][i].as_ref(), flank, node);
-                SliceSet::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
+                HalfTeeth::new(pair, gears, [&flanks[0], &flanks[1]], number, options)
             })
             .transpose()?;
         let windows = w1.zip(w2).map(|(a, b)| [a, b]);
@@ -103,8 +103,10 @@ impl ContactSet {
                     TableFlanks::Whole { patches, alike: cyclic && options.sides().len() == 1 }
                 }
             });
-        let slices =
-            slices.map(|s| s.with_tables(tabulated, gears, windows.as_ref(), options).map(Arc::new)).transpose()?;
+        let behind = behind
+            .map(|half| half.with_tables(tabulated, gears, windows.as_ref(), options).map(Arc::new))
+            .transpose()?;
+        let slices = behind.map(|half| Arc::new(SliceSet::new(pair, half, options)));
         let nodal = (options.method == Method::Nodal).then(|| NodalFlanks::new([&p1, &p2], options));
         let own_teeth = geometry.map(Gear::has_own_teeth);
         let (patches, sides, first) = ([p1, p2], [s1, s2], [f1, f2]);
@@ -112,8 +114,8 @@ impl ContactSet {
         Ok(Self { shared, windows })
     }
 
-    /// A window of the same gears with other micro-geometry, `pair`'s: matrices, tables and faces are shared. `None` where
-    /// that window has matrices of its own.
+    /// A window of the same gears with other micro-geometry, `pair`'s, and another number of slices: matrices, tables and
+    /// faces are shared. `None` where that window has matrices of its own.
     ///
     /// # Errors
     /// [`ContactError`] for a window that the gears do not have.
@@ -136,7 +138,8 @@ impl ContactSet {
         });
         let nodal = shared.nodal.as_ref().map(|_| NodalFlanks::new(patches.each_ref().map(|p| &p[..]), options));
         let own_teeth = geometry.map(Gear::has_own_teeth);
-        let (sides, first, slices) = (shared.sides.clone(), shared.first, shared.slices.clone());
+        let slices = shared.slices.as_ref().map(|slices| Arc::new(slices.cut_anew(pair, options)));
+        let (sides, first) = (shared.sides.clone(), shared.first);
         let shared = Arc::new(Shared { patches, nodal, sides, first, slices, own_teeth });
         Ok(Some(Self { shared, windows: Some(windows) }))
     }

@@ -127,6 +127,13 @@ impl<'a> FlankGap<'a> {
         (0..STATIONS).map(|i| self.flanks.foretold(self.station(i))).collect()
     }
 
+    /// Station at which the least gap is foretold, and that gap.
+    pub fn told_least(&self, foretold: &[Option<[f64; 2]>]) -> Option<(f64, f64, &Self)> {
+        let told = foretold.iter().enumerate().filter_map(|(i, told)| Some((i, (*told)?)));
+        let least = told.map(|(i, [low, high])| (i, 0.5 * (low + high))).min_by(|a, b| a.1.total_cmp(&b.1));
+        least.filter(|(_, gap)| gap.is_finite()).map(|(i, gap)| (self.station(i), gap, self))
+    }
+
     fn station(&self, i: usize) -> f64 {
         self.half_width() * (2.0 * i as f64 / (STATIONS - 1) as f64 - 1.0)
     }

@@ -194,6 +194,10 @@ impl<'a> Unloaded<'a> {
                 let foretold: Vec<_> = unseen.iter().map(FlankGap::foretold).collect();
                 // Whatever the least gap is, it is no larger than the least that may be.
                 let enough = foretold.iter().flatten().flatten().map(|[_, high]| *high).fold(f64::INFINITY, f64::min);
+                // Nor than the one where the first order has it.
+                let there = unseen.iter().zip(&foretold).filter_map(|(gap, told)| gap.told_least(told));
+                let there = there.min_by(|a, b| a.1.total_cmp(&b.1)).and_then(|(z, _, gap)| gap.at(z));
+                let enough = there.map_or(enough, |(_, gap)| enough.min(gap));
                 unseen.into_iter().zip(&foretold).map(|(gap, told)| gap.looked(told, enough)).collect()
             }
             Look::At(places) => flanks

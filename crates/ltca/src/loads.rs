@@ -107,7 +107,7 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
     let mine = |row: &ContactRow| set.pair_of(row.patches.0) == k;
     let loaded: Vec<(&ContactRow, f64)> =
         e.rows.iter().zip(e.solution.forces.iter().copied()).filter(|(row, f)| *f > 0.0 && mine(row)).collect();
-    let line = contact_line(windowed, e, k);
+    let line = (options.line_lengths || set.slices().is_none()).then(|| contact_line(windowed, e, k));
     let sense = options.contact.sense;
     let turned = e.station.pinion_angle(pair, options.side(), sense);
     let nominal = pair.contact_line(options.side(), turned, running - e.station.middle_pair(sense));
@@ -128,7 +128,7 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
     } else {
         set.patch_of(0, k, options.side()).map_or(0.0, |p| {
             let patch = &set.patches()[0][p];
-            line_pressure(pair, patch, &loaded, &line, modulus)
+            line_pressure(pair, patch, &loaded, line.as_deref().unwrap_or_default(), modulus)
         })
     };
     PairResult {
@@ -138,7 +138,7 @@ fn pair_result(windowed: &WindowedPair, e: &Equilibrium, k: usize) -> PairResult
         // 0.0 first: the sum of nothing is -0.0 otherwise.
         normal_force: loaded.iter().fold(0.0, |sum, (_, f)| sum + f),
         max_pressure,
-        contact_line_length: along * covered(&line, pair.common_face()),
+        contact_line_length: line.map_or(f64::NAN, |line| along * covered(&line, pair.common_face())),
         geometric_line_length: nominal.map_or(0.0, |line| line.length),
         points_in_contact: loaded.len(),
         slices,

@@ -15,12 +15,14 @@ pub struct StaticOptions {
     pub window: Option<usize>,
     /// Compute stress in the root fillets at every station.
     pub root_stress: bool,
+    /// Find where the contact lines of slices end under load. Without it their lengths are no numbers.
+    pub line_lengths: bool,
 }
 
 impl StaticOptions {
     /// Defaults for a torque (N mm) on the driven gear of `pair`; see [`ContactOptions::new`].
     pub fn new(torque: f64, pair: &GearPair) -> Self {
-        Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false }
+        Self { contact: ContactOptions::new(pair), torque, window: None, root_stress: false, line_lengths: true }
     }
 
     /// Options with changed contact options.

@@ -19,7 +19,7 @@ pub struct PairResult {
     pub normal_force: f64,
     /// Largest contact pressure, MPa.
     pub max_pressure: f64,
-    /// Length of this pair's contact line, mm.
+    /// Length of this pair's contact line, mm; NaN where it was not asked for ([`crate::StaticOptions::line_lengths`]).
     pub contact_line_length: f64,
     /// Analytic length of its contact line unloaded, mm; 0 beside the path of contact.
     pub geometric_line_length: f64,
@@ -69,7 +69,7 @@ pub struct StaticPosition {
     pub secant_stiffness: f64,
     /// d F_bt / d te, N/mm.
     pub tangent_stiffness: f64,
-    /// Sum over the pairs, mm.
+    /// Sum over the pairs, mm; NaN where it was not asked for.
     pub contact_line_length: f64,
     /// Analytic length of the unloaded pair's contact lines, mm.
     pub geometric_line_length: f64,

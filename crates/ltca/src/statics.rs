@@ -44,7 +44,8 @@ impl StaticModel {
         Self::with_known(pair, gears.into(), options, (None, None))
     }
 
-    /// A model at the start of cycle 0 of the same gears with another micro-geometry, torque, friction or misalignment.
+    /// A model at the start of cycle 0 of the same gears with another micro-geometry, torque, friction or misalignment, or
+    /// other slices.
     ///
     /// Matrices are shared, and so are the tables of the contact wherever `options` asks for the same. The results are
     /// those of [`StaticModel::new`], bit by bit.
@@ -53,7 +54,8 @@ impl StaticModel {
     /// As [`StaticModel::new`].
     pub fn modified(&self, pair: GearPair, options: StaticOptions) -> Result<Self, StaticError> {
         let (own, asked) = (&self.options.contact, &options.contact);
-        let alike = ContactOptions { friction: asked.friction, offsets: asked.offsets, ..own.clone() } == *asked;
+        let ContactOptions { friction, offsets, slices, .. } = *asked;
+        let alike = ContactOptions { friction, offsets, slices, ..own.clone() } == *asked;
         let nominal = |a: &GearPair, b: &GearPair| {
             let place = |pair: &GearPair| [pair.centre_distance(), pair.mid_face_offset()];
             place(a) == place(b) && a.pinion.data() == b.pinion.data() && a.wheel.data() == b.wheel.data()

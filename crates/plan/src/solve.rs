@@ -18,6 +18,9 @@ use scene::{
 
 use crate::{CaseRow, DoneCases, case_values, gearbox_values};
 
+/// Key of the headline and column of the rows that tell lengths of contact lines under load.
+const LINE_LENGTH: [&str; 2] = ["mean_contact_line_length_mm", "contact_line_length_mm"];
+
 /// Makes who hears of one case while it is solved.
 pub type CaseObserver<'a> = &'a (dyn Fn() -> Box<dyn Observer> + Sync);
 
@@ -73,7 +76,10 @@ pub(crate) fn numbers(
             // Nobody looks at these.
             (scene.output.vtu, scene.output.parquet, scene.output.contact_lines) = (false, false, false);
             scene.rating = scene.rating.filter(|_| outputs.iter().any(is_rating));
-            let context = Context::<Scene>::new(observer).with_models(models).with_remarks(RemarksAtRest::Skipped);
+            let context = Context::<Scene>::new(observer)
+                .with_models(models)
+                .with_remarks(RemarksAtRest::Skipped)
+                .with_line_lengths(outputs.iter().any(is_line_length));
             let solved = solve(&*scene, context).and_then(Ending::finished).map_err(said)?;
             solved.verdict().map_err(said)?;
             case_values(outputs, &solved)
@@ -99,6 +105,14 @@ pub(crate) fn numbers(
 /// Whether a number is one of the rating of a pair.
 fn is_rating(output: &PlanOutput) -> bool {
     matches!(output, PlanOutput::Headline(key) if key.split('.').next() == Some("rating"))
+}
+
+/// Whether a number is told of lengths of contact lines under load.
+fn is_line_length(output: &PlanOutput) -> bool {
+    match output {
+        PlanOutput::Headline(key) => key == LINE_LENGTH[0],
+        PlanOutput::Column { column, .. } => column == LINE_LENGTH[1],
+    }
 }
 
 /// Whether numbers of a vibration are wanted of a gearbox, those of a motion, of a branch, and of a load spectrum: rows are of

@@ -209,7 +209,11 @@ impl<'a> Session<'a> {
     fn at_rest(&self, scene: &Scene, interest: Interest<'_>) -> Result<SolvedAtRest, AnalysisError> {
         let mut scene = scene.clone();
         scene.output.derivatives.clear();
-        solve_at_rest(&scene, &self.models, RestRequest { remarks: RemarksAtRest::Collected, interest })
+        solve_at_rest(
+            &scene,
+            &self.models,
+            RestRequest { interest, ..RestRequest::to_the_end(RemarksAtRest::Collected) },
+        )
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) fn evaluate(
         // Nobody looks at ratings.
         let at = |values: &[f64]| plan.scene(values, torque, Some(sample)).map(|scene| Scene { rating: None, ..scene });
         let rates = Rates { of: &varied(plan, values, at)?, of_unloaded: false };
-        models.solve(&at(values)?, rates, RestRequest::to_the_end(RemarksAtRest::Skipped))
+        models.solve(&at(values)?, rates, RestRequest::to_the_end(RemarksAtRest::Skipped).without_line_lengths())
     });
     let mut evaluation = Evaluation::default();
     for (i, solved) in solved.into_iter().enumerate() {

@@ -100,7 +100,7 @@ pub fn summarise(models: &SharedModels<'_>, optimum: &Optimum) -> Result<Optimis
     let solved = parallel_map(2 * all.len(), |i| {
         let values = if i % 2 == 0 { &start } else { values };
         let scene = Scene { rating: None, ..plan.scene(values, all[i / 2], None)? };
-        let request = RestRequest::to_the_end(RemarksAtRest::Skipped);
+        let request = RestRequest::to_the_end(RemarksAtRest::Skipped).without_line_lengths();
         Ok(cycle(&models.solve(&scene, Rates::default(), request)?.history))
     });
     let mut cycles = Vec::new();

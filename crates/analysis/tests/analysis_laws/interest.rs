@@ -23,7 +23,11 @@ fn lost_after(models: &SharedModels<'_>, scene: &Scene, questions: usize) -> (bo
     let asked = AtomicUsize::new(0);
     let gears = || asked.fetch_add(1, Ordering::SeqCst) < questions;
     let interest = Interest { gears: &gears, positions: &|| true };
-    let solved = match solve_at_rest(scene, models, RestRequest { remarks: RemarksAtRest::Collected, interest }) {
+    let solved = match solve_at_rest(
+        scene,
+        models,
+        RestRequest { interest, ..RestRequest::to_the_end(RemarksAtRest::Collected) },
+    ) {
         Ok(_) => true,
         Err(AnalysisError::Cancelled) => false,
         Err(e) => panic!("{e}"),

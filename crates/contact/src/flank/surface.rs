@@ -37,6 +37,10 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     fn depth(&self, _at: [f64; 2]) -> f64 {
         0.0
     }
+    /// [`Surface::depth`] at places, their first and their second surface coordinates, mm.
+    fn depths(&self, [first, second]: [&[f64]; 2], depths: &mut [f64]) {
+        depths.iter_mut().zip(first).zip(second).for_each(|((depth, &u), &z)| *depth = self.depth([u, z]));
+    }
     /// Foot point of `p` on the nominal surface.
     fn locate_nominal(&self, p: &Vec3) -> Option<Foot> {
         self.locate(p)
@@ -64,6 +68,14 @@ pub trait Surface: Send + Sync + std::fmt::Debug {
     /// Least [`Surface::depth`] over the flank, mm, to some hundredths of its size.
     fn least_depth(&self) -> f64 {
         0.0
+    }
+    /// Least [`Surface::depth`] at a height, mm, to some hundredths of its size.
+    fn least_depth_at(&self, _z: f64) -> f64 {
+        self.least_depth()
+    }
+    /// Roll angles at which the profiles have kinks of [`Surface::depth`].
+    fn kinks(&self) -> [Option<f64>; 2] {
+        [None; 2]
     }
     /// What the flank lies below this surface at surface coordinates, mm: of a measured flank what its smooth part leaves.
     fn deviation(&self, _at: [f64; 2]) -> f64 {
@@ -176,6 +188,10 @@ impl Surface for geometry::ModifiedFlank {
         geometry::ModifiedFlank::depth(self, u, z).value
     }
 
+    fn depths(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        geometry::ModifiedFlank::depths(self, places, depths);
+    }
+
     fn locate_nominal(&self, p: &Vec3) -> Option<Foot> {
         self.nominal().locate(p).map(foot)
     }
@@ -198,6 +214,14 @@ impl Surface for geometry::ModifiedFlank {
 
     fn least_depth(&self) -> f64 {
         geometry::ModifiedFlank::least_depth(self)
+    }
+
+    fn least_depth_at(&self, z: f64) -> f64 {
+        geometry::ModifiedFlank::least_depth_at(self, z)
+    }
+
+    fn kinks(&self) -> [Option<f64>; 2] {
+        geometry::ModifiedFlank::kinks(self)
     }
 
     fn deviation(&self, [u, z]: [f64; 2]) -> f64 {

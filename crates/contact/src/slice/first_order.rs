@@ -17,8 +17,8 @@ const SURELY: f64 = 0.9;
 const NEARLY: f64 = 0.25;
 /// Dips that are looked into at the most.
 const MOST_DIPS: usize = 6;
-/// Places along the profile at the most; reliefs that part the flanks by more than a whole profile do are none.
-const MOST_PLACES: usize = 48;
+/// Places along the profile at the most: one more than strides over all of it.
+const MOST_PLACES: usize = 26;
 
 /// Two involute flanks that nearly touch: nominal ones part by their curvature from where they touch, and depths are
 /// added.
@@ -226,23 +226,22 @@ impl FirstOrderGap {
         let parted = |s: f64| 0.5 * curvature * s * s;
         let (amount, share) = (self.amount, OFF_BY.1);
         let nearest = 0f64.clamp(low, high);
-        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + self.shallowest - 2.0 * amount;
+        let heights = [z, z - self.offset];
+        let shallowest = surfaces[0].least_depth_at(heights[0]) + surfaces[1].least_depth_at(heights[1]);
+        let least = self.apart - self.tilted + (1.0 - share) * parted(nearest) + shallowest - 2.0 * amount;
         if least > reach {
             return Some(Outlook::Wider(least));
         }
         let rolls = |s: f64| [(square[0] + 2.0 * s / r1).max(0.0).sqrt(), (square[1] - 2.0 * s / r2).max(0.0).sqrt()];
-        let place = |s: f64| -> Place {
-            let [u1, u2] = rolls(s);
-            let parted = parted(s);
-            [s, parted + surfaces[0].depth([u1, z]) + surfaces[1].depth([u2, z - self.offset]), parted]
-        };
+        let told_of = |s: f64, depths: [f64; 2]| -> Place { [s, parted(s) + depths[0] + depths[1], parted(s)] };
         let told = |p: Place| {
             let doubt = 0.5 * amount + share * p[2] + self.tilted;
             [self.apart + p[1] - doubt, self.apart + p[1] + doubt]
         };
-        let here = place(nearest);
+        let at = rolls(nearest);
+        let here = told_of(nearest, [0, 1].map(|i| surfaces[i].depth([at[i], heights[i]])));
         // No dip is deeper than the least of the depths lets it be.
-        let room = (1.0 + share) * here[2] + (here[1] - here[2]) - self.shallowest + 2.0 * amount;
+        let room = (1.0 + share) * here[2] + (here[1] - here[2]) - shallowest + 2.0 * amount;
         let window = (2.0 * room.max(0.0) / ((1.0 - share) * curvature)).sqrt();
         let (low, high) = (low.max(-window), high.min(window));
         let mut dips = Dips::default();
@@ -252,9 +251,19 @@ impl FirstOrderGap {
             return Some(Outlook::Dips(dips));
         }
         let count = (strides as usize + 1).min(MOST_PLACES);
+        let mut arcs = [0.0; MOST_PLACES];
+        let [mut at, mut depths] = [[[0.0; MOST_PLACES]; 2]; 2];
+        let [u1, u2] = &mut at;
+        for (i, ((s, u1), u2)) in arcs[..count].iter_mut().zip(u1).zip(u2).enumerate() {
+            *s = low + (high - low) * i as f64 / (count - 1) as f64;
+            [*u1, *u2] = rolls(*s);
+        }
+        for i in 0..2 {
+            surfaces[i].depths([&at[i][..count], &[heights[i]; MOST_PLACES][..count]], &mut depths[i][..count]);
+        }
         let mut places = [[0.0; 3]; MOST_PLACES];
-        for (i, p) in places[..count].iter_mut().enumerate() {
-            *p = place(low + (high - low) * i as f64 / (count - 1) as f64);
+        for (i, place) in places[..count].iter_mut().enumerate() {
+            *place = told_of(arcs[i], [depths[0][i], depths[1][i]]);
         }
         let places = &places[..count];
         let is_dip = |i: usize| {

@@ -66,7 +66,7 @@ impl ProfilePair<'_> {
     /// ```text
     /// r_b1 (u^2 - u_0^2) = r_b2 (v_0^2 - v^2)
     /// ```
-    fn place_of_foot(
+    pub(super) fn place_of_foot(
         &self,
         z: f64,
         bound: f64,

@@ -35,6 +35,20 @@ pub(crate) enum LeastGapPoint {
     OtherKink(f64),
 }
 
+/// A place on the searched profile: roll angle, slope of the gap there (mm), roll angle of its foot.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Place {
+    pub roll: f64,
+    pub slope: f64,
+    pub foot: f64,
+}
+
+impl Place {
+    pub fn of(roll: f64, sample: &GapSample) -> Self {
+        Self { roll, slope: sample.slope, foot: sample.foot[0] }
+    }
+}
+
 /// A place, with what is seen there where that is known.
 pub(super) type Found = (LeastGapPoint, Option<GapSample>);
 
@@ -78,8 +92,6 @@ const NEAR_AT_ONCE: f64 = 1e-8;
 const SAME_PLACE: f64 = 1e-11;
 /// Bisections to the end of the part of a profile that faces the other; some fifty reach round-off.
 const BISECTIONS: usize = 100;
-/// Turn of the normal within the last bracket that is a kink, rad.
-const KINK: f64 = 1e-7;
 
 impl LeastGapPoint {
     /// Roll angle on the searched body.
@@ -208,8 +220,8 @@ impl<'a> ProfilePair<'a> {
         Ok(best.map(|(found, _)| found))
     }
 
-    /// The dip that a place belongs to: Newton's method on the slope of the gap, then the secant method, and a bracket
-    /// where they do not settle, at a kink. `near`: where the dip may be, if it is about there.
+    /// The dip that a place belongs to: Newton's method on the slope of the gap, then the secant method, unless it is at a
+    /// kink, and a bracket where they do not settle. `near`: where the dip may be, if it is about there.
     fn descend(
         &self,
         guide: &FirstOrderGap,
@@ -220,12 +232,28 @@ impl<'a> ProfilePair<'a> {
         let [[low, high], [other_low, other_high]] = [self.rolls(0), self.rolls(1)];
         let stride = guide.stride_at(start);
         let mut u = near.filter(|u| (u - start).abs() <= stride).unwrap_or(start).clamp(low, high);
-        let (mut below, mut above) = (None::<[f64; 2]>, None::<[f64; 2]>);
+        let (mut below, mut above) = (None::<Place>, None::<Place>);
         let mut before: Option<[f64; 2]> = None;
+        let mut looked_at_kinks = false;
         for _ in 0..DESCENT_STEPS {
             let sample = self.sample([u, z]).ok_or(())?;
             let slope = sample.slope;
-            *(if slope < 0.0 { &mut below } else { &mut above }) = Some([u, slope]);
+            let here = Place::of(u, &sample);
+            *(if slope < 0.0 { &mut below } else { &mut above }) = Some(here);
+            let mut at_kink = None;
+            if before.is_none() {
+                at_kink = self.least_near_kink(z, here, [&mut below, &mut above]);
+            }
+            if let (Some(a), Some(b), None, false) = (below, above, at_kink, looked_at_kinks) {
+                looked_at_kinks = true;
+                let mut between = [a, b];
+                at_kink = self.least_at_kink(z, &mut between);
+                [below, above] = between.map(Some);
+            }
+            if let Some(point) = at_kink {
+                let sample = self.sample([point.roll(), z]).ok_or(())?;
+                return self.within_other(z, (point, Some(sample)), &sample, reach);
+            }
             if (slope < 0.0 && u >= high) || (slope > 0.0 && u <= low) {
                 return self.within_other(z, (LeastGapPoint::OwnEnd(u), Some(sample)), &sample, reach);
             }
@@ -251,7 +279,7 @@ impl<'a> ProfilePair<'a> {
             }
             before = Some([u, slope]);
             let next = (u + step.clamp(-stride, stride)).clamp(low, high);
-            if let (Some([a, _]), Some([b, _])) = (below, above)
+            if let (Some(Place { roll: a, .. }), Some(Place { roll: b, .. })) = (below, above)
                 && !(next > a.min(b) && next < a.max(b))
             {
                 break;
@@ -262,21 +290,13 @@ impl<'a> ProfilePair<'a> {
             }
             u = next;
         }
-        let (Some([a, slope_a]), Some([b, slope_b])) = (below, above) else { return Err(()) };
+        let (Some(a), Some(b)) = (below, above) else { return Err(()) };
         let mut failed = false;
         let slope = |u: f64| self.sample([u, z]).map_or_else(|| (failed = true, 0.0).1, |s| s.slope);
-        let ends = bracket_zero(slope, [a, b], [slope_a, slope_b]);
+        let ends = bracket_zero(slope, [a.roll, b.roll], [a.slope, b.slope]);
         let point = self.between(z, ends).filter(|_| !failed).ok_or(())?;
         let sample = self.sample([point.roll(), z]).ok_or(())?;
         self.within_other(z, (point, Some(sample)), &sample, reach)
-    }
-
-    /// What a bracket of the slope's zero holds: a kink of the other flank, where its normal turns, or a smooth place.
-    fn between(&self, z: f64, [a, b]: [f64; 2]) -> Option<LeastGapPoint> {
-        let normal = |u: f64| Some(self.patches[1].surface().normal(self.sample([u, z])?.foot));
-        let turn = normal(b)? - normal(a)?;
-        let middle = 0.5 * (a + b);
-        Some(if turn.norm() > KINK { LeastGapPoint::OtherKink(middle) } else { LeastGapPoint::Inside(middle) })
     }
 
     /// Newton's method on the slope of the gap, then the secant method. The derivative of the slope is the relative

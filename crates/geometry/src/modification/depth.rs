@@ -39,6 +39,8 @@ pub struct DepthField {
     splits: Splits,
     size: FlankSize,
     least: f64,
+    /// Least of what is the same at all heights.
+    least_of_profile: f64,
 }
 
 /// Places along the profile and along the face at which the least depth is looked for.
@@ -122,7 +124,9 @@ impl DepthField {
             splits: Splits::default(),
             size,
             least: 0.0,
+            least_of_profile: 0.0,
         };
+        field.least_of_profile = field.rolls().map(|u| field.of_profile(u)).fold(f64::INFINITY, f64::min);
         field.least = field.least_of(|u, z| field.at(u, z));
         Ok(field)
     }
@@ -154,21 +158,25 @@ impl DepthField {
             grid: None,
             splits: Splits::default(),
             least: 0.0,
+            least_of_profile: 0.0,
             ..*less
         })
         .filter(|_| linear)
     }
 
+    /// Roll angles at which the least depth is looked for.
+    fn rolls(&self) -> impl Iterator<Item = f64> {
+        let ([form, tip], [along, _]) = (self.size.roll, LEAST);
+        (0..along).map(move |i| form + i as f64 / (along - 1) as f64 * (tip - form))
+    }
+
     /// The least value over the flank.
     fn least_of(&self, depth: impl Fn(f64, f64) -> Depth) -> f64 {
-        let place = |i: usize, count: usize| i as f64 / (count - 1) as f64;
-        let [along, across] = LEAST;
-        let [form, tip] = self.size.roll;
-        let places = (0..along * across).map(|i| {
-            let (p, q) = (place(i % along, along), place(i / along, across));
-            depth(form + p * (tip - form), self.size.half_width * (2.0 * q - 1.0)).value
-        });
-        places.fold(f64::INFINITY, f64::min)
+        let [_, across] = LEAST;
+        let heights = (0..across).map(|i| self.size.half_width * (2.0 * (i as f64 / (across - 1) as f64) - 1.0));
+        let depth = &depth;
+        let all = heights.flat_map(|z| self.rolls().map(move |u| depth(u, z).value));
+        all.fold(f64::INFINITY, f64::min)
     }
 
     /// Smooth part of the depth and the deviation from that, as slices of an axial length (mm; 0: points) see it;
@@ -187,6 +195,30 @@ impl DepthField {
         self.least
     }
 
+    /// Roll angles at which profiles have kinks.
+    pub(crate) fn kinks(&self) -> [Option<f64>; 2] {
+        self.along_profile.map(|ramp| ramp.and_then(|ramp| ramp.kink()))
+    }
+
+    /// Least depth at a height (mm), mm; no less than [`DepthField::least`] where nothing was measured.
+    pub fn least_at(&self, z: f64) -> f64 {
+        if self.grid.is_some() {
+            return self.least;
+        }
+        let q = self.per_height * z;
+        let twisted = self.size.roll.map(|u| (self.per_roll * (u - self.middle)).abs()).into_iter().fold(0.0, f64::max);
+        let along_lead: f64 = self.along_lead.iter().flatten().map(|ramp| ramp.at(z).0).sum();
+        self.least_of_profile + self.lead_crowning * q * q + 0.5 * self.lead_slope * q + along_lead
+            - (0.25 * self.bias * q).abs() * twisted
+    }
+
+    /// What of the depth is the same at all heights, mm.
+    fn of_profile(&self, u: f64) -> f64 {
+        let reliefs: f64 = self.along_profile.iter().flatten().map(|ramp| ramp.at(u).0).sum();
+        let p = self.per_roll * (u - self.middle);
+        self.profile_crowning * p * p + 0.5 * self.profile_slope * p + reliefs
+    }
+
     /// Half of a usual band of contact, mm: curvatures of the depth are as it sees them, since where a relief starts with
     /// a kink there is none to be had at a point. A thirtieth of the normal module: a gear of twice the size, under the
     /// same stress, has twice the band.
@@ -203,16 +235,49 @@ impl DepthField {
         self.with(self.grid.as_ref().map(|grid| grid.at(u, z)), u, z)
     }
 
+    /// Depths at places, their roll angles and heights (mm), mm: the values of [`DepthField::at`], bit by bit.
+    pub(crate) fn at_places(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        self.with_at_places(self.grid.as_ref().map(|grid| |u: f64, z: f64| grid.at(u, z)[0]), places, depths);
+    }
+
+    /// The stated modifications at places, and what of the grid is given.
+    fn with_at_places(
+        &self,
+        grid: Option<impl Fn(f64, f64) -> f64>,
+        [rolls, heights]: [&[f64]; 2],
+        depths: &mut [f64],
+    ) {
+        for ((depth, &u), &z) in depths.iter_mut().zip(rolls).zip(heights) {
+            let [p, q] = [self.per_roll * (u - self.middle), self.per_height * z];
+            *depth = self.formula(p, q);
+        }
+        for ramp in self.along_profile.iter().flatten() {
+            ramp.add_to(depths, rolls);
+        }
+        for ramp in self.along_lead.iter().flatten() {
+            ramp.add_to(depths, heights);
+        }
+        if let Some(grid) = grid {
+            depths.iter_mut().zip(rolls).zip(heights).for_each(|((depth, &u), &z)| *depth += grid(u, z));
+        }
+    }
+
+    /// Depth of crownings, slopes and bias, mm.
+    #[inline]
+    fn formula(&self, p: f64, q: f64) -> f64 {
+        self.profile_crowning * p * p
+            + 0.5 * self.profile_slope * p
+            + self.lead_crowning * q * q
+            + 0.5 * self.lead_slope * q
+            + 0.25 * self.bias * p * q
+    }
+
     /// The stated modifications and what of the grid is given.
     fn with(&self, grid: Option<[f64; 3]>, u: f64, z: f64) -> Depth {
         let [dp, dq] = [self.per_roll, self.per_height];
         let [p, q] = [dp * (u - self.middle), dq * z];
         let mut depth = Depth {
-            value: self.profile_crowning * p * p
-                + 0.5 * self.profile_slope * p
-                + self.lead_crowning * q * q
-                + 0.5 * self.lead_slope * q
-                + 0.25 * self.bias * p * q,
+            value: self.formula(p, q),
             by_roll: dp * (2.0 * self.profile_crowning * p + 0.5 * self.profile_slope + 0.25 * self.bias * q),
             by_z: dq * (2.0 * self.lead_crowning * q + 0.5 * self.lead_slope + 0.25 * self.bias * p),
         };
@@ -255,6 +320,11 @@ impl SplitDepth {
     /// The smooth part at roll angle `u` and height `z` (mm).
     pub fn smooth(&self, u: f64, z: f64) -> Depth {
         self.field.with(Some(self.split.smooth(u, z)), u, z)
+    }
+
+    /// The smooth part at places, mm: the values of [`SplitDepth::smooth`], bit by bit.
+    pub(crate) fn smooth_at_places(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        self.field.with_at_places(Some(|u: f64, z: f64| self.split.smooth(u, z)[0]), places, depths);
     }
 
     /// What the flank lies below the smooth part, mm.

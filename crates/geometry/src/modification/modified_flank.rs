@@ -78,10 +78,34 @@ impl ModifiedFlank {
         depth
     }
 
+    /// Depths at places, their roll angles and heights (mm), pitch error included, mm: the values of
+    /// [`ModifiedFlank::depth`], bit by bit.
+    pub fn depths(&self, places: [&[f64]; 2], depths: &mut [f64]) {
+        match (&self.split, &self.field) {
+            (Some(split), _) => split.smooth_at_places(places, depths),
+            (None, Some(field)) => field.at_places(places, depths),
+            (None, None) => depths.fill(0.0),
+        }
+        depths.iter_mut().for_each(|depth| *depth += self.pitch);
+    }
+
     /// Least depth over the flank, pitch error included, mm: see [`DepthField::least`].
     pub fn least_depth(&self) -> f64 {
         let of_field = || self.field.as_ref().map_or(0.0, |f| f.least());
         self.pitch + self.split.as_ref().map_or_else(of_field, SplitDepth::least)
+    }
+
+    /// Least depth at a height (mm), pitch error included, mm: see [`DepthField::least_at`].
+    pub fn least_depth_at(&self, z: f64) -> f64 {
+        match (&self.split, &self.field) {
+            (Some(split), _) => self.pitch + split.least(),
+            (None, field) => self.pitch + field.as_ref().map_or(0.0, |field| field.least_at(z)),
+        }
+    }
+
+    /// Roll angles at which profiles have kinks: where linear reliefs of root and tip start.
+    pub fn kinks(&self) -> [Option<f64>; 2] {
+        self.field.as_ref().map_or([None; 2], |field| field.kinks())
     }
 
     /// Half of a usual band of contact, mm: see [`DepthField::band`]; 0 of a flank that nothing is ground off.

@@ -83,6 +83,27 @@ impl Ramp {
         same.then(|| (amount != 0.0).then_some(Self { amount, ..any }))
     }
 
+    /// Where it starts with a kink.
+    pub fn kink(&self) -> Option<f64> {
+        (self.shape == ReliefShape::Linear && self.amount != 0.0).then_some(self.start)
+    }
+
+    /// Adds the depth at each x.
+    pub fn add_to(&self, depths: &mut [f64], at: &[f64]) {
+        let way = |x: f64| (x - self.start) * self.per_length;
+        let places = depths.iter_mut().zip(at);
+        match self.shape {
+            ReliefShape::Linear => places.for_each(|(depth, &x)| {
+                let t = way(x);
+                *depth += if t <= 0.0 { 0.0 } else { self.amount * t };
+            }),
+            ReliefShape::Parabolic => places.for_each(|(depth, &x)| {
+                let t = way(x);
+                *depth += if t <= 0.0 { 0.0 } else { self.amount * t * t };
+            }),
+        }
+    }
+
     /// Depth and its derivative by x; at the start itself the slope is that of the flank before it.
     pub fn at(&self, x: f64) -> (f64, f64) {
         let t = (x - self.start) * self.per_length;

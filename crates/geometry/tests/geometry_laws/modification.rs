@@ -89,6 +89,37 @@ fn derivatives_are_differences() {
     }
 }
 
+/// Depths of many places at once are those of each, bit by bit; none at a height is less than the least there, which is no
+/// less than that of the whole flank; slopes jump at kinks and nowhere else.
+#[test]
+fn depths_at_once_are_those_of_each() {
+    for shape in [ReliefShape::Linear, ReliefShape::Parabolic] {
+        for (k, m) in each(shape).iter().enumerate() {
+            let gear = modified(20.0, m);
+            let whole = gear.modified_flank(Side::Left, 7);
+            for flank in [whole.clone(), whole.split(0.0)] {
+                let places = places(&gear);
+                let (rolls, heights): (Vec<f64>, Vec<f64>) = places.iter().map(|&[u, z]| (u, z)).unzip();
+                let mut depths = vec![f64::NAN; places.len()];
+                flank.depths([&rolls, &heights], &mut depths);
+                for ([u, z], depth) in places.into_iter().zip(depths) {
+                    assert_eq!(depth, flank.depth(u, z).value, "modification {k}, u {u}, z {z}");
+                    let least = flank.least_depth_at(z);
+                    assert!(least <= depth + 4e-4, "modification {k}, u {u}, z {z}: {depth} below {least}");
+                    let everywhere = flank.least_depth();
+                    assert!(least >= everywhere - 1e-12 || m.bias != 0.0, "modification {k}: {least}, {everywhere}");
+                }
+            }
+            let flank = gear.modified_flank(Side::Left, 7);
+            let jump = |u: f64| flank.depth(u + 1e-9, 1.0).by_roll - flank.depth(u - 1e-9, 1.0).by_roll;
+            let reliefs = [m.root_relief, m.tip_relief].into_iter().flatten().count();
+            let kinks: Vec<f64> = flank.kinks().into_iter().flatten().collect();
+            assert_eq!(kinks.len(), if shape == ReliefShape::Linear { reliefs } else { 0 }, "modification {k}");
+            assert!(kinks.iter().all(|&u| jump(u).abs() > 1e-3), "modification {k}: {kinks:?}");
+        }
+    }
+}
+
 /// The normal is a unit vector across both tangents, out of the tooth.
 #[test]
 fn rates_of_depths_are_differences() {

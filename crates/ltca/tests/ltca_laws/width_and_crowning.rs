@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use contact::Misalignment;
 use geometry::{FlankModification, Gear, GearData, GearModifications, GearPair};
-use ltca::{SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed};
+use ltca::{NominalLines, SpringErrors, StaticModel, StaticOptions, slice_errors, slices_needed, slices_needed_on};
 use mesh::Extent;
 use reduction::ElasticGear;
 use testing::{Case, default_data, mean_and_peak_to_peak, modified, of_order, quadratic};
@@ -107,6 +107,25 @@ fn counts_follow_width_and_load() {
     let by_load = [1.0, 0.1, 0.01].map(|part| count(15.0, [30.0, 0.0], part * usual));
     assert!(by_width.windows(2).all(|w| w[0] < w[1]), "{by_width:?}");
     assert!(by_load[2] > by_load[0] && by_load[2] > 32, "{by_load:?}");
+}
+
+/// Nominal contact lines of a pair serve it with any micro-geometry, and say the same as its own; those of a pair that
+/// stands otherwise do not.
+#[test]
+fn nominal_lines_serve_all_micro_geometry() {
+    let [pinion, wheel] = default_data(20.0).map(|d| Gear::new(d).unwrap());
+    let plain = GearPair::new(pinion, wheel, None).unwrap();
+    let base = StaticOptions::new(150e3, &plain);
+    let lines = NominalLines::new(&plain, &base);
+    for (crowning, part) in [(0.0, 1.0), (10.0, 1.0), (30.0, 0.1), (40.0, 0.01)] {
+        let (pair, options) =
+            flank_case(&plain, &StaticOptions { torque: part * base.torque, ..base.clone() }, [crowning, 0.0]);
+        assert!(lines.serves(&pair, &options), "crowning {crowning} um");
+        assert_eq!(slices_needed_on(&lines, &pair, &options), slices_needed(&pair, &options), "crowning {crowning} um");
+    }
+    let (pair, tilted) = flank_case(&plain, &base, [10.0, 20.0]);
+    let apart = GearPair::new(plain.pinion.clone(), plain.wheel.clone(), Some(plain.centre_distance() + 0.1)).unwrap();
+    assert!(!lines.serves(&pair, &tilted) && !lines.serves(&apart, &base));
 }
 
 /// A pair and its mirror image, of the other hand and with lead slope and misalignment turned round, take as many slices:

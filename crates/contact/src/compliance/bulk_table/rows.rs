@@ -76,34 +76,76 @@ impl WithSimd for Interpolation<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         let Self { entries, count, places, groups: [of_openings, of_loads], symmetric, out } = self;
         let n = places[0].len();
-        let mut own = TilePoints::default();
+        let mut own = [TilePoints::default(); DIRECTIONS];
         for (number, group) in of_loads.iter().enumerate() {
             let first = if symmetric { number } else { 0 };
-            for (d, e) in (0..DIRECTIONS).flat_map(|d| (0..DIRECTIONS).map(move |e| (d, e))) {
-                if !group.along[d] {
-                    continue;
-                }
-                for opened in of_openings[first..].iter().filter(|opened| opened.along[e]) {
-                    // Each load costs a pass over the tile: where S is symmetric, the smaller group is the load.
-                    let swapped = symmetric && opened.rows.len() < group.rows.len();
-                    let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
-                    let along = if swapped { [e, d] } else { [d, e] };
-                    let tile = Tile::between(entries, count, along, [load, opening].map(|group| group.runs), &mut own);
-                    // Of the lower triangle, whichever is the load.
-                    let strides = if swapped { [1, n] } else { [n, 1] };
-                    let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
+            for opened in &of_openings[first..] {
+                // Each load costs a pass over the tile: where S is symmetric, the smaller group is the load.
+                let swapped = symmetric && opened.rows.len() < group.rows.len();
+                let (load, opening) = if swapped { (opened, group) } else { (group, opened) };
+                // Of the lower triangle, whichever is the load.
+                let strides = if swapped { [1, n] } else { [n, 1] };
+                let (loads, rows) = (&places[1][load.rows.clone()], &places[0][opening.rows.clone()]);
+                for e in (0..DIRECTIONS).filter(|e| opening.along[*e]) {
+                    let [first, second, third] = &mut own;
+                    let tile = |d: usize, own| {
+                        load.along[d].then(|| Tile::between(entries, count, [d, e], [load.runs, opening.runs], own))
+                    };
+                    let tiles = Tiles { of_loads: [tile(0, first), tile(1, second), tile(2, third)], along: e };
                     let mut start = load.rows.start * strides[0] + opening.rows.start * strides[1];
                     for part in loads.chunks(AT_ONCE) {
                         let out = &mut out[start..];
                         match part {
-                            [_, _, _, _] => tile.add::<S, 4>(simd, along, (part, rows), (out, strides)),
-                            [_, _, _] => tile.add::<S, 3>(simd, along, (part, rows), (out, strides)),
-                            [_, _] => tile.add::<S, 2>(simd, along, (part, rows), (out, strides)),
-                            _ => tile.add::<S, 1>(simd, along, (part, rows), (out, strides)),
+                            [_, _, _, _] => tiles.add::<S, 4>(simd, (part, rows), (out, strides)),
+                            [_, _, _] => tiles.add::<S, 3>(simd, (part, rows), (out, strides)),
+                            [_, _] => tiles.add::<S, 2>(simd, (part, rows), (out, strides)),
+                            _ => tiles.add::<S, 1>(simd, (part, rows), (out, strides)),
                         }
                         start += AT_ONCE * strides[0];
                     }
                 }
+            }
+        }
+    }
+}
+
+/// What the loads of one group do at the points of another along one direction.
+struct Tiles<'a> {
+    /// Of what the loads are along each direction.
+    of_loads: [Option<Tile<'a>>; DIRECTIONS],
+    along: usize,
+}
+
+impl Tiles<'_> {
+    /// Adds what `K` loads open `rows` by to entries of `out`, which are `strides` apart: from load to load and from row
+    /// to row.
+    ///
+    /// What all directions of a load do is summed at the points, before rows look at it.
+    #[inline(always)]
+    fn add<S: Simd, const K: usize>(
+        &self,
+        simd: S,
+        (loads, rows): (&[TablePoint], &[TablePoint]),
+        (out, strides): (&mut [f64], [usize; 2]),
+    ) {
+        let Some(loads) = loads.first_chunk::<K>() else { return };
+        let mut at_points = [[Four::splat(simd, 0.0); K]; RUNS];
+        for (d, tile) in self.of_loads.iter().enumerate() {
+            let Some(tile) = tile else { continue };
+            let opened = tile.opened(simd, loads);
+            for k in 0..K {
+                let part = Four::splat(simd, loads[k].parts[d]);
+                for (sum, opened) in at_points.iter_mut().zip(&opened) {
+                    sum[k] = part.mul_add(opened[k], sum[k]);
+                }
+            }
+        }
+        let [first, second, third] = at_points;
+        for k in 0..K {
+            for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
+                let [a, b, c] = row.weights.each_ref().map(|weights| Four::new(simd, weights));
+                let sum = a.mul_add(first[k], b.mul_add(second[k], c * third[k])).sum();
+                *entry += row.parts[self.along] * sum;
             }
         }
     }
@@ -170,28 +212,6 @@ impl<'a> Tile<'a> {
             }
         }
         [first, second, third]
-    }
-
-    /// Adds what `K` loads along direction `d` open `rows` by along direction `e` to entries of `out`, which are
-    /// `strides` apart: from load to load and from row to row.
-    #[inline(always)]
-    fn add<S: Simd, const K: usize>(
-        &self,
-        simd: S,
-        [d, e]: [usize; 2],
-        (loads, rows): (&[TablePoint], &[TablePoint]),
-        (out, strides): (&mut [f64], [usize; 2]),
-    ) {
-        let Some(loads) = loads.first_chunk::<K>() else { return };
-        let [first, second, third] = self.opened(simd, loads);
-        for k in 0..K {
-            let part = loads[k].parts[d];
-            for (row, entry) in rows.iter().zip(out[k * strides[0]..].iter_mut().step_by(strides[1])) {
-                let [a, b, c] = row.weights.each_ref().map(|weights| Four::new(simd, weights));
-                let sum = a.mul_add(first[k], b.mul_add(second[k], c * third[k])).sum();
-                *entry += part * row.parts[e] * sum;
-            }
-        }
     }
 }
 
