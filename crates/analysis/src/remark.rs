@@ -157,7 +157,7 @@ answer::remarks! {
         "{rows} rows a mesh cycle do not show all that moves: {share_percent:.0} % of the vibration lies between the mesh orders {from_order} and {to_order}, and more may lie beyond (reported from {limit_percent:.0} % on); peaks fall between the rows",
         "take {cure}";
     few_steps(percent, order, steps_in_period, limit_percent, cure)
-        "steps may change the peak to peak of the DTE by up to {percent:.1} %, most of it mesh order {order}, whose period has {steps_in_period:.1} of them (reported from {limit_percent:.0} % on)",
+        "steps change the peak to peak of the DTE by about {percent:.1} %, most of it mesh order {order}, whose period has {steps_in_period:.1} of them (reported from {limit_percent:.0} % on)",
         "take {cure}";
     fast_rotation(share_percent, limit_percent)
         "the gears turn so fast that Coriolis and centrifugal forces on their elastic deformation, which are left out, reach {share_percent:.0} % of the elastic ones (reported from {limit_percent:.1} % on): expect that much of an error in elastic deflections and frequencies",
@@ -169,7 +169,7 @@ answer::remarks! {
         "elasticity is quasi-static, and nobody looks here how much its inertia would change: a run at one speed says so",
         "";
     run_up_torque(duration_s, inertia_torque_nm, place, share_percent, load_torque_nm, cure)
-        "the run-up lasts {duration_s:.3} s: its acceleration takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
+        "the speed changes within {duration_s} s: that takes up to {inertia_torque_nm:.1} N m at {place}, {share_percent:.0} % of the {load_torque_nm:.1} N m of the load there, and the meshes carry both",
         "{cure}";
     coarse_order_cut(points, order, speed_rpm, points_enough, times, cure)
         "the peak of order {order} at {speed_rpm:.0}/min has {points} of the {points_enough} points across it that show its height and place",

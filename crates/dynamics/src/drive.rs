@@ -28,6 +28,14 @@ impl Speed {
         matches!(self, Self::Constant(_))
     }
 
+    /// Times between which it changes, s; `None` of a constant one.
+    pub fn change(&self) -> Option<[f64; 2]> {
+        match *self {
+            Self::Constant(_) => None,
+            Self::Ramp { start, duration, .. } => Some([start, start + duration]),
+        }
+    }
+
     /// Speed, rad/s.
     pub fn at(&self, t: f64) -> f64 {
         match *self {

@@ -98,6 +98,7 @@ fn a_motion_settles_where_it_can() {
         ("drive = \"torque\"\nrun = \"steady\"\n", "has no period"),
         ("run = \"steady\"\nto_speed_rpm = 900.0\n", "never repeats itself"),
         ("drive = \"torque\"\nrun = \"shooting\"\n", "has no period"),
+        ("to_speed_rpm = 1500.0\n", "the speed stays"),
     ] {
         let error = asked(words).map(|_| ()).expect_err(words);
         assert!(error.to_string().contains(said) && error.hint().is_some(), "{words}: {error}");
@@ -106,6 +107,10 @@ fn a_motion_settles_where_it_can() {
         text().replacen("drive = \"torque\"\n", steady, 1).replacen("steps_per_row = 2", "steps_per_row = 3", 1);
     let error = Gearbox::parse(&beside, &folder().join("two_stages.toml")).unwrap_err();
     assert!(error.to_string().contains("rows of 3 steps do not meet the ends of cycles of 40"), "{error}");
+    let few = text().replacen("steps_per_row = 2", "steps_per_row = 11", 1);
+    let error = Gearbox::parse(&few, &folder().join("two_stages.toml")).unwrap_err();
+    assert!(error.to_string().contains("a cycle of 40 steps with a row each 11"), "{error}");
+    assert!(error.hint().unwrap().contains("4 rows a cycle"), "{error}");
 }
 
 /// Friction is in the contact itself, at rest and in motion, and in its maps.

@@ -232,7 +232,7 @@ impl RunArgs {
         if (self.resume || self.stop_after_cycles.is_some()) && !checkpoints {
             return refuse(
                 "this analysis has no checkpoints",
-                "`--resume` and `--stop-after-cycles` belong to motions of the models \"reduced\" and \"reduced+modes\" with `run` \"steady\", \"span\" or \"ramp\", without [accuracy]",
+                "`--resume` and `--stop-after-cycles` belong to motions of the models \"reduced\" and \"reduced+modes\" with `run = \"steady\"`, \"span\" or \"ramp\", without [accuracy]: take `run = \"steady\"` in place of \"shooting\"",
             );
         }
         let in_parts = self.resume || self.stop_after_cycles.is_some();

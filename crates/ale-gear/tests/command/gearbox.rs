@@ -255,7 +255,7 @@ fn a_branch_over_the_speed_is_written() {
         ("motion.mesh=exact", "the exact contact has no continuation"),
         ("motion.cycles=5", "`cycles` belongs to a motion that writes rows"),
         ("motion.run=span", "[motion.continuation] belongs to a branch"),
-        ("motion.to_speed_rpm=12000", "ends where it begins"),
+        ("motion.to_speed_rpm=12000", "the speed stays"),
         ("motion.continuation.most_harmonics=3", "below `harmonics`"),
         ("motion.drive=torque", "a result where a torque drives"),
         ("motion.drive=balanced", "keeps its speed"),

@@ -214,7 +214,7 @@ fn a_run_up_has_a_waterfall() {
     let history = scratch.read("o/history.csv");
     let speed = column(&history, "pinion_speed_rpm");
     assert_eq!(speed.len() as u64, 16 * summary["headline"]["cycles"].as_u64().unwrap());
-    assert!(speed.windows(2).all(|w| w[1] > w[0] - 1e-9) && speed[speed.len() - 1] > 2900.0, "{speed:?}");
+    assert!(speed.windows(2).all(|w| w[1] > w[0] - 1e-9) && speed[speed.len() - 1] > 3000.0 - 1e-6, "{speed:?}");
     let phases = column(&history, "mesh_phase");
     for (i, phase) in phases.iter().enumerate().filter(|(i, _)| (i + 1) % 16 == 0) {
         assert!(phase.min(1.0 - phase) < 1e-9, "row {i} ends a mesh cycle at phase {phase}");
@@ -222,6 +222,49 @@ fn a_run_up_has_a_waterfall() {
     let waterfall = scratch.read("o/waterfall.csv");
     assert_eq!(waterfall.lines().next(), Some("time_s,pinion_speed_rpm,mesh_order,frequency_hz,dte_um"));
     assert_eq!(column(&waterfall, "mesh_order").iter().fold(0.0, |m: f64, o| m.max(*o)), 8.0);
+}
+
+/// A ramp ends at its last speed however short it is, one that ends in standstill with its last whole mesh cycle, and one
+/// of which a cycle would never end is refused.
+#[test]
+fn a_ramp_ends_at_its_last_speed() {
+    let of = |from: f64, to: f64, duration: f64| {
+        let drive = "[drive]\nby = \"speed\"\n";
+        let ramp = format!(
+            "run = \"ramp\"\nramp = {{ from_rpm = {from:?}, to_rpm = {to:?}, duration_s = {duration:?} }}\n{drive}"
+        );
+        Scratch::new().file("a.toml", scene(0, &ramp))
+    };
+    for (from, to, duration) in [(0.0, 3000.0, 0.0032), (3000.0, 2000.0, 0.004), (1000.0, 1010.0, 1e-5)] {
+        let scratch = of(from, to, duration);
+        run(&scratch, "o", &[]);
+        let speed = *column(&scratch.read("o/history.csv"), "pinion_speed_rpm").last().unwrap();
+        assert!((speed - to).abs() < 1e-6, "{from} to {to} in {duration} s ends at {speed}/min");
+    }
+    let scratch = of(2000.0, 0.0, 0.02);
+    run(&scratch, "o", &[]);
+    let speed = *column(&scratch.read("o/history.csv"), "pinion_speed_rpm").last().unwrap();
+    assert!((0.0..1000.0).contains(&speed), "a run-down stops at {speed}/min");
+    let run = of(0.0, 0.001, 1.0).ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.complaint().contains("a mesh cycle of the ramp lasts"), "{}", run.complaint());
+    let run = of(700.0, 700.0, 1.0).ale_gear(["run", "a.toml", "--out", "o"]);
+    assert!(run.complaint().contains("the speed stays"), "{}", run.complaint());
+}
+
+/// Where steps follow an error, their estimate says what their mean length makes of the peak to peak.
+#[test]
+fn steps_by_an_error_have_an_estimate() {
+    let found = [1e-2, 1e-4].map(|tolerance| {
+        let motion = format!("method = \"energy\"\nerror_tolerance = {tolerance:?}\n");
+        let scratch = Scratch::new().file("a.toml", scene(0, &motion));
+        let summary = run(&scratch, "o", &[]);
+        let dte = summary["headline"]["peak_to_peak_dte_um"].as_f64().unwrap();
+        (certificate(&summary, "step_error_percent"), dte)
+    });
+    let [(coarse, wide), (fine, narrow)] = found;
+    let change = 100.0 * (wide / narrow - 1.0).abs();
+    println!("said {coarse} and {fine} %, found {change} %");
+    assert!(fine < coarse && change < 3.0 * coarse, "said {coarse} and {fine} %, found {change} %");
 }
 
 /// What does not go together is told before any work, with line and hint.

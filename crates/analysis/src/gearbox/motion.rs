@@ -215,6 +215,7 @@ pub(super) fn run(
         damping,
         step: rest.step(asked),
         steps: [done.steps, done.divided],
+        steps_per_cycle: done.steps_per_cycle,
         energy: done.energy,
         gear_modes: gear_frequencies(rest.file.gears.len(), rest.modes),
         reduction,

@@ -137,18 +137,25 @@ impl Judged<'_> {
         let per_cycle = count as f64 / whole;
         let used = ((cycles * per_cycle).round() as usize).min(count);
         let resonance = moved.resonances[i];
-        let steps = SteadySteps {
-            per_period: per_cycle * f64::from(asked.steps_per_row),
+        // A slower mesh has as many more of them in its cycle.
+        let fastest = moved.mesh_frequencies.iter().fold(0.0, |most: f64, hz| most.max(hz.abs()));
+        let of_mean = |steps: f64| steps * fastest / moved.mesh_frequencies[i].abs();
+        let per_period = match asked.error_tolerance {
+            Some(_) => moved.steps_per_cycle.map(of_mean),
+            None => Some(per_cycle * f64::from(asked.steps_per_row)),
+        };
+        let steps = per_period.map(|per_period| SteadySteps {
+            per_period,
             scheme: asked.scheme,
             resonance: resonance.hz / moved.mesh_frequencies[i],
             damping: resonance.damping,
-        };
+        });
         let record = MeshRecord {
             samples: &samples[count - used..],
             cycles,
-            steps: asked.error_tolerance.is_none().then_some(steps),
+            steps,
             comes_back: moved.comes_back,
-            keys: StepKeys::GEARBOX,
+            keys: StepKeys::GEARBOX.by(asked.error_tolerance),
         };
         Ok(record.resolved())
     }

@@ -40,6 +40,8 @@ pub struct GearboxMotionResult {
     pub step: f64,
     /// Steps taken, and those that were divided.
     pub steps: [u64; 2],
+    /// Steps in a cycle of the fastest mesh with rows, on average.
+    pub steps_per_cycle: Option<f64>,
     /// Where the energy went.
     pub energy: GearboxEnergy,
     /// Energy of the ledger that does not close, over the work that goes through the gearbox.
@@ -52,7 +54,7 @@ pub struct GearboxMotionResult {
     pub map_errors: Vec<Option<[f64; 2]>>,
     /// Both gears of each mesh turning against each other on its mean stiffness.
     pub resonances: Vec<MeshResonance>,
-    /// By how much of itself steps may change the peak to peak of each mesh at most, %; none of a motion that was stopped.
+    /// About how much of itself steps change the peak to peak of each mesh by, %: an estimate; none of a motion that was stopped.
     pub step_errors_percent: Vec<Option<f64>>,
     /// Elastic frequencies of the gears of each mesh beside its harmonics; none of a motion that was stopped.
     pub elasticity: Vec<ElasticHeadline>,

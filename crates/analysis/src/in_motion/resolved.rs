@@ -30,6 +30,11 @@ impl StepKeys {
     /// In the file of a gearbox.
     pub const GEARBOX: Self =
         Self { rows: "more `steps_per_cycle`, or fewer `steps_per_row`", steps: "more `steps_per_cycle`" };
+
+    /// The same where steps follow an error tolerance, if there is one.
+    pub fn by(self, tolerance: Option<f64>) -> Self {
+        if tolerance.is_some() { Self { steps: "a smaller `error_tolerance`", ..self } } else { self }
+    }
 }
 
 /// What steps make of the steady motion.
@@ -48,7 +53,7 @@ pub(crate) struct MeshRecord<'a> {
     pub samples: &'a [f64],
     /// Mesh cycles that they span.
     pub cycles: f64,
-    /// `None` where an error tolerance finds them.
+    /// On average where an error tolerance finds them; `None` where nobody knows them.
     pub steps: Option<SteadySteps>,
     /// Whether what comes after them is what they began with.
     pub comes_back: bool,
@@ -58,7 +63,7 @@ pub(crate) struct MeshRecord<'a> {
 /// How well rows and steps show what moves.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Resolved {
-    /// By how much of itself steps may change the peak to peak at most, %; `None` where nobody knows.
+    /// About how much of itself steps change the peak to peak by, %: an estimate; `None` where nobody knows.
     pub step_error_percent: Option<f64>,
     /// Rows, or steps, that are too few.
     pub remarks: Vec<Remark>,

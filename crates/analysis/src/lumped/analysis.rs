@@ -254,8 +254,8 @@ fn result(
     if motion.ramp.is_none() {
         let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
         let comes_back = whole == Window::Rectangular;
-        let steps = time_steps(scene, motion, frequencies);
-        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.resolved();
+        let steps = run.steps_per_cycle.and_then(|own| time_steps((scene, motion), frequencies, own));
+        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }.resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {
@@ -269,13 +269,21 @@ fn result(
     Ok(LumpedResult { facts, rows, energy, end, static_cycle, spectrum, run_up, campbell, headline, remarks })
 }
 
-/// Steps of a motion at constant speed; `None` where they follow an error, of a ramp, and of a mesh without one stiffness.
-fn time_steps(scene: &Scene, motion: &MotionScene, frequencies: MeshFrequencies) -> Option<SteadySteps> {
+/// Steps of a motion at constant speed that takes so many in a mesh cycle on average; `None` of a ramp, and of a mesh
+/// without one stiffness.
+fn time_steps(
+    (scene, motion): (&Scene, &MotionScene),
+    frequencies: MeshFrequencies,
+    per_cycle: f64,
+) -> Option<SteadySteps> {
     let MeshFrequencies { mesh_hz, resonance_hz } = frequencies;
-    let fixed = motion.ramp.is_none() && motion.error_tolerance.is_none() && resonance_hz > 0.0;
+    let is_known = motion.ramp.is_none() && resonance_hz > 0.0;
     let damping = scene.lumped12.as_ref().map(|own| own.damping_ratio).or(motion.mesh_damping_ratio);
-    fixed.then(|| SteadySteps {
-        per_period: 1.0 / (frequencies.step(motion) * mesh_hz),
+    is_known.then(|| SteadySteps {
+        per_period: match motion.error_tolerance {
+            Some(_) => per_cycle,
+            None => 1.0 / (frequencies.step(motion) * mesh_hz),
+        },
         scheme: motion.scheme(),
         resonance: resonance_hz / mesh_hz,
         damping: damping.unwrap_or(USUAL_DAMPING),

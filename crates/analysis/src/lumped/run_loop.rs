@@ -49,6 +49,8 @@ pub(crate) struct LumpedRun {
     pub ledger: Ledger,
     /// Steps taken, and taken back.
     pub steps: [u64; 2],
+    /// Steps in a mesh cycle with rows, on average.
+    pub steps_per_cycle: Option<f64>,
     /// Steps from row to row.
     pub steps_per_row: u32,
 }
@@ -199,6 +201,7 @@ impl RunPlan<'_> {
             periodicity: course.stage().periodicity,
             ledger: course.ledger().copied().unwrap_or_default(),
             steps: [course.counts().steps, course.counts().refused],
+            steps_per_cycle: course.steps_per_cycle(),
             steps_per_row: frequencies.steps_per_row(motion),
         })
     }

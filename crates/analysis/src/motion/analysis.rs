@@ -228,6 +228,7 @@ pub(super) fn ready(
 ) -> Result<PreparedMotion, Failure> {
     let MotionInputs { scene, motion, .. } = *inputs;
     let mut prepared = prepare(inputs, observer, sink, window)?;
+    motion_remarks::endless(scene, &prepared)?;
     motion_remarks::unstable(scene, &prepared)?;
     prepared.remarks.extend(motion_remarks::coarse(scene, motion, &prepared));
     prepared.remarks.extend(motion_remarks::without_backlash(scene, &prepared));
@@ -280,7 +281,8 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
         Some(_) => None,
         None => Some(series.spectrum((headline.cycles as f64, headline.mesh_frequency_hz), window)?),
     };
-    let steps = time_steps(motion, &prepared, headline.mesh_frequency_hz);
+    let per_cycle = done.motion.steps_per_cycle();
+    let steps = per_cycle.and_then(|steps| time_steps((motion, steps), &prepared, headline.mesh_frequency_hz));
     let mut remarks = remarks_of((scene, motion), &prepared, &headline, mesh_hz, done.wall_s);
     if let Some(ramp) = &ramp {
         remarks.extend(run_up_torque(scene, &prepared.system));
@@ -290,7 +292,7 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     if motion.ramp.is_none() {
         let (samples, cycles) = (&series.dte_um[..], headline.cycles as f64);
         let comes_back = window == Window::Rectangular;
-        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR }.resolved();
+        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }.resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
     }
@@ -301,11 +303,18 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     Ok(MotionResult { pair, rows, layout, headline, quasi_static, spectrum, ramp, patterns, facts, remarks })
 }
 
-/// Steps of a motion at constant speed; `None` where they follow an error, and of a ramp.
-fn time_steps(motion: &MotionScene, prepared: &PreparedMotion, mesh_hz: f64) -> Option<SteadySteps> {
+/// Steps of a motion at constant speed that takes so many in a mesh cycle on average; `None` of a ramp.
+fn time_steps(
+    (motion, per_cycle): (&MotionScene, f64),
+    prepared: &PreparedMotion,
+    mesh_hz: f64,
+) -> Option<SteadySteps> {
     let resonance = prepared.system.mesh_resonance();
-    (motion.ramp.is_none() && motion.error_tolerance.is_none()).then(|| SteadySteps {
-        per_period: 1.0 / (prepared.times.step(1.0 / mesh_hz) * mesh_hz),
+    motion.ramp.is_none().then(|| SteadySteps {
+        per_period: match motion.error_tolerance {
+            Some(_) => per_cycle,
+            None => 1.0 / (prepared.times.step(1.0 / mesh_hz) * mesh_hz),
+        },
         scheme: prepared.times.scheme,
         resonance: resonance.hz / mesh_hz,
         damping: resonance.damping,

@@ -10,7 +10,7 @@ use gearbox::{
 };
 use integrate::{Checkpoint, Course, Follower, Goal, Row, Settle, Stage};
 use periodic::Shot;
-use scene::{MotionScene, Run, Scene};
+use scene::{MotionScene, RampScene, Run, Scene};
 
 use super::{MotionCheckpoint, MotionLayout, MotionRow, MotionSink, pattern::PatternRecord, setup::PreparedMotion};
 use crate::{
@@ -21,6 +21,18 @@ use crate::{
 /// Difference over a mesh cycle that counts as none, where a scene states no other.
 const TOLERANCE: f64 = 1e-6;
 
+/// Share of a mesh cycle that is none: round-off of the angle turned.
+const NO_CYCLE: f64 = 1e-9;
+
+/// Mesh cycles of a ramp with what is before and after it: until its last speed is reached, or the last whole one of a
+/// motion that stops.
+pub(super) fn ramp_cycles(ramp: RampScene, pair: &PairModel) -> u64 {
+    let turned = pair.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s);
+    let all = (turned - NO_CYCLE).ceil().max(1.0);
+    let is_reached = pair.time_of_cycles(all).is_some();
+    (if is_reached { all } else { (turned + NO_CYCLE).floor().max(1.0) }) as u64
+}
+
 /// What a scene asks of its motion.
 fn goal(
     (scene, motion): (&Scene, &MotionScene),
@@ -29,13 +41,10 @@ fn goal(
 ) -> Result<Goal<GearboxMechanism>, GearboxError> {
     let settles = matches!(motion.run, Run::Steady | Run::Shooting);
     let tolerance = motion.periodic_tolerance.filter(|_| settles).unwrap_or(TOLERANCE);
-    let until = match (motion.run, motion.ramp, motion.duration_s) {
-        (Run::Ramp, Some(ramp), _) => Some(ramp.before_s + ramp.duration_s + ramp.after_s),
-        (_, _, duration) => duration,
-    };
-    let cycles = match until {
-        None => u64::from(scene.analysis.cycles),
-        Some(end) => (pair.cycles_until(end) + 1e-9).floor().max(1.0) as u64,
+    let cycles = match (motion.run, motion.ramp, motion.duration_s) {
+        (Run::Ramp, Some(ramp), _) => ramp_cycles(ramp, pair),
+        (_, _, Some(end)) => (pair.cycles_until(end) + NO_CYCLE).floor().max(1.0) as u64,
+        (_, _, None) => u64::from(scene.analysis.cycles),
     };
     let settle = settles.then(|| Settle { tolerance, most: most(motion) });
     Ok(Goal {

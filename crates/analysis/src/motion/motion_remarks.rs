@@ -9,13 +9,16 @@ use scene::{Flanks, MotionScene, Run, Scene};
 
 use super::{
     MotionHeadline, SweepHeadline,
-    course::failure,
+    course::{failure, ramp_cycles},
     setup::{PreparedMotion, mesh_range_hz, refuse_unstable},
     step_estimate::{Pace, StepDemand, fastest_hz},
 };
 use crate::{
+    AnalysisError,
+    error::place_in,
     failure::Failure,
     in_motion::{Parting, Settled, StepKeys, coarse_steps, no_backlash, speed_changed, work_open},
+    refused::Refusal,
     remark,
     unstable_steps::Steps,
 };
@@ -24,6 +27,8 @@ use crate::{
 const SLOW: f64 = 20_000.0;
 /// More steps than this of a motion with modes take minutes: those who wait should know.
 const LONG: f64 = 100_000.0;
+/// More steps than this in one mesh cycle of a ramp take an hour, and say nothing on the way.
+const ENDLESS: f64 = 5e6;
 
 /// A window that was too narrow.
 pub(super) fn widened(error: &StaticError, teeth: usize) -> Remark {
@@ -41,6 +46,22 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
         false => ("mesh resonance", ""),
     };
     if given { coarse_steps(steps, (what, fastest), (StepKeys::PAIR, or)) } else { None }
+}
+
+/// Refuses a ramp so slow that one of its mesh cycles never ends.
+///
+/// # Errors
+/// [`crate::AnalysisError::Refused`] with the number of steps.
+pub(super) fn endless(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
+    let longest = longest_cycle(scene, &prepared.system);
+    let steps = longest / prepared.times.step(longest);
+    if prepared.times.tolerance.is_some() || scene.motion.as_ref().is_none_or(|m| m.ramp.is_none()) || steps <= ENDLESS {
+        return Ok(());
+    }
+    let what = format!("a mesh cycle of the ramp lasts {longest:.3e} s, which are {steps:.1e} steps");
+    let hint = format!("{ENDLESS:.0e} are the most: let it begin and end faster, or change the speed more quickly");
+    let refusal = Refusal::no_result(what, Some(hint));
+    Err(AnalysisError::from(refusal).at(place_in(scene, &["motion.ramp"])).into())
 }
 
 /// Refuses steps of given length that are too long for an explicit method.
@@ -69,7 +90,7 @@ fn longest_cycle(scene: &Scene, system: &PairModel) -> f64 {
     let steady = 60.0 / (speed_rpm * f64::from(teeth));
     let Some(ramp) = motion.and_then(|m| m.ramp) else { return steady };
     // The first cycle of a run-up, the last one of a run-down.
-    let last = system.cycles_until(ramp.before_s + ramp.duration_s + ramp.after_s).floor().max(1.0);
+    let last = ramp_cycles(ramp, system) as f64;
     let times = [0.0, 1.0, last - 1.0, last].map(|c| system.time_of_cycles(c).unwrap_or(f64::NAN));
     (times[1] - times[0]).max(times[3] - times[2])
 }

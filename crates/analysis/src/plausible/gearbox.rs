@@ -47,6 +47,9 @@ fn meant(key: &str, value: f64, fits: impl Fn(f64) -> bool) -> String {
     in_another_unit(key, value, fits).map(|other| other.said).unwrap_or_default()
 }
 
+/// Density below which a shaft has no mass on purpose, kg/m^3, where no slip of units explains it.
+const NO_MASS: f64 = 1e-2;
+
 fn young(shaft: &GearboxShaft) -> Option<Remark> {
     let young = shaft.young_mpa;
     let usual = |x: f64| (SOFT..=HARD).contains(&x);
@@ -60,11 +63,11 @@ fn young(shaft: &GearboxShaft) -> Option<Remark> {
 fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let density = 1e12 * shaft.density;
     let usual = |x: f64| (DENSITIES[0]..=DENSITIES[1]).contains(&x);
-    // A held shaft may leave all inertia to its gears.
-    (!usual(density) && !shaft.held).then(|| {
-        let other = meant("density_kg_m3", density, usual);
-        remark::unlikely_shaft_density(shaft.name.as_str(), density, other)
-    })
+    let other = meant("density_kg_m3", density, usual);
+    // A held shaft, or one without mass on purpose, leaves all inertia to its gears.
+    let is_meant = shaft.held || (density <= NO_MASS && other.is_empty());
+    (!usual(density) && !is_meant)
+        .then(|| remark::unlikely_shaft_density(shaft.name.as_str(), density, other))
 }
 
 /// Outer diameter of a shaft at a place, mm.

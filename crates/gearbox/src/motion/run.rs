@@ -42,6 +42,8 @@ pub struct GearboxRun {
     pub energy: GearboxEnergy,
     /// Steps taken.
     pub steps: u64,
+    /// Steps in a cycle of the fastest mesh with rows, on average.
+    pub steps_per_cycle: Option<f64>,
     /// Steps that were taken in parts or anew, where one had no solution or too large an error.
     pub divided: u64,
     /// What the flanks of each mesh went through.
@@ -178,7 +180,7 @@ impl GearboxRun {
     /// Those of the meshes.
     pub fn of(course: GearboxCourse<'_>, start: &State) -> Result<Self, GearboxError> {
         let (state, ledger) = (course.state().clone(), course.ledger().copied().unwrap_or_default());
-        let (counts, stage) = (course.counts().clone(), course.stage());
+        let (counts, stage, steps_per_cycle) = (course.counts().clone(), course.stage(), course.steps_per_cycle());
         let (warm_up, found) = (course.cycle() - stage.recorded, stage.periodicity);
         let mechanism = course.into_system();
         let energy = mechanism.energy(start, &state, &ledger)?;
@@ -188,6 +190,7 @@ impl GearboxRun {
             ledger,
             energy,
             steps: counts.steps,
+            steps_per_cycle,
             divided: counts.refused,
             flanks: (0..mechanism.live.len()).map(|mesh| mechanism.flank_course(mesh, &counts)).collect(),
             throughput: mechanism.throughput,

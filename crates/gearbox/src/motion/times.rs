@@ -11,6 +11,10 @@ use super::GearboxMechanism;
 const MOST: f64 = 1e6;
 /// Longest step between turns that are alike over the mean of its cycle: longer ones, as from standstill on, are divided.
 const LONGEST: f64 = 1.1;
+/// Least number of steps in a change of speed: longer ones would not see its acceleration.
+const IN_CHANGE: f64 = 16.0;
+/// Share of a step that is none of its own: where a change of speed ends with a cycle but for round-off.
+const NOTHING: f64 = 1e-6;
 
 /// Divides a motion into cycles of its fastest mesh, and these into steps.
 #[derive(Debug, Clone, PartialEq)]
@@ -102,16 +106,39 @@ impl<M: Mechanism + Borrow<GearboxMechanism>> Timetable<M> for MotionTimes {
         let each = !is_even && self.tolerance.is_none();
         let ends = (1..=per_cycle).filter(|&k| each || is_row(before + k) || k == per_cycle);
         let mean = (end - begin) / per_cycle as f64;
+        let change = system.drive.nominal().change();
         let (mut stops, mut start, mut longest): (Vec<Stop>, _, f64) = (Vec::new(), begin, 0.0);
         for k in ends {
             let end = time(k, per_cycle)?;
-            let parts = if each && end - start > LONGEST * mean { ((end - start) / mean).ceil() } else { 1.0 };
-            let part = (end - start) / parts;
-            stops.extend((1..parts as u64).map(|i| Stop { time: start + i as f64 * part, is_row: false }));
-            stops.push(Stop { time: end, is_row: is_row(before + k) });
-            (start, longest) = (end, longest.max(part));
+            for [from, to, most] in pieces([start, end], change) {
+                let most = if each && to - from > LONGEST * mean { most.min(mean) } else { most };
+                let parts = ((to - from) / most).ceil().max(1.0);
+                let part = (to - from) / parts;
+                stops.extend((1..parts as u64).map(|i| Stop { time: from + i as f64 * part, is_row: false }));
+                stops.push(Stop { time: to, is_row: false });
+                longest = longest.max(part);
+            }
+            if let Some(last) = stops.last_mut() {
+                *last = Stop { time: end, is_row: is_row(before + k) };
+            }
+            start = end;
         }
         let longest = if each { longest } else { mean };
         Some(CycleTimes { stops, rows: RowPlace::Ends, control: StepControl::new(self.tolerance, longest) })
     }
+}
+
+/// Parts of a step (s) before, in and after a change of speed, each with the longest step in it.
+fn pieces([start, end]: [f64; 2], change: Option<[f64; 2]>) -> impl Iterator<Item = [f64; 3]> {
+    let [begins, ends] = change.unwrap_or([f64::INFINITY; 2]);
+    let within = |t: &f64| t - start > NOTHING * (end - start) && end - t > NOTHING * (end - start);
+    let [first, second] = [begins, ends].map(|t| Some(t).filter(within));
+    let places = [Some(start), first, second, Some(end)];
+    let mut known = places.into_iter().flatten();
+    let mut from = known.next().unwrap_or(start);
+    known.map(move |to| {
+        let middle = 0.5 * (from + to);
+        let most = if (begins..=ends).contains(&middle) { (ends - begins) / IN_CHANGE } else { f64::INFINITY };
+        [std::mem::replace(&mut from, to), to, most]
+    })
 }

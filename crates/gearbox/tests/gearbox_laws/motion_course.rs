@@ -333,3 +333,28 @@ fn a_checkpoint_of_another_gearbox_is_refused() {
     let GearboxError::Motion(of_coordinates) = &errors[1] else { panic!("{}", errors[1]) };
     assert!(matches!(&**of_coordinates, MotionError::OtherCoordinates { .. }), "{of_coordinates}");
 }
+
+/// A change of speed shorter than a step is none that steps may miss: the blow of it is that of fine steps.
+#[test]
+fn a_short_change_of_speed_is_not_stepped_over() {
+    let cycle = TAU / 100.0 / 17.0;
+    let largest = |share: f64, per_cycle: u64| {
+        let ramp = Speed::Ramp { from: 100.0, to: 103.0, start: 0.41 * cycle, duration: share * cycle };
+        let change = |plan: &mut MotionPlan| (plan.steps_per_cycle, plan.steps_per_row) = (per_cycle, 1);
+        let (rows, done) = run(Drive::Speed(ramp), change, 3);
+        assert_eq!(rows.len() as u64, 3 * per_cycle + 1, "parts of steps are no rows");
+        println!("{} steps", done.steps);
+        errors(&rows).iter().map(|mesh| mesh[0]).fold(0.0, |m: f64, error| m.max(error.abs()))
+    };
+    for share in [0.2, 0.01, 1e-4] {
+        let [coarse, fine] = [32, 256].map(|steps| largest(share, steps));
+        println!("{share} of a cycle: {:.3}, {:.3} um", 1e3 * coarse, 1e3 * fine);
+        assert!((coarse / fine - 1.0).abs() < 0.03, "{share} of a cycle: {coarse} beside {fine} mm");
+    }
+    let [still, blow] = [(100.0, 100.0), (100.0, 103.0)].map(|(from, to)| {
+        let ramp = Speed::Ramp { from, to, start: 0.41 * cycle, duration: 1e-4 * cycle };
+        let (rows, _) = run(Drive::Speed(ramp), |plan| plan.steps_per_row = 1, 3);
+        errors(&rows).iter().map(|mesh| mesh[0]).fold(0.0, |m: f64, error| m.max(error.abs()))
+    });
+    assert!(blow > 1.2 * still, "a blow of {blow} mm beside {still} mm: the law says nothing");
+}

@@ -108,6 +108,12 @@ impl<M: Mechanism, T: Timetable<M>> Course<M, T> {
         &self.counts
     }
 
+    /// Steps in a cycle with rows, on average; `None` before the first.
+    pub fn steps_per_cycle(&self) -> Option<f64> {
+        let Stage { recorded, steps_before, .. } = self.stage;
+        (recorded > 0).then(|| self.counts.steps.saturating_sub(steps_before) as f64 / recorded as f64)
+    }
+
     /// Stage of the motion: how far it has come.
     pub fn stage(&self) -> &Stage {
         &self.stage

@@ -131,6 +131,9 @@ impl<M: Resumable, T: Timetable<M>> Course<M, T> {
     pub fn record<F: Follower<M>>(&mut self, goal: &Goal<M>, follower: &mut F) -> Result<bool, F::Error> {
         self.begin_comparing(goal);
         self.stage.recording = true;
+        if self.stage.recorded == 0 {
+            self.stage.steps_before = self.counts.steps;
+        }
         if goal.starts_with_row && self.stage.rows == 0 {
             let ledger = *self.begin()?;
             follower.row(Row { system: &mut self.system, state: &self.state, ledger: &ledger })?;

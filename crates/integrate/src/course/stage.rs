@@ -14,6 +14,8 @@ pub struct Stage {
     pub recorded: u64,
     /// Rows.
     pub rows: u64,
+    /// Steps that were taken before the first of these cycles, of those that are counted.
+    pub(super) steps_before: u64,
     /// How nearly the last period repeated an earlier one; its period is counted in cycles.
     pub periodicity: Option<Periodicity>,
     /// States at the beginnings of the last periods, where states are compared.

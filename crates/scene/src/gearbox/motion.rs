@@ -11,6 +11,8 @@ use crate::{Integration, Source};
 
 /// Rows of a motion at the most.
 const ROWS: u64 = 500_000;
+/// Least number of rows in a cycle of the fastest mesh: fewer have no peak to peak.
+const LEAST_ROWS: u32 = 4;
 
 /// How a gearbox runs in time, from its equilibrium on.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -121,8 +123,8 @@ pub(super) fn asked(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<Asked
         };
     }
     let at = raw.run.as_ref().map_or(table.span(), Spanned::span);
-    let Some(to_speed_rpm) = motion.to_speed_rpm.filter(|to| *to != motion.speed_rpm) else {
-        let said = "a branch over the speed that ends where it begins";
+    let Some(to_speed_rpm) = motion.to_speed_rpm else {
+        let said = "a branch over the speed that has no end";
         return Err(s.conflict(&at, said, "give `to_speed_rpm`, above or below `speed_rpm`"));
     };
     if let (MeshModel::Exact, Some(own)) = (motion.mesh, &raw.mesh) {
@@ -185,6 +187,11 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
         let said = "the speed at the end is a result where a torque drives";
         return Err(s.conflict(&own.span(), said, "take `drive = \"speed\"`, or leave `to_speed_rpm` out"));
     }
+    let speed_rpm = needed_of(s, (table, "[motion]"), &MOTION, "speed_rpm", &raw.speed_rpm)?;
+    if let (true, Some(own)) = (to_speed_rpm == Some(speed_rpm), &raw.to_speed_rpm) {
+        let said = format!("`to_speed_rpm` is {speed_rpm}, and so is `speed_rpm`: the speed stays");
+        return Err(s.conflict(&own.span(), said, "leave `to_speed_rpm` out, or give another speed"));
+    }
     if let (Some(_), Some(own)) = (&raw.mesh_damping_ns_per_mm2, &raw.mesh_damping_ratio) {
         let said = "the damping of the meshes is given twice";
         return Err(s.conflict(&own.span(), said, "keep one of `mesh_damping_ratio` and `mesh_damping_ns_per_mm2`"));
@@ -207,13 +214,18 @@ fn motion(s: &Source<'_>, table: &Spanned<RawMotion>) -> Checked<GearboxMotion> 
     let steps_per_cycle = row!(s, MOTION, raw.steps_per_cycle)?;
     let steps_per_row = row!(s, MOTION, raw.steps_per_row)?;
     let settle = settle(s, raw, [steps_per_cycle, steps_per_row])?;
+    if let (true, Some(own)) = (steps_per_cycle < LEAST_ROWS * steps_per_row, &raw.steps_per_row) {
+        let said = format!("a cycle of {steps_per_cycle} steps with a row each {steps_per_row}");
+        let hint = format!("{LEAST_ROWS} rows a cycle at the least: lower `steps_per_row`, or raise `steps_per_cycle`");
+        return Err(s.conflict(&own.span(), said, hint));
+    }
     let rows = u64::from(cycles) * u64::from(steps_per_cycle) / u64::from(steps_per_row);
     if rows > ROWS {
         let said = format!("a motion of {rows} rows");
         return Err(s.conflict(&table.span(), said, format!("{ROWS} at the most: raise `steps_per_row`")));
     }
     Ok(GearboxMotion {
-        speed_rpm: needed_of(s, (table, "[motion]"), &MOTION, "speed_rpm", &raw.speed_rpm)?,
+        speed_rpm,
         to_speed_rpm,
         drive,
         input_torque,

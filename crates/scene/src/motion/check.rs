@@ -106,7 +106,12 @@ fn needed(s: &Source<'_>, table: &str, keys: &[(&str, &Number)], run: Option<Spa
 fn ramp(s: &Source<'_>, raw: &RawRamp, run: Option<Span>) -> Checked<RampScene> {
     let keys = [("from_rpm", &raw.from_rpm), ("to_rpm", &raw.to_rpm), ("duration_s", &raw.duration_s)];
     needed(s, "ramp", &keys, run)?;
-    RampScene::read(s, raw, f64::INFINITY)
+    let read = RampScene::read(s, raw, f64::INFINITY)?;
+    if let (Some(to), true) = (&raw.to_rpm, read.to_rpm == read.from_rpm) {
+        let what = format!("`to_rpm` is {0}, and so is `from_rpm`: the speed stays", read.to_rpm);
+        return Err(s.conflict(&to.span(), what, "take `run = \"span\"` with `speed_rpm`, or another `to_rpm`"));
+    }
+    Ok(read)
 }
 
 fn sweep(s: &Source<'_>, raw: &RawSweep, run: Option<Span>) -> Checked<SweepScene> {
