@@ -255,7 +255,9 @@ fn result(
         let (samples, cycles) = (&judged.dte_um[..], run.judged as f64);
         let comes_back = whole == Window::Rectangular;
         let steps = run.steps_per_cycle.and_then(|own| time_steps((scene, motion), frequencies, own));
-        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }.resolved();
+        let resolved =
+            MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }
+                .resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
         if motion.error_tolerance.is_none() && system.resonance_hz > 0.0 {

@@ -292,7 +292,9 @@ fn result(followed: FollowedMotion) -> Result<MotionResult, AnalysisError> {
     if motion.ramp.is_none() {
         let (samples, cycles) = (&series.dte_um[..], headline.cycles as f64);
         let comes_back = window == Window::Rectangular;
-        let resolved = MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }.resolved();
+        let resolved =
+            MeshRecord { samples, cycles, steps, comes_back, keys: StepKeys::PAIR.by(motion.error_tolerance) }
+                .resolved();
         headline.certificate.step_error_percent = resolved.step_error_percent;
         remarks.extend(resolved.remarks);
     }

@@ -55,11 +55,12 @@ pub(super) fn coarse(scene: &Scene, motion: &MotionScene, prepared: &PreparedMot
 pub(super) fn endless(scene: &Scene, prepared: &PreparedMotion) -> Result<(), Failure> {
     let longest = longest_cycle(scene, &prepared.system);
     let steps = longest / prepared.times.step(longest);
-    if prepared.times.tolerance.is_some() || scene.motion.as_ref().is_none_or(|m| m.ramp.is_none()) || steps <= ENDLESS {
+    if prepared.times.tolerance.is_some() || scene.motion.as_ref().is_none_or(|m| m.ramp.is_none()) || steps <= ENDLESS
+    {
         return Ok(());
     }
     let what = format!("a mesh cycle of the ramp lasts {longest:.3e} s, which are {steps:.1e} steps");
-    let hint = format!("{ENDLESS:.0e} are the most: let it begin and end faster, or change the speed more quickly");
+    let hint = format!("{ENDLESS:.0e} are the most: let it begin and end faster, or end at rest (`to_rpm = 0`)");
     let refusal = Refusal::no_result(what, Some(hint));
     Err(AnalysisError::from(refusal).at(place_in(scene, &["motion.ramp"])).into())
 }

@@ -66,8 +66,7 @@ fn density(shaft: &GearboxShaft) -> Option<Remark> {
     let other = meant("density_kg_m3", density, usual);
     // A held shaft, or one without mass on purpose, leaves all inertia to its gears.
     let is_meant = shaft.held || (density <= NO_MASS && other.is_empty());
-    (!usual(density) && !is_meant)
-        .then(|| remark::unlikely_shaft_density(shaft.name.as_str(), density, other))
+    (!usual(density) && !is_meant).then(|| remark::unlikely_shaft_density(shaft.name.as_str(), density, other))
 }
 
 /// Outer diameter of a shaft at a place, mm.

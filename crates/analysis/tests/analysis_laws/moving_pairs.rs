@@ -32,17 +32,18 @@ fn alone(scene: &Scene) -> (Vec<f64>, Option<MotionSpectrum>, u32) {
 
 /// The same of its gearbox, the row at the start left out.
 fn as_gearbox(scene: &Scene, per_row: u32) -> (Vec<f64>, MotionSpectrum) {
-    moved(scene, &gearbox_of_moving_pair(scene, per_row).unwrap().unwrap())
+    let (errors, spectrum) = moved(scene, &gearbox_of_moving_pair(scene, per_row).unwrap().unwrap());
+    (errors, spectrum.unwrap())
 }
 
-/// The same of the text of a gearbox file.
-fn moved(scene: &Scene, text: &str) -> (Vec<f64>, MotionSpectrum) {
+/// The same of the text of a gearbox file; no spectrum of a run-up.
+fn moved(scene: &Scene, text: &str) -> (Vec<f64>, Option<MotionSpectrum>) {
     let folder = tempfile::tempdir().unwrap();
     let file = Gearbox::parse(text, &folder.path().join("held.toml")).unwrap_or_else(|e| panic!("{e}\n{text}"));
     let found = solve(&file, Context::new(&mut NoObserver)).and_then(Ending::finished);
     let moved = found.unwrap_or_else(|e| panic!("{}: {e}", scene.name)).motion.unwrap();
     let errors = moved.rows.series(1..usize::MAX, |row| 1e3 * row.meshes[0].transmission_error).unwrap();
-    (errors, moved.spectrum.unwrap())
+    (errors, moved.spectrum)
 }
 
 /// Largest difference of both over the peak to peak, of rows and of lines of the spectrum.
@@ -244,6 +245,30 @@ fn the_file_of_a_whole_pair_moves_as_the_pair() {
         "{left:?}"
     );
     assert!(text.contains("[motion]") && text.matches("held = true").count() >= 2, "{text}");
+}
+
+/// A ramp of whole mesh cycles is the run-up of the gearbox that `init --of-pair` writes, row by row; of another one the file
+/// says how long its cycles last.
+#[test]
+fn a_ramp_of_a_pair_is_the_run_up_of_its_gearbox() {
+    let of = |duration: f64| {
+        let text =
+            small(rows_are_steps).to_toml().replace("run = \"span\"", "run = \"ramp\"").replace("cycles = 1\n", "");
+        let ramp = format!("\n[motion.ramp]\nfrom_rpm = 2000.0\nto_rpm = 4000.0\nduration_s = {duration:?}\n");
+        Scene::parse(&(text + &ramp), Path::new("ramp.toml")).unwrap_or_else(|e| panic!("{e}"))
+    };
+    let scene = of(4.0 / (24.0 * 3000.0 / 60.0));
+    let GearboxOfPair { text, left } = gearbox_of_pair(&scene).unwrap();
+    assert_eq!(left, [""; 0], "{text}");
+    let ([wanted, found], cycle) = ([alone(&scene).0, moved(&scene, &text).0], 128);
+    assert_eq!([wanted.len(), found.len()], [4 * cycle; 2]);
+    let [low, high] = wanted.iter().fold([f64::MAX, f64::MIN], |[l, h], x| [l.min(*x), h.max(*x)]);
+    let off = found.iter().zip(&wanted).fold(0.0, |m: f64, (a, b)| m.max((a - b).abs())) / (high - low);
+    println!("{off:.1e} of the peak to peak");
+    assert!(off < 1e-8, "off by {off:.1e}");
+    let GearboxOfPair { text, left } = gearbox_of_pair(&of(0.003)).unwrap();
+    assert!(left.len() == 1 && left[0].contains("here 4, which last 0.003333 s for 0.003 s"), "{left:?}");
+    assert!(text.contains("to_speed_rpm = 4000.0"), "{text}");
 }
 
 /// What held shafts do not have is no gearbox: gears on bearings, torques over time.

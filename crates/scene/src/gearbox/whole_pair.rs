@@ -3,7 +3,9 @@
 use std::fmt::Write;
 
 use super::of_pair::{Beside, LIGHT, NO_MASS, moving, two_shafts};
-use crate::{Axis, BearingScene, Driver, GearScene, Model, MotionScene, Run, Scene, SceneError, TorqueScene};
+use crate::{
+    Axis, BearingScene, Driver, GearScene, Model, MotionScene, RampScene, Run, Scene, SceneError, TorqueScene,
+};
 
 /// A gearbox file of a pair, and what of the scene is not in it.
 #[derive(Debug, Clone, PartialEq)]
@@ -120,10 +122,14 @@ fn in_motion(scene: &Scene, motion: &MotionScene, left: &mut Vec<String>) -> (Op
         left.push("the torque in [drive]: `drive = \"torque\"` in [motion] has one".to_owned());
         drive.torque = TorqueScene::default();
     }
-    let steps = steps_per_row(scene, motion);
-    let Some(text) = moving(&plain, motion, steps) else {
+    let (mut asked, mut drive) = (motion.clone(), "\ndrive = ".to_owned());
+    if let Some(ramp) = motion.ramp {
+        drive = over_cycles(&mut plain, ramp, left) + &drive;
+        asked.run = Run::Span;
+    }
+    let steps = steps_per_row(&plain, &asked);
+    let Some(text) = moving(&plain, &asked, steps).map(|text| text.replacen("\ndrive = ", &drive, 1)) else {
         left.push(match motion.run {
-            Run::Ramp => "[motion]: a run-up of a gearbox has `to_speed_rpm`".to_owned(),
             Run::Continuation => "[motion]: a continuation of a gearbox has `to_speed_rpm`".to_owned(),
             _ => "[motion]: a gearbox does not move by this model, run or length".to_owned(),
         });
@@ -145,6 +151,27 @@ fn in_motion(scene: &Scene, motion: &MotionScene, left: &mut Vec<String>) -> (Op
         let _ = writeln!(keys, "table_s_nm = {rows:?}");
     }
     (Some(text), keys)
+}
+
+/// The line of a ramp's last speed, with its first one and its whole mesh cycles put into the scene.
+fn over_cycles(plain: &mut Scene, ramp: RampScene, left: &mut Vec<String>) -> String {
+    let RampScene { from_rpm, to_rpm, duration_s, before_s, after_s, .. } = ramp;
+    // The mean speed of the smooth step is that of both ends.
+    let mesh_hz = f64::from(plain.driver_teeth()) * 0.5 * (from_rpm + to_rpm) / 60.0;
+    let cycles = (duration_s * mesh_hz * (1.0 - 1e-9)).ceil().clamp(1.0, f64::from(u32::MAX));
+    plain.operation.speed_rpm = from_rpm;
+    plain.analysis.cycles = cycles as u32;
+    let lasts = cycles / mesh_hz;
+    if lasts > duration_s * (1.0 + 1e-6) {
+        left.push(format!(
+            "`duration_s` in [motion.ramp]: the speed of a gearbox changes within whole mesh cycles, here {cycles:.0}, which \
+             last {lasts:.6} s for {duration_s} s"
+        ));
+    }
+    if before_s > 0.0 || after_s > 0.0 {
+        left.push("`before_s` and `after_s` in [motion.ramp]: the speed of a gearbox changes all the time".to_owned());
+    }
+    format!("\nto_speed_rpm = {to_rpm:?}")
 }
 
 /// Stiffness of a mesh, N/mm a mm of face width: 20 N/(mm um), about that of ISO 6336-1.
@@ -175,8 +202,8 @@ fn steps_per_row(scene: &Scene, motion: &MotionScene) -> u32 {
     let by_torque = scene.drive.as_ref().is_some_and(|drive| drive.by == crate::DriveBy::Torque);
     let mass = if by_torque { (mass(0).recip() + mass(1).recip()).recip() } else { mass(driven) };
     let resonance_hz = (ROUGH_STIFFNESS * scene.common_face_width_mm() / mass).sqrt() / std::f64::consts::TAU;
-    let row_hz =
-        f64::from(scene.driver_teeth()) * scene.operation.speed_rpm / 60.0 * f64::from(motion.steps_per_mesh_cycle);
+    let speed_rpm = motion.ramp.map_or(scene.operation.speed_rpm, |ramp| 0.5 * (ramp.from_rpm + ramp.to_rpm));
+    let row_hz = f64::from(scene.driver_teeth()) * speed_rpm / 60.0 * f64::from(motion.steps_per_mesh_cycle);
     let steps = (f64::from(motion.steps_per_resonance) * resonance_hz / row_hz).ceil();
     // What is no number is one step.
     if steps.is_finite() { steps.clamp(1.0, MOST_STEPS) as u32 } else { 1 }
