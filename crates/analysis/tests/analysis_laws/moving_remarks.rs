@@ -172,7 +172,7 @@ fn rows_and_maps_of_a_gearbox_are_judged() {
         let steady = "run = \"shooting\"\nspeed_rpm = 3000.0\ncycles = 4\nsteps_per_cycle = 128\n";
         moved(&format!("{steady}mesh = \"{mesh}\"\nsteps_per_row = {per_row}\n"))
     };
-    let [fine, coarse] = [1, 64].map(|per_row| of("mapped", per_row));
+    let [fine, coarse] = [1, 32].map(|per_row| of("mapped", per_row));
     assert!(!says(&fine, "few_rows") && says(&coarse, "few_rows"), "{:?}, {:?}", fine.remarks, coarse.remarks);
     let names = |found: &GearboxResult| -> Vec<String> {
         found

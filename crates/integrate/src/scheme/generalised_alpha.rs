@@ -16,6 +16,9 @@ use crate::{
     stepper::{Step, StepWork, Stepped, Stepper},
 };
 
+/// Longest step, in those before, over which the averaged acceleration is drawn out.
+const REACH: f64 = 4.0;
+
 /// Coefficients of the family; Newmark's methods are those with a_m = a_f = 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Coefficients {
@@ -45,8 +48,10 @@ impl Coefficients {
         let Step { system, from, h, scale, forces, to, work, .. } = step;
         let (StepWork { error, newton, begun: b0, rest, .. }, h) = (&mut **work, *h);
         let time = from.time + h;
-        // The averaged acceleration belongs to a place within the step: a new step moves it.
+        // The averaged acceleration belongs to a place within the step: a new step moves it along a line, which says
+        // nothing of one many times as long; there it is the acceleration itself.
         let stretch = if from.last_step > 0.0 { h / from.last_step } else { 1.0 };
+        let stretch = if stretch <= REACH { stretch } else { 0.0 };
         b0.copy_from(&from.a);
         b0.zip_apply(&from.averaged, |a, averaged| *a += (averaged - *a) * stretch);
         to.copy_from(from);
