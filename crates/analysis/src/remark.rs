@@ -217,9 +217,9 @@ answer::remarks! {
     vibration_beyond_load(force_n, speed_rpm, order, exciting, load_n, speeds, of_speeds, listed)
         "the linear vibration takes up to {force_n:.0} N off the mean load of {load_n:.0} N at {speed_rpm:.0}/min, most of it by order {order} of mesh {exciting}: the flanks would lose contact, which a linear vibration does not know; so at {speeds} of {of_speeds} speeds ({listed})",
         "a motion at these speeds knows the loss of contact (`[motion]` with `mesh = \"mapped\"`)";
-    bearing_estimated(bearing, elements)
-        "bearing {bearing}: its inside is estimated from bore, outer diameter and static rating: {elements} a row",
-        "state `elements` and their sizes where they are known";
+    bearings_estimated(bearings, estimates)
+        "{bearings} bearings have numbers estimated from bore, outer diameter and static rating or width, a row of rolling elements each: {estimates}",
+        "state `elements` with their sizes, `static_rating_kn` and `dynamic_rating_kn` where they are known";
     bearing_on_held_shaft(bearing)
         "bearing {bearing} is on a shaft that is held: its rolling elements carry nothing", "";
     bearing_unloaded(bearing)
