@@ -157,8 +157,25 @@ pub(crate) fn completed(changes: &BTreeMap<String, String>, all: &[Slider], writ
     complete
 }
 
+/// Changes with what a search may move: a relief that the scene lacks begins as one of nothing, from where it starts as
+/// well as one that is moved by hand.
+pub(crate) fn with_starts(
+    changes: &BTreeMap<String, String>,
+    search: &BTreeMap<String, [f64; 2]>,
+    written: &Written,
+) -> Written {
+    let mut all = changes.clone();
+    let is_new = |key: &&String| !written.contains_key(*key) && !changes.contains_key(*key) && !key.contains("_start_");
+    for key in search.keys().filter(is_new) {
+        let relief = key.ends_with("_relief_um");
+        // Anything but nothing brings its start with it.
+        all.insert(key.clone(), if relief { "0.001" } else { "0.0" }.to_owned());
+    }
+    all
+}
+
 /// A number without the digits that sums leave.
-fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.6}").parse().unwrap_or(value);
     format!("{rounded:?}")
 }

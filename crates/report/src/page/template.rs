@@ -77,6 +77,11 @@ fn with_scripts(mut page: String) -> String {
     page
 }
 
+/// A text as a page has it: nothing in it is a tag.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
 /// A number with so many decimals, `-` when there is none.
 fn number(value: Option<f64>, decimals: usize) -> String {
     value.filter(|v| v.is_finite()).map_or_else(|| "-".to_owned(), |v| format!("{v:.decimals$}"))
