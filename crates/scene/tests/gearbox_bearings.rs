@@ -56,7 +56,7 @@ fn rolling_bearings_are_read_as_they_are_written() {
     assert!(matches!(own.size, RollingSize::Elements { pitch_diameter: 38.5, .. }), "{own:?}");
 }
 
-/// A designation says type, boundary dimensions and contact angle; what is stated of ratings and elements holds before the estimate.
+/// A designation gives type, boundary dimensions and contact angle; stated ratings and elements go before the estimate.
 #[test]
 fn a_designation_stands_for_type_and_dimensions() {
     let deep = text();
@@ -73,7 +73,7 @@ fn a_designation_stands_for_type_and_dimensions() {
     assert_eq!(stated.dynamic_rating, Some(14.8e3));
     let drawn = own("designation = \"6205\"\nelements = 9\nelement_diameter_mm = 7.938");
     assert!(matches!(drawn.size, RollingSize::Elements { pitch_diameter: 38.5, .. }), "{drawn:?}");
-    let cone = own("designation = \"32205\"\ntakes_thrust = \"+z\"");
+    let cone = own("designation = \"32206\"\ntakes_thrust = \"+z\"");
     assert!((cone.contact_angle.to_degrees() - 14.0361).abs() < 1e-9 && cone.rows == [[0.0, 1.0]], "{cone:?}");
     let mistakes = [
         ("designation = \"22205\"", "no series of the designation \"22205\" is known", "61810"),
@@ -82,7 +82,7 @@ fn a_designation_stands_for_type_and_dimensions() {
         ("designation = \"7205\"\ntakes_thrust = \"+z\"", "no letter for its contact angle", "7205B"),
         ("designation = \"6205\"\nbore_mm = 25.0", "`bore_mm` beside a designation", "leave one of both out"),
         ("designation = \"6205\"\ntype = \"deep-groove-ball\"", "`type` beside a designation", "leave one"),
-        ("designation = \"32205\"", "has no `takes_thrust`", "\"+z\" or \"-z\""),
+        ("designation = \"32206\"", "has no `takes_thrust`", "\"+z\" or \"-z\""),
         ("designation = \"6205\"\npreload_n = 5.0", "a \"deep-groove-ball\" bearing has no `preload_n`", "play"),
         ("designation = \"6205\"\nstiffness_n_per_mm = [1.0, 1.0, 1.0]", "with a `type` or `designation`", "follows"),
     ];

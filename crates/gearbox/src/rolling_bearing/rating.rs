@@ -71,7 +71,8 @@ impl RollingElements {
     /// ```text
     /// S_0 = (4200 MPa/p)^3 balls,   (4000 MPa/p)^2 rollers
     /// ```
-    /// P_0 is the load with that pressure, as ISO 76 defines it; the force of an element goes with p^3 at a point, with p^2 along a line. So tilts, thrust, clearance and preload count.
+    /// P_0 is the load with that pressure, as ISO 76 defines it; the force of an element goes with p^3 at a point, with p^2
+    /// along a line. So tilts, thrust, clearance and preload count.
     pub fn static_safety(&self, pressure: f64) -> Option<f64> {
         let power = if matches!(self, Self::Balls(_)) { 3 } else { 2 };
         (pressure > 0.0).then(|| (self.dent_pressure() / pressure).powi(power))

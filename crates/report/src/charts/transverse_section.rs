@@ -30,8 +30,6 @@ const SIZE: [f64; 2] = [820.0, 380.0];
 const LEFT: f64 = 300.0;
 /// Room about both gears, and about the path of contact, over what is shown.
 const ROOM: f64 = 1.35;
-/// Segments of a circle.
-const SEGMENTS: usize = 180;
 
 impl TransverseSection<'_> {
     /// The drawing as a figure of a page. It needs no script, and follows the page's light and dark.

@@ -34,7 +34,9 @@ pub(super) fn motion_charts(
     }
     if is_run_up(motion) {
         all.extend(over_speed(file, motion).into_iter().flatten());
-        all.extend(motion.campbell.iter().filter_map(|own| super::vibration::campbell(own, &|m| format!("natural mode {m}"))));
+        all.extend(
+            motion.campbell.iter().filter_map(|own| super::vibration::campbell(own, &|m| format!("natural mode {m}"))),
+        );
         all.extend(motion.waterfall.iter().flat_map(|own| waterfalls(file, own)));
         return Ok(all);
     }

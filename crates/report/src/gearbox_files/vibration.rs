@@ -20,7 +20,8 @@ const LISTED: usize = 8;
 
 /// Modes, charts, largest forces.
 pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &VibrationResult) -> Vec<Part> {
-    let charts = [campbell(&swings.campbell, &|m| mode_name(file, swings, m)), meshes(file, swings), bearings(file, swings)];
+    let charts =
+        [campbell(&swings.campbell, &|m| mode_name(file, swings, m)), meshes(file, swings), bearings(file, swings)];
     let charts = charts.into_iter().flatten().chain(spectra(file, swings));
     let rows: Vec<Vec<Cell>> = first_modes(swings)
         .iter()

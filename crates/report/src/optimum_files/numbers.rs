@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use analysis::remark::{self, Remark};
-use answer::{Answer, Cost, Table};
+use answer::{Answer, Cost, Table, shown_units};
 use design::Stop;
 use plan::{NumberOptimum, goal_of, goal_unit};
 use scene::{
-    Setting,
+    Machine, Setting,
     optimum::{NumberLimit, NumberLoad, NumberOptimisation},
     plan::PlanOutput,
 };
@@ -194,13 +194,37 @@ pub fn write_number_optimum(
     write_result(answer, &page, false, results)
 }
 
-/// A key of micro-geometry in words: `mesh first, pinion, lead slope` of `mesh.first.scene.pinion.modification.lead_slope_um`.
-fn shown_key(key: &str) -> String {
-    let (place, name) = key.split_once(".modification.").unwrap_or(("", key));
-    let place = place.replace(".scene.", ", ").replacen("mesh.", "mesh ", 1);
-    let unit = answer::unit_of(name).replace(' ', "");
-    let name = if unit.is_empty() { name } else { name.rsplit_once('_').map_or(name, |(name, _)| name) };
-    format!("{place}, {}", name.replace(['_', '.'], " "))
+/// Modifications of the optimum in words, gear by gear: what the workshop is told. Nothing where none is searched.
+fn grind(of: &NumberOptimumResult<'_>) -> Part {
+    let NumberOptimumResult { plan, optimum, .. } = *of;
+    let machine = plan.machine(&optimum.values).ok();
+    let rows = plan.parameters.iter().zip(&optimum.values).filter_map(|(own, value)| {
+        let (place, name) = own.name().split_once(".modification.")?;
+        let unit = answer::unit_of(name);
+        let words = name.rsplit_once('_').filter(|_| !unit.is_empty()).map_or(name, |(words, _)| words);
+        Some(vec![
+            Cell::text(gear_name(machine.as_ref(), place).unwrap_or_else(|| place.to_owned())),
+            Cell::text(words.replace(['_', '.'], " ")),
+            Cell::number(own.start, 3),
+            Cell::number(*value, 3),
+            Cell::text(shown_units(&unit)),
+        ])
+    });
+    let part = Part::new("Grind this").closing();
+    let part = part.grid(Grid::new(["gear", "modification", "before", "grind", ""]).rows(rows));
+    if part.contents.is_empty() {
+        return part;
+    }
+    part.note("A lead slope above 0 removes more at +z than at -z. Rounded to what a machine can be set to.")
+}
+
+/// Name of the gear that a key such as `mesh.0.scene.pinion` stands for; `None` of a pair, whose gears have no names.
+fn gear_name(machine: Option<&Machine>, place: &str) -> Option<String> {
+    let Machine::Gearbox(file) = machine? else { return None };
+    let (mesh, end) = place.strip_prefix("mesh.")?.split_once(".scene.")?;
+    let mesh = file.meshes.get(mesh.parse::<usize>().ok()?)?;
+    let gear = mesh.gears[usize::from(end.starts_with("wheel"))];
+    Some(file.gears.get(gear)?.name.clone())
 }
 
 fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
@@ -213,9 +237,7 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
         Line::number("goal at the start", start, 4, &unit),
         Line::number(format!("optimum, {}", counted(optimum.found.steps.len(), "evaluation")), best, 4, &unit),
     ]));
-    let grind = plan.parameters.iter().zip(&optimum.values).filter(|(own, _)| own.name().contains(".modification."));
-    let grind = grind.map(|(own, value)| Line::number(shown_key(own.name()), *value, 3, answer::unit_of(own.name())));
-    page.push(Part::new("Grind this").closing().lines(grind));
+    page.push(grind(of));
     let several = plan.loads.len() > 1;
     let outputs = plan.outputs();
     let rows = plan.loads.iter().enumerate().flat_map(|(i, load)| {

@@ -34,7 +34,7 @@ pub(super) enum Unknown {
 }
 
 /// Letters of the contact angle of angular contact balls, with degrees.
-const ANGLES: [(&str, f64); 5] = [("AC", 25.0), ("A", 30.0), ("B", 40.0), ("C", 15.0), ("E", 25.0)];
+const ANGLES: [(&str, f64); 4] = [("AC", 25.0), ("A", 30.0), ("B", 40.0), ("C", 15.0)];
 
 /// Series of cylindrical rollers, and the table's series with the same dimensions.
 const CYLINDERS: [(&str, &str); 6] = [("10", "60"), ("22", "22"), ("23", "23"), ("2", "62"), ("3", "63"), ("4", "64")];
@@ -149,6 +149,7 @@ mod tests {
             ("6206/C3", Unknown::Suffix("/C3".into())),
             ("NU206 ECP", Unknown::Suffix("ECP".into())),
             ("7206", Unknown::Angle),
+            ("7206E", Unknown::Suffix("E".into())),
             ("6299", Unknown::Size(["6200".into(), "6240".into()])),
         ];
         for (word, wanted) in cases {
