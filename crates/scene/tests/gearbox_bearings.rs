@@ -62,7 +62,8 @@ fn a_designation_stands_for_type_and_dimensions() {
     let deep = text();
     let begin = deep.find("type = \"deep-groove-ball\"\nelements").unwrap();
     let end = deep.find("damping_n_s_per_mm").unwrap();
-    let with = |words: &str| read(&format!("{}{words}\n{}", &deep[..begin], &deep[end..]));
+    let rating = "[rating]\nspeed_rpm = 1500.0\n";
+    let with = |words: &str| read(&format!("{}{words}\n{}\n{rating}", &deep[..begin], &deep[end..]));
     let own = |words: &str| with(words).unwrap_or_else(|e| panic!("{words}: {e}")).bearings[0].rolling.clone().unwrap();
     let found = own("designation = \"6205\"");
     assert_eq!(found.kind, RollingKind::DeepGrooveBall);

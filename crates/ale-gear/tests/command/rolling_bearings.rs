@@ -165,6 +165,6 @@ fn designations_lead_to_lives_and_safeties() {
     assert_eq!(summary["headline"]["bearing_static_safety"][0], own["static_safety"]);
     let life = summary["headline"]["bearing_life_h"].as_array().unwrap();
     assert!(life[0].as_f64().unwrap() > 1.0 && life[1].is_null(), "{life:?}");
-    let estimated = run.stdout.matches("have numbers estimated").count();
+    let estimated = run.stdout.matches("bearings are estimated from bore").count();
     assert!(estimated == 1 && run.stdout.contains("fast, fixed: 9 balls of"), "{}", run.stdout);
 }

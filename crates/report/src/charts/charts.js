@@ -62,6 +62,8 @@
   // A page may want its charts lower.
   const sizeOf = place => ({ width: Math.max(place.clientWidth, 240), height: parseInt(getComputedStyle(place).getPropertyValue("--chart-height")) || HEIGHT });
 
+  const idle = u => u.root.classList.toggle("idle", u.legend?.idx === null || u.legend?.idx === undefined);
+
   const lines = (plot, place) => {
     const bars = plot.kind === "bars", sticks = bars || plot.kind === "sticks";
     const isGhost = k => plot.ghost !== undefined && k >= plot.ghost;
@@ -79,7 +81,8 @@
       ...sizeOf(place), series: [{ label: plot.x, value: (u, v) => short(v, 7) }, ...series], axes: axes(plot.x, plot.y),
       scales: { x: { time: false, range: bars ? (u, low, high) => [low - 0.6, high + 0.6] : undefined }, y: { range: room(plot.zero) } },
       cursor: { sync: { key: plot.x }, drag: { x: true, y: false }, focus: { prox: 24 } },
-      legend: { live: true }, bands: plot.band ? [{ series: [2, 3], fill: plot.colours[1] + "26" }] : [],
+      // Without a cursor there is no value to be read.
+      legend: { live: true }, hooks: { ready: [idle], setLegend: [idle] }, bands: plot.band ? [{ series: [2, 3], fill: plot.colours[1] + "26" }] : [],
     }, plot.data, place);
   };
 

@@ -26,8 +26,16 @@ pub struct TransverseSection<'a> {
 }
 
 /// Width and height of the drawing, and of its left part.
-const SIZE: [f64; 2] = [820.0, 380.0];
-const LEFT: f64 = 300.0;
+const SIZE: [f64; 2] = [820.0, 340.0];
+const LEFT: f64 = 320.0;
+/// Fills of pinion and wheel.
+const FILLS: [&str; 2] = [
+    "color-mix(in srgb, var(--link, #0072b2) 22%, var(--paper, #fff))",
+    "color-mix(in srgb, var(--ink, #222) 14%, var(--paper, #fff))",
+];
+/// Height of the words about a gear, and the room that they take.
+const LINE: f64 = 14.0;
+const WORDS: f64 = 44.0;
 /// Room about both gears, and about the path of contact, over what is shown.
 const ROOM: f64 = 1.35;
 
@@ -62,18 +70,17 @@ impl TransverseSection<'_> {
         let high = (0..2).map(|i| centres[i] + outer[i]).fold(f64::NEG_INFINITY, f64::max);
         let tall = 2.0 * outer[0].max(outer[1]);
         let [_, height] = SIZE;
-        let scale = ((LEFT - 20.0) / (high - low)).min((height - 60.0) / (ROOM * tall));
+        let scale = ((LEFT - 20.0) / (high - low)).min((height - 2.0 * WORDS) / tall);
         let frame = Frame { scale, middle: [0.5 * (low + high), 0.0], at: [0.5 * LEFT, 0.5 * height] };
         let mut svg = String::new();
-        for i in 0..2 {
+        // A ring lies behind its pinion.
+        for i in if self.pair.is_internal() { [1, 0] } else { [0, 1] } {
             let gear = gears[i];
-            svg += &frame.circle(
-                centres[i],
-                gear.tip_radius().abs(),
-                "fill:var(--panel,#f5f5f3);stroke:var(--ink,#222)",
-                1.2,
-            );
-            svg += &frame.circle(centres[i], gear.root_radius().abs(), "fill:none;stroke:var(--faint,#666)", 0.8);
+            let body = format!("fill:{};stroke:var(--ink,#222)", FILLS[i]);
+            let (tip, root) = (gear.tip_radius().abs(), gear.root_radius().abs());
+            let inner = if gear.is_internal() { "fill:var(--paper,#fff)" } else { "fill:none" };
+            svg += &frame.circle(centres[i], tip.max(root), &body, 1.2);
+            svg += &frame.circle(centres[i], tip.min(root), &format!("{inner};stroke:var(--faint,#666)"), 0.8);
             svg += &frame.cross(centres[i]);
         }
         for (i, name) in ["pinion", "wheel"].into_iter().enumerate() {
@@ -86,7 +93,7 @@ impl TransverseSection<'_> {
             if self.torques_nm[i] != 0.0 {
                 svg += &frame.arc_arrow(centres[i], 0.8 * radius, away, torque, "#d55e00");
             }
-            let role = if (i == 0) == (self.driver == Driver::Pinion) { "drives" } else { "driven" };
+            let role = if (i == 0) == (self.driver == Driver::Pinion) { "drives" } else { "is driven" };
             let words = [
                 format!("{name}, z {}, {role}", self.gears()[i].teeth()),
                 format!(
@@ -96,10 +103,12 @@ impl TransverseSection<'_> {
                 ),
             ];
             let [x, y] = frame.place([centres[i], 0.0]);
+            // The pinion's words are below it, the wheel's above: side by side they would not fit.
             let below = if i == 0 { 1.0 } else { -1.0 };
-            let up = y + below * (0.5 * height - 24.0);
+            let beyond = if self.pair.is_internal() { outer[1] } else { outer[i] };
+            let middle = y + below * (scale * beyond + 0.5 * WORDS);
             for (k, line) in words.iter().enumerate() {
-                let y = up + 14.0 * (k as f64 - 0.5);
+                let y = middle + LINE * (k as f64 - 0.5) + 0.3 * LINE;
                 svg += &text([x.clamp(70.0, LEFT - 70.0), y], &shown_units(line), "middle");
             }
         }
@@ -137,7 +146,8 @@ impl TransverseSection<'_> {
             let teeth = frame.teeth(gears[i], (centres[i], turn), reach);
             let _ = write!(
                 svg,
-                "<path d=\"{teeth}\" style=\"fill:var(--panel,#f5f5f3);stroke:var(--ink,#222)\" stroke-width=\"1.3\" fill-rule=\"evenodd\"/>"
+                "<path d=\"{teeth}\" style=\"fill:{};stroke:var(--ink,#222)\" stroke-width=\"1.3\" fill-rule=\"evenodd\"/>",
+                FILLS[i]
             );
         }
         for i in 0..2 {

@@ -152,7 +152,11 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
     }
     let lasts = result.bearings.iter().any(|b| life(b).is_some());
     if lasts {
-        head.extend(["P/C", "L10 h", "L10 modified h"]);
+        head.extend(["P/C", "L10 h"]);
+    }
+    let is_modified = result.bearings.iter().any(|b| life(b).and_then(|own| own.modified_hours()).is_some());
+    if is_modified {
+        head.push("L10 modified h");
     }
     let under_spectrum = result.rates.spectrum && lasts;
     if under_spectrum {
@@ -184,28 +188,28 @@ fn bearings(file: &Gearbox, result: &GearboxResult) -> Part {
         }
         if lasts {
             let own = life(b);
-            let modified = own.and_then(|own| own.modified_hours());
-            row.extend([
-                Cell::number(own.map(|own| own.over_rating), 3),
-                Cell::number(own.map(|own| own.hours), 0),
-                Cell::number(modified, 0),
-            ]);
+            row.extend([Cell::number(own.map(|own| own.over_rating), 3), Cell::number(own.map(|own| own.hours), 0)]);
+        }
+        if is_modified {
+            row.push(Cell::number(life(b).and_then(|own| own.modified_hours()), 0));
         }
         if under_spectrum {
             row.push(Cell::number(b.rolling.and_then(|own| own.spectrum_life_h), 0));
         }
         row
     });
-    let note = if lasts {
-        "Mean forces on the shafts, common axes. S_0: static safety of ISO 76 by the pressure of the most loaded element. \
-         Lives after ISO/TS 16281 from the force of every rolling element, at 90 % \
-         reliability; P: radial load of the same life, C: dynamic rating. Modified: with oil and dirt, ISO 281."
-    } else if rolls {
-        "Mean forces on the shafts, common axes. S_0: static safety of ISO 76 by the pressure of the most loaded element. \
-         Lives need `[rating]` with `speed_rpm`."
-    } else {
-        "Mean forces on the shafts, common axes."
-    };
+    let notes = [
+        (true, "Mean forces on the shafts, common axes."),
+        (rolls, "S_0: static safety of ISO 76 from the pressure of the most loaded element."),
+        (rolls && !lasts, "Lives need `[rating]` with `speed_rpm`."),
+        (
+            lasts,
+            "L10: life after ISO/TS 16281 from the force of every rolling element, at 90 % reliability; P: radial load of the \
+             same life, C: dynamic rating.",
+        ),
+        (is_modified, "Modified: with oil and dirt, ISO 281."),
+    ];
+    let note = notes.into_iter().filter_map(|(is_told, words)| is_told.then_some(words)).collect::<Vec<_>>().join(" ");
     Part::new("Bearings").closing().grid(Grid::new(head).rows(rows)).note(note)
 }
 

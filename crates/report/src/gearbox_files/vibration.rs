@@ -36,8 +36,8 @@ pub(super) fn parts(file: &Gearbox, asked: &GearboxVibration, swings: &Vibration
         })
         .collect();
     let words = format!(
-        "With the mean stiffness of every mesh at {:.1}/min of the input. Where the strain energy is, and what moves. The \
-         picture in space shows each as a shape.",
+        "Natural frequencies at {:.1} rpm input speed, with the mean stiffness of every mesh. Columns: shares of strain energy \
+         and of kinetic energy. The picture in space shows each mode as a shape.",
         swings.campbell.diagram.speeds.first().map_or(f64::NAN, |s| 60.0 * s)
     );
     let of_meshes = mesh_peaks(file, swings).into_iter().zip(&swings.mesh_stiffness).map(|(peak, stiffness)| {

@@ -18,7 +18,7 @@ use super::{HELD, page::parameter_part, tables};
 use crate::{
     ReportError, Written,
     charts::{Curve, line_chart},
-    page::{Cell, Grid, Line, Page, Part, again, cost_part, counted},
+    page::{Cell, Content, Grid, Line, Page, Part, again, cost_part, counted},
     write_result,
 };
 use store::folder::ResultDirectory;
@@ -227,6 +227,11 @@ fn gear_name(machine: Option<&Machine>, place: &str) -> Option<String> {
     Some(file.gears.get(gear)?.name.clone())
 }
 
+/// A number with four decimals, one of 100 and more with one.
+fn shown(value: f64) -> Cell {
+    Cell::number(value, if value.abs() < 100.0 { 4 } else { 1 })
+}
+
 fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let NumberOptimumResult { plan, optimum, .. } = *of;
     let mut page = Page::of(answer, format!("optimisation of {}", counted(plan.parameters.len(), "parameter")));
@@ -245,9 +250,9 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
             let limit = k.checked_sub(plan.goals.len()).map(|k| plan.limits[k].most);
             let mut row = vec![
                 Cell::text(output.name()),
-                Cell::number(optimum.before[i][k], 4),
-                Cell::number(optimum.after[i][k], 4),
-                limit.map_or_else(|| Cell::text(""), |most| Cell::number(most, 4)),
+                shown(optimum.before[i][k]),
+                shown(optimum.after[i][k]),
+                limit.map_or_else(|| Cell::count(""), shown),
             ];
             if several {
                 row.insert(1, Cell::number(load.torque_nm, 1));
@@ -268,7 +273,7 @@ fn page(of: &NumberOptimumResult<'_>, answer: &Answer) -> Page {
     let curve = [Curve { label: "goal".to_owned(), points: goals }];
     page.push(Part::more().figures(line_chart("The search", "evaluation", "goal", &curve, false)));
     let run = format!("ale-gear run {} {} --out DIR", plan.scene_file().display(), of.settings().join(" "));
-    page.push(Part::new("The optimum by itself").note(run));
+    page.push(Part::new("The optimum by itself").with(Content::Plain(run)));
     page.push(cost_part(&answer.cost));
     page.push(again(of.again));
     page

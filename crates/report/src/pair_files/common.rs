@@ -7,7 +7,7 @@ use analysis::{
     motion::{ElasticHeadline, InertiaHeadline},
     results::PressurePlace,
 };
-use answer::{Answer, Cost, Remark, Table, keyed};
+use answer::{Answer, Cost, Remark, Table, keyed, shown_units};
 use minijinja::context;
 use scene::{Driver, Scene};
 use serde::Serialize;
@@ -79,7 +79,8 @@ pub(super) fn pair_page(
     shown: Shown<'_>,
 ) -> Result<Page, ReportError> {
     let mut page = Page::of(answer, format!("model {}{}", model_name(scene), shown.subtitle));
-    page.glance = glance(scene, facts).into_iter().chain(shown.key).collect();
+    page.glance =
+        glance(scene, facts).into_iter().chain(shown.key).map(|item| item.map(|text| shown_units(&text))).collect();
     let view = match shown.view {
         Some(view) => embedded("view", view),
         None => embedded("view", &View::of_geometry(scene, &scene.gear_pair()?)),

@@ -101,7 +101,7 @@
       $("sliders").replaceChildren(...groups.values());
     }
     for (const slider of sliders) {
-      const place = document.querySelector(`.slider[data-key="${slider.key}"]`), [exact, range] = place.querySelectorAll("input");
+      const place = document.querySelector(`.slider[data-key="${slider.key}"]`), [exact, range] = ["text", "range"].map(type => place.querySelector(`[type=${type}]`));
       const value = valueOf(slider.key, answer) ?? String(slider.rest), number = Number(value);
       if (document.activeElement !== exact) exact.value = value;
       if (!Number.isFinite(number)) continue;
@@ -192,7 +192,7 @@
   const numbers = glance => {
     const boxes = glance.map(([what, value]) => {
       const box = document.createElement("div");
-      box.append(Object.assign(document.createElement("span"), { textContent: what }), Object.assign(document.createElement("b"), { textContent: value }));
+      box.append(Object.assign(document.createElement("span"), { textContent: what }), Object.assign(document.createElement("b"), { textContent: value.replace("/", "/\u2060") }));
       return box;
     });
     $("glance").replaceChildren(...boxes);
