@@ -187,7 +187,8 @@
     }
     window.report.player($("play"), () => { $("frame").value = state.frame = (state.frame + 1) % data.frames.length; update(); });
     take(first);
-    space.open("whole");
+    // The picture opens at the mesh, where something is to be seen there.
+    space.open(data.frames.some(frame => frame.bands.length) ? "mesh" : "whole");
     // Other numbers, or other gears, in the same picture.
     const show = next => { if (take(next)) space.view("whole"); else update(); };
     window.report.view = { state, look: space.view, show };

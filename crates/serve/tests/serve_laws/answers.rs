@@ -63,7 +63,8 @@ fn all_that_is_drawn_comes_with_a_move() {
     let answer = Served::new(&text).answer(&text, json!({}));
     let result = &answer["result"];
     let titles: Vec<&str> = result["charts"].as_array().unwrap().iter().filter_map(|c| c["title"].as_str()).collect();
-    assert_eq!(titles[..2], ["Static transmission error", "Load sharing"]);
+    let first = ["Static transmission error", "Spectrum of the static transmission error", "Load sharing"];
+    assert_eq!(titles[..3], first);
     assert_eq!(result["charts"][0]["data"][0].as_array().unwrap().len(), 6, "a place a position");
     assert_eq!(result["maps"].as_array().unwrap().len(), 2, "the pattern on either flank");
     let frames = result["view"]["frames"].as_array().unwrap();
