@@ -77,7 +77,7 @@ fn a_designation_stands_for_type_and_dimensions() {
     let cone = own("designation = \"32206\"\ntakes_thrust = \"+z\"");
     assert!((cone.contact_angle.to_degrees() - 14.0361).abs() < 1e-9 && cone.rows == [[0.0, 1.0]], "{cone:?}");
     let mistakes = [
-        ("designation = \"22205\"", "no series of the designation \"22205\" is known", "61810"),
+        ("designation = \"22205\"", "no series of the designation \"22205\" is known", "deep groove balls 618"),
         ("designation = \"6205-2RS1\"", "\"2RS1\" is no part of the basic designation", "radial_clearance_um"),
         ("designation = \"6299\"", "no bearing \"6299\" is known", "from 6200 to 6240"),
         ("designation = \"7205\"\ntakes_thrust = \"+z\"", "no letter for its contact angle", "7205B"),

@@ -71,7 +71,8 @@ addEventListener("load", async () => {
   document.querySelector("#quantity input:not(:disabled)")?.click();
   document.querySelector("[data-look=mesh]")?.click();
   // The still picture of every chart in pixels, as "save as PNG" hands it out.
-  const stills = [...document.querySelectorAll("figure.chart svg")];
+  // A drawing may have drawings in it.
+  const stills = [...document.querySelectorAll("figure.chart svg:not(svg svg)")];
   seen.links = [document.querySelectorAll("figure.chart a.png").length, stills.length];
   seen.stills = [];
   for (const still of stills) {

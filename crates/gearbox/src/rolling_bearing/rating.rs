@@ -18,7 +18,7 @@ impl BallGeometry {
     /// f_c = 39.9 gamma^0.3 (1 - gamma)^1.39/(1 + gamma)^(1/3) (2 f_i/(2 f_i - 1))^0.41 (1 + x^(10/3))^(-3/10)
     /// x = 1.04 ((1 - gamma)/(1 + gamma))^1.72 (f_i (2 f_e - 1)/(f_e (2 f_i - 1)))^0.41
     /// ```
-    /// f_i, f_e: groove radii over D_w. Source: ISO 281, whose table of f_c this formula of ISO/TR 1281-1 meets to 3 %.
+    /// f_i, f_e: groove radii over D_w. Source: ISO 281, whose table of f_c this formula of ISO/TR 1281-1 meets to 4 %.
     fn dynamic_rating(&self, rows: usize) -> f64 {
         let ([inner, outer], gamma) = (self.conformity, self.gamma());
         let narrow = 2.0 * inner / (2.0 * inner - 1.0);

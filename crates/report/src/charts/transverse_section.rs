@@ -33,6 +33,8 @@ const FILLS: [&str; 2] = [
     "color-mix(in srgb, var(--link, #0072b2) 22%, var(--paper, #fff))",
     "color-mix(in srgb, var(--ink, #222) 14%, var(--paper, #fff))",
 ];
+/// Straight pieces of the body's edge.
+const ARC: usize = 24;
 /// Height of the words about a gear, and the room that they take.
 const LINE: f64 = 14.0;
 const WORDS: f64 = 44.0;
@@ -87,7 +89,7 @@ impl TransverseSection<'_> {
             let radius = 0.62 * self.gears()[i].tip_radius().abs();
             let turns = self.turns(i);
             // Away from the mesh, where a ring and its pinion are apart as well.
-            let away = if i == 0 { PI } else { 0.0 };
+            let away = if i == 0 || self.pair.is_internal() { PI } else { 0.0 };
             svg += &frame.arc_arrow(centres[i], radius, away, turns, "var(--link,#0072b2)");
             let torque = turns * if (i == 0) == (self.driver == Driver::Pinion) { 1.0 } else { -1.0 };
             if self.torques_nm[i] != 0.0 {
@@ -121,10 +123,18 @@ impl TransverseSection<'_> {
         if gear == 0 || self.pair.is_internal() { pinion } else { -pinion }
     }
 
+    /// Place on the line of action `xi` (mm) from the tangent point on the pinion's base circle.
+    fn on_path(&self, xi: f64) -> [f64; 2] {
+        let side = self.side.sign();
+        let angle = -side * self.pair.working_pressure_angle();
+        let base = self.pair.pinion.base_radius();
+        [base * angle.cos() - side * xi * angle.sin(), base * angle.sin() + side * xi * angle.cos()]
+    }
+
     /// Teeth about the pitch point.
     fn mesh(&self) -> String {
         let pair = self.pair;
-        let (gears, centres, side) = (self.gears(), self.centres(), self.side.sign());
+        let (gears, centres) = (self.gears(), self.centres());
         let [start, end] = pair.path_of_contact();
         let module = gears[0].transverse_module();
         let [width, height] = SIZE;
@@ -165,13 +175,8 @@ impl TransverseSection<'_> {
                 0.8,
             );
         }
-        // Tangent point on the pinion's base circle, and the direction of the path from there.
-        let angle = -side * pair.working_pressure_angle();
-        let base = gears[0].base_radius();
-        let on_path =
-            |xi: f64| [base * angle.cos() - side * xi * angle.sin(), base * angle.sin() + side * xi * angle.cos()];
         let line = |from: f64, to: f64, style: &str, wide: f64| {
-            let ([x1, y1], [x2, y2]) = (frame.place(on_path(from)), frame.place(on_path(to)));
+            let ([x1, y1], [x2, y2]) = (frame.place(self.on_path(from)), frame.place(self.on_path(to)));
             format!(
                 "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" style=\"{style}\" stroke-width=\"{wide}\"/>"
             )
@@ -180,13 +185,13 @@ impl TransverseSection<'_> {
         svg += &line(start - far, end + far, "stroke:var(--link,#0072b2)", 0.8);
         svg += &line(start, end, "stroke:#d55e00", 3.0);
         let base_pitch = pair.transverse_base_pitch();
-        let pitch_point = base * pair.working_pressure_angle().tan();
+        let pitch_point = gears[0].base_radius() * pair.working_pressure_angle().tan();
         let mut points = vec![("A", start), ("C", pitch_point), ("E", end)];
         if base_pitch < end - start {
             points.extend([("B", end - base_pitch), ("D", start + base_pitch)]);
         }
         for (name, xi) in points {
-            let [x, y] = frame.place(on_path(xi));
+            let [x, y] = frame.place(self.on_path(xi));
             let _ = write!(svg, "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"3.2\" style=\"fill:#d55e00\"/>");
             svg += &text([x + 11.0, y + 12.0], name, "middle");
         }
@@ -260,8 +265,13 @@ impl Frame {
         // The body lies towards the centre, of a ring away from it.
         let body = if gear.is_internal() { 1.3 * radius.max(gear.root_radius().abs()) } else { 0.05 * radius };
         let angle = |p: &[f64; 2]| (p[1]).atan2(p[0] - centre);
-        let ends = points.last().zip(points.first()).map(|(a, b)| [angle(a), angle(b)]);
-        points.extend(ends.into_iter().flatten().map(|a| [centre + body * a.cos(), body * a.sin()]));
+        if let Some([from, to]) = points.last().zip(points.first()).map(|(last, first)| [angle(last), angle(first)]) {
+            let back = (to - from + PI).rem_euclid(TAU) - PI;
+            points.extend((0..=ARC).map(|k| {
+                let at = from + back * k as f64 / ARC as f64;
+                [centre + body * at.cos(), body * at.sin()]
+            }));
+        }
         for (i, point) in points.into_iter().enumerate() {
             let [x, y] = self.place(point);
             let _ = write!(path, "{}{x:.2} {y:.2}", if i == 0 { 'M' } else { 'L' });
@@ -275,4 +285,55 @@ fn text([x, y]: [f64; 2], words: &str, anchor: &str) -> String {
     format!(
         "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"12\" text-anchor=\"{anchor}\" style=\"fill:var(--ink,#222)\">{words}</text>"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use scene::Scene;
+
+    use super::*;
+
+    /// The path of contact goes from the tip circle of the wheel over the pitch point to that of the pinion, on either
+    /// flank, of external and internal pairs; every number of the drawing is one.
+    #[test]
+    fn the_path_of_contact_lies_between_the_tip_circles() {
+        for wheel in [41, -63] {
+            let text = format!(
+                "[pinion]\nteeth = 23\nhelix_angle_deg = 15.0\n[wheel]\nteeth = {wheel}\n[pair]\nnormal_module_mm = 2.0\n\
+                 face_width_mm = 20.0\n[operation]\ntorque_nm = 100.0\n"
+            );
+            let scene = Scene::parse(&text, Path::new("pair.toml")).unwrap_or_else(|e| panic!("{e}"));
+            let pair = scene.gear_pair().unwrap_or_else(|e| panic!("{e}"));
+            let [start, end] = pair.path_of_contact();
+            let pitch = pair.pinion.base_radius() * pair.working_pressure_angle().tan();
+            for side in [Side::Left, Side::Right] {
+                let section = TransverseSection {
+                    pair: &pair,
+                    side,
+                    driver: Driver::Pinion,
+                    sense: Sense::Ccw,
+                    speeds_rpm: [1000.0, 500.0],
+                    torques_nm: [50.0, 100.0],
+                };
+                let from = |gear: usize, xi: f64| {
+                    let [x, y] = section.on_path(xi);
+                    (x - section.centres()[gear]).hypot(y)
+                };
+                let pairs = [
+                    (from(0, end), pair.pinion.tip_radius()),
+                    (from(1, start), pair.wheel.tip_radius().abs()),
+                    (from(0, pitch), pair.working_radii()[0]),
+                    (section.on_path(pitch)[1], 0.0),
+                ];
+                for (i, (found, wanted)) in pairs.into_iter().enumerate() {
+                    assert!((found - wanted).abs() < 1e-9, "{wheel} teeth, {side:?}, {i}: {found} beside {wanted} mm");
+                }
+                let drawn = section.figure();
+                assert!(!drawn.contains("NaN") && !drawn.contains("inf"), "{drawn}");
+                assert!(["A", "B", "C", "D", "E"].iter().all(|name| drawn.contains(&format!(">{name}</text>"))));
+            }
+        }
+    }
 }

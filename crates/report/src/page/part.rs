@@ -73,8 +73,9 @@ pub struct Line {
 impl Line {
     /// A value in words.
     pub fn text(label: impl Into<String>, value: impl ToString, unit: impl Into<String>) -> Self {
-        let [label, unit] = [label.into(), unit.into()].map(|text: String| shown_units(&text));
-        Self { label, value: value.to_string(), unit }
+        let [label, value, unit] =
+            [label.into(), value.to_string(), unit.into()].map(|text: String| shown_units(&text));
+        Self { label, value, unit }
     }
 
     /// A number with so many decimals ([`fixed`]), `-` when there is none.

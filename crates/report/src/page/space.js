@@ -53,7 +53,7 @@
     lamp.position.set(0.6, 0.8, 1);
     camera.add(lamp);
     // Names beside what they name: text of the page over the picture, each at a place in space.
-    const tags = [], ray = new THREE.Raycaster();
+    const tags = [];
     const tag = (text, place, kind) => {
       const words = Object.assign(document.createElement("span"), { className: `tag ${kind}`, textContent: text });
       stage.append(words);
@@ -65,10 +65,6 @@
         const at = new THREE.Vector3(...place).project(camera);
         words.style.transform = `translate(${(0.5 * (at.x + 1) * wide).toFixed(1)}px, ${(0.5 * (1 - at.y) * high).toFixed(1)}px) translate(-50%, -50%)`;
         words.hidden = Math.abs(at.z) > 1 || Math.abs(at.x) > 1 || Math.abs(at.y) > 1;
-        // What stands behind something is written fainter.
-        ray.set(camera.position, new THREE.Vector3(...place).sub(camera.position).normalize());
-        const [first] = ray.intersectObjects(scene.children, true);
-        words.classList.toggle("behind", first !== undefined && first.distance < 0.99 * camera.position.distanceTo(new THREE.Vector3(...place)));
       }
     };
     const draw = () => { renderer.render(scene, camera); write(); state.shown += 1; };

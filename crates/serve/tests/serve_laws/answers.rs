@@ -73,6 +73,28 @@ fn all_that_is_drawn_comes_with_a_move() {
     assert_eq!(answer["effective"]["operation.speed_rpm"], "1000.0", "defaults filled in");
 }
 
+/// A search lowers the transmission error of what is ticked within its ends, and answers with the pair that has it: the
+/// same numbers as a move to the values found.
+#[test]
+fn a_search_answers_with_the_flatter_pair() {
+    let text = with_contact();
+    let served = Served::new(&text);
+    let (tip, crowning) = ("pinion.modification.tip_relief_um", "wheel.modification.lead_crowning_um");
+    let search = json!({ tip: [0.0, 30.0], crowning: [0.0, 20.0] });
+    let reply = served
+        .post(&json!({ "page": served.open(), "number": 1, "text": text, "set": {}, "search": search }).to_string());
+    assert_eq!(reply.status, 200, "{}", reply.body);
+    let found: Value = serde_json::from_str(&reply.body).unwrap();
+    let [from, to] = [0, 1].map(|i| found["sought"]["peak_to_peak_um"][i].as_f64().unwrap());
+    assert!(to < 0.9 * from, "{to} um after {from} um: {}", found["sought"]);
+    let set = found["sought"]["set"].as_object().unwrap();
+    let value = |key: &str| set[key].as_str().unwrap().parse::<f64>().unwrap();
+    assert!((0.0..=30.0).contains(&value(tip)) && (0.0..=20.0).contains(&value(crowning)), "{set:?}");
+    let headline = &found["result"]["headline"];
+    assert!((headline["peak_to_peak_ste_um"].as_f64().unwrap() / to - 1.0).abs() < 1e-3, "{to} um: {headline}");
+    assert_eq!(*headline, headline_of_a_run(found["text"].as_str().unwrap()));
+}
+
 #[test]
 fn what_is_wrong_stands_beside_its_key_with_the_hint_of_the_command() {
     let served = Served::new(ISO);
