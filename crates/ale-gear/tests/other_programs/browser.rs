@@ -211,7 +211,7 @@ pub fn static_report(browser: PathBuf) {
     let scene = scene.replace("../meshes", &meshes.display().to_string());
     let seen = report_of(&browser, "static", &scene);
     assert_eq!(quantities(&seen), all());
-    assert_eq!(seen["charts"].as_array().unwrap().len(), 7, "five charts and two flanks");
+    assert_eq!(seen["charts"].as_array().unwrap().len(), 9, "seven charts and two flanks");
     assert_eq!((seen["steps"].as_u64(), seen["phase"].as_str()), (Some(16), Some("phase 0.500")));
 }
 

@@ -255,7 +255,9 @@ impl Frame {
         let count = ((wide / pitch).ceil() as i64).min(i64::from(gear.teeth()) / 2);
         let mut path = String::new();
         let mut points: Vec<[f64; 2]> = Vec::new();
-        for k in nearest - count..=nearest + count {
+        for k in -count..=count {
+            // A ring's outline goes clockwise, seen from its own centre.
+            let k = nearest + if gear.is_internal() { -k } else { k };
             let at = |&(r, angle): &(f64, f64)| {
                 let angle = section + angle + turn + k as f64 * pitch;
                 [centre + r * angle.cos(), r * angle.sin()]
