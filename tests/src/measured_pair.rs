@@ -13,6 +13,8 @@ use crate::random_scene::{random_scene, torque_of_pressure};
 const EXTRAPOLATION: f64 = 0.4;
 /// Rungs that errors are known of.
 pub const RUNGS: [u32; 4] = [2, 3, 4, 6];
+/// Error over the scale below which none is told from another: that of one pair of teeth that bears all is round-off.
+pub const LEAST_ERROR: f64 = 1e-5;
 /// Positions of a cycle on every mesh.
 pub const POSITIONS: u32 = 8;
 /// Positions of the curves, which stand for all of them.

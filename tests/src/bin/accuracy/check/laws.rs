@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, Seen};
 use verification::{
     held_out::held_out,
-    measured_pair::{MeasuredPair, RUNGS},
+    measured_pair::{LEAST_ERROR, MeasuredPair, RUNGS},
     pairs_done::lines,
 };
 
@@ -27,7 +27,7 @@ impl Stratum {
     fn add(&mut self, [error, known, within]: [f64; 3], scale: f64) {
         self.bounds += 1;
         self.within += usize::from((error - known).abs() <= within);
-        self.sharpness.push((known.abs() + within) / error.abs().max(1e-9 * scale.abs()));
+        self.sharpness.push((known.abs() + within) / error.abs().max(LEAST_ERROR * scale.abs()));
     }
 
     fn cell(&mut self) -> String {
