@@ -16,7 +16,7 @@ const WIDTH_MODULES: RangeInclusive<f64> = 3.0..=25.0;
 const SHIFT: RangeInclusive<f64> = -0.4..=0.8;
 const PRESSURE_ANGLE_DEG: RangeInclusive<f64> = 15.0..=28.0;
 /// Hertz pressure of the mean line load at the pitch point, MPa.
-const PRESSURE_MPA: RangeInclusive<f64> = 200.0..=1800.0;
+const PRESSURE_MPA: RangeInclusive<f64> = 500.0..=1800.0;
 /// Radial thickness of the body below the root, modules.
 const LEAST_RIM_MODULES: f64 = 0.8;
 const POSITIONS: RangeInclusive<u32> = 8..=1_000_000;

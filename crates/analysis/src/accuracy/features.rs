@@ -2,7 +2,7 @@
 
 use geometry::GearPair;
 use lumped::iso::rim_ratio;
-use scene::{FlankScene, Quantity, Scene};
+use scene::{Quantity, Scene};
 
 use super::Sample;
 use crate::loaded_pair::LoadedPair;
@@ -31,8 +31,8 @@ const LEAST_PART: f64 = 1e-3;
 /// | 6 | ln of the peak to peak over the mean deflection |
 /// | 7 | ln of the share of the force that is not on the most loaded pair |
 /// | 8 | eps_beta / (1 + eps_beta) |
-/// | 9 | 1 with tip or root relief, profile crowning or profile slope |
-/// | 10 | 1 with lead crowning, lead slope, end relief or misalignment |
+/// | 9 | 1 with tip relief |
+/// | 10 | 1 with crowning or misalignment |
 /// | 11 | ln of b / (10 m_n) |
 /// | 12 | 1 where one pair of teeth bears all of the force somewhere in the cycle: it cannot bear more on any mesh |
 /// | 13 | ln of the share of the length of all lines of contact that bears nothing |
@@ -52,11 +52,8 @@ pub fn features(scene: &Scene, pair: &GearPair, sample: &Sample) -> Features {
     let flanks = [&scene.pinion, &scene.wheel].map(|gear| &gear.modification.drive);
     let given = |um: Option<f64>| um.is_some_and(|um| um != 0.0);
     let flag = |is: bool| f64::from(u8::from(is));
-    let over_height = |f: &FlankScene| [f.tip_relief_um, f.root_relief_um, f.profile_crowning_um, f.profile_slope_um];
-    let over_width =
-        |f: &FlankScene| [f.lead_crowning_um, f.lead_slope_um, f.end_relief_lower_um, f.end_relief_upper_um];
-    let relief = flanks.iter().any(|f| over_height(f).into_iter().any(given));
-    let crowned = flanks.iter().any(|f| over_width(f).into_iter().any(given)) || !scene.pair.misalignment.is_none();
+    let relief = flanks.iter().any(|f| given(f.tip_relief_um) || given(f.root_relief_um));
+    let crowned = flanks.iter().any(|f| given(f.lead_crowning_um)) || !scene.pair.misalignment.is_none();
     [
         1.0,
         helix.tan().powi(2),
