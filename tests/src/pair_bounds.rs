@@ -1,6 +1,6 @@
 //! Bounds of the committed laws for measured pairs, beside their true errors: no run is needed.
 
-use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, Seen};
+use analysis::accuracy::{CalibratedMesh, Calibration, Quantity, together};
 
 use crate::measured_pair::{LEAST_ERROR, MeasuredPair, RUNGS};
 
@@ -41,11 +41,13 @@ fn pair_bound(pair: &MeasuredPair, q: Quantity, mesh: CalibratedMesh, positions:
     let laws = Calibration::committed().of(q)?;
     let (sample, features) = (pair.sample(mesh)?, pair.features(mesh)?);
     let (own, scale) = (sample.get(q)?, sample.scale(q)?);
-    let of_mesh = laws.of_mesh(mesh)?.law.of(&features, &Seen::number(own), scale);
-    let of_slices = laws.slices.of(&features, &Seen::number(own), scale);
+    let number = pair.number(q, own);
+    let of_mesh = laws.of_mesh(mesh)?.law.of(&features, &number, scale);
+    let of_slices = laws.slices.of(&features, &number, scale);
     let (at, seen) = (pair.of_positions(positions)?, pair.seen(positions, q)?);
     let of_positions = laws.of_positions(positions)?.of(&pair.features_of_positions(positions)?, &seen, at.scale(q)?);
     let error = pair.mesh_error(mesh, q)? + pair.slices_error(q)? + pair.positions_error(positions, q)?;
-    let [known, within] = [0, 1].map(|k| of_mesh[k] + of_slices[k] + of_positions[k]);
-    Some(PairBound { error, known, within, scale })
+    let all = [of_mesh, of_slices, of_positions];
+    let known = all.iter().map(|[known, _]| known).sum();
+    Some(PairBound { error, known, within: together(&all.map(|[_, within]| within)), scale })
 }

@@ -1,5 +1,7 @@
 //! Laws of errors that go with features of a pair, fitted to measured cases: theory (64).
 
+use std::iter::repeat;
+
 use analysis::accuracy::{FEATURES, Features, PairLaw, Seen, logarithm};
 use nalgebra::{DMatrix, DVector};
 
@@ -82,11 +84,13 @@ pub fn conformal(mut ratios: Vec<f64>, coverage: f64) -> f64 {
 /// Least squares of the errors of each set, then a quantile of the logarithms of what is left of all.
 fn regressed(sets: &[Vec<PairCase>], known: Known) -> Vec<PairLaw> {
     let means: Vec<(Vec<f64>, f64)> = sets.iter().map(|cases| mean(cases, known)).collect();
+    let most = sets.iter().flatten().map(|case| case.seen.sizes.len()).max().unwrap_or(0);
     let mut rows = Vec::new();
     for (set, (cases, (mean, pull))) in sets.iter().zip(&means).enumerate() {
         for c in cases {
             let own = (0..sets.len()).map(|other| f64::from(u8::from(other == set)));
-            let sizes = c.seen.sizes.iter().map(|d| logarithm(*d, c.scale));
+            // One that is not seen counts as none, as in the law.
+            let sizes = c.seen.sizes.iter().copied().chain(repeat(0.0)).take(most).map(|d| logarithm(d, c.scale));
             let mean: f64 = mean.iter().zip(&c.features).map(|(a, x)| a * x).sum();
             let left = ((c.error - pull * c.seen.shift) / c.scale - mean).abs() + LEAST_ERROR;
             rows.push((own.chain(c.features[1..].iter().copied()).chain(sizes).collect(), left.ln()));

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use analysis::accuracy::{
-    CalibratedMesh, Calibration, Features, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws, Sample, Seen,
+    CalibratedMesh, Calibration, MeshLaw, PairLaw, PositionsLaw, Quantity, QuantityLaws, together,
 };
 use serde_json::Value;
 use verification::{
@@ -80,17 +80,6 @@ impl Cause {
     }
 }
 
-/// A case of a quantity: what was seen, and the error.
-fn case(
-    (pair, q): (usize, Quantity),
-    (features, sample): (Features, &Sample),
-    seen: Option<Seen>,
-    error: f64,
-) -> Option<PairCase> {
-    let own = sample.get(q)?;
-    Some(PairCase { pair, features, seen: seen.unwrap_or_else(|| Seen::number(own)), error, scale: sample.scale(q)? })
-}
-
 /// Cases of a quantity on a mesh; `None` where a pair has none.
 fn on_mesh(
     pairs: &[&MeasuredPair],
@@ -99,14 +88,17 @@ fn on_mesh(
     error: impl Fn(&MeasuredPair) -> Option<f64>,
 ) -> Option<Vec<PairCase>> {
     let of = |(number, pair): (usize, &&MeasuredPair)| {
-        case((number, q), (pair.features(mesh)?, &pair.sample(mesh)?), None, error(pair)?)
+        let (features, sample) = (pair.features(mesh)?, pair.sample(mesh)?);
+        let seen = pair.number(q, sample.get(q)?);
+        Some(PairCase { pair: number, features, seen, error: error(pair)?, scale: sample.scale(q)? })
     };
     pairs.iter().enumerate().map(of).collect()
 }
 
 fn at_positions((number, pair): (usize, &MeasuredPair), q: Quantity, n: u32) -> Option<PairCase> {
-    let run = (pair.features_of_positions(n)?, &pair.of_positions(n)?);
-    case((number, q), run, Some(pair.seen(n, q)?), pair.positions_error(n, q)?)
+    let (features, seen) = (pair.features_of_positions(n)?, pair.seen(n, q)?);
+    let (error, scale) = (pair.positions_error(n, q)?, pair.of_positions(n)?.scale(q)?);
+    Some(PairCase { pair: number, features, seen, error, scale })
 }
 
 /// Laws of quantities whose errors go alike; `None` where too few pairs have them.
@@ -154,13 +146,11 @@ fn laws(
     let of_positions = |n: u32| {
         let cases: Vec<Option<PairCase>> =
             with_curves.iter().enumerate().map(|(i, pair)| at_positions((i, pair), q, n)).collect();
-        if cases[..pairs.len()].iter().any(Option::is_none) {
-            return None;
-        }
-        let all = Cause::alike(vec![cases.into_iter().flatten().collect()], Known::Shape);
-        Some((n, all.into_iter().next()?))
+        let are_whole = cases[..pairs.len()].iter().all(Option::is_some);
+        are_whole.then(|| cases.into_iter().flatten().collect())
     };
-    let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<_>>()?;
+    let sets = OF_POSITIONS.into_iter().map(of_positions).collect::<Option<Vec<_>>>()?;
+    let positions: Vec<(u32, Cause)> = OF_POSITIONS.into_iter().zip(Cause::alike(sets, Known::Shape)).collect();
     // All causes together hold for more pairs than each by itself.
     let mut ratios = Vec::new();
     let mut sharp = Vec::new();
@@ -168,7 +158,8 @@ fn laws(
         for (_, p) in &positions {
             for i in 0..pairs.len() {
                 let all = [m, &slices, p].map(|c| c.held_out(i));
-                let [error, known, within] = [0, 1, 2].map(|k| all.iter().map(|c| c[k]).sum::<f64>());
+                let [error, known] = [0, 1].map(|k| all.iter().map(|c| c[k]).sum::<f64>());
+                let within = together(&all.map(|[_, _, within]| within));
                 ratios.push((error - known).abs() / within);
                 sharp.push([error.abs(), known.abs(), within, m.cases[i].scale]);
             }
